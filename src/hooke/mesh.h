@@ -1,0 +1,45 @@
+// The mesh: an OpenMesh TriMesh in double precision with Eigen points, seen as matrices where we compute.
+#pragma once
+
+// vector_traits.hh must come before EigenVectorT.hh, which specialises what it declares.
+#include <OpenMesh/Core/Mesh/Traits.hh>
+#include <OpenMesh/Core/Utils/vector_traits.hh>
+//
+#include <OpenMesh/Core/Geometry/EigenVectorT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Utils/PropertyManager.hh>
+
+#include "hooke/types.h"
+
+namespace hooke {
+
+struct MeshTraits : OpenMesh::DefaultTraitsDouble {
+  using Point = Vec3;
+  using Normal = Vec3;
+};
+using TriMesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
+
+template <typename T>
+using VProp = OpenMesh::PropertyManager<OpenMesh::VPropHandleT<T>>;
+
+/// Names of the vertex properties that live on the mesh.
+inline constexpr char velocity_property[] = "v:velocity";            // Vec3, u of [17]
+inline constexpr char force_property[] = "v:force";                  // Vec3, lambda F_string + mu F_torque
+inline constexpr char target_length_property[] = "v:target_length";  // double; an edge wants the mean of its ends
+
+/// Mesh from points and triangles, with the ids they have there.
+/// Pre-condition: the triangles are manifold and consistently oriented (see validation.h).
+/// Throws MeshError if OpenMesh refuses a face all the same.
+TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles);
+
+/// The points as a 3 x |V| matrix over the mesh's own storage. Dies when vertices are added or removed.
+Eigen::Map<Mat3X> positions(TriMesh& mesh);
+Eigen::Map<const Mat3X> positions(const TriMesh& mesh);
+
+/// A Vec3 vertex property as a 3 x |V| matrix over the mesh's own storage. Same life as above.
+Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property);
+
+/// Vertex ids of every face, in face order.
+std::vector<Triangle> triangles_of(const TriMesh& mesh);
+
+}  // namespace hooke

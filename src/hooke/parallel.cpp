@@ -1,0 +1,53 @@
+#include "hooke/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace hooke {
+
+struct ThreadLimit::Impl {
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads < 1) threads = tbb::this_task_arena::max_concurrency();
+  impl_ = std::make_unique<Impl>(
+      Impl{tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads))});
+}
+
+ThreadLimit::~ThreadLimit() = default;
+
+int thread_count() {
+  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::min(static_cast<int>(allowed), tbb::this_task_arena::max_concurrency());
+}
+
+void parallel_for(std::size_t count, std::size_t block,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  const std::size_t blocks = (count + block - 1) / block;
+  if (blocks <= 1 || thread_count() == 1) {
+    if (count > 0) body(0, count);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, blocks,
+                    [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
+}
+
+double parallel_sum(std::size_t count, std::size_t block,
+                    const std::function<double(std::size_t begin, std::size_t end)>& body) {
+  const std::size_t blocks = (count + block - 1) / block;
+  std::vector<double> partial(blocks);
+  parallel_for(blocks, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) partial[b] = body(b * block, std::min(count, (b + 1) * block));
+  });
+  double sum = 0;
+  for (double p : partial) sum += p;
+  return sum;
+}
+
+}  // namespace hooke

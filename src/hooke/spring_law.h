@@ -1,0 +1,21 @@
+// The modified Hooke's law [4] and its potential, for lengths, altitudes and angles alike.
+// "Hooke's Optimization for 3D triangular mesh", section 3.1.
+#pragma once
+
+#include <cmath>
+
+namespace hooke {
+
+/// A potential and its derivative by the quantity it acts on.
+struct Potential {
+  double value = 0;
+  double slope = 0;  // dU/dl; the force along the growing quantity is -slope
+};
+
+/// U(l; L): (l - L)^2 / 2 for l >= L, L (L ln(L/l) - (L - l)) for l < L; C2 at L, infinite at l = 0. [4]
+inline Potential spring_potential(double l, double L) {
+  if (l >= L) return {.5 * (l - L) * (l - L), l - L};
+  return {L * (L * std::log(L / l) - (L - l)), L * (l - L) / l};
+}
+
+}  // namespace hooke
