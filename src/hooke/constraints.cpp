@@ -1,0 +1,127 @@
+#include "hooke/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hooke {
+namespace {
+
+CurveFoot foot_on_segment(const Curve& curve, const Vec3& x, int segment) {
+  const int next = (segment + 1) % static_cast<int>(curve.points.cols());
+  const Vec3 a = curve.points.col(segment);
+  const Vec3 ab = curve.points.col(next) - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
+  // Blended tangents let a vertex pass a point of the polyline without a kink in its direction.
+  const Vec3 tangent = (1 - t) * curve.tangents.col(segment) + t * curve.tangents.col(next);
+  return {t < 1 ? Vec3(a + t * ab) : Vec3(curve.points.col(next)), tangent.stableNormalized(), segment};
+}
+
+void set_tangents(Curve& curve) {
+  const int n = static_cast<int>(curve.points.cols());
+  curve.tangents = Mat3X::Zero(3, n);
+  for (int s = 0; s < curve.segment_count(); ++s) {
+    const int next = (s + 1) % n;
+    const Vec3 direction = (curve.points.col(next) - curve.points.col(s)).stableNormalized();
+    curve.tangents.col(s) += direction;
+    curve.tangents.col(next) += direction;
+  }
+  for (int i = 0; i < n; ++i) curve.tangents.col(i).stableNormalize();
+}
+
+/// The vertex after each boundary vertex along its loop, -1 elsewhere.
+std::vector<int> boundary_successors(const Connectivity& c) {
+  std::vector<int> next(static_cast<size_t>(c.vertex_count), -1);
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_boundary_edge(static_cast<int>(e))) next[static_cast<size_t>(c.edges[e][0])] = c.edges[e][1];
+  return next;
+}
+
+bool is_corner(const Mat3X& points, int before, int at, int after, double cos_corner) {
+  const Vec3 in = points.col(at) - points.col(before);
+  const Vec3 out = points.col(after) - points.col(at);
+  return in.dot(out) < cos_corner * in.norm() * out.norm();
+}
+
+/// One loop of boundary vertices, cut into curves at its corners.
+void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corner, Constraints& result) {
+  const size_t n = loop.size();
+  std::vector<size_t> corners;
+  for (size_t i = 0; i < n; ++i)
+    if (is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner)) corners.push_back(i);
+  for (size_t i : corners) result.freedom[static_cast<size_t>(loop[i])] = Freedom::fixed;
+
+  const size_t pieces = std::max<size_t>(corners.size(), 1);
+  for (size_t p = 0; p < pieces; ++p) {
+    Curve curve;
+    curve.closed = corners.empty();
+    const size_t begin = curve.closed ? 0 : corners[p];
+    const size_t length = curve.closed ? n : (corners[(p + 1) % pieces] + n - begin - 1) % n + 2;
+    curve.points.resize(3, static_cast<Eigen::Index>(length));
+    for (size_t i = 0; i < length; ++i) {
+      const auto v = static_cast<size_t>(loop[(begin + i) % n]);
+      curve.points.col(static_cast<Eigen::Index>(i)) = points.col(static_cast<Eigen::Index>(v));
+      if (result.freedom[v] == Freedom::fixed) continue;
+      result.freedom[v] = Freedom::curve;
+      result.curve[v] = static_cast<int>(result.curves.size());
+      result.segment[v] = static_cast<int>(i);
+    }
+    set_tangents(curve);
+    result.curves.push_back(std::move(curve));
+  }
+}
+
+}  // namespace
+
+CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment) {
+  const int n = curve.segment_count();
+  CurveFoot best = foot_on_segment(curve, x, segment);
+  double best2 = (x - best.point).squaredNorm();
+  for (int direction : {1, -1}) {
+    // Two segments without gain end the walk: one may be hidden behind a reflex point.
+    for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n; s += direction, ++steps) {
+      if (!curve.closed && (s < 0 || s >= n)) break;
+      const CurveFoot foot = foot_on_segment(curve, x, ((s % n) + n) % n);
+      const double distance2 = (x - foot.point).squaredNorm();
+      if (distance2 < best2) {
+        best = foot;
+        best2 = distance2;
+        misses = 0;
+      } else {
+        ++misses;
+      }
+    }
+  }
+  return best;
+}
+
+Constraints find_constraints(const Mat3X& points, const Connectivity& c, const ConstraintOptions& options) {
+  Constraints result;
+  const auto n = static_cast<size_t>(c.vertex_count);
+  result.freedom.assign(n, Freedom::surface);
+  result.curve.assign(n, -1);
+  result.segment.assign(n, 0);
+  for (size_t v = 0; v < n; ++v)
+    if (c.vertex_faces[static_cast<int>(v)].empty()) result.freedom[v] = Freedom::fixed;
+  if (options.boundary == BoundaryRule::free) return result;
+
+  const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);
+  const std::vector<int> next = boundary_successors(c);
+  std::vector<bool> seen(n, false);
+  for (size_t start = 0; start < n; ++start) {
+    if (next[start] < 0 || seen[start]) continue;
+    std::vector<int> loop;
+    for (int v = static_cast<int>(start); !seen[static_cast<size_t>(v)]; v = next[static_cast<size_t>(v)]) {
+      seen[static_cast<size_t>(v)] = true;
+      loop.push_back(v);
+    }
+    if (options.boundary == BoundaryRule::fixed)
+      for (int v : loop) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+    else
+      add_loop(points, loop, cos_corner, result);
+  }
+  return result;
+}
+
+}  // namespace hooke

@@ -1,0 +1,47 @@
+// What a vertex may do: move on the surface, slide along a curve of the input, or stand still.
+#pragma once
+
+#include "hooke/connectivity.h"
+
+namespace hooke {
+
+enum class Freedom : unsigned char { surface, curve, fixed };
+
+enum class BoundaryRule { slide, fixed, free };
+
+struct ConstraintOptions {
+  BoundaryRule boundary = BoundaryRule::slide;
+  double corner_angle = 35;  // degrees; a boundary that turns by more in 3-D has a corner, which stands still
+};
+
+/// A polyline of the input along which vertices slide: open between two corners, or closed.
+struct Curve {
+  Mat3X points;
+  Mat3X tangents;  // unit, at the points; the mean of the segments that meet there
+  bool closed = false;
+
+  int segment_count() const { return static_cast<int>(points.cols()) - (closed ? 0 : 1); }
+};
+
+/// A place on a curve.
+struct CurveFoot {
+  Vec3 point;
+  Vec3 tangent;  // unit
+  int segment = 0;
+};
+
+/// Closest point of the curve to x, found by walking from `segment`.
+CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment);
+
+struct Constraints {
+  std::vector<Freedom> freedom;  // per vertex
+  std::vector<int> curve;        // per vertex: index into curves, -1 without
+  std::vector<int> segment;      // per vertex: where on its curve it starts
+  std::vector<Curve> curves;
+};
+
+/// Boundary loops become curves, split at their corners. Vertices without faces stand still.
+Constraints find_constraints(const Mat3X& points, const Connectivity& connectivity,
+                             const ConstraintOptions& options);
+
+}  // namespace hooke

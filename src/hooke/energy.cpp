@@ -1,0 +1,161 @@
+#include "hooke/energy.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "hooke/guards.h"
+#include "hooke/parallel.h"
+#include "hooke/spring_law.h"
+
+namespace hooke {
+namespace {
+
+constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
+
+/// One face with what all terms need of it.
+struct FaceFrame {
+  std::array<Vec3, 3> opposite;  // edge vector across from corner k, from corner k + 1 to corner k + 2
+  std::array<double, 3> length;  // of it
+  Vec3 normal;                   // unit; of the surface where the face has no area
+  double doubled_area;
+};
+
+FaceFrame frame_of(const Placement& at, const Triangle& t, double target) {
+  const std::array<Vec3, 3> p = {at.points.col(t[0]), at.points.col(t[1]), at.points.col(t[2])};
+  FaceFrame f;
+  for (size_t k = 0; k < 3; ++k) {
+    f.opposite[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
+    f.length[k] = std::max(f.opposite[k].norm(), 1e-9 * target);  // a zero edge has a force, not a NaN
+  }
+  f.normal = f.opposite[2].cross(-f.opposite[1]);
+  f.doubled_area = f.normal.norm();
+  const double floor = 1e-9 * target * target;
+  if (f.doubled_area > floor) {
+    f.normal /= f.doubled_area;
+  } else {
+    f.normal = (at.normals.col(t[0]) + at.normals.col(t[1]) + at.normals.col(t[2])).stableNormalized();
+    f.doubled_area = floor;
+  }
+  return f;
+}
+
+/// Corner angles below the threshold: U(theta; t) / t^2 = ln z - 1 + 1 / z, z = t / theta.
+double angle_energy(const FaceFrame& f, double weight, double threshold, std::array<Vec3, 3>& gradient) {
+  double energy = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const Vec3 a = f.opposite[j];        // from corner k to corner i
+    const Vec3 b = -f.opposite[i];       // from corner k to corner j
+    const double theta = std::max(std::atan2(f.doubled_area, a.dot(b)), 1e-6);
+    if (theta >= threshold) continue;
+    const Potential u = spring_potential(theta, threshold);
+    energy += weight * u.value / (threshold * threshold);
+    const double slope = weight * u.slope / (threshold * threshold);
+    const Vec3 by_i = -f.normal.cross(a) / (f.length[j] * f.length[j]);
+    const Vec3 by_j = f.normal.cross(b) / (f.length[i] * f.length[i]);
+    gradient[i] += slope * by_i;
+    gradient[j] += slope * by_j;
+    gradient[k] -= slope * (by_i + by_j);
+  }
+  return energy;
+}
+
+/// Altitudes below h0: U(h; h0) / h0^2. Adds to the derivatives by the doubled area and by the edge lengths.
+double altitude_energy(const FaceFrame& f, double weight, double h0, double& by_area,
+                       std::array<double, 3>& by_length) {
+  double energy = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const double h = f.doubled_area / f.length[k];
+    if (h >= h0) continue;
+    const Potential u = spring_potential(h, h0);
+    energy += weight * u.value / (h0 * h0);
+    const double slope = weight * u.slope / (h0 * h0);
+    by_area += slope / f.length[k];
+    by_length[k] -= slope * h / f.length[k];
+  }
+  return energy;
+}
+
+/// 3/2 ((d - s) / d)^2 with the signed area s = (2 A n) . r / (.866 L^2), r the surface normal. Unlike springs on
+/// unsigned altitudes it pushes a folded face the right way round.
+double unfold_energy(const Placement& at, const Triangle& t, const FaceFrame& f, const EnergyTerms& terms,
+                     double target, std::array<Vec3, 3>& gradient) {
+  const double d = terms.unfold_below;
+  const double unit = altitude_ratio * target * target;
+  const Vec3 r = (at.normals.col(t[0]) + at.normals.col(t[1]) + at.normals.col(t[2])).stableNormalized();
+  const double s = f.opposite[2].cross(-f.opposite[1]).dot(r) / unit;
+  if (s >= d) return 0;
+  const double slope = -3 * terms.unfold * (d - s) / (d * d) / unit;
+  for (size_t k = 0; k < 3; ++k) gradient[k] += slope * r.cross(f.opposite[k]);
+  return 1.5 * terms.unfold * (d - s) * (d - s) / (d * d);
+}
+
+}  // namespace
+
+Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets, const EnergyTerms& energy_terms)
+    : terms(energy_terms),
+      connectivity_(connectivity),
+      targets_(targets),
+      corner_gradients_(9 * connectivity.faces.size()) {}
+
+double Energy::face_energy(const Placement& at, size_t face, double* corner_gradients) const {
+  const Triangle& t = connectivity_.faces[face];
+  const double target = targets_.face[face];
+  const FaceFrame f = frame_of(at, t, target);
+  double energy = 0;
+  double by_area = 0;
+  std::array<double, 3> by_length{};
+  std::array<Vec3, 3> gradient = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+
+  for (size_t k = 0; k < 3; ++k) {  // an edge belongs to its first face
+    const auto e = static_cast<size_t>(connectivity_.face_edges[face][(k + 1) % 3]);
+    if (connectivity_.edge_faces[e][0] != static_cast<int>(face)) continue;
+    const double L = targets_.edge[e];
+    const Potential u = spring_potential(f.length[k], L);
+    energy += terms.string * u.value / (L * L);
+    by_length[k] += terms.string * u.slope / (L * L);
+  }
+  if (terms.unfold > 0 && face_alignment(at.points, at.normals, t) < terms.unfold_below) {
+    energy += unfold_energy(at, t, f, terms, target, gradient);
+  } else {
+    if (terms.altitude > 0)
+      energy += altitude_energy(f, terms.altitude, altitude_ratio * target, by_area, by_length);
+    if (terms.angle > 0) energy += angle_energy(f, terms.angle, terms.angle_threshold, gradient);
+  }
+  if (!corner_gradients) return energy;
+
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3 by_edge = by_length[k] / f.length[k] * f.opposite[k];
+    gradient[k] += by_area * f.normal.cross(f.opposite[k]);
+    gradient[(k + 2) % 3] += by_edge;
+    gradient[(k + 1) % 3] -= by_edge;
+  }
+  for (size_t k = 0; k < 3; ++k) Eigen::Map<Vec3>(corner_gradients + 3 * k) = gradient[k];
+  return energy;
+}
+
+double Energy::operator()(const Placement& at, Mat3X* gradient) {
+  const double energy = parallel_sum(connectivity_.faces.size(), 1024, [&](size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t f = begin; f < end; ++f)
+      sum += face_energy(at, f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
+    return sum;
+  });
+  if (!gradient) return energy;
+
+  gradient->resize(3, connectivity_.vertex_count);
+  parallel_for(static_cast<size_t>(connectivity_.vertex_count), 2048, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      Vec3 sum = Vec3::Zero();
+      for (int f : connectivity_.vertex_faces[static_cast<int>(v)]) {
+        const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
+        const size_t k = t[0] == static_cast<int>(v) ? 0 : t[1] == static_cast<int>(v) ? 1 : 2;
+        sum += Eigen::Map<const Vec3>(corner_gradients_.data() + 9 * static_cast<size_t>(f) + 3 * k);
+      }
+      gradient->col(static_cast<Eigen::Index>(v)) = sum;
+    }
+  });
+  return energy;
+}
+
+}  // namespace hooke

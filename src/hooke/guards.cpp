@@ -1,0 +1,161 @@
+#include "hooke/guards.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 2048;
+
+void sort_unique(std::vector<int>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// Faces or edges (`lists`) around the vertices, each once.
+std::vector<int> around(const IntLists& lists, const std::vector<int>& vertices) {
+  std::vector<int> ids;
+  for (int v : vertices) ids.insert(ids.end(), lists[v].begin(), lists[v].end());
+  sort_unique(ids);
+  return ids;
+}
+
+}  // namespace
+
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
+  const Vec3 a = points.col(face[0]);
+  const Vec3 n = (points.col(face[1]) - a).cross(points.col(face[2]) - a);
+  const Vec3 r = normals.col(face[0]) + normals.col(face[1]) + normals.col(face[2]);
+  const double lengths = std::sqrt(n.squaredNorm() * r.squaredNorm());
+  return lengths > 0 ? n.dot(r) / lengths : 0;
+}
+
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge) {
+  const double c = std::clamp(normals.col(edge[0]).dot(normals.col(edge[1])), -1., 1.);
+  const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
+  return .5 * (points.col(edge[1]) - points.col(edge[0])).norm() * tan_quarter;
+}
+
+Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options)
+    : connectivity_(connectivity), targets_(targets), options_(options) {
+  for (Measures* m : {&accepted_, &trial_}) {
+    m->area.resize(connectivity.faces.size());
+    m->alignment.resize(connectivity.faces.size());
+    m->sagitta.resize(connectivity.edges.size());
+  }
+}
+
+void Guards::measure_face(const Placement& p, size_t face) {
+  const Triangle& t = connectivity_.faces[face];
+  const Vec3 a = p.points.col(t[0]);
+  trial_.area[face] = .5 * (p.points.col(t[1]) - a).cross(p.points.col(t[2]) - a).norm();
+  trial_.alignment[face] = face_alignment(p.points, p.normals, t);
+}
+
+void Guards::measure_edge(const Placement& p, size_t edge) {
+  trial_.sagitta[edge] = edge_sagitta(p.points, p.normals, connectivity_.edges[edge]);
+}
+
+bool Guards::face_breaks(size_t f) const {
+  constexpr double slack = 1e-7;  // a face below the threshold may stay as it is
+  return trial_.area[f] < options_.area_ratio * accepted_.area[f] ||
+         trial_.alignment[f] < std::min(options_.alignment, accepted_.alignment[f] - slack);
+}
+
+bool Guards::edge_breaks(size_t e) const {
+  return trial_.sagitta[e] > std::max(accepted_.sagitta[e], options_.sagitta * targets_.edge[e]);
+}
+
+void Guards::accept(const Placement& placement) {
+  offenders_among_all(placement);
+  std::swap(accepted_, trial_);
+}
+
+std::vector<int> Guards::offenders_among_all(const Placement& trial) {
+  const size_t faces = connectivity_.faces.size();
+  const size_t edges = connectivity_.edges.size();
+  std::vector<char> bad(faces + edges, 0);
+  parallel_for(faces, block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      measure_face(trial, f);
+      bad[f] = face_breaks(f);
+    }
+  });
+  parallel_for(edges, block, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      measure_edge(trial, e);
+      bad[faces + e] = edge_breaks(e);
+    }
+  });
+  std::vector<int> vertices;
+  for (size_t f = 0; f < faces; ++f)
+    if (bad[f]) vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
+  for (size_t e = 0; e < edges; ++e)
+    if (bad[faces + e])
+      vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
+  sort_unique(vertices);
+  return vertices;
+}
+
+std::vector<int> Guards::offenders_around(const Placement& trial, const std::vector<int>& moved) {
+  std::vector<int> vertices;
+  for (int f : around(connectivity_.vertex_faces, moved)) {
+    const auto face = static_cast<size_t>(f);
+    measure_face(trial, face);
+    if (!face_breaks(face)) continue;
+    vertices.insert(vertices.end(), connectivity_.faces[face].begin(), connectivity_.faces[face].end());
+  }
+  for (int e : around(connectivity_.vertex_edges, moved)) {
+    const auto edge = static_cast<size_t>(e);
+    measure_edge(trial, edge);
+    if (!edge_breaks(edge)) continue;
+    vertices.insert(vertices.end(), connectivity_.edges[edge].begin(), connectivity_.edges[edge].end());
+  }
+  sort_unique(vertices);
+  return vertices;
+}
+
+int Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to) {
+  retraction.step(from, displacement, to);
+  std::vector<int> offenders = offenders_among_all(to);
+  if (offenders.empty()) return 0;
+
+  std::vector<unsigned char> halvings(static_cast<size_t>(connectivity_.vertex_count), 0);
+  std::vector<int> held;
+  while (!offenders.empty()) {
+    std::vector<int> slowed;
+    for (int v : offenders) {
+      auto u = displacement.col(v);
+      if (u.isZero(0)) continue;
+      auto& count = halvings[static_cast<size_t>(v)];
+      if (++count == 1) held.push_back(v);
+      if (count > options_.max_halvings)
+        u.setZero();
+      else
+        u *= .5;
+      slowed.push_back(v);
+    }
+    if (slowed.empty()) break;  // nothing there moves any more: it is as it was
+    retraction.step(from, displacement, slowed, to);
+    offenders = offenders_around(to, slowed);
+  }
+  return static_cast<int>(held.size());
+}
+
+std::vector<int> Guards::folded_faces() const {
+  std::vector<int> faces;
+  for (size_t f = 0; f < accepted_.alignment.size(); ++f)
+    if (accepted_.alignment[f] < options_.alignment) faces.push_back(static_cast<int>(f));
+  return faces;
+}
+
+double Guards::least_alignment() const {
+  double least = 1;
+  for (double c : accepted_.alignment) least = std::min(least, c);
+  return least;
+}
+
+}  // namespace hooke

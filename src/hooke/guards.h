@@ -1,0 +1,57 @@
+// Acceptance per vertex: what a step may do to each face and edge, and the step that obeys.
+#pragma once
+
+#include "hooke/retraction.h"
+#include "hooke/sizing.h"
+
+namespace hooke {
+
+struct GuardOptions {
+  double area_ratio = .2;  // a face keeps at least this part of its area in a step
+  double alignment = .3;   // least cosine between a face and the surface under it; below, it may only grow
+  double sagitta = .2;     // greatest sagitta of an edge over its target length; above, it may only shrink
+  int max_halvings = 8;    // of a vertex's step, before it stands still for this step
+};
+
+/// Cosine between the face and the sum of the surface normals at its corners; 0 without area.
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face);
+
+/// Sagitta (l / 2) tan(theta / 4) of a circular arc over a chord of length l whose ends' normals differ by theta.
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge);
+
+/// Judges steps against the last accepted placement. Keeps references to the connectivity and the targets.
+class Guards {
+ public:
+  Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options);
+
+  /// Makes the placement the one that steps are judged against.
+  void accept(const Placement& placement);
+
+  /// to = from + displacement, retracted and obeying the guards: offending vertices halve their steps, then stand
+  /// still; `displacement` becomes what was asked for in the end. `from` must be the accepted placement.
+  /// Returns the number of vertices that were held back.
+  int step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to);
+
+  /// Faces of the accepted placement that lie against the surface (alignment below the threshold).
+  std::vector<int> folded_faces() const;
+
+  double least_alignment() const;
+
+ private:
+  bool face_breaks(size_t face) const;
+  bool edge_breaks(size_t edge) const;
+  void measure_face(const Placement& placement, size_t face);
+  void measure_edge(const Placement& placement, size_t edge);
+  std::vector<int> offenders_among_all(const Placement& trial);
+  std::vector<int> offenders_around(const Placement& trial, const std::vector<int>& moved);
+
+  const Connectivity& connectivity_;
+  const TargetLengths& targets_;
+  GuardOptions options_;
+  struct Measures {
+    std::vector<double> area, alignment, sagitta;
+  };
+  Measures accepted_, trial_;
+};
+
+}  // namespace hooke

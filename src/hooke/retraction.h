@@ -1,0 +1,69 @@
+// Motion on the surface: tangent vectors, and the way back after a step along one.
+#pragma once
+
+#include <span>
+
+#include "hooke/constraints.h"
+#include "hooke/surface.h"
+
+namespace hooke {
+
+/// How the vertices sit on the surface and its curves.
+struct Placement {
+  Mat3X points;
+  Mat3X normals;              // unit, outward, of the surface
+  Mat3X tangents;             // unit, of the curve; zero for vertices without
+  std::vector<int> anchors;   // where on the surface each vertex is tracked
+  std::vector<int> segments;  // where on its curve
+  std::vector<double> drift;  // length moved in tangent planes since the last projection
+};
+
+/// Calls and failures of the projection.
+struct ProjectionCounts {
+  long long calls = 0;
+  long long evaluations = 0;
+  std::array<long long, 5> by_status{};  // indexed by FootStatus
+
+  ProjectionCounts& operator+=(const ProjectionCounts& other);
+};
+
+struct RetractionOptions {
+  double tolerance = 1e-6;  // of a projection, in mean target lengths
+  double lazy = 0;          // a vertex that moved less than this since its last projection stays in its tangent plane
+};
+
+/// Keeps references to the surface and the constraints: they must outlive it.
+class Retraction {
+ public:
+  Retraction(Surface surface, const Constraints& constraints, const RetractionOptions& options);
+
+  /// Puts every point on the surface or its curve. `anchors` are kept where they are given.
+  Placement place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments);
+
+  /// to = retract(from + displacement) for the given vertices; all other entries of `to` stay.
+  void step(const Placement& from, const Mat3X& displacement, std::span<const int> vertices, Placement& to);
+
+  /// The same for all vertices; `to` is resized.
+  void step(const Placement& from, const Mat3X& displacement, Placement& to);
+
+  /// Projects the vertices that have drifted.
+  void settle(Placement& placement);
+
+  /// Removes what a vertex may not do: the normal part, all but the part along its curve, or everything.
+  void constrain(const Placement& at, Mat3X& vectors) const;
+
+  const ProjectionCounts& counts() const { return counts_; }
+
+ private:
+  void move(const Placement& from, const Vec3& displacement, int vertex, double lazy, Placement& to);
+  void count();
+
+  Surface surface_;
+  const Constraints& constraints_;
+  RetractionOptions options_;
+  std::vector<FootStatus> status_;  // of the calls not yet counted
+  std::vector<int> evaluations_;
+  ProjectionCounts counts_;
+};
+
+}  // namespace hooke

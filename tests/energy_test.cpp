@@ -1,0 +1,129 @@
+#include "hooke/energy.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/parallel.h"
+#include "meshes.h"
+
+namespace hooke {
+namespace {
+
+Placement on_unit_sphere(const Mat3X& points) {
+  Placement p;
+  p.points = points;
+  p.normals = points.colwise().normalized();
+  return p;
+}
+
+struct Terms {
+  const char* name;
+  EnergyTerms terms;
+};
+void PrintTo(const Terms& t, std::ostream* out) { *out << t.name; }
+
+class EnergyLaws : public testing::TestWithParam<Terms> {
+ protected:
+  test::Triangles mesh_ = test::sphere(2, .35, 7);
+  Connectivity c_ = make_connectivity(static_cast<int>(mesh_.points.cols()), mesh_.faces);
+  TargetLengths targets_ = spread_target_lengths(c_, lengths());
+  Energy energy_{c_, targets_, GetParam().terms};
+
+  std::vector<double> lengths() const {  // graded, so that no unit is taken for granted
+    std::vector<double> l(static_cast<size_t>(c_.vertex_count));
+    for (size_t v = 0; v < l.size(); ++v) l[v] = .3 + .1 * mesh_.points(0, static_cast<Eigen::Index>(v));
+    return l;
+  }
+};
+
+TEST_P(EnergyLaws, GradientEqualsDifferences) {
+  Placement p = on_unit_sphere(mesh_.points);
+  Mat3X gradient;
+  ASSERT_GT(energy_(p, &gradient), 0);
+  const double h = 1e-6;
+  for (Eigen::Index v = 0; v < p.points.cols(); v += 13)
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const double x = p.points(k, v);
+      p.points(k, v) = x + h;
+      const double up = energy_(p, nullptr);
+      p.points(k, v) = x - h;
+      const double down = energy_(p, nullptr);
+      p.points(k, v) = x;
+      EXPECT_NEAR(gradient(k, v), (up - down) / (2 * h), 1e-5 * (1 + std::abs(gradient(k, v)))) << v << ' ' << k;
+    }
+}
+
+TEST_P(EnergyLaws, ForcesOfAPotentialSumToZero) {
+  Mat3X gradient;
+  energy_(on_unit_sphere(mesh_.points), &gradient);
+  EXPECT_LT(gradient.rowwise().sum().norm(), 1e-9 * gradient.colwise().norm().sum());
+}
+
+TEST_P(EnergyLaws, OneThreadAndTwoGiveTheSameBits) {
+  Mat3X one, two;
+  double e1, e2;
+  {
+    ThreadLimit limit(1);
+    e1 = energy_(on_unit_sphere(mesh_.points), &one);
+  }
+  {
+    ThreadLimit limit(2);
+    e2 = energy_(on_unit_sphere(mesh_.points), &two);
+  }
+  EXPECT_EQ(e1, e2);
+  EXPECT_EQ(one, two);
+}
+
+EnergyTerms angles() {
+  EnergyTerms t;
+  t.altitude = 0;
+  t.angle = 30;
+  t.angle_threshold = .7;
+  return t;
+}
+EnergyTerms unfolding() {
+  EnergyTerms t;
+  t.unfold = 1;
+  t.unfold_below = .95;  // so high that it acts on a fair sphere
+  return t;
+}
+EnergyTerms strings() {
+  EnergyTerms t;
+  t.altitude = 0;
+  return t;
+}
+INSTANTIATE_TEST_SUITE_P(All, EnergyLaws,
+                         testing::Values(Terms{"strings", strings()}, Terms{"altitudes", EnergyTerms{}},
+                                         Terms{"angles", angles()}, Terms{"unfold", unfolding()}),
+                         [](const auto& i) { return std::string(i.param.name); });
+
+TEST(Energy, VanishesOnEquilateralTrianglesOfTheTargetLength) {
+  Placement p;
+  p.points = Mat3X(3, 3);
+  p.points.col(0) = Vec3(0, 0, 0);
+  p.points.col(1) = Vec3(2, 0, 0);
+  p.points.col(2) = Vec3(1, std::sqrt(3.), 0);
+  p.normals = Vec3::UnitZ().replicate(1, 3);
+  const Connectivity c = make_connectivity(3, {{0, 1, 2}});
+  const TargetLengths targets = spread_target_lengths(c, {2, 2, 2});
+  Mat3X gradient;
+  EXPECT_NEAR(Energy(c, targets, EnergyTerms{})(p, &gradient), 0, 1e-14);  // rounding of ln(L / l)
+  EXPECT_LT(gradient.norm(), 1e-12);
+}
+
+TEST(Energy, AFaceWithoutAreaIsPushedOpenAlongTheSurface) {
+  Placement p;
+  p.points = Mat3X(3, 3);
+  p.points.col(0) = Vec3(0, 0, 0);
+  p.points.col(1) = Vec3(1, 0, 0);
+  p.points.col(2) = Vec3(.5, 0, 0);  // on the edge; to its left (+y) the face is the right way round
+  p.normals = Vec3::UnitZ().replicate(1, 3);
+  const Connectivity c = make_connectivity(3, {{0, 1, 2}});
+  const TargetLengths targets = spread_target_lengths(c, {1, 1, 1});
+  Mat3X gradient;
+  EXPECT_TRUE(std::isfinite(Energy(c, targets, EnergyTerms{})(p, &gradient)));
+  EXPECT_TRUE(gradient.allFinite());
+  EXPECT_LT(gradient(1, 2), 0);  // the force is its negative
+}
+
+}  // namespace
+}  // namespace hooke
