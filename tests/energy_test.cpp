@@ -19,7 +19,9 @@ struct Terms {
   const char* name;
   EnergyTerms terms;
 };
-void PrintTo(const Terms& t, std::ostream* out) { *out << t.name; }
+void PrintTo(const Terms& t, std::ostream* out) {
+  *out << t.name;
+}
 
 class EnergyLaws : public testing::TestWithParam<Terms> {
  protected:
@@ -48,7 +50,8 @@ TEST_P(EnergyLaws, GradientEqualsDifferences) {
       p.points(k, v) = x - h;
       const double down = energy_(p, nullptr);
       p.points(k, v) = x;
-      EXPECT_NEAR(gradient(k, v), (up - down) / (2 * h), 1e-5 * (1 + std::abs(gradient(k, v)))) << v << ' ' << k;
+      EXPECT_NEAR(gradient(k, v), (up - down) / (2 * h), 1e-5 * (1 + std::abs(gradient(k, v))))
+          << v << ' ' << k;
     }
 }
 

@@ -16,7 +16,8 @@ IntLists invert(int count, const Rows& rows) {
   lists.items.resize(static_cast<size_t>(lists.first.back()));
   std::vector<int> next(lists.first.begin(), lists.first.end() - 1);
   for (size_t r = 0; r < rows.size(); ++r)
-    for (int i : rows[r]) lists.items[static_cast<size_t>(next[static_cast<size_t>(i)]++)] = static_cast<int>(r);
+    for (int i : rows[r])
+      lists.items[static_cast<size_t>(next[static_cast<size_t>(i)]++)] = static_cast<int>(r);
   return lists;
 }
 

@@ -49,7 +49,8 @@ void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corn
   const size_t n = loop.size();
   std::vector<size_t> corners;
   for (size_t i = 0; i < n; ++i)
-    if (is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner)) corners.push_back(i);
+    if (is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner))
+      corners.push_back(i);
   for (size_t i : corners) result.freedom[static_cast<size_t>(loop[i])] = Freedom::fixed;
 
   const size_t pieces = std::max<size_t>(corners.size(), 1);
@@ -80,7 +81,8 @@ CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment) {
   double best2 = (x - best.point).squaredNorm();
   for (int direction : {1, -1}) {
     // Two segments without gain end the walk: one may be hidden behind a reflex point.
-    for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n; s += direction, ++steps) {
+    for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n;
+         s += direction, ++steps) {
       if (!curve.closed && (s < 0 || s >= n)) break;
       const CurveFoot foot = foot_on_segment(curve, x, ((s % n) + n) % n);
       const double distance2 = (x - foot.point).squaredNorm();

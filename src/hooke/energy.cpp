@@ -44,8 +44,8 @@ double angle_energy(const FaceFrame& f, double weight, double threshold, std::ar
   double energy = 0;
   for (size_t k = 0; k < 3; ++k) {
     const size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    const Vec3 a = f.opposite[j];        // from corner k to corner i
-    const Vec3 b = -f.opposite[i];       // from corner k to corner j
+    const Vec3 a = f.opposite[j];   // from corner k to corner i
+    const Vec3 b = -f.opposite[i];  // from corner k to corner j
     const double theta = std::max(std::atan2(f.doubled_area, a.dot(b)), 1e-6);
     if (theta >= threshold) continue;
     const Potential u = spring_potential(theta, threshold);
@@ -76,8 +76,8 @@ double altitude_energy(const FaceFrame& f, double weight, double h0, double& by_
   return energy;
 }
 
-/// 3/2 ((d - s) / d)^2 with the signed area s = (2 A n) . r / (.866 L^2), r the surface normal. Unlike springs on
-/// unsigned altitudes it pushes a folded face the right way round.
+/// 3/2 ((d - s) / d)^2 with the signed area s = (2 A n) . r / (.866 L^2), r the surface normal. Unlike
+/// springs on unsigned altitudes it pushes a folded face the right way round.
 double unfold_energy(const Placement& at, const Triangle& t, const FaceFrame& f, const EnergyTerms& terms,
                      double target, std::array<Vec3, 3>& gradient) {
   const double d = terms.unfold_below;
@@ -92,7 +92,8 @@ double unfold_energy(const Placement& at, const Triangle& t, const FaceFrame& f,
 
 }  // namespace
 
-Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets, const EnergyTerms& energy_terms)
+Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
+               const EnergyTerms& energy_terms)
     : terms(energy_terms),
       connectivity_(connectivity),
       targets_(targets),

@@ -1,5 +1,6 @@
 // The energy that relaxation minimises: springs on edges, on altitudes and on corner angles, all under the
-// modified Hooke's law [4], each measured in parts of its own rest length. Its negative gradient is the force.
+// modified Hooke's law [4], each measured in parts of its own rest length. Its negative gradient is the
+// force.
 #pragma once
 
 #include "hooke/retraction.h"

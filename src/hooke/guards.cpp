@@ -60,9 +60,13 @@ void Guards::measure_edge(const Placement& p, size_t edge) {
 }
 
 bool Guards::face_breaks(size_t f) const {
-  constexpr double slack = 1e-7;  // a face below the threshold may stay as it is
-  return trial_.area[f] < options_.area_ratio * accepted_.area[f] ||
-         trial_.alignment[f] < std::min(options_.alignment, accepted_.alignment[f] - slack);
+  const double before = accepted_.alignment[f];
+  const double after = trial_.alignment[f];
+  const bool shrinks = trial_.area[f] < options_.area_ratio * accepted_.area[f];
+  if (before >= options_.alignment) return shrinks || after < options_.alignment;
+  // A folded face passes through zero area on its way back: it may do all that turns it the right way.
+  constexpr double slack = 1e-7;
+  return after < before - slack || (shrinks && after <= before);
 }
 
 bool Guards::edge_breaks(size_t e) const {
@@ -71,7 +75,7 @@ bool Guards::edge_breaks(size_t e) const {
 
 void Guards::accept(const Placement& placement) {
   offenders_among_all(placement);
-  std::swap(accepted_, trial_);
+  accept_step();
 }
 
 std::vector<int> Guards::offenders_among_all(const Placement& trial) {
@@ -150,12 +154,6 @@ std::vector<int> Guards::folded_faces() const {
   for (size_t f = 0; f < accepted_.alignment.size(); ++f)
     if (accepted_.alignment[f] < options_.alignment) faces.push_back(static_cast<int>(f));
   return faces;
-}
-
-double Guards::least_alignment() const {
-  double least = 1;
-  for (double c : accepted_.alignment) least = std::min(least, c);
-  return least;
 }
 
 }  // namespace hooke

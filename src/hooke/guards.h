@@ -16,7 +16,8 @@ struct GuardOptions {
 /// Cosine between the face and the sum of the surface normals at its corners; 0 without area.
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face);
 
-/// Sagitta (l / 2) tan(theta / 4) of a circular arc over a chord of length l whose ends' normals differ by theta.
+/// Sagitta (l / 2) tan(theta / 4) of a circular arc over a chord of length l whose ends' normals differ by
+/// theta.
 double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge);
 
 /// Judges steps against the last accepted placement. Keeps references to the connectivity and the targets.
@@ -27,15 +28,16 @@ class Guards {
   /// Makes the placement the one that steps are judged against.
   void accept(const Placement& placement);
 
-  /// to = from + displacement, retracted and obeying the guards: offending vertices halve their steps, then stand
-  /// still; `displacement` becomes what was asked for in the end. `from` must be the accepted placement.
-  /// Returns the number of vertices that were held back.
+  /// to = from + displacement, retracted and obeying the guards: offending vertices halve their steps, then
+  /// stand still; `displacement` becomes what was asked for in the end. `from` must be the accepted
+  /// placement. Returns the number of vertices that were held back.
   int step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to);
+
+  /// Makes the outcome of the last step() the accepted placement.
+  void accept_step() { std::swap(accepted_, trial_); }
 
   /// Faces of the accepted placement that lie against the surface (alignment below the threshold).
   std::vector<int> folded_faces() const;
-
-  double least_alignment() const;
 
  private:
   bool face_breaks(size_t face) const;

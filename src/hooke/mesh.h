@@ -23,9 +23,10 @@ template <typename T>
 using VProp = OpenMesh::PropertyManager<OpenMesh::VPropHandleT<T>>;
 
 /// Names of the vertex properties that live on the mesh.
-inline constexpr char velocity_property[] = "v:velocity";            // Vec3, u of [17]
-inline constexpr char force_property[] = "v:force";                  // Vec3, lambda F_string + mu F_torque
-inline constexpr char target_length_property[] = "v:target_length";  // double; an edge wants the mean of its ends
+inline constexpr char velocity_property[] = "v:velocity";  // Vec3, u of [17]
+inline constexpr char force_property[] = "v:force";        // Vec3, lambda F_string + mu F_torque
+inline constexpr char target_length_property[] =
+    "v:target_length";  // double; an edge wants the mean of its ends
 
 /// Mesh from points and triangles, with the ids they have there.
 /// Pre-condition: the triangles are manifold and consistently oriented (see validation.h).

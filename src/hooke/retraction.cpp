@@ -38,7 +38,8 @@ Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::
   return p;
 }
 
-void Retraction::move(const Placement& from, const Vec3& displacement, int vertex, double lazy, Placement& to) {
+void Retraction::move(const Placement& from, const Vec3& displacement, int vertex, double lazy,
+                      Placement& to) {
   const auto v = static_cast<size_t>(vertex);
   const Freedom freedom = constraints_.freedom[v];
   Vec3 x = from.points.col(vertex) + displacement;
@@ -106,9 +107,15 @@ void Retraction::constrain(const Placement& at, Mat3X& vectors) const {
       const auto v = static_cast<Eigen::Index>(i);
       auto u = vectors.col(v);
       switch (constraints_.freedom[i]) {
-        case Freedom::surface: u -= at.normals.col(v) * at.normals.col(v).dot(u); break;
-        case Freedom::curve: u = (at.tangents.col(v) * at.tangents.col(v).dot(u)).eval(); break;
-        case Freedom::fixed: u.setZero(); break;
+        case Freedom::surface:
+          u -= at.normals.col(v) * at.normals.col(v).dot(u);
+          break;
+        case Freedom::curve:
+          u = (at.tangents.col(v) * at.tangents.col(v).dot(u)).eval();
+          break;
+        case Freedom::fixed:
+          u.setZero();
+          break;
       }
     }
   });

@@ -29,7 +29,7 @@ struct ProjectionCounts {
 
 struct RetractionOptions {
   double tolerance = 1e-6;  // of a projection, in mean target lengths
-  double lazy = 0;          // a vertex that moved less than this since its last projection stays in its tangent plane
+  double lazy = 0;  // a vertex that moved less than this since its last projection stays in its tangent plane
 };
 
 /// Keeps references to the surface and the constraints: they must outlive it.

@@ -25,7 +25,8 @@ TargetLengths spread_target_lengths(const Connectivity& c, const std::vector<dou
   TargetLengths targets;
   targets.edge.reserve(c.edges.size());
   for (const auto& [a, b] : c.edges)
-    targets.edge.push_back(.5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]));
+    targets.edge.push_back(.5 *
+                           (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]));
   targets.face.reserve(c.faces.size());
   for (const auto& edges : c.face_edges) {
     double sum = 0;

@@ -18,6 +18,7 @@ double total_area(const Mat3X& points, const std::vector<Triangle>& faces);
 double natural_length(double area, std::size_t face_count);
 
 /// Spreads target lengths given per vertex to edges and faces.
-TargetLengths spread_target_lengths(const Connectivity& connectivity, const std::vector<double>& vertex_length);
+TargetLengths spread_target_lengths(const Connectivity& connectivity,
+                                    const std::vector<double>& vertex_length);
 
 }  // namespace hooke

@@ -1,5 +1,5 @@
-// The surface as the optimizer sees it: a place to put points back on. A fitted field, a closest point search and
-// a test's sphere all fit.
+// The surface as the optimizer sees it: a place to put points back on. A fitted field, a closest point search
+// and a test's sphere all fit.
 #pragma once
 
 #include "hooke/types.h"
@@ -18,10 +18,10 @@ enum class FootStatus : unsigned char {
 /// Where a point lands on the surface.
 struct Foot {
   Vec3 point;
-  Vec3 normal;         // unit, outward
-  int anchor;          // vertex of the fitted mesh next to it: the start of the next search
+  Vec3 normal;  // unit, outward
+  int anchor;   // vertex of the fitted mesh next to it: the start of the next search
   FootStatus status = FootStatus::converged;
-  int evaluations = 0; // of the field
+  int evaluations = 0;  // of the field
 };
 
 /// Projects a point that is tracked near the vertex `anchor` to within `tolerance` (a length) of the surface.

@@ -22,8 +22,8 @@ struct FieldSample {
   Vec3 gradient = Vec3::Zero();
 };
 
-/// The surface as the zero level of a field psi [11]. `anchor` is the vertex of the fitted mesh near which the
-/// point is tracked: it tells sheets apart that are close in space; fields without sheets ignore it.
+/// The surface as the zero level of a field psi [11]. `anchor` is the vertex of the fitted mesh near which
+/// the point is tracked: it tells sheets apart that are close in space; fields without sheets ignore it.
 using ScalarField = std::function<FieldSample(const Vec3& point, int anchor)>;
 
 /// Something the user should know, with a code that scripts can test.

@@ -1,0 +1,64 @@
+#include "hooke/ordering.h"
+
+#include <algorithm>
+#include <deque>
+#include <numeric>
+
+namespace hooke {
+
+std::vector<int> locality_order(const Connectivity& c) {
+  constexpr size_t cluster_size = 256;  // vertices whose data stay in the first cache
+  const auto n = static_cast<size_t>(c.vertex_count);
+  std::vector<int> order;
+  order.reserve(n);
+  std::vector<bool> taken(n, false), waiting(n, false);
+  std::deque<int> seeds;  // vertices next to finished clusters, oldest first
+
+  const auto grow = [&](int seed) {
+    const size_t begin = order.size();
+    taken[static_cast<size_t>(seed)] = true;
+    order.push_back(seed);
+    for (size_t i = begin; i < order.size(); ++i)
+      for (int w : c.vertex_neighbours[order[i]]) {
+        const auto u = static_cast<size_t>(w);
+        if (taken[u]) continue;
+        if (order.size() - begin < cluster_size) {
+          taken[u] = true;
+          order.push_back(w);
+        } else if (!waiting[u]) {
+          waiting[u] = true;
+          seeds.push_back(w);
+        }
+      }
+  };
+  for (size_t start = 0; start < n; ++start) {
+    if (taken[start]) continue;
+    seeds.push_back(static_cast<int>(start));
+    while (!seeds.empty()) {
+      const int seed = seeds.front();
+      seeds.pop_front();
+      if (!taken[static_cast<size_t>(seed)]) grow(seed);
+    }
+  }
+  return order;
+}
+
+Reordered reorder(const Connectivity& c, const std::vector<int>& order) {
+  std::vector<int> fresh(order.size());
+  for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);
+  Reordered r;
+  r.old_vertex = order;
+  std::vector<Triangle> faces = c.faces;
+  for (Triangle& t : faces)
+    for (int& v : t) v = fresh[static_cast<size_t>(v)];
+  r.old_face.resize(faces.size());
+  std::iota(r.old_face.begin(), r.old_face.end(), 0);
+  std::stable_sort(r.old_face.begin(), r.old_face.end(), [&](int f, int g) {
+    return std::ranges::min(faces[static_cast<size_t>(f)]) < std::ranges::min(faces[static_cast<size_t>(g)]);
+  });
+  r.faces.reserve(faces.size());
+  for (int f : r.old_face) r.faces.push_back(faces[static_cast<size_t>(f)]);
+  return r;
+}
+
+}  // namespace hooke

@@ -1,0 +1,21 @@
+// Order in memory: neighbours on the mesh become neighbours in the arrays.
+#pragma once
+
+#include "hooke/connectivity.h"
+
+namespace hooke {
+
+/// order[new] = old vertex id: clusters grown breadth-first over the mesh, so that a ring mostly lies within
+/// one cluster. Depends on the connectivity only, never on coordinates: a moved or turned mesh has the same
+/// order.
+std::vector<int> locality_order(const Connectivity& connectivity);
+
+/// A mesh in another order, and the way back.
+struct Reordered {
+  std::vector<int> old_vertex;  // of a new one
+  std::vector<int> old_face;    // of a new one; faces follow their smallest vertex
+  std::vector<Triangle> faces;  // in new vertex ids
+};
+Reordered reorder(const Connectivity& connectivity, const std::vector<int>& order);
+
+}  // namespace hooke

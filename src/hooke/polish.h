@@ -1,0 +1,40 @@
+// Angle springs on the worst corners, after the equilibrium of the edges: the modified Hooke's law's
+// repulsive branch on corner angles below a threshold that rises in stages.
+#pragma once
+
+#include "hooke/lbfgs.h"
+
+namespace hooke {
+
+struct PolishOptions {
+  double first_threshold = 20;  // degrees; at least least angle + margin
+  double margin = 2;            // degrees
+  double threshold_step = 2;    // degrees per stage
+  double last_threshold = 32;   // degrees
+  double first_weight = 30;     // w of the first stage
+  double weight = 100;          // w of the others
+  int first_evaluations = 100;  // of the first stage
+  int evaluations = 60;         // of the others
+  double keep_within = .1;      // degrees below the best angle at which a later state is still kept
+};
+
+struct PolishResult {
+  int stages = 0;
+  int evaluations = 0;
+  double least_angle_before = 0, least_angle_after = 0;  // degrees
+  double edge_error_before = 0, edge_error_after = 0;    // standard deviation of l / L_e
+  bool interrupted = false;
+};
+
+/// Raises the least angle as long as the standard deviation of l / L_e does not pass that of the start.
+PolishResult polish(Relaxation& relaxation, const TargetLengths& targets, const PolishOptions& options,
+                    const Observer& observer);
+
+/// Least corner angle of all faces, degrees.
+double least_angle(const Mat3X& points, const std::vector<Triangle>& faces);
+
+/// Standard deviation of l / L_e over the edges.
+double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edges,
+                               const TargetLengths& targets);
+
+}  // namespace hooke
