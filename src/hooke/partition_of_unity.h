@@ -1,0 +1,58 @@
+// A surface field at every size: local splines on overlapping patches of the mesh, blended by weights.
+// R. Franke, G. Nielson, "Smooth interpolation of large sets of scattered data", 1980; H. Wendland,
+// "Piecewise polynomial, positive definite and compactly supported radial functions of minimal degree", 1995
+// (the weights); Y. Ohtake et al., "Multi-level partition of unity implicits", 2003.
+#pragma once
+
+#include "hooke/connectivity.h"
+#include "hooke/thin_plate_spline.h"
+#include "hooke/types.h"
+
+namespace hooke {
+
+struct PartitionOptions {
+  Kernel kernel = Kernel::r2logr;
+  int patch_size = 30;    // vertices of a patch
+  double coverage = .55;  // every vertex is closer to some centre than this share of the patch's radius
+  double offset = .3;     // rho of [13], in mean edge lengths at the vertex
+};
+
+/// The field is zero at every vertex, a distance near them, and grows along the normals. Patches are grown
+/// over the edges of the mesh, never through space, so two sheets of a thin body do not see each other. Which
+/// patches there are depends on vertex order, topology and shape only: moving, turning or scaling the mesh
+/// takes the field along.
+class PartitionOfUnity {
+ public:
+  /// `normals` are the unit vertex normals, `edge_lengths` the mean edge length at each vertex (see
+  /// normals.h). A vertex without faces gets no patch.
+  PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+                   const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
+                   const PartitionOptions& options = {});
+
+  /// Value and gradient at x, blended from the patches that hold the vertex `anchor`. The gradient is that of
+  /// the splines; it leaves out the slope of the weights, which vanishes on the surface. All zero when no
+  /// patch of the anchor reaches x.
+  FieldSample operator()(const Vec3& x, int anchor) const;
+
+  std::size_t patch_count() const { return patches_.size(); }
+  /// Patches that fell back from their polynomial degree to a lower one, or to a plane.
+  std::size_t affine_fallbacks() const;
+  std::size_t plane_fallbacks() const;
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Patch {
+    Vec3 centre;
+    double radius = 0;
+    std::size_t storage = 0;  // where its spline begins
+    int centres = 0;          // of its spline
+    enum : unsigned char { as_wanted, affine, plane } fit = as_wanted;
+  };
+
+  Kernel kernel_;
+  std::vector<Patch> patches_;
+  std::vector<double> storage_;
+  IntLists vertex_patches_;
+};
+
+}  // namespace hooke

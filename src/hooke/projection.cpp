@@ -1,0 +1,30 @@
+#include "hooke/projection.h"
+
+#include <algorithm>
+
+namespace hooke {
+
+Foot project_by_newton(const ScalarField& psi, const Vec3& x, int anchor, const NewtonOptions& options) {
+  Foot foot{x, Vec3::Zero(), anchor, FootStatus::step_limit, 0};
+  const auto fail = [&](FootStatus status) {
+    return Foot{x, Vec3::Zero(), anchor, status, foot.evaluations};
+  };
+  for (int step = 0; step <= options.most_steps; ++step) {
+    const FieldSample s = psi(foot.point, anchor);
+    ++foot.evaluations;
+    if (s.value == 0 && s.gradient.isZero(0)) return fail(FootStatus::no_cover);
+    const double slope = s.gradient.norm();
+    if (!(slope >= options.least_gradient)) return fail(FootStatus::flat_gradient);
+    const double distance = s.value / slope;
+    foot.normal = s.gradient / slope;
+    if (std::abs(distance) <= options.tolerance) {
+      foot.status = FootStatus::converged;
+      return foot;
+    }
+    foot.point -= std::clamp(distance, -options.longest_step, options.longest_step) * foot.normal;  // [16]
+    if (!((foot.point - x).norm() <= options.longest_move)) return fail(FootStatus::too_far);
+  }
+  return fail(FootStatus::step_limit);
+}
+
+}  // namespace hooke

@@ -1,0 +1,126 @@
+#include "hooke/remesh.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace hooke {
+namespace {
+
+/// The work in hand and the account of it.
+class Remeshing {
+ public:
+  Remeshing(const TriMesh& mesh, const RemeshOptions& options, const Observer& observer)
+      : options_(options),
+        observer_(observer),
+        work_(mesh, options.constraints, options.filter, options.retraction),
+        energy_(*work_.connectivity, work_.targets, {.altitude = options.altitude}),
+        guards_(*work_.connectivity, work_.targets, options.guards) {}
+
+  RemeshResult run(TriMesh& mesh) {
+    unfold();
+    for (outer_ = 1; !done_ && outer_ <= options_.max_outer; ++outer_) iterate();
+    if (options_.polish_angles && !interrupted()) raise_angles();
+    conclude();
+    work_.copy_back(mesh);
+    return std::move(result_);
+  }
+
+ private:
+  Relaxation relaxation() {
+    return {work_.mesh, *work_.connectivity, work_.vertex_length, energy_, *work_.retraction,
+            guards_,    work_.placement};
+  }
+
+  Observer watch(const char* stage) const {
+    if (!observer_) return nullptr;
+    return [this, stage](Progress p) {
+      p.stage = stage;
+      p.outer = outer_;
+      return observer_(p);
+    };
+  }
+
+  bool interrupted() const { return result_.reason == StopReason::interrupted; }
+
+  void unfold() {
+    Relaxation r = relaxation();
+    const UntangleResult unfolded = untangle(r, options_.untangle, watch("untangle"));
+    result_.folded_before = unfolded.folded_before;
+    if (unfolded.interrupted) stop(StopReason::interrupted);
+    if (unfolded.evaluations > 0) record("untangle", {.evaluations = unfolded.evaluations});
+  }
+
+  void iterate() {
+    if (options_.refit == Refit::each && outer_ > 1) work_.refit();
+    Relaxation r = relaxation();
+    const double before = energy_(work_.placement, nullptr);
+    const IntegrationResult relaxed = relax_lbfgs(r, options_.integration, options_.lbfgs, watch("relax"));
+    work_.land();
+    record("relax", relaxed);
+    if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
+    if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
+    if (before - relaxed.energy <= options_.outer_drop * before) return stop(StopReason::stalled);
+    result_.reason = StopReason::step_limit;
+  }
+
+  void raise_angles() {
+    if (options_.refit == Refit::each) work_.refit();
+    Relaxation r = relaxation();
+    result_.polish = polish(r, work_.targets, options_.polish, watch("polish"));
+    if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
+    work_.land();
+    record("polish",
+           {.evaluations = result_.polish.evaluations, .energy = energy_(work_.placement, nullptr)});
+  }
+
+  void conclude() {
+    guards_.accept(work_.placement);
+    for (int f : guards_.folded_faces())
+      result_.folded_faces.push_back(work_.order.old_face[static_cast<size_t>(f)]);
+    std::ranges::sort(result_.folded_faces);
+    result_.projection = work_.projection_counts();
+  }
+
+  void stop(StopReason reason) {
+    result_.reason = reason;
+    done_ = true;
+  }
+
+  void record(const char* stage, const IntegrationResult& done) {
+    IterationRecord record{
+        .stage = stage, .steps = done.steps, .evaluations = done.evaluations, .energy = done.energy};
+    double sum2 = 0;
+    const auto& edges = work_.connectivity->edges;
+    for (size_t e = 0; e < edges.size(); ++e) {
+      const double l =
+          (work_.placement.points.col(edges[e][1]) - work_.placement.points.col(edges[e][0])).norm();
+      const double error = std::abs(l / work_.targets.edge[e] - 1);
+      record.max_length_error = std::max(record.max_length_error, error);
+      sum2 += error * error;
+    }
+    record.rms_length_error = std::sqrt(sum2 / static_cast<double>(edges.size()));
+    record.least_angle = least_angle(work_.placement.points, work_.connectivity->faces);
+    record.field_evaluations = work_.projection_counts().evaluations;
+    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    result_.iterations.push_back(record);
+    result_.held_back += done.held_back;
+  }
+
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const RemeshOptions& options_;
+  const Observer& observer_;
+  Workspace work_;
+  Energy energy_;
+  Guards guards_;
+  RemeshResult result_;
+  int outer_ = 0;
+  bool done_ = false;
+};
+
+}  // namespace
+
+RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer) {
+  return Remeshing(mesh, options, observer).run(mesh);
+}
+
+}  // namespace hooke

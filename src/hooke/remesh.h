@@ -1,0 +1,59 @@
+// Filtered Hooke's Optimization, Algorithm 1: relaxation and filtering by turns until the mesh is regular.
+// "Hooke's Optimization for 3D triangular mesh".
+#pragma once
+
+#include "hooke/lbfgs.h"
+#include "hooke/polish.h"
+#include "hooke/untangle.h"
+#include "hooke/workspace.h"
+
+namespace hooke {
+
+enum class Refit { each, once };
+
+struct RemeshOptions {
+  IntegrationOptions integration;
+  LbfgsOptions lbfgs;
+  double altitude = 1;  // beta, weight of the altitude springs against the strings
+  GuardOptions guards;
+  UntangleOptions untangle;
+  PolishOptions polish;
+  bool polish_angles = true;
+  FilterOptions filter;
+  Refit refit = Refit::each;  // of the field, before each outer iteration or once
+  RetractionOptions retraction{.tolerance = 1e-6, .lazy = .05};
+  ConstraintOptions constraints;
+  double tolerance = 1e-3;   // of every edge, in parts of its target length
+  int max_outer = 10;        // outer iterations
+  double outer_drop = 1e-3;  // stalled when an outer iteration lowers the energy by less than this part
+};
+
+/// One outer iteration.
+struct IterationRecord {
+  const char* stage = "";
+  int steps = 0;
+  int evaluations = 0;  // of the energy
+  long long field_evaluations = 0;
+  double energy = 0;
+  double max_length_error = 0;  // max |l - L_e| / L_e
+  double rms_length_error = 0;
+  double least_angle = 0;  // degrees
+  double seconds = 0;      // since the start
+};
+
+struct RemeshResult {
+  StopReason reason = StopReason::stalled;
+  std::vector<IterationRecord> iterations;
+  int folded_before = 0;
+  std::vector<int> folded_faces;  // still folded away from the surface, ids of the input
+  PolishResult polish;
+  ProjectionCounts projection;
+  long long held_back = 0;  // vertex steps shortened by the guards
+};
+
+/// Moves the vertices of the mesh on its own surface until its edges are as near to their target lengths
+/// (v:target_length) as the connectivity allows, then raises its least angles. Ids and connectivity stay. The
+/// mesh is always left valid; an observer that returns false stops with what has been reached.
+RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr);
+
+}  // namespace hooke

@@ -1,0 +1,213 @@
+#include "hooke/surface_field.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "hooke/closest_point.h"
+#include "hooke/error.h"
+#include "hooke/normals.h"
+#include "hooke/partition_of_unity.h"
+#include "hooke/projection.h"
+
+namespace hooke {
+namespace {
+
+constexpr double longest_step = .5;  // of Newton, in mean edge lengths at the anchor
+constexpr double longest_move = 2;
+
+/// Vertices that have faces, without the repetitions of one place.
+std::vector<int> distinct_vertices(const Mat3X& points, const Connectivity& connectivity) {
+  std::vector<int> vertices;
+  for (int v = 0; v < connectivity.vertex_count; ++v)
+    if (!connectivity.vertex_faces[v].empty()) vertices.push_back(v);
+  const auto place = [&](int v) { return std::array{points(0, v), points(1, v), points(2, v)}; };
+  std::ranges::stable_sort(vertices, {}, place);
+  vertices.erase(
+      std::unique(vertices.begin(), vertices.end(), [&](int a, int b) { return place(a) == place(b); }),
+      vertices.end());
+  std::ranges::sort(vertices);
+  return vertices;
+}
+
+double mean_edge_length(const Mat3X& points, const Connectivity& connectivity) {
+  double sum = 0;
+  for (const auto& [a, b] : connectivity.edges) sum += (points.col(a) - points.col(b)).norm();
+  return connectivity.edges.empty() ? 0 : sum / static_cast<double>(connectivity.edges.size());
+}
+
+/// One spline through all vertices [11]-[13], grown outward; the value rho instead of 1 makes it a distance.
+ThinPlateSpline fit_global_spline(const Mat3X& points, const Connectivity& connectivity, const Mat3X& normals,
+                                  const FilterOptions& options) {
+  const std::vector<int> vertices = distinct_vertices(points, connectivity);
+  const double rho = options.offset * mean_edge_length(points, connectivity);
+  Mat3X centres(3, 2 * static_cast<Eigen::Index>(vertices.size()));
+  Eigen::VectorXd values(centres.cols());
+  Eigen::Index count = 0;
+  for (int v : vertices) {
+    centres.col(count) = points.col(v);
+    values[count++] = 0;
+    if (normals.col(v).isZero(0)) continue;
+    centres.col(count) = points.col(v) + rho * normals.col(v);
+    values[count++] = rho;
+  }
+  auto spline = ThinPlateSpline::fit(centres.leftCols(count), values.head(count), options.kernel, 1,
+                                     options.memory_limit_bytes);
+  if (!spline)
+    throw NumericalError(
+        "the spline through all vertices has no solution; vertices at distinct places were expected; use the "
+        "local filter");
+  return *std::move(spline);
+}
+
+}  // namespace
+
+struct SurfaceField::State {
+  FilterKind kind;
+  std::shared_ptr<const Connectivity> connectivity;
+  Mat3X points;
+  Mat3X normals;
+  Eigen::VectorXd edge_lengths;
+  std::optional<PartitionOfUnity> partition;
+  std::optional<ThinPlateSpline> spline;
+
+  int nearest_vertex(const Vec3& x, int anchor) const;
+  Foot closest_point(const Vec3& x, int anchor) const;
+  Foot closest_point_of_ring(const Vec3& x, int anchor) const;
+  FieldSample sample(const Vec3& x, int anchor) const;
+  Foot project(const Vec3& x, int anchor, double tolerance) const;
+};
+
+/// Walks from vertex to vertex while that brings it closer to x: steepest descent of the distance.
+int SurfaceField::State::nearest_vertex(const Vec3& x, int anchor) const {
+  double least = (points.col(anchor) - x).squaredNorm();
+  for (int from = -1; from != anchor;) {
+    from = anchor;
+    for (int n : connectivity->vertex_neighbours[from]) {
+      const double distance2 = (points.col(n) - x).squaredNorm();
+      if (distance2 >= least) continue;
+      least = distance2;
+      anchor = n;
+    }
+  }
+  return anchor;
+}
+
+/// Closest point of the faces of the anchor and its neighbours; the new anchor is the nearest corner there.
+Foot SurfaceField::State::closest_point_of_ring(const Vec3& x, int anchor) const {
+  Foot foot{x, Vec3::Zero(), anchor, FootStatus::no_cover, 0};
+  double least = std::numeric_limits<double>::infinity();
+  const auto visit = [&](int v) {
+    for (int f : connectivity->vertex_faces[v]) {
+      const Triangle& face = connectivity->faces[static_cast<std::size_t>(f)];
+      const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
+      const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
+      if (near.squared_distance >= least) continue;
+      least = near.squared_distance;
+      foot.point = near.point;
+      foot.normal.setZero();
+      for (int k = 0; k < 3; ++k)
+        foot.normal += near.weights[k] * normals.col(face[static_cast<std::size_t>(k)]);
+      Eigen::Index corner;
+      near.weights.maxCoeff(&corner);
+      foot.anchor = face[static_cast<std::size_t>(corner)];
+      foot.status = FootStatus::converged;
+    }
+  };
+  visit(anchor);
+  for (int n : connectivity->vertex_neighbours[anchor]) visit(n);
+  foot.normal.normalize();
+  return foot;
+}
+
+Foot SurfaceField::State::closest_point(const Vec3& x, int anchor) const {
+  Foot foot = closest_point_of_ring(x, anchor);
+  while (foot.anchor != anchor) {
+    anchor = foot.anchor;
+    const Foot next = closest_point_of_ring(x, anchor);
+    if ((next.point - x).squaredNorm() >= (foot.point - x).squaredNorm()) break;
+    foot = next;
+  }
+  return foot;
+}
+
+FieldSample SurfaceField::State::sample(const Vec3& x, int anchor) const {
+  switch (kind) {
+    case FilterKind::local:
+      return (*partition)(x, anchor);
+    case FilterKind::global:
+      return (*spline)(x);
+    case FilterKind::closest: {
+      const Foot foot = closest_point(x, anchor);
+      const double distance = (x - foot.point).norm();
+      return {(x - foot.point).dot(foot.normal) < 0 ? -distance : distance, foot.normal};
+    }
+    case FilterKind::none:
+      break;
+  }
+  return {0, normals.col(anchor)};
+}
+
+Foot SurfaceField::State::project(const Vec3& x, int anchor, double tolerance) const {
+  anchor = nearest_vertex(x, anchor);
+  if (kind == FilterKind::none) return {x, normals.col(anchor), anchor};
+  if (kind == FilterKind::closest) return closest_point(x, anchor);
+
+  NewtonOptions newton;
+  newton.tolerance = tolerance;
+  newton.longest_step = longest_step * edge_lengths[anchor];
+  newton.longest_move = longest_move * edge_lengths[anchor];
+  const Foot foot =
+      project_by_newton([this](const Vec3& p, int a) { return sample(p, a); }, x, anchor, newton);
+  if (foot.status == FootStatus::converged) return foot;
+
+  Foot fallback = closest_point(x, anchor);
+  fallback.status = foot.status;
+  fallback.evaluations = foot.evaluations;
+  return fallback;
+}
+
+SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> connectivity,
+                           const FilterOptions& options) {
+  auto state = std::make_shared<State>();
+  state->kind = options.kind;
+  state->normals = vertex_normals(points, *connectivity);
+  state->edge_lengths = mean_edge_lengths(points, *connectivity);
+  if (options.kind == FilterKind::local)
+    state->partition.emplace(points, *connectivity, state->normals, state->edge_lengths,
+                             PartitionOptions{.kernel = options.kernel, .offset = options.offset});
+  if (options.kind == FilterKind::global)
+    state->spline = fit_global_spline(points, *connectivity, state->normals, options);
+  state->points = std::move(points);
+  state->connectivity = std::move(connectivity);
+  state_ = std::move(state);
+}
+
+Foot SurfaceField::project(const Vec3& x, int anchor, double tolerance) const {
+  return state_->project(x, anchor, tolerance);
+}
+
+FieldSample SurfaceField::sample(const Vec3& x, int anchor) const {
+  return state_->sample(x, anchor);
+}
+
+Surface SurfaceField::surface() const {
+  return [state = state_](const Vec3& x, int anchor, double tolerance) {
+    return state->project(x, anchor, tolerance);
+  };
+}
+
+const Mat3X& SurfaceField::points() const {
+  return state_->points;
+}
+const Mat3X& SurfaceField::normals() const {
+  return state_->normals;
+}
+
+std::size_t SurfaceField::memory_bytes() const {
+  const auto doubles = state_->points.size() + state_->normals.size() + state_->edge_lengths.size();
+  return sizeof(double) * static_cast<std::size_t>(doubles) +
+         (state_->partition ? state_->partition->memory_bytes() : 0) +
+         (state_->spline ? state_->spline->memory_bytes() : 0);
+}
+
+}  // namespace hooke

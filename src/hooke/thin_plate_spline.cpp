@@ -1,0 +1,209 @@
+#include "hooke/thin_plate_spline.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <limits>
+
+#include "hooke/error.h"
+
+namespace hooke {
+namespace {
+
+// Storage: x[n], y[n], z[n], a[n], then ten polynomial coefficients; n is rounded up to whole groups of
+// lanes, and the extra centres have coefficient 0. Fixed groups, so that sums run in the same order wherever
+// the data lie.
+constexpr int lanes = 4;
+constexpr std::size_t polynomial_size = 10;
+using Lanes = Eigen::Array<double, lanes, 1>;
+
+constexpr double smallest =
+    std::numeric_limits<double>::min();      // r^2 log r is 0 at r = 0: keep the log finite
+constexpr double least_column_ratio = 1e-8;  // of a polynomial's part that the ones before it do not explain
+constexpr double least_pivot_ratio = 1e-7;   // of the Cholesky diagonal: beyond, coefficients are noise
+
+std::size_t padded(std::size_t centres) {
+  return (centres + lanes - 1) / lanes * lanes;
+}
+
+using Monomials = Eigen::Matrix<double, polynomial_size, 1>;
+Monomials monomials(double x, double y, double z) {
+  return Monomials{1, x, y, z, x * x, y * y, z * z, x * y, y * z, z * x};
+}
+
+FieldSample evaluate_polynomial(const double* c, const Vec3& p) {
+  const double x = p[0], y = p[1], z = p[2];
+  FieldSample s;
+  s.value = c[0] + x * (c[1] + x * c[4] + y * c[7]) + y * (c[2] + y * c[5] + z * c[8]) +
+            z * (c[3] + z * c[6] + x * c[9]);
+  s.gradient = {c[1] + 2 * x * c[4] + y * c[7] + z * c[9], c[2] + 2 * y * c[5] + x * c[7] + z * c[8],
+                c[3] + 2 * z * c[6] + y * c[8] + x * c[9]};
+  return s;
+}
+
+/// Lower triangle of the kernel matrix. [32]
+void fill_kernel_matrix(const Eigen::Ref<const Mat3X>& centres, Kernel kernel, Eigen::MatrixXd& A) {
+  const Eigen::Index n = centres.cols();
+  A.resize(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    auto column = A.col(j).tail(n - j).array();
+    column =
+        (centres.rightCols(n - j).colwise() - centres.col(j)).colwise().squaredNorm().transpose().array();
+    if (kernel == Kernel::r2logr)
+      column *= .5 * column.max(smallest).log();
+    else
+      column *= column.sqrt();
+  }
+}
+
+/// A := H A H for the reflector H = I - tau v v^T, lower triangle only.
+void reflect_both_sides(Eigen::MatrixXd& A, const Eigen::VectorXd& v, double tau, Eigen::VectorXd& w) {
+  w.noalias() = tau * (A.selfadjointView<Eigen::Lower>() * v);
+  w -= (.5 * tau * v.dot(w)) * v;
+  A.selfadjointView<Eigen::Lower>().rankUpdate(v, w, -1);
+}
+
+bool is_independent(const Eigen::MatrixXd& R, Eigen::Index m) {
+  for (Eigen::Index k = 0; k < m; ++k)
+    if (!(std::abs(R(k, k)) > least_column_ratio * R.col(k).head(k + 1).norm())) return false;
+  return true;
+}
+
+}  // namespace
+
+std::size_t spline_storage_size(std::size_t centres) {
+  return 4 * padded(centres) + polynomial_size;
+}
+
+std::size_t spline_fit_bytes(std::size_t centres) {
+  return sizeof(double) * (centres * centres + 24 * centres);
+}
+
+void store_affine_spline(double value, const Vec3& gradient, double* storage) {
+  std::fill_n(storage, polynomial_size, 0.);
+  storage[0] = value;
+  for (int k = 0; k < 3; ++k) storage[k + 1] = gradient[k];
+}
+
+bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const Eigen::VectorXd>& values,
+                Kernel kernel, SplineDegree degree, SplineWorkspace& workspace, double* storage) {
+  const Eigen::Index n = centres.cols();
+  const Eigen::Index m = monomial_count(degree);
+  if (n < m) return false;
+
+  // P = Q R; the coefficients a are orthogonal to the polynomials, so a = Q [0; z].
+  auto& P = workspace.polynomials;
+  P.resize(n, m);
+  for (Eigen::Index i = 0; i < n; ++i)
+    P.row(i) = monomials(centres(0, i), centres(1, i), centres(2, i)).head(m).transpose();
+  const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(P);
+  if (!is_independent(P, m)) return false;
+
+  auto& A = workspace.kernel_matrix;
+  auto& d = workspace.right_side;
+  fill_kernel_matrix(centres, kernel, A);
+  d = values;
+  Eigen::VectorXd v(n), w(n);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    v.head(k).setZero();
+    v[k] = 1;
+    v.tail(n - k - 1) = P.col(k).tail(n - k - 1);
+    const double tau = qr.hCoeffs()[k];
+    reflect_both_sides(A, v, tau, w);
+    d -= tau * v.dot(d) * v;
+  }
+
+  // [31] in these coordinates: A22 z = d2, then R c = d1 - A12 z.
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(n);
+  if (n > m) {
+    Eigen::Ref<Eigen::MatrixXd> A22 = A.bottomRightCorner(n - m, n - m);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(A22);
+    if (llt.info() != Eigen::Success) return false;
+    const auto pivots = A22.diagonal();
+    if (!(pivots.minCoeff() > least_pivot_ratio * pivots.maxCoeff())) return false;
+    a.tail(n - m) = llt.solve(d.tail(n - m));
+    d.head(m).noalias() -= A.bottomLeftCorner(n - m, m).transpose() * a.tail(n - m);
+  }
+  P.topRows(m).triangularView<Eigen::Upper>().solveInPlace(d.head(m));
+  for (Eigen::Index k = m - 1; k >= 0; --k) {
+    const auto essential = P.col(k).tail(n - k - 1);
+    const double s = qr.hCoeffs()[k] * (a[k] + essential.dot(a.tail(n - k - 1)));
+    a[k] -= s;
+    a.tail(n - k - 1) -= s * essential;
+  }
+  if (!a.allFinite() || !d.head(m).allFinite()) return false;
+
+  const std::size_t stride = padded(static_cast<std::size_t>(n));
+  std::fill_n(storage, 4 * stride + polynomial_size, 0.);
+  for (int k = 0; k < 3; ++k)
+    Eigen::VectorXd::Map(storage + static_cast<size_t>(k) * stride, n) = centres.row(k);
+  Eigen::VectorXd::Map(storage + 3 * stride, n) = a;
+  Eigen::VectorXd::Map(storage + 4 * stride, m) = d.head(m);
+  return true;
+}
+
+FieldSample evaluate_spline(const double* storage, std::size_t centres, Kernel kernel, const Vec3& p) {
+  const std::size_t n = padded(centres);
+  const Lanes px = Lanes::Constant(p[0]), py = Lanes::Constant(p[1]), pz = Lanes::Constant(p[2]);
+  Lanes value = Lanes::Zero(), gx = Lanes::Zero(), gy = Lanes::Zero(), gz = Lanes::Zero();
+  for (std::size_t i = 0; i < n; i += lanes) {
+    const Lanes dx = px - Lanes::Map(storage + i);
+    const Lanes dy = py - Lanes::Map(storage + n + i);
+    const Lanes dz = pz - Lanes::Map(storage + 2 * n + i);
+    const Lanes a = Lanes::Map(storage + 3 * n + i);
+    const Lanes r2 = dx * dx + dy * dy + dz * dz;
+    Lanes slope;  // a phi'(r) / r
+    if (kernel == Kernel::r2logr) {
+      const Lanes log_r2 = r2.max(smallest).log();
+      value += .5 * a * r2 * log_r2;
+      slope = a * (log_r2 + 1);
+    } else {
+      const Lanes ar = a * r2.sqrt();
+      value += ar * r2;
+      slope = 3 * ar;
+    }
+    gx += slope * dx;
+    gy += slope * dy;
+    gz += slope * dz;
+  }
+  FieldSample s = evaluate_polynomial(storage + 4 * n, p);
+  s.value += value.sum();
+  s.gradient += Vec3(gx.sum(), gy.sum(), gz.sum());
+  return s;
+}
+
+std::optional<ThinPlateSpline> ThinPlateSpline::fit(const Mat3X& centres, const Eigen::VectorXd& values,
+                                                    Kernel kernel, SplineDegree degree,
+                                                    std::size_t memory_limit_bytes) {
+  ThinPlateSpline spline;
+  spline.kernel_ = kernel;
+  spline.centres_ = static_cast<std::size_t>(centres.cols());
+  const std::size_t bytes = spline_fit_bytes(spline.centres_);
+  if (bytes > memory_limit_bytes)
+    throw LimitError(
+        fmt::format("a thin-plate spline of {} centres takes {} bytes; {} bytes are allowed; "
+                    "use the local filter or raise the memory limit",
+                    spline.centres_, bytes, memory_limit_bytes));
+  if (spline.centres_ == 0) return std::nullopt;
+  spline.origin_ = centres.rowwise().mean();
+  Mat3X local = centres.colwise() - spline.origin_;
+  spline.scale_ = std::sqrt(local.colwise().squaredNorm().maxCoeff());
+  if (!(spline.scale_ > 0)) return std::nullopt;
+  local /= spline.scale_;
+
+  spline.storage_.resize(spline_storage_size(spline.centres_));
+  SplineWorkspace workspace;
+  if (!fit_spline(local, values / spline.scale_, kernel, degree, workspace, spline.storage_.data()))
+    return std::nullopt;
+  return spline;
+}
+
+FieldSample ThinPlateSpline::operator()(const Vec3& x) const {
+  FieldSample s = evaluate_spline(storage_.data(), centres_, kernel_, (x - origin_) / scale_);
+  s.value *= scale_;
+  return s;
+}
+
+}  // namespace hooke

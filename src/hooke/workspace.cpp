@@ -1,0 +1,83 @@
+#include "hooke/workspace.h"
+
+#include <numeric>
+
+namespace hooke {
+namespace {
+
+Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& lengths) {
+  Normalisation n;
+  n.centre = .5 * points.rowwise().minCoeff() + .5 * points.rowwise().maxCoeff();
+  n.unit = std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
+  return n;
+}
+
+std::vector<int> identity(int count) {
+  std::vector<int> ids(static_cast<size_t>(count));
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+}  // namespace
+
+Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_options,
+                     const FilterOptions& filter, const RetractionOptions& retraction_options)
+    : filter_(filter), retraction_options_(retraction_options) {
+  const auto length = OpenMesh::getProperty<OpenMesh::VertexHandle, double>(source, target_length_property);
+  vertex_length.reserve(source.n_vertices());
+  for (const auto v : source.vertices()) vertex_length.push_back(length[v]);
+  normalisation = normalisation_of(positions(source), vertex_length);
+
+  const int n = static_cast<int>(source.n_vertices());
+  const Connectivity given = make_connectivity(n, triangles_of(source));
+  order = reorder(given, locality_order(given));
+  connectivity = std::make_shared<const Connectivity>(make_connectivity(n, order.faces));
+
+  start.resize(3, n);
+  const auto input = positions(source);
+  for (int v = 0; v < n; ++v) {
+    const int old = order.old_vertex[static_cast<size_t>(v)];
+    start.col(v) = (input.col(old) - normalisation.centre) / normalisation.unit;
+    vertex_length[static_cast<size_t>(v)] =
+        length[source.vertex_handle(static_cast<unsigned>(old))] / normalisation.unit;
+  }
+  targets = spread_target_lengths(*connectivity, vertex_length);
+  constraints = find_constraints(start, *connectivity, constraint_options);
+  mesh = build_mesh(start, order.faces);
+
+  const SurfaceField field(start, connectivity, filter_);
+  input_anchors_ = identity(n);
+  to_input_ = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
+  retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
+  placement = retraction->place(start, input_anchors_, constraints.segment);
+}
+
+void Workspace::refit() {
+  const SurfaceField field(placement.points, connectivity, filter_);
+  finished_ += retraction->counts();
+  retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
+  placement = retraction->place(placement.points, identity(connectivity->vertex_count), placement.segments);
+}
+
+void Workspace::land() {
+  placement = to_input_->place(placement.points, std::move(input_anchors_), placement.segments);
+  input_anchors_ = placement.anchors;
+  positions(mesh) = placement.points;
+}
+
+void Workspace::copy_back(TriMesh& target) const {
+  auto out = positions(target);
+  for (Eigen::Index v = 0; v < start.cols(); ++v)
+    if (placement.points.col(v) != start.col(v))
+      out.col(order.old_vertex[static_cast<size_t>(v)]) =
+          normalisation.centre + normalisation.unit * placement.points.col(v);
+}
+
+ProjectionCounts Workspace::projection_counts() const {
+  ProjectionCounts counts = finished_;
+  counts += retraction->counts();
+  counts += to_input_->counts();
+  return counts;
+}
+
+}  // namespace hooke
