@@ -39,6 +39,18 @@ Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property) {
   return {n ? storage.data_vector().data()->data() : nullptr, 3, n};
 }
 
+std::vector<double> vertex_values(const TriMesh& mesh, const char* property) {
+  OpenMesh::VPropHandleT<double> handle;
+  if (!mesh.get_property_handle(handle, property))
+    throw Error(fmt::format("the mesh has no vertex property '{}'", property));
+  return mesh.property(handle).data_vector();
+}
+
+void set_vertex_values(TriMesh& mesh, const char* property, double value) {
+  auto values = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, property);
+  for (const auto v : mesh.vertices()) values[v] = value;
+}
+
 std::vector<Triangle> triangles_of(const TriMesh& mesh) {
   std::vector<Triangle> triangles;
   triangles.reserve(mesh.n_faces());

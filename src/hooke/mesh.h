@@ -40,6 +40,12 @@ Eigen::Map<const Mat3X> positions(const TriMesh& mesh);
 /// A Vec3 vertex property as a 3 x |V| matrix over the mesh's own storage. Same life as above.
 Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property);
 
+/// A vertex property of doubles, by vertex id. Pre-condition: the mesh has it.
+std::vector<double> vertex_values(const TriMesh& mesh, const char* property);
+
+/// Gives every vertex the same value of a property of doubles, which is added where it is missing.
+void set_vertex_values(TriMesh& mesh, const char* property, double value);
+
 /// Vertex ids of every face, in face order.
 std::vector<Triangle> triangles_of(const TriMesh& mesh);
 

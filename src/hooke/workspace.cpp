@@ -23,10 +23,8 @@ std::vector<int> identity(int count) {
 Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_options,
                      const FilterOptions& filter, const RetractionOptions& retraction_options)
     : filter_(filter), retraction_options_(retraction_options) {
-  const auto length = OpenMesh::getProperty<OpenMesh::VertexHandle, double>(source, target_length_property);
-  vertex_length.reserve(source.n_vertices());
-  for (const auto v : source.vertices()) vertex_length.push_back(length[v]);
-  normalisation = normalisation_of(positions(source), vertex_length);
+  const std::vector<double> length = vertex_values(source, target_length_property);
+  normalisation = normalisation_of(positions(source), length);
 
   const int n = static_cast<int>(source.n_vertices());
   const Connectivity given = make_connectivity(n, triangles_of(source));
@@ -34,12 +32,12 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   connectivity = std::make_shared<const Connectivity>(make_connectivity(n, order.faces));
 
   start.resize(3, n);
+  vertex_length.resize(length.size());
   const auto input = positions(source);
   for (int v = 0; v < n; ++v) {
     const int old = order.old_vertex[static_cast<size_t>(v)];
     start.col(v) = (input.col(old) - normalisation.centre) / normalisation.unit;
-    vertex_length[static_cast<size_t>(v)] =
-        length[source.vertex_handle(static_cast<unsigned>(old))] / normalisation.unit;
+    vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
   }
   targets = spread_target_lengths(*connectivity, vertex_length);
   constraints = find_constraints(start, *connectivity, constraint_options);
