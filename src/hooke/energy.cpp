@@ -90,6 +90,11 @@ double unfold_energy(const Placement& at, const Triangle& t, const FaceFrame& f,
   return 1.5 * terms.unfold * (d - s) * (d - s) / (d * d);
 }
 
+/// Index of the vertex in the face.
+size_t corner_of(const Triangle& face, int vertex) {
+  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
+}
+
 }  // namespace
 
 Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
@@ -135,6 +140,18 @@ double Energy::face_energy(const Placement& at, size_t face, double* corner_grad
   return energy;
 }
 
+double Energy::around(const Placement& at, int vertex, Vec3& gradient) const {
+  std::array<double, 9> corners;
+  double energy = 0;
+  gradient.setZero();
+  for (int f : connectivity_.vertex_faces[vertex]) {
+    energy += face_energy(at, static_cast<size_t>(f), corners.data());
+    gradient += Eigen::Map<const Vec3>(corners.data() +
+                                       3 * corner_of(connectivity_.faces[static_cast<size_t>(f)], vertex));
+  }
+  return energy;
+}
+
 double Energy::operator()(const Placement& at, Mat3X* gradient) {
   const double energy = parallel_sum(connectivity_.faces.size(), 1024, [&](size_t begin, size_t end) {
     double sum = 0;
@@ -149,8 +166,7 @@ double Energy::operator()(const Placement& at, Mat3X* gradient) {
     for (size_t v = begin; v < end; ++v) {
       Vec3 sum = Vec3::Zero();
       for (int f : connectivity_.vertex_faces[static_cast<int>(v)]) {
-        const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
-        const size_t k = t[0] == static_cast<int>(v) ? 0 : t[1] == static_cast<int>(v) ? 1 : 2;
+        const size_t k = corner_of(connectivity_.faces[static_cast<size_t>(f)], static_cast<int>(v));
         sum += Eigen::Map<const Vec3>(corner_gradients_.data() + 9 * static_cast<size_t>(f) + 3 * k);
       }
       gradient->col(static_cast<Eigen::Index>(v)) = sum;

@@ -23,6 +23,11 @@ std::vector<int> around(const IntLists& lists, const std::vector<int>& vertices)
   return ids;
 }
 
+double face_area(const Mat3X& points, const Triangle& t) {
+  const Vec3 a = points.col(t[0]);
+  return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
+}
+
 }  // namespace
 
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
@@ -50,8 +55,7 @@ Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, c
 
 void Guards::measure_face(const Placement& p, size_t face) {
   const Triangle& t = connectivity_.faces[face];
-  const Vec3 a = p.points.col(t[0]);
-  trial_.area[face] = .5 * (p.points.col(t[1]) - a).cross(p.points.col(t[2]) - a).norm();
+  trial_.area[face] = face_area(p.points, t);
   trial_.alignment[face] = face_alignment(p.points, p.normals, t);
 }
 
@@ -59,18 +63,46 @@ void Guards::measure_edge(const Placement& p, size_t edge) {
   trial_.sagitta[edge] = edge_sagitta(p.points, p.normals, connectivity_.edges[edge]);
 }
 
-bool Guards::face_breaks(size_t f) const {
-  const double before = accepted_.alignment[f];
-  const double after = trial_.alignment[f];
-  const bool shrinks = trial_.area[f] < options_.area_ratio * accepted_.area[f];
-  if (before >= options_.alignment) return shrinks || after < options_.alignment;
+bool Guards::face_breaks(double area_before, double area, double alignment_before, double alignment) const {
+  const bool shrinks = area < options_.area_ratio * area_before;
+  if (alignment_before >= options_.alignment) return shrinks || alignment < options_.alignment;
   // A folded face passes through zero area on its way back: it may do all that turns it the right way.
   constexpr double slack = 1e-7;
-  return after < before - slack || (shrinks && after <= before);
+  return alignment < alignment_before - slack || (shrinks && alignment <= alignment_before);
+}
+
+bool Guards::face_breaks(size_t f) const {
+  return face_breaks(accepted_.area[f], trial_.area[f], accepted_.alignment[f], trial_.alignment[f]);
+}
+
+bool Guards::edge_breaks(size_t e, double before, double after) const {
+  return after > std::max(before, options_.sagitta * targets_.edge[e]);
 }
 
 bool Guards::edge_breaks(size_t e) const {
-  return trial_.sagitta[e] > std::max(accepted_.sagitta[e], options_.sagitta * targets_.edge[e]);
+  return edge_breaks(e, accepted_.sagitta[e], trial_.sagitta[e]);
+}
+
+void Guards::measure_ring(const Placement& p, int vertex, RingMeasures& m) const {
+  m.area.clear();
+  m.alignment.clear();
+  m.sagitta.clear();
+  for (int f : connectivity_.vertex_faces[vertex]) {
+    const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
+    m.area.push_back(face_area(p.points, t));
+    m.alignment.push_back(face_alignment(p.points, p.normals, t));
+  }
+  for (int e : connectivity_.vertex_edges[vertex])
+    m.sagitta.push_back(edge_sagitta(p.points, p.normals, connectivity_.edges[static_cast<size_t>(e)]));
+}
+
+bool Guards::ring_obeys(int vertex, const RingMeasures& before, const RingMeasures& after) const {
+  for (size_t i = 0; i < before.area.size(); ++i)
+    if (face_breaks(before.area[i], after.area[i], before.alignment[i], after.alignment[i])) return false;
+  const auto edges = connectivity_.vertex_edges[vertex];
+  for (size_t i = 0; i < edges.size(); ++i)
+    if (edge_breaks(static_cast<size_t>(edges[i]), before.sagitta[i], after.sagitta[i])) return false;
+  return true;
 }
 
 void Guards::accept(const Placement& placement) {

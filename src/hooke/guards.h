@@ -20,6 +20,11 @@ double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle&
 /// theta.
 double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge);
 
+/// What the guards look at around one vertex: alignments and areas of its faces, sagittas of its edges.
+struct RingMeasures {
+  std::vector<double> area, alignment, sagitta;
+};
+
 /// Judges steps against the last accepted placement. Keeps references to the connectivity and the targets.
 class Guards {
  public:
@@ -36,11 +41,17 @@ class Guards {
   /// Makes the outcome of the last step() the accepted placement.
   void accept_step() { std::swap(accepted_, trial_); }
 
+  /// The same rules for one vertex that moves alone.
+  void measure_ring(const Placement& placement, int vertex, RingMeasures& measures) const;
+  bool ring_obeys(int vertex, const RingMeasures& before, const RingMeasures& after) const;
+
   /// Faces of the accepted placement that lie against the surface (alignment below the threshold).
   std::vector<int> folded_faces() const;
 
  private:
+  bool face_breaks(double area_before, double area, double alignment_before, double alignment) const;
   bool face_breaks(size_t face) const;
+  bool edge_breaks(size_t edge, double before, double after) const;
   bool edge_breaks(size_t edge) const;
   void measure_face(const Placement& placement, size_t face);
   void measure_edge(const Placement& placement, size_t edge);

@@ -23,6 +23,57 @@ Retraction::Retraction(Surface surface, const Constraints& constraints, const Re
       status_(constraints.freedom.size()),
       evaluations_(constraints.freedom.size(), 0) {}
 
+VertexPlace::VertexPlace(const Placement& p, int vertex)
+    : point(p.points.col(vertex)),
+      normal(p.normals.col(vertex)),
+      tangent(p.tangents.col(vertex)),
+      anchor(p.anchors[static_cast<size_t>(vertex)]),
+      segment(p.segments[static_cast<size_t>(vertex)]),
+      drift(p.drift[static_cast<size_t>(vertex)]) {}
+
+void VertexPlace::write_to(Placement& p, int vertex) const {
+  p.points.col(vertex) = point;
+  p.normals.col(vertex) = normal;
+  p.tangents.col(vertex) = tangent;
+  p.anchors[static_cast<size_t>(vertex)] = anchor;
+  p.segments[static_cast<size_t>(vertex)] = segment;
+  p.drift[static_cast<size_t>(vertex)] = drift;
+}
+
+VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
+  const Curve& curve =
+      constraints_.curves[static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)])];
+  const CurveFoot foot = project_to_curve(curve, place.point, place.segment);
+  place.point = foot.point;
+  place.tangent = foot.tangent;
+  place.segment = foot.segment;
+  return place;
+}
+
+VertexPlace Retraction::on_surface(VertexPlace place, int vertex) {
+  const auto v = static_cast<size_t>(vertex);
+  const Foot foot = surface_(place.point, place.anchor, options_.tolerance);
+  status_[v] = foot.status;
+  evaluations_[v] += foot.evaluations;
+  // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
+  if (constraints_.freedom[v] == Freedom::surface) place.point = foot.point;
+  place.normal = foot.normal;
+  place.anchor = foot.anchor;
+  place.drift = 0;
+  return place;
+}
+
+VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& displacement) {
+  VertexPlace place(from, vertex);
+  const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
+  const double length = displacement.norm();
+  if (length == 0 || freedom == Freedom::fixed) return place;
+  place.point += displacement;
+  place.drift += length;
+  if (freedom == Freedom::curve) place = on_curve(place, vertex);
+  return place.drift < options_.lazy ? place : on_surface(place, vertex);
+}
+
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
   Placement p;
   p.points = points;
@@ -32,49 +83,22 @@ Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::
   p.segments = std::move(segments);
   p.drift.assign(static_cast<size_t>(points.cols()), 0);
   parallel_for(static_cast<size_t>(points.cols()), block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) move(p, Vec3::Zero(), static_cast<int>(v), 0, p);
+    for (size_t i = begin; i < end; ++i) {
+      const int v = static_cast<int>(i);
+      VertexPlace place(p, v);
+      if (constraints_.freedom[i] == Freedom::curve) place = on_curve(place, v);
+      on_surface(place, v).write_to(p, v);
+    }
   });
   count();
   return p;
-}
-
-void Retraction::move(const Placement& from, const Vec3& displacement, int vertex, double lazy,
-                      Placement& to) {
-  const auto v = static_cast<size_t>(vertex);
-  const Freedom freedom = constraints_.freedom[v];
-  Vec3 x = from.points.col(vertex) + displacement;
-  if (freedom == Freedom::fixed) x = from.points.col(vertex);
-  if (freedom == Freedom::curve) {
-    const Curve& curve = constraints_.curves[static_cast<size_t>(constraints_.curve[v])];
-    const CurveFoot foot = project_to_curve(curve, x, from.segments[v]);
-    x = foot.point;
-    to.tangents.col(vertex) = foot.tangent;
-    to.segments[v] = foot.segment;
-  }
-  const double step = displacement.norm();
-  const double drift = from.drift[v] + step;
-  if (drift < lazy || (step == 0 && lazy > 0)) {
-    to.points.col(vertex) = x;
-    to.normals.col(vertex) = from.normals.col(vertex);
-    to.anchors[v] = from.anchors[v];
-    to.drift[v] = drift;
-    return;
-  }
-  const Foot foot = surface_(x, from.anchors[v], options_.tolerance);
-  status_[v] = foot.status;
-  evaluations_[v] += foot.evaluations;
-  // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
-  to.points.col(vertex) = freedom == Freedom::surface ? foot.point : x;
-  to.normals.col(vertex) = foot.normal;
-  to.anchors[v] = foot.anchor;
-  to.drift[v] = 0;
 }
 
 void Retraction::step(const Placement& from, const Mat3X& displacement, std::span<const int> vertices,
                       Placement& to) {
   parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      move(from, displacement.col(vertices[i]), vertices[i], options_.lazy, to);
+      moved(from, vertices[i], displacement.col(vertices[i])).write_to(to, vertices[i]);
   });
   count();
 }
@@ -82,21 +106,25 @@ void Retraction::step(const Placement& from, const Mat3X& displacement, std::spa
 void Retraction::step(const Placement& from, const Mat3X& displacement, Placement& to) {
   to.points.resize(3, from.points.cols());
   to.normals.resize(3, from.points.cols());
-  to.tangents = from.tangents;
+  to.tangents.resize(3, from.points.cols());
   to.anchors.resize(from.anchors.size());
-  to.segments = from.segments;
+  to.segments.resize(from.segments.size());
   to.drift.resize(from.drift.size());
   parallel_for(static_cast<size_t>(from.points.cols()), block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v)
-      move(from, displacement.col(static_cast<Eigen::Index>(v)), static_cast<int>(v), options_.lazy, to);
+    for (size_t i = begin; i < end; ++i) {
+      const int v = static_cast<int>(i);
+      moved(from, v, displacement.col(v)).write_to(to, v);
+    }
   });
   count();
 }
 
 void Retraction::settle(Placement& placement) {
   parallel_for(placement.drift.size(), block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v)
-      if (placement.drift[v] > 0) move(placement, Vec3::Zero(), static_cast<int>(v), 0, placement);
+    for (size_t i = begin; i < end; ++i) {
+      const int v = static_cast<int>(i);
+      if (placement.drift[i] > 0) on_surface(VertexPlace(placement, v), v).write_to(placement, v);
+    }
   });
   count();
 }

@@ -18,6 +18,19 @@ struct Placement {
   std::vector<double> drift;  // length moved in tangent planes since the last projection
 };
 
+/// One vertex of a placement.
+struct VertexPlace {
+  Vec3 point;
+  Vec3 normal;
+  Vec3 tangent;
+  int anchor;
+  int segment;
+  double drift;
+
+  VertexPlace(const Placement& placement, int vertex);
+  void write_to(Placement& placement, int vertex) const;
+};
+
 /// Calls and failures of the projection.
 struct ProjectionCounts {
   long long calls = 0;
@@ -46,6 +59,12 @@ class Retraction {
   /// The same for all vertices; `to` is resized.
   void step(const Placement& from, const Mat3X& displacement, Placement& to);
 
+  /// Where one vertex comes to lie; safe to call for different vertices at once. Call count() after a batch.
+  VertexPlace moved(const Placement& from, int vertex, const Vec3& displacement);
+
+  /// Adds the projections since the last call to counts().
+  void count();
+
   /// Projects the vertices that have drifted.
   void settle(Placement& placement);
 
@@ -55,8 +74,8 @@ class Retraction {
   const ProjectionCounts& counts() const { return counts_; }
 
  private:
-  void move(const Placement& from, const Vec3& displacement, int vertex, double lazy, Placement& to);
-  void count();
+  VertexPlace on_curve(VertexPlace place, int vertex) const;
+  VertexPlace on_surface(VertexPlace place, int vertex);
 
   Surface surface_;
   const Constraints& constraints_;
