@@ -90,7 +90,9 @@ TEST(DampedEvolution, LosesEnergyByFriction) {
   const double start = total();
   double last = start;
   evolve_damped(b.mesh, b.connectivity, b.lengths, options, [&](const DampedStep& step) {
-    EXPECT_LT(total(), last) << "step " << step.number;
+    // The first step starts from rest: friction has nothing to take yet, and [22] keeps the energy to first
+    // order in dt.
+    EXPECT_LT(total(), step.number == 1 ? 1.001 * last : last) << "step " << step.number;
     last = total();
     return true;
   });
@@ -138,16 +140,13 @@ TEST(DampedEvolution, ReportsAJamAndLeavesTheMeshAlone) {
 
 TEST(DampedEvolution, WalksOnWithAZeroAreaFaceInTheInput) {
   Triangles t = test::grid(4, test::flat);
-  t.points.col(6) = .5 * (t.points.col(0) + t.points.col(12));  // where it is; then pressed onto an edge
-  t.points.col(1) = .5 * (t.points.col(0) + t.points.col(2));
-  t.points.col(7) = .5 * (t.points.col(6) + t.points.col(8));
-  t.points.col(11) = .5 * (t.points.col(6) + t.points.col(12));  // face 6 12 11 has no area
+  t.points.col(1) = .5 * (t.points.col(0) + t.points.col(6));  // face 0 1 6 has no area
   Body b = body(t);
-  int degenerate = 0;
-  for (const Triangle& f : b.connectivity.faces) degenerate += face_shape(positions(b.mesh), f).degenerate();
-  ASSERT_GT(degenerate, 0);
+  const auto degenerate = [&] { return face_shape(positions(b.mesh), b.connectivity.faces[0]).degenerate(); };
+  ASSERT_TRUE(degenerate());
   const DampedResult r = evolve_damped(b.mesh, b.connectivity, b.lengths, {.tolerance = 0, .max_steps = 20});
   EXPECT_EQ(r.steps, 20);
+  EXPECT_FALSE(degenerate());
 }
 
 TEST(DampedEvolution, IsAtRestWithoutForces) {

@@ -86,7 +86,7 @@ struct DampedResult {
   int steps = 0;                // accepted
   int rejected = 0;             // trials that failed a test
   BoundCounts bound;            // of the accepted steps
-  FailedTests jam;              // what every trial of the last search failed, when jammed
+  FailedTests jam;              // what the last trial failed, when jammed
   double time = 0;              // t_n, the sum of the time steps
   double max_length_error = 0;  // max |l - L| at the end, a length
 };

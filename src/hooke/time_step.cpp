@@ -86,7 +86,7 @@ FailedTests test_step(const Eigen::Ref<const Mat3X>& before, const Eigen::Ref<co
 AdaptedStep adapt_step(double base, double last_factor, double floor,
                        const std::function<FailedTests(double time)>& trial) {
   AdaptedStep step;
-  for (step.factor = 2 * last_factor; step.factor >= floor; step.factor /= 2) {
+  for (step.factor = 2 * last_factor; base * step.factor >= floor; step.factor /= 2) {
     step.time = base * step.factor;
     const FailedTests failed = trial(step.time);
     if (!failed.any()) return step;

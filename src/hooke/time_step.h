@@ -15,7 +15,7 @@ struct TimeStepOptions {
   double expansion = .01;     // greatest relative change of a face's area; delta_expansion
   double displacement = .01;  // greatest move of a vertex, times the shortest edge; xi, eta_n = xi l_edge
   double area_bound = 0;      // least area of a face after the step, a squared length; delta_bound
-  double floor = 0x1p-40;     // jammed when epsilon, the part of the base step that passes, falls below this
+  double floor = 1e-12;  // jammed when only shorter time steps pass; a time, 1e-9 / tau at the usual friction
 };
 
 /// What the base step is made of.
@@ -57,14 +57,15 @@ struct AdaptedStep {
   int rejected = 0;   // trials that failed a test
   FailedTests
       bound;  // tests that failed in the last rejected trial: they set the step; none if it grew freely
-  bool jammed = false;  // epsilon fell below the floor: there is no step
+  bool jammed = false;  // the time fell below the floor: there is no step
 };
 
 /// epsilon_{-1} of [26].
 inline constexpr double first_factor = .5;
 
 /// Tries 2, 1, 1/2, 1/4 ... times the factor of the last step and takes the first that passes. [25][26]
-/// `trial(dt)` makes the step in a copy and tests it.
+/// `trial(dt)` makes the step in a copy and tests it. Jams when the time falls below `floor`; `bound` is
+/// empty then if the first time was below it already.
 AdaptedStep adapt_step(double base, double last_factor, double floor,
                        const std::function<FailedTests(double time)>& trial);
 
