@@ -95,9 +95,9 @@ struct DampedResult {
 /// touched (the paper's loop makes one step before it looks). With fixed connectivity the tolerance may be
 /// out of reach; then the step limit ends the run. Throws Error if the friction is not positive.
 ///
-/// Torque is not the gradient of an energy. On irregular meshes it has growing modes whatever the step
-/// length: slivers among larger faces flutter and fold. Left alone for hundreds of steps with mu = 1 a mesh
-/// can throw vertices off without failing a test of [26], so put it back on its surface often.
+/// Nothing here holds the mesh on its surface. The strings alone fold it as they shorten and lengthen edges,
+/// with torque or without, and next to a fold (theta near pi) the torque of [6] is so large that it can throw
+/// vertices many lengths away without failing a test of [26].
 DampedResult evolve_damped(TriMesh& mesh, const Connectivity& connectivity,
                            std::span<const double> target_lengths, const DampedOptions& options,
                            const DampedObserver& observer = {});
