@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <cstdlib>
+#include "hooke/local_newton.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -65,7 +67,29 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
     IntegrationOptions integration;
     integration.max_steps = first ? o.first_evaluations : o.evaluations;
-    const IntegrationResult relaxed = relax_lbfgs(r, integration, LbfgsOptions{}, observer);
+    IntegrationResult relaxed;
+    const char* es = getenv("SWEEPS");
+    const char* om = getenv("OMEGA");
+    int sweeps = es ? atoi(es) : 0;
+    if (getenv("WF")) r.energy.terms.angle = first ? atof(getenv("WF")) : atof(getenv("W"));
+    LocalNewtonOptions ln;
+    if (om) ln.over_relaxation = atof(om);
+    if (sweeps == 0)
+      relaxed = relax_lbfgs(r, integration, LbfgsOptions{}, observer);
+    else {
+      double mv = 0;
+      int i = 0;
+      for (; i < sweeps; ++i) {
+        mv = local_newton_sweep(r, {}, ln);
+        ++relaxed.evaluations;
+        if (mv < 1e-9) break;
+        if (getenv("VERB") && (i % 20 == 0 || mv < 1e-6)) printf("  %d %.3g\n", i, mv);
+      }
+      if (getenv("VERB"))
+        printf("t %.1f sweeps %d mv %.2g angle %.3f err %.5f\n", threshold, i, mv,
+               least_angle(r.placement.points, faces),
+               relative_edge_deviation(r.placement.points, edges, targets));
+    }
     ++result.stages;
     result.evaluations += relaxed.evaluations;
     result.interrupted = relaxed.reason == StopReason::interrupted;
