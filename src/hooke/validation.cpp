@@ -174,18 +174,24 @@ void find_bad_vertices(size_t vertices, const std::vector<Triangle>& triangles, 
   if (!shared && triangles.size() > 1) findings.add(ProblemKind::unconnected_triangles, {}, {});
 }
 
+// Zero up to the rounding of the coordinates. Lengths are taken relative to them, then heights to lengths: no
+// product underflows or overflows.
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+  if (size == 0) return true;
+  const Vec3 p = a / size, u = b / size - p, v = c / size - p;
+  const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
+  if (longest == 0) return true;
+  const double height = (u / longest).cross(v / longest).norm() * longest;
+  return height <= 4 * std::numeric_limits<double>::epsilon();
+}
+
 void find_zero_areas(const Mat3X& points, const std::vector<Triangle>& triangles, Findings& findings) {
-  const double size = points.cwiseAbs().maxCoeff();  // of the coordinates, whose rounding blurs the areas
-  const double scale = size > 0 ? size : 1;
   std::vector<char> flat(triangles.size());
   parallel_for(triangles.size(), block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [a, b, c] = triangles[f];
-      const Vec3 p = points.col(a) / scale, q = points.col(b) / scale, r = points.col(c) / scale;
-      const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
-      // Relative to the longest side first: a product of two small lengths might underflow.
-      const double height = longest > 0 ? ((q - p) / longest).cross((r - p) / longest).norm() * longest : 0;
-      flat[f] = height <= 4 * std::numeric_limits<double>::epsilon();
+      flat[f] = has_no_area(points.col(a), points.col(b), points.col(c));
     }
   });
   if (std::find(flat.begin(), flat.end(), 0) == flat.end()) return findings.add(ProblemKind::no_area, {}, {});
@@ -196,7 +202,7 @@ void find_zero_areas(const Mat3X& points, const std::vector<Triangle>& triangles
 struct Explanation {
   ProblemKind kind;
   const char* name;
-  const char* what;  // after the count
+  const char* what;  // in the plural
   const char* help;
 };
 
@@ -255,7 +261,7 @@ std::string places_text(const Problem& problem, const MeshSource& source) {
 std::string problem_text(const Problem& problem, const MeshSource& source) {
   const Explanation& explanation = explain(problem.kind);
   if (is_about_the_whole(problem.kind)) return explanation.what;
-  return fmt::format("{} {}: {}", problem.count, explanation.what, places_text(problem, source));
+  return fmt::format("{} ({}): {}", explanation.what, problem.count, places_text(problem, source));
 }
 
 }  // namespace

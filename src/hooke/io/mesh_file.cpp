@@ -74,7 +74,8 @@ std::optional<std::string> known_format(const std::filesystem::path& path) {
 }
 
 std::string unknown_format(const std::filesystem::path& path) {
-  return printable(path.native()) + ": unknown format; expected .obj .ply .off; rename or convert the file";
+  return (path.empty() ? "''" : printable(path.native())) +
+         ": unknown format; expected .obj .ply .off; rename or convert the file";
 }
 
 }  // namespace

@@ -191,13 +191,13 @@ Warnings warnings_of(const Triangulation& triangulation, const std::string& name
   Warnings warnings;
   if (triangulation.polygons_cut > 0)
     warnings.push_back({"polygons_triangulated",
-                        fmt::format("{}: {} polygons with more than three corners were cut into triangles",
-                                    name, triangulation.polygons_cut)});
+                        fmt::format("{}: polygons with more than three corners, cut into triangles: {}", name,
+                                    triangulation.polygons_cut)});
   if (triangulation.not_simple > 0)
     warnings.push_back(
         {"polygons_not_simple",
          fmt::format(
-             "{}: {} of the polygons cross or fold over themselves or have no area; their triangles overlap",
+             "{}: polygons that cross or fold over themselves or have no area, whose triangles overlap: {}",
              name, triangulation.not_simple)});
   return warnings;
 }
