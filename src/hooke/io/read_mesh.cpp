@@ -20,25 +20,25 @@ void append(Warnings& warnings, Warnings more) {
 
 LoadedMesh read_mesh(const std::filesystem::path& path) {
   const std::string format = input_format_of(path);
-  LoadedMesh loaded;
-  MeshFile file;
-  {
-    const std::string bytes = read_regular_file(path);
-    loaded.sha256 = sha256(bytes);
-    loaded.bytes = bytes.size();
-    file = parse_mesh_file(bytes, printable(path.native()), format);
-  }
+  std::string bytes = read_regular_file(path);
+  MeshFile file = parse_mesh_file(bytes, printable(path.native()), format);
+  const std::string hash = sha256(bytes);
+  const size_t size = bytes.size();
+  bytes = {};  // the memory is wanted for the mesh
   Triangulation triangulation = triangulate(file.points, file.polygons);
-  loaded.name = file.name;
-  loaded.format = file.format;
-  loaded.encoding = file.encoding;
-  loaded.polygons_cut = triangulation.polygons_cut;
-  loaded.warnings = std::move(file.warnings);
-  append(loaded.warnings, warnings_of(triangulation, file.name));
+  Warnings warnings = std::move(file.warnings);
+  append(warnings, warnings_of(triangulation, file.name));
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
-  append(loaded.warnings, require_valid(file.points, triangulation.triangles, source));
-  loaded.mesh = build_mesh(file.points, triangulation.triangles);
-  return loaded;
+  append(warnings, require_valid(file.points, triangulation.triangles, source));
+  // Built in place: OpenMesh has no move, and copies all of a mesh.
+  return {build_mesh(file.points, triangulation.triangles),
+          file.name,
+          file.format,
+          file.encoding,
+          hash,
+          size,
+          triangulation.polygons_cut,
+          std::move(warnings)};
 }
 
 }  // namespace hooke
