@@ -20,6 +20,7 @@ struct Triangulation {
 /// Cuts every polygon with n corners into n - 2 triangles of the same orientation, in the plane of its Newell
 /// normal, best-shaped ears first; a quadrilateral is cut along the diagonal whose worse triangle is the
 /// better one. In a simple polygon no triangle is flipped, and none has zero area unless corners coincide.
+/// Time grows with the square of a polygon's concave corners: 1.4 s for a star of 20 000.
 /// Pre-condition: corners are columns of `points`, three or more a polygon.
 Triangulation triangulate(const Mat3X& points, const IntLists& polygons);
 
