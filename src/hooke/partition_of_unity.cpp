@@ -25,10 +25,12 @@ std::size_t idx(int i) {
 /// Grows patches over mesh edges within the cone of normals of their centre.
 class PatchGrower {
  public:
-  PatchGrower(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals)
+  PatchGrower(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals,
+              const std::vector<char>& unfolded)
       : points_(points),
         connectivity_(connectivity),
         normals_(normals),
+        unfolded_(unfolded),
         met_by_(idx(connectivity.vertex_count), -1),
         held_by_(idx(connectivity.vertex_count), -1) {}
 
@@ -36,6 +38,7 @@ class PatchGrower {
   /// and those that tie. What the search cuts off in the middle of a ring would leave the patch lopsided. The
   /// vertices stay in the order of the search, which knows nothing of coordinates.
   void grow(int centre, int size) {
+    axis_ = axis_at(centre);
     search(centre, idx(size + size / 2));
     distances_.clear();
     for (int m : members_) distances_.push_back((points_.col(m) - points_.col(centre)).norm());
@@ -65,8 +68,17 @@ class PatchGrower {
   }
 
  private:
+  /// A folded vertex is admitted whatever its normal, which means nothing.
   bool is_admitted(int vertex) const {
-    return normals_.col(vertex).dot(normals_.col(members_[0])) > least_normal_agreement;
+    return !unfolded_[idx(vertex)] || normals_.col(vertex).dot(axis_) > least_normal_agreement;
+  }
+
+  Vec3 axis_at(int centre) const {
+    Vec3 sum = Vec3::Zero();
+    if (!unfolded_[idx(centre)])
+      for (int n : connectivity_.vertex_neighbours[centre])
+        if (unfolded_[idx(n)]) sum += normals_.col(n);
+    return sum.isZero(0) ? Vec3(normals_.col(centre)) : sum.normalized();
   }
 
   void search(int centre, std::size_t most) {
@@ -85,6 +97,8 @@ class PatchGrower {
   const Eigen::Ref<const Mat3X>& points_;
   const Connectivity& connectivity_;
   const Mat3X& normals_;
+  const std::vector<char>& unfolded_;
+  Vec3 axis_ = Vec3::Zero();
   std::vector<int> met_by_;   // the last round whose search met the vertex
   std::vector<int> held_by_;  // the last round whose patch holds it
   std::vector<int> members_;
@@ -145,25 +159,12 @@ PatchFit fit_patch(const SplineData& data, Kernel kernel, std::size_t vertices, 
                    double* storage) {
   const auto centres = data.centres.leftCols(data.count);
   const auto values = data.values.head(data.count);
-  if (values.isZero(0)) return PatchFit::plane;  // no offset says where outside is
+  if (values.isZero(0)) return PatchFit::failed;  // no offset says where outside is
   const bool quadratic = vertices >= least_quadratic_size;
   if (quadratic && fit_spline(centres, values, kernel, 2, workspace, storage)) return PatchFit::as_wanted;
   if (fit_spline(centres, values, kernel, 1, workspace, storage))
     return quadratic ? PatchFit::affine : PatchFit::as_wanted;
-  return PatchFit::plane;
-}
-
-/// Patches of each vertex, ascending.
-IntLists invert(int vertex_count, const IntLists& members) {
-  IntLists patches;
-  patches.first.assign(idx(vertex_count) + 1, 0);
-  for (int v : members.items) ++patches.first[idx(v) + 1];
-  for (std::size_t v = 1; v < patches.first.size(); ++v) patches.first[v] += patches.first[v - 1];
-  patches.items.resize(members.items.size());
-  std::vector<int> next = patches.first;
-  for (int p = 0; p + 1 < static_cast<int>(members.first.size()); ++p)
-    for (int v : members[p]) patches.items[idx(next[idx(v)]++)] = p;
-  return patches;
+  return PatchFit::failed;
 }
 
 }  // namespace
@@ -172,35 +173,37 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
                                    const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
                                    const PartitionOptions& options)
     : kernel_(options.kernel) {
-  const IntLists members = cover(points, connectivity, normals, edge_lengths, options);
-  fit(points, normals, edge_lengths, unfolded_vertices(points, connectivity, normals), members, options);
-  vertex_patches_ = invert(connectivity.vertex_count, members);
+  const std::vector<char> unfolded = unfolded_vertices(points, connectivity, normals);
+  const IntLists members = cover(points, connectivity, normals, edge_lengths, unfolded, options);
+  fit(points, normals, edge_lengths, unfolded, members, options);
+  index_patches(connectivity.vertex_count, members);
 }
 
 IntLists PartitionOfUnity::cover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
                                  const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
-                                 const PartitionOptions& options) {
+                                 const std::vector<char>& unfolded, const PartitionOptions& options) {
   IntLists members;
   members.first.push_back(0);
   std::vector<char> covered(idx(connectivity.vertex_count), 0);
-  PatchGrower grower(points, connectivity, normals);
+  PatchGrower grower(points, connectivity, normals, unfolded);
   std::size_t storage = 0;
-  for (int v = 0; v < connectivity.vertex_count; ++v) {
-    if (covered[idx(v)] || connectivity.vertex_faces[v].empty()) continue;
+  const auto add_patch = [&](int v) {
     grower.grow(v, options.patch_size);
     const auto& grown = grower.members();
-    Patch patch;
-    patch.centre = points.col(v);
-    patch.radius = grower.farthest() > 0 ? reach * grower.farthest() : 2 * edge_lengths[v];
-    patch.storage = storage;
-    patches_.push_back(patch);
+    const double radius = grower.farthest() > 0 ? reach * grower.farthest() : 2 * edge_lengths[v];
+    patches_.push_back({points.col(v), radius, storage, 0, PatchFit::as_wanted});
     storage += spline_storage_size(most_centres(grown.size()));
     for (std::size_t i = 0; i < grown.size(); ++i)
-      if (i == 0 || (grower.distances()[i] <= options.coverage * patch.radius && grower.is_inside(grown[i])))
+      if (i == 0 || (grower.distances()[i] <= options.coverage * radius && grower.is_inside(grown[i])))
         covered[idx(grown[i])] = 1;
     members.items.insert(members.items.end(), grown.begin(), grown.end());
     members.first.push_back(static_cast<int>(members.items.size()));
-  }
+  };
+  for (const bool wanted :
+       {true, false})  // a folded vertex is a poor centre: only where nothing else covers it
+    for (int v = 0; v < connectivity.vertex_count; ++v)
+      if (!covered[idx(v)] && bool(unfolded[idx(v)]) == wanted && !connectivity.vertex_faces[v].empty())
+        add_patch(v);
   storage_.resize(storage);
   return members;
 }
@@ -223,11 +226,24 @@ void PartitionOfUnity::fit(const Eigen::Ref<const Mat3X>& points, const Mat3X& n
         data.add((points.col(v) + rho * normals.col(v) - patch.centre) / patch.radius, rho / patch.radius);
       }
       patch.fit = fit_patch(data, kernel_, vertices.size(), workspace, &storage_[patch.storage]);
-      patch.centres = patch.fit == PatchFit::plane ? 0 : static_cast<int>(data.count);
-      if (patch.fit == PatchFit::plane)
-        store_affine_spline(0, normals.col(vertices[0]), &storage_[patch.storage]);
+      patch.centres = static_cast<int>(data.count);
     }
   });
+}
+
+void PartitionOfUnity::index_patches(int vertex_count, const IntLists& members) {
+  const auto for_each_pair = [&](const auto& visit) {
+    for (int p = 0; p < static_cast<int>(patches_.size()); ++p)
+      if (patches_[idx(p)].fit != PatchFit::failed)
+        for (int v : members[p]) visit(idx(v), p);
+  };
+  auto& [first, items] = vertex_patches_;
+  first.assign(idx(vertex_count) + 1, 0);
+  for_each_pair([&](std::size_t v, int) { ++first[v + 1]; });
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+  items.resize(idx(first.back()));
+  std::vector<int> next = first;
+  for_each_pair([&](std::size_t v, int p) { items[idx(next[v]++)] = p; });
 }
 
 FieldSample PartitionOfUnity::operator()(const Vec3& x, int anchor) const {

@@ -21,7 +21,7 @@ struct PartitionOptions {
 enum class PatchFit : unsigned char {
   as_wanted,  // quadratic; affine in a patch of few vertices
   affine,     // where the quadratic one is not determined
-  plane,      // through the centre along its normal, where no spline is
+  failed,     // no spline: the patch holds no vertices
 };
 
 /// The field is zero at every vertex, a distance near them, and grows along the normals. Patches are grown
@@ -57,9 +57,11 @@ class PartitionOfUnity {
   /// Places the patches, one by one at the first vertex that is not yet well inside one; returns their
   /// vertices.
   IntLists cover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
-                 const Mat3X& normals, const Eigen::VectorXd& edge_lengths, const PartitionOptions& options);
+                 const Mat3X& normals, const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
+                 const PartitionOptions& options);
   void fit(const Eigen::Ref<const Mat3X>& points, const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
            const std::vector<char>& unfolded, const IntLists& members, const PartitionOptions& options);
+  void index_patches(int vertex_count, const IntLists& members);
 
   Kernel kernel_;
   std::vector<Patch> patches_;

@@ -81,12 +81,6 @@ std::size_t spline_fit_bytes(std::size_t centres) {
   return sizeof(double) * (centres * centres + 24 * centres);
 }
 
-void store_affine_spline(double value, const Vec3& gradient, double* storage) {
-  std::fill_n(storage, polynomial_size, 0.);
-  storage[0] = value;
-  for (int k = 0; k < 3; ++k) storage[k + 1] = gradient[k];
-}
-
 bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const Eigen::VectorXd>& values,
                 Kernel kernel, SplineDegree degree, SplineWorkspace& workspace, double* storage) {
   const Eigen::Index n = centres.cols();
