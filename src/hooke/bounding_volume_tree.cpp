@@ -14,6 +14,11 @@ Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   return a + std::clamp(d.dot(x - a) / squared_length, 0., 1.) * d;
 }
 
+/// Eigen's squaredExteriorDistance without branches: they are unpredictable here.
+double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& x) {
+  return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
+}
+
 }  // namespace
 
 ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -53,91 +58,91 @@ Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 BoundingVolumeTree::BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces) {
-  corners_.reserve(faces.size());
-  face_boxes_.reserve(faces.size());
-  std::vector<Vec3> centres;
-  centres.reserve(faces.size());
-  for (const Triangle& t : faces) {
-    corners_.push_back({points.col(t[0]), points.col(t[1]), points.col(t[2])});
-    Box box;
-    for (const Vec3& p : corners_.back()) box.extend(p);
-    face_boxes_.push_back(box);
-    centres.emplace_back(box.center());
+  std::vector<Box> boxes(faces.size());
+  std::vector<Centre> centres(faces.size());
+  for (size_t f = 0; f < faces.size(); ++f) {
+    for (int v : faces[f]) boxes[f].extend(Vec3(points.col(v)));
+    centres[f] = {boxes[f].center(), static_cast<int>(f)};
   }
-  order_.resize(faces.size());
-  std::iota(order_.begin(), order_.end(), 0);
   nodes_.reserve(faces.size());
-  build(0, static_cast<int>(faces.size()), centres);
+  build(0, faces.size(), centres, boxes);
+
+  place_.resize(faces.size());
+  faces_.reserve(faces.size());
+  for (const Centre& centre : centres) {
+    const auto f = static_cast<size_t>(centre.face);
+    place_[f] = static_cast<int>(faces_.size());
+    faces_.push_back(
+        {boxes[f], {points.col(faces[f][0]), points.col(faces[f][1]), points.col(faces[f][2])}, centre.face});
+  }
 }
 
-/// Appends the node of order_[begin, end) and all below it, halving along the longest side of the centres'
+/// Appends the node of centres[begin, end) and all below it: halves along the longest side of the centres'
 /// box.
-void BoundingVolumeTree::build(int begin, int end, const std::vector<Vec3>& centres) {
+void BoundingVolumeTree::build(size_t begin, size_t end, std::vector<Centre>& centres,
+                               const std::vector<Box>& boxes) {
   const size_t me = nodes_.size();
   nodes_.emplace_back();
-  Box spread;
-  for (int k = begin; k < end; ++k) {
-    const auto f = static_cast<size_t>(order_[static_cast<size_t>(k)]);
-    nodes_[me].box.extend(face_boxes_[f]);
-    spread.extend(centres[f]);
+  Box box, spread;
+  for (size_t k = begin; k < end; ++k) {
+    box.extend(boxes[static_cast<size_t>(centres[k].face)]);
+    spread.extend(centres[k].point);
   }
+  nodes_[me].box = box;
   if (end - begin <= leaf_size) {
-    nodes_[me].first_or_right = begin;
-    nodes_[me].count = end - begin;
+    nodes_[me].first_or_right = static_cast<int>(begin);
+    nodes_[me].count = static_cast<int>(end - begin);
     return;
   }
   Eigen::Index axis;
   spread.sizes().maxCoeff(&axis);
-  const int middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int f, int g) {
-    const double x = centres[static_cast<size_t>(f)][axis], y = centres[static_cast<size_t>(g)][axis];
-    return x < y || (x == y && f < g);
+  const size_t middle = begin + (end - begin) / 2;
+  const auto at = [&](size_t k) { return centres.begin() + static_cast<std::ptrdiff_t>(k); };
+  std::nth_element(at(begin), at(middle), at(end), [axis](const Centre& a, const Centre& b) {
+    return a.point[axis] < b.point[axis] || (a.point[axis] == b.point[axis] && a.face < b.face);
   });
-  build(begin, middle, centres);
+  build(begin, middle, centres, boxes);
   nodes_[me].first_or_right = static_cast<int>(nodes_.size());
-  build(middle, end, centres);
+  build(middle, end, centres, boxes);
 }
 
-void BoundingVolumeTree::try_face(const Vec3& x, int face, ClosestPoint& best) const {
-  const auto& [a, b, c] = corners_[static_cast<size_t>(face)];
-  const ClosestPoint candidate = closest_point(x, a, b, c);
+void BoundingVolumeTree::try_face(const Vec3& x, const Face& face, ClosestPoint& best) {
+  const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
   const double d = candidate.squared_distance;
-  if (d > best.squared_distance || (d == best.squared_distance && face >= best.face)) return;
+  if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
   best = candidate;
-  best.face = face;
+  best.face = face.id;
 }
 
 ClosestPoint BoundingVolumeTree::closest(const Vec3& x, int hint) const {
   ClosestPoint best;
   best.squared_distance = std::numeric_limits<double>::infinity();
   if (empty()) return best;
-  if (hint >= 0) try_face(x, hint, best);
+  if (hint >= 0) try_face(x, faces_[static_cast<size_t>(place_[static_cast<size_t>(hint)])], best);
 
   struct Visit {
     int node;
-    double squared_distance;
+    double distance;  // squared
   };
   Visit stack[max_depth];
   int size = 0;
-  stack[size++] = {0, nodes_[0].box.squaredExteriorDistance(x)};
+  stack[size++] = {0, squared_distance(nodes_[0].box, x)};
   while (size > 0) {
     const Visit visit = stack[--size];
-    if (visit.squared_distance > best.squared_distance) continue;
+    if (visit.distance > best.squared_distance) continue;
     const Node& node = nodes_[static_cast<size_t>(visit.node)];
     if (node.count > 0) {
-      for (int k = node.first_or_right; k < node.first_or_right + node.count; ++k) {
-        const int f = order_[static_cast<size_t>(k)];
-        if (face_boxes_[static_cast<size_t>(f)].squaredExteriorDistance(x) <= best.squared_distance)
-          try_face(x, f, best);
-      }
+      const Face* face = faces_.data() + node.first_or_right;
+      for (int k = 0; k < node.count; ++k)
+        if (squared_distance(face[k].box, x) <= best.squared_distance) try_face(x, face[k], best);
       continue;
     }
-    Visit near{visit.node + 1, 0}, far{node.first_or_right, 0};
-    near.squared_distance = nodes_[static_cast<size_t>(near.node)].box.squaredExteriorDistance(x);
-    far.squared_distance = nodes_[static_cast<size_t>(far.node)].box.squaredExteriorDistance(x);
-    if (far.squared_distance < near.squared_distance) std::swap(near, far);
-    stack[size++] = far;
-    stack[size++] = near;
+    const int left = visit.node + 1, right = node.first_or_right;
+    Visit near{left, squared_distance(nodes_[static_cast<size_t>(left)].box, x)};
+    Visit far{right, squared_distance(nodes_[static_cast<size_t>(right)].box, x)};
+    if (far.distance < near.distance) std::swap(near, far);
+    if (far.distance <= best.squared_distance) stack[size++] = far;
+    if (near.distance <= best.squared_distance) stack[size++] = near;
   }
   return best;
 }

@@ -21,18 +21,20 @@ Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 /// are safe from several threads.
 class BoundingVolumeTree {
  public:
+  using Box = Eigen::AlignedBox3d;
+
   /// A triangle may repeat a vertex id: it then stands for a segment.
   BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces);
 
-  bool empty() const { return order_.empty(); }
+  bool empty() const { return faces_.empty(); }
 
   /// `hint` is a face that is likely close (-1: none): it saves time.
   ClosestPoint closest(const Vec3& x, int hint = -1) const;
 
-  /// Calls visit(g) for each face whose box meets the box of face `f`, with f itself.
+  /// Calls visit(f) for each face whose box meets `box`, in the order of the tree.
   template <typename Visit>
-  void for_each_box_meeting(int f, const Visit& visit) const {
-    const Box& box = face_boxes_[static_cast<size_t>(f)];
+  void for_each_meeting(const Box& box, const Visit& visit) const {
+    if (empty()) return;
     int stack[max_depth];
     int size = 0;
     stack[size++] = 0;
@@ -45,30 +47,36 @@ class BoundingVolumeTree {
         stack[size++] = i + 1;
         continue;
       }
-      for (int k = node.first_or_right; k < node.first_or_right + node.count; ++k) {
-        const int g = order_[static_cast<size_t>(k)];
-        if (face_boxes_[static_cast<size_t>(g)].intersects(box)) visit(g);
-      }
+      const Face* face = faces_.data() + node.first_or_right;
+      for (int k = 0; k < node.count; ++k)
+        if (face[k].box.intersects(box)) visit(face[k].id);
     }
   }
 
  private:
-  using Box = Eigen::AlignedBox3d;
   static constexpr int max_depth = 64;  // halving 2^31 faces needs 31
   static constexpr int leaf_size = 4;
 
+  struct Face {
+    Box box;
+    std::array<Vec3, 3> corners;
+    int id;
+  };
   struct Node {
     Box box;
-    int first_or_right = 0;  // leaf: place in order_; else: right child, the left one follows its parent
+    int first_or_right = 0;  // leaf: place in faces_; else: right child, the left one follows its parent
     int count = 0;           // faces of a leaf; 0 for an inner node
   };
+  struct Centre {
+    Vec3 point;
+    int face;
+  };
 
-  void build(int begin, int end, const std::vector<Vec3>& centres);
-  void try_face(const Vec3& x, int face, ClosestPoint& best) const;
+  void build(size_t begin, size_t end, std::vector<Centre>& centres, const std::vector<Box>& boxes);
+  static void try_face(const Vec3& x, const Face& face, ClosestPoint& best);
 
-  std::vector<std::array<Vec3, 3>> corners_;  // by face id
-  std::vector<Box> face_boxes_;               // by face id
-  std::vector<int> order_;                    // face ids, leaf by leaf
+  std::vector<Face> faces_;  // leaf by leaf
+  std::vector<int> place_;   // in faces_, by face id
   std::vector<Node> nodes_;
 };
 

@@ -10,16 +10,9 @@
 namespace hooke {
 namespace {
 
-constexpr double right_angle = std::numbers::pi / 2;
-
-struct Corner {
-  double angle;
-  double cotangent;
-};
-
-Corner corner_at(const Vec3& apex, const Vec3& next, const Vec3& last, double twice_area) {
-  const Vec3 u = next - apex, v = last - apex;
-  return {std::atan2(twice_area, u.dot(v)), u.dot(v) / twice_area};
+/// Cotangent of the angle at `apex`; negative when it is obtuse.
+double cotangent_at(const Vec3& apex, const Vec3& next, const Vec3& last, double twice_area) {
+  return (next - apex).dot(last - apex) / twice_area;
 }
 
 /// What the faces around one vertex add up to.
@@ -36,17 +29,17 @@ void add_face(const Vec3& p, const Vec3& q, const Vec3& r, RingSums& sums) {
     sums.defined = false;
     return;
   }
-  const Corner at_p = corner_at(p, q, r, twice_area);
-  const Corner at_q = corner_at(q, r, p, twice_area);
-  const Corner at_r = corner_at(r, p, q, twice_area);
-  sums.normal += at_r.cotangent * (p - q) + at_q.cotangent * (p - r);
-  sums.angle += at_p.angle;
-  if (at_p.angle > right_angle) {
+  const double cot_p = cotangent_at(p, q, r, twice_area);
+  const double cot_q = cotangent_at(q, r, p, twice_area);
+  const double cot_r = cotangent_at(r, p, q, twice_area);
+  sums.normal += cot_r * (p - q) + cot_q * (p - r);
+  sums.angle += std::atan2(twice_area, (q - p).dot(r - p));
+  if (cot_p < 0) {
     sums.mixed_area += twice_area / 4;
-  } else if (at_q.angle > right_angle || at_r.angle > right_angle) {
+  } else if (cot_q < 0 || cot_r < 0) {
     sums.mixed_area += twice_area / 8;
   } else {  // the vertex's Voronoi cell, Meyer et al. [7]
-    sums.mixed_area += (at_r.cotangent * (p - q).squaredNorm() + at_q.cotangent * (p - r).squaredNorm()) / 8;
+    sums.mixed_area += (cot_r * (p - q).squaredNorm() + cot_q * (p - r).squaredNorm()) / 8;
   }
 }
 

@@ -65,14 +65,16 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Corners& t, int 
   return same_side(orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0]));
 }
 
-bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Corners& t) {
-  return segment_meets_triangle(p, q, t, orient3d(t[0], t[1], t[2], p), orient3d(t[0], t[1], t[2], q));
-}
-
 /// Two triangles that share their corner 0. If they share any further point, then the ray from the corner to
 /// it leaves one of them, through the opposite edge, inside the other.
 bool fans_meet(const Corners& s, const Corners& t) {
-  return segment_meets_triangle(s[1], s[2], t) || segment_meets_triangle(t[1], t[2], s);
+  const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
+  if (s1 * s2 > 0) return false;
+  if (s1 == 0 && s2 == 0)
+    return segment_meets_triangle_in_plane(s[1], s[2], t) || segment_meets_triangle_in_plane(t[1], t[2], s);
+  const int t1 = orient3d(s[0], s[1], s[2], t[1]), t2 = orient3d(s[0], s[1], s[2], t[2]);
+  if (t1 * t2 > 0) return false;
+  return segment_meets_triangle(s[1], s[2], t, s1, s2) || segment_meets_triangle(t[1], t[2], s, t1, t2);
 }
 
 /// Two triangles that share the edge of their corners 0 and 1: folded flat onto each other?
@@ -147,7 +149,9 @@ std::vector<std::array<int, 2>> find_self_intersections(const Mat3X& points,
     for (size_t f = begin; f < end; ++f) {
       if (!has_area[f]) continue;
       const int id = static_cast<int>(f);
-      tree.for_each_box_meeting(id, [&](int g) {
+      BoundingVolumeTree::Box box;
+      for (int v : faces[f]) box.extend(Vec3(points.col(v)));
+      tree.for_each_meeting(box, [&](int g) {
         if (g > id && has_area[static_cast<size_t>(g)] && test.meet(id, g))
           found[f / block].push_back({id, g});
       });

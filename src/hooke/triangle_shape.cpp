@@ -7,9 +7,11 @@
 namespace hooke {
 namespace {
 
-/// Degrees between two vectors. atan2 keeps all digits near 0 and 180, where acos loses half of them.
+/// Degrees between two vectors, 0 when one has no length. atan2 keeps all digits near 0 and 180, where acos
+/// loses half of them.
 double angle_between(const Vec3& u, const Vec3& v) {
-  return std::atan2(u.cross(v).norm(), u.dot(v)) * (180 / std::numbers::pi);
+  const double product = u.dot(v) + 0.;  // turns -0 into 0: atan2(0, -0) would be 180 degrees
+  return std::atan2(u.cross(v).norm(), product) * (180 / std::numbers::pi);
 }
 
 }  // namespace
