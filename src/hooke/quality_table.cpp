@@ -52,8 +52,8 @@ std::vector<Row> rows_of(const Quality& q) {
 
 std::string deviation_rows(const Deviation& d) {
   const auto share = [&](double x) { return fmt::format("{} of the diagonal", text(x / d.diagonal)); };
-  const auto row = [](const char* name, const std::string& max, const std::string& note) {
-    return fmt::format("{:<24}{:>12}    {}\n", name, max, note);
+  const auto row = [](const char* name, const std::string& value, const std::string& note) {
+    return fmt::format("{:<24}{:>12}{}{}\n", name, value, note.empty() ? "" : "    ", note);
   };
   std::string out = "\n";
   const auto moved = d.displacement;
