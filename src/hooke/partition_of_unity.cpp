@@ -4,16 +4,13 @@
 
 #include "hooke/normals.h"
 #include "hooke/parallel.h"
+#include "hooke/patch_grower.h"
 
 namespace hooke {
 namespace {
 
-constexpr double least_normal_agreement =
-    -.2;  // of a patch's vertices with its centre: stops at the other sheet
-constexpr double least_fold_agreement =
-    .3;                           // of a vertex normal with its faces: a folded ring has no outside
-constexpr double reach = .9;      // radius over the distance of the farthest vertex
-constexpr double tie = 1 + 1e-6;  // vertices that are equally far belong to a patch together
+constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
+constexpr double reach = .9;                 // radius over the distance of the farthest vertex
 constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
 constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
 constexpr std::size_t patches_per_task = 32;
@@ -21,91 +18,6 @@ constexpr std::size_t patches_per_task = 32;
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
-
-/// Grows patches over mesh edges within the cone of normals of their centre.
-class PatchGrower {
- public:
-  PatchGrower(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals,
-              const std::vector<char>& unfolded)
-      : points_(points),
-        connectivity_(connectivity),
-        normals_(normals),
-        unfolded_(unfolded),
-        met_by_(idx(connectivity.vertex_count), -1),
-        held_by_(idx(connectivity.vertex_count), -1) {}
-
-  /// Finds half as many vertices again as wanted by breadth-first search, keeps the nearest `size` of them
-  /// and those that tie. What the search cuts off in the middle of a ring would leave the patch lopsided. The
-  /// vertices stay in the order of the search, which knows nothing of coordinates.
-  void grow(int centre, int size) {
-    axis_ = axis_at(centre);
-    search(centre, idx(size + size / 2));
-    distances_.clear();
-    for (int m : members_) distances_.push_back((points_.col(m) - points_.col(centre)).norm());
-    std::vector<double> sorted = distances_;
-    const auto last = sorted.begin() + std::min(size, static_cast<int>(sorted.size())) - 1;
-    std::nth_element(sorted.begin(), last, sorted.end());
-    farthest_ = *last;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      if (distances_[i] > farthest_ * tie) continue;
-      members_[kept] = members_[i];
-      distances_[kept++] = distances_[i];
-      held_by_[idx(members_[i])] = round_;
-    }
-    members_.resize(kept);
-    distances_.resize(kept);
-  }
-
-  const std::vector<int>& members() const { return members_; }         // the centre first
-  const std::vector<double>& distances() const { return distances_; }  // from the centre
-  double farthest() const { return farthest_; }
-
-  /// Whether the patch holds the whole ring of the vertex, as far as the cone admits it.
-  bool is_inside(int vertex) const {
-    return std::ranges::all_of(connectivity_.vertex_neighbours[vertex],
-                               [&](int n) { return held_by_[idx(n)] == round_ || !is_admitted(n); });
-  }
-
- private:
-  /// A folded vertex is admitted whatever its normal, which means nothing.
-  bool is_admitted(int vertex) const {
-    return !unfolded_[idx(vertex)] || normals_.col(vertex).dot(axis_) > least_normal_agreement;
-  }
-
-  Vec3 axis_at(int centre) const {
-    Vec3 sum = Vec3::Zero();
-    if (!unfolded_[idx(centre)])
-      for (int n : connectivity_.vertex_neighbours[centre])
-        if (unfolded_[idx(n)]) sum += normals_.col(n);
-    return sum.isZero(0) ? Vec3(normals_.col(centre)) : sum.normalized();
-  }
-
-  void search(int centre, std::size_t most) {
-    ++round_;
-    members_.assign(1, centre);
-    met_by_[idx(centre)] = round_;
-    for (std::size_t i = 0; i < members_.size(); ++i)
-      for (int n : connectivity_.vertex_neighbours[members_[i]]) {
-        if (members_.size() >= most) return;
-        if (met_by_[idx(n)] == round_) continue;
-        met_by_[idx(n)] = round_;
-        if (is_admitted(n)) members_.push_back(n);
-      }
-  }
-
-  const Eigen::Ref<const Mat3X>& points_;
-  const Connectivity& connectivity_;
-  const Mat3X& normals_;
-  const std::vector<char>& unfolded_;
-  Vec3 axis_ = Vec3::Zero();
-  std::vector<int> met_by_;   // the last round whose search met the vertex
-  std::vector<int> held_by_;  // the last round whose patch holds it
-  std::vector<int> members_;
-  std::vector<double> distances_;
-  double farthest_ = 0;
-  int round_ = -1;
-};
 
 /// Wendland's C2 function of the squared distance over the squared radius, for r2 < 1.
 double weight(double r2) {
