@@ -11,7 +11,7 @@
 namespace hooke {
 
 struct PartitionOptions {
-  Kernel kernel = Kernel::r2logr;
+  Kernel kernel = Kernel::r3;
   int patch_size = 30;    // vertices of a patch
   double coverage = .75;  // every vertex is closer to some centre than this share of the patch's radius
   double offset = .3;     // rho of [13], in mean edge lengths at the vertex

@@ -69,8 +69,7 @@ class Remeshing {
     result_.polish = polish(r, work_.targets, options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
     work_.land();
-    record("polish",
-           {.evaluations = result_.polish.evaluations, .energy = energy_(work_.placement, nullptr)});
+    record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
   void conclude() {

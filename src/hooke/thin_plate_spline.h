@@ -60,7 +60,7 @@ class ThinPlateSpline {
   std::size_t memory_bytes() const { return sizeof(double) * storage_.capacity(); }
 
  private:
-  Kernel kernel_ = Kernel::r2logr;
+  Kernel kernel_ = Kernel::r3;
   std::size_t centres_ = 0;
   Vec3 origin_ = Vec3::Zero();
   double scale_ = 1;
