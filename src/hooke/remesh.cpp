@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hooke/error.h"
+
 namespace hooke {
 namespace {
 
@@ -50,15 +52,26 @@ class Remeshing {
     if (unfolded.evaluations > 0) record("untangle", {.evaluations = unfolded.evaluations});
   }
 
+  IntegrationResult relax() {
+    Relaxation r = relaxation();
+    switch (options_.integrator) {
+      case IntegratorKind::lbfgs:
+        return relax_lbfgs(r, options_.integration, options_.lbfgs, watch("relax"));
+      case IntegratorKind::damped:
+        return relax_damped(r, options_.integration, options_.damped, watch("relax"));
+    }
+    throw Error("unknown integrator");
+  }
+
   void iterate() {
     if (options_.refit == Refit::each && outer_ > 1) work_.refit();
-    Relaxation r = relaxation();
     const double before = energy_(work_.placement, nullptr);
-    const IntegrationResult relaxed = relax_lbfgs(r, options_.integration, options_.lbfgs, watch("relax"));
+    const IntegrationResult relaxed = relax();
     work_.land();
     record("relax", relaxed);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
+    if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
     if (before - relaxed.energy <= options_.outer_drop * before) return stop(StopReason::stalled);
     result_.reason = StopReason::step_limit;
   }

@@ -2,6 +2,7 @@
 // "Hooke's Optimization for 3D triangular mesh".
 #pragma once
 
+#include "hooke/damped_relaxation.h"
 #include "hooke/lbfgs.h"
 #include "hooke/polish.h"
 #include "hooke/untangle.h"
@@ -11,9 +12,17 @@ namespace hooke {
 
 enum class Refit { each, once };
 
+/// What brings the springs to their equilibrium; untangling and polishing always use L-BFGS.
+enum class IntegratorKind {
+  lbfgs,   // minimises the energy
+  damped,  // follows the evolution [17], torque included
+};
+
 struct RemeshOptions {
+  IntegratorKind integrator = IntegratorKind::lbfgs;
   IntegrationOptions integration;
   LbfgsOptions lbfgs;
+  DampedOptions damped;
   double altitude = 1;  // beta, weight of the altitude springs against the strings
   GuardOptions guards;
   UntangleOptions untangle;
