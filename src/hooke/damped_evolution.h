@@ -58,7 +58,7 @@ using Restraint = std::function<void(Mat3X& forces)>;
 
 /// One step of Algorithm 2.
 struct EvolutionStep {
-  bool at_rest = false;  // no force and no velocity: there was nothing to do
+  bool at_rest = false;      // no force and no velocity: there was nothing to do
   AdaptedStep adapted = {};  // time, epsilon, the tests that bound it
 };
 

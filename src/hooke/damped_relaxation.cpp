@@ -7,8 +7,8 @@
 namespace hooke {
 namespace {
 
-constexpr double growth = 1.1;   // of epsilon after an accepted step
-constexpr double floor = 1e-9;   // of epsilon; jammed below
+constexpr double growth = 1.1;  // of epsilon after an accepted step
+constexpr double floor = 1e-9;  // of epsilon; jammed below
 
 /// Forces at a placement, split because only the torque has no potential.
 struct Forces {
