@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hooke/error.h"
 #include "hooke/forces.h"
 
 namespace hooke {
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double growth = 1.1;  // of epsilon after an accepted step
 constexpr double floor = 1e-9;  // of epsilon; jammed below
+constexpr int patience = 10;    // damped steps for one of L-BFGS, when rest is looked for
 
 /// Forces at a placement, split because only the torque has no potential.
 struct Forces {
@@ -44,6 +46,11 @@ void keep_in_tangent_space(const Relaxation& r, Motion& motion) {
   motion.velocities = velocities;
 }
 
+RestDetector rest_detector(IntegrationOptions options) {
+  options.window *= patience;
+  return RestDetector(options);
+}
+
 }  // namespace
 
 IntegrationResult relax_damped(Relaxation& r, const IntegrationOptions& options, const DampedOptions& damped,
@@ -54,12 +61,14 @@ IntegrationResult relax_damped(Relaxation& r, const IntegrationOptions& options,
   const double base = std::sqrt(motion.mass / damped.string);
   double factor = first_factor;  // epsilon
   IntegrationResult result;
-  RestDetector rest(options);
+  RestDetector rest = rest_detector(options);
   Forces forces, trial_forces;
   Placement trial;
 
   r.guards.accept(r.placement);
   compute(r, r.placement, damped, forces);
+  if (!std::isfinite(forces.energy) || !forces.total.allFinite())
+    throw NumericalError("the forces on the mesh are not finite; check its points and target lengths");
   motion.forces = forces.total;
   result.evaluations = 1;
   rest.at_rest(forces.energy);

@@ -18,8 +18,10 @@ namespace hooke {
 /// it raises the energy by more than the work that the torque did. A rejected step also brings the mesh to
 /// rest.
 ///
-/// A trial counts as one of options.max_steps. Ends at rest (stalled), at that limit, or jammed when no time
-/// step is accepted. Throws Error if the string tension or the friction is not positive.
+/// A trial counts as one of options.max_steps. Ends at rest (stalled; over ten times options.window steps,
+/// which are shorter than those of L-BFGS), at that limit, or jammed when no time step is accepted. Throws
+/// Error if the string tension or the friction is not positive, NumericalError if the forces at the start are
+/// not finite.
 IntegrationResult relax_damped(Relaxation& relaxation, const IntegrationOptions& options,
                                const DampedOptions& damped, const Observer& observer);
 
