@@ -64,4 +64,22 @@ Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
   return c;
 }
 
+std::vector<std::vector<int>> colour_vertices(const Connectivity& c) {
+  std::vector<int> colour(static_cast<size_t>(c.vertex_count), -1);
+  std::vector<std::vector<int>> classes;
+  std::vector<bool> used;
+  for (int v = 0; v < c.vertex_count; ++v) {
+    used.assign(classes.size() + 1, false);
+    for (int w : c.vertex_neighbours[v])
+      if (colour[static_cast<size_t>(w)] >= 0)
+        used[static_cast<size_t>(colour[static_cast<size_t>(w)])] = true;
+    size_t first = 0;
+    while (used[first]) ++first;
+    if (first == classes.size()) classes.emplace_back();
+    classes[first].push_back(v);
+    colour[static_cast<size_t>(v)] = static_cast<int>(first);
+  }
+  return classes;
+}
+
 }  // namespace hooke

@@ -35,4 +35,7 @@ struct Connectivity {
 /// Pre-condition: manifold, consistently oriented triangles on vertices [0, vertex_count).
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces);
 
+/// Classes of vertices of which no two share an edge; first fit in vertex order.
+std::vector<std::vector<int>> colour_vertices(const Connectivity& connectivity);
+
 }  // namespace hooke

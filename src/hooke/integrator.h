@@ -31,7 +31,8 @@ using Observer = std::function<bool(const Progress&)>;
 struct Relaxation {
   TriMesh& mesh;  // carries v:velocity and v:force; its points are those of `placement` between the calls
   const Connectivity& connectivity;
-  const std::vector<double>& vertex_length;  // target length per vertex
+  const std::vector<std::vector<int>>& colours;  // of the vertices, see colour_vertices()
+  const std::vector<double>& vertex_length;      // target length per vertex
   Energy& energy;
   Retraction& retraction;
   Guards& guards;
@@ -40,9 +41,9 @@ struct Relaxation {
 
 struct IntegrationOptions {
   int max_steps = 2000;       // evaluations of the energy (lbfgs) or time steps (damped)
-  double energy_drop = 1e-4;  // at rest when the energy falls by less than this part of itself ...
-  int window = 10;            // ... over this many steps
-  double max_move = .3;       // of a vertex in a step, in its target lengths
+  double energy_drop = 1e-3;  // at rest when the energy falls by less than this part of itself ...
+  int window = 3;             // ... over this many steps
+  double max_move = 1;        // of a vertex in a step, in its target lengths
 };
 
 struct IntegrationResult {

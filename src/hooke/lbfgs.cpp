@@ -1,7 +1,10 @@
 #include "hooke/lbfgs.h"
 
+#include <algorithm>
 #include <deque>
 
+#include "hooke/local_newton.h"
+#include "hooke/multigrid.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -14,31 +17,81 @@ double dot(const Mat3X& a, const Mat3X& b) {
   });
 }
 
+/// H0: the inverse curvature around each vertex plus the grids.
+class Preconditioner {
+ public:
+  Preconditioner(const Relaxation& r, const LbfgsOptions& options)
+      : options_(options), grids_(r.placement.points, options.grid_cell) {}
+
+  void refresh(const Relaxation& r) {
+    const auto n = static_cast<size_t>(r.connectivity.vertex_count);
+    inverse_.resize(n);
+    std::vector<double> mean(n, 0);
+    for (const std::vector<int>& vertices : r.colours)  // neighbours move while a curvature is taken
+      parallel_for(vertices.size(), 64, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+          Vec3 gradient;
+          r.energy.around(r.placement, vertices[i], gradient);
+          const LocalCurvature c = local_curvature(r, vertices[i], gradient);
+          inverse_[static_cast<size_t>(vertices[i])] = c.inverse;
+          mean[static_cast<size_t>(vertices[i])] = c.mean;
+        }
+      });
+    const auto middle = mean.begin() + static_cast<std::ptrdiff_t>(n / 2);
+    std::nth_element(mean.begin(), middle, mean.end());
+    grid_weight_ = *middle > 0 ? options_.grid_weight / *middle : 0;
+  }
+
+  Mat3X apply(const Relaxation& r, const Mat3X& vectors) const {
+    Mat3X result(3, vectors.cols());
+    parallel_for(static_cast<size_t>(vectors.cols()), 4096, [&](size_t begin, size_t end) {
+      for (size_t v = begin; v < end; ++v)
+        result.col(static_cast<Eigen::Index>(v)) = inverse_[v] * vectors.col(static_cast<Eigen::Index>(v));
+    });
+    grids_.add(vectors, grid_weight_, result);
+    r.retraction.constrain(r.placement, result);
+    return result;
+  }
+
+ private:
+  LbfgsOptions options_;
+  GridHierarchy grids_;
+  std::vector<Eigen::Matrix3d> inverse_;
+  double grid_weight_ = 0;
+};
+
 /// The last pairs (s, y) and the two-loop recursion over them.
 class Memory {
  public:
-  explicit Memory(const LbfgsOptions& options) : options_(options) {}
+  explicit Memory(const LbfgsOptions& options) : options_(options), scale_(options.first_step) {}
 
   bool empty() const { return pairs_.empty(); }
-  void clear() { pairs_.clear(); }
 
-  void push(Mat3X s, Mat3X y) {
+  void clear() {
+    pairs_.clear();
+    pushed_ = 0;
+    scale_ = options_.first_step;
+  }
+
+  /// `preconditioned` is H0 y.
+  void push(Mat3X s, Mat3X y, const Mat3X& preconditioned) {
     const double sy = dot(s, y);
-    const double yy = dot(y, y);
-    if (!(sy > 1e-12 * yy)) return;  // no curvature along this step: it would spoil the inverse Hessian
-    pairs_.push_back({std::move(s), std::move(y), 1 / sy, sy / yy});
+    if (!(sy > 1e-12 * dot(y, y)))
+      return;  // no curvature along this step: it would spoil the inverse Hessian
+    if (pushed_++ < options_.scaled_pairs) scale_ = sy / dot(y, preconditioned);
+    pairs_.push_back({std::move(s), std::move(y), 1 / sy});
     if (pairs_.size() > static_cast<size_t>(options_.memory)) pairs_.pop_front();
   }
 
   /// -H g
-  Mat3X direction(const Mat3X& gradient) const {
+  Mat3X direction(const Relaxation& r, const Preconditioner& h0, const Mat3X& gradient) const {
     Mat3X q = -gradient;
     std::vector<double> alpha(pairs_.size());
     for (size_t i = pairs_.size(); i-- > 0;) {
       alpha[i] = pairs_[i].rho * dot(pairs_[i].s, q);
       q -= alpha[i] * pairs_[i].y;
     }
-    q *= empty() ? options_.first_step : pairs_.back().gamma;
+    q = scale_ * h0.apply(r, q);
     for (size_t i = 0; i < pairs_.size(); ++i) {
       const double beta = pairs_[i].rho * dot(pairs_[i].y, q);
       q += (alpha[i] - beta) * pairs_[i].s;
@@ -49,18 +102,19 @@ class Memory {
  private:
   struct Pair {
     Mat3X s, y;
-    double rho;    // 1 / s.y
-    double gamma;  // s.y / y.y
+    double rho;  // 1 / s.y
   };
   LbfgsOptions options_;
   std::deque<Pair> pairs_;
+  double scale_;
+  int pushed_ = 0;
 };
 
 /// A descent direction in the tangent space, no vertex longer than the cap. Falls back to the gradient.
 Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, const Mat3X& gradient,
-                        Memory& memory) {
+                        const Preconditioner& h0, Memory& memory) {
   for (;;) {
-    Mat3X d = memory.direction(gradient);
+    Mat3X d = memory.direction(r, h0, gradient);
     r.retraction.constrain(r.placement, d);
     cap_displacement(r.vertex_length, options.max_move, d);
     if (memory.empty() || dot(d, gradient) < 0) return d;
@@ -73,7 +127,10 @@ Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, 
 IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
                               const Observer& observer) {
   IntegrationResult result;
+  for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep)
+    local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
   Memory memory(lbfgs);
+  Preconditioner h0(r, lbfgs);
   RestDetector rest(options);
   Mat3X gradient, trial_gradient;
   Placement trial;
@@ -86,7 +143,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   result.reason = StopReason::step_limit;
 
   while (result.evaluations < options.max_steps) {
-    Mat3X step = descent_direction(r, options, gradient, memory);
+    if (result.steps % lbfgs.curvature_every == 0) h0.refresh(r);
+    Mat3X step = descent_direction(r, options, gradient, h0, memory);
     bool accepted = false;
     double trial_energy = 0;
     for (int halvings = 0; halvings <= lbfgs.max_backtracks && !accepted; ++halvings) {
@@ -107,7 +165,9 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       break;
     }
     r.retraction.constrain(trial, trial_gradient);
-    memory.push(trial.points - r.placement.points, trial_gradient - gradient);
+    Mat3X y = trial_gradient - gradient;
+    const Mat3X preconditioned = h0.apply(r, y);
+    memory.push(trial.points - r.placement.points, std::move(y), preconditioned);
     std::swap(r.placement, trial);
     std::swap(gradient, trial_gradient);
     r.guards.accept_step();

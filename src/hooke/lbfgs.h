@@ -1,5 +1,6 @@
-// Relaxation by L-BFGS on the surface. J. Nocedal, "Updating quasi-Newton matrices with limited storage",
-// 1980. Every trial step is retracted through the filter and guarded per vertex before its energy counts.
+// Relaxation by L-BFGS on the surface, preconditioned by the curvature around each vertex and by grids.
+// J. Nocedal, "Updating quasi-Newton matrices with limited storage", 1980; for the grids see multigrid.h.
+// Every trial step is retracted through the filter and guarded per vertex before its energy counts.
 #pragma once
 
 #include "hooke/integrator.h"
@@ -7,10 +8,16 @@
 namespace hooke {
 
 struct LbfgsOptions {
-  int memory = 8;           // pairs of steps and gradient changes
-  double first_step = .1;   // of the gradient, while there is no memory
-  double armijo = 1e-4;     // part of the predicted decrease that a step must bring
-  int max_backtracks = 12;  // halvings of a step before it is given up
+  int sweeps = 3;             // of Newton's method vertex by vertex, first: they remove the slivers
+  double sweep_factor = 1.5;  // over-relaxation of all sweeps but the first
+  int memory = 5;             // pairs of steps and gradient changes
+  double first_step = .5;     // of the preconditioned gradient, while there is no memory
+  int scaled_pairs = 3;       // the preconditioner is scaled to the last pair until this many are held
+  int curvature_every = 5;    // steps after which the curvature around the vertices is taken anew
+  double grid_cell = 4;       // width of the finest grid's cells, in mean target lengths
+  double grid_weight = .3;    // of each grid, over the median curvature
+  double armijo = 1e-4;       // part of the predicted decrease that a step must bring
+  int max_backtracks = 12;    // halvings of a step before it is given up
 };
 
 /// Moves relaxation.placement to a minimum of relaxation.energy on the surface.

@@ -7,8 +7,16 @@
 
 namespace hooke {
 
-/// Classes of vertices of which no two share an edge; first fit in vertex order.
-std::vector<std::vector<int>> colour_vertices(const Connectivity& connectivity);
+/// How the energy around one vertex curves in the directions the vertex may move in.
+struct LocalCurvature {
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // |H|^-1 in the tangent space, zero across it
+  double mean = 0;                                    // mean of the eigenvalues of |H|
+};
+
+/// The Hessian by differences of the gradient in the tangent space of the vertex. Its eigenvalues count by
+/// their size, and those below a part of the largest are raised to it: the step -inverse * gradient descends
+/// from saddles too. Moves the point of the vertex and puts it back; `gradient` is that at the point.
+LocalCurvature local_curvature(const Relaxation& relaxation, int vertex, const Vec3& gradient);
 
 struct LocalNewtonOptions {
   double max_move = .5;  // of a vertex, in its target lengths
@@ -18,7 +26,7 @@ struct LocalNewtonOptions {
 
 /// One sweep over the colours; vertices with `active` false stay (empty: all move). Returns the largest move
 /// in target lengths.
-double local_newton_sweep(Relaxation& relaxation, const std::vector<std::vector<int>>& colours,
-                          const std::vector<char>& active, const LocalNewtonOptions& options);
+double local_newton_sweep(Relaxation& relaxation, const std::vector<char>& active,
+                          const LocalNewtonOptions& options);
 
 }  // namespace hooke

@@ -4,52 +4,20 @@
 
 #include "hooke/normals.h"
 #include "hooke/parallel.h"
+#include "hooke/patch_grower.h"
 
 namespace hooke {
 namespace {
 
-constexpr double least_normal_agreement =
-    -.2;  // of a patch's vertices with its centre: stops at the other sheet
-constexpr double least_fold_agreement =
-    .3;                                   // of a vertex normal with its faces: a folded ring has no outside
-constexpr double reach = 1.1;             // radius over the distance of the farthest vertex
-constexpr int least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
-constexpr double coincidence = 1e-6;      // in radii: two centres closer than this count once
+constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
+constexpr double reach = .9;                 // radius over the distance of the farthest vertex
+constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
+constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
 constexpr std::size_t patches_per_task = 32;
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
-
-/// Breadth-first search over mesh edges, by vertex order, within the cone of normals of the first vertex.
-class PatchGrower {
- public:
-  PatchGrower(const Connectivity& connectivity, const Mat3X& normals)
-      : connectivity_(connectivity), normals_(normals), seen_by_(idx(connectivity.vertex_count), -1) {}
-
-  /// The vertices nearest to `centre`, at most `size` of them, in the order in which they are found.
-  const std::vector<int>& grow(int centre, int size) {
-    members_.assign(1, centre);
-    ++search_;
-    seen_by_[idx(centre)] = search_;
-    const Vec3 axis = normals_.col(centre);
-    for (std::size_t i = 0; i < members_.size(); ++i)
-      for (int n : connectivity_.vertex_neighbours[members_[i]]) {
-        if (members_.size() >= idx(size)) return members_;
-        if (seen_by_[idx(n)] == search_) continue;
-        seen_by_[idx(n)] = search_;
-        if (normals_.col(n).dot(axis) > least_normal_agreement) members_.push_back(n);
-      }
-    return members_;
-  }
-
- private:
-  const Connectivity& connectivity_;
-  const Mat3X& normals_;
-  std::vector<int> seen_by_;  // the last search that met the vertex
-  std::vector<int> members_;
-  int search_ = -1;
-};
 
 /// Wendland's C2 function of the squared distance over the squared radius, for r2 < 1.
 double weight(double r2) {
@@ -91,9 +59,24 @@ struct SplineData {
   }
 };
 
+/// Every third vertex of a patch has an offset point, outside and inside in turn. (All of them: no better.)
+constexpr std::size_t offset_stride = 3;
+
 /// Vertices and offsets of a patch: at most this many.
 std::size_t most_centres(std::size_t vertices) {
-  return vertices + (vertices + 1) / 2;
+  return vertices + (vertices + offset_stride - 1) / offset_stride;
+}
+
+PatchFit fit_patch(const SplineData& data, Kernel kernel, std::size_t vertices, SplineWorkspace& workspace,
+                   double* storage) {
+  const auto centres = data.centres.leftCols(data.count);
+  const auto values = data.values.head(data.count);
+  if (values.isZero(0)) return PatchFit::failed;  // no offset says where outside is
+  const bool quadratic = vertices >= least_quadratic_size;
+  if (quadratic && fit_spline(centres, values, kernel, 2, workspace, storage)) return PatchFit::as_wanted;
+  if (fit_spline(centres, values, kernel, 1, workspace, storage))
+    return quadratic ? PatchFit::affine : PatchFit::as_wanted;
+  return PatchFit::failed;
 }
 
 }  // namespace
@@ -102,30 +85,44 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
                                    const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
                                    const PartitionOptions& options)
     : kernel_(options.kernel) {
-  IntLists members;  // vertices of each patch
+  const std::vector<char> unfolded = unfolded_vertices(points, connectivity, normals);
+  const IntLists members = cover(points, connectivity, normals, edge_lengths, unfolded, options);
+  fit(points, normals, edge_lengths, unfolded, members, options);
+  index_patches(connectivity.vertex_count, members);
+}
+
+IntLists PartitionOfUnity::cover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+                                 const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
+                                 const std::vector<char>& unfolded, const PartitionOptions& options) {
+  IntLists members;
   members.first.push_back(0);
   std::vector<char> covered(idx(connectivity.vertex_count), 0);
-  PatchGrower grower(connectivity, normals);
+  PatchGrower grower(points, connectivity, normals, unfolded);
   std::size_t storage = 0;
-  for (int v = 0; v < connectivity.vertex_count; ++v) {
-    if (covered[idx(v)] || connectivity.vertex_faces[v].empty()) continue;
-    const auto& grown = grower.grow(v, options.patch_size);
-    Patch patch;
-    patch.centre = points.col(v);
-    double farthest = 0;
-    for (int m : grown) farthest = std::max(farthest, (points.col(m) - patch.centre).norm());
-    patch.radius = farthest > 0 ? reach * farthest : 2 * edge_lengths[v];
-    for (int m : grown)
-      if ((points.col(m) - patch.centre).norm() <= options.coverage * patch.radius) covered[idx(m)] = 1;
-    patch.storage = storage;
+  const auto add_patch = [&](int v) {
+    grower.grow(v, options.patch_size);
+    const auto& grown = grower.members();
+    const double radius = grower.farthest() > 0 ? reach * grower.farthest() : 2 * edge_lengths[v];
+    patches_.push_back({points.col(v), radius, storage, 0, PatchFit::as_wanted});
     storage += spline_storage_size(most_centres(grown.size()));
-    patches_.push_back(patch);
+    for (std::size_t i = 0; i < grown.size(); ++i)
+      if (i == 0 || (grower.distances()[i] <= options.coverage * radius && grower.is_inside(grown[i])))
+        covered[idx(grown[i])] = 1;
     members.items.insert(members.items.end(), grown.begin(), grown.end());
     members.first.push_back(static_cast<int>(members.items.size()));
-  }
+  };
+  for (const bool wanted :
+       {true, false})  // a folded vertex is a poor centre: only where nothing else covers it
+    for (int v = 0; v < connectivity.vertex_count; ++v)
+      if (!covered[idx(v)] && bool(unfolded[idx(v)]) == wanted && !connectivity.vertex_faces[v].empty())
+        add_patch(v);
   storage_.resize(storage);
+  return members;
+}
 
-  const std::vector<char> unfolded = unfolded_vertices(points, connectivity, normals);
+void PartitionOfUnity::fit(const Eigen::Ref<const Mat3X>& points, const Mat3X& normals,
+                           const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
+                           const IntLists& members, const PartitionOptions& options) {
   parallel_for(patches_.size(), patches_per_task, [&](std::size_t begin, std::size_t end) {
     SplineWorkspace workspace;
     SplineData data;
@@ -134,37 +131,31 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
       const auto vertices = members[static_cast<int>(p)];
       data.clear(most_centres(vertices.size()));
       for (int v : vertices) data.add((points.col(v) - patch.centre) / patch.radius, 0);
-      for (std::size_t i = 0; i < vertices.size(); i += 2) {  // [11] [13]
+      for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {  // [11] [13]
         const int v = vertices[i];
         if (!unfolded[idx(v)]) continue;
-        const double rho = (i % 4 == 0 ? 1 : -1) * options.offset * edge_lengths[v];
+        const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * options.offset * edge_lengths[v];
         data.add((points.col(v) + rho * normals.col(v) - patch.centre) / patch.radius, rho / patch.radius);
       }
-      const auto fit = [&](SplineDegree degree) {
-        return fit_spline(data.centres.leftCols(data.count), data.values.head(data.count), kernel_, degree,
-                          workspace, &storage_[patch.storage]);
-      };
-      const bool determined = !data.values.head(data.count).isZero(0);
-      const bool quadratic = static_cast<int>(vertices.size()) >= least_quadratic_size;
+      patch.fit = fit_patch(data, kernel_, vertices.size(), workspace, &storage_[patch.storage]);
       patch.centres = static_cast<int>(data.count);
-      if (determined && quadratic && fit(2)) continue;
-      if (determined && fit(1)) {
-        if (quadratic) patch.fit = Patch::affine;
-        continue;
-      }
-      patch.fit = Patch::plane;
-      patch.centres = 0;
-      store_affine_spline(0, normals.col(vertices[0]), &storage_[patch.storage]);
     }
   });
+}
 
-  std::vector<int> next(idx(connectivity.vertex_count) + 1, 0);
-  for (int v : members.items) ++next[idx(v) + 1];
-  for (std::size_t v = 1; v < next.size(); ++v) next[v] += next[v - 1];
-  vertex_patches_.first = next;
-  vertex_patches_.items.resize(members.items.size());
-  for (int p = 0; p < static_cast<int>(patches_.size()); ++p)
-    for (int v : members[p]) vertex_patches_.items[idx(next[idx(v)]++)] = p;
+void PartitionOfUnity::index_patches(int vertex_count, const IntLists& members) {
+  const auto for_each_pair = [&](const auto& visit) {
+    for (int p = 0; p < static_cast<int>(patches_.size()); ++p)
+      if (patches_[idx(p)].fit != PatchFit::failed)
+        for (int v : members[p]) visit(idx(v), p);
+  };
+  auto& [first, items] = vertex_patches_;
+  first.assign(idx(vertex_count) + 1, 0);
+  for_each_pair([&](std::size_t v, int) { ++first[v + 1]; });
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+  items.resize(idx(first.back()));
+  std::vector<int> next = first;
+  for_each_pair([&](std::size_t v, int p) { items[idx(next[v]++)] = p; });
 }
 
 FieldSample PartitionOfUnity::operator()(const Vec3& x, int anchor) const {
@@ -188,14 +179,8 @@ FieldSample PartitionOfUnity::operator()(const Vec3& x, int anchor) const {
   return sum;
 }
 
-std::size_t PartitionOfUnity::affine_fallbacks() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(patches_, [](const Patch& p) { return p.fit == Patch::affine; }));
-}
-
-std::size_t PartitionOfUnity::plane_fallbacks() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(patches_, [](const Patch& p) { return p.fit == Patch::plane; }));
+std::size_t PartitionOfUnity::count(PatchFit fit) const {
+  return static_cast<std::size_t>(std::ranges::count(patches_, fit, &Patch::fit));
 }
 
 std::size_t PartitionOfUnity::memory_bytes() const {

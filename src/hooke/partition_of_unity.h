@@ -11,10 +11,17 @@
 namespace hooke {
 
 struct PartitionOptions {
-  Kernel kernel = Kernel::r2logr;
+  Kernel kernel = Kernel::r3;
   int patch_size = 30;    // vertices of a patch
-  double coverage = .55;  // every vertex is closer to some centre than this share of the patch's radius
+  double coverage = .75;  // every vertex is closer to some centre than this share of the patch's radius
   double offset = .3;     // rho of [13], in mean edge lengths at the vertex
+};
+
+/// Which polynomial part a patch's spline got.
+enum class PatchFit : unsigned char {
+  as_wanted,  // quadratic; affine in a patch of few vertices
+  affine,     // where the quadratic one is not determined
+  failed,     // no spline: the patch holds no vertices
 };
 
 /// The field is zero at every vertex, a distance near them, and grows along the normals. Patches are grown
@@ -35,9 +42,7 @@ class PartitionOfUnity {
   FieldSample operator()(const Vec3& x, int anchor) const;
 
   std::size_t patch_count() const { return patches_.size(); }
-  /// Patches that fell back from their polynomial degree to a lower one, or to a plane.
-  std::size_t affine_fallbacks() const;
-  std::size_t plane_fallbacks() const;
+  std::size_t count(PatchFit fit) const;
   std::size_t memory_bytes() const;
 
  private:
@@ -46,8 +51,17 @@ class PartitionOfUnity {
     double radius = 0;
     std::size_t storage = 0;  // where its spline begins
     int centres = 0;          // of its spline
-    enum : unsigned char { as_wanted, affine, plane } fit = as_wanted;
+    PatchFit fit = PatchFit::as_wanted;
   };
+
+  /// Places the patches, one by one at the first vertex that is not yet well inside one; returns their
+  /// vertices.
+  IntLists cover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+                 const Mat3X& normals, const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
+                 const PartitionOptions& options);
+  void fit(const Eigen::Ref<const Mat3X>& points, const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
+           const std::vector<char>& unfolded, const IntLists& members, const PartitionOptions& options);
+  void index_patches(int vertex_count, const IntLists& members);
 
   Kernel kernel_;
   std::vector<Patch> patches_;

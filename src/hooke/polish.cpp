@@ -4,25 +4,31 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/local_newton.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
 
-double least_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
+std::vector<double> least_angles(const Mat3X& points, const std::vector<Triangle>& faces) {
   std::vector<double> least(faces.size());
   parallel_for(faces.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
-      least[f] = std::numbers::pi;
+      least[f] = 180;
       for (size_t k = 0; k < 3; ++k) {
         const Vec3 p = points.col(faces[f][k]);
         const Vec3 a = points.col(faces[f][(k + 1) % 3]) - p;
         const Vec3 b = points.col(faces[f][(k + 2) % 3]) - p;
-        least[f] = std::min(least[f], std::atan2(a.cross(b).norm(), a.dot(b)));
+        least[f] = std::min(least[f], std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi);
       }
     }
   });
+  return least;
+}
+
+double least_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
+  const std::vector<double> least = least_angles(points, faces);
   const auto it = std::min_element(least.begin(), least.end());
-  return it == least.end() ? 0 : *it * 180 / std::numbers::pi;
+  return it == least.end() ? 0 : *it;
 }
 
 double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edges,
@@ -45,10 +51,30 @@ double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edg
   return std::sqrt(moment(moment(0, false), true));
 }
 
+namespace {
+
+/// Marks the corners of all faces with an angle below the threshold (degrees) and `rings` rings around them.
+std::vector<char> around_bad_faces(const Mat3X& points, const Connectivity& c, double threshold, int rings) {
+  std::vector<char> active(static_cast<size_t>(c.vertex_count), 0);
+  const std::vector<double> angles = least_angles(points, c.faces);
+  for (size_t f = 0; f < c.faces.size(); ++f)
+    if (angles[f] < threshold)
+      for (int v : c.faces[f]) active[static_cast<size_t>(v)] = 1;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> inner = active;
+    for (const auto& [a, b] : c.edges)
+      if (inner[static_cast<size_t>(a)] || inner[static_cast<size_t>(b)])
+        active[static_cast<size_t>(a)] = active[static_cast<size_t>(b)] = 1;
+  }
+  return active;
+}
+
+}  // namespace
+
 PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOptions& o,
                     const Observer& observer) {
-  const auto& faces = r.connectivity.faces;
   const auto& edges = r.connectivity.edges;
+  const auto& faces = r.connectivity.faces;
   PolishResult result;
   result.least_angle_before = result.least_angle_after = least_angle(r.placement.points, faces);
   result.edge_error_before = result.edge_error_after =
@@ -60,15 +86,14 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   r.energy.terms.altitude = 0;
   double threshold = std::max(o.first_threshold, best + o.margin);
   for (; threshold <= o.last_threshold && !result.interrupted; threshold += o.threshold_step) {
-    const bool first = result.stages == 0;
-    r.energy.terms.angle = first ? o.first_weight : o.weight;
+    r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
-    IntegrationOptions integration;
-    integration.max_steps = first ? o.first_evaluations : o.evaluations;
-    const IntegrationResult relaxed = relax_lbfgs(r, integration, LbfgsOptions{}, observer);
+    const std::vector<char> active = around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings);
+    for (int sweep = 0; sweep < o.sweeps && !result.interrupted; ++sweep, ++result.sweeps) {
+      local_newton_sweep(r, active, LocalNewtonOptions{});
+      result.interrupted = observer && !observer({.step = result.sweeps});
+    }
     ++result.stages;
-    result.evaluations += relaxed.evaluations;
-    result.interrupted = relaxed.reason == StopReason::interrupted;
 
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);

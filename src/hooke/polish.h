@@ -2,7 +2,7 @@
 // repulsive branch on corner angles below a threshold that rises in stages.
 #pragma once
 
-#include "hooke/lbfgs.h"
+#include "hooke/integrator.h"
 
 namespace hooke {
 
@@ -13,14 +13,14 @@ struct PolishOptions {
   double last_threshold = 32;   // degrees
   double first_weight = 30;     // w of the first stage
   double weight = 100;          // w of the others
-  int first_evaluations = 100;  // of the first stage
-  int evaluations = 60;         // of the others
+  int sweeps = 16;              // per stage, of Newton's method vertex by vertex
+  int rings = 2;                // around the faces below the threshold, within which vertices move
   double keep_within = .1;      // degrees below the best angle at which a later state is still kept
 };
 
 struct PolishResult {
   int stages = 0;
-  int evaluations = 0;
+  int sweeps = 0;
   double least_angle_before = 0, least_angle_after = 0;  // degrees
   double edge_error_before = 0, edge_error_after = 0;    // standard deviation of l / L_e
   bool interrupted = false;
@@ -29,6 +29,9 @@ struct PolishResult {
 /// Raises the least angle as long as the standard deviation of l / L_e does not pass that of the start.
 PolishResult polish(Relaxation& relaxation, const TargetLengths& targets, const PolishOptions& options,
                     const Observer& observer);
+
+/// Least corner angle of each face, degrees.
+std::vector<double> least_angles(const Mat3X& points, const std::vector<Triangle>& faces);
 
 /// Least corner angle of all faces, degrees.
 double least_angle(const Mat3X& points, const std::vector<Triangle>& faces);

@@ -5,10 +5,11 @@
 namespace hooke {
 
 Foot project_by_newton(const ScalarField& psi, const Vec3& x, int anchor, const NewtonOptions& options) {
-  Foot foot{x, Vec3::Zero(), anchor, FootStatus::step_limit, 0};
+  Foot foot{x, Vec3::Zero(), anchor, FootStatus::converged, 0};
   const auto fail = [&](FootStatus status) {
     return Foot{x, Vec3::Zero(), anchor, status, foot.evaluations};
   };
+  double last_distance = 0;
   for (int step = 0; step <= options.most_steps; ++step) {
     const FieldSample s = psi(foot.point, anchor);
     ++foot.evaluations;
@@ -17,12 +18,13 @@ Foot project_by_newton(const ScalarField& psi, const Vec3& x, int anchor, const 
     if (!(slope >= options.least_gradient)) return fail(FootStatus::flat_gradient);
     const double distance = s.value / slope;
     foot.normal = s.gradient / slope;
-    if (std::abs(distance) <= options.tolerance) {
-      foot.status = FootStatus::converged;
-      return foot;
-    }
+    if (std::abs(distance) <= options.tolerance) return foot;
+
     foot.point -= std::clamp(distance, -options.longest_step, options.longest_step) * foot.normal;  // [16]
     if (!((foot.point - x).norm() <= options.longest_move)) return fail(FootStatus::too_far);
+    // Newton converges faster and faster: the rate of the last step bounds what this one leaves.
+    if (distance * distance <= options.tolerance * std::abs(last_distance)) return foot;
+    last_distance = distance;
   }
   return fail(FootStatus::step_limit);
 }

@@ -15,9 +15,10 @@ struct NewtonOptions {
   int most_steps = 12;
 };
 
-/// Moves x to the zero level of psi. A sample of value and gradient zero says that the field does not reach
-/// the point (no_cover). Where the status is not `converged`, point and normal are those of the start of the
-/// search and must not be used.
+/// Moves x to the zero level of psi. The last step is not looked at where the rate of convergence says that
+/// it ends within the tolerance; the normal is then that of the point before it. A sample of value and
+/// gradient zero says that the field does not reach the point (no_cover). Where the status is not
+/// `converged`, point and normal are those of the start of the search and must not be used.
 Foot project_by_newton(const ScalarField& psi, const Vec3& x, int anchor, const NewtonOptions& options);
 
 }  // namespace hooke

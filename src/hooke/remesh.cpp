@@ -29,8 +29,8 @@ class Remeshing {
 
  private:
   Relaxation relaxation() {
-    return {work_.mesh, *work_.connectivity, work_.vertex_length, energy_, *work_.retraction,
-            guards_,    work_.placement};
+    return {work_.mesh, *work_.connectivity, work_.colours, work_.vertex_length,
+            energy_,    *work_.retraction,   guards_,       work_.placement};
   }
 
   Observer watch(const char* stage) const {
@@ -82,8 +82,7 @@ class Remeshing {
     result_.polish = polish(r, work_.targets, options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
     work_.land();
-    record("polish",
-           {.evaluations = result_.polish.evaluations, .energy = energy_(work_.placement, nullptr)});
+    record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
   void conclude() {

@@ -22,7 +22,7 @@ enum class FilterKind {
 
 struct FilterOptions {
   FilterKind kind = FilterKind::local;
-  Kernel kernel = Kernel::r2logr;
+  Kernel kernel = Kernel::r3;
   double offset = .3;  // rho of [13] over the mean edge length: at each vertex (local), of the mesh (global)
   std::size_t memory_limit_bytes = SIZE_MAX;  // of the dense fit (global)
 };

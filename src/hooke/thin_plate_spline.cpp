@@ -5,9 +5,19 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "hooke/error.h"
+#include "hooke/fast_log.h"
+
+// Compiled twice, and the processor picks when the program starts. Without fused multiply-add, so that both
+// give the same results.
+#if defined(__x86_64__)
+#define HOOKE_SIMD [[gnu::target_clones("avx2", "default")]]
+#else
+#define HOOKE_SIMD
+#endif
 
 namespace hooke {
 namespace {
@@ -15,9 +25,8 @@ namespace {
 // Storage: x[n], y[n], z[n], a[n], then ten polynomial coefficients; n is rounded up to whole groups of
 // lanes, and the extra centres have coefficient 0. Fixed groups, so that sums run in the same order wherever
 // the data lie.
-constexpr int lanes = 4;
+constexpr std::size_t lanes = 4;
 constexpr std::size_t polynomial_size = 10;
-using Lanes = Eigen::Array<double, lanes, 1>;
 
 constexpr double smallest =
     std::numeric_limits<double>::min();      // r^2 log r is 0 at r = 0: keep the log finite
@@ -43,19 +52,63 @@ FieldSample evaluate_polynomial(const double* c, const Vec3& p) {
   return s;
 }
 
+/// The kernel [27] and its derivative over r, at r2 = r^2.
+struct KernelSample {
+  Lanes value, slope_over_r;
+};
+
+[[gnu::always_inline]] inline void sample_kernel(Kernel kernel, const Lanes& r2, KernelSample& sample) {
+  if (kernel == Kernel::r2logr) {
+    Lanes log_r2 = r2 > smallest ? r2 : Lanes{} + smallest;
+    take_log(log_r2);
+    sample.value = .5 * r2 * log_r2;
+    sample.slope_over_r = log_r2 + 1.;
+  } else {
+    const Lanes r = {std::sqrt(r2[0]), std::sqrt(r2[1]), std::sqrt(r2[2]), std::sqrt(r2[3])};
+    sample.value = r2 * r;
+    sample.slope_over_r = 3. * r;
+  }
+}
+
 /// Lower triangle of the kernel matrix. [32]
-void fill_kernel_matrix(const Eigen::Ref<const Mat3X>& centres, Kernel kernel, Eigen::MatrixXd& A) {
+HOOKE_SIMD void fill_kernel_matrix(const Eigen::Ref<const Mat3X>& centres, Kernel kernel,
+                                   Eigen::MatrixXd& A) {
   const Eigen::Index n = centres.cols();
   A.resize(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    auto column = A.col(j).tail(n - j).array();
-    column =
-        (centres.rightCols(n - j).colwise() - centres.col(j)).colwise().squaredNorm().transpose().array();
-    if (kernel == Kernel::r2logr)
-      column *= .5 * column.max(smallest).log();
-    else
-      column *= column.sqrt();
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j; i < n; i += lanes) {
+      const Eigen::Index count = std::min<Eigen::Index>(lanes, n - i);
+      Lanes r2 = {};
+      for (Eigen::Index k = 0; k < count; ++k) r2[k] = (centres.col(i + k) - centres.col(j)).squaredNorm();
+      KernelSample phi;
+      sample_kernel(kernel, r2, phi);
+      for (Eigen::Index k = 0; k < count; ++k) A(i + k, j) = phi.value[k];
+    }
+}
+
+/// Adds the radial part of [30] and [35]; n whole groups of lanes.
+HOOKE_SIMD void add_radial_part(const double* storage, std::size_t n, Kernel kernel, const Vec3& p,
+                                FieldSample& sample) {
+  Lanes value = {}, gx = {}, gy = {}, gz = {};
+  const auto load = [&](std::size_t i, Lanes& x) { std::memcpy(&x, storage + i, sizeof(Lanes)); };
+  for (std::size_t i = 0; i < n; i += lanes) {
+    Lanes x, y, z, a;
+    load(i, x);
+    load(n + i, y);
+    load(2 * n + i, z);
+    load(3 * n + i, a);
+    const Lanes dx = p[0] - x, dy = p[1] - y, dz = p[2] - z;
+    KernelSample phi;
+    sample_kernel(kernel, dx * dx + dy * dy + dz * dz, phi);
+    const Lanes slope = a * phi.slope_over_r;
+    value += a * phi.value;
+    gx += slope * dx;
+    gy += slope * dy;
+    gz += slope * dz;
   }
+  const auto sum = [](const Lanes& x) { return (x[0] + x[1]) + (x[2] + x[3]); };
+  sample.value += sum(value);
+  sample.gradient += Vec3(sum(gx), sum(gy), sum(gz));
 }
 
 /// A := H A H for the reflector H = I - tau v v^T, lower triangle only.
@@ -79,12 +132,6 @@ std::size_t spline_storage_size(std::size_t centres) {
 
 std::size_t spline_fit_bytes(std::size_t centres) {
   return sizeof(double) * (centres * centres + 24 * centres);
-}
-
-void store_affine_spline(double value, const Vec3& gradient, double* storage) {
-  std::fill_n(storage, polynomial_size, 0.);
-  storage[0] = value;
-  for (int k = 0; k < 3; ++k) storage[k + 1] = gradient[k];
 }
 
 bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const Eigen::VectorXd>& values,
@@ -144,34 +191,11 @@ bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const E
   return true;
 }
 
-FieldSample evaluate_spline(const double* storage, std::size_t centres, Kernel kernel, const Vec3& p) {
+FieldSample evaluate_spline(const double* storage, std::size_t centres, Kernel kernel, const Vec3& x) {
   const std::size_t n = padded(centres);
-  const Lanes px = Lanes::Constant(p[0]), py = Lanes::Constant(p[1]), pz = Lanes::Constant(p[2]);
-  Lanes value = Lanes::Zero(), gx = Lanes::Zero(), gy = Lanes::Zero(), gz = Lanes::Zero();
-  for (std::size_t i = 0; i < n; i += lanes) {
-    const Lanes dx = px - Lanes::Map(storage + i);
-    const Lanes dy = py - Lanes::Map(storage + n + i);
-    const Lanes dz = pz - Lanes::Map(storage + 2 * n + i);
-    const Lanes a = Lanes::Map(storage + 3 * n + i);
-    const Lanes r2 = dx * dx + dy * dy + dz * dz;
-    Lanes slope;  // a phi'(r) / r
-    if (kernel == Kernel::r2logr) {
-      const Lanes log_r2 = r2.max(smallest).log();
-      value += .5 * a * r2 * log_r2;
-      slope = a * (log_r2 + 1);
-    } else {
-      const Lanes ar = a * r2.sqrt();
-      value += ar * r2;
-      slope = 3 * ar;
-    }
-    gx += slope * dx;
-    gy += slope * dy;
-    gz += slope * dz;
-  }
-  FieldSample s = evaluate_polynomial(storage + 4 * n, p);
-  s.value += value.sum();
-  s.gradient += Vec3(gx.sum(), gy.sum(), gz.sum());
-  return s;
+  FieldSample sample = evaluate_polynomial(storage + 4 * n, x);
+  add_radial_part(storage, n, kernel, x, sample);
+  return sample;
 }
 
 std::optional<ThinPlateSpline> ThinPlateSpline::fit(const Mat3X& centres, const Eigen::VectorXd& values,

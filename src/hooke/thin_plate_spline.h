@@ -40,10 +40,6 @@ std::size_t spline_storage_size(std::size_t centres);
 bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const Eigen::VectorXd>& values,
                 Kernel kernel, SplineDegree degree, SplineWorkspace& workspace, double* storage);
 
-/// Writes the spline without centres that equals the affine function `value + gradient . x`.
-/// Pre-condition: storage holds spline_storage_size(0) doubles.
-void store_affine_spline(double value, const Vec3& gradient, double* storage);
-
 /// Value [30] and gradient [35] at x of a spline stored for so many centres.
 FieldSample evaluate_spline(const double* storage, std::size_t centres, Kernel kernel, const Vec3& x);
 
@@ -64,7 +60,7 @@ class ThinPlateSpline {
   std::size_t memory_bytes() const { return sizeof(double) * storage_.capacity(); }
 
  private:
-  Kernel kernel_ = Kernel::r2logr;
+  Kernel kernel_ = Kernel::r3;
   std::size_t centres_ = 0;
   Vec3 origin_ = Vec3::Zero();
   double scale_ = 1;

@@ -30,6 +30,7 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   const Connectivity given = make_connectivity(n, triangles_of(source));
   order = reorder(given, locality_order(given));
   connectivity = std::make_shared<const Connectivity>(make_connectivity(n, order.faces));
+  colours = colour_vertices(*connectivity);
 
   start.resize(3, n);
   vertex_length.resize(length.size());

@@ -39,6 +39,7 @@ struct Workspace {
   Normalisation normalisation;
   Reordered order;
   std::shared_ptr<const Connectivity> connectivity;
+  std::vector<std::vector<int>> colours;
   std::vector<double> vertex_length;  // target lengths, normalised
   TargetLengths targets;
   Constraints constraints;

@@ -1,0 +1,159 @@
+#include "hooke/io/atomic_write.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <random>
+#include <string>
+#include <system_error>
+
+#include "hooke/error.h"
+#include "hooke/io/file_descriptor.h"
+#include "hooke/io/printable.h"
+
+namespace hooke {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+[[noreturn]] void fail(const fs::path& path, std::string_view what) {
+  throw OutputError(fmt::format("{}: {}", printable(path.native()), what));
+}
+
+[[noreturn]] void fail_by_system(const fs::path& path, std::string_view action, int error) {
+  fail(path, fmt::format("{}: {}; expected a writable place with room; nothing was changed", action,
+                         reason(error)));
+}
+
+// Where the bytes will stand, and what stands there now.
+struct Target {
+  fs::path path;               // links resolved
+  std::optional<mode_t> mode;  // of the file to be replaced
+};
+
+Target find_target(const fs::path& path) {
+  if (path.empty() || !path.has_filename())
+    fail(path, "is not the name of a file; expected one; name the output");
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    const int error = errno;
+    struct stat link {};
+    if (error == ENOENT && ::lstat(path.c_str(), &link) != 0) return {path, std::nullopt};
+    if (error == ENOENT)
+      fail(path, "is a link to a missing file; expected a file or a free name; remove the link");
+    fail_by_system(path, "cannot be examined", error);
+  }
+  if (S_ISDIR(status.st_mode)) fail(path, "is a folder; expected a file or a free name; name a file in it");
+  if (!S_ISREG(status.st_mode))
+    fail(path, "is not a regular file; expected a file or a free name; choose another");
+  if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
+    fail_by_system(path, "is write-protected", errno);
+  std::error_code error;
+  const fs::path resolved = fs::canonical(path, error);
+  if (error) fail_by_system(path, "cannot be resolved", error.value());
+  return {resolved, status.st_mode & 07777};
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// A new file beside the target; removed at the end of its scope unless it was renamed.
+class TemporaryFile {
+ public:
+  // `name` is what messages speak of, `target` where the file is to go.
+  TemporaryFile(const fs::path& name, const fs::path& target) : name_(name), file_(-1) {
+    constexpr int attempts = 100;
+    std::random_device random;
+    for (int k = 0; k < attempts && !file_.is_open(); ++k) {
+      const auto number = static_cast<std::uint64_t>(random()) << 32 | random();
+      path_ = folder_of(target) / fmt::format(".hooke-{:016x}.tmp", number);
+      file_.reset(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+      if (!file_.is_open() && errno != EEXIST) break;
+    }
+    if (!file_.is_open()) fail_by_system(name_, "cannot be created in its folder", errno);
+  }
+  ~TemporaryFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail_by_system(name_, "cannot be written", errno);
+      bytes.remove_prefix(static_cast<size_t>(count));
+    }
+  }
+
+  void set_mode(mode_t mode) {
+    if (::fchmod(file_.get(), mode) != 0)
+      fail_by_system(name_, "cannot be given the mode of the old file", errno);
+  }
+
+  void sync_and_close() {
+    if (::fsync(file_.get()) != 0) fail_by_system(name_, "cannot be synced", errno);
+    if (!file_.close()) fail_by_system(name_, "cannot be closed", errno);
+  }
+
+  void rename_to(const fs::path& target) {
+    if (std::rename(path_.c_str(), target.c_str()) != 0)
+      fail_by_system(name_, "cannot be put in its place", errno);
+    path_.clear();
+  }
+
+ private:
+  fs::path name_, path_;
+  FileDescriptor file_;
+};
+
+void sync_folder(const fs::path& name, const fs::path& target) {
+  FileDescriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!folder.is_open()) return;  // a folder may be writable without being readable
+  const bool synced = ::fsync(folder.get()) == 0;
+  if (!synced && errno != EINVAL && errno != ENOTSUP)  // not every file system can
+    fail(name,
+         fmt::format("was written, but its folder cannot be synced: {}; it may be lost in a power failure",
+                     reason(errno)));
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  const Target target = find_target(path);
+  TemporaryFile temporary(path, target.path);
+  temporary.write(bytes);
+  if (target.mode) temporary.set_mode(*target.mode);
+  temporary.sync_and_close();
+  temporary.rename_to(target.path);
+  sync_folder(path, target.path);
+}
+
+void require_writable(const fs::path& path) {
+  TemporaryFile(path, find_target(path).path);
+}
+
+void require_distinct(const fs::path& input, const fs::path& output) {
+  struct stat in {
+  }, out{};
+  const bool both_exist = ::stat(input.c_str(), &in) == 0 && ::stat(output.c_str(), &out) == 0;
+  const bool same = both_exist ? in.st_dev == out.st_dev && in.st_ino == out.st_ino
+                               : input.lexically_normal() == output.lexically_normal();
+  if (same)
+    throw Error(fmt::format("{}: is the input {} itself; expected another file; choose another output",
+                            printable(output.native()), printable(input.native())));
+}
+
+}  // namespace hooke

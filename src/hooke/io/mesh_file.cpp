@@ -1,0 +1,123 @@
+#include "hooke/io/mesh_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "hooke/error.h"
+#include "hooke/io/file_bytes.h"
+#include "hooke/io/obj.h"
+#include "hooke/io/off.h"
+#include "hooke/io/ply.h"
+#include "hooke/io/printable.h"
+#include "hooke/io/scanner.h"
+
+namespace hooke {
+namespace {
+
+bool is_binary_stl(std::string_view bytes) {
+  if (bytes.size() < 84) return false;
+  std::uint32_t triangles = 0;
+  std::memcpy(&triangles, bytes.data() + 80, 4);  // little endian, as the machines that we run on
+  return bytes.size() == 84 + 50 * static_cast<size_t>(triangles);
+}
+
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
+}
+
+bool is_off_keyword(std::string_view word) {
+  return word.size() >= 3 && word.size() <= 8 && equal_ignoring_case(word.substr(word.size() - 3), "OFF");
+}
+
+/// What the bytes seem to be: "obj", "ply", "off", another kind of file, or nothing that we know.
+std::string guess_content(std::string_view bytes) {
+  if (bytes.starts_with("\x1f\x8b")) return "gzip";
+  if (bytes.starts_with("PK\x03\x04")) return "zip";
+  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) return "UTF-16 text";
+  if (is_binary_stl(bytes)) return "binary STL";
+  Scanner in(bytes, "", {.comments = true});
+  if (!in.next_line()) return "";
+  const std::string_view word = in.token(), next = in.token();
+  if (equal_ignoring_case(word, "ply")) return "ply";
+  if (is_off_keyword(word)) return "off";
+  if (word == "solid") return "STL";
+  if (word.starts_with('<')) return "HTML or XML";
+  if (word == "version" && next.starts_with("https://git-lfs")) return "a Git LFS pointer";
+  for (const char* keyword : {"v", "vt", "vn", "f", "mtllib", "usemtl", "o", "g"})
+    if (word == keyword) return "obj";
+  return "";
+}
+
+void refuse_other_content(std::string_view bytes, const std::string& name, const std::string& format) {
+  const std::string guess = guess_content(bytes);
+  if (!guess.empty() && guess != format)
+    throw InputError(fmt::format(
+        "{}:1: the content looks like {}; expected {} by the extension; rename or convert the file", name,
+        guess, format));
+  const bool text_only = format != "ply";
+  if (const size_t zero = bytes.find('\0'); text_only && zero != bytes.npos && guess != "off")
+    throw InputError(fmt::format(
+        "{}: byte {} is zero; expected the text of an {} file; the content is binary", name, zero, format));
+}
+
+std::optional<std::string> known_format(const std::filesystem::path& path) {
+  const std::string extension = path.extension().native();
+  for (const char* format : {"obj", "ply", "off"})
+    if (!extension.empty() && equal_ignoring_case(extension.substr(1), format)) return format;
+  return std::nullopt;
+}
+
+std::string unknown_format(const std::filesystem::path& path) {
+  return (path.empty() ? "''" : printable(path.native())) +
+         ": unknown format; expected .obj .ply .off; rename or convert the file";
+}
+
+}  // namespace
+
+std::string format_of(const std::filesystem::path& path) {
+  if (const auto format = known_format(path)) return *format;
+  throw Error(unknown_format(path));
+}
+
+std::string input_format_of(const std::filesystem::path& path) {
+  if (const auto format = known_format(path)) return *format;
+  throw InputError(unknown_format(path));
+}
+
+MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const std::string& format) {
+  bytes = without_byte_order_mark(bytes);
+  refuse_other_content(bytes, name, format);
+  if (format == "obj") return read_obj(bytes, name);
+  if (format == "ply") return read_ply(bytes, name);
+  return read_off(bytes, name);
+}
+
+MeshFile read_mesh_file(const std::filesystem::path& path) {
+  const std::string bytes = read_regular_file(path);
+  return parse_mesh_file(bytes, printable(path.native()), input_format_of(path));
+}
+
+void end_polygon(MeshFile& file) {
+  if (file.polygons.items.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
+    throw LimitError(file.name + ": more than 2147483647 face corners; expected fewer; split the mesh");
+  file.polygons.first.push_back(static_cast<int>(file.polygons.items.size()));
+}
+
+void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds) {
+  if (kinds.empty()) return;
+  constexpr size_t most = 20;
+  const std::vector<std::string> named(
+      kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(std::min(kinds.size(), most)));
+  const std::string others =
+      kinds.size() > most ? fmt::format(" and {} more kinds", kinds.size() - most) : "";
+  file.warnings.push_back({"attributes_not_kept", fmt::format("{}: not kept in the output: {}{}", file.name,
+                                                              fmt::join(named, ", "), others)});
+}
+
+}  // namespace hooke

@@ -1,0 +1,49 @@
+// What a mesh file holds, in plain arrays, before anybody asks whether it is a good mesh.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "hooke/connectivity.h"
+#include "hooke/types.h"
+
+namespace hooke {
+
+enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
+
+/// Invariant: points are finite, every polygon has at least three corners, corners are ids in [0,
+/// points.cols()).
+struct MeshFile {
+  std::string name;                                          // of the file, printable, for messages
+  std::string format;                                        // "obj", "ply" or "off"
+  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a ply file
+  Mat3X points;                                              // in file order
+  IntLists polygons{{0}, {}};  // corner ids (0-based) of each face, in file order
+  std::vector<int> lines;      // line of each polygon in the file; empty for binary files
+  Warnings warnings;
+};
+
+/// "obj", "ply" or "off", from the path's extension in any case. Throws Error if it is none of them.
+std::string format_of(const std::filesystem::path& path);
+
+/// The same, but InputError: for a file that is to be read.
+std::string input_format_of(const std::filesystem::path& path);
+
+/// Reads the mesh file that the bytes are; `format` as from format_of, `name` is printable and begins the
+/// messages. Throws InputError "NAME:LINE: what; what was expected; what to do" on anything that is not as
+/// the format wants it.
+MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const std::string& format);
+
+/// Reads a file. Throws InputError if it is missing, not a regular file, unreadable, of unknown or wrong
+/// format, or malformed, and LimitError if it does not fit in memory.
+MeshFile read_mesh_file(const std::filesystem::path& path);
+
+/// Ends the polygon whose corners were appended to file.polygons.items. Throws LimitError beyond 2^31 - 1
+/// corners.
+void end_polygon(MeshFile& file);
+
+/// Adds the warning `attributes_not_kept` that names the kinds of content a reader passed over; none if none.
+void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds);
+
+}  // namespace hooke

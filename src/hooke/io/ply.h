@@ -1,0 +1,22 @@
+// Polygon File Format of Stanford: text and binary of both byte orders.
+// Source: Greg Turk, "The PLY Polygon File Format", Stanford University, 1994.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hooke/io/mesh_file.h"
+
+namespace hooke {
+
+/// Reads x, y, z of the element `vertex` and the list vertex_indices (or vertex_index) of the element `face`,
+/// of any types, in any order. Other properties and elements are not kept: one warning says which. Throws
+/// InputError "NAME:LINE: ...", for a binary body "NAME: ELEMENT ROW, byte OFFSET: ...", also for bytes after
+/// the last element.
+MeshFile read_ply(std::string_view bytes, const std::string& name);
+
+/// Coordinates as double, corners as int; numbers read back as exactly the same in every encoding.
+std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      PlyEncoding encoding = PlyEncoding::binary_little_endian);
+
+}  // namespace hooke

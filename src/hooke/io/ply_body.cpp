@@ -1,0 +1,149 @@
+#include "hooke/io/ply_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "hooke/error.h"
+#include "hooke/io/printable.h"
+
+namespace hooke {
+namespace {
+
+bool is_one_line(std::string_view body) {
+  const size_t first = body.find_first_not_of(" \t\r\n");
+  const size_t line_end = body.find_first_of("\r\n", first);
+  return first == body.npos || line_end == body.npos ||
+         body.find_first_not_of(" \t\r\n", line_end) == body.npos;
+}
+
+std::string too_few_bytes(const PlyElement& element, size_t remaining) {
+  return fmt::format(
+      "{} {} elements, but only {} bytes follow; expected as many as there are; the file is cut or the count "
+      "is wrong",
+      element.count, in_quotes(element.name), remaining);
+}
+
+bool fits(long long rows, size_t row_size, size_t bytes) {
+  return row_size == 0 || static_cast<unsigned long long>(rows) <= bytes / row_size;
+}
+
+}  // namespace
+
+AsciiPlyBody::AsciiPlyBody(std::string_view text, const std::string& name, const PlyHeader& header)
+    : in_(text.substr(header.size), name, {}, header.lines + 1),
+      one_line_(is_one_line(text.substr(header.size))) {}
+
+void AsciiPlyBody::begin_element(const PlyElement& element) {
+  const size_t shortest_row = 2 * element.properties.size();  // a digit and a blank or line end each
+  if (!fits(element.count, shortest_row, in_.remaining() + 1)) fail(too_few_bytes(element, in_.remaining()));
+}
+
+void AsciiPlyBody::begin_row(const PlyElement& element, long long row) {
+  if (started_ && one_line_) return;
+  started_ = true;
+  if (!in_.next_line())
+    fail(fmt::format(
+        "the file ends before {} {} of {} (counted from 0); the file is cut or the count is wrong",
+        in_quotes(element.name), row, element.count));
+}
+
+void AsciiPlyBody::end_row() {
+  if (one_line_) return;
+  if (const std::string_view more = in_.token(); !more.empty())
+    fail(fmt::format("{} after the last value of the row; expected the line end; are the counts right?",
+                     in_quotes(more)));
+}
+
+void AsciiPlyBody::skip(PlyType) {
+  if (in_.token().empty()) fail("a value is missing; the line ends too early; complete it");
+}
+
+void AsciiPlyBody::finish() {
+  if ((one_line_ && !in_.token().empty()) || in_.next_line())
+    fail("text after the last element; expected the end of the file; are the counts of the header right?");
+}
+
+BinaryPlyBody::BinaryPlyBody(std::string_view bytes, const std::string& name, const PlyHeader& header)
+    : begin_(bytes.data()),
+      cursor_(begin_ + header.size),
+      end_(begin_ + bytes.size()),
+      name_(name),
+      swap_((header.encoding == PlyEncoding::binary_little_endian) !=
+            (std::endian::native == std::endian::little)) {}
+
+void BinaryPlyBody::begin_element(const PlyElement& element) {
+  element_ = &element;
+  row_ = 0;
+  size_t shortest_row = 0;
+  for (const PlyProperty& property : element.properties)
+    shortest_row += size_of(property.count_type.value_or(property.type));
+  const auto remaining = static_cast<size_t>(end_ - cursor_);
+  if (!fits(element.count, shortest_row, remaining)) fail(too_few_bytes(element, remaining));
+}
+
+void BinaryPlyBody::begin_row(const PlyElement&, long long row) {
+  row_ = row;
+}
+
+void BinaryPlyBody::finish() const {
+  // Some writers end with a line end.
+  if (std::any_of(cursor_, end_, [](char c) { return !is_line_end(c); }))
+    throw InputError(
+        fmt::format("{}: {} bytes after the last element; expected the end of the file; are the counts of "
+                    "the header right?",
+                    name_, end_ - cursor_));
+}
+
+const char* BinaryPlyBody::take(size_t size) {
+  if (static_cast<size_t>(end_ - cursor_) < size)
+    fail("the file ends here; expected more values; it is cut or a count is wrong");
+  const char* at = cursor_;
+  cursor_ += size;
+  return at;
+}
+
+template <typename T>
+T BinaryPlyBody::value() {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, take(sizeof(T)), sizeof(T));
+  if (swap_) std::reverse(bytes, bytes + sizeof(T));
+  return std::bit_cast<T>(bytes);
+}
+
+double BinaryPlyBody::number(PlyType type, const char* what) {
+  if (is_integer(type)) return static_cast<double>(integer(type, what));
+  const double x = type == PlyType::float32 ? value<float>() : value<double>();
+  if (!std::isfinite(x)) fail(fmt::format("{} is {}; expected a finite number; correct it", what, x));
+  return x;
+}
+
+long long BinaryPlyBody::integer(PlyType type, const char* what) {
+  switch (type) {
+    case PlyType::int8:
+      return value<std::int8_t>();
+    case PlyType::uint8:
+      return value<std::uint8_t>();
+    case PlyType::int16:
+      return value<std::int16_t>();
+    case PlyType::uint16:
+      return value<std::uint16_t>();
+    case PlyType::int32:
+      return value<std::int32_t>();
+    case PlyType::uint32:
+      return value<std::uint32_t>();
+    default:
+      fail(fmt::format("{} is of a floating type; expected an integer type; correct the header", what));
+  }
+}
+
+void BinaryPlyBody::fail(std::string_view message) const {
+  throw InputError(fmt::format("{}: {} {}, byte {}: {}", name_, printable(element_->name), row_,
+                               cursor_ - begin_, message));
+}
+
+}  // namespace hooke

@@ -1,0 +1,65 @@
+// The two ways in which the values of a PLY body are written, behind one face: rows of numbers and lists.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hooke/io/ply_header.h"
+#include "hooke/io/scanner.h"
+
+namespace hooke {
+
+/// Values in text: one row on a line, or the whole body on a single line.
+class AsciiPlyBody {
+ public:
+  AsciiPlyBody(std::string_view text, const std::string& name, const PlyHeader& header);
+
+  /// Throws InputError if the rows of the element cannot be there, before anybody allocates memory for them.
+  void begin_element(const PlyElement& element);
+  void begin_row(const PlyElement& element, long long row);
+  void end_row();
+  void skip(PlyType type);
+  void finish();
+
+  double number(PlyType, const char* what) { return in_.number(what); }
+  long long integer(PlyType, const char* what) { return in_.integer(what); }
+  int line() const { return in_.line(); }
+  [[noreturn]] void fail(std::string_view message) const { in_.fail(message); }
+
+ private:
+  Scanner in_;
+  bool one_line_;
+  bool started_ = false;
+};
+
+/// Values as bytes. A place in an error message is the element, its row and the byte offset.
+class BinaryPlyBody {
+ public:
+  BinaryPlyBody(std::string_view bytes, const std::string& name, const PlyHeader& header);
+
+  void begin_element(const PlyElement& element);
+  void begin_row(const PlyElement& element, long long row);
+  void end_row() {}
+  void skip(PlyType type) { take(size_of(type)); }
+  void finish() const;
+
+  double number(PlyType type, const char* what);
+  long long integer(PlyType type, const char* what);
+  int line() const { return 0; }
+  [[noreturn]] void fail(std::string_view message) const;
+
+ private:
+  const char* take(size_t size);
+  template <typename T>
+  T value();
+
+  const char* begin_;
+  const char* cursor_;
+  const char* end_;
+  std::string name_;
+  bool swap_;
+  const PlyElement* element_ = nullptr;
+  long long row_ = 0;
+};
+
+}  // namespace hooke

@@ -1,0 +1,44 @@
+#include "hooke/io/read_mesh.h"
+
+#include <iterator>
+#include <utility>
+
+#include "hooke/io/file_bytes.h"
+#include "hooke/io/polygons.h"
+#include "hooke/io/printable.h"
+#include "hooke/io/sha256.h"
+#include "hooke/validation.h"
+
+namespace hooke {
+namespace {
+
+void append(Warnings& warnings, Warnings more) {
+  warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+LoadedMesh read_mesh(const std::filesystem::path& path) {
+  const std::string format = input_format_of(path);
+  std::string bytes = read_regular_file(path);
+  MeshFile file = parse_mesh_file(bytes, printable(path.native()), format);
+  const std::string hash = sha256(bytes);
+  const size_t size = bytes.size();
+  bytes = {};  // the memory is wanted for the mesh
+  Triangulation triangulation = triangulate(file.points, file.polygons);
+  Warnings warnings = std::move(file.warnings);
+  append(warnings, warnings_of(triangulation, file.name));
+  const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
+  append(warnings, require_valid(file.points, triangulation.triangles, source));
+  // Built in place: OpenMesh has no move, and copies all of a mesh.
+  return {build_mesh(file.points, triangulation.triangles),
+          file.name,
+          file.format,
+          file.encoding,
+          hash,
+          size,
+          triangulation.polygons_cut,
+          std::move(warnings)};
+}
+
+}  // namespace hooke

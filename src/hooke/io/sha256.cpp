@@ -1,0 +1,20 @@
+#include "hooke/io/sha256.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include "hooke/error.h"
+
+namespace hooke {
+
+std::string sha256(std::string_view bytes) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest, &size, EVP_sha256(), nullptr) != 1)
+    throw Error("SHA-256 failed in OpenSSL; expected a digest; check the installation of OpenSSL");
+  std::string hex;
+  for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
+  return hex;
+}
+
+}  // namespace hooke

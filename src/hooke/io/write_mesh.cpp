@@ -1,0 +1,31 @@
+#include "hooke/io/write_mesh.h"
+
+#include <fmt/format.h>
+
+#include "hooke/error.h"
+#include "hooke/io/atomic_write.h"
+#include "hooke/io/obj.h"
+#include "hooke/io/off.h"
+#include "hooke/io/ply.h"
+#include "hooke/io/printable.h"
+#include "hooke/io/sha256.h"
+
+namespace hooke {
+
+std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncoding encoding) {
+  const auto points = positions(mesh);
+  const std::vector<Triangle> triangles = triangles_of(mesh);
+  if (format == "obj") return write_obj(points, triangles);
+  if (format == "ply") return write_ply(points, triangles, encoding);
+  if (format == "off") return write_off(points, triangles);
+  throw Error(fmt::format("format {}; expected obj, ply or off; choose one of them", in_quotes(format)));
+}
+
+WrittenFile write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
+                       PlyEncoding encoding) {
+  const std::string bytes = mesh_bytes(mesh, format, encoding);
+  write_file_atomically(path, bytes);
+  return {sha256(bytes), bytes.size()};
+}
+
+}  // namespace hooke

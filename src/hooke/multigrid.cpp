@@ -1,0 +1,138 @@
+#include "hooke/multigrid.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "hooke/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the last
+constexpr int most_levels = 24;
+
+using Cell = std::array<int, 3>;
+
+struct CellHash {
+  size_t operator()(const Cell& c) const {
+    size_t h = 0;
+    for (int i : c) h = h * 0x9e3779b97f4a7c15ULL + static_cast<size_t>(static_cast<unsigned>(i)) + (h >> 29);
+    return h;
+  }
+};
+
+/// Numbers the nodes of one grid in the order in which they are named.
+class NodeNumbers {
+ public:
+  int operator[](const Cell& cell) {
+    const auto [it, fresh] = ids_.try_emplace(cell, static_cast<int>(cells_.size()));
+    if (fresh) cells_.push_back(cell);
+    return it->second;
+  }
+  const std::vector<Cell>& cells() const { return cells_; }
+
+ private:
+  std::unordered_map<Cell, int, CellHash> ids_;
+  std::vector<Cell> cells_;
+};
+
+/// Right-handed axes from three vertices chosen by number; they turn with the mesh.
+Eigen::Matrix3d frame_of(const Mat3X& points) {
+  const Eigen::Index n = points.cols();
+  const Vec3 origin = points.col(0);
+  for (Eigen::Index i = n / 2; i < n; ++i) {
+    const Vec3 a = points.col(i) - origin;
+    for (Eigen::Index j = n / 4; j < i; ++j) {
+      const Vec3 b = points.col(j) - origin;
+      const Vec3 c = a.cross(b);
+      if (c.norm() <= .1 * a.norm() * b.norm() || c.isZero(0)) continue;
+      Eigen::Matrix3d frame;
+      frame.row(0) = a.normalized();
+      frame.row(2) = c.normalized();
+      frame.row(1) = frame.row(2).cross(frame.row(0));
+      return frame;
+    }
+  }
+  return Eigen::Matrix3d::Identity();
+}
+
+}  // namespace
+
+GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
+  if (points.cols() == 0) return;
+  const Eigen::Matrix3d frame = frame_of(points);
+  const Vec3 origin = points.col(0);
+  NodeNumbers nodes;
+  finest_.resize(static_cast<size_t>(points.cols()));
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    // Half a cell off the origin: the first vertex would lie on a corner of four cells.
+    const Vec3 x = frame * (points.col(v) - origin) / cell + Vec3::Constant(.5);
+    const Vec3 low = x.array().floor();
+    const Vec3 t = x - low;
+    for (unsigned k = 0; k < 8; ++k) {
+      Cell corner;
+      double weight = 1;
+      for (unsigned d = 0; d < 3; ++d) {
+        const bool high = (k >> d) & 1;
+        corner[d] = static_cast<int>(low[d]) + high;
+        weight *= high ? t[d] : 1 - t[d];
+      }
+      finest_[static_cast<size_t>(v)].node[k] = nodes[corner];
+      finest_[static_cast<size_t>(v)].weight[k] = weight;
+    }
+  }
+  for (;;) {
+    Level level;
+    level.nodes = static_cast<int>(nodes.cells().size());
+    if (level.nodes < coarsest_nodes || level_count() + 1 == most_levels) {
+      levels_.push_back(std::move(level));
+      return;
+    }
+    NodeNumbers coarser;
+    for (const Cell& at : nodes.cells()) {
+      // A node with an even coordinate lies on a coarser node, with an odd one half way between two.
+      Weighted row;
+      for (unsigned k = 0; k < 8; ++k) {
+        Cell corner;
+        double weight = 1;
+        for (unsigned d = 0; d < 3; ++d) {
+          const bool odd = at[d] & 1;
+          const bool high = (k >> d) & 1;
+          corner[d] = (at[d] >> 1) + (odd && high);
+          weight *= odd ? .5 : (high ? 0 : 1);
+        }
+        row.node[k] = coarser[corner];
+        row.weight[k] = weight;
+      }
+      level.to_coarser.push_back(row);
+    }
+    levels_.push_back(std::move(level));
+    nodes = std::move(coarser);
+  }
+}
+
+void GridHierarchy::add(const Mat3X& residual, double weight, Mat3X& vectors) const {
+  std::vector<Mat3X> values;
+  for (const Level& level : levels_) values.push_back(Mat3X::Zero(3, level.nodes));
+  for (size_t v = 0; v < finest_.size(); ++v)
+    for (size_t k = 0; k < 8; ++k)
+      values[0].col(finest_[v].node[k]) += finest_[v].weight[k] * residual.col(static_cast<Eigen::Index>(v));
+  for (size_t l = 0; l + 1 < levels_.size(); ++l)
+    for (size_t i = 0; i < levels_[l].to_coarser.size(); ++i)
+      for (size_t k = 0; k < 8; ++k)
+        values[l + 1].col(levels_[l].to_coarser[i].node[k]) +=
+            levels_[l].to_coarser[i].weight[k] * values[l].col(static_cast<Eigen::Index>(i));
+  for (size_t l = levels_.size() - 1; l-- > 0;)
+    for (size_t i = 0; i < levels_[l].to_coarser.size(); ++i)
+      for (size_t k = 0; k < 8; ++k)
+        values[l].col(static_cast<Eigen::Index>(i)) +=
+            levels_[l].to_coarser[i].weight[k] * values[l + 1].col(levels_[l].to_coarser[i].node[k]);
+  parallel_for(finest_.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      for (size_t k = 0; k < 8; ++k)
+        vectors.col(static_cast<Eigen::Index>(v)) +=
+            weight * finest_[v].weight[k] * values[0].col(finest_[v].node[k]);
+  });
+}
+
+}  // namespace hooke

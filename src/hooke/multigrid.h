@@ -1,0 +1,36 @@
+// A multilevel preconditioner: long waves of a relaxation move in one step what plain descent moves in
+// hundreds. J. Bramble, J. Pasciak, J. Xu, "Parallel multilevel preconditioners", 1990 (BPX), on grids in
+// space.
+#pragma once
+
+#include "hooke/types.h"
+
+namespace hooke {
+
+/// Sum over levels of P P^T, where P spreads the values of a grid's nodes to the vertices by trilinear hats.
+/// Each grid has cells twice as wide as the one before; only nodes near vertices exist.
+class GridHierarchy {
+ public:
+  /// The finest cells are `cell` wide. The grids lie in a frame that the points define, so that a turned mesh
+  /// has turned grids.
+  GridHierarchy(const Mat3X& points, double cell);
+
+  /// vectors += weight * (sum over levels of P P^T) residual
+  void add(const Mat3X& residual, double weight, Mat3X& vectors) const;
+
+  int level_count() const { return static_cast<int>(levels_.size()); }
+
+ private:
+  struct Weighted {
+    std::array<int, 8> node;
+    std::array<double, 8> weight;
+  };
+  struct Level {
+    int nodes = 0;
+    std::vector<Weighted> to_coarser;  // per node; empty on the coarsest level
+  };
+  std::vector<Weighted> finest_;  // per vertex
+  std::vector<Level> levels_;
+};
+
+}  // namespace hooke

@@ -1,0 +1,166 @@
+#include "hooke/self_intersection.h"
+
+#include <algorithm>
+
+#include "hooke/bounding_volume_tree.h"
+#include "hooke/parallel.h"
+#include "hooke/predicates.h"
+
+namespace hooke {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+using Corners2 = std::array<Vec2, 3>;
+
+Vec2 drop_axis(const Vec3& p, int axis) {
+  return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+}
+
+/// An axis along which the triangle can be flattened without losing its area.
+int flattening_axis(const Corners& t) {
+  const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs();
+  std::array<int, 3> axes = {0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) { return n[i] > n[j]; });
+  for (int axis : axes)  // rounding may have misled us
+    if (orient2d(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0) return axis;
+  return axes[0];
+}
+
+bool same_side(int i, int j, int k) {
+  return (i >= 0 && j >= 0 && k >= 0) || (i <= 0 && j <= 0 && k <= 0);
+}
+
+bool contains(const Corners2& t, const Vec2& p) {
+  return same_side(orient2d(t[0], t[1], p), orient2d(t[1], t[2], p), orient2d(t[2], t[0], p));
+}
+
+/// Pre-condition: p lies on the line through a and b.
+bool between(const Vec2& a, const Vec2& b, const Vec2& p) {
+  return (p.array() >= a.array().min(b.array())).all() && (p.array() <= a.array().max(b.array())).all();
+}
+
+bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const int abc = orient2d(a, b, c), abd = orient2d(a, b, d);
+  const int cda = orient2d(c, d, a), cdb = orient2d(c, d, b);
+  if (abc * abd < 0 && cda * cdb < 0) return true;
+  return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
+         (cdb == 0 && between(c, d, b));
+}
+
+/// Pre-condition: all five points lie in one plane.
+bool segment_meets_triangle_in_plane(const Vec3& p, const Vec3& q, const Corners& t) {
+  const int axis = flattening_axis(t);
+  const Vec2 a = drop_axis(p, axis), b = drop_axis(q, axis);
+  const Corners2 flat = {drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)};
+  if (contains(flat, a)) return true;
+  for (size_t k = 0; k < 3; ++k)
+    if (segments_meet(a, b, flat[k], flat[(k + 1) % 3])) return true;
+  return false;
+}
+
+/// `side_p` and `side_q` are the sides of the triangle's plane on which p and q lie.
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Corners& t, int side_p, int side_q) {
+  if (side_p * side_q > 0) return false;
+  if (side_p == 0 && side_q == 0) return segment_meets_triangle_in_plane(p, q, t);
+  return same_side(orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0]));
+}
+
+/// Two triangles that share their corner 0. If they share any further point, then the ray from the corner to
+/// it leaves one of them, through the opposite edge, inside the other.
+bool fans_meet(const Corners& s, const Corners& t) {
+  const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
+  if (s1 * s2 > 0) return false;
+  if (s1 == 0 && s2 == 0)
+    return segment_meets_triangle_in_plane(s[1], s[2], t) || segment_meets_triangle_in_plane(t[1], t[2], s);
+  const int t1 = orient3d(s[0], s[1], s[2], t[1]), t2 = orient3d(s[0], s[1], s[2], t[2]);
+  if (t1 * t2 > 0) return false;
+  return segment_meets_triangle(s[1], s[2], t, s1, s2) || segment_meets_triangle(t[1], t[2], s, t1, t2);
+}
+
+/// Two triangles that share the edge of their corners 0 and 1: folded flat onto each other?
+bool hinge_is_shut(const Corners& s, const Vec3& tip) {
+  if (orient3d(s[0], s[1], s[2], tip) != 0) return false;
+  const int axis = flattening_axis(s);
+  const Vec2 a = drop_axis(s[0], axis), b = drop_axis(s[1], axis);
+  return orient2d(a, b, drop_axis(s[2], axis)) * orient2d(a, b, drop_axis(tip, axis)) > 0;
+}
+
+class FacePairTest {
+ public:
+  FacePairTest(const Mat3X& points, const std::vector<Triangle>& faces) : points_(points), faces_(faces) {}
+
+  bool meet(int f, int g) const {
+    const Triangle& s = faces_[static_cast<size_t>(f)];
+    const Triangle& t = faces_[static_cast<size_t>(g)];
+    std::array<size_t, 3> in_s{}, in_t{};  // places of the common vertices
+    size_t common = 0;
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 3; ++j)
+        if (s[i] == t[j]) {
+          in_s[common] = i;
+          in_t[common] = j;
+          ++common;
+        }
+    if (common == 0) return triangles_meet(corners(s, 0), corners(t, 0));
+    if (common == 1) return fans_meet(corners(s, in_s[0]), corners(t, in_t[0]));
+    if (common == 3) return false;
+    const size_t tip_s = 3 - in_s[0] - in_s[1], tip_t = 3 - in_t[0] - in_t[1];
+    return hinge_is_shut(corners(s, (tip_s + 1) % 3), points_.col(t[tip_t]));
+  }
+
+ private:
+  Corners corners(const Triangle& t, size_t first) const {
+    return {points_.col(t[first]), points_.col(t[(first + 1) % 3]), points_.col(t[(first + 2) % 3])};
+  }
+
+  const Mat3X& points_;
+  const std::vector<Triangle>& faces_;
+};
+
+}  // namespace
+
+bool triangles_meet(const Corners& s, const Corners& t) {
+  std::array<int, 3> side_s, side_t;
+  for (size_t k = 0; k < 3; ++k) side_t[k] = orient3d(s[0], s[1], s[2], t[k]);
+  if (side_t[0] != 0 && side_t[0] == side_t[1] && side_t[1] == side_t[2]) return false;
+  for (size_t k = 0; k < 3; ++k) side_s[k] = orient3d(t[0], t[1], t[2], s[k]);
+  if (side_s[0] != 0 && side_s[0] == side_s[1] && side_s[1] == side_s[2]) return false;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t next = (k + 1) % 3;
+    if (segment_meets_triangle(s[k], s[next], t, side_s[k], side_s[next])) return true;
+    if (segment_meets_triangle(t[k], t[next], s, side_t[k], side_t[next])) return true;
+  }
+  return false;
+}
+
+std::vector<std::array<int, 2>> find_self_intersections(const Mat3X& points,
+                                                        const std::vector<Triangle>& faces) {
+  constexpr size_t block = 256;
+  std::vector<char> has_area(faces.size());
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f)
+      has_area[f] = !is_collinear(points.col(faces[f][0]), points.col(faces[f][1]), points.col(faces[f][2]));
+  });
+
+  const BoundingVolumeTree tree(points, faces);
+  const FacePairTest test(points, faces);
+  std::vector<std::vector<std::array<int, 2>>> found(faces.size() / block + 1);  // by block of f
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      if (!has_area[f]) continue;
+      const int id = static_cast<int>(f);
+      BoundingVolumeTree::Box box;
+      for (int v : faces[f]) box.extend(Vec3(points.col(v)));
+      tree.for_each_meeting(box, [&](int g) {
+        if (g > id && has_area[static_cast<size_t>(g)] && test.meet(id, g))
+          found[f / block].push_back({id, g});
+      });
+    }
+  });
+  std::vector<std::array<int, 2>> pairs;
+  for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+  std::sort(pairs.begin(), pairs.end());  // the tree names the partners of a face in its own order
+  return pairs;
+}
+
+}  // namespace hooke

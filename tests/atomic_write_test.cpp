@@ -1,0 +1,128 @@
+#include "hooke/io/atomic_write.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "errors.h"
+#include "hooke/error.h"
+#include "temporary_folder.h"
+
+namespace hooke {
+namespace {
+
+namespace fs = std::filesystem;
+using test::read_text;
+using test::TemporaryFolder;
+using test::write_text;
+
+mode_t mode_of(const fs::path& path) {
+  struct stat status {};
+  EXPECT_EQ(::stat(path.c_str(), &status), 0);
+  return status.st_mode & 07777;
+}
+
+TEST(AtomicWrite, WritesAllBytesAndNothingElse) {
+  const TemporaryFolder folder;
+  const std::string bytes("a\0b\n", 4);
+  const mode_t old_mask = ::umask(027);
+  write_file_atomically(folder / "f", bytes);
+  ::umask(old_mask);
+  EXPECT_EQ(read_text(folder / "f"), bytes);
+  EXPECT_EQ(mode_of(folder / "f"), 0640u);
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(AtomicWrite, ReplacesAFileAndKeepsItsMode) {
+  const TemporaryFolder folder;
+  write_text(folder / "f", "old and longer");
+  ::chmod((folder / "f").c_str(), 0604);
+  write_file_atomically(folder / "f", "new");
+  EXPECT_EQ(read_text(folder / "f"), "new");
+  EXPECT_EQ(mode_of(folder / "f"), 0604u);
+}
+
+TEST(AtomicWrite, FollowsALinkAndLeavesOtherNamesOfTheOldFile) {
+  const TemporaryFolder folder;
+  write_text(folder / "real", "old");
+  fs::create_hard_link(folder / "real", folder / "hard");
+  fs::create_symlink("real", folder / "link");
+  write_file_atomically(folder / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(read_text(folder / "real"), "new");
+  EXPECT_EQ(read_text(folder / "hard"), "old");
+}
+
+TEST(AtomicWrite, RefusesWhatIsNotAPlaceForAFile) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "folder");
+  fs::create_symlink("/dev/full", folder / "full");
+  fs::create_symlink("gone", folder / "dangling");
+  fs::create_symlink("loop", folder / "loop");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  const size_t before = folder.file_count();
+  for (const char* name : {"folder", "full", "dangling", "loop", "pipe", "no/such/file", "folder/"}) {
+    const fs::path path = folder / name;
+    EXPECT_ERROR(OutputError, path.native() + ": ", require_writable(path));
+    EXPECT_ERROR(OutputError, path.native() + ": ", write_file_atomically(path, "x"));
+  }
+  EXPECT_THROW(require_writable(""), OutputError);
+  EXPECT_EQ(folder.file_count(), before);
+}
+
+TEST(AtomicWrite, RefusesReadOnlyPlaces) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TemporaryFolder folder;
+  write_text(folder / "f", "old");
+  ::chmod((folder / "f").c_str(), 0444);
+  EXPECT_THROW(require_writable(folder / "f"), OutputError);
+  ::chmod((folder / "").c_str(), 0555);
+  EXPECT_THROW(require_writable(folder / "g"), OutputError);
+  ::chmod((folder / "").c_str(), 0755);
+}
+
+TEST(AtomicWrite, LeavesTheOldFileAloneIfTheNewOneDoesNotFit) {
+  const TemporaryFolder folder;
+  write_text(folder / "f", "precious");
+  struct rlimit old_limit {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old_limit), 0);
+  struct rlimit small = old_limit;
+  small.rlim_cur = 1000;
+  const auto old_handler = ::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string message =
+      test::message_of<OutputError>([&] { write_file_atomically(folder / "f", std::string(5000, 'x')); });
+  ::setrlimit(RLIMIT_FSIZE, &old_limit);
+  ::signal(SIGXFSZ, old_handler);
+  EXPECT_TRUE(test::has(message, "File too large")) << message;
+  EXPECT_EQ(read_text(folder / "f"), "precious");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(AtomicWrite, RequireWritableLeavesNoTrace) {
+  const TemporaryFolder folder;
+  write_text(folder / "f", "old");
+  require_writable(folder / "f");
+  require_writable(folder / "g");
+  EXPECT_EQ(folder.file_count(), 1u);
+  EXPECT_EQ(read_text(folder / "f"), "old");
+}
+
+TEST(AtomicWrite, OneFileUnderTwoNamesIsNotDistinct) {
+  const TemporaryFolder folder;
+  write_text(folder / "f", "x");
+  write_text(folder / "other", "x");
+  fs::create_symlink("f", folder / "link");
+  fs::create_hard_link(folder / "f", folder / "hard");
+  for (const char* name : {"f", "link", "hard", "./f"})
+    EXPECT_ERROR(Error, (folder / name).native() + ": is the input",
+                 require_distinct(folder / "f", folder / name));
+  require_distinct(folder / "f", folder / "other");
+  require_distinct(folder / "f", folder / "new");
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,125 @@
+#include "hooke/bounding_volume_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+
+#include "solids.h"
+
+namespace hooke {
+namespace {
+
+/// Closest point by a fine walk over the triangle: slow, and true to about 1 / steps.
+double sampled_distance(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr int steps = 60;
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; i + j <= steps; ++j)
+      best = std::min(best, (x - (a + double(i) / steps * (b - a) + double(j) / steps * (c - a))).norm());
+  return best;
+}
+
+TEST(ClosestPoint, KnownCases) {
+  const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).point, Vec3(1, 1, 0));
+  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).squared_distance, 9);
+  EXPECT_EQ(closest_point({-1, -1, 0}, a, b, c).point, a);
+  EXPECT_EQ(closest_point({1, -2, 0}, a, b, c).point, Vec3(1, 0, 0));
+  EXPECT_EQ(closest_point({4, 4, 1}, a, b, c).point, Vec3(2, 2, 0));
+  EXPECT_EQ(closest_point({9, -1, 0}, a, b, c).point, b);
+}
+
+TEST(ClosestPoint, AgreesWithSampling) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const auto point = [&] { return Vec3(u(random), u(random), u(random)); };
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 a = point(), b = point(), c = point(), x = 2 * point();
+    const ClosestPoint p = closest_point(x, a, b, c);
+    const double sampled = sampled_distance(x, a, b, c);
+    EXPECT_NEAR((x - p.point).norm(), std::sqrt(p.squared_distance), 1e-12);
+    EXPECT_LE(std::sqrt(p.squared_distance), sampled + 1e-12);
+    EXPECT_NEAR(std::sqrt(p.squared_distance), sampled, .05);
+  }
+}
+
+TEST(ClosestPoint, TriangleWithoutAreaIsItsEdges) {
+  const ClosestPoint p = closest_point({1, 1, 0}, {0, 0, 0}, {2, 0, 0}, {4, 0, 0});
+  EXPECT_EQ(p.point, Vec3(1, 0, 0));
+  EXPECT_EQ(closest_point({1, 1, 0}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}).point, Vec3(3, 3, 3));
+}
+
+TEST(Barycentric, WeightsRebuildThePoint) {
+  const Vec3 a(0, 0, 0), b(4, 0, 1), c(0, 4, 2), x = .2 * a + .5 * b + .3 * c;
+  EXPECT_TRUE(barycentric(x, a, b, c).isApprox(Vec3(.2, .5, .3), 1e-14));
+  EXPECT_EQ(barycentric(x, a, a, a), Vec3::Constant(1. / 3));
+  EXPECT_EQ(barycentric(b, a, b, c), Vec3(0, 1, 0));
+}
+
+TEST(BoundingVolumeTree, ClosestPointEqualsBruteForce) {
+  const test::Triangles t = test::shaken(test::sphere(2), .1);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-2, 2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 x(u(random), u(random), u(random));
+    ClosestPoint best;
+    best.squared_distance = std::numeric_limits<double>::infinity();
+    for (size_t f = 0; f < t.faces.size(); ++f) {
+      const auto& [a, b, c] = t.faces[f];
+      const ClosestPoint p = closest_point(x, t.points.col(a), t.points.col(b), t.points.col(c));
+      if (p.squared_distance >= best.squared_distance) continue;
+      best = p;
+      best.face = static_cast<int>(f);
+    }
+    for (int hint : {-1, 0, i % static_cast<int>(t.faces.size())}) {
+      const ClosestPoint found = tree.closest(x, hint);
+      ASSERT_NEAR(found.squared_distance, best.squared_distance, 1e-14);
+      ASSERT_TRUE(found.point.isApprox(best.point, 1e-7));
+    }
+  }
+}
+
+TEST(BoundingVolumeTree, PointOnAVertexHasDistanceZero) {
+  const test::Triangles t = test::sphere(3, .2);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    EXPECT_LT(tree.closest(t.points.col(v)).squared_distance, 1e-30);
+}
+
+TEST(BoundingVolumeTree, BoxesThatMeetAreAllVisitedOnce) {
+  const test::Triangles t = test::shaken(test::sphere(2), .3);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  const auto box_of = [&](const Triangle& f) {
+    BoundingVolumeTree::Box box;
+    for (int v : f) box.extend(Vec3(t.points.col(v)));
+    return box;
+  };
+  for (const Triangle& f : t.faces) {
+    std::multiset<int> visited, expected;
+    tree.for_each_meeting(box_of(f), [&](int g) { visited.insert(g); });
+    for (size_t g = 0; g < t.faces.size(); ++g)
+      if (box_of(f).intersects(box_of(t.faces[g]))) expected.insert(static_cast<int>(g));
+    ASSERT_EQ(visited, expected);
+  }
+}
+
+TEST(BoundingVolumeTree, SegmentsAreTrianglesThatRepeatAVertex) {
+  const test::Triangles t = test::triangles({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 1}, {1, 2, 2}});
+  const BoundingVolumeTree tree(t.points, t.faces);
+  EXPECT_EQ(tree.closest({1, 3, 0}).point, Vec3(2, 2, 0));
+  EXPECT_EQ(tree.closest({1, -1, 0}).point, Vec3(1, 0, 0));
+}
+
+TEST(BoundingVolumeTree, EmptyTreeFindsNothing) {
+  const BoundingVolumeTree tree(Mat3X(3, 0), {});
+  EXPECT_TRUE(tree.empty());
+  EXPECT_EQ(tree.closest({0, 0, 0}).face, -1);
+  EXPECT_EQ(tree.closest({0, 0, 0}).squared_distance, std::numeric_limits<double>::infinity());
+  tree.for_each_meeting(BoundingVolumeTree::Box(Vec3(0, 0, 0), Vec3(1, 1, 1)), [](int) { FAIL(); });
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,73 @@
+// Small solids with figures known by heart, and the motions that must not change them. For tests.
+#pragma once
+
+#include <numbers>
+#include <random>
+
+#include "hooke/connectivity.h"
+#include "meshes.h"
+
+namespace hooke::test {
+
+inline Connectivity connect(const Triangles& t) {
+  return make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+}
+
+inline Triangles triangles(std::initializer_list<Vec3> points, std::vector<Triangle> faces) {
+  Triangles t{Mat3X(3, static_cast<Eigen::Index>(points.size())), std::move(faces)};
+  Eigen::Index i = 0;
+  for (const Vec3& p : points) t.points.col(i++) = p;
+  return t;
+}
+
+inline Triangles equilateral() {
+  return triangles({{0, 0, 0}, {1, 0, 0}, {.5, std::numbers::sqrt3 / 2, 0}}, {{0, 1, 2}});
+}
+
+/// Edge length sqrt(8).
+inline Triangles tetrahedron() {
+  return triangles({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                   {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+}
+
+/// [0, 1]^3, two triangles a side.
+inline Triangles cube() {
+  return triangles({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                   {{0, 2, 1},
+                    {0, 3, 2},
+                    {4, 5, 6},
+                    {4, 6, 7},
+                    {0, 1, 5},
+                    {0, 5, 4},
+                    {1, 2, 6},
+                    {1, 6, 5},
+                    {2, 3, 7},
+                    {2, 7, 6},
+                    {3, 0, 4},
+                    {3, 4, 7}});
+}
+
+inline Triangles both(const Triangles& a, const Triangles& b) {
+  Triangles t{Mat3X(3, a.points.cols() + b.points.cols()), a.faces};
+  t.points << a.points, b.points;
+  const int shift = static_cast<int>(a.points.cols());
+  for (const Triangle& f : b.faces) t.faces.push_back({f[0] + shift, f[1] + shift, f[2] + shift});
+  return t;
+}
+
+inline Triangles moved(Triangles t, double scale = 1) {
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(1.1, Vec3(1, -2, 3).normalized()).toRotationMatrix();
+  t.points = (scale * (rotation * t.points)).eval();
+  t.points.colwise() += Vec3(.3, -7, 2) * scale;
+  return t;
+}
+
+/// Every coordinate shifted by up to `size`.
+inline Triangles shaken(Triangles t, double size, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-size, size);
+  for (double& x : t.points.reshaped()) x += shift(random);
+  return t;
+}
+
+}  // namespace hooke::test
