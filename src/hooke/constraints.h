@@ -11,8 +11,8 @@ enum class BoundaryRule { slide, fixed, free };
 
 struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
-  std::vector<int> fixed_vertices;  // ids of vertices that stay where they are
-  double corner_angle = 35;         // degrees; a boundary that turns by more in 3-D has a corner, which stands still
+  std::vector<int> fixed_vertices = {};  // ids of vertices that stay where they are
+  double corner_angle = 35;  // degrees; a boundary that turns by more in 3-D has a corner, which stands still
 };
 
 /// A polyline of the input along which vertices slide: open between two corners, or closed.
