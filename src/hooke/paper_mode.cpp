@@ -1,5 +1,6 @@
 #include "hooke/paper_mode.h"
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 
@@ -12,7 +13,7 @@ class PaperRun {
   PaperRun(const TriMesh& mesh, const PaperOptions& options, const Observer& observer)
       : options_(options),
         observer_(observer),
-        work_(mesh, options.constraints, options.filter, options.retraction),
+        work_(mesh, options.constraints, options.filter, options.retraction, {}),
         to_input_(*work_.retraction),
         strings_(*work_.connectivity, work_.targets, {.altitude = 0}) {}
 
@@ -53,10 +54,12 @@ class PaperRun {
     positions(work_.mesh) = p.points;
   }
 
-  /// What the boundary may not do, where the user asked for more than the paper. Vertices inside stay free in
-  /// space, as they are there.
+  /// What curve and fixed vertices may not do, where the user asked for more than the paper. All others stay
+  /// free in space, as they are there.
   Restraint boundary_rule() const {
-    if (options_.constraints.boundary == BoundaryRule::free) return nullptr;
+    const bool all_free =
+        std::ranges::all_of(work_.constraints.freedom, [](Freedom f) { return f == Freedom::surface; });
+    if (all_free) return nullptr;
     return [this](Mat3X& forces) {
       for (Eigen::Index v = 0; v < forces.cols(); ++v) {
         const Freedom freedom = work_.constraints.freedom[static_cast<size_t>(v)];

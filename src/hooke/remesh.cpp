@@ -14,7 +14,7 @@ class Remeshing {
   Remeshing(const TriMesh& mesh, const RemeshOptions& options, const Observer& observer)
       : options_(options),
         observer_(observer),
-        work_(mesh, options.constraints, options.filter, options.retraction),
+        work_(mesh, options.constraints, options.filter, options.retraction, options.guards),
         energy_(*work_.connectivity, work_.targets, {.altitude = options.altitude}),
         guards_(*work_.connectivity, work_.targets, options.guards) {}
 
@@ -67,7 +67,7 @@ class Remeshing {
     if (options_.refit == Refit::each && outer_ > 1) work_.refit();
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
-    work_.land();
+    result_.not_landed = work_.land();
     record("relax", relaxed);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
@@ -81,7 +81,7 @@ class Remeshing {
     Relaxation r = relaxation();
     result_.polish = polish(r, work_.targets, options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
-    work_.land();
+    result_.not_landed = work_.land();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 

@@ -55,6 +55,7 @@ struct RemeshResult {
   std::vector<IterationRecord> iterations;
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the input
+  int not_landed = 0;             // vertices that stay off the input's field, where landing would fold a face
   PolishResult polish;
   ProjectionCounts projection;
   long long held_back = 0;  // vertex steps shortened by the guards

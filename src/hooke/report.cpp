@@ -190,6 +190,7 @@ Json report_json(const RunRecord& run) {
   if (run.result) {
     for (const IterationRecord& r : run.result->iterations) j["iterations"].push_back(iteration_json(r));
     j["projection"] = projection_json(run.result->projection);
+    j["projection"]["not_landed"] = run.result->not_landed;
     j["held_back"] = run.result->held_back;
   }
   j["gates"] = Json::array();

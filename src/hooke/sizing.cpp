@@ -36,21 +36,26 @@ LengthSpec parse_length(const std::string& text) {
   if (unit == "x") spec.kind = LengthSpec::Kind::times_natural;
   const bool known = unit.empty() || unit == "%" || unit == "x";
   if (error != std::errc() || !known || !(spec.value > 0) || !std::isfinite(spec.value))
-    throw Error(fmt::format("length '{}'; expected auto, mean, or a positive number, alone or with % or x", text));
+    throw Error(
+        fmt::format("length '{}'; expected auto, mean, or a positive number, alone or with % or x", text));
   return spec;
 }
 
 double resolve_length(const LengthSpec& spec, const Mat3X& points, const Connectivity& c) {
   const double natural = natural_length(total_area(points, c.faces), c.faces.size());
   switch (spec.kind) {
-    case LengthSpec::Kind::natural: return natural;
-    case LengthSpec::Kind::times_natural: return spec.value * natural;
-    case LengthSpec::Kind::absolute: return spec.value;
+    case LengthSpec::Kind::natural:
+      return natural;
+    case LengthSpec::Kind::times_natural:
+      return spec.value * natural;
+    case LengthSpec::Kind::absolute:
+      return spec.value;
     case LengthSpec::Kind::percent_of_diagonal: {
       const Vec3 box = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
       return spec.value / 100 * box.stableNorm();
     }
-    case LengthSpec::Kind::mean: break;
+    case LengthSpec::Kind::mean:
+      break;
   }
   double sum = 0;
   for (const auto& [a, b] : c.edges) sum += (points.col(b) - points.col(a)).norm();
