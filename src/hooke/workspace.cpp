@@ -41,7 +41,9 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
     vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
   }
   targets = spread_target_lengths(*connectivity, vertex_length);
-  constraints = find_constraints(start, *connectivity, constraint_options);
+  ConstraintOptions reordered = constraint_options;
+  reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
+  constraints = find_constraints(start, *connectivity, reordered);
   mesh = build_mesh(start, order.faces);
 
   const SurfaceField field(start, connectivity, filter_);
