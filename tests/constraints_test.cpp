@@ -117,6 +117,16 @@ TEST(Constraints, AFixedRimStandsStillAndAFreeOneDoesNot) {
   EXPECT_EQ(count_of(free, Freedom::surface), 49);
 }
 
+TEST(Constraints, GivenVerticesStandStillUnderEveryRule) {
+  for (BoundaryRule rule : {BoundaryRule::slide, BoundaryRule::fixed, BoundaryRule::free}) {
+    const Constraints c = constraints_of(test::grid(6, test::flat),
+                                         {.boundary = rule, .fixed_vertices = {3, 24}});  // 3: on the rim
+    EXPECT_EQ(c.freedom[3], Freedom::fixed);
+    EXPECT_EQ(c.freedom[24], Freedom::fixed);
+    EXPECT_EQ(c.curves.size(), rule == BoundaryRule::slide ? 4u : 0u);
+  }
+}
+
 TEST(Constraints, VerticesWithoutFacesStandStill) {
   test::Triangles t = test::sphere(1);
   t.points.conservativeResize(3, t.points.cols() + 1);

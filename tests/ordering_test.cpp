@@ -67,6 +67,16 @@ TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
   }
 }
 
+TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
+  const Connectivity c = test::connect(two_parts_and_loose_vertices());
+  const Reordered r = reorder(c, locality_order(c));
+  const std::vector<int> old = {7, 0, 100};
+  const std::vector<int> fresh = r.new_vertices(old);
+  ASSERT_EQ(fresh.size(), old.size());
+  for (size_t i = 0; i < old.size(); ++i) EXPECT_EQ(r.old_vertex[static_cast<size_t>(fresh[i])], old[i]);
+  EXPECT_TRUE(r.new_vertices({}).empty());
+}
+
 TEST(Ordering, FacesFollowTheirSmallestVertex) {
   const Connectivity c = test::connect(shuffled(test::sphere(3)));
   const Reordered r = reorder(c, locality_order(c));

@@ -311,6 +311,18 @@ TEST(Remesh, TheBoundaryRuleDecidesWhetherARimMoves) {
   }
 }
 
+TEST(Remesh, GivenVerticesStayBitForBit) {
+  const test::Triangles t = jittered_sphere();
+  RemeshOptions options;
+  options.constraints.fixed_vertices = {5, 77, 160};
+  const Mat3X points = remeshed(t, options).points;
+  const Mat3X all_free = remeshed(t).points;
+  for (int v : options.constraints.fixed_vertices) {
+    EXPECT_EQ(points.col(v), t.points.col(v));
+    EXPECT_NE(all_free.col(v), t.points.col(v));
+  }
+}
+
 TEST(Remesh, ComponentsDoNotFeelEachOther) {
   test::Triangles sphere = jittered_sphere();
   sphere.points.colwise() += Vec3(0, 0, 9);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/error.h"
 #include "solids.h"
 
 namespace hooke {
@@ -45,6 +46,23 @@ TEST(Sizing, TargetsOfAFaceAlwaysFormATriangle) {
       const auto side = [&](size_t i) { return targets.edge[static_cast<size_t>(edges[(k + i) % 3])]; };
       EXPECT_LE(side(0), (side(1) + side(2)) * (1 + 1e-15));
     }
+}
+
+TEST(LengthSpec, MeansWhatItSays) {
+  const test::Triangles cube = test::cube();
+  const Connectivity c = test::connect(cube);
+  const auto length = [&](const char* text) { return resolve_length(parse_length(text), cube.points, c); };
+  EXPECT_DOUBLE_EQ(length("auto"), natural_length(6, 12));
+  EXPECT_DOUBLE_EQ(length("2x"), 2 * natural_length(6, 12));
+  EXPECT_DOUBLE_EQ(length("10%"), .1 * std::sqrt(3));
+  EXPECT_DOUBLE_EQ(length("1.5e-1"), .15);
+  EXPECT_DOUBLE_EQ(length("mean"), (12 + 6 * std::sqrt(2)) / 18);
+}
+
+TEST(LengthSpec, RefusesWhatIsNoLength) {
+  for (const char* text :
+       {"", "%", "x", "0", "-1", "nan", "inf", "1e999", "2 x", "2xx", "2%x", "two", "Auto"})
+    EXPECT_THROW(parse_length(text), Error) << text;
 }
 
 }  // namespace
