@@ -162,7 +162,9 @@ TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
 }
 
 TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
-  Bench b(test::grid(4, test::flat, .2), {}, FilterKind::none);
+  const GuardOptions none{
+      .area_ratio = 0, .alignment = -2, .fold = -2, .sagitta = 1e9};  // they would hold it back
+  Bench b(test::grid(4, test::flat, .2), none, FilterKind::none);
   const Surface runs_away = [](const Vec3& x, int anchor, double) {
     return Foot{.point = 2 * x, .normal = Vec3::UnitZ(), .anchor = anchor};
   };

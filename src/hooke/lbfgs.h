@@ -8,7 +8,7 @@
 namespace hooke {
 
 struct LbfgsOptions {
-  int sweeps = 3;             // of Newton's method vertex by vertex, first: they remove the slivers
+  int sweeps = 6;             // of Newton's method vertex by vertex, first: they remove the slivers
   double sweep_factor = 1.5;  // over-relaxation of all sweeps but the first
   int memory = 5;             // pairs of steps and gradient changes
   double first_step = .5;     // of the preconditioned gradient, while there is no memory

@@ -95,6 +95,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   Placement kept = r.placement;
   double best = result.least_angle_before;
   r.energy.terms.altitude = 0;
+  int kept_stages = 0;
   double step = o.threshold_step;
   double threshold = std::max(o.first_threshold, best + o.margin);
   for (; threshold <= o.last_threshold && !result.interrupted; threshold += step) {
@@ -111,8 +112,9 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
 
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);
-    if (error > o.edge_error_limit *
-                    result.edge_error_before) {  // too far: half the way from the last threshold that was not
+    const double limit = kept_stages > 0 ? o.edge_error_limit : 1;
+    if (error >
+        limit * result.edge_error_before) {  // too far: half the way from the last threshold that was not
       r.placement = kept;
       threshold -= step;
       step *= .5;
@@ -122,6 +124,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
     if (angle < best - o.keep_within) continue;
     best = std::max(best, angle);
     kept = r.placement;
+    ++kept_stages;
     result.least_angle_after = angle;
     result.edge_error_after = error;
   }

@@ -1,6 +1,7 @@
 #include "hooke/workspace.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -15,6 +16,8 @@ Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& l
 }
 
 constexpr double landing_slack = .05;  // two fields of one surface differ a little, and that is no fold
+
+constexpr double landing_area_ratio = .01;
 
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
@@ -73,6 +76,8 @@ int Workspace::land() {
 
   GuardOptions options = guard_options_;
   options.slack = landing_slack;
+  options.area_ratio = landing_area_ratio;
+  options.sagitta = std::numeric_limits<double>::infinity();
   Guards guards(*connectivity, targets, options);
   guards.accept(placement);
   std::vector<char> stays(landed.anchors.size(), 0);
