@@ -1,6 +1,7 @@
-"""corpus_test.py FOLDER LEAST   a corpus of good and bad mesh files, judged by its own `run_corpus.py`.
+"""corpus_test.py FOLDER LEAST [OPTION...]   a corpus of good and bad mesh files, judged by its own `run_corpus.py`.
 
 Exits with 77 (skipped) where the corpus is not there; fails when fewer than LEAST cases pass.
+Options go to the corpus's script, such as --asan for a binary built with sanitizers.
 """
 
 import os
@@ -21,8 +22,9 @@ def main():
         return SKIPPED
     command = os.path.abspath(os.environ["HOOKE_REMESH"]) + " {in} -o {out}"
     with tempfile.TemporaryDirectory() as folder:  # the corpus itself may be read-only
-        run = subprocess.run([sys.executable, script, "--corpus", corpus, "--formats", "obj,ply,off", command],
-                             cwd=folder, stdout=subprocess.PIPE, text=True)
+        run = subprocess.run([sys.executable, script, "--corpus", corpus, "--formats", "obj,ply,off",
+                              *sys.argv[3:], command], cwd=folder, stdout=subprocess.PIPE,
+                             text=True)
     print(run.stdout)
     total = re.search(r"^total +\d+ +(\d+)", run.stdout, re.MULTILINE)
     if not total:
