@@ -126,6 +126,7 @@ Json parameters_json(const RemeshOptions& o) {
   j["fixed_vertices"] = o.constraints.fixed_vertices.size();
   j["guard_area_ratio"] = o.guards.area_ratio;
   j["guard_alignment"] = o.guards.alignment;
+  j["guard_fold"] = o.guards.fold;
   j["guard_sagitta"] = o.guards.sagitta;
   return j;
 }

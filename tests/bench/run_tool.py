@@ -1,0 +1,13 @@
+"""Runs the command on a mesh file and returns its report."""
+
+import json
+import subprocess
+
+
+def run_tool(tool, source, output, *options):
+    """The report of a run; the run must succeed. Warnings are in the report."""
+    command = [tool, source, "-o", output, "-q", "--report", "-", *options]
+    run = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if run.returncode != 0:
+        raise SystemExit("%s: exit %d\n%s" % (" ".join(map(str, command)), run.returncode, run.stderr))
+    return json.loads(run.stdout)

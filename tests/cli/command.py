@@ -1,0 +1,82 @@
+"""What every test of the command needs: the binary, a folder of its own, meshes, the message of an error."""
+
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+from math import cos, pi, sin
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "bench"))
+from mesh_file import read_mesh, write_off  # noqa: E402  (used by the tests through this module)
+
+TOOL = os.environ["HOOKE_REMESH"]  # the binary under test
+DATA = Path(__file__).resolve().parents[2] / "data"
+
+TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+
+
+class CommandTest(unittest.TestCase):
+    """Runs the command in a temporary folder, where `good.obj` is an acceptable mesh."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.write("good.obj", TETRAHEDRON)
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def files(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+    def start(self, *arguments, **environment):
+        """The running command; thread settings of the caller's environment do not reach it."""
+        env = {k: v for k, v in os.environ.items() if k not in ("SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS")}
+        return subprocess.Popen([TOOL, *map(str, arguments)], cwd=self.folder, env={**env, **environment},
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def run_command(self, *arguments, expect=0, **environment):
+        """(standard output, standard error) of a run that must end with the exit code expected."""
+        process = self.start(*arguments, **environment)
+        out, err = (text.decode() for text in process.communicate())
+        self.assertEqual(process.returncode, expect, err)
+        return out, err
+
+    def refused(self, code, *arguments, names=None, says=None):
+        """A run that must fail with one message and leave the folder's files as they are."""
+        before = {name: (self.folder / name).read_bytes() for name in self.files()}
+        out, err = self.run_command(*arguments, expect=code)
+        self.assertEqual(out, "")
+        self.assertTrue(err.startswith("hooke-remesh: error: "), err)
+        for text in filter(None, (names, says)):
+            self.assertIn(text, err)
+        self.assertEqual({name: (self.folder / name).read_bytes() for name in self.files()}, before)
+        return err
+
+    def report(self, *arguments, expect=0, **environment):
+        out, _ = self.run_command(*arguments, "--report", "-", expect=expect, **environment)
+        return json.loads(out)
+
+
+def irregular_torus(around, across, seed=1):
+    """(vertices, faces): a grid on a torus, its points moved and its diagonals chosen at random."""
+    rng = random.Random(seed)
+    vertices = []
+    for i in range(around):
+        for j in range(across):
+            u = 2 * pi * (i + .8 * (rng.random() - .5)) / around
+            v = 2 * pi * (j + .8 * (rng.random() - .5)) / across
+            r = 1 + .4 * cos(v)
+            vertices.append((r * cos(u), r * sin(u), .4 * sin(v)))
+    faces = []
+    for i in range(around):
+        for j in range(across):
+            a, b = i * across + j, (i + 1) % around * across + j
+            c, d = (i + 1) % around * across + (j + 1) % across, i * across + (j + 1) % across
+            faces += [(a, b, c), (a, c, d)] if rng.random() < .5 else [(a, b, d), (b, c, d)]
+    return vertices, faces

@@ -1,0 +1,112 @@
+"""The JSON report: its keys, its figures, where it goes, and what standard error says beside it."""
+
+import json
+import unittest
+
+from command import DATA, CommandTest, read_mesh, write_off
+
+TOP = {"schema", "tool", "status", "input", "output", "parameters", "before", "after", "geometry", "iterations",
+       "gates", "warnings", "repairs", "paper", "resources"}
+FILE = {"path", "sha256", "format", "vertices", "faces", "edges", "components", "boundary_loops", "euler",
+        "isolated_vertices", "bbox", "bbox_diagonal", "area", "volume", "connectivity_sha256"}
+QUANTITIES = {"min_angle", "max_angle", "shape", "radius_ratio", "aspect_ratio", "edge_ratio", "edge_length",
+              "length_error"}
+STATISTICS = {"min", "p01", "p05", "median", "mean", "p95", "max", "std", "histogram"}
+COUNTS = {"folded_edges", "self_intersections", "degenerate_faces", "valence", "mean_curvature",
+          "gaussian_curvature", "worst_faces"}
+GEOMETRY = {"displacement", "distance_to_input", "distance_from_input", "normal_deviation", "area_change",
+            "volume_change", "flipped_faces", "boundary_distance"}
+STAGE = {"stage", "steps", "energy", "max_length_error", "rms_length_error", "min_angle", "field_evaluations", "t_s"}
+
+
+class Report(CommandTest):
+    def has(self, keys, part):
+        self.assertLessEqual(keys, set(part))
+
+    def test_all_keys_are_there(self):
+        report = self.report(DATA / "patch.obj", "-o", "out.obj")
+        self.has(TOP, report)
+        self.assertEqual(report["schema"], "hooke-remesh/report/1")
+        self.has({"version"}, report["tool"])
+        self.has(FILE, report["input"])
+        self.has(FILE, report["output"])
+        self.has({"L", "L_spec", "L_natural", "integrator", "filter", "kernel", "boundary"}, report["parameters"])
+        for state in ("before", "after"):
+            self.has(QUANTITIES | COUNTS, report[state])
+            for quantity in QUANTITIES:
+                self.has(STATISTICS, report[state][quantity])
+                histogram = report[state][quantity]["histogram"]
+                self.assertEqual(len(histogram["edges"]), len(histogram["counts"]) + 1)
+            self.assertEqual(sum(report[state]["shape"]["histogram"]["counts"]), report["input"]["faces"])
+            self.has({"least_angle_rad", "edge_length_sd"}, report["paper"][state])
+        self.has(GEOMETRY, report["geometry"])
+        for iteration in report["iterations"]:
+            self.has(STAGE, iteration)
+        self.has({"greatest_displacement"}, report["paper"])
+        self.has({"threads", "wall_s", "cpu_s", "peak_rss_bytes"}, report["resources"])
+
+    def test_check_measures_and_writes_nothing(self):
+        report = self.report("good.obj", "--check")
+        self.assertEqual(report["status"], "checked")
+        self.assertIsNone(report["after"])
+        self.assertIsNone(report["output"])
+        self.assertEqual(report["before"]["valence"]["interior"], {"3": 4})
+        self.assertEqual(self.files(), ["good.obj"])
+        self.assertAlmostEqual(report["input"]["volume"], 1 / 6)
+
+    def test_after_is_what_a_check_of_the_output_measures(self):
+        first = self.report(DATA / "blob.ply", "-o", "out.ply")
+        again = self.report("out.ply", "--check")
+        for quantity in QUANTITIES - {"length_error"}:  # L is the output's own there
+            self.assertEqual(first["after"][quantity], again["before"][quantity])
+        self.assertEqual(first["output"]["sha256"], again["input"]["sha256"])
+        self.assertEqual(first["input"]["connectivity_sha256"], again["input"]["connectivity_sha256"])
+
+    def test_file_and_standard_output_hold_the_same(self):
+        self.run_command("good.obj", "--check", "--report", "report.json")
+        from_file = json.loads((self.folder / "report.json").read_text())
+        from_pipe = self.report("good.obj", "--check")
+        del from_file["resources"], from_pipe["resources"]
+        self.assertEqual(from_file, from_pipe)
+
+    def test_states(self):
+        regular = [(0, 0, 0), (1, 0, 0), (.5, 3 ** .5 / 2, 0)]
+        write_off(self.folder / "regular.off", regular, [(0, 1, 2)])
+        self.assertEqual(self.report("regular.off", "-o", "out.off")["status"], "converged")
+        self.assertEqual(self.report(DATA / "patch.obj", "-o", "out.off")["status"], "stalled")
+        limited = self.report(DATA / "patch.obj", "-o", "out.off", "--max-outer", 1, "--max-steps", 1)
+        self.assertEqual(limited["status"], "iteration_limit")
+
+    def test_length_out_of_reach_is_a_warning(self):
+        for length, warned in (("auto", False), ("mean", False), ("1.05x", False), ("1.2x", True), ("5%", True)):
+            with self.subTest(length=length):
+                report = self.report(DATA / "patch.obj", "-o", "out.off", "-L", length, "--max-outer", 1)
+                codes = [w["code"] for w in report["warnings"]]
+                self.assertEqual("length_out_of_reach" in codes, warned)
+        _, err = self.run_command(DATA / "patch.obj", "-o", "out.off", "-L", "1.2x", "--max-outer", 1)
+        self.assertIn("hooke-remesh: warning: ", err)
+
+    def test_quiet_prints_nothing(self):
+        self.assertEqual(self.run_command(DATA / "patch.obj", "-o", "out.obj", "-q"), ("", ""))
+        self.assertEqual(self.run_command("good.obj", "--check", "-q"), ("", ""))
+
+    def test_summary_shows_before_and_after_on_standard_error(self):
+        out, err = self.run_command(DATA / "patch.obj", "-o", "out.obj")
+        self.assertEqual(out, "")
+        for text in ("before", "after", "least angle", "flipped faces", "out.obj written"):
+            self.assertIn(text, err)
+
+    def test_help_and_version(self):
+        self.assertIn("--check", self.run_command("--help")[0])
+        self.assertRegex(self.run_command("--version")[0], r"hooke-remesh \d+\.\d+\.\d+")
+
+    def test_threads_follow_the_environment_and_the_option(self):
+        threads = lambda *options, **env: self.report("good.obj", "--check", *options, **env)["resources"]["threads"]
+        self.assertEqual(threads("-j", 1), 1)
+        self.assertEqual(threads(OMP_NUM_THREADS="1"), 1)
+        self.assertEqual(threads(SLURM_CPUS_PER_TASK="1", OMP_NUM_THREADS="2"), 1)
+        self.assertEqual(threads("-j", 1, SLURM_CPUS_PER_TASK="2"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,92 @@
+"""The mesh that is written: same vertices and faces, better triangles, constraints kept, the same on every run."""
+
+import unittest
+
+from command import DATA, CommandTest, irregular_torus, read_mesh, write_off
+
+SAMPLES = ["patch.obj", "blob.ply", "torus.off"]
+
+
+def boundary_vertices(faces):
+    directed = {edge for a, b, c in faces for edge in ((a, b), (b, c), (c, a))}
+    return {v for a, b in directed if (b, a) not in directed for v in (a, b)}
+
+
+class Result(CommandTest):
+    def optimized(self, source, name, *options, **environment):
+        self.run_command(source, "-o", name, "-q", *options, **environment)
+        return read_mesh(self.folder / name)
+
+    def test_samples_get_better_and_stay_what_they_are(self):
+        for sample in SAMPLES:
+            with self.subTest(sample=sample):
+                report = self.report(DATA / sample, "-o", "out.off")
+                before, after = report["before"], report["after"]
+                self.assertGreater(after["min_angle"]["min"], 20)
+                self.assertLess(after["edge_length"]["std"], .65 * before["edge_length"]["std"])
+                self.assertEqual(report["geometry"]["flipped_faces"], 0)
+                self.assertEqual((after["folded_edges"], after["self_intersections"]), (0, 0))
+                self.assertLess(report["geometry"]["distance_to_input"]["rms_over_diagonal"], .005)
+                self.assertEqual(read_mesh(self.folder / "out.off")[1], read_mesh(DATA / sample)[1])
+
+    def test_formats_hold_the_same_doubles(self):
+        meshes = [self.optimized(DATA / "patch.obj", "out." + ext) for ext in ("obj", "ply", "off")]
+        self.assertEqual(meshes[0], meshes[1])
+        self.assertEqual(meshes[0], meshes[2])
+
+    def test_format_option_beats_the_extension(self):
+        self.run_command("good.obj", "-o", "out.obj", "--format", "off", "-q")
+        self.assertTrue((self.folder / "out.obj").read_text().startswith("OFF"))
+
+    def test_format_of_the_input_changes_nothing(self):
+        vertices, faces = read_mesh(DATA / "patch.obj")
+        write_off(self.folder / "same.off", vertices, faces)
+        self.assertEqual(self.optimized("same.off", "a.off"), self.optimized(DATA / "patch.obj", "b.off"))
+
+    def test_threads_change_no_byte(self):
+        vertices, faces = irregular_torus(60, 24)
+        write_off(self.folder / "torus.off", vertices, faces)
+        for source in ("torus.off", DATA / "patch.obj"):
+            for options in ([], ["--integrator", "damped", "--max-outer", 2]):
+                with self.subTest(source=source, options=options):
+                    self.optimized(source, "one.off", "-j", 1, *options)
+                    self.optimized(source, "two.off", "-j", 2, *options)
+                    self.assertEqual((self.folder / "one.off").read_bytes(),
+                                     (self.folder / "two.off").read_bytes())
+
+    def test_corners_stay_and_the_boundary_slides(self):
+        original, faces = read_mesh(DATA / "patch.obj")
+        moved, _ = self.optimized(DATA / "patch.obj", "out.obj")
+        rim = boundary_vertices(faces)
+        corners = [v for v in rim if original[v][:2] in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        self.assertEqual(len(corners), 4)
+        for v in corners:
+            self.assertEqual(moved[v], original[v])
+        self.assertGreater(sum(moved[v] != original[v] for v in rim), len(rim) / 2)
+        for v in rim:  # the sides of the square are straight in the plane
+            self.assertLess(min(abs(moved[v][k] - side) for k in (0, 1) for side in (0, 1)), 1e-12)
+
+    def test_fixed_boundary_keeps_every_bit(self):
+        original, faces = read_mesh(DATA / "patch.obj")
+        moved, _ = self.optimized(DATA / "patch.obj", "out.obj", "--boundary", "fixed")
+        rim = boundary_vertices(faces)
+        self.assertTrue(all(moved[v] == original[v] for v in rim))
+        self.assertGreater(sum(p != q for p, q in zip(moved, original)), len(original) / 2)
+
+    def test_fix_keeps_every_bit(self):
+        original, _ = read_mesh(DATA / "blob.ply")
+        ids = range(0, len(original), 7)
+        self.write("ids", "".join("%d\n" % i for i in ids))
+        report = self.report(DATA / "blob.ply", "-o", "out.ply", "--fix", "ids")
+        moved, _ = read_mesh(self.folder / "out.ply")
+        self.assertEqual(report["parameters"]["fixed_vertices"], len(ids))
+        self.assertTrue(all(moved[v] == original[v] for v in ids))
+        self.assertGreater(sum(p != q for p, q in zip(moved, original)), len(original) / 2)
+
+    def test_paper_mode_runs_and_says_when_it_jams(self):
+        out, err = self.run_command(DATA / "patch.obj", "-o", "out.obj", "--paper", "--max-outer", 1, "--max-steps", 50)
+        self.assertIn("global time step", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,42 @@
+"""The first signal asks for the best mesh so far: it is written, valid, and the status says what happened."""
+
+import json
+import signal
+import unittest
+
+from command import CommandTest, irregular_torus, read_mesh, write_off
+
+
+class Signals(CommandTest):
+    def interrupt(self, number, *options):
+        vertices, faces = irregular_torus(240, 100)
+        write_off(self.folder / "torus.off", vertices, faces)
+        process = self.start("torus.off", "-o", "out.off", "--report", "report.json", "--progress", "bar", *options)
+        seen = b""
+        while b"step" not in seen:  # the work has begun
+            byte = process.stderr.read(1)
+            self.assertTrue(byte, seen)
+            seen += byte
+        process.send_signal(number)
+        process.communicate()
+        self.assertEqual(process.returncode, 128 + number)
+        self.assertEqual(self.files(), ["good.obj", "out.off", "report.json", "torus.off"])
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report["status"], "interrupted")
+        self.assertEqual(report["geometry"]["flipped_faces"], 0)
+        result, kept = read_mesh(self.folder / "out.off")
+        self.assertEqual(kept, faces)
+        self.assertEqual(len(result), len(vertices))
+
+    def test_interrupt(self):
+        self.interrupt(signal.SIGINT)
+
+    def test_terminate(self):
+        self.interrupt(signal.SIGTERM)
+
+    def test_interrupted_damped_evolution(self):
+        self.interrupt(signal.SIGINT, "--integrator", "damped")
+
+
+if __name__ == "__main__":
+    unittest.main()
