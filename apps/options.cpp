@@ -168,7 +168,7 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
   app.add_option("--max-outer", words.max_outer, "Outer iterations: relaxation and filtering")
       ->check(CLI::PositiveNumber.description(""))
       ->type_name("N")
-      ->default_str("10")
+      ->default_str("6; 10 with --paper")
       ->group(method);
   app.add_option("--max-steps", words.max_steps, "Steps per outer iteration")
       ->check(CLI::PositiveNumber.description(""))

@@ -113,12 +113,13 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);
     const double limit = kept_stages > 0 ? o.edge_error_limit : 1;
-    if (error >
-        limit * result.edge_error_before) {  // too far: half the way from the last threshold that was not
+    if (error > limit * result.edge_error_before) {  // too far: half the way, from where it was not
       r.placement = kept;
-      threshold -= step;
-      step *= .5;
+      const double reached = kept_stages > 0 ? threshold - step : best;
+      step = std::min(step, threshold - reached) / 2;
+      if (kept_stages == 0) step = (threshold - reached) / 2;
       if (step < o.least_step) break;
+      threshold = reached;
       continue;
     }
     if (angle < best - o.keep_within) continue;

@@ -52,11 +52,18 @@ class Remeshing {
     if (unfolded.evaluations > 0) record("untangle", {.evaluations = unfolded.evaluations});
   }
 
+  /// The sweeps take out slivers, and after the first iteration there are hardly any left.
+  LbfgsOptions lbfgs() const {
+    LbfgsOptions lbfgs = options_.lbfgs;
+    if (outer_ > 1) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
+    return lbfgs;
+  }
+
   IntegrationResult relax() {
     Relaxation r = relaxation();
     switch (options_.integrator) {
       case IntegratorKind::lbfgs:
-        return relax_lbfgs(r, options_.integration, options_.lbfgs, watch("relax"));
+        return relax_lbfgs(r, options_.integration, lbfgs(), watch("relax"));
       case IntegratorKind::damped:
         return relax_damped(r, options_.integration, options_.damped, watch("relax"));
     }

@@ -33,8 +33,8 @@ struct RemeshOptions {
   RetractionOptions retraction{.tolerance = 1e-6, .lazy = .05};
   ConstraintOptions constraints;
   double tolerance = 1e-3;   // of every edge, in parts of its target length
-  int max_outer = 10;        // outer iterations
-  double outer_drop = 1e-3;  // stalled when an outer iteration lowers the energy by less than this part
+  int max_outer = 6;         // outer iterations
+  double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part
 };
 
 /// One outer iteration.
