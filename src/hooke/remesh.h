@@ -2,6 +2,7 @@
 // "Hooke's Optimization for 3D triangular mesh".
 #pragma once
 
+#include "hooke/flip_connectivity.h"
 #include "hooke/lbfgs.h"
 #include "hooke/polish.h"
 #include "hooke/untangle.h"
@@ -12,6 +13,8 @@ namespace hooke {
 enum class Refit { each, once };
 
 struct RemeshOptions {
+  ConnectivityMode connectivity = ConnectivityMode::fixed;
+  FlipOptions flips = flip_options(Effort::standard);  // in mode `flip`
   IntegrationOptions integration;
   LbfgsOptions lbfgs;
   double altitude = 1;  // beta, weight of the altitude springs against the strings
@@ -46,14 +49,17 @@ struct RemeshResult {
   std::vector<IterationRecord> iterations;
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the input
+  FlipResult flips;               // in mode `flip`
   PolishResult polish;
   ProjectionCounts projection;
   long long held_back = 0;  // vertex steps shortened by the guards
 };
 
 /// Moves the vertices of the mesh on its own surface until its edges are as near to their target lengths
-/// (v:target_length) as the connectivity allows, then raises its least angles. Ids and connectivity stay. The
-/// mesh is always left valid; an observer that returns false stops with what has been reached.
+/// (v:target_length) as the connectivity allows, then raises its least angles. Ids stay, and in mode `fixed`
+/// connectivity; in mode `flip` the mesh gets new faces, of as many ids, and its vertices may travel far from
+/// where they were. The mesh is always left valid; an observer that returns false stops with what has been
+/// reached.
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr);
 
 }  // namespace hooke
