@@ -100,8 +100,22 @@ class FlipMode {
 
 FlipOptions flip_options(Effort effort) {
   FlipOptions options;
-  options.flow.rounds = effort == Effort::fast ? 20 : effort == Effort::standard ? 60 : 200;
-  options.passes.passes = effort == Effort::thorough ? 8 : 0;
+  options.passes.passes = 0;
+  switch (effort) {
+    case Effort::fast:
+      options.flow.rounds = 20;
+      options.spring_rounds = 3;
+      options.polish.last_threshold = 36;
+      options.polish.sweeps = 8;
+      break;
+    case Effort::standard:
+      options.flow.rounds = 60;
+      break;
+    case Effort::thorough:
+      options.flow.rounds = 200;
+      options.passes.passes = 8;
+      break;
+  }
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include "hooke/flip_pass.h"
 #include "hooke/flow.h"
 #include "hooke/lbfgs.h"
+#include "hooke/polish.h"
 #include "hooke/untangle.h"
 #include "hooke/workspace.h"
 
@@ -25,6 +26,8 @@ struct FlipOptions {
   int spring_steps = 15;  // evaluations of the springs' energy per round
   FlipPassOptions passes;
   FlipGuardOptions guard;
+  /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.
+  PolishOptions polish{.first_threshold = 0, .margin = 3, .last_threshold = 60, .edge_growth = .05};
 };
 
 /// The options that an effort stands for.

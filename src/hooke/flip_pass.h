@@ -10,7 +10,7 @@ namespace hooke {
 
 struct FlipPassOptions {
   int passes = 8;      // at most; it stops when one changes nothing
-  int rings = 2;       // around the edge, within which the vertices settle
+  int rings = 3;       // around the edge, within which the vertices settle
   int sweeps = 4;      // of Newton's method vertex by vertex, for them to settle
   double gain = 1e-4;  // least fall of the energy for a flip to be kept
 };

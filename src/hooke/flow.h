@@ -12,7 +12,7 @@ namespace hooke {
 struct FlowOptions {
   int rounds = 60;       // of flips and one step
   int corner_every = 5;  // rounds between two looks at the corners, after the first quarter of the rounds
-  LloydOptions lloyd;
+  LloydOptions lloyd{};
 };
 
 struct FlowResult {

@@ -97,7 +97,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
 
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);
-    if (error > result.edge_error_before) break;
+    if (error > (1 + o.edge_growth) * result.edge_error_before) break;
     if (angle < best - o.keep_within) continue;
     best = std::max(best, angle);
     kept = r.placement;

@@ -15,6 +15,7 @@ struct PolishOptions {
   double weight = 100;          // w of the others
   int sweeps = 16;              // per stage, of Newton's method vertex by vertex
   int rings = 2;                // around the faces below the threshold, within which vertices move
+  double edge_growth = 0;       // by which part the edges' deviation may pass that of the start
   double keep_within = .1;      // degrees below the best angle at which a later state is still kept
 };
 
@@ -26,7 +27,8 @@ struct PolishResult {
   bool interrupted = false;
 };
 
-/// Raises the least angle as long as the standard deviation of l / L_e does not pass that of the start.
+/// Raises the least angle as long as the standard deviation of l / L_e does not pass that of the start, but
+/// for the growth that is allowed.
 PolishResult polish(Relaxation& relaxation, const TargetLengths& targets, const PolishOptions& options,
                     const Observer& observer);
 

@@ -69,7 +69,9 @@ class Remeshing {
   void raise_angles() {
     if (options_.refit == Refit::each) work_.refit();
     Relaxation r = relaxation();
-    result_.polish = polish(r, work_.targets, options_.polish, watch("polish"));
+    const bool flips = options_.connectivity == ConnectivityMode::flip;
+    result_.polish =
+        polish(r, work_.targets, flips ? options_.flips.polish : options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
     work_.land();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
