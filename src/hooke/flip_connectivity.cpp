@@ -114,6 +114,7 @@ FlipOptions flip_options(Effort effort) {
     case Effort::thorough:
       options.flow.rounds = 200;
       options.passes.passes = 8;
+      options.passes.sweeps = 6;
       break;
   }
   return options;
