@@ -106,6 +106,7 @@ Constraints find_constraints(const Mat3X& points, const Connectivity& c, const C
   result.segment.assign(n, 0);
   for (size_t v = 0; v < n; ++v)
     if (c.vertex_faces[static_cast<int>(v)].empty()) result.freedom[v] = Freedom::fixed;
+  for (int v : options.fixed_vertices) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
   if (options.boundary == BoundaryRule::free) return result;
 
   const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);

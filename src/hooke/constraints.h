@@ -11,6 +11,7 @@ enum class BoundaryRule { slide, fixed, free };
 
 struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
+  std::vector<int> fixed_vertices = {};  // ids of vertices that stay where they are
   double corner_angle = 35;  // degrees; a boundary that turns by more in 3-D has a corner, which stands still
 };
 

@@ -8,29 +8,43 @@
 
 #include "hooke/error.h"
 #include "hooke/forces.h"
+#include "hooke/parallel.h"
+#include "hooke/spring_law.h"
 
 namespace hooke {
 namespace {
 
-double max_length_error(const Motion& motion, const Connectivity& c, std::span<const double> target_lengths) {
-  double worst = 0;
-  for (std::size_t e = 0; e < c.edges.size(); ++e) {
-    const auto [i, j] = c.edges[e];
-    const double l = (motion.points.col(j) - motion.points.col(i)).norm();
-    worst = std::max(worst, std::abs(l - target_lengths[e]));
-  }
-  return worst;
+double string_energy(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+                     std::span<const double> target_lengths) {
+  return parallel_sum(c.edges.size(), 1024, [&](size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t e = begin; e < end; ++e) {
+      const double L = target_lengths[e];
+      const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
+      sum += spring_potential(l, L).value / (L * L);
+    }
+    return sum;
+  });
 }
 
-void count(BoundCounts& counts, const FailedTests& bound) {
-  counts.angle += bound.angle;
-  counts.expansion += bound.expansion;
-  counts.displacement += bound.displacement;
-  counts.area_bound += bound.area_bound;
-  counts.none += !bound.any();
+void update_forces(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
+                   const DampedOptions& options, const Restraint& restraint) {
+  Mat3X forces(3, motion.points.cols()), torques(3, motion.points.cols());
+  string_forces(motion.points, c, target_lengths, forces);
+  torque_forces(motion.points, c, torques);
+  forces = options.string * forces + options.torque * torques;  // [17]
+  if (restraint) restraint(forces);
+  motion.forces = forces;
 }
 
 }  // namespace
+
+void require_valid(const DampedOptions& options) {
+  if (!(options.friction > 0))
+    throw Error(fmt::format("friction {}; expected a positive number", options.friction));
+  if (!(options.string > 0))
+    throw Error(fmt::format("string tension {}; expected a positive number", options.string));
+}
 
 Motion motion_of(TriMesh& mesh) {
   assert(mesh.n_vertices() > 0);
@@ -45,21 +59,11 @@ void come_to_rest(Motion& motion) {
   motion.forces.setZero();
 }
 
-void update_forces(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
-                   const DampedOptions& options) {
-  Mat3X torques(3, motion.points.cols());
-  string_forces(motion.points, c, target_lengths, motion.forces);
-  torque_forces(motion.points, c, torques);
-  motion.forces = options.string * motion.forces + options.torque * torques;  // [17]
-}
-
-Mat3X moved_points(const Motion& motion, double tau, double dt) {
+Mat3X displacement(const Motion& motion, double tau, double dt) {
   const auto& U = motion.velocities;
   const auto& F = motion.forces;
   const double m = motion.mass;
-  Mat3X X = motion.points;
-  X += U * (-std::expm1(-tau * dt) / tau) + F * (dt * dt / (2 * m));  // [22]
-  return X;
+  return U * (-std::expm1(-tau * dt) / tau) + F * (dt * dt / (2 * m));  // [22]
 }
 
 void accelerate(Motion& motion, double tau, double dt) {
@@ -67,58 +71,69 @@ void accelerate(Motion& motion, double tau, double dt) {
   U = U * std::exp(-tau * dt) + motion.forces * (dt / motion.mass);  // [22]
 }
 
-DampedStep damped_step(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
-                       const DampedOptions& options, double last_factor) {
-  update_forces(motion, c, target_lengths, options);
-  const StepScales scales = step_scales(motion.points, motion.velocities, motion.forces, c);
-  DampedStep step;
-  const double base = base_step(scales, motion.mass);
-  step.at_rest = !std::isfinite(base);
-  if (!step.at_rest) {
-    Mat3X X;
-    step.adapted = adapt_step(base, last_factor, options.time_step.floor, [&](double dt) {
-      X = moved_points(motion, options.friction, dt);
-      return test_step(motion.points, X, c, scales.edge, options.time_step);
-    });
-    if (!step.adapted.jammed) {
-      motion.points = X;
-      accelerate(motion, options.friction, step.adapted.time);
-    }
+double max_length_error(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+                        std::span<const double> target_lengths) {
+  double worst = 0;
+  for (size_t e = 0; e < c.edges.size(); ++e) {
+    const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
+    worst = std::max(worst, std::abs(l - target_lengths[e]));
   }
-  step.max_length_error = max_length_error(motion, c, target_lengths);
+  return worst;
+}
+
+EvolutionStep evolution_step(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
+                             const EvolutionOptions& options, const Restraint& restraint,
+                             double last_factor) {
+  update_forces(motion, c, target_lengths, options.damped, restraint);
+  const StepScales scales = step_scales(motion.points, motion.velocities, motion.forces, c);
+  const double base = base_step(scales, motion.mass);
+  if (!std::isfinite(base)) return {.at_rest = true};
+  Mat3X X;
+  EvolutionStep step;
+  step.adapted = adapt_step(base, last_factor, options.time_step.floor, [&](double dt) {
+    X = motion.points + displacement(motion, options.damped.friction, dt);
+    return test_step(motion.points, X, c, scales.edge, options.time_step);
+  });
+  if (step.adapted.jammed) return step;
+  motion.points = X;
+  accelerate(motion, options.damped.friction, step.adapted.time);
   return step;
 }
 
-DampedResult evolve_damped(TriMesh& mesh, const Connectivity& c, std::span<const double> target_lengths,
-                           const DampedOptions& options, const DampedObserver& observer) {
-  if (!(options.friction > 0))
-    throw Error(fmt::format("friction {}; expected a positive number", options.friction));
+EvolutionResult evolve_damped(TriMesh& mesh, const Connectivity& c, std::span<const double> target_lengths,
+                              const EvolutionOptions& options, const Restraint& restraint,
+                              const Observer& observer) {
+  require_valid(options.damped);
   Motion motion = motion_of(mesh);
   come_to_rest(motion);
-  DampedResult result;
-  result.max_length_error = max_length_error(motion, c, target_lengths);
-  const auto stopped = [&](DampedStop reason) {
-    result.stop = reason;
+  EvolutionResult result;
+  const auto measure = [&] {
+    result.max_length_error = max_length_error(motion.points, c, target_lengths);
+    result.energy = string_energy(motion.points, c, target_lengths);
+  };
+  const auto stopped = [&](StopReason reason) {
+    result.reason = reason;
     return result;
   };
+  measure();
   double factor = first_factor;
   while (!(result.max_length_error < options.tolerance)) {
-    if (result.steps >= options.max_steps) return stopped(DampedStop::step_limit);
-    DampedStep step = damped_step(motion, c, target_lengths, options, factor);
-    if (step.at_rest) return stopped(DampedStop::at_rest);
-    result.rejected += step.adapted.rejected;
+    if (result.steps >= options.max_steps) return stopped(StopReason::step_limit);
+    const EvolutionStep step = evolution_step(motion, c, target_lengths, options, restraint, factor);
+    if (step.at_rest) return stopped(StopReason::stalled);
+    result.evaluations += step.adapted.rejected + !step.adapted.jammed;
     if (step.adapted.jammed) {
       result.jam = step.adapted.bound;
-      return stopped(DampedStop::jammed);
+      return stopped(StopReason::jammed);
     }
-    step.number = ++result.steps;
+    ++result.steps;
     factor = step.adapted.factor;
-    count(result.bound, step.adapted.bound);
+    result.bound.add(step.adapted.bound);
     result.time += step.adapted.time;
-    result.max_length_error = step.max_length_error;
-    if (observer && !observer(step)) return stopped(DampedStop::cancelled);
+    measure();
+    if (observer && !observer({"", 0, result.steps, result.energy})) return stopped(StopReason::interrupted);
   }
-  return stopped(DampedStop::converged);
+  return stopped(StopReason::converged);
 }
 
 }  // namespace hooke

@@ -56,6 +56,31 @@ std::deque<int> improvable_edges(const Triangulation& t, const Mat3X& points) {
   return queue;
 }
 
+/// Least cosine between the two faces, and between each of them and the face across its side.
+double least_fold(const FlippingMesh& m, const Triangle& left, const Triangle& right,
+                  const std::array<int, 2>& left_sides, const std::array<int, 2>& right_sides) {
+  const Mat3X& X = m.placement.points;
+  double least = cosine_between(X, left, right);
+  const auto look_across = [&](const Triangle& face, int side) {
+    if (const int twin = m.triangulation.twin(side); twin >= 0)
+      least =
+          std::min(least, cosine_between(X, face, m.triangulation.faces()[static_cast<size_t>(twin / 3)]));
+  };
+  for (int side : left_sides) look_across(left, side);
+  for (int side : right_sides) look_across(right, side);
+  return least;
+}
+
+/// Does the flip of h fold the faces about it?
+bool folds(const FlippingMesh& m, int h, double limit) {
+  const Triangulation& t = m.triangulation;
+  const int a = t.from(h), b = t.to(h), c = t.apex(h), g = t.twin(h), d = t.apex(g);
+  const int bc = Triangulation::next(h), ca = Triangulation::previous(h);
+  const int ad = Triangulation::next(g), db = Triangulation::previous(g);
+  const double after = least_fold(m, {c, a, d}, {d, b, c}, {ca, ad}, {db, bc});
+  return after < limit && after < least_fold(m, {a, b, c}, {b, a, d}, {bc, ca}, {ad, db});
+}
+
 }  // namespace
 
 double opposite_angles(const Triangulation& t, const Mat3X& points, int h) {
@@ -81,7 +106,7 @@ bool may_flip(const FlippingMesh& m, int h, const FlipGuardOptions& o) {
   const double length =
       .5 * (m.vertex_length[static_cast<size_t>(c)] + m.vertex_length[static_cast<size_t>(d)]);
   if (edge_sagitta(X, N, {c, d}) > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}))) return false;
-  return !t.adjacent(c, d);
+  return !t.adjacent(c, d) && !folds(m, h, o.fold);
 }
 
 int flip_to_delaunay(FlippingMesh& m, const FlipGuardOptions& options) {

@@ -11,6 +11,7 @@ namespace hooke {
 struct FlipGuardOptions {
   double area_share = .02;  // least part of the pair's area that each new face has
   double alignment = .3;    // least cosine between a new face and the surface, unless an old one had less
+  double fold = .1;         // least cosine between a new face and its neighbours, unless the old had less
   double sagitta = .2;  // greatest sagitta of the new edge over its target length, unless the old had more
 };
 
@@ -30,7 +31,8 @@ double opposite_angles(const Triangulation& triangulation, const Mat3X& points, 
 
 /// May the edge be flipped? It may not on the boundary; where the new edge exists already; where a vertex
 /// comes to have fewer than 3 edges (2 at a corner) or a corner moves away from the valence it wants; where a
-/// new face is a sliver, lies against the surface, or the new edge cuts deep into it (see the options).
+/// new face is a sliver, lies against the surface or its neighbours, or the new edge cuts deep into it (see
+/// the options).
 bool may_flip(const FlippingMesh& mesh, int half_edge, const FlipGuardOptions& options);
 
 /// Flips edges whose opposite angles exceed pi by more than 1e-9, first come first served, as long as that

@@ -23,16 +23,19 @@ std::vector<int> around(const IntLists& lists, const std::vector<int>& vertices)
   return ids;
 }
 
-double face_area(const Mat3X& points, const Triangle& t) {
+Vec3 doubled_area_vector(const Mat3X& points, const Triangle& t) {
   const Vec3 a = points.col(t[0]);
-  return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
+  return (points.col(t[1]) - a).cross(points.col(t[2]) - a);
+}
+
+double face_area(const Mat3X& points, const Triangle& t) {
+  return .5 * doubled_area_vector(points, t).norm();
 }
 
 }  // namespace
 
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
-  const Vec3 a = points.col(face[0]);
-  const Vec3 n = (points.col(face[1]) - a).cross(points.col(face[2]) - a);
+  const Vec3 n = doubled_area_vector(points, face);
   const Vec3 r = normals.col(face[0]) + normals.col(face[1]) + normals.col(face[2]);
   const double lengths = std::sqrt(n.squaredNorm() * r.squaredNorm());
   return lengths > 0 ? n.dot(r) / lengths : 0;
@@ -44,12 +47,20 @@ double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge)
   return .5 * (points.col(edge[1]) - points.col(edge[0])).norm() * tan_quarter;
 }
 
+double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other) {
+  const Vec3 a = doubled_area_vector(points, face);
+  const Vec3 b = doubled_area_vector(points, other);
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0 ? a.dot(b) / lengths : 1;
+}
+
 Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options)
     : connectivity_(connectivity), targets_(targets), options_(options) {
   for (Measures* m : {&accepted_, &trial_}) {
     m->area.resize(connectivity.faces.size());
     m->alignment.resize(connectivity.faces.size());
     m->sagitta.resize(connectivity.edges.size());
+    m->fold.resize(connectivity.edges.size());
   }
 }
 
@@ -59,41 +70,64 @@ void Guards::measure_face(const Placement& p, size_t face) {
   trial_.alignment[face] = face_alignment(p.points, p.normals, t);
 }
 
+double Guards::fold_at(const Mat3X& points, size_t edge) const {
+  const auto [left, right] = connectivity_.edge_faces[edge];
+  if (right < 0) return 1;
+  return cosine_between(points, connectivity_.faces[static_cast<size_t>(left)],
+                        connectivity_.faces[static_cast<size_t>(right)]);
+}
+
 void Guards::measure_edge(const Placement& p, size_t edge) {
   trial_.sagitta[edge] = edge_sagitta(p.points, p.normals, connectivity_.edges[edge]);
+  trial_.fold[edge] = fold_at(p.points, edge);
 }
 
 bool Guards::face_breaks(double area_before, double area, double alignment_before, double alignment) const {
   const bool shrinks = area < options_.area_ratio * area_before;
   if (alignment_before >= options_.alignment) return shrinks || alignment < options_.alignment;
   // A folded face passes through zero area on its way back: it may do all that turns it the right way.
-  constexpr double slack = 1e-7;
-  return alignment < alignment_before - slack || (shrinks && alignment <= alignment_before);
+  return alignment < alignment_before - options_.slack || (shrinks && alignment <= alignment_before);
 }
 
 bool Guards::face_breaks(size_t f) const {
   return face_breaks(accepted_.area[f], trial_.area[f], accepted_.alignment[f], trial_.alignment[f]);
 }
 
-bool Guards::edge_breaks(size_t e, double before, double after) const {
-  return after > std::max(before, options_.sagitta * targets_.edge[e]);
+bool Guards::sagitta_breaks(size_t e, double before, double after) const {
+  return after > std::max(before + options_.slack * targets_.edge[e], options_.sagitta * targets_.edge[e]);
+}
+
+bool Guards::fold_breaks(double before, double after) const {
+  return after < std::min(options_.fold, before - options_.slack);
 }
 
 bool Guards::edge_breaks(size_t e) const {
-  return edge_breaks(e, accepted_.sagitta[e], trial_.sagitta[e]);
+  return sagitta_breaks(e, accepted_.sagitta[e], trial_.sagitta[e]) ||
+         fold_breaks(accepted_.fold[e], trial_.fold[e]);
+}
+
+/// The edge across from the vertex in one of its faces.
+size_t Guards::opposite_edge(int face, int vertex) const {
+  const Triangle& t = connectivity_.faces[static_cast<size_t>(face)];
+  const size_t next = t[0] == vertex ? 1 : t[1] == vertex ? 2 : 0;
+  return static_cast<size_t>(connectivity_.face_edges[static_cast<size_t>(face)][next]);
 }
 
 void Guards::measure_ring(const Placement& p, int vertex, RingMeasures& m) const {
   m.area.clear();
   m.alignment.clear();
   m.sagitta.clear();
+  m.fold.clear();
   for (int f : connectivity_.vertex_faces[vertex]) {
     const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
+    m.fold.push_back(fold_at(p.points, opposite_edge(f, vertex)));
     m.area.push_back(face_area(p.points, t));
     m.alignment.push_back(face_alignment(p.points, p.normals, t));
   }
-  for (int e : connectivity_.vertex_edges[vertex])
+  for (int e : connectivity_.vertex_edges[vertex]) {
     m.sagitta.push_back(edge_sagitta(p.points, p.normals, connectivity_.edges[static_cast<size_t>(e)]));
+    m.fold.push_back(fold_at(p.points, static_cast<size_t>(e)));
+  }
 }
 
 bool Guards::ring_obeys(int vertex, const RingMeasures& before, const RingMeasures& after) const {
@@ -101,13 +135,25 @@ bool Guards::ring_obeys(int vertex, const RingMeasures& before, const RingMeasur
     if (face_breaks(before.area[i], after.area[i], before.alignment[i], after.alignment[i])) return false;
   const auto edges = connectivity_.vertex_edges[vertex];
   for (size_t i = 0; i < edges.size(); ++i)
-    if (edge_breaks(static_cast<size_t>(edges[i]), before.sagitta[i], after.sagitta[i])) return false;
+    if (sagitta_breaks(static_cast<size_t>(edges[i]), before.sagitta[i], after.sagitta[i])) return false;
+  for (size_t i = 0; i < before.fold.size(); ++i)
+    if (fold_breaks(before.fold[i], after.fold[i])) return false;
   return true;
 }
 
 void Guards::accept(const Placement& placement) {
   offenders_among_all(placement);
   accept_step();
+}
+
+/// The vertices that can mend a broken edge: its ends, and for a fold all corners of the two faces.
+void Guards::add_offenders(size_t edge, std::vector<int>& vertices) const {
+  vertices.insert(vertices.end(), connectivity_.edges[edge].begin(), connectivity_.edges[edge].end());
+  if (!fold_breaks(accepted_.fold[edge], trial_.fold[edge])) return;
+  for (int f : connectivity_.edge_faces[edge]) {
+    const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
+    vertices.insert(vertices.end(), t.begin(), t.end());
+  }
 }
 
 std::vector<int> Guards::offenders_among_all(const Placement& trial) {
@@ -130,25 +176,26 @@ std::vector<int> Guards::offenders_among_all(const Placement& trial) {
   for (size_t f = 0; f < faces; ++f)
     if (bad[f]) vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
   for (size_t e = 0; e < edges; ++e)
-    if (bad[faces + e])
-      vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
+    if (bad[faces + e]) add_offenders(e, vertices);
   sort_unique(vertices);
   return vertices;
 }
 
 std::vector<int> Guards::offenders_around(const Placement& trial, const std::vector<int>& moved) {
   std::vector<int> vertices;
+  std::vector<int> edges;  // of the faces around: those across from a moved vertex fold too
   for (int f : around(connectivity_.vertex_faces, moved)) {
     const auto face = static_cast<size_t>(f);
+    edges.insert(edges.end(), connectivity_.face_edges[face].begin(), connectivity_.face_edges[face].end());
     measure_face(trial, face);
     if (!face_breaks(face)) continue;
     vertices.insert(vertices.end(), connectivity_.faces[face].begin(), connectivity_.faces[face].end());
   }
-  for (int e : around(connectivity_.vertex_edges, moved)) {
+  sort_unique(edges);
+  for (int e : edges) {
     const auto edge = static_cast<size_t>(e);
     measure_edge(trial, edge);
-    if (!edge_breaks(edge)) continue;
-    vertices.insert(vertices.end(), connectivity_.edges[edge].begin(), connectivity_.edges[edge].end());
+    if (edge_breaks(edge)) add_offenders(edge, vertices);
   }
   sort_unique(vertices);
   return vertices;

@@ -9,7 +9,9 @@ namespace hooke {
 struct GuardOptions {
   double area_ratio = .2;  // a face keeps at least this part of its area in a step
   double alignment = .3;   // least cosine between a face and the surface under it; below, it may only grow
+  double fold = .1;        // least cosine between two neighbouring faces; below, it may only grow
   double sagitta = .2;     // greatest sagitta of an edge over its target length; above, it may only shrink
+  double slack = 1e-7;     // by which a cosine may still fall, or a sagitta over its target length rise
   int max_halvings = 8;    // of a vertex's step, before it stands still for this step
 };
 
@@ -20,9 +22,13 @@ double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle&
 /// theta.
 double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge);
 
-/// What the guards look at around one vertex: alignments and areas of its faces, sagittas of its edges.
+/// Cosine between the normals of two faces; 1 where one has no area.
+double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
+
+/// What the guards look at around one vertex: its faces, its edges, and the edges across from it in its
+/// faces.
 struct RingMeasures {
-  std::vector<double> area, alignment, sagitta;
+  std::vector<double> area, alignment, sagitta, fold;
 };
 
 /// Judges steps against the last accepted placement. Keeps references to the connectivity and the targets.
@@ -38,6 +44,9 @@ class Guards {
   /// placement. Returns the number of vertices that were held back.
   int step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to);
 
+  /// The vertices of all faces and edges that break a guard in `trial`, ascending.
+  std::vector<int> offenders(const Placement& trial) { return offenders_among_all(trial); }
+
   /// Makes the outcome of the last step() the accepted placement.
   void accept_step() { std::swap(accepted_, trial_); }
 
@@ -51,8 +60,12 @@ class Guards {
  private:
   bool face_breaks(double area_before, double area, double alignment_before, double alignment) const;
   bool face_breaks(size_t face) const;
-  bool edge_breaks(size_t edge, double before, double after) const;
+  bool sagitta_breaks(size_t edge, double before, double after) const;
+  bool fold_breaks(double before, double after) const;
   bool edge_breaks(size_t edge) const;
+  double fold_at(const Mat3X& points, size_t edge) const;
+  size_t opposite_edge(int face, int vertex) const;
+  void add_offenders(size_t edge, std::vector<int>& vertices) const;
   void measure_face(const Placement& placement, size_t face);
   void measure_edge(const Placement& placement, size_t edge);
   std::vector<int> offenders_among_all(const Placement& trial);
@@ -62,7 +75,8 @@ class Guards {
   const TargetLengths& targets_;
   GuardOptions options_;
   struct Measures {
-    std::vector<double> area, alignment, sagitta;
+    std::vector<double> area, alignment;  // per face
+    std::vector<double> sagitta, fold;    // per edge
   };
   Measures accepted_, trial_;
 };

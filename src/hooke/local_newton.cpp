@@ -49,6 +49,8 @@ double improve_vertex(Relaxation& r, int vertex, const LocalNewtonOptions& optio
 }  // namespace
 
 LocalCurvature local_curvature(const Relaxation& r, int vertex, const Vec3& gradient) {
+  const auto neighbours = r.connectivity.vertex_neighbours[vertex];
+  if (neighbours.empty()) return {};
   Placement& at = r.placement;
   const Vec3 x = at.points.col(vertex);
   const double h = difference * r.vertex_length[static_cast<size_t>(vertex)];
@@ -66,7 +68,7 @@ LocalCurvature local_curvature(const Relaxation& r, int vertex, const Vec3& grad
     if (c.mean > 0) c.inverse = tangent * tangent.transpose() / c.mean;
     return c;
   }
-  const Vec3 edge = at.points.col(r.connectivity.vertex_neighbours[vertex][0]) - x;
+  const Vec3 edge = at.points.col(neighbours[0]) - x;
   const Mat32 basis = tangent_basis(at.normals.col(vertex), edge);
   Eigen::Matrix2d hessian;
   for (int k = 0; k < 2; ++k) hessian.col(k) = basis.transpose() * change(basis.col(k));

@@ -15,7 +15,8 @@ struct LocalCurvature {
 
 /// The Hessian by differences of the gradient in the tangent space of the vertex. Its eigenvalues count by
 /// their size, and those below a part of the largest are raised to it: the step -inverse * gradient descends
-/// from saddles too. Moves the point of the vertex and puts it back; `gradient` is that at the point.
+/// from saddles too. A vertex without faces has none. Moves the point of the vertex and puts it back;
+/// `gradient` is that at the point.
 LocalCurvature local_curvature(const Relaxation& relaxation, int vertex, const Vec3& gradient);
 
 struct LocalNewtonOptions {

@@ -112,6 +112,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
 }
 
 void GridHierarchy::add(const Mat3X& residual, double weight, Mat3X& vectors) const {
+  if (levels_.empty()) return;
   std::vector<Mat3X> values;
   for (const Level& level : levels_) values.push_back(Mat3X::Zero(3, level.nodes));
   for (size_t v = 0; v < finest_.size(); ++v)

@@ -43,6 +43,16 @@ std::vector<int> locality_order(const Connectivity& c) {
   return order;
 }
 
+std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
+  if (old.empty()) return {};
+  std::vector<int> fresh(old_vertex.size());
+  for (size_t i = 0; i < old_vertex.size(); ++i)
+    fresh[static_cast<size_t>(old_vertex[i])] = static_cast<int>(i);
+  std::vector<int> result;
+  for (int v : old) result.push_back(fresh[static_cast<size_t>(v)]);
+  return result;
+}
+
 Reordered reorder(const Connectivity& c, const std::vector<int>& order) {
   std::vector<int> fresh(order.size());
   for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);

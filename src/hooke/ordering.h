@@ -15,6 +15,9 @@ struct Reordered {
   std::vector<int> old_vertex;  // of a new one
   std::vector<int> old_face;    // of a new one; faces follow their smallest vertex
   std::vector<Triangle> faces;  // in new vertex ids
+
+  /// The new ids of these old vertices.
+  std::vector<int> new_vertices(const std::vector<int>& old) const;
 };
 Reordered reorder(const Connectivity& connectivity, const std::vector<int>& order);
 

@@ -11,13 +11,14 @@
 namespace hooke {
 
 struct ThreadLimit::Impl {
+  // Built in place: a copy of a global_control is not registered and limits nothing.
+  explicit Impl(size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
   tbb::global_control control;
 };
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads < 1) threads = tbb::this_task_arena::max_concurrency();
-  impl_ = std::make_unique<Impl>(
-      Impl{tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads))});
+  impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
 }
 
 ThreadLimit::~ThreadLimit() = default;

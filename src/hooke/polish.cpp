@@ -84,8 +84,9 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   Placement kept = r.placement;
   double best = result.least_angle_before;
   r.energy.terms.altitude = 0;
+  double step = o.threshold_step;
   double threshold = std::max(o.first_threshold, best + o.margin);
-  for (; threshold <= o.last_threshold && !result.interrupted; threshold += o.threshold_step) {
+  for (; threshold <= o.last_threshold && !result.interrupted; threshold += step) {
     r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
     const std::vector<char> active = around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings);
@@ -97,7 +98,13 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
 
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);
-    if (error > (1 + o.edge_growth) * result.edge_error_before) break;
+    if (error > (1 + o.edge_growth) * result.edge_error_before) {  // too far: half the way from the last threshold that was not
+      r.placement = kept;
+      threshold -= step;
+      step *= .5;
+      if (step < o.least_step) break;
+      continue;
+    }
     if (angle < best - o.keep_within) continue;
     best = std::max(best, angle);
     kept = r.placement;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hooke/error.h"
+
 namespace hooke {
 namespace {
 
@@ -53,15 +55,26 @@ class Remeshing {
     if (unfolded.evaluations > 0) record("untangle", {.evaluations = unfolded.evaluations});
   }
 
+  IntegrationResult relax() {
+    Relaxation r = relaxation();
+    switch (options_.integrator) {
+      case IntegratorKind::lbfgs:
+        return relax_lbfgs(r, options_.integration, options_.lbfgs, watch("relax"));
+      case IntegratorKind::damped:
+        return relax_damped(r, options_.integration, options_.damped, watch("relax"));
+    }
+    throw Error("unknown integrator");
+  }
+
   void iterate() {
     if (options_.refit == Refit::each && outer_ > 1) work_.refit();
-    Relaxation r = relaxation();
     const double before = energy_(work_.placement, nullptr);
-    const IntegrationResult relaxed = relax_lbfgs(r, options_.integration, options_.lbfgs, watch("relax"));
-    work_.land();
+    const IntegrationResult relaxed = relax();
+    result_.not_landed = work_.land();
     record("relax", relaxed);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
+    if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
     if (before - relaxed.energy <= options_.outer_drop * before) return stop(StopReason::stalled);
     result_.reason = StopReason::step_limit;
   }
@@ -73,15 +86,13 @@ class Remeshing {
     result_.polish =
         polish(r, work_.targets, flips ? options_.flips.polish : options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
-    work_.land();
+    result_.not_landed = work_.land();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
   void conclude() {
     guards_.accept(work_.placement);
-    for (int f : guards_.folded_faces())
-      result_.folded_faces.push_back(work_.order.old_face[static_cast<size_t>(f)]);
-    std::ranges::sort(result_.folded_faces);
+    result_.folded_faces = faces_of_input(work_, guards_.folded_faces());
     result_.projection = work_.projection_counts();
   }
 
@@ -91,20 +102,7 @@ class Remeshing {
   }
 
   void record(const char* stage, const IntegrationResult& done) {
-    IterationRecord record{
-        .stage = stage, .steps = done.steps, .evaluations = done.evaluations, .energy = done.energy};
-    double sum2 = 0;
-    const auto& edges = work_.connectivity->edges;
-    for (size_t e = 0; e < edges.size(); ++e) {
-      const double l =
-          (work_.placement.points.col(edges[e][1]) - work_.placement.points.col(edges[e][0])).norm();
-      const double error = std::abs(l / work_.targets.edge[e] - 1);
-      record.max_length_error = std::max(record.max_length_error, error);
-      sum2 += error * error;
-    }
-    record.rms_length_error = std::sqrt(sum2 / static_cast<double>(edges.size()));
-    record.least_angle = least_angle(work_.placement.points, work_.connectivity->faces);
-    record.field_evaluations = work_.projection_counts().evaluations;
+    IterationRecord record = iteration_record(work_, stage, done);
     record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     result_.iterations.push_back(record);
     result_.held_back += done.held_back;
@@ -123,8 +121,33 @@ class Remeshing {
 
 }  // namespace
 
+IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done) {
+  IterationRecord record{
+      .stage = stage, .steps = done.steps, .evaluations = done.evaluations, .energy = done.energy};
+  const Mat3X& points = work.placement.points;
+  const auto& edges = work.connectivity->edges;
+  double sum2 = 0;
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const double l = (points.col(edges[e][1]) - points.col(edges[e][0])).norm();
+    const double error = std::abs(l / work.targets.edge[e] - 1);
+    record.max_length_error = std::max(record.max_length_error, error);
+    sum2 += error * error;
+  }
+  record.rms_length_error = std::sqrt(sum2 / static_cast<double>(edges.size()));
+  record.least_angle = least_angle(points, work.connectivity->faces);
+  record.field_evaluations = work.projection_counts().evaluations;
+  return record;
+}
+
+std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& faces) {
+  std::vector<int> ids;
+  for (int f : faces) ids.push_back(work.order.old_face[static_cast<size_t>(f)]);
+  std::ranges::sort(ids);
+  return ids;
+}
+
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer) {
-  Workspace work(mesh, options.constraints, options.filter, options.retraction);
+  Workspace work(mesh, options.constraints, options.filter, options.retraction, options.guards);
   FlipResult flips;
   if (options.connectivity == ConnectivityMode::flip)
     flips = flip_connectivity(work, options.flips, {.altitude = options.altitude}, options.guards,

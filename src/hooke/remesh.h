@@ -2,6 +2,7 @@
 // "Hooke's Optimization for 3D triangular mesh".
 #pragma once
 
+#include "hooke/damped_relaxation.h"
 #include "hooke/flip_connectivity.h"
 #include "hooke/lbfgs.h"
 #include "hooke/polish.h"
@@ -12,11 +13,19 @@ namespace hooke {
 
 enum class Refit { each, once };
 
+/// What brings the springs to their equilibrium; untangling and polishing always use L-BFGS.
+enum class IntegratorKind {
+  lbfgs,   // minimises the energy
+  damped,  // follows the evolution [17], torque included
+};
+
 struct RemeshOptions {
   ConnectivityMode connectivity = ConnectivityMode::fixed;
   FlipOptions flips = flip_options(Effort::standard);  // in mode `flip`
+  IntegratorKind integrator = IntegratorKind::lbfgs;
   IntegrationOptions integration;
   LbfgsOptions lbfgs;
+  DampedOptions damped;
   double altitude = 1;  // beta, weight of the altitude springs against the strings
   GuardOptions guards;
   UntangleOptions untangle;
@@ -50,10 +59,19 @@ struct RemeshResult {
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the input
   FlipResult flips;               // in mode `flip`
+  int not_landed = 0;             // vertices that stay off the input's field, where landing would fold a face
   PolishResult polish;
   ProjectionCounts projection;
   long long held_back = 0;  // vertex steps shortened by the guards
+  BoundCounts bound;        // time steps by the test that set them (paper_remesh only)
+  FailedTests jam;          // what no time step passed, when jammed there
 };
+
+/// The state of the work after `done`; all but the seconds.
+IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done);
+
+/// The ids that these faces of the work have in the mesh it was made from, ascending.
+std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& faces);
 
 /// Moves the vertices of the mesh on its own surface until its edges are as near to their target lengths
 /// (v:target_length) as the connectivity allows, then raises its least angles. Ids stay, and in mode `fixed`

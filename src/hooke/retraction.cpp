@@ -20,8 +20,7 @@ Retraction::Retraction(Surface surface, const Constraints& constraints, const Re
     : surface_(std::move(surface)),
       constraints_(constraints),
       options_(options),
-      status_(constraints.freedom.size()),
-      evaluations_(constraints.freedom.size(), 0) {}
+      uncounted_(constraints.freedom.size()) {}
 
 VertexPlace::VertexPlace(const Placement& p, int vertex)
     : point(p.points.col(vertex)),
@@ -53,8 +52,8 @@ VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
 VertexPlace Retraction::on_surface(VertexPlace place, int vertex) {
   const auto v = static_cast<size_t>(vertex);
   const Foot foot = surface_(place.point, place.anchor, options_.tolerance);
-  status_[v] = foot.status;
-  evaluations_[v] += foot.evaluations;
+  ++uncounted_[v].by_status[static_cast<size_t>(foot.status)];
+  uncounted_[v].evaluations += foot.evaluations;
   // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
   if (constraints_.freedom[v] == Freedom::surface) place.point = foot.point;
   place.normal = foot.normal;
@@ -150,12 +149,13 @@ void Retraction::constrain(const Placement& at, Mat3X& vectors) const {
 }
 
 void Retraction::count() {
-  for (size_t v = 0; v < evaluations_.size(); ++v) {
-    if (evaluations_[v] == 0) continue;
-    ++counts_.calls;
-    counts_.evaluations += evaluations_[v];
-    ++counts_.by_status[static_cast<size_t>(status_[v])];
-    evaluations_[v] = 0;
+  for (Uncounted& vertex : uncounted_) {
+    const int calls = std::reduce(vertex.by_status.begin(), vertex.by_status.end());
+    if (calls == 0) continue;
+    counts_.calls += calls;
+    counts_.evaluations += vertex.evaluations;
+    for (size_t s = 0; s < vertex.by_status.size(); ++s) counts_.by_status[s] += vertex.by_status[s];
+    vertex = {};
   }
 }
 

@@ -82,8 +82,11 @@ class Retraction {
   Surface surface_;
   const Constraints& constraints_;
   RetractionOptions options_;
-  std::vector<FootStatus> status_;  // of the calls not yet counted
-  std::vector<int> evaluations_;
+  struct Uncounted {  // of one vertex, so that threads do not share a counter
+    std::array<int, 5> by_status{};
+    int evaluations = 0;
+  };
+  std::vector<Uncounted> uncounted_;
   ProjectionCounts counts_;
 };
 

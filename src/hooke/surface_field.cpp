@@ -84,7 +84,7 @@ int SurfaceField::State::nearest_vertex(const Vec3& x, int anchor) const {
     from = anchor;
     for (int n : connectivity->vertex_neighbours[from]) {
       const double distance2 = (points.col(n) - x).squaredNorm();
-      if (distance2 >= least) continue;
+      if (!(distance2 < least)) continue;  // ends the walk for NaN too
       least = distance2;
       anchor = n;
     }
@@ -124,7 +124,7 @@ Foot SurfaceField::State::closest_point(const Vec3& x, int anchor) const {
   while (foot.anchor != anchor) {
     anchor = foot.anchor;
     const Foot next = closest_point_of_ring(x, anchor);
-    if ((next.point - x).squaredNorm() >= (foot.point - x).squaredNorm()) break;
+    if (!((next.point - x).squaredNorm() < (foot.point - x).squaredNorm())) break;
     foot = next;
   }
   return foot;

@@ -83,6 +83,23 @@ FailedTests test_step(const Eigen::Ref<const Mat3X>& before, const Eigen::Ref<co
               reduce(before.cols(), FailedTests{}, vertex, join));
 }
 
+void BoundCounts::add(const FailedTests& bound) {
+  angle += bound.angle;
+  expansion += bound.expansion;
+  displacement += bound.displacement;
+  area_bound += bound.area_bound;
+  none += !bound.any();
+}
+
+BoundCounts& BoundCounts::operator+=(const BoundCounts& other) {
+  angle += other.angle;
+  expansion += other.expansion;
+  displacement += other.displacement;
+  area_bound += other.area_bound;
+  none += other.none;
+  return *this;
+}
+
 AdaptedStep adapt_step(double base, double last_factor, double floor,
                        const std::function<FailedTests(double time)>& trial) {
   AdaptedStep step;

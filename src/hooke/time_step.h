@@ -44,6 +44,18 @@ struct FailedTests {
   bool any() const { return angle || expansion || displacement || area_bound; }
 };
 
+/// Steps by the test that set their length; a step that several tests cut counts for each.
+struct BoundCounts {
+  int angle = 0;
+  int expansion = 0;
+  int displacement = 0;
+  int area_bound = 0;
+  int none = 0;
+
+  void add(const FailedTests& bound);
+  BoundCounts& operator+=(const BoundCounts& other);
+};
+
 /// Tests the move of the points from `before` to `after`. A value that is not a number fails.
 /// A face that was degenerate before is exempt from the three face tests: it has no normal and no area to
 /// compare with, and one such face in the input would reject all steps.

@@ -1,6 +1,8 @@
 #include "hooke/workspace.h"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace hooke {
 namespace {
@@ -12,6 +14,8 @@ Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& l
   return n;
 }
 
+constexpr double landing_slack = .05;  // two fields of one surface differ a little, and that is no fold
+
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
   std::iota(ids.begin(), ids.end(), 0);
@@ -21,8 +25,9 @@ std::vector<int> identity(int count) {
 }  // namespace
 
 Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_options,
-                     const FilterOptions& filter, const RetractionOptions& retraction_options)
-    : filter_(filter), retraction_options_(retraction_options) {
+                     const FilterOptions& filter, const RetractionOptions& retraction_options,
+                     const GuardOptions& guard_options)
+    : filter_(filter), guard_options_(guard_options), retraction_options_(retraction_options) {
   const std::vector<double> length = vertex_values(source, target_length_property);
   normalisation = normalisation_of(positions(source), length);
 
@@ -41,7 +46,9 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
     vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
   }
   targets = spread_target_lengths(*connectivity, vertex_length);
-  constraints = find_constraints(start, *connectivity, constraint_options);
+  ConstraintOptions reordered = constraint_options;
+  reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
+  constraints = find_constraints(start, *connectivity, reordered);
   mesh = build_mesh(start, order.faces);
 
   const SurfaceField field(start, connectivity, filter_);
@@ -52,16 +59,36 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
 }
 
 void Workspace::refit() {
+  refitted_ = true;
   const SurfaceField field(placement.points, connectivity, filter_);
   finished_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   placement = retraction->place(placement.points, identity(connectivity->vertex_count), placement.segments);
 }
 
-void Workspace::land() {
-  placement = to_input_->place(placement.points, std::move(input_anchors_), placement.segments);
-  input_anchors_ = placement.anchors;
+int Workspace::land() {
+  if (!refitted_) input_anchors_ = placement.anchors;
+  Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
+  input_anchors_ = landed.anchors;
+
+  GuardOptions options = guard_options_;
+  options.slack = landing_slack;
+  Guards guards(*connectivity, targets, options);
+  guards.accept(placement);
+  std::vector<char> stays(landed.anchors.size(), 0);
+  for (;;) {
+    int more = 0;
+    for (int v : guards.offenders(landed))
+      if (!std::exchange(stays[static_cast<size_t>(v)], 1)) {
+        landed.points.col(v) = placement.points.col(v);
+        landed.normals.col(v) = placement.normals.col(v);
+        ++more;
+      }
+    if (more == 0) break;
+  }
+  placement = std::move(landed);
   positions(mesh) = placement.points;
+  return static_cast<int>(std::count(stays.begin(), stays.end(), 1));
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {

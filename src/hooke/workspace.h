@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "hooke/constraints.h"
+#include "hooke/guards.h"
 #include "hooke/mesh.h"
 #include "hooke/ordering.h"
-#include "hooke/retraction.h"
 #include "hooke/sizing.h"
 #include "hooke/surface_field.h"
 
@@ -22,14 +22,15 @@ struct Normalisation {
 struct Workspace {
   /// Takes the target lengths from v:target_length.
   Workspace(const TriMesh& mesh, const ConstraintOptions& constraints, const FilterOptions& filter,
-            const RetractionOptions& retraction);
+            const RetractionOptions& retraction, const GuardOptions& guards);
 
   /// Fits a new field to the vertices as they lie now and makes it the one that moves are projected to.
   /// [11]-[14]
   void refit();
 
-  /// Projects the vertices to the field of the input, which is what they are to lie on in the end.
-  void land();
+  /// Projects the vertices to the field of the input, which is what they are to lie on in the end. A vertex
+  /// whose landing would break a guard stays where it is; returns their number.
+  int land();
 
   /// Gives the work other faces on the same vertices, whose ids go on to count as those of the input's faces.
   /// The vertices must still be on the field of the input: before the first refit().
@@ -55,8 +56,10 @@ struct Workspace {
 
  private:
   FilterOptions filter_;
+  GuardOptions guard_options_;
   RetractionOptions retraction_options_;
   bool faces_replaced_ = false;
+  bool refitted_ = false;                 // until then both fields are the same
   std::vector<int> input_anchors_;        // where each vertex is tracked on the input
   std::unique_ptr<Retraction> to_input_;  // to the field of the input
   ProjectionCounts finished_;             // of the retractions that are gone

@@ -1,0 +1,179 @@
+// hooke-remesh: reads a mesh, optimizes it, writes it, and says what was reached.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <new>
+
+#include "exit_codes.h"
+#include "hooke/error.h"
+#include "hooke/io/atomic_write.h"
+#include "hooke/io/id_list.h"
+#include "hooke/io/printable.h"
+#include "hooke/io/read_mesh.h"
+#include "hooke/io/write_mesh.h"
+#include "hooke/parallel.h"
+#include "hooke/quality_table.h"
+#include "hooke/report.h"
+#include "messages.h"
+#include "options.h"
+#include "signals.h"
+
+namespace hooke::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Everything that can be known to fail before the work is done.
+void require_outputs(const Settings& s) {
+  if (!s.output.empty()) {
+    require_distinct(s.input, s.output);
+    require_writable(s.output);
+  }
+  if (s.report.empty() || s.report == "-") return;
+  require_distinct(s.input, s.report);
+  if (!s.output.empty()) require_distinct(s.output, s.report);
+  require_writable(s.report);
+}
+
+void write_report(const Settings& s, const RunRecord& run) {
+  if (s.report.empty()) return;
+  const std::string text = report_json(run).dump(2) + "\n";
+  if (s.report != "-") return write_file_atomically(s.report, text);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw OutputError("standard output: the report was not written; expected an open reader");
+}
+
+/// What the result must not hide, and what the length means where it is out of reach.
+void add_result_warnings(const Settings& s, RunRecord& run) {
+  const RemeshResult& r = *run.result;
+  if (!r.folded_faces.empty()) {
+    std::string ids;
+    for (size_t i = 0; i < r.folded_faces.size() && i < 10; ++i) ids += fmt::format(" {}", r.folded_faces[i]);
+    run.warnings.push_back(
+        {"folded_faces",
+         fmt::format("{}: {} faces lie folded away from the surface (ids{}{}); look at them in the input",
+                     run.input.path, r.folded_faces.size(), ids, r.folded_faces.size() > 10 ? " ..." : "")});
+  }
+  const size_t crossings = run.after->self_intersections.value_or(0),
+               before = run.before.self_intersections.value_or(0);
+  if (crossings > before)
+    run.warnings.push_back({"self_intersections_added", fmt::format("{}: {} self-intersections, {} before",
+                                                                    run.output->path, crossings, before)});
+  if (s.paper && r.reason != StopReason::converged)
+    run.warnings.push_back({"paper_jams", fmt::format("{}: {}", run.input.path, paper_message(r))});
+}
+
+void warn_of_length(const Settings& s, double length, double natural, RunRecord& run) {
+  const double ratio = length / natural;
+  if (ratio >= .9 && ratio <= 1.1) return;
+  run.warnings.push_back(
+      {"length_out_of_reach",
+       fmt::format(
+           "{}: the target length {:.6g} is {:.2f} times the natural length {:.6g}; the faces are as many as "
+           "they are, so the edges can not get there and only pull or push; use -L auto, or a value within "
+           "0.9x and 1.1x",
+           printable(s.input.string()), length, ratio, natural)});
+}
+
+Quality measure(const TriMesh& mesh, const Connectivity& connectivity, double length) {
+  const std::vector<double> targets(connectivity.edges.size(), length);
+  return measure_quality(positions(mesh), connectivity, targets);
+}
+
+RemeshResult optimize(const Settings& s, TriMesh& mesh) {
+  ProgressLine line(s);
+  const Observer observer = [&](const Progress& p) {
+    line.show(p);
+    return caught_signal() == 0;
+  };
+  return s.paper ? paper_remesh(mesh, s.paper_options, observer) : remesh(mesh, s.remesh, observer);
+}
+
+int run(Settings s) {
+  const auto start = Clock::now();
+  const ThreadLimit threads(s.threads);
+  require_outputs(s);
+  LoadedMesh loaded = read_mesh(s.input);
+  TriMesh& mesh = loaded.mesh;
+  const Connectivity connectivity =
+      make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
+  const Mat3X original = positions(mesh);
+  if (!s.fix.empty())
+    s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
+        read_id_list(s.fix, connectivity.vertex_count);
+
+  const double natural = resolve_length({}, original, connectivity);
+  const double length = resolve_length(s.length, original, connectivity);
+  RunRecord record;
+  record.tool_version = HOOKE_VERSION;
+  record.status = "checked";
+  record.input = {printable(s.input.string()), loaded.sha256, loaded.format,
+                  connectivity_sha256(connectivity.faces)};
+  record.warnings = loaded.warnings;
+  record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh);
+  record.parameters.update({{"L", length}, {"L_spec", s.length_text}, {"L_natural", natural}});
+  record.before = measure(mesh, connectivity, length);
+
+  if (!s.check) {
+    warn_of_length(s, length, natural, record);
+    set_vertex_values(mesh, target_length_property, length);
+    record.result = optimize(s, mesh);
+    if (!positions(mesh).allFinite())
+      throw NumericalError(
+          fmt::format("{}: the result is not finite; nothing was written", record.input.path));
+    record.status = status_of(record.result->reason);
+    record.after = measure(mesh, connectivity, length);
+    record.deviation = measure_deviation(original, connectivity, positions(mesh), connectivity);
+    const WrittenFile written = write_mesh(s.output, mesh, s.format, loaded.encoding);
+    record.output = {printable(s.output.string()), written.sha256, s.format,
+                     record.input.connectivity_sha256};
+    add_result_warnings(s, record);
+  }
+  record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
+  for (const Warning& w : record.warnings) print_warning(w);
+  if (!s.quiet) print_summary(s, record);
+  write_report(s, record);
+  return caught_signal() ? 128 + caught_signal() : done;
+}
+
+}  // namespace
+}  // namespace hooke::app
+
+int main(int argc, char** argv) {
+  using namespace hooke;
+  using namespace hooke::app;
+  const Parsed parsed = parse_command_line(argc, argv);
+  if (!parsed.settings) return parsed.exit_code;
+  catch_signals();
+  try {
+    return run(*parsed.settings);
+  } catch (const InputError& e) {
+    print_error(e.what());
+    return malformed_input;
+  } catch (const MeshError& e) {
+    print_error(e.what());
+    return unacceptable_mesh;
+  } catch (const OutputError& e) {
+    print_error(e.what());
+    return output_failed;
+  } catch (const NumericalError& e) {
+    print_error(e.what());
+    return numerical_failure;
+  } catch (const LimitError& e) {
+    print_error(e.what());
+    return limit_reached;
+  } catch (const Error& e) {
+    print_error(e.what());
+    return usage;
+  } catch (const std::bad_alloc&) {
+    print_error(printable(parsed.settings->input.string()) +
+                ": out of memory; expected a smaller mesh or more memory");
+    return limit_reached;
+  } catch (const std::exception& e) {
+    print_error(printable(parsed.settings->input.string()) + ": internal error: " + e.what());
+    return internal_error;
+  }
+}

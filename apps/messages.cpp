@@ -1,0 +1,97 @@
+#include "messages.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "hooke/quality_table.h"
+
+namespace hooke::app {
+
+void print_error(const std::string& message) {
+  fmt::print(stderr, "hooke-remesh: error: {}\n", message);
+}
+
+void print_warning(const Warning& warning) {
+  fmt::print(stderr, "hooke-remesh: warning: {}\n", warning.message);
+}
+
+namespace {
+
+std::string reason_in_words(const RunRecord& run) {
+  const RemeshResult& r = *run.result;
+  switch (r.reason) {
+    case StopReason::converged:
+      return "converged: every edge is within the tolerance of the target length";
+    case StopReason::stalled:
+      return "at rest: the springs are in equilibrium, as near to the target as the connectivity allows";
+    case StopReason::step_limit:
+      return "stopped at the iteration limit; more outer iterations or steps would go on";
+    case StopReason::jammed:
+      return "jammed: no time step is accepted any more";
+    case StopReason::interrupted:
+      return "interrupted: the best mesh so far";
+  }
+  return "";
+}
+
+void print_iterations(const RemeshResult& r) {
+  fmt::print(stderr, "{:<10}{:>7}{:>8}{:>14}{:>12}{:>12}{:>12}\n", "stage", "steps", "evals", "energy",
+             "rms error", "max error", "least angle");
+  for (const IterationRecord& i : r.iterations)
+    fmt::print(stderr, "{:<10}{:>7}{:>8}{:>14.6g}{:>12.4f}{:>12.4f}{:>12.3f}\n", i.stage, i.steps,
+               i.evaluations, i.energy, i.rms_length_error, i.max_length_error, i.least_angle);
+}
+
+}  // namespace
+
+std::string paper_message(const RemeshResult& r) {
+  const BoundCounts& b = r.bound;
+  long long steps = 0;
+  for (const IterationRecord& i : r.iterations) steps += i.steps;
+  const auto share = [&](int count) { return steps ? 100. * count / static_cast<double>(steps) : 0.; };
+  return fmt::format(
+      "the paper's global time step: cut by the area test in {:.0f} % of {} steps, by the angle test in "
+      "{:.0f} %, by the "
+      "displacement test in {:.0f} %, free in {:.0f} %; one collapsing face holds back the whole mesh",
+      share(b.expansion), steps, share(b.angle), share(b.displacement), share(b.none));
+}
+
+void print_summary(const Settings& s, const RunRecord& run) {
+  fmt::print(stderr, "{}: {} vertices, {} faces; target length {:.6g} (natural {:.6g})\n", run.input.path,
+             run.before.topology.vertices, run.before.topology.faces, run.parameters["L"].get<double>(),
+             run.parameters["L_natural"].get<double>());
+  if (!run.result) {
+    fmt::print(stderr, "{}", quality_table(run.before));
+    return;
+  }
+  if (s.verbose) print_iterations(*run.result);
+  fmt::print(stderr, "{}", quality_table(run.before, *run.after, *run.deviation));
+  fmt::print(stderr, "\n{}\n", reason_in_words(run));
+  fmt::print(stderr, "{} written in {:.2f} s\n", run.output->path, run.resources.wall_s);
+}
+
+ProgressLine::ProgressLine(const Settings& s)
+    : enabled_(!s.quiet && s.progress != ProgressStyle::none &&
+               (s.progress == ProgressStyle::bar || isatty(STDERR_FILENO) == 1)) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) fmt::print(stderr, "\r{:<60}\r", "");
+}
+
+void ProgressLine::show(const Progress& p) {
+  if (!enabled_) return;
+  constexpr long long every_ms = 100;
+  const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
+                       std::chrono::steady_clock::now().time_since_epoch())
+                       .count();
+  if (now - last_ms_ < every_ms) return;
+  last_ms_ = now;
+  shown_ = true;
+  fmt::print(stderr, "\r{:<60}", fmt::format("{}: outer iteration {}, step {}", p.stage, p.outer, p.step));
+  std::fflush(stderr);
+}
+
+}  // namespace hooke::app

@@ -1,0 +1,127 @@
+#include "hooke/paper_mode.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+namespace hooke {
+namespace {
+
+/// The work in hand and the account of it.
+class PaperRun {
+ public:
+  PaperRun(const TriMesh& mesh, const PaperOptions& options, const Observer& observer)
+      : options_(options),
+        observer_(observer),
+        work_(mesh, options.constraints, options.filter, options.retraction, {}),
+        to_input_(*work_.retraction),
+        strings_(*work_.connectivity, work_.targets, {.altitude = 0}) {}
+
+  RemeshResult run(TriMesh& mesh) {
+    result_.folded_before = static_cast<int>(folded_faces().size());
+    result_.reason = StopReason::step_limit;
+    for (outer_ = 1; !done_ && outer_ <= options_.max_outer; ++outer_) iterate();
+    result_.projection = work_.projection_counts();
+    result_.folded_faces = folded_faces();
+    work_.copy_back(mesh);
+    return std::move(result_);
+  }
+
+ private:
+  void iterate() {
+    if (outer_ > 1) work_.refit();  // psi of M_t
+    const double before = strings_(work_.placement, nullptr);
+    EvolutionResult evolved = optimize();  // M_{t+1}
+    filter();                              // M*_{t+1}
+    evolved.energy = strings_(work_.placement, nullptr);
+    record(evolved);
+    const double worst =
+        max_length_error(work_.placement.points, *work_.connectivity, work_.targets.edge);  // D
+    if (worst < options_.evolution.tolerance) return stop(StopReason::converged);
+    if (evolved.reason == StopReason::interrupted) return stop(StopReason::interrupted);
+    if (before - evolved.energy > options_.outer_drop * before) return;
+    stop(evolved.reason == StopReason::jammed ? StopReason::jammed : StopReason::stalled);
+  }
+
+  EvolutionResult optimize() {
+    return evolve_damped(work_.mesh, *work_.connectivity, work_.targets.edge, options_.evolution,
+                         boundary_rule(), watch());
+  }
+
+  void filter() {
+    Placement& p = work_.placement;
+    p = work_.retraction->place(positions(work_.mesh), std::move(p.anchors), std::move(p.segments));
+    positions(work_.mesh) = p.points;
+  }
+
+  /// What curve and fixed vertices may not do, where the user asked for more than the paper. All others stay
+  /// free in space, as they are there.
+  Restraint boundary_rule() const {
+    const bool all_free =
+        std::ranges::all_of(work_.constraints.freedom, [](Freedom f) { return f == Freedom::surface; });
+    if (all_free) return nullptr;
+    return [this](Mat3X& forces) {
+      for (Eigen::Index v = 0; v < forces.cols(); ++v) {
+        const Freedom freedom = work_.constraints.freedom[static_cast<size_t>(v)];
+        const Vec3 tangent = work_.placement.tangents.col(v);
+        if (freedom == Freedom::fixed) forces.col(v).setZero();
+        if (freedom == Freedom::curve) forces.col(v) = (tangent * tangent.dot(forces.col(v))).eval();
+      }
+    };
+  }
+
+  Observer watch() const {
+    if (!observer_) return nullptr;
+    return [this](Progress p) {
+      p.stage = "paper";
+      p.outer = outer_;
+      return observer_(p);
+    };
+  }
+
+  /// Faces of the present points against the surface of the input: the field of a folded mesh is no judge.
+  std::vector<int> folded_faces() {
+    Placement seen = to_input_.place(work_.placement.points, input_anchors(), work_.placement.segments);
+    seen.points = work_.placement.points;
+    Guards guards(*work_.connectivity, work_.targets, {});
+    guards.accept(seen);
+    return faces_of_input(work_, guards.folded_faces());
+  }
+
+  std::vector<int> input_anchors() const {
+    std::vector<int> anchors(work_.placement.anchors.size());
+    std::iota(anchors.begin(), anchors.end(), 0);
+    return anchors;
+  }
+
+  void record(const EvolutionResult& evolved) {
+    IterationRecord record = iteration_record(work_, "paper", evolved);
+    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    result_.iterations.push_back(record);
+    result_.bound += evolved.bound;
+    result_.jam = evolved.jam;
+  }
+
+  void stop(StopReason reason) {
+    result_.reason = reason;
+    done_ = true;
+  }
+
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const PaperOptions& options_;
+  const Observer& observer_;
+  Workspace work_;
+  Retraction to_input_;  // to the field of the input, for the last look
+  Energy strings_;
+  RemeshResult result_;
+  int outer_ = 0;
+  bool done_ = false;
+};
+
+}  // namespace
+
+RemeshResult paper_remesh(TriMesh& mesh, const PaperOptions& options, const Observer& observer) {
+  return PaperRun(mesh, options, observer).run(mesh);
+}
+
+}  // namespace hooke

@@ -1,0 +1,60 @@
+// The JSON report of a run: what went in, what came out, and what the way cost. Schema hooke-remesh/report/1:
+// degrees, file units, 0-based ids; `null` for what does not exist. What varies from run to run stands only
+// under `resources` and in keys that end in _s.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "hooke/deviation.h"
+#include "hooke/paper_mode.h"
+#include "hooke/quality.h"
+
+namespace hooke {
+
+/// A mesh file and the mesh in it.
+struct FileRecord {
+  std::string path;
+  std::string sha256;  // of the bytes
+  std::string format;
+  std::string connectivity_sha256;
+};
+
+/// SHA-256 of the faces' vertex ids as little-endian 32-bit integers.
+std::string connectivity_sha256(const std::vector<Triangle>& faces);
+
+/// Every effective value of a run.
+nlohmann::ordered_json parameters_json(const RemeshOptions& options);
+nlohmann::ordered_json parameters_json(const PaperOptions& options);
+
+struct Resources {
+  int threads = 0;
+  double wall_s = 0;
+  double cpu_s = 0;
+  long long peak_rss_bytes = 0;
+};
+
+/// What the process has used so far.
+Resources resources_used(double wall_seconds);
+
+/// All that a report tells. What a run has not done stays empty.
+struct RunRecord {
+  std::string tool_version;
+  std::string status;  // see status_of()
+  FileRecord input;
+  std::optional<FileRecord> output;
+  nlohmann::ordered_json parameters;
+  Quality before;
+  std::optional<Quality> after;
+  std::optional<Deviation> deviation;
+  std::optional<RemeshResult> result;
+  Warnings warnings;
+  Resources resources;
+};
+
+/// "converged", "stalled", "iteration_limit" or "interrupted".
+std::string status_of(StopReason reason);
+
+nlohmann::ordered_json report_json(const RunRecord& run);
+
+}  // namespace hooke

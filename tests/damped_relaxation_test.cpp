@@ -1,0 +1,233 @@
+#include "hooke/damped_relaxation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "hooke/error.h"
+#include "hooke/forces.h"
+#include "hooke/parallel.h"
+#include "hooke/remesh.h"
+#include "meshes.h"
+
+namespace hooke {
+namespace {
+
+using test::Triangles;
+
+TriMesh with_natural_length(const Triangles& t) {
+  TriMesh mesh = test::to_mesh(t);
+  set_vertex_values(mesh, target_length_property,
+                    natural_length(total_area(t.points, t.faces), t.faces.size()));
+  return mesh;
+}
+
+/// All that a relaxation refers to.
+struct Bench {
+  Workspace work;
+  Energy energy;
+  Guards guards;
+
+  explicit Bench(const Triangles& t, const GuardOptions& guard_options = {},
+                 FilterKind filter = FilterKind::local)
+      : work(with_natural_length(t), {}, {.kind = filter}, {}, guard_options),
+        energy(*work.connectivity, work.targets, {}),
+        guards(*work.connectivity, work.targets, guard_options) {}
+
+  Relaxation relaxation() {
+    return {work.mesh, *work.connectivity, work.colours, work.vertex_length,
+            energy,    *work.retraction,   guards,       work.placement};
+  }
+  IntegrationResult damped(const IntegrationOptions& options = {}, const DampedOptions& constants = {},
+                           const Observer& observer = nullptr) {
+    Relaxation r = relaxation();
+    return relax_damped(r, options, constants, observer);
+  }
+  Mat3X property(const char* name) {
+    const VProp<Vec3> values(work.mesh, name);
+    return as_matrix(work.mesh, values);
+  }
+  double deviation() const {
+    return relative_edge_deviation(work.placement.points, work.connectivity->edges, work.targets);
+  }
+};
+
+struct Shape {
+  const char* name;
+  Triangles mesh;
+};
+void PrintTo(const Shape& s, std::ostream* out) {
+  *out << s.name;
+}
+class DampedEquilibrium : public testing::TestWithParam<Shape> {};
+
+TEST_P(DampedEquilibrium, IsThatOfTheEnergyWithinFivePercentOfEdgeDeviation) {
+  Bench damped(GetParam().mesh), minimised(GetParam().mesh);
+  Relaxation r = minimised.relaxation();
+  relax_lbfgs(r, {}, {}, nullptr);
+  const double start = damped.deviation();
+  const IntegrationResult result = damped.damped();
+  EXPECT_EQ(result.reason, StopReason::stalled);
+  EXPECT_LT(result.steps, 2000);
+  EXPECT_LT(damped.deviation(), .7 * start);
+  EXPECT_NEAR(damped.deviation() / minimised.deviation(), 1, .05);
+  EXPECT_TRUE(damped.guards.folded_faces().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, DampedEquilibrium,
+                         testing::Values(Shape{"sphere", test::sphere(3, .3)},
+                                         Shape{"grid", test::grid(16, test::paraboloid, .3)}),
+                         [](const auto& shape) { return shape.param.name; });
+
+TEST(DampedRelaxation, EnergyNeverRisesWithoutTorque) {
+  Bench b(test::sphere(2, .4));
+  double last = std::numeric_limits<double>::infinity();
+  b.damped({}, {.torque = 0}, [&](const Progress& p) {
+    EXPECT_LE(p.energy, last) << "step " << p.step;
+    last = p.energy;
+    return true;
+  });
+  EXPECT_LT(last, std::numeric_limits<double>::infinity());
+}
+
+TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
+  // In the plane nothing bends the way, and this jitter is too small for the cap and the guards. The first
+  // step starts from rest at epsilon = 1/2, the second goes on at 1.1 times that.
+  Bench b(test::grid(8, test::flat, .1), {}, FilterKind::none);
+  b.energy.terms.altitude = 0;  // stiff: they would reject the second step
+  const DampedOptions constants{.string = 3, .friction = 400};
+  const double m = 1. / 81, dt = .5 * std::sqrt(m / 3), tau = 400;
+  const Mat3X X0 = b.work.placement.points;
+  b.damped({.max_steps = 1}, constants);  // one look at the forces, no step
+  const Mat3X F0 = b.property(force_property);
+  ASSERT_GT(F0.norm(), .1);
+  EXPECT_EQ(positions(b.work.mesh), X0);
+
+  Mat3X X1, X2, U1, F1;
+  const auto look = [&](const Progress& p) {
+    (p.step == 1 ? X1 : X2) = positions(b.work.mesh);
+    if (p.step == 1) U1 = b.property(velocity_property), F1 = b.property(force_property);
+    return true;
+  };
+  const IntegrationResult result = b.damped({.max_steps = 3}, constants, look);
+  ASSERT_EQ(result.steps, 2);
+  ASSERT_EQ(result.held_back, 0);
+  EXPECT_TRUE((X1 - X0).isApprox(F0 * dt * dt / (2 * m), 1e-10));  // [22]
+  EXPECT_TRUE(U1.isApprox(F0 * dt / m, 1e-10));
+  const double dt2 = 1.1 * dt;
+  EXPECT_TRUE((X2 - X1).isApprox(U1 * (1 - std::exp(-tau * dt2)) / tau + F1 * dt2 * dt2 / (2 * m), 1e-10));
+}
+
+TEST(DampedRelaxation, LeavesForcesOfTheFinalStateOnTheMesh) {
+  Bench b(test::sphere(2, .4));
+  b.damped({.max_steps = 40});
+  Mat3X gradient, torque(3, b.work.placement.points.cols());
+  b.energy(b.work.placement, &gradient);
+  torque_forces(b.work.placement.points, *b.work.connectivity, torque);
+  Mat3X expected = -2 * gradient + torque;
+  b.work.retraction->constrain(b.work.placement, expected);
+  EXPECT_TRUE(b.property(force_property).isApprox(expected, 1e-12));
+  EXPECT_EQ(positions(b.work.mesh), b.work.placement.points);
+}
+
+TEST(DampedRelaxation, VelocitiesLieInTheTangentSpace) {
+  Bench b(test::sphere(2, .3));
+  b.damped({.max_steps = 20}, {}, [&](const Progress&) {
+    const Mat3X velocities = b.property(velocity_property);
+    Mat3X tangential = velocities;
+    b.work.retraction->constrain(b.work.placement, tangential);
+    EXPECT_GT(velocities.norm(), 0);
+    EXPECT_LT((velocities - tangential).norm(), 1e-12 * velocities.norm());
+    return true;
+  });
+}
+
+TEST(DampedRelaxation, StartsFromRest) {
+  Bench fresh(test::sphere(1, .3)), stale(test::sphere(1, .3));
+  Motion motion = motion_of(stale.work.mesh);
+  motion.velocities.setConstant(9);
+  fresh.damped({.max_steps = 20});
+  stale.damped({.max_steps = 20});
+  EXPECT_EQ(fresh.work.placement.points, stale.work.placement.points);
+}
+
+TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
+  Bench b(test::sphere(1, .3), {.area_ratio = 1e9});  // no step is short enough
+  const Mat3X before = b.work.placement.points;
+  const IntegrationResult result = b.damped({.max_steps = 20});
+  EXPECT_GT(result.held_back, 0);
+  EXPECT_EQ(b.work.placement.points, before);
+  EXPECT_EQ(b.property(velocity_property), Mat3X::Zero(3, before.cols()));
+}
+
+TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
+  Bench b(test::grid(4, test::flat, .2), {}, FilterKind::none);
+  const Surface runs_away = [](const Vec3& x, int anchor, double) {
+    return Foot{.point = 2 * x, .normal = Vec3::UnitZ(), .anchor = anchor};
+  };
+  Retraction retraction(runs_away, b.work.constraints, {});
+  const Mat3X before = b.work.placement.points;
+  Relaxation r{b.work.mesh, *b.work.connectivity, b.work.colours, b.work.vertex_length,
+               b.energy,    retraction,           b.guards,       b.work.placement};
+  const IntegrationResult result = relax_damped(r, {}, {}, nullptr);
+  EXPECT_EQ(result.reason, StopReason::jammed);
+  EXPECT_EQ(result.steps, 0);
+  EXPECT_EQ(b.work.placement.points, before);
+}
+
+TEST(DampedRelaxation, RefusesForcesThatAreNotFinite) {
+  Bench b(test::grid(4, test::flat, .2));
+  b.energy.terms.string = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(b.damped(), NumericalError);
+}
+
+TEST(DampedRelaxation, StopsAtTheLimitAndWhenTheObserverSaysSo) {
+  Bench limited(test::sphere(1, .3)), watched(test::sphere(1, .3));
+  const IntegrationResult l = limited.damped({.max_steps = 7});
+  EXPECT_EQ(l.reason, StopReason::step_limit);
+  EXPECT_LE(l.steps, 6);
+  const IntegrationResult w = watched.damped({}, {}, [](const Progress& p) { return p.step < 3; });
+  EXPECT_EQ(w.reason, StopReason::interrupted);
+  EXPECT_EQ(w.steps, 3);
+}
+
+TEST(DampedRelaxation, RefusesConstantsThatAreNotPositive) {
+  Bench b(test::sphere(0));
+  EXPECT_THROW(b.damped({}, {.friction = 0}), Error);
+  EXPECT_THROW(b.damped({}, {.string = -1}), Error);
+}
+
+RemeshOptions short_damped_run() {
+  RemeshOptions options;
+  options.integrator = IntegratorKind::damped;
+  options.integration.max_steps = 40;
+  options.max_outer = 2;
+  options.polish_angles = false;
+  return options;
+}
+
+TEST(DampedRelaxation, DoesNotDependOnTheNumberOfThreads) {
+  const auto run = [](int threads) -> Mat3X {
+    const ThreadLimit limit(threads);
+    TriMesh mesh = with_natural_length(test::sphere(4, .3));
+    remesh(mesh, short_damped_run());
+    return positions(mesh);
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+TEST(DampedRelaxation, CommutesExactlyWithScalingByAPowerOfTwo) {
+  Triangles t = test::grid(10, test::paraboloid, .4);
+  TriMesh mesh = with_natural_length(t);
+  const Mat3X before = positions(mesh);
+  t.points *= 1024;
+  TriMesh large = with_natural_length(t);
+  remesh(mesh, short_damped_run());
+  remesh(large, short_damped_run());
+  EXPECT_NE(positions(mesh), before);
+  EXPECT_EQ(positions(large), 1024 * positions(mesh));
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,190 @@
+#include "hooke/guards.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/parallel.h"
+#include "scene.h"
+
+namespace hooke {
+namespace {
+
+/// A grid whose middle vertex is pulled over the edge that faces it: `pull` cells toward +x.
+test::Triangles folded_grid(double pull) {
+  test::Triangles t = test::grid(4, test::flat);
+  t.points(0, 12) += pull / 4;
+  return t;
+}
+
+/// The rules, written down once more from measures taken here. Returns what breaks.
+std::string broken_rule(const test::Scene& s, const Placement& from, const Placement& to,
+                        const GuardOptions& o = {}) {
+  for (const Triangle& t : s.connectivity.faces) {
+    const auto alignment = [&](const Placement& p) {
+      const Vec3 n = test::area_vector(p.points, t);
+      return n.normalized().dot(
+          (p.normals.col(t[0]) + p.normals.col(t[1]) + p.normals.col(t[2])).normalized());
+    };
+    const double ratio = test::area_vector(to.points, t).norm() / test::area_vector(from.points, t).norm();
+    const bool was_folded = alignment(from) < o.alignment;
+    if (!was_folded && ratio < o.area_ratio * (1 - 1e-9)) return "area";
+    if (!was_folded && alignment(to) < o.alignment - 1e-12) return "alignment";
+    if (was_folded && alignment(to) < alignment(from) - 1.1e-7) return "turned away";
+  }
+  for (size_t e = 0; e < s.connectivity.edges.size(); ++e) {
+    const auto [a, b] = s.connectivity.edges[e];
+    const auto sagitta = [&](const Placement& p) {
+      const Vec3 n = p.normals.col(a), m = p.normals.col(b);
+      const double theta = std::atan2(n.cross(m).norm(), n.dot(m));
+      return .5 * (p.points.col(a) - p.points.col(b)).norm() * std::tan(.25 * theta);
+    };
+    if (sagitta(to) > std::max(sagitta(from), o.sagitta * s.targets.edge[e]) + 1e-8) return "sagitta";
+  }
+  return "";
+}
+
+TEST(Guards, AlignmentIsTheCosineToTheSurface) {
+  const Mat3X p = test::equilateral().points;
+  const auto alignment = [&](const Vec3& normal) {
+    return face_alignment(p, normal.replicate(1, 3), {0, 1, 2});
+  };
+  EXPECT_NEAR(alignment(Vec3::UnitZ()), 1, 1e-15);
+  EXPECT_NEAR(alignment(-Vec3::UnitZ()), -1, 1e-15);
+  EXPECT_NEAR(alignment(Vec3(std::sin(1), 0, std::cos(1))), std::cos(1), 1e-15);
+  EXPECT_EQ(face_alignment(p, Vec3::UnitZ().replicate(1, 3), {0, 1, 1}), 0);
+}
+
+TEST(Guards, SagittaIsThatOfACircle) {
+  for (double theta : {1e-3, .1, 1., 2., 3.}) {
+    Mat3X n(3, 2);
+    n << -std::sin(theta / 2), std::sin(theta / 2), std::cos(theta / 2), std::cos(theta / 2), 0, 0;
+    const double r = 1.7;
+    EXPECT_NEAR(edge_sagitta(r * n, n, {0, 1}), r * (1 - std::cos(theta / 2)), 1e-9) << theta;
+  }
+  EXPECT_EQ(edge_sagitta(Mat3X::Random(3, 2), Mat3X::Ones(3, 2) / std::sqrt(3), {0, 1}), 0);
+}
+
+TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
+  const GuardOptions tight{.area_ratio = .8, .alignment = .9, .sagitta = .04};
+  for (const GuardOptions& guards : {GuardOptions{}, tight})
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      test::SceneOptions options;
+      options.guards = guards;
+      test::Scene sphere = test::sphere_scene(.4, options), ground = test::ground_scene(.4, options);
+      for (test::Scene* s : {&sphere, &ground}) {
+        Mat3X u = test::random_vectors(s->placement.points.cols(), .8 * s->L(), seed);
+        s->retraction.constrain(s->placement, u);
+        const Mat3X wanted = u;
+        Placement to;
+        EXPECT_GT(s->guards.step(s->retraction, s->placement, u, to), 0);
+        EXPECT_EQ(broken_rule(*s, s->placement, to, guards), "");
+        EXPECT_GT((to.points - s->placement.points).norm(), 0);
+        for (Eigen::Index v = 0; v < u.cols(); ++v) {
+          double part = 1;
+          for (int k = 0; k <= 8 && u.col(v) != part * wanted.col(v); ++k) part *= .5;
+          EXPECT_TRUE(u.col(v).isZero(0) || u.col(v) == part * wanted.col(v));
+        }
+        Placement again;
+        s->retraction.step(s->placement, u, again);
+        EXPECT_TRUE(test::same(again, to));
+      }
+    }
+}
+
+TEST(Guards, TheUnguardedStepWouldHaveBrokenThem) {
+  test::Scene s = test::sphere_scene(.4);
+  Mat3X u = test::random_vectors(s.placement.points.cols(), .8 * s.L());
+  s.retraction.constrain(s.placement, u);
+  Placement to;
+  s.retraction.step(s.placement, u, to);
+  EXPECT_NE(broken_rule(s, s.placement, to), "");
+}
+
+TEST(Guards, AStepOfZeroAndASmallStepAreTakenAsTheyAre) {
+  test::Scene s = test::sphere_scene(.2);
+  for (double size : {0., 1e-3}) {
+    Mat3X u = size * s.L() * test::random_vectors(s.placement.points.cols(), 1);
+    const Mat3X wanted = u;
+    Placement to, unguarded;
+    EXPECT_EQ(s.guards.step(s.retraction, s.placement, u, to), 0);
+    EXPECT_EQ(u, wanted);
+    s.retraction.step(s.placement, u, unguarded);
+    EXPECT_TRUE(test::same(to, unguarded));
+  }
+}
+
+TEST(Guards, NamesFoldedFaces) {
+  EXPECT_TRUE(test::ground_scene().guards.folded_faces().empty());
+  const test::Scene s(folded_grid(1.5), test::to_ground);
+  std::vector<int> folded;
+  for (size_t f = 0; f < s.connectivity.faces.size(); ++f)
+    if (test::area_vector(s.placement.points, s.connectivity.faces[f])[2] <= 0)
+      folded.push_back(static_cast<int>(f));
+  ASSERT_FALSE(folded.empty());
+  EXPECT_EQ(s.guards.folded_faces(), folded);
+}
+
+TEST(Guards, AFoldedFaceMayOnlyTurnTheRightWay) {
+  // The face 0 1 2 on a bent surface leans away; its vertex 2 may lean back but not further away.
+  const test::Triangles t = test::equilateral();
+  for (double lean : {-.05, .05}) {
+    const auto leaning = [&](const Vec3& x, int anchor, double) {
+      const double angle = 1.5 - (x[1] - .5) * 1.0;  // between the surface's normal and the face
+      return Foot{x, Vec3(0, -std::sin(angle), std::cos(angle)), anchor, FootStatus::converged, 1};
+    };
+    test::SceneOptions options;
+    options.constraints.boundary = BoundaryRule::free;
+    options.guards.sagitta = 10;
+    test::Scene s(t, leaning, options);
+    ASSERT_EQ(s.guards.folded_faces(), std::vector<int>{0});
+    Mat3X u = Mat3X::Zero(3, 3);
+    u(1, 2) = lean;
+    Placement to;
+    EXPECT_EQ(s.guards.step(s.retraction, s.placement, u, to), lean > 0 ? 0 : 1);
+    EXPECT_EQ(broken_rule(s, s.placement, to), "");
+  }
+}
+
+TEST(Guards, AFoldedFaceMayPassThroughZeroArea) {
+  test::Scene s(folded_grid(1.5), test::to_ground);
+  ASSERT_FALSE(s.guards.folded_faces().empty());
+  Mat3X u = Mat3X::Zero(3, 25);
+  u(0, 12) = -1.5 / 4;
+  Placement to;
+  EXPECT_EQ(s.guards.step(s.retraction, s.placement, u, to), 0);
+  s.guards.accept_step();
+  EXPECT_TRUE(s.guards.folded_faces().empty());
+}
+
+TEST(Guards, OneVertexAloneIsJudgedLikeAStepOfAll) {
+  test::Scene s = test::sphere_scene(.4);
+  const Mat3X wanted = test::random_vectors(s.placement.points.cols(), .6 * s.L());
+  int refused = 0;
+  for (int v = 0; v < s.connectivity.vertex_count; ++v) {
+    Mat3X u = Mat3X::Zero(3, wanted.cols());
+    u.col(v) = wanted.col(v);
+    RingMeasures before, after;
+    s.guards.measure_ring(s.placement, v, before);
+    Placement to;
+    s.retraction.step(s.placement, u, to);
+    s.guards.measure_ring(to, v, after);
+    const bool obeys = s.guards.ring_obeys(v, before, after);
+    EXPECT_EQ(s.guards.step(s.retraction, s.placement, u, to) == 0, obeys) << v;
+    refused += !obeys;
+  }
+  EXPECT_GT(refused, 10);
+  EXPECT_LT(refused, s.connectivity.vertex_count - 10);
+}
+
+TEST(Guards, OneThreadAndTwoGiveTheSameBits) {
+  std::vector<Placement> to(2);
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    test::Scene s(test::sphere(4, .4), test::to_unit_sphere);  // more than one block of faces
+    Mat3X u = test::random_vectors(s.placement.points.cols(), .8 * s.L());
+    EXPECT_GT(s.guards.step(s.retraction, s.placement, u, to[static_cast<size_t>(threads - 1)]), 0);
+  }
+  EXPECT_TRUE(test::same(to[0], to[1]));
+}
+
+}  // namespace
+}  // namespace hooke

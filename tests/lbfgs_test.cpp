@@ -1,0 +1,154 @@
+#include "hooke/lbfgs.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/parallel.h"
+#include "scene.h"
+
+namespace hooke {
+namespace {
+
+IntegrationOptions until_rest() {
+  IntegrationOptions options;
+  options.energy_drop = 1e-9;
+  return options;
+}
+
+IntegrationResult relax(test::Scene& s, const IntegrationOptions& options = until_rest(),
+                        const Observer& observer = nullptr) {
+  Relaxation r = s.relaxation();
+  return relax_lbfgs(r, options, LbfgsOptions{}, observer);
+}
+
+/// Guarded steps along the gradient; returns the least energy met.
+double descend(test::Scene& s, int steps) {
+  double energy = s.energy(s.placement, nullptr);
+  double step = .1 * s.L() * s.L();
+  for (int i = 0; i < steps; ++i) {
+    Mat3X u = -step * s.tangent_gradient();
+    cap_displacement(s.length, .3, u);
+    Placement to;
+    s.guards.accept(s.placement);
+    s.guards.step(s.retraction, s.placement, u, to);
+    const double now = s.energy(to, nullptr);
+    step *= now < energy ? 1.1 : .5;
+    if (now >= energy) continue;
+    energy = now;
+    s.placement = to;
+  }
+  return energy;
+}
+
+TEST(RelaxLbfgs, GetsLowerThanGradientSteps) {
+  for (double jitter : {.2, .4}) {
+    test::Scene by_lbfgs = test::ground_scene(jitter), by_gradient = test::ground_scene(jitter);
+    EXPECT_LT(relax(by_lbfgs).energy, descend(by_gradient, 200));
+  }
+}
+
+TEST(RelaxLbfgs, ComesToRestWhereTheGradientIsSmall) {
+  for (bool on_sphere : {true, false}) {
+    test::Scene s = on_sphere ? test::sphere_scene(.4) : test::ground_scene(.4);
+    const double start = s.tangent_gradient().norm();
+    const double energy = s.energy(s.placement, nullptr);
+    const IntegrationResult result = relax(s);
+    EXPECT_EQ(result.reason, StopReason::stalled);
+    EXPECT_LT(s.tangent_gradient().norm(), 1e-3 * start);
+    EXPECT_LT(result.energy, .5 * energy);
+    EXPECT_NEAR(s.energy(s.placement, nullptr), result.energy, 1e-12 * result.energy);
+  }
+}
+
+TEST(RelaxLbfgs, KeepsEveryVertexOnTheSurfaceAndNoFaceFolds) {
+  for (double lazy : {0., .01}) {
+    test::SceneOptions options;
+    options.retraction.lazy = lazy;
+    test::Scene s = test::sphere_scene(.4, options);
+    relax(s);
+    EXPECT_LT((s.placement.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+    for (const Triangle& t : s.connectivity.faces)
+      EXPECT_GT(test::area_vector(s.placement.points, t).dot(s.placement.points.col(t[0])), 0);
+  }
+}
+
+TEST(RelaxLbfgs, KeepsCornersAndCurves) {
+  test::Triangles t = test::moved(test::grid(8, test::flat, .4));
+  const Vec3 normal = test::area_vector(t.points, t.faces[0]).normalized();
+  const Vec3 origin = t.points.col(0);
+  const auto plane = [&](const Vec3& x, int anchor, double) {
+    return Foot{x - normal * normal.dot(x - origin), normal, anchor, FootStatus::converged, 1};
+  };
+  test::Scene s(t, plane);
+  relax(s);
+  for (size_t v = 0; v < s.length.size(); ++v) {
+    const Vec3 x = s.placement.points.col(static_cast<Eigen::Index>(v));
+    if (s.constraints.freedom[v] == Freedom::fixed) {
+      EXPECT_EQ(x, t.points.col(static_cast<Eigen::Index>(v)));
+    }
+    if (s.constraints.freedom[v] == Freedom::curve) {
+      EXPECT_LT(test::distance_to(s.constraints.curves[static_cast<size_t>(s.constraints.curve[v])], x),
+                1e-13);
+    }
+  }
+}
+
+TEST(RelaxLbfgs, LeavesPointsForceAndVelocityOnTheMesh) {
+  test::Scene s = test::sphere_scene();
+  relax(s);
+  EXPECT_EQ(positions(s.mesh), s.placement.points);
+  VProp<Vec3> force(s.mesh, force_property), velocity(s.mesh, velocity_property);
+  EXPECT_LT((as_matrix(s.mesh, force) + s.tangent_gradient()).norm(), 1e-12);
+  EXPECT_TRUE(as_matrix(s.mesh, velocity).isZero(0));
+}
+
+TEST(RelaxLbfgs, TheEnergyFallsFromStepToStep) {
+  test::Scene s = test::sphere_scene(.4);
+  std::vector<double> energies;
+  const IntegrationResult result = relax(s, until_rest(), [&](const Progress& p) {
+    EXPECT_EQ(p.step, static_cast<int>(energies.size()) + 1);
+    energies.push_back(p.energy);
+    return true;
+  });
+  ASSERT_GT(energies.size(), 3u);
+  EXPECT_TRUE(std::ranges::is_sorted(energies, std::greater<>{}));
+  EXPECT_EQ(static_cast<int>(energies.size()), result.steps);
+  EXPECT_EQ(energies.back(), result.energy);
+  EXPECT_GT(result.evaluations, result.steps);
+}
+
+TEST(RelaxLbfgs, SaysWhyItStops) {
+  test::Scene stopped = test::sphere_scene(.4), limited = test::sphere_scene(.4);
+  const IntegrationResult interrupted =
+      relax(stopped, until_rest(), [](const Progress& p) { return p.step < 2; });
+  EXPECT_EQ(interrupted.reason, StopReason::interrupted);
+  EXPECT_EQ(interrupted.steps, 2);
+  EXPECT_EQ(positions(stopped.mesh), stopped.placement.points);
+
+  IntegrationOptions few = until_rest();
+  few.max_steps = 4;
+  const IntegrationResult result = relax(limited, few);
+  EXPECT_EQ(result.reason, StopReason::step_limit);
+  EXPECT_LE(result.evaluations, 4);
+}
+
+TEST(RelaxLbfgs, WhatIsAtRestHardlyMoves) {
+  test::Scene s = test::sphere_scene(.3);
+  relax(s);
+  const Mat3X rest = s.placement.points;
+  relax(s);
+  EXPECT_LT((s.placement.points - rest).colwise().norm().maxCoeff(), 1e-2 * s.L());
+}
+
+TEST(RelaxLbfgs, OneThreadAndTwoGiveTheSameBits) {
+  std::vector<Placement> results;
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    test::Scene s(test::grid(70, test::flat, .35), test::to_ground);  // more than one block in every loop
+    relax(s, IntegrationOptions{});
+    results.push_back(s.placement);
+  }
+  EXPECT_TRUE(test::same(results[0], results[1]));
+}
+
+}  // namespace
+}  // namespace hooke

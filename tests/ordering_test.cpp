@@ -1,0 +1,99 @@
+#include "hooke/ordering.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "solids.h"
+
+namespace hooke {
+namespace {
+
+std::vector<int> numbers(size_t count) {
+  std::vector<int> ids(count);
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+std::vector<int> sorted(std::vector<int> ids) {
+  std::ranges::sort(ids);
+  return ids;
+}
+
+/// The mesh with its vertices numbered at random.
+test::Triangles shuffled(const test::Triangles& t) {
+  std::vector<int> fresh = numbers(static_cast<size_t>(t.points.cols()));
+  std::mt19937 random(2);
+  std::ranges::shuffle(fresh, random);
+  test::Triangles result{Mat3X(3, t.points.cols()), t.faces};
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    result.points.col(fresh[static_cast<size_t>(v)]) = t.points.col(v);
+  for (Triangle& face : result.faces)
+    for (int& v : face) v = fresh[static_cast<size_t>(v)];
+  return result;
+}
+
+double mean_edge_span(const Connectivity& c) {
+  double sum = 0;
+  for (const auto& [a, b] : c.edges) sum += std::abs(a - b);
+  return sum / static_cast<double>(c.edges.size());
+}
+
+const test::Triangles& two_parts_and_loose_vertices() {
+  static const test::Triangles t = [] {
+    test::Triangles r = test::both(test::sphere(2), test::grid(9, test::flat));
+    r.points.conservativeResize(3, r.points.cols() + 3);
+    r.points.rightCols(3).setRandom();
+    return r;
+  }();
+  return t;
+}
+
+TEST(Ordering, IsAPermutationOfAllVerticesAndFaces) {
+  const Connectivity c = test::connect(two_parts_and_loose_vertices());
+  const Reordered r = reorder(c, locality_order(c));
+  EXPECT_EQ(sorted(r.old_vertex), numbers(static_cast<size_t>(c.vertex_count)));
+  EXPECT_EQ(sorted(r.old_face), numbers(c.faces.size()));
+}
+
+TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
+  const Connectivity c = test::connect(shuffled(two_parts_and_loose_vertices()));
+  const Reordered r = reorder(c, locality_order(c));
+  ASSERT_EQ(r.faces.size(), c.faces.size());
+  for (size_t f = 0; f < r.faces.size(); ++f) {
+    Triangle old;
+    for (size_t k = 0; k < 3; ++k) old[k] = r.old_vertex[static_cast<size_t>(r.faces[f][k])];
+    EXPECT_EQ(old, c.faces[static_cast<size_t>(r.old_face[f])]);
+  }
+}
+
+TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
+  const Connectivity c = test::connect(two_parts_and_loose_vertices());
+  const Reordered r = reorder(c, locality_order(c));
+  const std::vector<int> old = {7, 0, 100};
+  const std::vector<int> fresh = r.new_vertices(old);
+  ASSERT_EQ(fresh.size(), old.size());
+  for (size_t i = 0; i < old.size(); ++i) EXPECT_EQ(r.old_vertex[static_cast<size_t>(fresh[i])], old[i]);
+  EXPECT_TRUE(r.new_vertices({}).empty());
+}
+
+TEST(Ordering, FacesFollowTheirSmallestVertex) {
+  const Connectivity c = test::connect(shuffled(test::sphere(3)));
+  const Reordered r = reorder(c, locality_order(c));
+  EXPECT_TRUE(std::ranges::is_sorted(r.faces, {}, [](const Triangle& t) { return std::ranges::min(t); }));
+}
+
+TEST(Ordering, BringsNeighboursTogether) {
+  const Connectivity c = test::connect(shuffled(test::grid(40, test::flat)));
+  const Connectivity ordered = make_connectivity(c.vertex_count, reorder(c, locality_order(c)).faces);
+  EXPECT_LT(mean_edge_span(ordered), .2 * mean_edge_span(c));
+}
+
+TEST(Ordering, NothingComesOutOfNothing) {
+  const Connectivity c = make_connectivity(0, {});
+  EXPECT_TRUE(locality_order(c).empty());
+  EXPECT_TRUE(reorder(c, {}).faces.empty());
+}
+
+}  // namespace
+}  // namespace hooke

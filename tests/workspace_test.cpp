@@ -1,0 +1,141 @@
+#include "hooke/workspace.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/error.h"
+#include "scene.h"
+
+namespace hooke {
+namespace {
+
+TriMesh with_length(const test::Triangles& t, double length) {
+  TriMesh mesh = test::to_mesh(t);
+  set_vertex_values(mesh, target_length_property, length);
+  return mesh;
+}
+
+TriMesh with_natural_length(const test::Triangles& t) {
+  return with_length(t, natural_length(total_area(t.points, t.faces), t.faces.size()));
+}
+
+test::Triangles wavy() {
+  const auto wave = [](double x, double y) { return .1 * std::sin(5 * x) * std::cos(4 * y); };
+  return test::grid(8, wave, .3);
+}
+
+Workspace on(const TriMesh& mesh, const FilterOptions& filter = {}) {
+  return Workspace(mesh, {}, filter, {}, {});
+}
+
+/// Moves the vertices by a quarter of a target length.
+void shake(Workspace& w) {
+  Mat3X u = test::random_vectors(w.start.cols(), .25);
+  w.retraction->constrain(w.placement, u);
+  Placement to;
+  w.retraction->step(w.placement, u, to);
+  w.placement = to;
+}
+
+/// Largest distance of the points to the field of the input.
+double off_the_input(const TriMesh& input, const Mat3X& points) {
+  const Workspace w = on(input);
+  const Placement p = w.retraction->place(points, w.placement.anchors, w.placement.segments);
+  return (p.points - points).colwise().norm().maxCoeff();
+}
+
+TEST(Workspace, IsCentredAndHasAMeanTargetLengthOfOne) {
+  const Workspace w = on(with_length(test::moved(wavy(), 40), 5));
+  EXPECT_LT((w.start.rowwise().minCoeff() + w.start.rowwise().maxCoeff()).norm(), 1e-12);
+  EXPECT_EQ(w.vertex_length, std::vector<double>(81, 1));
+  EXPECT_EQ(w.normalisation.unit, 5);
+}
+
+TEST(Workspace, TheMeshIsTheInputInAnotherOrder) {
+  const test::Triangles t = test::moved(wavy());
+  const Workspace w = on(with_natural_length(t));
+  for (size_t f = 0; f < w.order.faces.size(); ++f)
+    for (size_t k = 0; k < 3; ++k) {
+      const int fresh = w.order.faces[f][k], old = t.faces[static_cast<size_t>(w.order.old_face[f])][k];
+      EXPECT_EQ(w.order.old_vertex[static_cast<size_t>(fresh)], old);
+      const Vec3 x = w.normalisation.centre + w.normalisation.unit * w.start.col(fresh);
+      EXPECT_LT((x - t.points.col(old)).norm(), 1e-14);
+    }
+  EXPECT_EQ(triangles_of(w.mesh), w.order.faces);
+}
+
+TEST(Workspace, APowerOfTwoChangesNoBit) {
+  test::Triangles large = wavy();
+  large.points *= 1024;
+  const Workspace a = on(with_length(wavy(), .125)), b = on(with_length(large, 128));
+  EXPECT_EQ(a.start, b.start);
+  EXPECT_TRUE(test::same(a.placement, b.placement));
+}
+
+TEST(Workspace, TheOrderDoesNotDependOnCoordinates) {
+  const Workspace a = on(with_natural_length(wavy()));
+  const Workspace b = on(with_natural_length(test::moved(test::shaken(wavy(), .02), 3)));
+  EXPECT_EQ(a.order.old_vertex, b.order.old_vertex);
+  EXPECT_EQ(a.order.old_face, b.order.old_face);
+}
+
+TEST(Workspace, VerticesOfTheInputLieOnItsField) {
+  for (const test::Triangles& t : {wavy(), test::sphere(2, .2)}) {
+    const Workspace w = on(with_natural_length(t));
+    EXPECT_LT((w.placement.points - w.start).colwise().norm().maxCoeff(), 1e-6);
+  }
+}
+
+TEST(Workspace, UntouchedVerticesComeBackBitForBit) {
+  const test::Triangles t = test::moved(wavy(), 1. / 3);
+  TriMesh mesh = with_natural_length(t);
+  Workspace w = on(mesh);
+  w.placement.points = w.start;
+  w.placement.points.col(17) += Vec3(1, 2, 3);
+  w.copy_back(mesh);
+  const int moved = w.order.old_vertex[17];
+  for (int v = 0; v < t.points.cols(); ++v)
+    if (v != moved) {
+      EXPECT_EQ(positions(mesh).col(v), t.points.col(v));
+    }
+  EXPECT_LT((positions(mesh).col(moved) - t.points.col(moved) - w.normalisation.unit * Vec3(1, 2, 3)).norm(),
+            1e-14);
+}
+
+TEST(Workspace, LandsOnTheFieldOfTheInput) {
+  const TriMesh mesh = with_natural_length(wavy());
+  Workspace w = on(mesh);
+  for (int turn = 0; turn < 3; ++turn) {
+    shake(w);
+    w.refit();
+    shake(w);
+    EXPECT_GT(off_the_input(mesh, w.placement.points), 1e-4);  // the fields differ, or landing were idle
+    w.land();
+    EXPECT_LT(off_the_input(mesh, w.placement.points), 1e-5);
+    EXPECT_EQ(positions(w.mesh), w.placement.points);
+  }
+}
+
+TEST(Workspace, RefittingMovesNothing) {
+  Workspace w = on(with_natural_length(test::sphere(2, .2)));
+  shake(w);
+  const Mat3X before = w.placement.points;
+  w.refit();
+  EXPECT_LT((w.placement.points - before).colwise().norm().maxCoeff(), 1e-6);
+}
+
+TEST(Workspace, CountsTheProjectionsOfAllFields) {
+  Workspace w = on(with_natural_length(wavy()));
+  long long calls = w.projection_counts().calls;
+  EXPECT_EQ(calls, 81);
+  shake(w);
+  w.refit();
+  w.land();
+  EXPECT_EQ(w.projection_counts().calls, calls + 77 + 81 + 81);  // the four corners do not move
+}
+
+TEST(Workspace, WithoutTargetLengthsThereIsAnError) {
+  EXPECT_THROW(on(test::to_mesh(test::cube())), Error);
+}
+
+}  // namespace
+}  // namespace hooke
