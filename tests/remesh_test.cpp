@@ -78,7 +78,7 @@ double largest_move(const Mat3X& a, const Mat3X& b) {
 
 /// Largest distance of the points to the field that the input stands for, in target lengths.
 double off_the_field(const test::Triangles& t, const Mat3X& points, const RemeshOptions& options) {
-  const Workspace w(with_length(t, natural(t)), options.constraints, options.filter, options.retraction);
+  const Workspace w(with_length(t, natural(t)), options.constraints, options.filter, options.retraction, options.guards);
   Mat3X x(3, points.cols());
   for (Eigen::Index v = 0; v < x.cols(); ++v)
     x.col(v) = (points.col(w.order.old_vertex[static_cast<size_t>(v)]) - w.normalisation.centre) /

@@ -49,8 +49,17 @@ class FlipMode {
     return flips;
   }
 
+  Observer watch(const char* stage) const {
+    if (!observer_) return nullptr;
+    return [this, stage](Progress p) {
+      p.stage = stage;
+      return observer_(p);
+    };
+  }
+
   void unfold() {
-    result_.untangle = relax([&](Relaxation& r) { return untangle(r, UntangleOptions{}, observer_); });
+    result_.untangle =
+        relax([&](Relaxation& r) { return untangle(r, UntangleOptions{}, watch("untangle")); });
     result_.interrupted = result_.untangle.interrupted;
   }
 
@@ -66,7 +75,7 @@ class FlipMode {
     IntegrationOptions integration;
     integration.max_steps = options_.spring_steps;
     const IntegrationResult relaxed =
-        relax([&](Relaxation& r) { return relax_lbfgs(r, integration, LbfgsOptions{}, observer_); });
+        relax([&](Relaxation& r) { return relax_lbfgs(r, integration, LbfgsOptions{}, watch("springs")); });
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
   }
