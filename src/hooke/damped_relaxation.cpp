@@ -79,7 +79,8 @@ IntegrationResult relax_damped(Relaxation& r, const IntegrationOptions& options,
     const Mat3X wanted = displacement(motion, damped.friction, dt);
     Mat3X granted = wanted;
     cap_displacement(r.vertex_length, options.max_move, granted);
-    result.held_back += r.guards.step(r.retraction, r.placement, granted, trial);
+    result.held_back +=
+        static_cast<long long>(r.guards.step(r.retraction, r.placement, granted, trial).size());
     compute(r, trial, damped, trial_forces);
     ++result.evaluations;
 

@@ -27,7 +27,7 @@ struct FlipOptions {
   FlipPassOptions passes;
   FlipGuardOptions guard;
   /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.
-  PolishOptions polish{.first_threshold = 0, .margin = 3, .last_threshold = 60, .edge_growth = .05};
+  PolishOptions polish{.first_threshold = 0, .margin = 3, .last_threshold = 60, .edge_error_limit = 1.05};
 };
 
 /// The options that an effort stands for.

@@ -13,9 +13,9 @@ int move_vertices(FlippingMesh& m, const Connectivity& connectivity, const Lloyd
   Guards guards(connectivity, targets, guard_options);
   guards.accept(m.placement);
   Placement moved;
-  const int held_back = guards.step(m.retraction, m.placement, step, moved);
+  const auto held_back = guards.step(m.retraction, m.placement, step, moved).size();
   m.placement = std::move(moved);
-  return held_back;
+  return static_cast<int>(held_back);
 }
 
 }  // namespace

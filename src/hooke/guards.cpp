@@ -201,10 +201,11 @@ std::vector<int> Guards::offenders_around(const Placement& trial, const std::vec
   return vertices;
 }
 
-int Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to) {
+std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacement,
+                              Placement& to) {
   retraction.step(from, displacement, to);
   std::vector<int> offenders = offenders_among_all(to);
-  if (offenders.empty()) return 0;
+  if (offenders.empty()) return {};
 
   std::vector<unsigned char> halvings(static_cast<size_t>(connectivity_.vertex_count), 0);
   std::vector<int> held;
@@ -225,7 +226,7 @@ int Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacem
     retraction.step(from, displacement, slowed, to);
     offenders = offenders_around(to, slowed);
   }
-  return static_cast<int>(held.size());
+  return held;
 }
 
 std::vector<int> Guards::folded_faces() const {

@@ -41,8 +41,8 @@ class Guards {
 
   /// to = from + displacement, retracted and obeying the guards: offending vertices halve their steps, then
   /// stand still; `displacement` becomes what was asked for in the end. `from` must be the accepted
-  /// placement. Returns the number of vertices that were held back.
-  int step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to);
+  /// placement. Returns the vertices that were held back.
+  std::vector<int> step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to);
 
   /// The vertices of all faces and edges that break a guard in `trial`, ascending.
   std::vector<int> offenders(const Placement& trial) { return offenders_among_all(trial); }

@@ -110,11 +110,18 @@ class Memory {
   int pushed_ = 0;
 };
 
-/// A descent direction in the tangent space, no vertex longer than the cap. Falls back to the gradient.
-Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, const Mat3X& gradient,
-                        const Preconditioner& h0, Memory& memory) {
+void clear_columns(const std::vector<int>& columns, Mat3X& matrix) {
+  for (int v : columns) matrix.col(v).setZero();
+}
+
+/// A descent direction in the tangent space, no vertex longer than the cap; blocked vertices neither move nor
+/// pull at others. Falls back to the gradient.
+Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, Mat3X gradient,
+                        const std::vector<int>& blocked, const Preconditioner& h0, Memory& memory) {
+  clear_columns(blocked, gradient);
   for (;;) {
     Mat3X d = memory.direction(r, h0, gradient);
+    clear_columns(blocked, d);
     r.retraction.constrain(r.placement, d);
     cap_displacement(r.vertex_length, options.max_move, d);
     if (memory.empty() || dot(d, gradient) < 0) return d;
@@ -134,6 +141,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   RestDetector rest(options);
   Mat3X gradient, trial_gradient;
   Placement trial;
+  std::vector<int> held;     // by the guards, in the last trial
+  std::vector<int> blocked;  // held in the last step: they sit out this one
 
   r.guards.accept(r.placement);
   result.energy = r.energy(r.placement, &gradient);
@@ -144,13 +153,19 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
 
   while (result.evaluations < options.max_steps) {
     if (result.steps % lbfgs.curvature_every == 0) h0.refresh(r);
-    Mat3X step = descent_direction(r, options, gradient, h0, memory);
+    Mat3X step = descent_direction(r, options, gradient, blocked, h0, memory);
     bool accepted = false;
     double trial_energy = 0;
-    for (int halvings = 0; halvings <= lbfgs.max_backtracks && !accepted; ++halvings) {
-      if (halvings > 0) step *= .5;
+    for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
+      if (tries > 0 && held.empty()) step *= .5;
+      if (tries > 0 &&
+          !held.empty()) {  // what the guards hold back spoils the step of the others: without it
+        blocked.insert(blocked.end(), held.begin(), held.end());
+        step = descent_direction(r, options, gradient, blocked, h0, memory);
+      }
       Mat3X displacement = step;
-      result.held_back += r.guards.step(r.retraction, r.placement, displacement, trial);
+      held = r.guards.step(r.retraction, r.placement, displacement, trial);
+      result.held_back += static_cast<long long>(held.size());
       trial_energy = r.energy(trial, &trial_gradient);
       ++result.evaluations;
       displacement = trial.points - r.placement.points;
@@ -159,6 +174,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     if (!accepted) {
       if (!memory.empty()) {
         memory.clear();
+        blocked.clear();
         continue;
       }
       result.reason = StopReason::stalled;
@@ -171,6 +187,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     std::swap(r.placement, trial);
     std::swap(gradient, trial_gradient);
     r.guards.accept_step();
+    blocked = held;
     result.energy = trial_energy;
     ++result.steps;
     if (observer && !observer({"", 0, result.steps, result.energy})) {

@@ -82,7 +82,8 @@ LocalCurvature local_curvature(const Relaxation& r, int vertex, const Vec3& grad
   return c;
 }
 
-double local_newton_sweep(Relaxation& r, const std::vector<char>& active, const LocalNewtonOptions& options) {
+std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& active,
+                                       const LocalNewtonOptions& options) {
   std::vector<double> moves(static_cast<size_t>(r.connectivity.vertex_count), 0);
   for (const std::vector<int>& vertices : r.colours)
     parallel_for(vertices.size(), 64, [&](size_t begin, size_t end) {
@@ -92,7 +93,7 @@ double local_newton_sweep(Relaxation& r, const std::vector<char>& active, const 
       }
     });
   r.retraction.count();
-  return moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+  return moves;
 }
 
 }  // namespace hooke

@@ -25,9 +25,9 @@ struct LocalNewtonOptions {
   int max_halvings = 5;  // of a move that breaks a guard or raises the energy, before the vertex stays
 };
 
-/// One sweep over the colours; vertices with `active` false stay (empty: all move). Returns the largest move
-/// in target lengths.
-double local_newton_sweep(Relaxation& relaxation, const std::vector<char>& active,
-                          const LocalNewtonOptions& options);
+/// One sweep over the colours; vertices with `active` false stay (empty: all move). Returns how far each
+/// vertex moved, in its target length.
+std::vector<double> local_newton_sweep(Relaxation& relaxation, const std::vector<char>& active,
+                                       const LocalNewtonOptions& options);
 
 }  // namespace hooke

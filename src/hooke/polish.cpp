@@ -53,6 +53,22 @@ double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edg
 
 namespace {
 
+/// Adds the neighbours of all marked vertices.
+void grow(const Connectivity& c, std::vector<char>& marked) {
+  const std::vector<char> inner = marked;
+  for (const auto& [a, b] : c.edges)
+    if (inner[static_cast<size_t>(a)] || inner[static_cast<size_t>(b)])
+      marked[static_cast<size_t>(a)] = marked[static_cast<size_t>(b)] = 1;
+}
+
+/// Vertices that still move, and their neighbours: all others have found their place.
+std::vector<char> still_moving(const Connectivity& c, const std::vector<double>& moves, double rest) {
+  std::vector<char> marked(moves.size());
+  for (size_t v = 0; v < moves.size(); ++v) marked[v] = moves[v] > rest;
+  grow(c, marked);
+  return marked;
+}
+
 /// Marks the corners of all faces with an angle below the threshold (degrees) and `rings` rings around them.
 std::vector<char> around_bad_faces(const Mat3X& points, const Connectivity& c, double threshold, int rings) {
   std::vector<char> active(static_cast<size_t>(c.vertex_count), 0);
@@ -60,12 +76,7 @@ std::vector<char> around_bad_faces(const Mat3X& points, const Connectivity& c, d
   for (size_t f = 0; f < c.faces.size(); ++f)
     if (angles[f] < threshold)
       for (int v : c.faces[f]) active[static_cast<size_t>(v)] = 1;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::vector<char> inner = active;
-    for (const auto& [a, b] : c.edges)
-      if (inner[static_cast<size_t>(a)] || inner[static_cast<size_t>(b)])
-        active[static_cast<size_t>(a)] = active[static_cast<size_t>(b)] = 1;
-  }
+  for (int ring = 0; ring < rings; ++ring) grow(c, active);
   return active;
 }
 
@@ -89,16 +100,19 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   for (; threshold <= o.last_threshold && !result.interrupted; threshold += step) {
     r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
-    const std::vector<char> active = around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings);
+    const std::vector<char> around = around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings);
+    std::vector<char> active = around;
     for (int sweep = 0; sweep < o.sweeps && !result.interrupted; ++sweep, ++result.sweeps) {
-      local_newton_sweep(r, active, LocalNewtonOptions{});
+      active = still_moving(r.connectivity, local_newton_sweep(r, active, LocalNewtonOptions{}), o.rest);
+      for (size_t v = 0; v < active.size(); ++v) active[v] &= around[v];
       result.interrupted = observer && !observer({.step = result.sweeps});
     }
     ++result.stages;
 
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);
-    if (error > (1 + o.edge_growth) * result.edge_error_before) {  // too far: half the way from the last threshold that was not
+    if (error > o.edge_error_limit *
+                    result.edge_error_before) {  // too far: half the way from the last threshold that was not
       r.placement = kept;
       threshold -= step;
       step *= .5;

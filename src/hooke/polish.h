@@ -7,17 +7,18 @@
 namespace hooke {
 
 struct PolishOptions {
-  double first_threshold = 20;  // degrees; at least least angle + margin
-  double margin = 2;            // degrees
-  double threshold_step = 2;    // degrees per stage
-  double least_step = 1;        // degrees; steps halve down to it where a stage costs too much
-  double last_threshold = 32;   // degrees
-  double first_weight = 30;     // w of the first stage
-  double weight = 100;          // w of the others
-  int sweeps = 16;              // per stage, of Newton's method vertex by vertex
-  int rings = 2;                // around the faces below the threshold, within which vertices move
-  double edge_growth = 0;       // by which part the edges' deviation may pass that of the start
-  double keep_within = .1;      // degrees below the best angle at which a later state is still kept
+  double first_threshold = 20;    // degrees; at least least angle + margin
+  double margin = 2;              // degrees
+  double threshold_step = 2;      // degrees per stage
+  double least_step = 1;          // degrees; steps halve down to it where a stage costs too much
+  double last_threshold = 32;     // degrees
+  double first_weight = 30;       // w of the first stage
+  double weight = 100;            // w of the others
+  int sweeps = 16;                // per stage, of Newton's method vertex by vertex
+  int rings = 2;                  // around the faces below the threshold, within which vertices move
+  double rest = 3e-4;             // of a target length; what moves less in a sweep sits out the next
+  double edge_error_limit = .99;  // of l / L_e's deviation at the start, which no stage may pass
+  double keep_within = .1;        // degrees below the best angle at which a later state is still kept
 };
 
 struct PolishResult {
@@ -28,8 +29,7 @@ struct PolishResult {
   bool interrupted = false;
 };
 
-/// Raises the least angle as long as the standard deviation of l / L_e does not pass that of the start, but
-/// for the growth that is allowed.
+/// Raises the least angle as long as the standard deviation of l / L_e stays within its limit.
 PolishResult polish(Relaxation& relaxation, const TargetLengths& targets, const PolishOptions& options,
                     const Observer& observer);
 
