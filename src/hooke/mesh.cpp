@@ -6,11 +6,9 @@
 
 namespace hooke {
 
-TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) {
-  TriMesh mesh;
-  const auto vertices = static_cast<size_t>(points.cols());
-  mesh.reserve(vertices, vertices + triangles.size() + 2, triangles.size());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) mesh.add_vertex(points.col(i));
+namespace {
+
+void add_faces(TriMesh& mesh, const std::vector<Triangle>& triangles) {
   for (size_t f = 0; f < triangles.size(); ++f) {
     const auto& [a, b, c] = triangles[f];
     const auto face = mesh.add_face(mesh.vertex_handle(static_cast<unsigned>(a)),
@@ -19,7 +17,23 @@ TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) 
     if (!face.is_valid() || face.idx() != static_cast<int>(f))
       throw MeshError(fmt::format("face {} ({} {} {}) does not fit a manifold mesh", f, a, b, c));
   }
+}
+
+}  // namespace
+
+TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) {
+  TriMesh mesh;
+  const auto vertices = static_cast<size_t>(points.cols());
+  mesh.reserve(vertices, vertices + triangles.size() + 2, triangles.size());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) mesh.add_vertex(points.col(i));
+  add_faces(mesh, triangles);
   return mesh;
+}
+
+void replace_faces(TriMesh& mesh, const std::vector<Triangle>& triangles) {
+  mesh.resize(mesh.n_vertices(), 0, 0);
+  for (const auto v : mesh.vertices()) mesh.set_isolated(v);
+  add_faces(mesh, triangles);
 }
 
 Eigen::Map<Mat3X> positions(TriMesh& mesh) {

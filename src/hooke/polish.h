@@ -29,7 +29,7 @@ struct PolishResult {
   bool interrupted = false;
 };
 
-/// Raises the least angle as long as the standard deviation of l / L_e stays below that of the start.
+/// Raises the least angle as long as the standard deviation of l / L_e stays within its limit.
 PolishResult polish(Relaxation& relaxation, const TargetLengths& targets, const PolishOptions& options,
                     const Observer& observer);
 

@@ -11,19 +11,22 @@ namespace {
 /// The work in hand and the account of it.
 class Remeshing {
  public:
-  Remeshing(const TriMesh& mesh, const RemeshOptions& options, const Observer& observer)
+  Remeshing(Workspace& work, const RemeshOptions& options, const Observer& observer)
       : options_(options),
         observer_(observer),
-        work_(mesh, options.constraints, options.filter, options.retraction, options.guards),
+        work_(work),
         energy_(*work_.connectivity, work_.targets, {.altitude = options.altitude}),
         guards_(*work_.connectivity, work_.targets, options.guards) {}
 
-  RemeshResult run(TriMesh& mesh) {
-    unfold();
+  RemeshResult run(const FlipResult& flips) {
+    result_.flips = flips;
+    if (flips.interrupted)
+      stop(StopReason::interrupted);
+    else
+      unfold();
     for (outer_ = 1; !done_ && outer_ <= options_.max_outer; ++outer_) iterate();
     if (options_.polish_angles && !interrupted()) raise_angles();
     conclude();
-    work_.copy_back(mesh);
     return std::move(result_);
   }
 
@@ -86,7 +89,9 @@ class Remeshing {
   void raise_angles() {
     if (options_.refit == Refit::each) work_.refit();
     Relaxation r = relaxation();
-    result_.polish = polish(r, work_.targets, options_.polish, watch("polish"));
+    const bool flips = options_.connectivity == ConnectivityMode::flip;
+    result_.polish =
+        polish(r, work_.targets, flips ? options_.flips.polish : options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
     result_.not_landed = work_.land();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
@@ -113,7 +118,7 @@ class Remeshing {
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const RemeshOptions& options_;
   const Observer& observer_;
-  Workspace work_;
+  Workspace& work_;
   Energy energy_;
   Guards guards_;
   RemeshResult result_;
@@ -149,7 +154,18 @@ std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& f
 }
 
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer) {
-  return Remeshing(mesh, options, observer).run(mesh);
+  Workspace work(mesh, options.constraints, options.filter, options.retraction, options.guards);
+  FlipResult flips;
+  if (options.connectivity == ConnectivityMode::flip)
+    flips = flip_connectivity(work, options.flips, {.altitude = options.altitude}, options.guards,
+                              options.constraints.corner_angle, observer);
+  RemeshResult result = Remeshing(work, options, observer).run(flips);
+  if (options.connectivity == ConnectivityMode::flip) {
+    result.folded_before = flips.untangle.folded_before;
+    measure_travel(work, result.flips);
+  }
+  work.copy_back(mesh);
+  return result;
 }
 
 }  // namespace hooke

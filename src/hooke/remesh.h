@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hooke/damped_relaxation.h"
+#include "hooke/flip_connectivity.h"
 #include "hooke/lbfgs.h"
 #include "hooke/polish.h"
 #include "hooke/untangle.h"
@@ -19,6 +20,8 @@ enum class IntegratorKind {
 };
 
 struct RemeshOptions {
+  ConnectivityMode connectivity = ConnectivityMode::fixed;
+  FlipOptions flips = flip_options(Effort::standard);  // in mode `flip`
   IntegratorKind integrator = IntegratorKind::lbfgs;
   IntegrationOptions integration;
   LbfgsOptions lbfgs;
@@ -55,6 +58,7 @@ struct RemeshResult {
   std::vector<IterationRecord> iterations;
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the input
+  FlipResult flips;               // in mode `flip`
   int not_landed = 0;             // vertices that stay off the input's field, where landing would fold a face
   PolishResult polish;
   ProjectionCounts projection;
@@ -70,8 +74,10 @@ IterationRecord iteration_record(const Workspace& work, const char* stage, const
 std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& faces);
 
 /// Moves the vertices of the mesh on its own surface until its edges are as near to their target lengths
-/// (v:target_length) as the connectivity allows, then raises its least angles. Ids and connectivity stay. The
-/// mesh is always left valid; an observer that returns false stops with what has been reached.
+/// (v:target_length) as the connectivity allows, then raises its least angles. Ids stay, and in mode `fixed`
+/// connectivity; in mode `flip` the mesh gets new faces, of as many ids, and its vertices may travel far from
+/// where they were. The mesh is always left valid; an observer that returns false stops with what has been
+/// reached.
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr);
 
 }  // namespace hooke

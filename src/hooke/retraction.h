@@ -72,6 +72,8 @@ class Retraction {
   void constrain(const Placement& at, Mat3X& vectors) const;
 
   const ProjectionCounts& counts() const { return counts_; }
+  const Surface& surface() const { return surface_; }
+  const RetractionOptions& options() const { return options_; }
 
  private:
   VertexPlace on_curve(VertexPlace place, int vertex) const;

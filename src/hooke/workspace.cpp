@@ -96,7 +96,26 @@ int Workspace::land() {
   return static_cast<int>(std::count(stays.begin(), stays.end(), 1));
 }
 
+void Workspace::replace_faces(std::vector<Triangle> faces) {
+  connectivity =
+      std::make_shared<const Connectivity>(make_connectivity(connectivity->vertex_count, std::move(faces)));
+  colours = colour_vertices(*connectivity);
+  targets = spread_target_lengths(*connectivity, vertex_length);
+  hooke::replace_faces(mesh, connectivity->faces);
+  positions(mesh) = placement.points;
+  input_anchors_ = placement.anchors;  // vertices may be far from where they were
+  faces_replaced_ = true;
+}
+
 void Workspace::copy_back(TriMesh& target) const {
+  if (faces_replaced_) {
+    std::vector<Triangle> faces(connectivity->faces.size());
+    for (size_t f = 0; f < faces.size(); ++f)
+      for (size_t k = 0; k < 3; ++k)
+        faces[static_cast<size_t>(order.old_face[f])][k] =
+            order.old_vertex[static_cast<size_t>(connectivity->faces[f][k])];
+    hooke::replace_faces(target, faces);
+  }
   auto out = positions(target);
   for (Eigen::Index v = 0; v < start.cols(); ++v)
     if (placement.points.col(v) != start.col(v))

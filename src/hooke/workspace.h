@@ -32,7 +32,12 @@ struct Workspace {
   /// whose landing would break a guard stays where it is; returns their number.
   int land();
 
-  /// Writes the points of all vertices that moved back to the mesh it was made from.
+  /// Gives the work other faces on the same vertices, whose ids go on to count as those of the input's faces.
+  /// The vertices must still be on the field of the input: before the first refit().
+  void replace_faces(std::vector<Triangle> faces);
+
+  /// Writes the faces, where they were replaced, and the points of all vertices that moved back to the mesh
+  /// it was made from.
   void copy_back(TriMesh& target) const;
 
   ProjectionCounts projection_counts() const;
@@ -53,6 +58,7 @@ struct Workspace {
   FilterOptions filter_;
   GuardOptions guard_options_;
   RetractionOptions retraction_options_;
+  bool faces_replaced_ = false;
   bool refitted_ = false;                 // until then both fields are the same
   std::vector<int> input_anchors_;        // where each vertex is tracked on the input
   std::unique_ptr<Retraction> to_input_;  // to the field of the input

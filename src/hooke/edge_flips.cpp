@@ -1,0 +1,130 @@
+#include "hooke/edge_flips.h"
+
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+#include "hooke/guards.h"
+#include "hooke/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr double delaunay = std::numbers::pi + 1e-9;  // radians; rounding flips no square to and fro
+
+/// Angle at p between the directions of a and b, radians.
+double angle_at(const Mat3X& points, int p, int a, int b) {
+  const Vec3 u = points.col(a) - points.col(p), v = points.col(b) - points.col(p);
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+double area(const Mat3X& points, const Triangle& t) {
+  const Vec3 a = points.col(t[0]);
+  return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
+}
+
+/// Lowering the valence of `vertex` by one: does it stay a fair vertex?
+bool may_lose_an_edge(const FlippingMesh& m, int vertex) {
+  const int corner = m.corner_valences[static_cast<size_t>(vertex)];
+  const int valence = m.triangulation.valence(vertex);
+  return corner > 0 ? valence > std::max(2, corner) : valence > 3;
+}
+
+bool may_gain_an_edge(const FlippingMesh& m, int vertex) {
+  const int corner = m.corner_valences[static_cast<size_t>(vertex)];
+  return corner == 0 || m.triangulation.valence(vertex) < corner;
+}
+
+/// Do the angles across the edge fall when it is flipped?
+bool improves(const Triangulation& t, const Mat3X& points, int h) {
+  const int a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));
+  const double old_angles = opposite_angles(t, points, h);
+  return old_angles > delaunay && angle_at(points, a, c, d) + angle_at(points, b, c, d) < old_angles;
+}
+
+std::deque<int> improvable_edges(const Triangulation& t, const Mat3X& points) {
+  std::vector<char> wanted(static_cast<size_t>(t.half_edge_count()), 0);
+  parallel_for(wanted.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int h = static_cast<int>(i);
+      wanted[i] = t.twin(h) > h && improves(t, points, h);
+    }
+  });
+  std::deque<int> queue;
+  for (size_t h = 0; h < wanted.size(); ++h)
+    if (wanted[h]) queue.push_back(static_cast<int>(h));
+  return queue;
+}
+
+/// Least cosine between the two faces, and between each of them and the face across its side.
+double least_fold(const FlippingMesh& m, const Triangle& left, const Triangle& right,
+                  const std::array<int, 2>& left_sides, const std::array<int, 2>& right_sides) {
+  const Mat3X& X = m.placement.points;
+  double least = cosine_between(X, left, right);
+  const auto look_across = [&](const Triangle& face, int side) {
+    if (const int twin = m.triangulation.twin(side); twin >= 0)
+      least =
+          std::min(least, cosine_between(X, face, m.triangulation.faces()[static_cast<size_t>(twin / 3)]));
+  };
+  for (int side : left_sides) look_across(left, side);
+  for (int side : right_sides) look_across(right, side);
+  return least;
+}
+
+/// Does the flip of h fold the faces about it?
+bool folds(const FlippingMesh& m, int h, double limit) {
+  const Triangulation& t = m.triangulation;
+  const int a = t.from(h), b = t.to(h), c = t.apex(h), g = t.twin(h), d = t.apex(g);
+  const int bc = Triangulation::next(h), ca = Triangulation::previous(h);
+  const int ad = Triangulation::next(g), db = Triangulation::previous(g);
+  const double after = least_fold(m, {c, a, d}, {d, b, c}, {ca, ad}, {db, bc});
+  return after < limit && after < least_fold(m, {a, b, c}, {b, a, d}, {bc, ca}, {ad, db});
+}
+
+}  // namespace
+
+double opposite_angles(const Triangulation& t, const Mat3X& points, int h) {
+  const int a = t.from(h), b = t.to(h);
+  return angle_at(points, t.apex(h), a, b) + angle_at(points, t.apex(t.twin(h)), a, b);
+}
+
+bool may_flip(const FlippingMesh& m, int h, const FlipGuardOptions& o) {
+  const Triangulation& t = m.triangulation;
+  if (t.twin(h) < 0) return false;
+  const int a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));
+  if (!may_lose_an_edge(m, a) || !may_lose_an_edge(m, b)) return false;
+  if (!may_gain_an_edge(m, c) || !may_gain_an_edge(m, d)) return false;
+
+  const Mat3X& X = m.placement.points;
+  const Mat3X& N = m.placement.normals;
+  const Triangle old_faces[] = {{a, b, c}, {b, a, d}}, new_faces[] = {{c, a, d}, {d, b, c}};
+  const double pair = area(X, old_faces[0]) + area(X, old_faces[1]);
+  const double c_old = std::min(face_alignment(X, N, old_faces[0]), face_alignment(X, N, old_faces[1]));
+  for (const Triangle& f : new_faces)
+    if (area(X, f) < o.area_share * pair || face_alignment(X, N, f) < std::min(o.alignment, c_old))
+      return false;
+  const double length =
+      .5 * (m.vertex_length[static_cast<size_t>(c)] + m.vertex_length[static_cast<size_t>(d)]);
+  if (edge_sagitta(X, N, {c, d}) > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}))) return false;
+  return !t.adjacent(c, d) && !folds(m, h, o.fold);
+}
+
+int flip_to_delaunay(FlippingMesh& m, const FlipGuardOptions& options) {
+  Triangulation& t = m.triangulation;
+  std::deque<int> queue = improvable_edges(t, m.placement.points);
+  const int limit = 10 * t.half_edge_count();  // on a curved surface flips may go round in circles
+  int flips = 0;
+  while (!queue.empty() && flips < limit) {
+    const int h = queue.front();
+    queue.pop_front();
+    if (t.twin(h) < 0 || !improves(t, m.placement.points, h) || !may_flip(m, h, options)) continue;
+    t.flip(h);
+    ++flips;
+    const int other = t.twin(Triangulation::flipped(h));
+    for (int side : {Triangulation::flipped(h), other})
+      for (int around : {Triangulation::next(side), Triangulation::previous(side)}) queue.push_back(around);
+  }
+  return flips;
+}
+
+}  // namespace hooke

@@ -1,0 +1,148 @@
+#include "hooke/flip_connectivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hooke {
+namespace {
+
+class FlipMode {
+ public:
+  FlipMode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms, const GuardOptions& guards,
+           double corner_angle, const Observer& observer)
+      : work_(work),
+        options_(options),
+        terms_(terms),
+        guards_(guards),
+        observer_(observer),
+        corner_valences_(corner_valences(work.start, *work.connectivity, work.constraints, corner_angle)) {}
+
+  FlipResult run() {
+    unfold();
+    if (!result_.interrupted) flow_vertices();
+    flip_and_relax();
+    for (int pass = 0; pass < options_.passes.passes && !result_.interrupted; ++pass)
+      if (!improve_flips()) break;
+    return result_;
+  }
+
+ private:
+  /// Calls what relaxes with the parts it wants, made for the faces as they are now.
+  template <typename Relax>
+  auto relax(const Relax& body) {
+    Energy energy(*work_.connectivity, work_.targets, terms_);
+    Guards guards(*work_.connectivity, work_.targets, guards_);
+    Relaxation r{work_.mesh, *work_.connectivity, work_.colours, work_.vertex_length,
+                 energy,     *work_.retraction,   guards,        work_.placement};
+    return body(r);
+  }
+
+  /// Calls what flips, and takes over its faces when it says that it flipped.
+  template <typename Flips>
+  long long flip(const Flips& body) {
+    Triangulation triangulation(*work_.connectivity);
+    FlippingMesh m{triangulation,     work_.placement,     *work_.retraction,
+                   work_.constraints, work_.vertex_length, corner_valences_};
+    const long long flips = body(m);
+    if (flips > 0) work_.replace_faces(triangulation.faces());
+    result_.flips += flips;
+    return flips;
+  }
+
+  Observer watch(const char* stage) const {
+    if (!observer_) return nullptr;
+    return [this, stage](Progress p) {
+      p.stage = stage;
+      return observer_(p);
+    };
+  }
+
+  void unfold() {
+    result_.untangle =
+        relax([&](Relaxation& r) { return untangle(r, UntangleOptions{}, watch("untangle")); });
+    result_.interrupted = result_.untangle.interrupted;
+  }
+
+  void flow_vertices() {
+    flip([&](FlippingMesh& m) {
+      result_.flow = flow(m, options_.flow, options_.guard, guards_, observer_);
+      return result_.flow.flips;
+    });
+    result_.interrupted = result_.flow.interrupted;
+  }
+
+  void settle_springs() {
+    IntegrationOptions integration;
+    integration.max_steps = options_.spring_steps;
+    const IntegrationResult relaxed =
+        relax([&](Relaxation& r) { return relax_lbfgs(r, integration, LbfgsOptions{}, watch("springs")); });
+    result_.evaluations += relaxed.evaluations;
+    result_.interrupted = relaxed.reason == StopReason::interrupted;
+  }
+
+  void flip_and_relax() {
+    for (int round = 0; round < options_.spring_rounds && !result_.interrupted; ++round) {
+      settle_springs();
+      ++result_.spring_rounds;
+      if (flip([&](FlippingMesh& m) { return flip_to_delaunay(m, options_.guard); }) == 0) break;
+    }
+  }
+
+  bool improve_flips() {
+    settle_springs();
+    ++result_.passes;
+    return flip([&](FlippingMesh& m) {
+             return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_);
+           }) > 0;
+  }
+
+  Workspace& work_;
+  const FlipOptions& options_;
+  const EnergyTerms& terms_;
+  const GuardOptions& guards_;
+  const Observer& observer_;
+  std::vector<int> corner_valences_;
+  FlipResult result_;
+};
+
+}  // namespace
+
+FlipOptions flip_options(Effort effort) {
+  FlipOptions options;
+  options.passes.passes = 0;
+  switch (effort) {
+    case Effort::fast:
+      options.flow.rounds = 20;
+      options.spring_rounds = 3;
+      options.polish.last_threshold = 36;
+      options.polish.sweeps = 8;
+      break;
+    case Effort::standard:
+      options.flow.rounds = 60;
+      break;
+    case Effort::thorough:
+      options.flow.rounds = 200;
+      options.passes.passes = 8;
+      options.passes.sweeps = 6;
+      break;
+  }
+  return options;
+}
+
+FlipResult flip_connectivity(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
+                             const GuardOptions& guards, double corner_angle, const Observer& observer) {
+  return FlipMode(work, options, terms, guards, corner_angle, observer).run();
+}
+
+void measure_travel(const Workspace& work, FlipResult& result) {
+  double sum2 = 0;
+  for (Eigen::Index v = 0; v < work.start.cols(); ++v) {
+    const double travel = (work.placement.points.col(v) - work.start.col(v)).norm() /
+                          work.vertex_length[static_cast<size_t>(v)];
+    result.max_travel = std::max(result.max_travel, travel);
+    sum2 += travel * travel;
+  }
+  result.rms_travel = std::sqrt(sum2 / static_cast<double>(std::max<Eigen::Index>(work.start.cols(), 1)));
+}
+
+}  // namespace hooke

@@ -1,0 +1,80 @@
+#include "hooke/triangulation.h"
+
+#include <cassert>
+
+namespace hooke {
+
+Triangulation::Triangulation(const Connectivity& c)
+    : faces_(c.faces),
+      twins_(3 * c.faces.size(), -1),
+      leaving_(static_cast<size_t>(c.vertex_count), -1),
+      valences_(static_cast<size_t>(c.vertex_count), 0),
+      on_boundary_(static_cast<size_t>(c.vertex_count), 0) {
+  std::vector<int> first(c.edges.size(), -1);
+  for (size_t f = 0; f < faces_.size(); ++f)
+    for (size_t k = 0; k < 3; ++k) {
+      const int h = static_cast<int>(3 * f + k);
+      leaving_[static_cast<size_t>(faces_[f][k])] = h;
+      int& other = first[static_cast<size_t>(c.face_edges[f][k])];
+      if (other < 0)
+        other = h;
+      else
+        link(h, other);
+    }
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    for (int v : c.edges[e]) {
+      ++valences_[static_cast<size_t>(v)];
+      if (c.is_boundary_edge(static_cast<int>(e))) on_boundary_[static_cast<size_t>(v)] = 1;
+    }
+}
+
+std::vector<int> Triangulation::outgoing(int vertex) const {
+  std::vector<int> spokes;
+  const int any = leaving_[static_cast<size_t>(vertex)];
+  if (any < 0) return spokes;
+  int start = any;  // as far clockwise as there are faces
+  for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
+  if (twin(start) >= 0) start = any;
+  for (int h = start; h >= 0;) {
+    spokes.push_back(h);
+    h = twin(previous(h));
+    if (h == start) break;
+  }
+  return spokes;
+}
+
+bool Triangulation::adjacent(int a, int b) const {
+  for (int h : outgoing(a))
+    if (to(h) == b || apex(h) == b) return true;
+  return false;
+}
+
+void Triangulation::link(int h, int twin) {
+  if (h >= 0) twins_[static_cast<size_t>(h)] = twin;
+  if (twin >= 0) twins_[static_cast<size_t>(twin)] = h;
+}
+
+void Triangulation::flip(int h) {
+  const int t = twin(h);
+  assert(t >= 0);
+  const int a = from(h), b = to(h), c = apex(h), d = apex(t);
+  const int ca = twin(previous(h)), bc = twin(next(h)), ad = twin(next(t)), db = twin(previous(t));
+  const int f = h / 3, g = t / 3;
+  faces_[static_cast<size_t>(f)] = {c, a, d};
+  faces_[static_cast<size_t>(g)] = {d, b, c};
+  link(3 * f, ca);
+  link(3 * f + 1, ad);
+  link(3 * f + 2, 3 * g + 2);
+  link(3 * g, db);
+  link(3 * g + 1, bc);
+  leaving_[static_cast<size_t>(c)] = 3 * f;
+  leaving_[static_cast<size_t>(a)] = 3 * f + 1;
+  leaving_[static_cast<size_t>(d)] = 3 * g;
+  leaving_[static_cast<size_t>(b)] = 3 * g + 1;
+  --valences_[static_cast<size_t>(a)];
+  --valences_[static_cast<size_t>(b)];
+  ++valences_[static_cast<size_t>(c)];
+  ++valences_[static_cast<size_t>(d)];
+}
+
+}  // namespace hooke

@@ -1,0 +1,102 @@
+#include "hooke/triangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "flipping_scene.h"
+
+namespace hooke {
+namespace {
+
+Triangulation triangulate(const test::Triangles& t) {
+  return Triangulation(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+}
+
+std::multiset<std::set<int>> corner_sets(const Triangulation& t) {
+  std::multiset<std::set<int>> sets;
+  for (const Triangle& f : t.faces()) sets.insert(std::set<int>(f.begin(), f.end()));
+  return sets;
+}
+
+void expect_sound(const Triangulation& t, int vertices) {
+  for (int h = 0; h < t.half_edge_count(); ++h) {
+    const int twin = t.twin(h);
+    if (twin < 0) continue;
+    EXPECT_EQ(t.twin(twin), h);
+    EXPECT_EQ(t.from(twin), t.to(h));
+    EXPECT_EQ(t.to(twin), t.from(h));
+  }
+  const Connectivity c = make_connectivity(vertices, t.faces());
+  for (int v = 0; v < vertices; ++v) {
+    EXPECT_EQ(t.valence(v), static_cast<int>(c.vertex_edges[v].size()));
+    std::set<int> faces;
+    for (int h : t.outgoing(v)) {
+      EXPECT_EQ(t.from(h), v);
+      faces.insert(h / 3);
+    }
+    EXPECT_EQ(faces, std::set<int>(c.vertex_faces[v].begin(), c.vertex_faces[v].end()));
+    for (int w : c.vertex_neighbours[v]) EXPECT_TRUE(t.adjacent(v, w));
+  }
+}
+
+TEST(Triangulation, StaysSoundUnderAnyFlips) {
+  const test::Triangles grid = test::grid(6, test::flat);
+  const int n = static_cast<int>(grid.points.cols());
+  Triangulation t = triangulate(grid);
+  std::mt19937 random(3);
+  int flips = 0;
+  for (int i = 0; i < 500; ++i) {
+    const int h = static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count()));
+    if (t.twin(h) < 0 || t.adjacent(t.apex(h), t.apex(t.twin(h)))) continue;
+    t.flip(h);
+    ++flips;
+  }
+  EXPECT_GT(flips, 100);
+  expect_sound(t, n);
+  EXPECT_EQ(test::boundary_edges(n, t.faces()), test::boundary_edges(n, grid.faces));
+  EXPECT_NO_THROW(build_mesh(grid.points, t.faces()));
+}
+
+TEST(Triangulation, TwoFlipsOfAnEdgeGiveTheSameFaces) {
+  const test::Triangles ball = test::sphere(1);
+  Triangulation t = triangulate(ball);
+  const auto before = corner_sets(t);
+  t.flip(10);
+  EXPECT_NE(corner_sets(t), before);
+  t.flip(Triangulation::flipped(10));
+  EXPECT_EQ(corner_sets(t), before);
+}
+
+TEST(Triangulation, AFlipJoinsTheCornersAcross) {
+  Triangulation t = triangulate(test::sphere(1));
+  const int h = 7, a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));
+  t.flip(h);
+  EXPECT_FALSE(t.adjacent(a, b));
+  EXPECT_TRUE(t.adjacent(c, d));
+  const int f = Triangulation::flipped(h);
+  EXPECT_EQ((std::set{t.from(f), t.to(f)}), (std::set{c, d}));
+}
+
+TEST(Triangulation, SpokesRunFromOneBoundaryEdgeToTheOther) {
+  const test::Triangles grid = test::grid(2, test::flat);
+  const Triangulation t = triangulate(grid);
+  for (int v = 0; v < 9; ++v) {
+    const std::vector<int> spokes = t.outgoing(v);
+    for (size_t i = 0; i + 1 < spokes.size(); ++i) EXPECT_EQ(t.apex(spokes[i]), t.to(spokes[i + 1]));
+    if (!t.on_boundary(v)) continue;
+    EXPECT_EQ(t.twin(spokes.front()), -1);
+    EXPECT_EQ(t.twin(Triangulation::previous(spokes.back())), -1);
+  }
+}
+
+TEST(Triangulation, AVertexWithoutFacesHasNoSpokes) {
+  const Triangulation t(make_connectivity(4, {{0, 1, 2}}));
+  EXPECT_TRUE(t.outgoing(3).empty());
+  EXPECT_EQ(t.valence(3), 0);
+}
+
+}  // namespace
+}  // namespace hooke
