@@ -125,11 +125,12 @@ int run(Settings s) {
       throw NumericalError(
           fmt::format("{}: the result is not finite; nothing was written", record.input.path));
     record.status = status_of(record.result->reason);
-    record.after = measure(mesh, connectivity, length);
-    record.deviation = measure_deviation(original, connectivity, positions(mesh), connectivity);
+    const Connectivity after = make_connectivity(connectivity.vertex_count, triangles_of(mesh));
+    record.after = measure(mesh, after, length);
+    record.deviation = measure_deviation(original, connectivity, positions(mesh), after);
     const WrittenFile written = write_mesh(s.output, mesh, s.format, loaded.encoding);
     record.output = {printable(s.output.string()), written.sha256, s.format,
-                     record.input.connectivity_sha256};
+                     connectivity_sha256(after.faces)};
     add_result_warnings(s, record);
   }
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());

@@ -70,6 +70,10 @@ void print_summary(const Settings& s, const RunRecord& run) {
   if (s.verbose) print_iterations(*run.result);
   fmt::print(stderr, "{}", quality_table(run.before, *run.after, *run.deviation));
   fmt::print(stderr, "\n{}\n", reason_in_words(run));
+  const FlipResult& f = run.result->flips;
+  if (f.flow.rounds > 0)
+    fmt::print(stderr, "{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n",
+               f.flips, f.max_travel, f.rms_travel);
   fmt::print(stderr, "{} written in {:.2f} s\n", run.output->path, run.resources.wall_s);
 }
 

@@ -48,6 +48,10 @@ struct Words {
 void add_options(CLI::App& app, Settings& s, Words& words) {
   const std::map<std::string, IntegratorKind> integrators{{"lbfgs", IntegratorKind::lbfgs},
                                                           {"damped", IntegratorKind::damped}};
+  const std::map<std::string, ConnectivityMode> modes{{"fixed", ConnectivityMode::fixed},
+                                                      {"flip", ConnectivityMode::flip}};
+  const std::map<std::string, Effort> efforts{
+      {"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}};
   const std::map<std::string, FilterKind> filters{{"local", FilterKind::local},
                                                   {"global", FilterKind::global},
                                                   {"closest", FilterKind::closest},
@@ -78,7 +82,19 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
       ->capture_default_str()
       ->group(target);
 
+  app.add_option("--connectivity", s.remesh.connectivity,
+                 "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel")
+      ->transform(one_of(modes))
+      ->type_name("fixed|flip")
+      ->default_str("fixed")
+      ->group(target);
+
   const char* method = "Method";
+  app.add_option("--effort", s.effort, "How long to go on with flips for better triangles")
+      ->transform(one_of(efforts))
+      ->type_name("fast|default|thorough")
+      ->default_str("default")
+      ->group(method);
   app.add_option("--integrator", s.remesh.integrator,
                  "lbfgs: minimise the springs' energy; damped: follow the paper's equation of motion")
       ->transform(one_of(integrators))
@@ -212,9 +228,10 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
 }
 
 /// Gives the words their meaning and checks what belongs together. Throws Error.
-void settle(Settings& s, const Words& words, bool kernel_given) {
+void settle(Settings& s, const Words& words, bool kernel_given, bool effort_given) {
   s.length = parse_length(s.length_text);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
+  s.remesh.flips = flip_options(s.effort);
   s.paper_options.evolution.damped = s.remesh.damped;
   if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
@@ -223,6 +240,9 @@ void settle(Settings& s, const Words& words, bool kernel_given) {
     s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *words.max_steps;
   if (words.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *words.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
+  const bool flips = s.remesh.connectivity == ConnectivityMode::flip;
+  if (s.paper && flips) throw Error("--paper keeps the faces; leave out --connectivity flip");
+  if (effort_given && !flips) throw Error("--effort is of --connectivity flip; leave it out, or flip");
   if (s.check && !s.output.empty()) throw Error("--check writes no mesh; leave out --output");
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
@@ -242,7 +262,7 @@ Parsed parse_command_line(int argc, char** argv) {
   add_options(app, settings, words);
   try {
     app.parse(argc, argv);
-    settle(settings, words, app.count("--kernel") > 0);
+    settle(settings, words, app.count("--kernel") > 0, app.count("--effort") > 0);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return {std::nullopt, app.exit(e)};  // help and version
     print_error(e.what() + std::string("; see hooke-remesh --help"));

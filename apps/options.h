@@ -19,6 +19,7 @@ struct Settings {
   std::string length_text = "auto";
   bool check = false;  // measure the input only
   bool paper = false;
+  Effort effort = Effort::standard;  // with flips
   RemeshOptions remesh;
   PaperOptions paper_options;
   std::filesystem::path fix;  // file of vertex ids that stay; empty without

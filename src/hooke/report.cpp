@@ -95,6 +95,14 @@ Json geometry_json(const RunRecord& run) {
   return j;
 }
 
+/// What mode `flip` did: null without it. Travel is in target lengths.
+Json flips_json(const RunRecord& run) {
+  if (!run.result || run.result->flips.flow.rounds == 0) return nullptr;
+  const FlipResult& f = run.result->flips;
+  return {{"flips", f.flips},   {"flow_rounds", f.flow.rounds}, {"spring_rounds", f.spring_rounds},
+          {"passes", f.passes}, {"max_travel", f.max_travel},   {"rms_travel", f.rms_travel}};
+}
+
 }  // namespace
 
 std::string connectivity_sha256(const std::vector<Triangle>& faces) {
@@ -110,6 +118,8 @@ std::string connectivity_sha256(const std::vector<Triangle>& faces) {
 Json parameters_json(const RemeshOptions& o) {
   Json j;
   j["paper"] = false;
+  j["connectivity"] = o.connectivity == ConnectivityMode::fixed ? "fixed" : "flip";
+  j["flow_rounds"] = o.connectivity == ConnectivityMode::fixed ? 0 : o.flips.flow.rounds;
   j["integrator"] = o.integrator == IntegratorKind::lbfgs ? "lbfgs" : "damped";
   j["polish"] = o.polish_angles;
   add_filter(j, o.filter);
@@ -194,6 +204,7 @@ Json report_json(const RunRecord& run) {
     j["projection"]["not_landed"] = run.result->not_landed;
     j["held_back"] = run.result->held_back;
   }
+  j["flips"] = flips_json(run);
   j["gates"] = Json::array();
   j["warnings"] = Json::array();
   for (const Warning& w : run.warnings) j["warnings"].push_back({{"code", w.code}, {"message", w.message}});
