@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "scene.h"
 
 namespace hooke {
@@ -64,7 +66,7 @@ TEST(CapDisplacement, ShortensWhatIsTooLongAndNothingElse) {
   EXPECT_GT(shortened, 1000);
 }
 
-TEST(Colours, OfOneClassShareNoEdgeAndEveryVertexHasOne) {
+TEST(Colours, OfOneClassAreNotSeenFromEachOtherAndEveryVertexHasOne) {
   for (const test::Triangles& t : {test::sphere(3), test::grid(9, test::flat), test::tetrahedron()}) {
     const Connectivity c = test::connect(t);
     std::vector<int> colour(static_cast<size_t>(c.vertex_count), -1);
@@ -77,6 +79,14 @@ TEST(Colours, OfOneClassShareNoEdgeAndEveryVertexHasOne) {
     for (int k : colour) EXPECT_GE(k, 0);
     for (const auto& [a, b] : c.edges)
       EXPECT_NE(colour[static_cast<size_t>(a)], colour[static_cast<size_t>(b)]);
+    for (size_t e = 0; e < c.edges.size(); ++e) {  // the fold guard looks across
+      if (c.is_boundary_edge(static_cast<int>(e))) continue;
+      std::set<int> corners, classes_there;
+      for (int f : c.edge_faces[e])
+        for (int v : c.faces[static_cast<size_t>(f)]) corners.insert(v);
+      for (int v : corners) classes_there.insert(colour[static_cast<size_t>(v)]);
+      EXPECT_EQ(classes_there.size(), corners.size());
+    }
   }
 }
 
