@@ -33,8 +33,8 @@ inline constexpr char target_length_property[] =
 /// Throws MeshError if OpenMesh refuses a face all the same.
 TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles);
 
-/// Gives the mesh other faces on the same vertices, which keep their ids, points and properties. Properties of
-/// edges and faces start anew. Pre-condition and exception as for build_mesh().
+/// Gives the mesh other faces on the same vertices, which keep their ids, points and properties. Properties
+/// of edges and faces start anew. Pre-condition and exception as for build_mesh().
 void replace_faces(TriMesh& mesh, const std::vector<Triangle>& triangles);
 
 /// The points as a 3 x |V| matrix over the mesh's own storage. Dies when vertices are added or removed.
