@@ -128,12 +128,12 @@ bool read_face(Scanner& in, int face, int vertex_count, MeshFile& file) {
 
 std::vector<std::string> kinds_not_kept(const OffHeader& header, int vertex_extra, bool face_colours) {
   std::vector<std::string> kinds;
-  if (header.normals) kinds.push_back("normals");
-  if (header.colours) kinds.push_back("vertex colours");
-  if (header.texture) kinds.push_back("texture coordinates");
+  if (header.normals) kinds.emplace_back("normals");
+  if (header.colours) kinds.emplace_back("vertex colours");
+  if (header.texture) kinds.emplace_back("texture coordinates");
   if (kinds.empty() && vertex_extra > 0)
     kinds.push_back(fmt::format("{} more numbers on each vertex line", vertex_extra));
-  if (face_colours) kinds.push_back("face colours");
+  if (face_colours) kinds.emplace_back("face colours");
   return kinds;
 }
 
