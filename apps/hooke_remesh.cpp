@@ -49,13 +49,13 @@ void write_report(const Settings& s, const RunRecord& run) {
 /// What the result must not hide, and what the length means where it is out of reach.
 void add_result_warnings(const Settings& s, RunRecord& run) {
   const RemeshResult& r = *run.result;
-  if (!r.folded_faces.empty()) {
+  if (const std::vector<int> folded = folded_faces(run); !folded.empty()) {
     std::string ids;
-    for (size_t i = 0; i < r.folded_faces.size() && i < 10; ++i) ids += fmt::format(" {}", r.folded_faces[i]);
+    for (size_t i = 0; i < folded.size() && i < 10; ++i) ids += fmt::format(" {}", folded[i]);
     run.warnings.push_back(
-        {"folded_faces",
-         fmt::format("{}: {} faces lie folded away from the surface (ids{}{}); look at them in the input",
-                     run.input.path, r.folded_faces.size(), ids, r.folded_faces.size() > 10 ? " ..." : "")});
+        {"folded_faces", fmt::format("{}: {} faces lie against the surface, or at folds that the input has "
+                                     "(ids{}{}); look at them in the input",
+                                     run.input.path, folded.size(), ids, folded.size() > 10 ? " ..." : "")});
   }
   const size_t crossings = run.after->self_intersections.value_or(0),
                before = run.before.self_intersections.value_or(0);

@@ -108,10 +108,22 @@ TEST(Deviation, FacesTurnedOverAreCounted) {
   }
   EXPECT_GT(expected, 0u);
   EXPECT_EQ(measure(t, folded).flipped_faces, expected);
+  EXPECT_GE(measure(t, folded).opposing_faces.size(), expected);
 
   test::Triangles inside_out = test::sphere(2);
   for (Triangle& f : inside_out.faces) std::swap(f[0], f[1]);
   EXPECT_EQ(measure(test::sphere(2), inside_out).flipped_faces, inside_out.faces.size());
+}
+
+TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {
+  const test::Triangles t = test::grid(4, test::flat);
+  EXPECT_TRUE(measure(t, t).opposing_faces.empty());
+  test::Triangles folded = t;
+  folded.points.col(12) += Vec3(.3, .0, 0);
+  const Deviation d = measure(folded, t);  // the flat result lies over the fold
+  EXPECT_FALSE(d.opposing_faces.empty());
+  EXPECT_LE(d.flipped_faces, d.opposing_faces.size());
+  EXPECT_TRUE(std::ranges::is_sorted(d.opposing_faces));
 }
 
 TEST(Deviation, RigidMotionOfBothChangesNothingAndScaleScales) {

@@ -143,20 +143,27 @@ Mat3X vertex_normals(const Side& side) {
   return normals;
 }
 
-size_t count_flipped_faces(const Side& reference, const Side& result,
-                           const std::vector<ClosestPoint>& closest) {
+/// The reference's vertex normals, interpolated at a point of its surface.
+Vec3 normal_at(const Side& reference, const Mat3X& normals, const ClosestPoint& at) {
+  const Triangle& t = reference.connectivity.faces[static_cast<size_t>(at.face)];
+  const Vec3 weights = barycentric(at.point, reference.points.col(t[0]), reference.points.col(t[1]),
+                                   reference.points.col(t[2]));
+  return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
+}
+
+/// `closest` belongs to the centres of the result's faces.
+void find_opposing_faces(const Side& reference, const Side& result, const std::vector<ClosestPoint>& closest,
+                         Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
-  size_t flipped = 0;
   for (size_t f = 0; f < closest.size(); ++f) {
     if (closest[f].face < 0) continue;
-    const Triangle& t = reference.connectivity.faces[static_cast<size_t>(closest[f].face)];
-    const Vec3 weights = barycentric(closest[f].point, reference.points.col(t[0]), reference.points.col(t[1]),
-                                     reference.points.col(t[2]));
-    const Vec3 normal =
-        weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
-    flipped += area_vector(result.points, result.connectivity.faces[f]).dot(normal) < 0;
+    const Vec3 n = area_vector(result.points, result.connectivity.faces[f]);
+    const Triangle& across = reference.connectivity.faces[static_cast<size_t>(closest[f].face)];
+    const bool flipped = n.dot(normal_at(reference, normals, closest[f])) < 0;
+    deviation.flipped_faces += flipped;
+    if (flipped || n.dot(area_vector(reference.points, across)) < 0)
+      deviation.opposing_faces.push_back(static_cast<int>(f));
   }
-  return flipped;
 }
 
 /// Boundary edges as triangles without area, which is how the tree takes segments.
@@ -202,7 +209,7 @@ Deviation measure_deviation(const Mat3X& reference_points, const Connectivity& r
   d.to_reference = measure_distance(new_side, outward);
   d.from_reference = measure_distance(old_side, sample_distances(old_side, new_side));
   d.normal_deviation = measure_normal_deviation(old_side, new_side, outward.centres);
-  d.flipped_faces = count_flipped_faces(old_side, new_side, outward.centres);
+  find_opposing_faces(old_side, new_side, outward.centres, d);
 
   const Extent before = measure_extent(reference_points, reference);
   const Extent after = measure_extent(result_points, result);

@@ -2,7 +2,9 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 
 #include "hooke/io/sha256.h"
@@ -91,7 +93,7 @@ Json paper_columns(const RunRecord& run) {
 
 Json geometry_json(const RunRecord& run) {
   Json j = to_json(*run.deviation);
-  j["folded_faces"] = run.result->folded_faces;
+  j["folded_faces"] = folded_faces(run);
   return j;
 }
 
@@ -183,6 +185,12 @@ std::string status_of(StopReason reason) {
       return "interrupted";
   }
   return "";
+}
+
+std::vector<int> folded_faces(const RunRecord& run) {
+  std::vector<int> ids;
+  std::ranges::set_union(run.result->folded_faces, run.deviation->opposing_faces, std::back_inserter(ids));
+  return ids;
 }
 
 Json report_json(const RunRecord& run) {

@@ -55,6 +55,10 @@ struct RunRecord {
 /// "converged", "stalled", "iteration_limit" or "interrupted".
 std::string status_of(StopReason reason);
 
+/// Ids, ascending, of the result's faces that lie against the surface, by the optimizer's measure or by the
+/// deviation's, or at folds of the input. Pre-condition: the run has a result and a deviation.
+std::vector<int> folded_faces(const RunRecord& run);
+
 nlohmann::ordered_json report_json(const RunRecord& run);
 
 }  // namespace hooke
