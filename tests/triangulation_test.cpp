@@ -70,6 +70,29 @@ TEST(Triangulation, TwoFlipsOfAnEdgeGiveTheSameFaces) {
   EXPECT_EQ(corner_sets(t), before);
 }
 
+TEST(Triangulation, FlipsAroundKeepConstrainedEdges) {
+  Triangulation t = triangulate(test::grid(6, test::flat));
+  std::mt19937 random(5);
+  const auto any = [&] { return static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count())); };
+  const auto constrained = [&] {
+    std::multiset<std::set<int>> edges;
+    for (int h = 0; h < t.half_edge_count(); ++h)
+      if (t.is_constrained(h)) edges.insert({t.from(h), t.to(h)});
+    return edges;
+  };
+  for (int i = 0; i < 20; ++i) t.constrain(any());
+  const auto before = constrained();
+  EXPECT_GE(before.size(), 20u);
+  for (int i = 0; i < 500; ++i) {
+    const int h = any();
+    if (t.twin(h) < 0 || t.is_constrained(h) || t.adjacent(t.apex(h), t.apex(t.twin(h)))) continue;
+    t.flip(h);
+    for (int side : {Triangulation::flipped(h), t.twin(Triangulation::flipped(h))})
+      EXPECT_FALSE(t.is_constrained(side));
+  }
+  EXPECT_EQ(constrained(), before);
+}
+
 TEST(Triangulation, AFlipJoinsTheCornersAcross) {
   Triangulation t = triangulate(test::sphere(1));
   const int h = 7, a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));

@@ -39,6 +39,7 @@ struct Constraints {
   std::vector<int> curve;        // per vertex: index into curves, -1 without
   std::vector<int> segment;      // per vertex: where on its curve it starts
   std::vector<Curve> curves;
+  std::vector<Edge> creases;  // edges, by their vertices, that no change of the connectivity may lose
 };
 
 /// Boundary loops become curves, split at their corners. Vertices without faces stand still.

@@ -47,7 +47,7 @@ std::deque<int> improvable_edges(const Triangulation& t, const Mat3X& points) {
   parallel_for(wanted.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int h = static_cast<int>(i);
-      wanted[i] = t.twin(h) > h && improves(t, points, h);
+      wanted[i] = t.twin(h) > h && !t.is_constrained(h) && improves(t, points, h);
     }
   });
   std::deque<int> queue;
@@ -90,7 +90,7 @@ double opposite_angles(const Triangulation& t, const Mat3X& points, int h) {
 
 bool may_flip(const FlippingMesh& m, int h, const FlipGuardOptions& o) {
   const Triangulation& t = m.triangulation;
-  if (t.twin(h) < 0) return false;
+  if (t.twin(h) < 0 || t.is_constrained(h)) return false;
   const int a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));
   if (!may_lose_an_edge(m, a) || !may_lose_an_edge(m, b)) return false;
   if (!may_gain_an_edge(m, c) || !may_gain_an_edge(m, d)) return false;
@@ -117,7 +117,9 @@ int flip_to_delaunay(FlippingMesh& m, const FlipGuardOptions& options) {
   while (!queue.empty() && flips < limit) {
     const int h = queue.front();
     queue.pop_front();
-    if (t.twin(h) < 0 || !improves(t, m.placement.points, h) || !may_flip(m, h, options)) continue;
+    if (t.twin(h) < 0 || t.is_constrained(h) || !improves(t, m.placement.points, h) ||
+        !may_flip(m, h, options))
+      continue;
     t.flip(h);
     ++flips;
     const int other = t.twin(Triangulation::flipped(h));

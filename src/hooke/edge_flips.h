@@ -29,10 +29,10 @@ struct FlippingMesh {
 /// Sum of the two angles across an inner edge, radians; Delaunay up to pi.
 double opposite_angles(const Triangulation& triangulation, const Mat3X& points, int half_edge);
 
-/// May the edge be flipped? It may not on the boundary; where the new edge exists already; where a vertex
-/// comes to have fewer than 3 edges (2 at a corner) or a corner moves away from the valence it wants; where a
-/// new face is a sliver, lies against the surface or its neighbours, or the new edge cuts deep into it (see
-/// the options).
+/// May the edge be flipped? It may not on the boundary or on a crease; where the new edge exists already;
+/// where a vertex comes to have fewer than 3 edges (2 at a corner) or a corner moves away from the valence it
+/// wants; where a new face is a sliver, lies against the surface or its neighbours, or the new edge cuts deep
+/// into it (see the options).
 bool may_flip(const FlippingMesh& mesh, int half_edge, const FlipGuardOptions& options);
 
 /// Flips edges whose opposite angles exceed pi by more than 1e-9, first come first served, as long as that

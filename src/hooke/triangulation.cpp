@@ -9,7 +9,8 @@ Triangulation::Triangulation(const Connectivity& c)
       twins_(3 * c.faces.size(), -1),
       leaving_(static_cast<size_t>(c.vertex_count), -1),
       valences_(static_cast<size_t>(c.vertex_count), 0),
-      on_boundary_(static_cast<size_t>(c.vertex_count), 0) {
+      on_boundary_(static_cast<size_t>(c.vertex_count), 0),
+      constrained_(3 * c.faces.size(), 0) {
   std::vector<int> first(c.edges.size(), -1);
   for (size_t f = 0; f < faces_.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
@@ -54,12 +55,19 @@ void Triangulation::link(int h, int twin) {
   if (twin >= 0) twins_[static_cast<size_t>(twin)] = h;
 }
 
+void Triangulation::constrain(int h) {
+  constrained_[static_cast<size_t>(h)] = 1;
+  if (const int t = twin(h); t >= 0) constrained_[static_cast<size_t>(t)] = 1;
+}
+
 void Triangulation::flip(int h) {
   const int t = twin(h);
-  assert(t >= 0);
+  assert(t >= 0 && !is_constrained(h));
   const int a = from(h), b = to(h), c = apex(h), d = apex(t);
   const int ca = twin(previous(h)), bc = twin(next(h)), ad = twin(next(t)), db = twin(previous(t));
   const int f = h / 3, g = t / 3;
+  const auto mark = [this](int side) { return constrained_[static_cast<size_t>(side)]; };
+  const std::array<char, 4> marks = {mark(previous(h)), mark(next(t)), mark(previous(t)), mark(next(h))};
   faces_[static_cast<size_t>(f)] = {c, a, d};
   faces_[static_cast<size_t>(g)] = {d, b, c};
   link(3 * f, ca);
@@ -67,6 +75,8 @@ void Triangulation::flip(int h) {
   link(3 * f + 2, 3 * g + 2);
   link(3 * g, db);
   link(3 * g + 1, bc);
+  for (size_t i = 0; i < 4; ++i) constrained_[static_cast<size_t>(i < 2 ? 3 * f : 3 * g) + i % 2] = marks[i];
+  constrained_[static_cast<size_t>(3 * f + 2)] = constrained_[static_cast<size_t>(3 * g + 2)] = 0;
   leaving_[static_cast<size_t>(c)] = 3 * f;
   leaving_[static_cast<size_t>(a)] = 3 * f + 1;
   leaving_[static_cast<size_t>(d)] = 3 * g;

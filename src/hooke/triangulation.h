@@ -33,8 +33,13 @@ class Triangulation {
   /// Does an edge join a and b?
   bool adjacent(int a, int b) const;
 
+  /// Marks the edge of h, in both its faces, as one that is never flipped: a crease. Flips of other edges
+  /// keep the mark.
+  void constrain(int h);
+  bool is_constrained(int h) const { return constrained_[static_cast<size_t>(h)] != 0; }
+
   /// The edge of h comes to join the two corners across it.
-  /// Pre-condition: h has a twin, and no edge joins those corners.
+  /// Pre-condition: h has a twin, is not constrained, and no edge joins those corners.
   void flip(int h);
 
   /// The half-edge of the flipped edge in the face of h, after flip(h).
@@ -48,6 +53,7 @@ class Triangulation {
   std::vector<int> leaving_;  // per vertex: one half-edge that leaves it, -1 without faces
   std::vector<int> valences_;
   std::vector<char> on_boundary_;
+  std::vector<char> constrained_;  // per half-edge
 };
 
 }  // namespace hooke
