@@ -59,8 +59,9 @@ size_t count_folded_edges(const Mat3X& area_vector, const Connectivity& connecti
   return folded;
 }
 
-std::vector<WorstFace> find_worst_faces(const Mat3X& points, const std::vector<Triangle>& faces,
+std::vector<WorstFace> find_worst_faces(const Mat3X& points, const Connectivity& connectivity,
                                         const std::vector<TriangleShape>& shapes, size_t wanted) {
+  const std::vector<Triangle>& faces = connectivity.faces;
   std::vector<int> order(faces.size());
   std::iota(order.begin(), order.end(), 0);
   const auto count = static_cast<std::ptrdiff_t>(std::min(wanted, order.size()));
@@ -72,7 +73,8 @@ std::vector<WorstFace> find_worst_faces(const Mat3X& points, const std::vector<T
   for (auto it = order.begin(); it != order.begin() + count; ++it) {
     const Triangle& t = faces[static_cast<size_t>(*it)];
     worst.push_back({*it, shapes[static_cast<size_t>(*it)].min_angle, t,
-                     (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3});
+                     (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3,
+                     bound_least_angle(points, connectivity, *it)});
   }
   return worst;
 }
@@ -127,7 +129,7 @@ Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
 
   const std::vector<TriangleShape> shapes = measure_faces(points, connectivity.faces);
   describe_all(shapes, measure_edges(points, connectivity.edges), edge_target_length, q);
-  q.worst_faces = find_worst_faces(points, connectivity.faces, shapes, options.worst_faces);
+  q.worst_faces = find_worst_faces(points, connectivity, shapes, options.worst_faces);
 
   const Mat3X area_vector = area_vectors(points, connectivity.faces);
   q.folded_edges = count_folded_edges(area_vector, connectivity);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "hooke/connectivity.h"
+#include "hooke/angle_bound.h"
 #include "hooke/extent.h"
 #include "hooke/statistics.h"
 #include "hooke/topology.h"
@@ -23,6 +23,7 @@ struct WorstFace {
   double min_angle = 0;  // degrees
   Triangle vertices{};
   Vec3 centre = Vec3::Zero();
+  AngleBound bound;  // what the connectivity about it allows
 };
 
 struct Quality {

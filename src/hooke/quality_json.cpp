@@ -37,7 +37,9 @@ Json worst_faces(const std::vector<WorstFace>& faces) {
     json.push_back({{"face", w.face},
                     {"min_angle", number(w.min_angle)},
                     {"vertices", w.vertices},
-                    {"centre", vector(w.centre)}});
+                    {"centre", vector(w.centre)},
+                    {"bound", number(w.bound.degrees)},
+                    {"bound_vertices", w.bound.vertices}});
   return json;
 }
 
