@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace hooke {
 namespace {
@@ -25,6 +26,20 @@ TEST(FastLog, IsExactAtOneAndAccurateBesideIt) {
     EXPECT_EQ(logs[3], 0);
     EXPECT_NEAR(logs[0], std::log(above), 2e-15 * d);
     EXPECT_NEAR(logs[1], std::log(below), 2e-15 * d);
+  }
+}
+
+TEST(FastAngle, IsTheAngle) {
+  for (double angle = 1e-9; angle < 1.57; angle = 1.07 * angle + 1e-9) {
+    const Lanes x = {std::cos(angle), 3 * std::cos(angle), 0, 1},
+                y = {std::sin(angle), 3 * std::sin(angle), 1, 1};
+    const Lanes r = {1, 3, 1, std::sqrt(2.)};
+    Lanes found;
+    take_angle(x, y, r, found);
+    EXPECT_NEAR(found[0], angle, 4e-15 * angle);
+    EXPECT_NEAR(found[1], angle, 4e-15 * angle);
+    EXPECT_NEAR(found[2], std::numbers::pi / 2, 4e-15);
+    EXPECT_NEAR(found[3], std::numbers::pi / 4, 4e-15);
   }
 }
 

@@ -66,29 +66,5 @@ TEST(CapDisplacement, ShortensWhatIsTooLongAndNothingElse) {
   EXPECT_GT(shortened, 1000);
 }
 
-TEST(Colours, OfOneClassAreNotSeenFromEachOtherAndEveryVertexHasOne) {
-  for (const test::Triangles& t : {test::sphere(3), test::grid(9, test::flat), test::tetrahedron()}) {
-    const Connectivity c = test::connect(t);
-    std::vector<int> colour(static_cast<size_t>(c.vertex_count), -1);
-    const auto classes = colour_vertices(c);
-    for (size_t k = 0; k < classes.size(); ++k)
-      for (int v : classes[k]) {
-        EXPECT_EQ(colour[static_cast<size_t>(v)], -1);
-        colour[static_cast<size_t>(v)] = static_cast<int>(k);
-      }
-    for (int k : colour) EXPECT_GE(k, 0);
-    for (const auto& [a, b] : c.edges)
-      EXPECT_NE(colour[static_cast<size_t>(a)], colour[static_cast<size_t>(b)]);
-    for (size_t e = 0; e < c.edges.size(); ++e) {  // the fold guard looks across
-      if (c.is_boundary_edge(static_cast<int>(e))) continue;
-      std::set<int> corners, classes_there;
-      for (int f : c.edge_faces[e])
-        for (int v : c.faces[static_cast<size_t>(f)]) corners.insert(v);
-      for (int v : corners) classes_there.insert(colour[static_cast<size_t>(v)]);
-      EXPECT_EQ(classes_there.size(), corners.size());
-    }
-  }
-}
-
 }  // namespace
 }  // namespace hooke

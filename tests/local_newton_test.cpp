@@ -9,8 +9,11 @@ namespace hooke {
 namespace {
 
 double energy_around(test::Scene& s, int vertex) {
-  Vec3 unused;
-  return s.energy.around(s.placement, vertex, unused);
+  VertexRing ring(s.sweeps.spokes, s.targets);
+  RingShape shape;
+  ring.gather(s.placement, vertex);
+  ring.shape(s.placement.points.col(vertex), s.placement.normals.col(vertex), shape);
+  return ring.energy(shape, s.energy.terms);
 }
 
 std::vector<char> only(const test::Scene& s, int vertex) {
@@ -104,17 +107,17 @@ TEST(LocalNewton, WhatStandsStillStandsStill) {
 TEST(LocalNewton, CurvatureIsThatOfTheTangentSpaceAndAlwaysDescends) {
   test::Scene sphere = test::sphere_scene(.4), ground = test::ground_scene(.4);
   for (test::Scene* s : {&sphere, &ground}) {
-    const Relaxation r = s->relaxation();
+    Relaxation r = s->relaxation();
+    LocalNewton newton(r);
+    const Mat3X gradient = s->tangent_gradient();
     const Placement before = s->placement;
     for (int v = 0; v < s->connectivity.vertex_count; ++v) {
-      Vec3 gradient;
-      s->energy.around(s->placement, v, gradient);
-      const LocalCurvature c = local_curvature(r, v, gradient);
+      const LocalCurvature c = newton.curvature(v);
       const double size = c.inverse.norm();
-      EXPECT_LT((c.inverse - c.inverse.transpose()).norm(), 1e-14 * size);
-      EXPECT_LT((c.inverse * s->placement.normals.col(v)).norm(), 1e-12 * size);
-      EXPECT_GE(gradient.dot(c.inverse * gradient), 0);
-      EXPECT_GT(c.mean, 0);
+      EXPECT_LE((c.inverse - c.inverse.transpose()).norm(), 1e-14 * size);
+      EXPECT_LE((c.inverse * s->placement.normals.col(v)).norm(), 1e-12 * size);
+      EXPECT_GE(gradient.col(v).dot(c.inverse * gradient.col(v)), 0);
+      EXPECT_EQ(c.mean > 0, s->constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed);
       const Vec3 tangent = s->placement.tangents.col(v);
       if (!tangent.isZero()) {
         EXPECT_LT((c.inverse - size * tangent * tangent.transpose()).norm(), 1e-12 * size);
@@ -124,12 +127,21 @@ TEST(LocalNewton, CurvatureIsThatOfTheTangentSpaceAndAlwaysDescends) {
   }
 }
 
+TEST(LocalNewton, WhatIsAtRestStays) {
+  test::Scene s = test::sphere_scene(.4);
+  const Placement before = s.placement;
+  Relaxation r = s.relaxation();
+  local_newton_sweep(r, {}, {.rest = 10});
+  EXPECT_TRUE(test::same(s.placement, before));
+}
+
 TEST(LocalNewton, AVertexWithoutFacesHasNoCurvature) {
   test::Triangles t = test::sphere(1);
   t.points.conservativeResize(3, t.points.cols() + 1);
   t.points.rightCols(1) = Vec3::UnitX();
   test::Scene s(t, test::to_unit_sphere);
-  const LocalCurvature c = local_curvature(s.relaxation(), s.connectivity.vertex_count - 1, Vec3::Zero());
+  Relaxation r = s.relaxation();
+  const LocalCurvature c = LocalNewton(r).curvature(s.connectivity.vertex_count - 1);
   EXPECT_EQ(c.mean, 0);
   EXPECT_TRUE(c.inverse.isZero(0));
 }

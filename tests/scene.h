@@ -26,7 +26,7 @@ struct SceneOptions {
 /// Every vertex wants the natural length of the mesh.
 struct Scene {
   Connectivity connectivity;
-  std::vector<std::vector<int>> colours;
+  SweepPlan sweeps;
   std::vector<double> length;
   TargetLengths targets;
   Constraints constraints;
@@ -38,7 +38,7 @@ struct Scene {
 
   Scene(const Triangles& t, Surface surface, const SceneOptions& o = {})
       : connectivity(connect(t)),
-        colours(colour_vertices(connectivity)),
+        sweeps(plan_sweeps(connectivity)),
         length(static_cast<size_t>(connectivity.vertex_count),
                natural_length(total_area(t.points, t.faces), t.faces.size())),
         targets(spread_target_lengths(connectivity, length)),
@@ -57,7 +57,7 @@ struct Scene {
   double L() const { return length[0]; }
 
   Relaxation relaxation() {
-    return {mesh, connectivity, colours, length, energy, retraction, guards, placement};
+    return {mesh, connectivity, sweeps, length, energy, retraction, guards, placement};
   }
 
   /// Gradient of the energy in the directions that the vertices may move in.

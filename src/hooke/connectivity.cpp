@@ -64,37 +64,4 @@ Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
   return c;
 }
 
-namespace {
-
-/// The corners of the vertex's faces and of the faces next to them, some more than once.
-template <class Visit>
-void for_each_corner_around(const Connectivity& c, int vertex, const Visit& visit) {
-  for (int f : c.vertex_faces[vertex])
-    for (int e : c.face_edges[static_cast<size_t>(f)])
-      for (int g : c.edge_faces[static_cast<size_t>(e)])
-        if (g >= 0)
-          for (int w : c.faces[static_cast<size_t>(g)]) visit(w);
-}
-
-}  // namespace
-
-std::vector<std::vector<int>> colour_vertices(const Connectivity& c) {
-  std::vector<int> colour(static_cast<size_t>(c.vertex_count), -1);
-  std::vector<std::vector<int>> classes;
-  std::vector<bool> used;
-  for (int v = 0; v < c.vertex_count; ++v) {
-    used.assign(classes.size() + 1, false);
-    for_each_corner_around(c, v, [&](int w) {
-      if (colour[static_cast<size_t>(w)] >= 0)
-        used[static_cast<size_t>(colour[static_cast<size_t>(w)])] = true;
-    });
-    size_t first = 0;
-    while (used[first]) ++first;
-    if (first == classes.size()) classes.emplace_back();
-    classes[first].push_back(v);
-    colour[static_cast<size_t>(v)] = static_cast<int>(first);
-  }
-  return classes;
-}
-
 }  // namespace hooke

@@ -35,9 +35,4 @@ struct Connectivity {
 /// Pre-condition: manifold, consistently oriented triangles on vertices [0, vertex_count).
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces);
 
-/// Classes of vertices that may move at once while each looks at its faces and at those next to them (the
-/// fold guard does): no two of a class are corners of one face or of two faces that share an edge. First fit
-/// in vertex order.
-std::vector<std::vector<int>> colour_vertices(const Connectivity& connectivity);
-
 }  // namespace hooke

@@ -140,18 +140,6 @@ double Energy::face_energy(const Placement& at, size_t face, double* corner_grad
   return energy;
 }
 
-double Energy::around(const Placement& at, int vertex, Vec3& gradient) const {
-  std::array<double, 9> corners;
-  double energy = 0;
-  gradient.setZero();
-  for (int f : connectivity_.vertex_faces[vertex]) {
-    energy += face_energy(at, static_cast<size_t>(f), corners.data());
-    gradient += Eigen::Map<const Vec3>(corners.data() +
-                                       3 * corner_of(connectivity_.faces[static_cast<size_t>(f)], vertex));
-  }
-  return energy;
-}
-
 double Energy::operator()(const Placement& at, Mat3X* gradient) {
   const double energy = parallel_sum(connectivity_.faces.size(), 1024, [&](size_t begin, size_t end) {
     double sum = 0;

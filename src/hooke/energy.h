@@ -27,8 +27,7 @@ class Energy {
   /// Energy of the placement. The normals count as constant. With `gradient` also its gradient by the points.
   double operator()(const Placement& at, Mat3X* gradient);
 
-  /// The part of the energy that the vertex takes part in, up to a constant, and its gradient by its point.
-  double around(const Placement& at, int vertex, Vec3& gradient) const;
+  const TargetLengths& targets() const { return targets_; }
 
   EnergyTerms terms;
 

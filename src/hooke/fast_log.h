@@ -1,18 +1,12 @@
-// The natural logarithm of four numbers at a time, for kernels that take one logarithm per centre.
+// Functions of four numbers at a time: the natural logarithm and the angle of a vector.
 #pragma once
 
-#include <cstddef>
+#include "hooke/lanes.h"
 
 namespace hooke {
 
-/// Four doubles; + - * / and comparisons act on each. One register where there is AVX2, two where there is
-/// not: the results are the same.
-using Lanes = double __attribute__((vector_size(32)));
-
 /// x := log x, to a relative error of some 1e-15. Pre-condition: finite, positive and not subnormal.
-/// By reference, for lanes have no calling convention of their own; always inline, so that they have their
-/// caller's instruction set.
-[[gnu::always_inline]] inline void take_log(Lanes& x) {
+HOOKE_INLINE void take_log(Lanes& x) {
   using Bits = long long __attribute__((vector_size(32)));
   // x = 2^e m with m from sqrt(1/2) to sqrt(2); the offset makes the mantissa wrap at sqrt(2) instead of 2.
   constexpr long long one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd, mantissa = 0xfffffffffffff;
@@ -34,6 +28,29 @@ using Lanes = double __attribute__((vector_size(32)));
   series = q * series + 1. / 3;
   constexpr double log_2 = 0.6931471805599453;
   x = e * log_2 + 2. * s * (1. + q * series);
+}
+
+/// The angle between the vector (x, y) and the first axis, to a relative error of some 1e-15 up to 90
+/// degrees. Pre-condition: y > 0; r is the vector's length.
+HOOKE_INLINE void take_angle(const Lanes& x, const Lanes& y, const Lanes& r, Lanes& angle) {
+  Lanes t = y / (r + x);  // tan of the half angle, then of the quarter, then of the eighth
+  for (int halving = 0; halving < 2; ++halving) {
+    Lanes root = 1. + t * t;
+    take_sqrt(root);
+    t = t / (1. + root);
+  }
+  const Lanes q = -t * t;
+  Lanes series = q * (1. / 23) + 1. / 21;
+  series = q * series + 1. / 19;
+  series = q * series + 1. / 17;
+  series = q * series + 1. / 15;
+  series = q * series + 1. / 13;
+  series = q * series + 1. / 11;
+  series = q * series + 1. / 9;
+  series = q * series + 1. / 7;
+  series = q * series + 1. / 5;
+  series = q * series + 1. / 3;
+  angle = 8. * t * (1. + q * series);
 }
 
 }  // namespace hooke

@@ -32,8 +32,8 @@ class FlipMode {
   auto relax(const Relax& body) {
     Energy energy(*work_.connectivity, work_.targets, terms_);
     Guards guards(*work_.connectivity, work_.targets, guards_);
-    Relaxation r{work_.mesh, *work_.connectivity, work_.colours, work_.vertex_length,
-                 energy,     *work_.retraction,   guards,        work_.placement};
+    Relaxation r{work_.mesh, *work_.connectivity, work_.sweeps, work_.vertex_length,
+                 energy,     *work_.retraction,   guards,       work_.placement};
     return body(r);
   }
 

@@ -146,8 +146,8 @@ double try_flip(Patch& patch, const FlippingMesh& m, const EnergyTerms& terms, c
   Energy energy(after, targets, terms);
   Guards guards(after, targets, guard_options);
   Retraction retraction(m.retraction.surface(), patch.constraints, m.retraction.options());
-  const std::vector<std::vector<int>> colours = colour_vertices(after);
-  Relaxation r{unused, after, colours, patch.vertex_length, energy, retraction, guards, patch.placement};
+  const SweepPlan sweeps = plan_sweeps(after);
+  Relaxation r{unused, after, sweeps, patch.vertex_length, energy, retraction, guards, patch.placement};
   std::vector<char> active(patch.vertices.size(), 0);
   std::fill_n(active.begin(), patch.movable, 1);
   for (int sweep = 0; sweep < options.sweeps; ++sweep) local_newton_sweep(r, active, {});

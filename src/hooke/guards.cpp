@@ -82,63 +82,18 @@ void Guards::measure_edge(const Placement& p, size_t edge) {
   trial_.fold[edge] = fold_at(p.points, edge);
 }
 
-bool Guards::face_breaks(double area_before, double area, double alignment_before, double alignment) const {
-  const bool shrinks = area < options_.area_ratio * area_before;
-  if (alignment_before >= options_.alignment) return shrinks || alignment < options_.alignment;
-  // A folded face passes through zero area on its way back: it may do all that turns it the right way.
-  return alignment < alignment_before - options_.slack || (shrinks && alignment <= alignment_before);
-}
-
 bool Guards::face_breaks(size_t f) const {
-  return face_breaks(accepted_.area[f], trial_.area[f], accepted_.alignment[f], trial_.alignment[f]);
+  return hooke::face_breaks(options_, accepted_.area[f], trial_.area[f], accepted_.alignment[f],
+                            trial_.alignment[f]);
 }
 
-bool Guards::sagitta_breaks(size_t e, double before, double after) const {
-  return after > std::max(before + options_.slack * targets_.edge[e], options_.sagitta * targets_.edge[e]);
-}
-
-bool Guards::fold_breaks(double before, double after) const {
-  return after < std::min(options_.fold, before - options_.slack);
+bool Guards::fold_breaks(size_t e) const {
+  return hooke::fold_breaks(options_, accepted_.fold[e], trial_.fold[e]);
 }
 
 bool Guards::edge_breaks(size_t e) const {
-  return sagitta_breaks(e, accepted_.sagitta[e], trial_.sagitta[e]) ||
-         fold_breaks(accepted_.fold[e], trial_.fold[e]);
-}
-
-/// The edge across from the vertex in one of its faces.
-size_t Guards::opposite_edge(int face, int vertex) const {
-  const Triangle& t = connectivity_.faces[static_cast<size_t>(face)];
-  const size_t next = t[0] == vertex ? 1 : t[1] == vertex ? 2 : 0;
-  return static_cast<size_t>(connectivity_.face_edges[static_cast<size_t>(face)][next]);
-}
-
-void Guards::measure_ring(const Placement& p, int vertex, RingMeasures& m) const {
-  m.area.clear();
-  m.alignment.clear();
-  m.sagitta.clear();
-  m.fold.clear();
-  for (int f : connectivity_.vertex_faces[vertex]) {
-    const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
-    m.fold.push_back(fold_at(p.points, opposite_edge(f, vertex)));
-    m.area.push_back(face_area(p.points, t));
-    m.alignment.push_back(face_alignment(p.points, p.normals, t));
-  }
-  for (int e : connectivity_.vertex_edges[vertex]) {
-    m.sagitta.push_back(edge_sagitta(p.points, p.normals, connectivity_.edges[static_cast<size_t>(e)]));
-    m.fold.push_back(fold_at(p.points, static_cast<size_t>(e)));
-  }
-}
-
-bool Guards::ring_obeys(int vertex, const RingMeasures& before, const RingMeasures& after) const {
-  for (size_t i = 0; i < before.area.size(); ++i)
-    if (face_breaks(before.area[i], after.area[i], before.alignment[i], after.alignment[i])) return false;
-  const auto edges = connectivity_.vertex_edges[vertex];
-  for (size_t i = 0; i < edges.size(); ++i)
-    if (sagitta_breaks(static_cast<size_t>(edges[i]), before.sagitta[i], after.sagitta[i])) return false;
-  for (size_t i = 0; i < before.fold.size(); ++i)
-    if (fold_breaks(before.fold[i], after.fold[i])) return false;
-  return true;
+  return sagitta_breaks(options_, targets_.edge[e], accepted_.sagitta[e], trial_.sagitta[e]) ||
+         fold_breaks(e);
 }
 
 void Guards::accept(const Placement& placement) {
@@ -149,7 +104,7 @@ void Guards::accept(const Placement& placement) {
 /// The vertices that can mend a broken edge: its ends, and for a fold all corners of the two faces.
 void Guards::add_offenders(size_t edge, std::vector<int>& vertices) const {
   vertices.insert(vertices.end(), connectivity_.edges[edge].begin(), connectivity_.edges[edge].end());
-  if (!fold_breaks(accepted_.fold[edge], trial_.fold[edge])) return;
+  if (!fold_breaks(edge)) return;
   for (int f : connectivity_.edge_faces[edge]) {
     const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
     vertices.insert(vertices.end(), t.begin(), t.end());

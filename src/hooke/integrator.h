@@ -5,6 +5,7 @@
 #include "hooke/energy.h"
 #include "hooke/guards.h"
 #include "hooke/mesh.h"
+#include "hooke/sweep_plan.h"
 
 namespace hooke {
 
@@ -31,8 +32,8 @@ using Observer = std::function<bool(const Progress&)>;
 struct Relaxation {
   TriMesh& mesh;  // carries v:velocity and v:force; its points are those of `placement` between the calls
   const Connectivity& connectivity;
-  const std::vector<std::vector<int>>& colours;  // of the vertices, see colour_vertices()
-  const std::vector<double>& vertex_length;      // target length per vertex
+  const SweepPlan& sweeps;
+  const std::vector<double>& vertex_length;  // target length per vertex
   Energy& energy;
   Retraction& retraction;
   Guards& guards;

@@ -23,20 +23,18 @@ class Preconditioner {
   Preconditioner(const Relaxation& r, const LbfgsOptions& options)
       : options_(options), grids_(r.placement.points, options.grid_cell) {}
 
-  void refresh(const Relaxation& r) {
+  void refresh(Relaxation& r) {
     const auto n = static_cast<size_t>(r.connectivity.vertex_count);
     inverse_.resize(n);
     std::vector<double> mean(n, 0);
-    for (const std::vector<int>& vertices : r.colours)  // neighbours move while a curvature is taken
-      parallel_for(vertices.size(), 64, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-          Vec3 gradient;
-          r.energy.around(r.placement, vertices[i], gradient);
-          const LocalCurvature c = local_curvature(r, vertices[i], gradient);
-          inverse_[static_cast<size_t>(vertices[i])] = c.inverse;
-          mean[static_cast<size_t>(vertices[i])] = c.mean;
-        }
-      });
+    parallel_for(n, 256, [&](size_t begin, size_t end) {
+      LocalNewton newton(r);
+      for (size_t v = begin; v < end; ++v) {
+        const LocalCurvature c = newton.curvature(static_cast<int>(v));
+        inverse_[v] = c.inverse;
+        mean[v] = c.mean;
+      }
+    });
     const auto middle = mean.begin() + static_cast<std::ptrdiff_t>(n / 2);
     std::nth_element(mean.begin(), middle, mean.end());
     grid_weight_ = *middle > 0 ? options_.grid_weight / *middle : 0;

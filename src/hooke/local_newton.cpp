@@ -1,17 +1,11 @@
 #include "hooke/local_newton.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-
-#include "hooke/parallel.h"
 
 namespace hooke {
 namespace {
 
-using Mat32 = Eigen::Matrix<double, 3, 2>;
-
 constexpr double least_curvature = .1;  // of the largest
-constexpr double difference = 1e-5;     // step of the differences, in target lengths
 
 /// Two unit vectors that span the plane across the normal. The first leans on an edge, not on a coordinate
 /// axis, so that a turned mesh has turned vectors.
@@ -22,76 +16,93 @@ Mat32 tangent_basis(const Vec3& normal, const Vec3& edge) {
   return basis;
 }
 
-double improve_vertex(Relaxation& r, int vertex, const LocalNewtonOptions& options) {
-  Placement& at = r.placement;
-  Vec3 gradient;
-  const double energy = r.energy.around(at, vertex, gradient);
-  const double length = r.vertex_length[static_cast<size_t>(vertex)];
-  Vec3 step = -options.over_relaxation * (local_curvature(r, vertex, gradient).inverse * gradient);
-  const double cap = options.max_move * length;
-  if (step.norm() > cap) step *= cap / step.norm();
-  if (step.isZero(0)) return 0;
+/// |H|^-1 and the mean of its eigenvalues, for H symmetric, by its two eigenprojections (1 +- (H - m) / r)
+/// / 2.
+double invert_by_size(const Eigen::Matrix2d& H, Eigen::Matrix2d& inverse) {
+  const double m = .5 * (H(0, 0) + H(1, 1));
+  const double r = std::hypot(.5 * (H(0, 0) - H(1, 1)), H(0, 1));
+  const double largest = std::abs(m) + r;
+  if (!(largest > 0)) return 0;
+  const double high = std::max(std::abs(m + r), least_curvature * largest);
+  const double low = std::max(std::abs(m - r), least_curvature * largest);
+  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+  inverse = .5 * (1 / high + 1 / low) * unit;
+  if (r > 0) inverse += .5 * (1 / high - 1 / low) / r * (H - m * unit);
+  return .5 * (high + low);
+}
 
-  RingMeasures before, after;
-  r.guards.measure_ring(at, vertex, before);
-  const VertexPlace start(at, vertex);
-  for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
-    r.retraction.moved(at, vertex, step).write_to(at, vertex);
-    r.guards.measure_ring(at, vertex, after);
-    Vec3 unused;
-    if (r.guards.ring_obeys(vertex, before, after) && r.energy.around(at, vertex, unused) <= energy)
-      return (at.points.col(vertex) - start.point).norm() / length;
-    start.write_to(at, vertex);
+LocalCurvature curvature_of(const RingModel& model, const Mat32& basis) {
+  LocalCurvature c;
+  if (basis.col(1).isZero(0)) {  // on a curve
+    c.mean = std::abs(model.hessian(0, 0));
+    if (c.mean > 0) c.inverse = basis.col(0) * basis.col(0).transpose() / c.mean;
+    return c;
   }
-  return 0;
+  Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
+  c.mean = invert_by_size(model.hessian, inverse);
+  c.inverse = basis * inverse * basis.transpose();
+  return c;
 }
 
 }  // namespace
 
-LocalCurvature local_curvature(const Relaxation& r, int vertex, const Vec3& gradient) {
-  const auto neighbours = r.connectivity.vertex_neighbours[vertex];
-  if (neighbours.empty()) return {};
-  Placement& at = r.placement;
-  const Vec3 x = at.points.col(vertex);
-  const double h = difference * r.vertex_length[static_cast<size_t>(vertex)];
-  const auto change = [&](const Vec3& direction) {
-    Vec3 shifted;
-    at.points.col(vertex) = x + h * direction;
-    r.energy.around(at, vertex, shifted);
-    at.points.col(vertex) = x;
-    return Vec3((shifted - gradient) / h);
-  };
-  LocalCurvature c;
-  const Vec3 tangent = at.tangents.col(vertex);
-  if (!tangent.isZero(0)) {
-    c.mean = std::abs(tangent.dot(change(tangent)));
-    if (c.mean > 0) c.inverse = tangent * tangent.transpose() / c.mean;
-    return c;
+LocalNewton::LocalNewton(Relaxation& relaxation)
+    : r_(relaxation), ring_(relaxation.sweeps.spokes, relaxation.energy.targets()) {}
+
+Mat32 LocalNewton::directions(int vertex) const {
+  const Placement& at = r_.placement;
+  Mat32 curve = Mat32::Zero();
+  curve.col(0) = at.tangents.col(vertex);
+  if (!curve.col(0).isZero(0)) return curve;
+  const int neighbour = r_.sweeps.spokes[vertex][0].neighbour;
+  return tangent_basis(at.normals.col(vertex), at.points.col(neighbour) - at.points.col(vertex));
+}
+
+/// Takes in the ring of a vertex and the model of its energy; false where there is nothing to do.
+bool LocalNewton::look(int vertex) {
+  const Placement& at = r_.placement;
+  if (r_.sweeps.spokes[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
+  ring_.gather(at, vertex);
+  ring_.shape(at.points.col(vertex), at.normals.col(vertex), before_);
+  basis_ = directions(vertex);
+  model_ = ring_.model(before_, r_.energy.terms, basis_.col(0), basis_.col(1));
+  return true;
+}
+
+LocalCurvature LocalNewton::curvature(int vertex) {
+  return look(vertex) ? curvature_of(model_, basis_) : LocalCurvature{};
+}
+
+double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
+  if (!look(vertex)) return 0;
+  Placement& at = r_.placement;
+  const double length = r_.vertex_length[static_cast<size_t>(vertex)];
+  Vec3 step = -options.over_relaxation * (curvature_of(model_, basis_).inverse * (basis_ * model_.gradient));
+  const double size = step.norm(), cap = options.max_move * length;
+  if (!(size > options.rest * length)) return 0;
+  if (size > cap) step *= cap / size;
+
+  for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
+    const VertexPlace place = r_.retraction.moved(at, vertex, step);
+    ring_.shape(place.point, place.normal, after_);
+    if (ring_.obeys(before_, after_, r_.guards.options()) &&
+        ring_.energy(after_, r_.energy.terms) <= model_.energy) {
+      place.write_to(at, vertex);
+      return (place.point - before_.point).norm() / length;
+    }
   }
-  const Vec3 edge = at.points.col(neighbours[0]) - x;
-  const Mat32 basis = tangent_basis(at.normals.col(vertex), edge);
-  Eigen::Matrix2d hessian;
-  for (int k = 0; k < 2; ++k) hessian.col(k) = basis.transpose() * change(basis.col(k));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(.5 * (hessian + hessian.transpose()));
-  const Eigen::Vector2d size = eigen.eigenvalues().cwiseAbs();
-  const Eigen::Vector2d curvature = size.cwiseMax(least_curvature * size.maxCoeff());
-  c.mean = curvature.mean();
-  if (!(c.mean > 0)) return c;
-  const Mat32 axes = basis * eigen.eigenvectors();
-  c.inverse = axes * curvature.cwiseInverse().asDiagonal() * axes.transpose();
-  return c;
+  return 0;
 }
 
 std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& active,
                                        const LocalNewtonOptions& options) {
   std::vector<double> moves(static_cast<size_t>(r.connectivity.vertex_count), 0);
-  for (const std::vector<int>& vertices : r.colours)
-    parallel_for(vertices.size(), 64, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) {
-        const auto v = static_cast<size_t>(vertices[i]);
-        if (active.empty() || active[v]) moves[v] = improve_vertex(r, vertices[i], options);
-      }
-    });
+  for_each_block(r.sweeps, [&](int begin, int end) {
+    LocalNewton newton(r);
+    for (int v = begin; v < end; ++v)
+      if (active.empty() || active[static_cast<size_t>(v)])
+        moves[static_cast<size_t>(v)] = newton.improve(v, options);
+  });
   r.retraction.count();
   return moves;
 }

@@ -1,11 +1,13 @@
 // Newton's method vertex by vertex (nonlinear Gauss-Seidel): each vertex in turn goes to the minimum of the
-// energy around it, in its tangent plane, guarded. Coloured, so that vertices of one colour move at once and
-// the result does not depend on the number of threads.
+// energy around it, in its tangent plane, guarded.
 #pragma once
 
 #include "hooke/integrator.h"
+#include "hooke/vertex_ring.h"
 
 namespace hooke {
+
+using Mat32 = Eigen::Matrix<double, 3, 2>;
 
 /// How the energy around one vertex curves in the directions the vertex may move in.
 struct LocalCurvature {
@@ -13,19 +15,38 @@ struct LocalCurvature {
   double mean = 0;                                    // mean of the eigenvalues of |H|
 };
 
-/// The Hessian by differences of the gradient in the tangent space of the vertex. Its eigenvalues count by
-/// their size, and those below a part of the largest are raised to it: the step -inverse * gradient descends
-/// from saddles too. A vertex without faces has none. Moves the point of the vertex and puts it back;
-/// `gradient` is that at the point.
-LocalCurvature local_curvature(const Relaxation& relaxation, int vertex, const Vec3& gradient);
-
 struct LocalNewtonOptions {
   double max_move = .5;  // of a vertex, in its target lengths
   double over_relaxation = 1;
   int max_halvings = 5;  // of a move that breaks a guard or raises the energy, before the vertex stays
+  double rest = 0;       // a vertex that wants to move less, in its target length, stays
 };
 
-/// One sweep over the colours; vertices with `active` false stay (empty: all move). Returns how far each
+/// Works on one vertex at a time; made once for many, for its memory. Keeps a reference to the relaxation.
+class LocalNewton {
+ public:
+  explicit LocalNewton(Relaxation& relaxation);
+
+  /// Eigenvalues count by their size, and those below a part of the largest are raised to it: the step
+  /// -inverse * gradient descends from saddles too. None for a vertex that stands still.
+  LocalCurvature curvature(int vertex);
+
+  /// Moves the vertex to where its energy is least, as far as the guards let it; returns how far that was, in
+  /// its target length.
+  double improve(int vertex, const LocalNewtonOptions& options);
+
+ private:
+  bool look(int vertex);
+  Mat32 directions(int vertex) const;
+
+  Relaxation& r_;
+  VertexRing ring_;
+  RingShape before_, after_;
+  Mat32 basis_ = Mat32::Zero();
+  RingModel model_;
+};
+
+/// One sweep over all vertices; those with `active` false stay (empty: all move). Returns how far each
 /// vertex moved, in its target length.
 std::vector<double> local_newton_sweep(Relaxation& relaxation, const std::vector<char>& active,
                                        const LocalNewtonOptions& options);

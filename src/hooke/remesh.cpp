@@ -32,8 +32,8 @@ class Remeshing {
 
  private:
   Relaxation relaxation() {
-    return {work_.mesh, *work_.connectivity, work_.colours, work_.vertex_length,
-            energy_,    *work_.retraction,   guards_,       work_.placement};
+    return {work_.mesh, *work_.connectivity, work_.sweeps, work_.vertex_length,
+            energy_,    *work_.retraction,   guards_,      work_.placement};
   }
 
   Observer watch(const char* stage) const {

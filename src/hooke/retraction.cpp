@@ -62,6 +62,10 @@ VertexPlace Retraction::on_surface(VertexPlace place, int vertex) {
   return place;
 }
 
+bool Retraction::stands_still(int vertex) const {
+  return constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::fixed;
+}
+
 VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& displacement) {
   VertexPlace place(from, vertex);
   const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];

@@ -72,6 +72,7 @@ class Retraction {
   void constrain(const Placement& at, Mat3X& vectors) const;
 
   const ProjectionCounts& counts() const { return counts_; }
+  bool stands_still(int vertex) const;
   const Surface& surface() const { return surface_; }
   const RetractionOptions& options() const { return options_; }
 

@@ -5,19 +5,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 #include "hooke/error.h"
 #include "hooke/fast_log.h"
-
-// Compiled twice, and the processor picks when the program starts. Without fused multiply-add, so that both
-// give the same results.
-#if defined(__x86_64__)
-#define HOOKE_SIMD [[gnu::target_clones("avx2", "default")]]
-#else
-#define HOOKE_SIMD
-#endif
 
 namespace hooke {
 namespace {
@@ -25,7 +16,6 @@ namespace {
 // Storage: x[n], y[n], z[n], a[n], then ten polynomial coefficients; n is rounded up to whole groups of
 // lanes, and the extra centres have coefficient 0. Fixed groups, so that sums run in the same order wherever
 // the data lie.
-constexpr std::size_t lanes = 4;
 constexpr std::size_t polynomial_size = 10;
 
 constexpr double smallest =
@@ -34,7 +24,7 @@ constexpr double least_column_ratio = 1e-8;  // of a polynomial's part that the 
 constexpr double least_pivot_ratio = 1e-7;   // of the Cholesky diagonal: beyond, coefficients are noise
 
 std::size_t padded(std::size_t centres) {
-  return (centres + lanes - 1) / lanes * lanes;
+  return padded_to_lanes(centres);
 }
 
 using Monomials = Eigen::Matrix<double, polynomial_size, 1>;
@@ -57,7 +47,7 @@ struct KernelSample {
   Lanes value, slope_over_r;
 };
 
-[[gnu::always_inline]] inline void sample_kernel(Kernel kernel, const Lanes& r2, KernelSample& sample) {
+HOOKE_INLINE void sample_kernel(Kernel kernel, const Lanes& r2, KernelSample& sample) {
   if (kernel == Kernel::r2logr) {
     Lanes log_r2 = r2 > smallest ? r2 : Lanes{} + smallest;
     take_log(log_r2);
@@ -76,8 +66,8 @@ HOOKE_SIMD void fill_kernel_matrix(const Eigen::Ref<const Mat3X>& centres, Kerne
   const Eigen::Index n = centres.cols();
   A.resize(n, n);
   for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = j; i < n; i += lanes) {
-      const Eigen::Index count = std::min<Eigen::Index>(lanes, n - i);
+    for (Eigen::Index i = j; i < n; i += lane_count) {
+      const Eigen::Index count = std::min<Eigen::Index>(lane_count, n - i);
       Lanes r2 = {};
       for (Eigen::Index k = 0; k < count; ++k) r2[k] = (centres.col(i + k) - centres.col(j)).squaredNorm();
       KernelSample phi;
@@ -90,13 +80,12 @@ HOOKE_SIMD void fill_kernel_matrix(const Eigen::Ref<const Mat3X>& centres, Kerne
 HOOKE_SIMD void add_radial_part(const double* storage, std::size_t n, Kernel kernel, const Vec3& p,
                                 FieldSample& sample) {
   Lanes value = {}, gx = {}, gy = {}, gz = {};
-  const auto load = [&](std::size_t i, Lanes& x) { std::memcpy(&x, storage + i, sizeof(Lanes)); };
-  for (std::size_t i = 0; i < n; i += lanes) {
+  for (std::size_t i = 0; i < n; i += lane_count) {
     Lanes x, y, z, a;
-    load(i, x);
-    load(n + i, y);
-    load(2 * n + i, z);
-    load(3 * n + i, a);
+    load(storage + i, x);
+    load(storage + n + i, y);
+    load(storage + 2 * n + i, z);
+    load(storage + 3 * n + i, a);
     const Lanes dx = p[0] - x, dy = p[1] - y, dz = p[2] - z;
     KernelSample phi;
     sample_kernel(kernel, dx * dx + dy * dy + dz * dz, phi);
@@ -106,9 +95,8 @@ HOOKE_SIMD void add_radial_part(const double* storage, std::size_t n, Kernel ker
     gy += slope * dy;
     gz += slope * dz;
   }
-  const auto sum = [](const Lanes& x) { return (x[0] + x[1]) + (x[2] + x[3]); };
-  sample.value += sum(value);
-  sample.gradient += Vec3(sum(gx), sum(gy), sum(gz));
+  sample.value += sum_of(value);
+  sample.gradient += Vec3(sum_of(gx), sum_of(gy), sum_of(gz));
 }
 
 /// A := H A H for the reflector H = I - tau v v^T, lower triangle only.

@@ -38,7 +38,7 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   const Connectivity given = make_connectivity(n, triangles_of(source));
   order = reorder(given, locality_order(given));
   connectivity = std::make_shared<const Connectivity>(make_connectivity(n, order.faces));
-  colours = colour_vertices(*connectivity);
+  sweeps = plan_sweeps(*connectivity);
 
   start.resize(3, n);
   vertex_length.resize(length.size());
@@ -99,7 +99,7 @@ int Workspace::land() {
 void Workspace::replace_faces(std::vector<Triangle> faces) {
   connectivity =
       std::make_shared<const Connectivity>(make_connectivity(connectivity->vertex_count, std::move(faces)));
-  colours = colour_vertices(*connectivity);
+  sweeps = plan_sweeps(*connectivity);
   targets = spread_target_lengths(*connectivity, vertex_length);
   hooke::replace_faces(mesh, connectivity->faces);
   positions(mesh) = placement.points;

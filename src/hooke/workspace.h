@@ -9,6 +9,7 @@
 #include "hooke/ordering.h"
 #include "hooke/sizing.h"
 #include "hooke/surface_field.h"
+#include "hooke/sweep_plan.h"
 
 namespace hooke {
 
@@ -45,7 +46,7 @@ struct Workspace {
   Normalisation normalisation;
   Reordered order;
   std::shared_ptr<const Connectivity> connectivity;
-  std::vector<std::vector<int>> colours;
+  SweepPlan sweeps;
   std::vector<double> vertex_length;  // target lengths, normalised
   TargetLengths targets;
   Constraints constraints;

@@ -1,0 +1,33 @@
+// What a step may do to one face or edge, from measures before and after.
+#pragma once
+
+#include <algorithm>
+
+namespace hooke {
+
+struct GuardOptions {
+  double area_ratio = .2;  // a face keeps at least this part of its area in a step
+  double alignment = .3;   // least cosine between a face and the surface under it; below, it may only grow
+  double fold = .1;        // least cosine between two neighbouring faces; below, it may only grow
+  double sagitta = .2;     // greatest sagitta of an edge over its target length; above, it may only shrink
+  double slack = 1e-7;     // by which a cosine may still fall, or a sagitta over its target length rise
+  int max_halvings = 8;    // of a vertex's step, before it stands still for this step
+};
+
+inline bool face_breaks(const GuardOptions& o, double area_before, double area, double alignment_before,
+                        double alignment) {
+  const bool shrinks = area < o.area_ratio * area_before;
+  if (alignment_before >= o.alignment) return shrinks || alignment < o.alignment;
+  // A folded face passes through zero area on its way back: it may do all that turns it the right way.
+  return alignment < alignment_before - o.slack || (shrinks && alignment <= alignment_before);
+}
+
+inline bool sagitta_breaks(const GuardOptions& o, double target, double before, double after) {
+  return after > std::max(before + o.slack * target, o.sagitta * target);
+}
+
+inline bool fold_breaks(const GuardOptions& o, double before, double after) {
+  return after < std::min(o.fold, before - o.slack);
+}
+
+}  // namespace hooke

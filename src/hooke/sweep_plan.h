@@ -1,0 +1,40 @@
+// How sweeps over the vertices run: what each vertex looks at, and which vertices may move at once.
+#pragma once
+
+#include "hooke/connectivity.h"
+
+namespace hooke {
+
+/// An edge of a vertex, and the face between it and the next spoke about that vertex.
+struct Spoke {
+  int neighbour;  // the other end
+  int edge;
+  int face;    // -1 after the last edge of an open fan
+  int across;  // corner of the face beyond that face's far edge; -1 without one
+};
+
+/// The spokes of each vertex, counter-clockwise; a closed fan ends where it begins, an open one begins at the
+/// boundary.
+struct Spokes {
+  std::vector<int> first;  // size n + 1
+  std::vector<Spoke> items;
+
+  std::span<const Spoke> operator[](int vertex) const {
+    const auto v = static_cast<size_t>(vertex);
+    return {items.data() + first[v], items.data() + first[v + 1]};
+  }
+};
+
+/// Sweeps go wave by wave over blocks of consecutive vertices. No vertex of a block looks at a vertex of
+/// another block of its wave: they may be worked at the same time, each from its first vertex to its last.
+struct SweepPlan {
+  Spokes spokes;
+  int block = 1;  // vertices of a block
+  std::vector<std::vector<int>> waves;
+};
+SweepPlan plan_sweeps(const Connectivity& connectivity);
+
+/// Calls body(begin, end) on each block of vertices, wave by wave.
+void for_each_block(const SweepPlan& plan, const std::function<void(int begin, int end)>& body);
+
+}  // namespace hooke

@@ -1,0 +1,68 @@
+// The faces and edges around one vertex, gathered once: its energy as a function of its place, to second
+// order, and what the guards ask of a move.
+#pragma once
+
+#include "hooke/energy.h"
+#include "hooke/guard_rules.h"
+#include "hooke/sweep_plan.h"
+
+namespace hooke {
+
+/// The energy around a vertex to second order in two directions.
+struct RingModel {
+  double energy = 0;  // up to a constant
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+};
+
+/// The shape of a ring with its vertex at one place. Columns of numbers, one entry a spoke.
+struct RingShape {
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();  // of the vertex
+  std::vector<double> columns;
+};
+
+/// What the guards measure on a ring, one entry a spoke.
+struct RingMeasures {
+  std::vector<double> area, alignment;  // of the face
+  std::vector<double> sagitta;          // of the edge
+  std::vector<double> fold;             // cosine between the faces on both sides of the edge
+  std::vector<double> far_fold;         // and on both sides of the face's far edge
+};
+
+/// Holds no more than one ring at a time; made once for many vertices, for its memory.
+class VertexRing {
+ public:
+  /// Keeps references.
+  VertexRing(const Spokes& spokes, const TargetLengths& targets) : spokes_(spokes), targets_(targets) {}
+
+  /// Takes in all but the vertex itself. Pre-condition: the vertex has faces.
+  void gather(const Placement& at, int vertex);
+
+  /// The ring with its vertex at this point, where the surface has this normal.
+  void shape(const Vec3& point, const Vec3& normal, RingShape& shape) const;
+
+  /// The part of the energy that the vertex takes part in, up to a constant.
+  double energy(const RingShape& shape, const EnergyTerms& terms) const;
+
+  /// The same with its derivatives along two directions, of which the second may be zero. The normals count
+  /// as constant.
+  RingModel model(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v) const;
+
+  /// Whether the vertex may move so.
+  bool obeys(const RingShape& before, const RingShape& after, const GuardOptions& options) const;
+
+  RingMeasures measures(const RingShape& shape) const;
+
+ private:
+  std::span<const Spoke> spokes() const { return spokes_[vertex_]; }
+  RingModel unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
+                   std::vector<double>& unfolded) const;
+
+  const Spokes& spokes_;
+  const TargetLengths& targets_;
+  int vertex_ = 0;
+  std::size_t stride_ = 0;       // entries of a column: whole groups of lanes
+  std::vector<double> columns_;  // what stays as it is while the vertex moves
+};
+
+}  // namespace hooke
