@@ -78,6 +78,7 @@ class Remeshing {
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
     result_.not_landed = work_.land();
+    work_.resample_lengths();
     record("relax", relaxed);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
@@ -94,6 +95,7 @@ class Remeshing {
         polish(r, work_.targets, flips ? options_.flips.polish : options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
     result_.not_landed = work_.land();
+    work_.resample_lengths();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
