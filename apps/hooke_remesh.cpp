@@ -75,10 +75,10 @@ void warn_of_length(const Settings& s, double length, double natural, RunRecord&
   if (s.sizing.kind != SizingSource::Kind::none) {
     run.warnings.push_back(
         {"length_out_of_reach",
-         fmt::format(
-             "{}: faces of the lengths of the sizing cover {:.2f} times the area; the faces are as many "
-             "as they are, so the edges can not get there and only pull or push; use -L auto",
-             printable(s.input.string()), ratio * ratio)});
+         fmt::format("{}: the lengths of the sizing ask for {:.2f} times the faces there are; the faces are "
+                     "as many as "
+                     "they are, so the edges can not get there and only pull or push; use -L auto",
+                     printable(s.input.string()), 1 / (ratio * ratio))});
     return;
   }
   run.warnings.push_back(
@@ -107,7 +107,7 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const Connectivity& co
   const TargetLengths targets = spread_target_lengths(connectivity, lengths);
   const double natural = resolve_length({}, points, connectivity);
   const auto [least, most] = std::ranges::minmax_element(lengths);
-  record.parameters.update({{"L", mean_length(targets)},
+  record.parameters.update({{"L", mean_length(points, connectivity, targets)},
                             {"L_min", *least},
                             {"L_max", *most},
                             {"L_spec", s.length_text},
@@ -115,7 +115,7 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const Connectivity& co
                             {"sizing", s.sizing_text}});
   record.parameters["gradation"] =
       std::isfinite(s.gradation) ? nlohmann::ordered_json(s.gradation) : nlohmann::ordered_json();
-  if (!s.check) warn_of_length(s, covering_length(targets), natural, record);
+  if (!s.check) warn_of_length(s, covering_length(points, connectivity, targets), natural, record);
 }
 
 RemeshResult optimize(const Settings& s, TriMesh& mesh) {

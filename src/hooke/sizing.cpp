@@ -13,13 +13,19 @@
 
 namespace hooke {
 
+namespace {
+
+double face_area(const Mat3X& points, const Triangle& t) {
+  const Vec3 a = points.col(t[0]);
+  return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
+}
+
+}  // namespace
+
 double total_area(const Mat3X& points, const std::vector<Triangle>& faces) {
   return parallel_sum(faces.size(), 4096, [&](size_t begin, size_t end) {
     double sum = 0;
-    for (size_t f = begin; f < end; ++f) {
-      const Vec3 a = points.col(faces[f][0]);
-      sum += .5 * (points.col(faces[f][1]) - a).cross(points.col(faces[f][2]) - a).norm();
-    }
+    for (size_t f = begin; f < end; ++f) sum += face_area(points, faces[f]);
     return sum;
   });
 }
@@ -103,7 +109,9 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
     return lengths;
   }
   const bool by_area = spec.kind == LengthSpec::Kind::natural || spec.kind == LengthSpec::Kind::times_natural;
-  const auto size_of = [&](const TargetLengths& t) { return by_area ? covering_length(t) : mean_length(t); };
+  const auto size_of = [&](const TargetLengths& t) {
+    return by_area ? covering_length(points, c, t) : mean_length(points, c, t);
+  };
   // Over the greatest, so that equal lengths become exactly 1.
   const double greatest = *std::ranges::max_element(lengths);
   for (double& l : lengths) l /= greatest;
@@ -117,17 +125,30 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
   return lengths;
 }
 
-double covering_length(const TargetLengths& targets) {
-  double sum = 0;
-  for (double l : targets.face) sum += l * l;
-  return std::sqrt(sum / static_cast<double>(targets.face.size()));
+double covering_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
+  const auto sum = [&](const auto& weight) {
+    return parallel_sum(c.faces.size(), 4096, [&](size_t begin, size_t end) {
+      double part = 0;
+      for (size_t f = begin; f < end; ++f) part += weight(f) * face_area(points, c.faces[f]);
+      return part;
+    });
+  };
+  return std::sqrt(sum([](size_t) { return 1.; }) /
+                   sum([&](size_t f) { return 1 / (targets.face[f] * targets.face[f]); }));
 }
 
-double mean_length(const TargetLengths& targets) {
+double mean_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
   const double first = targets.edge.front();
-  double sum = 0;
-  for (double l : targets.edge) sum += l - first;
-  return first + sum / static_cast<double>(targets.edge.size());
+  double edges = 0, sum = 0;
+  for (size_t f = 0; f < c.faces.size(); ++f) {
+    const double area = face_area(points, c.faces[f]);
+    for (int e : c.face_edges[f]) {
+      const double l = targets.edge[static_cast<size_t>(e)];
+      edges += area / (l * l);
+      sum += area / (l * l) * (l - first);
+    }
+  }
+  return first + sum / edges;
 }
 
 std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c, double chord_error,

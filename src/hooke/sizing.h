@@ -38,19 +38,20 @@ struct Sizing {
 };
 
 /// Target length of every vertex: those of the sizing, scaled as the spec says and limited by the gradation
-/// (see gradation.h), which has the last word. natural, times_natural: root mean square over the faces of
-/// their targets is the spec's length, so that with `natural` as many equilateral triangles as the mesh has
-/// faces cover its area. mean, absolute, percent_of_diagonal: the mean over the edges of their targets is the
-/// spec's length. as_given: not scaled. Throws Error for as_given without a sizing.
+/// (see gradation.h), which has the last word. natural, times_natural: their covering_length() is the spec's
+/// length, so that with `natural` as many equilateral triangles as the mesh has faces cover its area. mean,
+/// absolute, percent_of_diagonal: their mean_length() is the spec's length. as_given: not scaled. Throws
+/// Error for as_given without a sizing.
 std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
                                            const Connectivity& connectivity);
 
-/// Root mean square over the faces of their target lengths: over the natural length, the square root of the
-/// share of the area that they ask for.
-double covering_length(const TargetLengths& targets);
+/// The edge length at which equilateral triangles that are all alike would be as many on the mesh as those
+/// that have the target length at every place: L^-2 is the mean over the area of L_f^-2.
+double covering_length(const Mat3X& points, const Connectivity& connectivity, const TargetLengths& targets);
 
-/// Mean over the edges of their target lengths; exact when all are the same.
-double mean_length(const TargetLengths& targets);
+/// Mean of the target lengths over the edges that a mesh which has them would have: many where they are
+/// small. Exact when all are the same.
+double mean_length(const Mat3X& points, const Connectivity& connectivity, const TargetLengths& targets);
 
 /// Lengths from curvature: l = sqrt(8 R t - 4 t^2) per vertex, the chord of a circle of radius R with the
 /// sagitta t, where t is the chord error, and R the least radius of curvature there but no less than t; at
