@@ -116,7 +116,7 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
       ->group(target);
 
   const char* method = "Method";
-  app.add_option("--effort", s.effort, "How long to go on with flips for better triangles")
+  app.add_option("--effort", s.effort, "How long to go on for better triangles")
       ->transform(one_of(efforts))
       ->type_name("fast|default|thorough")
       ->default_str("default")
@@ -268,7 +268,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   s.length = parse_length(s.length_text);
   settle_sizing(s, words);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
-  s.remesh.flips = flip_options(s.effort);
+  set_effort(s.remesh, s.effort);
   s.paper_options.evolution.damped = s.remesh.damped;
   if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
@@ -279,7 +279,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   if (s.threads == 0) s.threads = threads_of_environment();
   const bool flips = s.remesh.connectivity == ConnectivityMode::flip;
   if (s.paper && flips) throw Error("--paper keeps the faces; leave out --connectivity flip");
-  if (effort_given && !flips) throw Error("--effort is of --connectivity flip; leave it out, or flip");
+  if (s.paper && effort_given) throw Error("--paper takes the time it takes; leave out --effort");
   if (s.check && !s.output.empty()) throw Error("--check writes no mesh; leave out --output");
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");

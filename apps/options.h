@@ -23,7 +23,7 @@ struct Settings {
   double gradation = Sizing{}.gradation;  // of a sizing
   bool check = false;                     // measure the input only
   bool paper = false;
-  Effort effort = Effort::standard;  // with flips
+  Effort effort = Effort::standard;
   RemeshOptions remesh;
   PaperOptions paper_options;
   std::filesystem::path fix;  // file of vertex ids that stay; empty without
