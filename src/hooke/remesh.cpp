@@ -149,6 +149,7 @@ void set_effort(RemeshOptions& options, Effort effort) {
       options.polish.least_step = .5;
       options.polish.last_threshold = 40;
       options.polish.edge_error_limit = 1.05;
+      options.polish.keep_within = 0;
       break;
   }
 }
