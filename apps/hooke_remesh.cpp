@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <new>
@@ -66,9 +68,19 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
     run.warnings.push_back({"paper_jams", fmt::format("{}: {}", run.input.path, paper_message(r))});
 }
 
+/// `length` is the covering_length() of the targets.
 void warn_of_length(const Settings& s, double length, double natural, RunRecord& run) {
   const double ratio = length / natural;
   if (ratio >= .9 && ratio <= 1.1) return;
+  if (s.sizing.kind != SizingSource::Kind::none) {
+    run.warnings.push_back(
+        {"length_out_of_reach",
+         fmt::format("{}: the lengths of the sizing ask for {:.2f} times the faces there are; the faces are "
+                     "as many as "
+                     "they are, so the edges can not get there and only pull or push; use -L auto",
+                     printable(s.input.string()), 1 / (ratio * ratio))});
+    return;
+  }
   run.warnings.push_back(
       {"length_out_of_reach",
        fmt::format(
@@ -78,9 +90,32 @@ void warn_of_length(const Settings& s, double length, double natural, RunRecord&
            printable(s.input.string()), length, ratio, natural)});
 }
 
-Quality measure(const TriMesh& mesh, const Connectivity& connectivity, double length) {
-  const std::vector<double> targets(connectivity.edges.size(), length);
-  return measure_quality(positions(mesh), connectivity, targets);
+/// Against the target lengths that the vertices have now.
+Quality measure(const TriMesh& mesh, const Connectivity& connectivity) {
+  const std::vector<double> lengths = vertex_values(mesh, target_length_property);
+  return measure_quality(positions(mesh), connectivity, spread_target_lengths(connectivity, lengths).edge);
+}
+
+/// Gives the vertices their target lengths and tells what they are.
+void set_target_lengths(const Settings& s, TriMesh& mesh, const Connectivity& connectivity,
+                        RunRecord& record) {
+  const Mat3X points = positions(mesh);
+  const Sizing sizing{read_sizing(s.sizing, s.input, points, connectivity), s.gradation};
+  const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, connectivity);
+  set_vertex_values(mesh, target_length_property, lengths);
+
+  const TargetLengths targets = spread_target_lengths(connectivity, lengths);
+  const double natural = resolve_length({}, points, connectivity);
+  const auto [least, most] = std::ranges::minmax_element(lengths);
+  record.parameters.update({{"L", mean_length(points, connectivity, targets)},
+                            {"L_min", *least},
+                            {"L_max", *most},
+                            {"L_spec", s.length_text},
+                            {"L_natural", natural},
+                            {"sizing", s.sizing_text}});
+  record.parameters["gradation"] =
+      std::isfinite(s.gradation) ? nlohmann::ordered_json(s.gradation) : nlohmann::ordered_json();
+  if (!s.check) warn_of_length(s, covering_length(points, connectivity, targets), natural, record);
 }
 
 RemeshResult optimize(const Settings& s, TriMesh& mesh) {
@@ -105,8 +140,6 @@ int run(Settings s) {
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
         read_id_list(s.fix, connectivity.vertex_count);
 
-  const double natural = resolve_length({}, original, connectivity);
-  const double length = resolve_length(s.length, original, connectivity);
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
@@ -114,19 +147,17 @@ int run(Settings s) {
                   connectivity_sha256(connectivity.faces)};
   record.warnings = loaded.warnings;
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh);
-  record.parameters.update({{"L", length}, {"L_spec", s.length_text}, {"L_natural", natural}});
-  record.before = measure(mesh, connectivity, length);
+  set_target_lengths(s, mesh, connectivity, record);
+  record.before = measure(mesh, connectivity);
 
   if (!s.check) {
-    warn_of_length(s, length, natural, record);
-    set_vertex_values(mesh, target_length_property, length);
     record.result = optimize(s, mesh);
     if (!positions(mesh).allFinite())
       throw NumericalError(
           fmt::format("{}: the result is not finite; nothing was written", record.input.path));
     record.status = status_of(record.result->reason);
     const Connectivity after = make_connectivity(connectivity.vertex_count, triangles_of(mesh));
-    record.after = measure(mesh, after, length);
+    record.after = measure(mesh, after);
     record.deviation = measure_deviation(original, connectivity, positions(mesh), after);
     const WrittenFile written = write_mesh(s.output, mesh, s.format, loaded.encoding);
     record.output = {printable(s.output.string()), written.sha256, s.format,

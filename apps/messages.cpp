@@ -60,9 +60,13 @@ std::string paper_message(const RemeshResult& r) {
 }
 
 void print_summary(const Settings& s, const RunRecord& run) {
-  fmt::print(stderr, "{}: {} vertices, {} faces; target length {:.6g} (natural {:.6g})\n", run.input.path,
-             run.before.topology.vertices, run.before.topology.faces, run.parameters["L"].get<double>(),
-             run.parameters["L_natural"].get<double>());
+  const auto length = [&](const char* key) { return run.parameters[key].get<double>(); };
+  std::string range;
+  if (length("L_min") < length("L_max"))
+    range = fmt::format(" on average, {:.6g} to {:.6g}", length("L_min"), length("L_max"));
+  fmt::print(stderr, "{}: {} vertices, {} faces; target length {:.6g}{} (natural {:.6g})\n", run.input.path,
+             run.before.topology.vertices, run.before.topology.faces, length("L"), range,
+             length("L_natural"));
   if (!run.result) {
     fmt::print(stderr, "{}", quality_table(run.before));
     return;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdlib>
+#include <limits>
 
 #include "exit_codes.h"
 #include "hooke/error.h"
@@ -25,6 +26,17 @@ double parse_tolerance(const std::string& text) {
   return unit == "%" ? value / 100 : value;
 }
 
+/// "off" or a positive number.
+double parse_gradation(const std::string& text) {
+  if (text == "off") return std::numeric_limits<double>::infinity();
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || !(value > 0) || !std::isfinite(value))
+    throw Error("--gradation '" + printable(text) + "'; expected a positive number, or off");
+  return value;
+}
+
 /// Threads that a batch system or OpenMP grants; 0 when they say nothing.
 int threads_of_environment() {
   for (const char* name : {"SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS"}) {
@@ -40,6 +52,7 @@ int threads_of_environment() {
 /// What the user said in words, before it is given its meaning.
 struct Words {
   std::string tolerance = "0.1%";
+  std::string gradation;
   std::optional<double> rho;
   std::optional<int> max_outer, max_steps;
   std::optional<BoundaryRule> boundary;
@@ -77,9 +90,22 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
   app.add_option(
          "-L,--length", s.length_text,
          "Target edge length: auto = sqrt(4 A / (sqrt 3 F)), mean = mean edge length, X in file units, "
-         "X% of the box's diagonal, Xx times auto")
+         "X% of the box's diagonal, Xx times auto; with --sizing it scales the lengths: auto and Xx to cover "
+         "the area, others to that mean, sizing = as they are")
       ->type_name("LENGTH")
       ->capture_default_str()
+      ->group(target);
+  app.add_option(
+         "--sizing", s.sizing_text,
+         "Target length per vertex: a file with one a line, a float property of a PLY input's "
+         "vertices, or by curvature, for chord errors in file units or % of the box's diagonal (0.1%)")
+      ->type_name("FILE|ply:PROPERTY|curvature[:ERROR]")
+      ->default_str("off")
+      ->group(target);
+  app.add_option("--gradation", words.gradation,
+                 "Greatest change of a sizing's lengths along an edge, over the edge's length")
+      ->type_name("X|off")
+      ->default_str("0.3")
       ->group(target);
 
   app.add_option("--connectivity", s.remesh.connectivity,
@@ -90,7 +116,7 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
       ->group(target);
 
   const char* method = "Method";
-  app.add_option("--effort", s.effort, "How long to go on with flips for better triangles")
+  app.add_option("--effort", s.effort, "How long to go on for better triangles")
       ->transform(one_of(efforts))
       ->type_name("fast|default|thorough")
       ->default_str("default")
@@ -227,11 +253,22 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
   app.set_version_flag("-V,--version", "hooke-remesh " HOOKE_VERSION);
 }
 
+void settle_sizing(Settings& s, const Words& words) {
+  const bool sized = s.sizing_text != "off";
+  if (sized) s.sizing = parse_sizing(s.sizing_text);
+  if (!words.gradation.empty()) s.gradation = parse_gradation(words.gradation);
+  if (sized) return;
+  if (!words.gradation.empty()) throw Error("--gradation is of --sizing; leave it out, or name a sizing");
+  if (s.length.kind == LengthSpec::Kind::as_given)
+    throw Error("--length sizing without --sizing; name a sizing, or another length");
+}
+
 /// Gives the words their meaning and checks what belongs together. Throws Error.
 void settle(Settings& s, const Words& words, bool kernel_given, bool effort_given) {
   s.length = parse_length(s.length_text);
+  settle_sizing(s, words);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
-  s.remesh.flips = flip_options(s.effort);
+  set_effort(s.remesh, s.effort);
   s.paper_options.evolution.damped = s.remesh.damped;
   if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
@@ -242,7 +279,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   if (s.threads == 0) s.threads = threads_of_environment();
   const bool flips = s.remesh.connectivity == ConnectivityMode::flip;
   if (s.paper && flips) throw Error("--paper keeps the faces; leave out --connectivity flip");
-  if (effort_given && !flips) throw Error("--effort is of --connectivity flip; leave it out, or flip");
+  if (s.paper && effort_given) throw Error("--paper takes the time it takes; leave out --effort");
   if (s.check && !s.output.empty()) throw Error("--check writes no mesh; leave out --output");
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");

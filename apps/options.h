@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hooke/io/sizing_source.h"
 #include "hooke/paper_mode.h"
 
 namespace hooke::app {
@@ -17,9 +18,12 @@ struct Settings {
   std::string format;            // of the output
   LengthSpec length;
   std::string length_text = "auto";
-  bool check = false;  // measure the input only
+  SizingSource sizing;
+  std::string sizing_text = "off";
+  double gradation = Sizing{}.gradation;  // of a sizing
+  bool check = false;                     // measure the input only
   bool paper = false;
-  Effort effort = Effort::standard;  // with flips
+  Effort effort = Effort::standard;
   RemeshOptions remesh;
   PaperOptions paper_options;
   std::filesystem::path fix;  // file of vertex ids that stay; empty without

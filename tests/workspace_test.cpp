@@ -138,5 +138,34 @@ TEST(Workspace, WithoutTargetLengthsThereIsAnError) {
   EXPECT_THROW(on(test::to_mesh(test::cube())), Error);
 }
 
+TEST(Workspace, VerticesTakeUpTheTargetLengthsOfTheirPlaces) {
+  test::Triangles t = test::grid(8, test::flat, .3);
+  TriMesh mesh = test::to_mesh(t);
+  const auto length = [](const Vec3& p) { return .1 * (1 + p[0]); };
+  std::vector<double> lengths;
+  for (const auto p : t.points.colwise()) lengths.push_back(length(p));
+  set_vertex_values(mesh, target_length_property, lengths);
+  Workspace w = on(mesh);
+  shake(w);
+  w.resample_lengths();
+  w.copy_back(mesh);
+  const std::vector<double> resampled = vertex_values(mesh, target_length_property);
+  const auto points = positions(mesh);
+  EXPECT_NE(resampled, lengths);
+  for (size_t v = 0; v < resampled.size(); ++v)
+    EXPECT_NEAR(resampled[v], length(points.col(static_cast<Eigen::Index>(v))), 1e-9);
+}
+
+TEST(Workspace, EqualTargetLengthsStayToTheLastBit) {
+  TriMesh mesh = with_length(wavy(), .1);
+  Workspace w = on(mesh);
+  const std::vector<double> lengths = w.vertex_length;
+  shake(w);
+  w.resample_lengths();
+  EXPECT_EQ(w.vertex_length, lengths);
+  w.copy_back(mesh);
+  EXPECT_EQ(vertex_values(mesh, target_length_property), std::vector<double>(lengths.size(), .1));
+}
+
 }  // namespace
 }  // namespace hooke

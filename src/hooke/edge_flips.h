@@ -24,6 +24,8 @@ struct FlippingMesh {
   const Constraints& constraints;
   const std::vector<double>& vertex_length;  // target length per vertex
   const std::vector<int>& corner_valences;   // wanted at corners of the boundary, 0 elsewhere: corner_rule.h
+  /// Called when vertices have moved, so that their target lengths can become those of their new places.
+  std::function<void()> after_move = nullptr;
 };
 
 /// Sum of the two angles across an inner edge, radians; Delaunay up to pi.

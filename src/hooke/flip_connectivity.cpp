@@ -41,8 +41,13 @@ class FlipMode {
   template <typename Flips>
   long long flip(const Flips& body) {
     Triangulation triangulation(*work_.connectivity);
-    FlippingMesh m{triangulation,     work_.placement,     *work_.retraction,
-                   work_.constraints, work_.vertex_length, corner_valences_};
+    FlippingMesh m{triangulation,
+                   work_.placement,
+                   *work_.retraction,
+                   work_.constraints,
+                   work_.vertex_length,
+                   corner_valences_,
+                   [this] { work_.resample_lengths(); }};
     const long long flips = body(m);
     if (flips > 0) work_.replace_faces(triangulation.faces());
     result_.flips += flips;
@@ -76,6 +81,7 @@ class FlipMode {
     integration.max_steps = options_.spring_steps;
     const IntegrationResult relaxed =
         relax([&](Relaxation& r) { return relax_lbfgs(r, integration, LbfgsOptions{}, watch("springs")); });
+    work_.resample_lengths();
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
   }

@@ -31,6 +31,7 @@ FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOpti
       flips += force_corners(m, flip_guard);
     if (flips > 0) connectivity = make_connectivity(vertices, m.triangulation.faces());
     result.held_back += move_vertices(m, connectivity, options.lloyd, guards);
+    if (m.after_move) m.after_move();
     result.flips += flips;
     ++result.rounds;
     result.interrupted = observer && !observer({.stage = "flow", .step = result.rounds});

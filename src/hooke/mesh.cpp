@@ -65,6 +65,11 @@ void set_vertex_values(TriMesh& mesh, const char* property, double value) {
   for (const auto v : mesh.vertices()) values[v] = value;
 }
 
+void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<double>& values) {
+  auto stored = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, property);
+  for (const auto v : mesh.vertices()) stored[v] = values[static_cast<size_t>(v.idx())];
+}
+
 std::vector<Triangle> triangles_of(const TriMesh& mesh) {
   std::vector<Triangle> triangles;
   triangles.reserve(mesh.n_faces());

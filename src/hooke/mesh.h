@@ -50,6 +50,9 @@ std::vector<double> vertex_values(const TriMesh& mesh, const char* property);
 /// Gives every vertex the same value of a property of doubles, which is added where it is missing.
 void set_vertex_values(TriMesh& mesh, const char* property, double value);
 
+/// Gives every vertex its own value of a property of doubles, by vertex id; it is added where it is missing.
+void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<double>& values);
+
 /// Vertex ids of every face, in face order.
 std::vector<Triangle> triangles_of(const TriMesh& mesh);
 

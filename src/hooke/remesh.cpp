@@ -78,6 +78,7 @@ class Remeshing {
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
     result_.not_landed = work_.land();
+    work_.resample_lengths();
     record("relax", relaxed);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
@@ -94,6 +95,7 @@ class Remeshing {
         polish(r, work_.targets, flips ? options_.flips.polish : options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
     result_.not_landed = work_.land();
+    work_.resample_lengths();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
@@ -127,6 +129,30 @@ class Remeshing {
 };
 
 }  // namespace
+
+void set_effort(RemeshOptions& options, Effort effort) {
+  options.flips = flip_options(effort);
+  if (options.connectivity == ConnectivityMode::flip) return;
+  switch (effort) {
+    case Effort::fast:  // one round, and angle springs once, not in rising stages
+      options.max_outer = 1;
+      options.polish.first_threshold = options.polish.last_threshold = 24;
+      options.polish.sweeps = 8;
+      break;
+    case Effort::standard:
+      break;
+    case Effort::thorough:  // smaller stages, and edges pay a little for the angles
+      options.max_outer = 12;
+      options.outer_drop = 1e-3;
+      options.polish.sweeps = 24;
+      options.polish.threshold_step = 1;
+      options.polish.least_step = .5;
+      options.polish.last_threshold = 40;
+      options.polish.edge_error_limit = 1.05;
+      options.polish.keep_within = 0;
+      break;
+  }
+}
 
 IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done) {
   IterationRecord record{

@@ -40,6 +40,10 @@ struct RemeshOptions {
   double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part
 };
 
+/// Sets the counts and limits that an effort stands for, in the connectivity mode of the options. `standard`
+/// is what the options are by default.
+void set_effort(RemeshOptions& options, Effort effort);
+
 /// One outer iteration.
 struct IterationRecord {
   const char* stage = "";

@@ -124,6 +124,11 @@ Json parameters_json(const RemeshOptions& o) {
   j["flow_rounds"] = o.connectivity == ConnectivityMode::fixed ? 0 : o.flips.flow.rounds;
   j["integrator"] = o.integrator == IntegratorKind::lbfgs ? "lbfgs" : "damped";
   j["polish"] = o.polish_angles;
+  const PolishOptions& polish = o.connectivity == ConnectivityMode::flip ? o.flips.polish : o.polish;
+  j["polish_sweeps"] = polish.sweeps;
+  j["polish_step"] = polish.threshold_step;
+  j["polish_up_to"] = polish.last_threshold;
+  j["polish_edge_limit"] = polish.edge_error_limit;
   add_filter(j, o.filter);
   j["refit"] = o.refit == Refit::each ? "each" : "once";
   j["altitude"] = o.altitude;
@@ -132,6 +137,7 @@ Json parameters_json(const RemeshOptions& o) {
   j["friction"] = o.damped.friction;
   j["tolerance"] = o.tolerance;
   j["max_outer"] = o.max_outer;
+  j["outer_drop"] = o.outer_drop;
   j["max_steps"] = o.integration.max_steps;
   j["boundary"] = name_of(o.constraints.boundary);
   j["corner_angle"] = o.constraints.corner_angle;

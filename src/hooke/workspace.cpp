@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/parallel.h"
+
 namespace hooke {
 namespace {
 
@@ -49,6 +51,8 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
     vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
   }
   targets = spread_target_lengths(*connectivity, vertex_length);
+  lengths_ = LengthField(start, connectivity, vertex_length);
+  length_anchors_ = identity(n);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   constraints = find_constraints(start, *connectivity, reordered);
@@ -107,6 +111,16 @@ void Workspace::replace_faces(std::vector<Triangle> faces) {
   faces_replaced_ = true;
 }
 
+void Workspace::resample_lengths() {
+  if (lengths_.uniform()) return;
+  parallel_for(vertex_length.size(), 512, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      vertex_length[v] = lengths_.at(placement.points.col(static_cast<Eigen::Index>(v)), length_anchors_[v]);
+  });
+  targets = spread_target_lengths(*connectivity, vertex_length);
+  lengths_resampled_ = true;
+}
+
 void Workspace::copy_back(TriMesh& target) const {
   if (faces_replaced_) {
     std::vector<Triangle> faces(connectivity->faces.size());
@@ -121,6 +135,11 @@ void Workspace::copy_back(TriMesh& target) const {
     if (placement.points.col(v) != start.col(v))
       out.col(order.old_vertex[static_cast<size_t>(v)]) =
           normalisation.centre + normalisation.unit * placement.points.col(v);
+  if (!lengths_resampled_) return;
+  std::vector<double> lengths(vertex_length.size());
+  for (size_t v = 0; v < lengths.size(); ++v)
+    lengths[static_cast<size_t>(order.old_vertex[v])] = normalisation.unit * vertex_length[v];
+  set_vertex_values(target, target_length_property, lengths);
 }
 
 ProjectionCounts Workspace::projection_counts() const {

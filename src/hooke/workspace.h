@@ -5,6 +5,7 @@
 
 #include "hooke/constraints.h"
 #include "hooke/guards.h"
+#include "hooke/length_field.h"
 #include "hooke/mesh.h"
 #include "hooke/ordering.h"
 #include "hooke/sizing.h"
@@ -37,8 +38,12 @@ struct Workspace {
   /// The vertices must still be on the field of the input: before the first refit().
   void replace_faces(std::vector<Triangle> faces);
 
-  /// Writes the faces, where they were replaced, and the points of all vertices that moved back to the mesh
-  /// it was made from.
+  /// Gives the vertices the target lengths of the places they have come to. Does nothing where these are the
+  /// same everywhere. The targets change in place.
+  void resample_lengths();
+
+  /// Writes the faces, where they were replaced, the points of all vertices that moved, and v:target_length,
+  /// where it was resampled, back to the mesh it was made from.
   void copy_back(TriMesh& target) const;
 
   ProjectionCounts projection_counts() const;
@@ -47,7 +52,7 @@ struct Workspace {
   Reordered order;
   std::shared_ptr<const Connectivity> connectivity;
   SweepPlan sweeps;
-  std::vector<double> vertex_length;  // target lengths, normalised
+  std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
   TargetLengths targets;
   Constraints constraints;
   TriMesh mesh;                            // normalised, in memory order; carries velocity and force
@@ -59,7 +64,10 @@ struct Workspace {
   FilterOptions filter_;
   GuardOptions guard_options_;
   RetractionOptions retraction_options_;
+  LengthField lengths_;              // on the input
+  std::vector<int> length_anchors_;  // where each vertex is tracked on it
   bool faces_replaced_ = false;
+  bool lengths_resampled_ = false;
   bool refitted_ = false;                 // until then both fields are the same
   std::vector<int> input_anchors_;        // where each vertex is tracked on the input
   std::unique_ptr<Retraction> to_input_;  // to the field of the input

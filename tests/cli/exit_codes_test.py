@@ -3,7 +3,7 @@
 import os
 import unittest
 
-from command import CommandTest
+from command import DATA, CommandTest
 
 
 class UsageErrors(CommandTest):
@@ -15,10 +15,11 @@ class UsageErrors(CommandTest):
 
     def test_bad_values_of_options(self):
         for option in (["-L", "none"], ["-L", "-1"], ["-L", "0"], ["-L", "nan"], ["--tolerance", "1m"],
-                       ["--threads", "0"], ["--filter", "magic"], ["--max-outer", "0"], ["--format", "stl"]):
+                       ["--sizing", "ply:"], ["--sizing", "curvature:0"], ["--gradation", "0", "--sizing", "curvature"],
+                       ["--gradation", "1"], ["-L", "sizing"], ["--threads", "0"], ["--filter", "magic"], ["--max-outer", "0"], ["--format", "stl"]):
             with self.subTest(option=option):
                 self.refused(2, "good.obj", "-o", "out.obj", *option,
-                             says="length" if option[0] == "-L" else option[0])
+                             says={"-L": "length", "--sizing": "izing"}.get(option[0], option[0]))
 
     def test_output_is_needed(self):
         self.refused(2, "good.obj", says="-o FILE")
@@ -53,6 +54,15 @@ class InputErrors(CommandTest):
 
     def test_wrong_content(self):
         self.refused_text(3, "this is no mesh\n", name="bad.off")
+
+    def test_lengths(self):
+        self.write("lengths", "1\n1\n-1\n1\n")
+        self.refused(3, "good.obj", "-o", "out.obj", "--sizing", "lengths", names="lengths:3")
+        self.write("lengths", "1\n1\n1\n")
+        self.refused(3, "good.obj", "-o", "out.obj", "--sizing", "lengths", names="lengths: 3 lengths for 4 vertices")
+        self.refused(3, "good.obj", "-o", "out.obj", "--sizing", "gone", names="gone")
+        self.refused(2, "good.obj", "-o", "out.obj", "--sizing", "ply:size", names="good.obj")
+        self.refused(3, DATA / "blob.ply", "-o", "out.obj", "--sizing", "ply:size", names="blob.ply", says="'size'")
 
     def test_id_list(self):
         self.write("ids", "0\none\n")

@@ -86,6 +86,24 @@ class Report(CommandTest):
         _, err = self.run_command(DATA / "patch.obj", "-o", "out.off", "-L", "1.2x", "--max-outer", 1)
         self.assertIn("hooke-remesh: warning: ", err)
 
+    def test_sizing(self):
+        plain = self.report(DATA / "patch.obj", "-o", "plain.obj")
+        count = plain["input"]["vertices"]
+        self.write("same", "2.5\n" * count)
+        self.report(DATA / "patch.obj", "-o", "same.obj", "--sizing", "same")
+        self.assertEqual((self.folder / "same.obj").read_bytes(), (self.folder / "plain.obj").read_bytes())
+        self.write("varied", "".join("%g\n" % (1 + i / count) for i in range(count)))
+        report = self.report(DATA / "patch.obj", "-o", "out.obj", "--sizing", "varied", "-L", "20%", "--max-outer", 1)
+        parameters = report["parameters"]
+        self.assertEqual(parameters["sizing"], "varied")
+        self.assertLess(parameters["L_min"], parameters["L"])
+        self.assertLess(parameters["L"], parameters["L_max"])
+        self.assertAlmostEqual(parameters["L"] / report["input"]["bbox_diagonal"], .2, 5)
+        self.assertIn("length_out_of_reach", [w["code"] for w in report["warnings"]])
+        report = self.report(DATA / "blob.ply", "--check", "--sizing", "curvature:1%", "--gradation", "off")
+        self.assertIsNone(report["parameters"]["gradation"])
+        self.assertLess(report["parameters"]["L_min"], report["parameters"]["L_max"])
+
     def test_quiet_prints_nothing(self):
         self.assertEqual(self.run_command(DATA / "patch.obj", "-o", "out.obj", "-q"), ("", ""))
         self.assertEqual(self.run_command("good.obj", "--check", "-q"), ("", ""))

@@ -16,15 +16,6 @@
 namespace hooke {
 namespace {
 
-const PlyElement& find_element(const PlyHeader& header, std::string_view element_name,
-                               const std::string& name) {
-  for (const PlyElement& element : header.elements)
-    if (element.name == element_name) return element;
-  throw InputError(fmt::format(
-      "{}: no element '{}' in the header; expected a mesh of vertices and faces; is it a point cloud?", name,
-      element_name));
-}
-
 bool is_index_list(const PlyProperty& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }
@@ -55,24 +46,6 @@ void check_face_element(const PlyElement& face, const std::string& name) {
   if (lists != 1 || usable != 1)
     throw InputError(fmt::format(
         "{}: faces without one integer list 'vertex_indices'; expected it once; correct the header", name));
-}
-
-template <typename Body>
-void skip_property(Body& body, const PlyProperty& property) {
-  long long count = 1;
-  if (property.count_type) count = body.integer(*property.count_type, "list length");
-  if (count < 0) body.fail(fmt::format("list length {}; expected 0 or more; correct it", count));
-  for (long long k = 0; k < count; ++k) body.skip(property.type);
-}
-
-template <typename Body>
-void skip_element(Body& body, const PlyElement& element) {
-  if (element.properties.empty()) return;  // its rows take no bytes, however many there are
-  for (long long row = 0; row < element.count; ++row) {
-    body.begin_row(element, row);
-    for (const PlyProperty& property : element.properties) skip_property(body, property);
-    body.end_row();
-  }
 }
 
 template <typename Body>

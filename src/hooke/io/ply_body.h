@@ -1,6 +1,8 @@
 // The two ways in which the values of a PLY body are written, behind one face: rows of numbers and lists.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 
@@ -61,5 +63,25 @@ class BinaryPlyBody {
   const PlyElement* element_ = nullptr;
   long long row_ = 0;
 };
+
+/// Passes over a value or a list.
+template <typename Body>
+void skip_property(Body& body, const PlyProperty& property) {
+  long long count = 1;
+  if (property.count_type) count = body.integer(*property.count_type, "list length");
+  if (count < 0) body.fail(fmt::format("list length {}; expected 0 or more; correct it", count));
+  for (long long k = 0; k < count; ++k) body.skip(property.type);
+}
+
+/// Passes over all rows of the element.
+template <typename Body>
+void skip_element(Body& body, const PlyElement& element) {
+  if (element.properties.empty()) return;  // its rows take no bytes, however many there are
+  for (long long row = 0; row < element.count; ++row) {
+    body.begin_row(element, row);
+    for (const PlyProperty& property : element.properties) skip_property(body, property);
+    body.end_row();
+  }
+}
 
 }  // namespace hooke

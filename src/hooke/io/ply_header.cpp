@@ -134,4 +134,13 @@ PlyHeader read_ply_header(std::string_view text, const std::string& name) {
   in.fail("the file ends in its header; expected end_header; the file is cut");
 }
 
+const PlyElement& find_element(const PlyHeader& header, std::string_view element_name,
+                               const std::string& name) {
+  for (const PlyElement& element : header.elements)
+    if (element.name == element_name) return element;
+  throw InputError(fmt::format(
+      "{}: no element '{}' in the header; expected a mesh of vertices and faces; is it a point cloud?", name,
+      element_name));
+}
+
 }  // namespace hooke

@@ -44,4 +44,8 @@ struct PlyHeader {
 /// yet.
 PlyHeader read_ply_header(std::string_view text, const std::string& name);
 
+/// The element of that name. Throws InputError "NAME: ..." without one.
+const PlyElement& find_element(const PlyHeader& header, std::string_view element_name,
+                               const std::string& name);
+
 }  // namespace hooke

@@ -1,0 +1,28 @@
+// Where target lengths per vertex come from, as the user says it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hooke/connectivity.h"
+
+namespace hooke {
+
+struct SizingSource {
+  enum class Kind { none, file, ply_property, curvature };
+  Kind kind = Kind::none;
+  std::string name;         // of the file or the property
+  double chord_error = .1;  // of curvature; positive
+  bool percent = true;      // of the box's diagonal; else in the unit of the points
+};
+
+/// Reads "FILE", "ply:PROPERTY", "curvature", "curvature:X" or "curvature:X%". Throws Error.
+SizingSource parse_sizing(const std::string& text);
+
+/// The lengths, one per vertex; none without a source. From curvature none is longer than a tenth of the
+/// box's diagonal. A property is read from the mesh's own file, which must be PLY: Error otherwise. Throws
+/// InputError for a file without them (see length_list.h and ply_lengths.h).
+std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
+                                const Mat3X& points, const Connectivity& connectivity);
+
+}  // namespace hooke

@@ -1,0 +1,76 @@
+#include "hooke/gradation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "solids.h"
+
+namespace hooke {
+namespace {
+
+std::vector<double> wild_lengths(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> exponent(-2, 1);
+  std::vector<double> lengths(static_cast<size_t>(count));
+  for (double& l : lengths) l = std::pow(10, exponent(random));
+  return lengths;
+}
+
+struct Limited {
+  test::Triangles t = test::sphere(3, .3, 7);
+  Connectivity c = test::connect(t);
+  std::vector<double> given = wild_lengths(c.vertex_count, 3), lengths = given;
+  double slope = .3;
+
+  Limited() { limit_gradation(t.points, c, slope, lengths); }
+
+  /// The most that the neighbour `from` leaves to `to`.
+  double most(int from, int to) const {
+    return lengths[static_cast<size_t>(from)] + slope * (t.points.col(to) - t.points.col(from)).norm();
+  }
+};
+
+TEST(Gradation, HoldsAlongEveryEdge) {
+  const Limited l;
+  for (const auto& [a, b] : l.c.edges) {
+    EXPECT_LE(l.lengths[static_cast<size_t>(b)], l.most(a, b));
+    EXPECT_LE(l.lengths[static_cast<size_t>(a)], l.most(b, a));
+  }
+}
+
+TEST(Gradation, LowersAsLittleAsItMust) {
+  const Limited l;
+  int lowered = 0;
+  for (int v = 0; v < l.c.vertex_count; ++v) {
+    const double given = l.given[static_cast<size_t>(v)], length = l.lengths[static_cast<size_t>(v)];
+    EXPECT_LE(length, given);
+    if (length == given) continue;
+    ++lowered;
+    const auto neighbours = l.c.vertex_neighbours[v];
+    EXPECT_TRUE(std::ranges::any_of(neighbours, [&](int w) { return l.most(w, v) == length; })) << v;
+  }
+  EXPECT_GT(lowered, l.c.vertex_count / 2);
+}
+
+TEST(Gradation, WhatObeysStays) {
+  const Limited l;
+  std::vector<double> again = l.lengths;
+  limit_gradation(l.t.points, l.c, l.slope, again);
+  EXPECT_EQ(again, l.lengths);
+  std::vector<double> free = l.given;
+  limit_gradation(l.t.points, l.c, std::numeric_limits<double>::infinity(), free);
+  EXPECT_EQ(free, l.given);
+}
+
+TEST(Gradation, APowerOfTwoScalesTheResultExactly) {
+  const Limited l;
+  std::vector<double> scaled = l.given;
+  for (double& x : scaled) x *= 8;
+  limit_gradation(8 * l.t.points, l.c, l.slope, scaled);
+  for (size_t v = 0; v < scaled.size(); ++v) EXPECT_EQ(scaled[v], 8 * l.lengths[v]);
+}
+
+}  // namespace
+}  // namespace hooke

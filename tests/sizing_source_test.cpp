@@ -1,0 +1,71 @@
+#include "hooke/io/sizing_source.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "errors.h"
+#include "hooke/error.h"
+#include "solids.h"
+#include "temporary_folder.h"
+
+namespace hooke {
+namespace {
+
+using Kind = SizingSource::Kind;
+
+TEST(SizingSource, MeansWhatItSays) {
+  EXPECT_EQ(parse_sizing("curvature").kind, Kind::curvature);
+  EXPECT_EQ(parse_sizing("./curvature").kind, Kind::file);
+  const SizingSource absolute = parse_sizing("curvature:.5"), percent = parse_sizing("curvature:2%");
+  EXPECT_EQ(absolute.chord_error, .5);
+  EXPECT_FALSE(absolute.percent);
+  EXPECT_EQ(percent.chord_error, 2);
+  EXPECT_TRUE(percent.percent);
+  EXPECT_EQ(parse_sizing("ply:size").kind, Kind::ply_property);
+  EXPECT_EQ(parse_sizing("ply:size").name, "size");
+  EXPECT_EQ(parse_sizing("a:b.txt").name, "a:b.txt");
+}
+
+TEST(SizingSource, RefusesWhatIsNone) {
+  for (const char* text : {"", "ply:", "curvature:", "curvature:0", "curvature:-1", "curvature:nan",
+                           "curvature:1x", "curvature:inf", "curvature:1 %"})
+    EXPECT_THROW(parse_sizing(text), Error) << text;
+}
+
+TEST(SizingSource, APropertyIsOfAPlyFileOnly) {
+  const test::Triangles t = test::tetrahedron();
+  EXPECT_ERROR(Error, "m.obj: sizing by the property 'size'",
+               read_sizing(parse_sizing("ply:size"), "m.obj", t.points, test::connect(t)));
+}
+
+TEST(SizingSource, AFileThatHasChangedInBetweenIsToldApart) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "m.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty float size\nend_header\n1\n");
+  const test::Triangles t = test::tetrahedron();
+  EXPECT_ERROR(InputError, (folder / "m.ply").string() + ": 1 vertices, and 4 when it was first read",
+               read_sizing(parse_sizing("ply:size"), folder / "m.ply", t.points, test::connect(t)));
+}
+
+TEST(SizingSource, CurvatureOfASphereGivesTheChordOfItsCircle) {
+  test::Triangles t = test::sphere(3, .3, 1);
+  t.points *= 3;
+  const double error = .05, expected = std::sqrt(8 * 3 * error - 4 * error * error);
+  for (double l : read_sizing(parse_sizing("curvature:.05"), "", t.points, test::connect(t)))
+    EXPECT_NEAR(l, std::min(expected, 1.0392), .03 * expected);
+}
+
+TEST(SizingSource, OnAPlaneNoLengthIsOverATenthOfTheDiagonal) {
+  const test::Triangles t = test::grid(5, test::flat);
+  for (double l : read_sizing(parse_sizing("curvature"), "", t.points, test::connect(t)))
+    EXPECT_DOUBLE_EQ(l, .1 * std::sqrt(2));
+}
+
+TEST(SizingSource, WithoutOneThereAreNoLengths) {
+  const test::Triangles t = test::grid(5, test::flat);
+  EXPECT_TRUE(read_sizing({}, "", t.points, test::connect(t)).empty());
+}
+
+}  // namespace
+}  // namespace hooke
