@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "hooke/io/ply_header.h"
 #include "hooke/io/scanner.h"
@@ -13,6 +14,12 @@ namespace hooke {
 class AsciiPlyBody {
  public:
   AsciiPlyBody(std::string_view text, const std::string& name, const PlyHeader& header);
+
+  /// Rows on lines of their own that the scanner comes to.
+  explicit AsciiPlyBody(Scanner rows) : in_(std::move(rows)), one_line_(false) {}
+
+  bool one_line() const { return one_line_; }
+  const Scanner& scanner() const { return in_; }
 
   /// Throws InputError if the rows of the element cannot be there, before anybody allocates memory for them.
   void begin_element(const PlyElement& element);
