@@ -30,14 +30,14 @@ using Clock = std::chrono::steady_clock;
 
 /// Everything that can be known to fail before the work is done.
 void require_outputs(const Settings& s) {
-  if (!s.output.empty()) {
-    require_distinct(s.input, s.output);
-    require_writable(s.output);
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& file : {s.output, std::filesystem::path(s.report), s.trace}) {
+    if (file.empty() || file == "-") continue;
+    require_distinct(s.input, file);
+    for (const std::filesystem::path& other : files) require_distinct(other, file);
+    require_writable(file);
+    files.push_back(file);
   }
-  if (s.report.empty() || s.report == "-") return;
-  require_distinct(s.input, s.report);
-  if (!s.output.empty()) require_distinct(s.output, s.report);
-  require_writable(s.report);
 }
 
 void write_report(const Settings& s, const RunRecord& run) {
@@ -91,9 +91,9 @@ void warn_of_length(const Settings& s, double length, double natural, RunRecord&
 }
 
 /// Against the target lengths that the vertices have now.
-Quality measure(const TriMesh& mesh, const Connectivity& connectivity) {
+Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, Stopwatch& stopwatch) {
   const std::vector<double> lengths = vertex_values(mesh, target_length_property);
-  return measure_quality(positions(mesh), connectivity, spread_target_lengths(connectivity, lengths).edge);
+  return measure_quality(surface, spread_target_lengths(surface.connectivity, lengths).edge, {}, &stopwatch);
 }
 
 /// Gives the vertices their target lengths and tells what they are.
@@ -118,55 +118,67 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const Connectivity& co
   if (!s.check) warn_of_length(s, covering_length(points, connectivity, targets), natural, record);
 }
 
-RemeshResult optimize(const Settings& s, TriMesh& mesh) {
+RemeshResult optimize(const Settings& s, TriMesh& mesh, Stopwatch& stopwatch) {
   ProgressLine line(s);
   const Observer observer = [&](const Progress& p) {
     line.show(p);
     return caught_signal() == 0;
   };
-  return s.paper ? paper_remesh(mesh, s.paper_options, observer) : remesh(mesh, s.remesh, observer);
+  return s.paper ? paper_remesh(mesh, s.paper_options, observer)
+                 : remesh(mesh, s.remesh, observer, &stopwatch);
 }
 
 int run(Settings s) {
   const auto start = Clock::now();
   const ThreadLimit threads(s.threads);
   require_outputs(s);
-  LoadedMesh loaded = read_mesh(s.input);
+  Stopwatch stopwatch;
+  LoadedMesh loaded = timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch); });
   TriMesh& mesh = loaded.mesh;
-  const Connectivity connectivity =
-      make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
-  const Mat3X original = positions(mesh);
+  const Connectivity& connectivity = loaded.connectivity;
   if (!s.fix.empty())
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
         read_id_list(s.fix, connectivity.vertex_count);
+  const MeasuredSurface original =
+      timed(&stopwatch, "tree", [&] { return MeasuredSurface(positions(mesh), connectivity); });
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
   record.input = {printable(s.input.string()), loaded.sha256, loaded.format,
-                  connectivity_sha256(connectivity.faces)};
+                  timed(&stopwatch, "sha256", [&] { return connectivity_sha256(connectivity.faces); })};
   record.warnings = loaded.warnings;
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh);
-  set_target_lengths(s, mesh, connectivity, record);
-  record.before = measure(mesh, connectivity);
+  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, connectivity, record); });
+  record.before = timed(&stopwatch, "before", [&] { return measure(original, mesh, stopwatch); });
 
   if (!s.check) {
-    record.result = optimize(s, mesh);
+    record.result = timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, stopwatch); });
     if (!positions(mesh).allFinite())
       throw NumericalError(
           fmt::format("{}: the result is not finite; nothing was written", record.input.path));
     record.status = status_of(record.result->reason);
-    const Connectivity after = make_connectivity(connectivity.vertex_count, triangles_of(mesh));
-    record.after = measure(mesh, after);
-    record.deviation = measure_deviation(original, connectivity, positions(mesh), after);
-    const WrittenFile written = write_mesh(s.output, mesh, s.format, loaded.encoding);
+    const bool faces_kept = s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
+    const Connectivity changed =
+        faces_kept ? Connectivity{} : make_connectivity(connectivity.vertex_count, triangles_of(mesh));
+    const Connectivity& after = faces_kept ? connectivity : changed;
+    const MeasuredSurface result =
+        timed(&stopwatch, "tree", [&] { return MeasuredSurface(positions(mesh), after); });
+    record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, stopwatch); });
+    record.deviation =
+        timed(&stopwatch, "deviation", [&] { return measure_deviation(original, result, &stopwatch); });
+    const WrittenFile written = timed(&stopwatch, "write", [&] {
+      return write_mesh(s.output, mesh, s.format, loaded.encoding, &stopwatch);
+    });
     record.output = {printable(s.output.string()), written.sha256, s.format,
-                     connectivity_sha256(after.faces)};
+                     faces_kept ? record.input.connectivity_sha256 : connectivity_sha256(after.faces)};
     add_result_warnings(s, record);
   }
+  record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
   for (const Warning& w : record.warnings) print_warning(w);
   if (!s.quiet) print_summary(s, record);
+  if (!s.trace.empty()) write_file_atomically(s.trace, trace_csv(record.stages));
   write_report(s, record);
   return caught_signal() ? 128 + caught_signal() : done;
 }

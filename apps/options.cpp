@@ -235,6 +235,9 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
   app.add_option("--report", s.report, "JSON report; - for standard output")
       ->type_name("FILE")
       ->group(reports);
+  app.add_option("--trace", s.trace, "Seconds and memory of every stage, as CSV")
+      ->type_name("FILE")
+      ->group(reports);
 
   const char* run = "Running";
   app.add_option(

@@ -26,9 +26,10 @@ struct Settings {
   Effort effort = Effort::standard;
   RemeshOptions remesh;
   PaperOptions paper_options;
-  std::filesystem::path fix;  // file of vertex ids that stay; empty without
-  std::string report;         // path, "-" for standard output, empty without
-  int threads = 0;            // 0: all that the process may use
+  std::filesystem::path fix;    // file of vertex ids that stay; empty without
+  std::string report;           // path, "-" for standard output, empty without
+  std::filesystem::path trace;  // seconds per stage; empty without
+  int threads = 0;              // 0: all that the process may use
   bool quiet = false;
   bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <random>
 #include <set>
@@ -89,21 +91,55 @@ TEST(BoundingVolumeTree, PointOnAVertexHasDistanceZero) {
     EXPECT_LT(tree.closest(t.points.col(v)).squared_distance, 1e-30);
 }
 
-TEST(BoundingVolumeTree, BoxesThatMeetAreAllVisitedOnce) {
+TEST(BoundingVolumeTree, PairsOfBoxesThatMeetAreAllVisitedOnce) {
   const test::Triangles t = test::shaken(test::sphere(2), .3);
   const BoundingVolumeTree tree(t.points, t.faces);
-  const auto box_of = [&](const Triangle& f) {
-    BoundingVolumeTree::Box box;
-    for (int v : f) box.extend(Vec3(t.points.col(v)));
-    return box;
+  using Face = BoundingVolumeTree::Face;
+  std::multiset<std::array<int, 2>> visited, expected;
+  const auto visit = [&](const Face& f, const Face& g) {
+    visited.insert({std::min(f.id, g.id), std::max(f.id, g.id)});
   };
-  for (const Triangle& f : t.faces) {
-    std::multiset<int> visited, expected;
-    tree.for_each_meeting(box_of(f), [&](int g) { visited.insert(g); });
-    for (size_t g = 0; g < t.faces.size(); ++g)
-      if (box_of(f).intersects(box_of(t.faces[g]))) expected.insert(static_cast<int>(g));
-    ASSERT_EQ(visited, expected);
+  const size_t half = tree.parts() / 2;  // parts may be asked for in any grouping
+  tree.for_each_meeting_pair(half, tree.parts(), visit);
+  tree.for_each_meeting_pair(0, half, visit);
+  for (const Face& f : tree.faces())
+    for (const Face& g : tree.faces())
+      if (f.id < g.id && f.box().intersects(g.box())) expected.insert({f.id, g.id});
+  EXPECT_EQ(visited, expected);
+}
+
+TEST(BoundingVolumeTree, PointsAskedForTogetherGetTheAnswersOfEachAlone) {
+  const test::Triangles t = test::shaken(test::sphere(3), .3);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5), offset(-.1, .1);
+  for (int k = 0; k < 300; ++k) {
+    std::array<Vec3, 5> points;
+    points[0] = Vec3(coordinate(random), coordinate(random), coordinate(random));
+    for (size_t i = 1; i < points.size(); ++i)
+      points[i] = points[0] + Vec3(offset(random), offset(random), offset(random));
+    std::array<ClosestPoint, 5> together;
+    tree.closest(points, k % 2 ? k : -1, together);
+    for (size_t i = 0; i < points.size(); ++i) {
+      const ClosestPoint alone = tree.closest(points[i]);
+      EXPECT_EQ(together[i].squared_distance, alone.squared_distance);
+      EXPECT_EQ(together[i].face, alone.face);
+      EXPECT_EQ(together[i].point, alone.point);
+    }
   }
+}
+
+TEST(BoundingVolumeTree, FacesInItsOrderAreThoseItWasMadeOf) {
+  const test::Triangles t = test::sphere(3, .2);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  ASSERT_EQ(tree.faces().size(), t.faces.size());
+  std::set<int> ids;
+  for (const BoundingVolumeTree::Face& face : tree.faces()) {
+    ids.insert(face.id);
+    EXPECT_EQ(face.vertices, t.faces[static_cast<size_t>(face.id)]);
+    for (size_t k = 0; k < 3; ++k) EXPECT_EQ(face.corners[k], t.points.col(face.vertices[k]));
+  }
+  EXPECT_EQ(ids.size(), t.faces.size());
 }
 
 TEST(BoundingVolumeTree, SegmentsAreTrianglesThatRepeatAVertex) {
@@ -118,7 +154,11 @@ TEST(BoundingVolumeTree, EmptyTreeFindsNothing) {
   EXPECT_TRUE(tree.empty());
   EXPECT_EQ(tree.closest({0, 0, 0}).face, -1);
   EXPECT_EQ(tree.closest({0, 0, 0}).squared_distance, std::numeric_limits<double>::infinity());
-  tree.for_each_meeting(BoundingVolumeTree::Box(Vec3(0, 0, 0), Vec3(1, 1, 1)), [](int) { FAIL(); });
+  tree.for_each_meeting_pair(0, tree.parts(), [](const auto&, const auto&) { FAIL(); });
+  const std::array<Vec3, 2> points = {Vec3::Zero(), Vec3::Ones()};
+  std::array<ClosestPoint, 2> closest;
+  tree.closest(points, -1, closest);
+  for (const ClosestPoint& c : closest) EXPECT_EQ(c.face, -1);
 }
 
 }  // namespace

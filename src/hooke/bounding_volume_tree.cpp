@@ -1,8 +1,10 @@
 #include "hooke/bounding_volume_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "hooke/parallel.h"
 
 namespace hooke {
 namespace {
@@ -17,6 +19,26 @@ Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 /// Eigen's squaredExteriorDistance without branches: they are unpredictable here.
 double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& x) {
   return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
+}
+
+constexpr size_t block = 4096;
+
+/// Nodes of a tree over n faces and of one over n + 1, if leaves hold up to `leaf` faces and all else is
+/// halved.
+std::array<size_t, 2> node_counts(size_t n, size_t leaf) {
+  if (n + 1 <= leaf) return {1, 1};
+  const auto [half, more] = node_counts(n / 2, leaf);
+  const bool odd = n % 2 == 1;
+  return {n <= leaf ? 1 : 1 + half + (odd ? more : half), 1 + more + (odd ? more : half)};
+}
+
+/// Better than `best`: closer, or as close and of a lower id.
+void try_face(const Vec3& x, const BoundingVolumeTree::Face& face, ClosestPoint& best) {
+  const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
+  const double d = candidate.squared_distance;
+  if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
+  best = candidate;
+  best.face = face.id;
 }
 
 }  // namespace
@@ -57,68 +79,123 @@ Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
   return weights / sum;
 }
 
-BoundingVolumeTree::BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces) {
-  std::vector<Box> boxes(faces.size());
+BoundingVolumeTree::BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces)
+    : faces_(faces.size()),
+      place_(faces.size()),
+      nodes_(faces.empty() ? 1 : node_counts(faces.size(), leaf_size)[0]) {
   std::vector<Centre> centres(faces.size());
-  for (size_t f = 0; f < faces.size(); ++f) {
-    for (int v : faces[f]) boxes[f].extend(Vec3(points.col(v)));
-    centres[f] = {boxes[f].center(), static_cast<int>(f)};
-  }
-  nodes_.reserve(faces.size());
-  build(0, faces.size(), centres, boxes);
-
-  place_.resize(faces.size());
-  faces_.reserve(faces.size());
-  for (const Centre& centre : centres) {
-    const auto f = static_cast<size_t>(centre.face);
-    place_[f] = static_cast<int>(faces_.size());
-    faces_.push_back(
-        {boxes[f], {points.col(faces[f][0]), points.col(faces[f][1]), points.col(faces[f][2])}, centre.face});
-  }
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const auto& [a, b, c] = faces[f];
+      const Face face{{points.col(a), points.col(b), points.col(c)}, faces[f], static_cast<int>(f)};
+      centres[f] = {face.box().center(), face.id};
+    }
+  });
+  build_all(centres);
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      const auto f = static_cast<size_t>(centres[k].face);
+      const auto& [a, b, c] = faces[f];
+      place_[f] = static_cast<int>(k);
+      faces_[k] = {{points.col(a), points.col(b), points.col(c)}, faces[f], centres[k].face};
+    }
+  });
+  enclose_nodes();
 }
 
-/// Appends the node of centres[begin, end) and all below it: halves along the longest side of the centres'
-/// box.
-void BoundingVolumeTree::build(size_t begin, size_t end, std::vector<Centre>& centres,
-                               const std::vector<Box>& boxes) {
-  const size_t me = nodes_.size();
-  nodes_.emplace_back();
-  Box box, spread;
-  for (size_t k = begin; k < end; ++k) {
-    box.extend(boxes[static_cast<size_t>(centres[k].face)]);
-    spread.extend(centres[k].point);
+/// Makes a leaf, or halves the range along the longest side of the centres' box and returns true.
+bool BoundingVolumeTree::divide(const Range& range, std::vector<Centre>& centres, Range& left, Range& right) {
+  Node& node = nodes_[range.node];
+  const size_t count = range.end - range.begin;
+  if (count <= leaf_size) {
+    node.first_or_right = static_cast<int>(range.begin);
+    node.count = static_cast<int>(count);
+    return false;
   }
-  nodes_[me].box = box;
-  if (end - begin <= leaf_size) {
-    nodes_[me].first_or_right = static_cast<int>(begin);
-    nodes_[me].count = static_cast<int>(end - begin);
-    return;
-  }
+  Box spread;
+  for (size_t k = range.begin; k < range.end; ++k) spread.extend(centres[k].point);
   Eigen::Index axis;
   spread.sizes().maxCoeff(&axis);
-  const size_t middle = begin + (end - begin) / 2;
+  const size_t middle = range.begin + count / 2;
   const auto at = [&](size_t k) { return centres.begin() + static_cast<std::ptrdiff_t>(k); };
-  std::nth_element(at(begin), at(middle), at(end), [axis](const Centre& a, const Centre& b) {
+  std::nth_element(at(range.begin), at(middle), at(range.end), [axis](const Centre& a, const Centre& b) {
     return a.point[axis] < b.point[axis] || (a.point[axis] == b.point[axis] && a.face < b.face);
   });
-  build(begin, middle, centres, boxes);
-  nodes_[me].first_or_right = static_cast<int>(nodes_.size());
-  build(middle, end, centres, boxes);
+  left = {range.begin, middle, range.node + 1};
+  right = {middle, range.end, range.node + 1 + node_counts(count / 2, leaf_size)[0]};
+  node.first_or_right = static_cast<int>(right.node);
+  return true;
 }
 
-void BoundingVolumeTree::try_face(const Vec3& x, const Face& face, ClosestPoint& best) {
-  const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
-  const double d = candidate.squared_distance;
-  if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
-  best = candidate;
-  best.face = face.id;
+void BoundingVolumeTree::build(const Range& range, std::vector<Centre>& centres) {
+  Range left, right;
+  if (!divide(range, centres, left, right)) return;
+  build(left, centres);
+  build(right, centres);
+}
+
+/// The top of the tree level by level, then what hangs below, each in parallel: the place of every node is
+/// known beforehand.
+void BoundingVolumeTree::build_all(std::vector<Centre>& centres) {
+  constexpr int top_levels = 7;
+  std::vector<Range> ranges = {{0, centres.size(), 0}};
+  for (int level = 0; level < top_levels; ++level) {
+    std::vector<Range> halves(2 * ranges.size(), Range{0, 0, 0});
+    parallel_for(ranges.size(), 1, [&](size_t begin, size_t end) {
+      for (size_t r = begin; r < end; ++r) divide(ranges[r], centres, halves[2 * r], halves[2 * r + 1]);
+    });
+    std::erase_if(halves, [](const Range& r) { return r.begin == r.end; });
+    ranges = std::move(halves);
+  }
+  parallel_for(ranges.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t r = begin; r < end; ++r) build(ranges[r], centres);
+  });
+}
+
+/// Children stand behind their parents.
+void BoundingVolumeTree::enclose_nodes() {
+  for (size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    for (const Face& face : faces_of(i)) node.box.extend(face.box());
+    if (node.count > 0 || empty()) continue;
+    node.box.extend(nodes_[i + 1].box);
+    node.box.extend(nodes_[static_cast<size_t>(node.first_or_right)].box);
+  }
+}
+
+void BoundingVolumeTree::closest(std::span<const Vec3> points, int hint,
+                                 std::span<ClosestPoint> results) const {
+  if (points.empty()) return;
+  results[0] = closest(points[0], hint);
+  if (empty()) return std::fill(results.begin(), results.end(), results[0]);
+  Box box;
+  double greatest = 0;  // squared: no closest point is farther off
+  for (size_t i = 1; i < points.size(); ++i) {
+    results[i].squared_distance = std::numeric_limits<double>::infinity();
+    try_face(points[i], face(results[0].face), results[i]);
+    greatest = std::max(greatest, results[i].squared_distance);
+    box.extend(points[i]);
+  }
+  if (box.isEmpty()) return;
+  const double size = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const double margin = std::sqrt(greatest) * (1 + 1e-9) + size * 1e-15;  // rounding must lose no face
+  box.min().array() -= margin;
+  box.max().array() += margin;
+  for_each_leaf_meeting(box, 0, [&](size_t leaf) {
+    for (const Face& face : faces_of(leaf)) {
+      const Box around = face.box();
+      for (size_t i = 1; i < points.size(); ++i)
+        if (squared_distance(around, points[i]) <= results[i].squared_distance)
+          try_face(points[i], face, results[i]);
+    }
+  });
 }
 
 ClosestPoint BoundingVolumeTree::closest(const Vec3& x, int hint) const {
   ClosestPoint best;
   best.squared_distance = std::numeric_limits<double>::infinity();
   if (empty()) return best;
-  if (hint >= 0) try_face(x, faces_[static_cast<size_t>(place_[static_cast<size_t>(hint)])], best);
+  if (hint >= 0) try_face(x, face(hint), best);
 
   struct Visit {
     int node;
@@ -132,9 +209,8 @@ ClosestPoint BoundingVolumeTree::closest(const Vec3& x, int hint) const {
     if (visit.distance > best.squared_distance) continue;
     const Node& node = nodes_[static_cast<size_t>(visit.node)];
     if (node.count > 0) {
-      const Face* face = faces_.data() + node.first_or_right;
-      for (int k = 0; k < node.count; ++k)
-        if (squared_distance(face[k].box, x) <= best.squared_distance) try_face(x, face[k], best);
+      for (const Face& face : faces_of(static_cast<size_t>(visit.node)))
+        if (squared_distance(face.box(), x) <= best.squared_distance) try_face(x, face, best);
       continue;
     }
     const int left = visit.node + 1, right = node.first_or_right;

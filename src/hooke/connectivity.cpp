@@ -1,66 +1,73 @@
 #include "hooke/connectivity.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "hooke/parallel.h"
 
 namespace hooke {
 namespace {
 
-/// Lists the rows that name each index; `per_row(row)` yields the indices that the row names.
-template <typename Rows>
-IntLists invert(int count, const Rows& rows) {
-  IntLists lists;
-  lists.first.assign(static_cast<size_t>(count) + 1, 0);
-  for (const auto& row : rows)
-    for (int i : row) ++lists.first[static_cast<size_t>(i) + 1];
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) lists.first[i + 1] += lists.first[i];
-  lists.items.resize(static_cast<size_t>(lists.first.back()));
-  std::vector<int> next(lists.first.begin(), lists.first.end() - 1);
-  for (size_t r = 0; r < rows.size(); ++r)
-    for (int i : rows[r])
-      lists.items[static_cast<size_t>(next[static_cast<size_t>(i)]++)] = static_cast<int>(r);
+constexpr size_t block = 4096;
+
+/// Whether the face of half-edge h is the first that names its edge.
+bool names_edge(const std::vector<int>& twins, size_t h) {
+  return twins[h] < 0 || static_cast<int>(h) < twins[h];
+}
+
+/// Numbers the edges in the order of the half-edges that name them.
+void number_edges(const std::vector<int>& twins, Connectivity& c) {
+  std::vector<int> first(twins.size() / block + 2, 0);  // edge of each block of half-edges
+  parallel_for(twins.size(), block, [&](size_t begin, size_t end) {
+    for (size_t h = begin; h < end; ++h) first[h / block + 1] += names_edge(twins, h);
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  c.edges.resize(static_cast<size_t>(first.back()));
+  c.edge_faces.resize(c.edges.size());
+  c.face_edges.resize(c.faces.size());
+  parallel_for(twins.size(), block, [&](size_t begin, size_t end) {
+    int edge = first[begin / block];
+    for (size_t h = begin; h < end; ++h) {
+      if (!names_edge(twins, h)) continue;
+      const Triangle& t = c.faces[h / 3];
+      c.edges[static_cast<size_t>(edge)] = {t[h % 3], t[(h + 1) % 3]};
+      c.edge_faces[static_cast<size_t>(edge)] = {static_cast<int>(h / 3), twins[h] < 0 ? -1 : twins[h] / 3};
+      c.face_edges[h / 3][h % 3] = edge;
+      if (twins[h] >= 0)
+        c.face_edges[static_cast<size_t>(twins[h]) / 3][static_cast<size_t>(twins[h]) % 3] = edge;
+      ++edge;
+    }
+  });
+}
+
+/// The other end of every edge in `vertex_edges`.
+IntLists neighbours(const IntLists& vertex_edges, const std::vector<Edge>& edges) {
+  IntLists lists = vertex_edges;
+  parallel_for(vertex_edges.first.size() - 1, block, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      for (auto i = static_cast<size_t>(lists.first[v]); i < static_cast<size_t>(lists.first[v + 1]); ++i) {
+        const Edge& e = edges[static_cast<size_t>(lists.items[i])];
+        lists.items[i] = e[0] == static_cast<int>(v) ? e[1] : e[0];
+      }
+  });
   return lists;
 }
 
 }  // namespace
 
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
-  Connectivity c;
-  c.vertex_count = vertex_count;
-  c.faces = std::move(faces);
-  c.face_edges.resize(c.faces.size());
-  c.vertex_faces = invert(vertex_count, c.faces);
+  VertexFans fans = examine_fans(vertex_count, faces);
+  return make_connectivity(std::move(faces), std::move(fans));
+}
 
-  for (size_t f = 0; f < c.faces.size(); ++f) {
-    for (size_t k = 0; k < 3; ++k) {
-      const int a = c.faces[f][k];
-      const int b = c.faces[f][(k + 1) % 3];
-      int edge = -1;
-      for (int g : c.vertex_faces[a]) {  // the face across, if it came before
-        if (g >= static_cast<int>(f)) break;
-        for (size_t m = 0; m < 3; ++m)
-          if (c.faces[static_cast<size_t>(g)][m] == b && c.faces[static_cast<size_t>(g)][(m + 1) % 3] == a)
-            edge = c.face_edges[static_cast<size_t>(g)][m];
-      }
-      if (edge < 0) {
-        edge = static_cast<int>(c.edges.size());
-        c.edges.push_back({a, b});
-        c.edge_faces.push_back({static_cast<int>(f), -1});
-      } else {
-        c.edge_faces[static_cast<size_t>(edge)][1] = static_cast<int>(f);
-      }
-      c.face_edges[f][k] = edge;
-    }
-  }
-  c.vertex_edges = invert(vertex_count, c.edges);
-  c.vertex_neighbours = c.vertex_edges;
-  for (int v = 0; v < vertex_count; ++v) {
-    const auto begin = static_cast<size_t>(c.vertex_edges.first[static_cast<size_t>(v)]);
-    const auto end = static_cast<size_t>(c.vertex_edges.first[static_cast<size_t>(v) + 1]);
-    for (size_t i = begin; i < end; ++i) {
-      const Edge& e = c.edges[static_cast<size_t>(c.vertex_edges.items[i])];
-      c.vertex_neighbours.items[i] = e[0] == v ? e[1] : e[0];
-    }
-  }
+Connectivity make_connectivity(std::vector<Triangle> faces, VertexFans fans) {
+  Connectivity c;
+  c.vertex_count = static_cast<int>(fans.kinds.size());
+  c.faces = std::move(faces);
+  c.vertex_faces = std::move(fans.faces);
+  number_edges(fans.twins, c);
+  c.vertex_edges = invert(c.vertex_count, c.edges);
+  c.vertex_neighbours = neighbours(c.vertex_edges, c.edges);
   return c;
 }
 

@@ -1,21 +1,9 @@
 // Flat connectivity: who touches whom, in plain arrays for the hot loops.
 #pragma once
 
-#include <span>
-
-#include "hooke/types.h"
+#include "hooke/vertex_fans.h"
 
 namespace hooke {
-
-/// Lists of ints, one per index, stored end to end.
-struct IntLists {
-  std::vector<int> first;  // size n + 1
-  std::vector<int> items;
-
-  std::span<const int> operator[](int i) const {
-    return {items.data() + first[static_cast<size_t>(i)], items.data() + first[static_cast<size_t>(i) + 1]};
-  }
-};
 
 /// Invariant: faces, edges and vertices have the ids of the triangles it was made from; edges are numbered in
 /// the order in which the faces first name them.
@@ -34,5 +22,8 @@ struct Connectivity {
 
 /// Pre-condition: manifold, consistently oriented triangles on vertices [0, vertex_count).
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces);
+
+/// The same where their fans have been examined before. Pre-condition: none is broken.
+Connectivity make_connectivity(std::vector<Triangle> faces, VertexFans fans);
 
 }  // namespace hooke

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
-#include "hooke/bounding_volume_tree.h"
-#include "hooke/extent.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -23,17 +22,7 @@ Vec3 area_vector(const Mat3X& points, const Triangle& t) {
   return (b - a).cross(c - a);
 }
 
-/// One of the two surfaces, ready to be asked.
-struct Side {
-  Side(const Mat3X& p, const Connectivity& c) : points(p), connectivity(c), tree(p, c.faces) {}
-
-  /// The face of this side with the id of another side's face, if there is one.
-  int hint(int face) const { return face < static_cast<int>(connectivity.faces.size()) ? face : -1; }
-
-  const Mat3X& points;
-  const Connectivity& connectivity;
-  BoundingVolumeTree tree;
-};
+using Face = BoundingVolumeTree::Face;
 
 /// Squared distances to another surface, at the points that measure_distance() asks for.
 struct Samples {
@@ -43,35 +32,72 @@ struct Samples {
   std::vector<std::array<double, 3>> quarters;  // centres of the quarters at the three corners
 };
 
-Samples sample_distances(const Side& from, const Side& to) {
+const Triangle& face_at(const MeasuredSurface& surface, const ClosestPoint& point) {
+  return surface.connectivity.faces[static_cast<size_t>(point.face)];
+}
+
+/// The samples of one face: its centre first, the quarters, then the edges and vertices that no face with a
+/// lower id has.
+class FaceSamples {
+ public:
+  FaceSamples(const MeasuredSurface& surface, const Face& face) {
+    const Connectivity& c = surface.connectivity;
+    const Vec3 centre = face_centre(surface.points, face.vertices);
+    add(centre);
+    for (const Vec3& corner : face.corners) add(.5 * (corner + centre));
+    for (int e : c.face_edges[static_cast<size_t>(face.id)]) {
+      if (c.edge_faces[static_cast<size_t>(e)][0] != face.id) continue;
+      edges_[edge_count_++] = e;
+      const auto [a, b] = c.edges[static_cast<size_t>(e)];
+      add(.5 * (surface.points.col(a) + surface.points.col(b)));
+    }
+    for (int v : face.vertices) {
+      if (c.vertex_faces[v].front() != face.id) continue;
+      vertices_[vertex_count_++] = v;
+      add(surface.points.col(v));
+    }
+  }
+
+  std::span<const Vec3> points() const { return {points_.data(), count_}; }
+
+  void store(std::span<const ClosestPoint> closest, int face, Samples& samples) const {
+    const auto distance = [&](size_t i) { return closest[i].squared_distance; };
+    samples.centres[static_cast<size_t>(face)] = closest[0];
+    samples.quarters[static_cast<size_t>(face)] = {distance(1), distance(2), distance(3)};
+    for (size_t k = 0; k < edge_count_; ++k) samples.edges[static_cast<size_t>(edges_[k])] = distance(4 + k);
+    for (size_t k = 0; k < vertex_count_; ++k)
+      samples.vertices[static_cast<size_t>(vertices_[k])] = distance(4 + edge_count_ + k);
+  }
+
+  static constexpr size_t most = 10;
+
+ private:
+  void add(const Vec3& point) { points_[count_++] = point; }
+
+  std::array<Vec3, most> points_;
+  std::array<int, 3> edges_, vertices_;
+  size_t count_ = 0, edge_count_ = 0, vertex_count_ = 0;
+};
+
+/// The face with the same id, if there is one.
+int hint(const MeasuredSurface& surface, int face) {
+  return face < static_cast<int>(surface.connectivity.faces.size()) ? face : -1;
+}
+
+Samples sample_distances(const MeasuredSurface& from, const MeasuredSurface& to) {
   const Connectivity& c = from.connectivity;
   Samples samples;
   samples.vertices.resize(static_cast<size_t>(c.vertex_count));
   samples.edges.resize(c.edges.size());
   samples.centres.resize(c.faces.size());
   samples.quarters.resize(c.faces.size());
-  parallel_for(samples.vertices.size(), block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      const auto ring = c.vertex_faces[static_cast<int>(v)];
-      if (ring.empty()) continue;
-      const Vec3 x = from.points.col(static_cast<Eigen::Index>(v));
-      samples.vertices[v] = to.tree.closest(x, to.hint(ring.front())).squared_distance;
-    }
-  });
-  parallel_for(samples.edges.size(), block, [&](size_t begin, size_t end) {
-    for (size_t e = begin; e < end; ++e) {
-      const Vec3 x = .5 * (from.points.col(c.edges[e][0]) + from.points.col(c.edges[e][1]));
-      samples.edges[e] = to.tree.closest(x, to.hint(c.edge_faces[e][0])).squared_distance;
-    }
-  });
-  parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      const Triangle& t = c.faces[f];
-      const Vec3 centre = face_centre(from.points, t);
-      samples.centres[f] = to.tree.closest(centre, to.hint(static_cast<int>(f)));
-      for (size_t k = 0; k < 3; ++k)
-        samples.quarters[f][k] =
-            to.tree.closest(.5 * (from.points.col(t[k]) + centre), samples.centres[f].face).squared_distance;
+  const std::span<const Face> faces = from.tree.faces();
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    std::array<ClosestPoint, FaceSamples::most> closest;
+    for (size_t k = begin; k < end; ++k) {
+      const FaceSamples wanted(from, faces[k]);
+      to.tree.closest(wanted.points(), hint(to, faces[k].id), {closest.data(), wanted.points().size()});
+      wanted.store(closest, faces[k].id, samples);
     }
   });
   return samples;
@@ -79,26 +105,34 @@ Samples sample_distances(const Side& from, const Side& to) {
 
 /// The rms takes each of the four quarters by the rule that is exact for quadratics: 1/12 at each corner, 3/4
 /// at the centre.
-MaxRms measure_distance(const Side& from, const Samples& samples) {
-  double greatest = 0, area = 0, integral = 0;
-  for (size_t f = 0; f < samples.centres.size(); ++f) {
-    double corners = 0, midpoints = 0, centres = samples.centres[f].squared_distance;
-    greatest = std::max(greatest, centres);
-    for (size_t k = 0; k < 3; ++k) {
-      const double corner = samples.vertices[static_cast<size_t>(from.connectivity.faces[f][k])];
-      const double midpoint = samples.edges[static_cast<size_t>(from.connectivity.face_edges[f][k])];
-      const double quarter = samples.quarters[f][k];
-      greatest = std::max({greatest, corner, midpoint, quarter});
-      corners += corner;
-      midpoints += midpoint;
-      centres += quarter;
+MaxRms measure_distance(const MeasuredSurface& from, const Samples& samples) {
+  const Connectivity& c = from.connectivity;
+  const std::span<const Face> faces = from.tree.faces();
+  std::vector<double> greatest(faces.size() / block + 1, 0);
+  const double integral = parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const auto f = static_cast<size_t>(faces[i].id);
+      double corners = 0, midpoints = 0, centres = samples.centres[f].squared_distance;
+      double& most = greatest[i / block];
+      most = std::max(most, centres);
+      for (size_t k = 0; k < 3; ++k) {
+        const double corner = samples.vertices[static_cast<size_t>(faces[i].vertices[k])];
+        const double midpoint = samples.edges[static_cast<size_t>(c.face_edges[f][k])];
+        const double quarter = samples.quarters[f][k];
+        most = std::max({most, corner, midpoint, quarter});
+        corners += corner;
+        midpoints += midpoint;
+        centres += quarter;
+      }
+      // A midpoint is in three quarters.
+      sum += area_vector(from.points, faces[i].vertices).norm() / 2 *
+             (corners / 48 + midpoints / 16 + centres * 3 / 16);
     }
-    const double weight = area_vector(from.points, from.connectivity.faces[f]).norm();
-    area += weight;
-    integral +=
-        weight * (corners / 48 + midpoints / 16 + centres * 3 / 16);  // a midpoint is in three quarters
-  }
-  return {std::sqrt(greatest), area > 0 ? std::sqrt(integral / area) : 0};
+    return sum;
+  });
+  const double area = from.extent.area;
+  return {std::sqrt(*std::ranges::max_element(greatest)), area > 0 ? std::sqrt(integral / area) : 0};
 }
 
 MaxRms measure_displacement(const Mat3X& before, const Mat3X& after) {
@@ -114,56 +148,79 @@ MaxRms measure_displacement(const Mat3X& before, const Mat3X& after) {
   return displacement;
 }
 
+/// Degrees between two vectors along normals; NaN when one has no length: no normal, no angle.
+double angle_between(const Vec3& n, const Vec3& m) {
+  if (!(n.squaredNorm() > 0 && m.squaredNorm() > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return std::atan2(n.cross(m).norm(), n.dot(m)) * (180 / std::numbers::pi);
+}
+
 /// `closest` belongs to the centres of the result's faces.
-MaxRms measure_normal_deviation(const Side& reference, const Side& result,
+MaxRms measure_normal_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
                                 const std::vector<ClosestPoint>& closest) {
+  const std::span<const Face> faces = result.tree.faces();
+  std::vector<double> angles(closest.size()), weights(closest.size());
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (const Face& face : faces.subspan(begin, end - begin)) {
+      const auto f = static_cast<size_t>(face.id);
+      if (closest[f].face < 0) continue;
+      const Vec3 n = area_vector(result.points, face.vertices);
+      angles[f] = angle_between(n, area_vector(reference.points, face_at(reference, closest[f])));
+      weights[f] = n.norm();
+    }
+  });
   MaxRms deviation;
   double area = 0, integral = 0;
-  for (size_t f = 0; f < closest.size(); ++f) {
-    if (closest[f].face < 0) continue;
-    const Vec3 n = area_vector(result.points, result.connectivity.faces[f]);
-    const Triangle& across = reference.connectivity.faces[static_cast<size_t>(closest[f].face)];
-    const Vec3 m = area_vector(reference.points, across);
-    if (!(n.squaredNorm() > 0 && m.squaredNorm() > 0)) continue;  // no normal, no angle
-    const double angle = std::atan2(n.cross(m).norm(), n.dot(m)) * (180 / std::numbers::pi);
-    deviation.max = std::max(deviation.max, angle);
-    area += n.norm();
-    integral += n.norm() * angle * angle;
+  for (size_t f = 0; f < angles.size(); ++f) {
+    if (std::isnan(angles[f])) continue;
+    deviation.max = std::max(deviation.max, angles[f]);
+    area += weights[f];
+    integral += weights[f] * angles[f] * angles[f];
   }
   if (area > 0) deviation.rms = std::sqrt(integral / area);
   return deviation;
 }
 
 /// Unit normals; faces weigh by their area, so that a folded sliver does not turn them.
-Mat3X vertex_normals(const Side& side) {
+Mat3X vertex_normals(const MeasuredSurface& side) {
   Mat3X normals = Mat3X::Zero(3, side.connectivity.vertex_count);
-  for (const Triangle& t : side.connectivity.faces)
-    for (int v : t) normals.col(v) += area_vector(side.points, t);
-  normals.colwise().normalize();
+  const std::vector<int> vertices = vertices_in_tree_order(side);
+  parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      Vec3 sum = Vec3::Zero();
+      for (int f : side.connectivity.vertex_faces[vertices[i]])
+        sum += area_vector(side.points, side.connectivity.faces[static_cast<size_t>(f)]);
+      normals.col(vertices[i]) = sum.normalized();
+    }
+  });
   return normals;
 }
 
 /// The reference's vertex normals, interpolated at a point of its surface.
-Vec3 normal_at(const Side& reference, const Mat3X& normals, const ClosestPoint& at) {
-  const Triangle& t = reference.connectivity.faces[static_cast<size_t>(at.face)];
+Vec3 normal_at(const MeasuredSurface& reference, const Mat3X& normals, const ClosestPoint& at) {
+  const Triangle& t = face_at(reference, at);
   const Vec3 weights = barycentric(at.point, reference.points.col(t[0]), reference.points.col(t[1]),
                                    reference.points.col(t[2]));
   return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
 }
 
 /// `closest` belongs to the centres of the result's faces.
-void find_opposing_faces(const Side& reference, const Side& result, const std::vector<ClosestPoint>& closest,
-                         Deviation& deviation) {
+void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
+                         const std::vector<ClosestPoint>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
-  for (size_t f = 0; f < closest.size(); ++f) {
-    if (closest[f].face < 0) continue;
-    const Vec3 n = area_vector(result.points, result.connectivity.faces[f]);
-    const Triangle& across = reference.connectivity.faces[static_cast<size_t>(closest[f].face)];
-    const bool flipped = n.dot(normal_at(reference, normals, closest[f])) < 0;
-    deviation.flipped_faces += flipped;
-    if (flipped || n.dot(area_vector(reference.points, across)) < 0)
-      deviation.opposing_faces.push_back(static_cast<int>(f));
-  }
+  std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
+  const std::span<const Face> faces = result.tree.faces();
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (const Face& face : faces.subspan(begin, end - begin)) {
+      const auto f = static_cast<size_t>(face.id);
+      if (closest[f].face < 0) continue;
+      const Vec3 n = area_vector(result.points, face.vertices);
+      flipped[f] = n.dot(normal_at(reference, normals, closest[f])) < 0;
+      opposing[f] = flipped[f] || n.dot(area_vector(reference.points, face_at(reference, closest[f]))) < 0;
+    }
+  });
+  deviation.flipped_faces = static_cast<size_t>(std::ranges::count(flipped, 1));
+  for (size_t f = 0; f < opposing.size(); ++f)
+    if (opposing[f]) deviation.opposing_faces.push_back(static_cast<int>(f));
 }
 
 /// Boundary edges as triangles without area, which is how the tree takes segments.
@@ -198,33 +255,41 @@ std::optional<double> relative_change(std::optional<double> before, std::optiona
 
 }  // namespace
 
-Deviation measure_deviation(const Mat3X& reference_points, const Connectivity& reference,
-                            const Mat3X& result_points, const Connectivity& result) {
-  const Side old_side(reference_points, reference), new_side(result_points, result);
+Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
+                            Stopwatch* stopwatch) {
   Deviation d;
-  if (reference_points.cols() == result_points.cols())
-    d.displacement = measure_displacement(reference_points, result_points);
+  if (reference.points.cols() == result.points.cols())
+    d.displacement = measure_displacement(reference.points, result.points);
 
-  const Samples outward = sample_distances(new_side, old_side);
-  d.to_reference = measure_distance(new_side, outward);
-  d.from_reference = measure_distance(old_side, sample_distances(old_side, new_side));
-  d.normal_deviation = measure_normal_deviation(old_side, new_side, outward.centres);
-  find_opposing_faces(old_side, new_side, outward.centres, d);
+  const Samples outward =
+      timed(stopwatch, "to_reference", [&] { return sample_distances(result, reference); });
+  d.to_reference = measure_distance(result, outward);
+  timed(stopwatch, "from_reference",
+        [&] { d.from_reference = measure_distance(reference, sample_distances(reference, result)); });
+  timed(stopwatch, "normals", [&] {
+    d.normal_deviation = measure_normal_deviation(reference, result, outward.centres);
+    find_opposing_faces(reference, result, outward.centres, d);
+  });
+  d.diagonal = reference.extent.diagonal;
+  d.area_change = relative_change(reference.extent.area, result.extent.area);
+  d.volume_change = relative_change(reference.extent.volume, result.extent.volume);
 
-  const Extent before = measure_extent(reference_points, reference);
-  const Extent after = measure_extent(result_points, result);
-  d.diagonal = before.diagonal;
-  d.area_change = relative_change(before.area, after.area);
-  d.volume_change = relative_change(before.volume, after.volume);
-
-  const auto old_rim = boundary_segments(reference), new_rim = boundary_segments(result);
+  const Stage stage(stopwatch, "boundary");
+  const auto old_rim = boundary_segments(reference.connectivity);
+  const auto new_rim = boundary_segments(result.connectivity);
   if (!old_rim.empty() && !new_rim.empty()) {
     d.boundary_to_reference =
-        greatest_distance(result_points, new_rim, BoundingVolumeTree(reference_points, old_rim));
+        greatest_distance(result.points, new_rim, BoundingVolumeTree(reference.points, old_rim));
     d.boundary_from_reference =
-        greatest_distance(reference_points, old_rim, BoundingVolumeTree(result_points, new_rim));
+        greatest_distance(reference.points, old_rim, BoundingVolumeTree(result.points, new_rim));
   }
   return d;
+}
+
+Deviation measure_deviation(const Mat3X& reference_points, const Connectivity& reference,
+                            const Mat3X& result_points, const Connectivity& result) {
+  return measure_deviation(MeasuredSurface(reference_points, reference),
+                           MeasuredSurface(result_points, result));
 }
 
 }  // namespace hooke

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "hooke/connectivity.h"
+#include "hooke/measured_surface.h"
+#include "hooke/stopwatch.h"
 
 namespace hooke {
 
@@ -43,6 +44,8 @@ struct Deviation {
 
 /// The two may differ in connectivity. Faces with equal ids are looked at first, so that it is fastest when
 /// they lie close to each other.
+Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
+                            Stopwatch* stopwatch = nullptr);
 Deviation measure_deviation(const Mat3X& reference_points, const Connectivity& reference,
                             const Mat3X& result_points, const Connectivity& result);
 

@@ -24,8 +24,8 @@ Extent measure_extent(const Mat3X& points, const Connectivity& connectivity) {
   Extent extent;
   if (connectivity.faces.empty()) return extent;
   Eigen::AlignedBox3d box;
-  for (const Triangle& t : connectivity.faces)
-    for (int v : t) box.extend(Vec3(points.col(v)));
+  for (int v = 0; v < connectivity.vertex_count; ++v)
+    if (!connectivity.vertex_faces[v].empty()) box.extend(Vec3(points.col(v)));
   extent.lower = box.min();
   extent.upper = box.max();
   extent.diagonal = box.diagonal().norm();

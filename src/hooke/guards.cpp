@@ -157,8 +157,8 @@ std::vector<int> Guards::offenders_around(const Placement& trial, const std::vec
 }
 
 std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacement,
-                              Placement& to) {
-  retraction.step(from, displacement, to);
+                              Placement& to, Stopwatch* stopwatch) {
+  timed(stopwatch, "projection", [&] { retraction.step(from, displacement, to); });
   std::vector<int> offenders = offenders_among_all(to);
   if (offenders.empty()) return {};
 
@@ -178,7 +178,7 @@ std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat
       slowed.push_back(v);
     }
     if (slowed.empty()) break;  // nothing there moves any more: it is as it was
-    retraction.step(from, displacement, slowed, to);
+    timed(stopwatch, "projection", [&] { retraction.step(from, displacement, slowed, to); });
     offenders = offenders_around(to, slowed);
   }
   return held;

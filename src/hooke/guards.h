@@ -4,6 +4,7 @@
 #include "hooke/guard_rules.h"
 #include "hooke/retraction.h"
 #include "hooke/sizing.h"
+#include "hooke/stopwatch.h"
 
 namespace hooke {
 
@@ -28,7 +29,8 @@ class Guards {
   /// to = from + displacement, retracted and obeying the guards: offending vertices halve their steps, then
   /// stand still; `displacement` becomes what was asked for in the end. `from` must be the accepted
   /// placement. Returns the vertices that were held back.
-  std::vector<int> step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to);
+  std::vector<int> step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to,
+                        Stopwatch* stopwatch = nullptr);
 
   /// The vertices of all faces and edges that break a guard in `trial`, ascending.
   std::vector<int> offenders(const Placement& trial) { return offenders_among_all(trial); }

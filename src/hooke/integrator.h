@@ -5,6 +5,7 @@
 #include "hooke/energy.h"
 #include "hooke/guards.h"
 #include "hooke/mesh.h"
+#include "hooke/stopwatch.h"
 #include "hooke/sweep_plan.h"
 
 namespace hooke {
@@ -38,6 +39,7 @@ struct Relaxation {
   Retraction& retraction;
   Guards& guards;
   Placement& placement;
+  Stopwatch* stopwatch = nullptr;
 };
 
 struct IntegrationOptions {

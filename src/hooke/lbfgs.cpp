@@ -132,8 +132,10 @@ Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, 
 IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
                               const Observer& observer) {
   IntegrationResult result;
-  for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep)
+  for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep) {
+    const Stage stage(r.stopwatch, "sweeps");
     local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
+  }
   Memory memory(lbfgs);
   Preconditioner h0(r, lbfgs);
   RestDetector rest(options);
@@ -150,8 +152,10 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   result.reason = StopReason::step_limit;
 
   while (result.evaluations < options.max_steps) {
-    if (result.steps % lbfgs.curvature_every == 0) h0.refresh(r);
-    Mat3X step = descent_direction(r, options, gradient, blocked, h0, memory);
+    if (result.steps % lbfgs.curvature_every == 0)
+      timed(r.stopwatch, "preconditioner", [&] { h0.refresh(r); });
+    Mat3X step = timed(r.stopwatch, "direction",
+                       [&] { return descent_direction(r, options, gradient, blocked, h0, memory); });
     bool accepted = false;
     double trial_energy = 0;
     for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
@@ -162,9 +166,11 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
         step = descent_direction(r, options, gradient, blocked, h0, memory);
       }
       Mat3X displacement = step;
-      held = r.guards.step(r.retraction, r.placement, displacement, trial);
+      held = timed(r.stopwatch, "guards", [&] {
+        return r.guards.step(r.retraction, r.placement, displacement, trial, r.stopwatch);
+      });
       result.held_back += static_cast<long long>(held.size());
-      trial_energy = r.energy(trial, &trial_gradient);
+      trial_energy = timed(r.stopwatch, "energy", [&] { return r.energy(trial, &trial_gradient); });
       ++result.evaluations;
       displacement = trial.points - r.placement.points;
       accepted = trial_energy <= result.energy + lbfgs.armijo * std::min(0., dot(gradient, displacement));

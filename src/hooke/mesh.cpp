@@ -3,37 +3,95 @@
 #include <fmt/format.h>
 
 #include "hooke/error.h"
+#include "hooke/parallel.h"
 
 namespace hooke {
 
 namespace {
 
-void add_faces(TriMesh& mesh, const std::vector<Triangle>& triangles) {
-  for (size_t f = 0; f < triangles.size(); ++f) {
-    const auto& [a, b, c] = triangles[f];
-    const auto face = mesh.add_face(mesh.vertex_handle(static_cast<unsigned>(a)),
-                                    mesh.vertex_handle(static_cast<unsigned>(b)),
-                                    mesh.vertex_handle(static_cast<unsigned>(c)));
-    if (!face.is_valid() || face.idx() != static_cast<int>(f))
-      throw MeshError(fmt::format("face {} ({} {} {}) does not fit a manifold mesh", f, a, b, c));
+constexpr size_t block = 4096;
+
+using OpenMesh::HalfedgeHandle, OpenMesh::FaceHandle, OpenMesh::VertexHandle;
+
+VertexHandle vertex(int v) {
+  return VertexHandle(v);
+}
+
+/// OpenMesh's half-edge that runs along side k of the face.
+HalfedgeHandle half_edge(const Connectivity& c, size_t face, size_t k) {
+  const auto edge = static_cast<size_t>(c.face_edges[face][k]);
+  const bool along = c.edge_faces[edge][0] == static_cast<int>(face);
+  return HalfedgeHandle(static_cast<int>(2 * edge + (along ? 0 : 1)));
+}
+
+void link_inside(const Connectivity& c, TriMesh& mesh) {
+  parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const FaceHandle face(static_cast<int>(f));
+      for (size_t k = 0; k < 3; ++k) {
+        const HalfedgeHandle h = half_edge(c, f, k);
+        mesh.set_vertex_handle(h, vertex(c.faces[f][(k + 1) % 3]));
+        mesh.set_face_handle(h, face);
+        mesh.set_next_halfedge_handle(h, half_edge(c, f, (k + 1) % 3));
+      }
+      mesh.set_halfedge_handle(face, half_edge(c, f, 2));  // so that its circulators begin at corner 0
+    }
+  });
+}
+
+/// A vertex points to a half-edge that leaves it: on the boundary to the one without a face.
+void link_vertices(const Connectivity& c, TriMesh& mesh) {
+  parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      const auto ring = c.vertex_faces[v];
+      if (ring.empty()) {
+        mesh.set_isolated(vertex(v));
+        continue;
+      }
+      const Triangle& t = c.faces[static_cast<size_t>(ring.front())];
+      const size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+      mesh.set_halfedge_handle(vertex(v), half_edge(c, static_cast<size_t>(ring.front()), k));
+    }
+  });
+}
+
+void link_boundary(const Connectivity& c, TriMesh& mesh) {
+  const auto boundary = [&](size_t e) { return HalfedgeHandle(static_cast<int>(2 * e + 1)); };
+  for (size_t e = 0; e < c.edges.size(); ++e) {
+    if (!c.is_boundary_edge(static_cast<int>(e))) continue;
+    mesh.set_vertex_handle(boundary(e), vertex(c.edges[e][0]));
+    mesh.set_boundary(boundary(e));
+    mesh.set_halfedge_handle(vertex(c.edges[e][1]), boundary(e));
   }
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_boundary_edge(static_cast<int>(e)))
+      mesh.set_next_halfedge_handle(boundary(e), mesh.halfedge_handle(vertex(c.edges[e][0])));
 }
 
 }  // namespace
 
-TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) {
+TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity) {
   TriMesh mesh;
-  const auto vertices = static_cast<size_t>(points.cols());
-  mesh.reserve(vertices, vertices + triangles.size() + 2, triangles.size());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) mesh.add_vertex(points.col(i));
-  add_faces(mesh, triangles);
+  mesh.resize(static_cast<size_t>(points.cols()), 0, 0);
+  positions(mesh) = points;
+  replace_faces(mesh, connectivity);
   return mesh;
 }
 
-void replace_faces(TriMesh& mesh, const std::vector<Triangle>& triangles) {
-  mesh.resize(mesh.n_vertices(), 0, 0);
-  for (const auto v : mesh.vertices()) mesh.set_isolated(v);
-  add_faces(mesh, triangles);
+TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) {
+  VertexFans fans = examine_fans(static_cast<int>(points.cols()), triangles);
+  if (const int broken = first_broken(fans); broken >= 0)
+    throw MeshError(fmt::format("the faces around vertex {} do not fit a manifold mesh", broken));
+  return build_mesh(points, make_connectivity(triangles, std::move(fans)));
+}
+
+// Straight into the kernel's arrays: adding face by face looks at every ring again and again.
+void replace_faces(TriMesh& mesh, const Connectivity& connectivity) {
+  mesh.resize(mesh.n_vertices(), 0, 0);  // properties of edges and faces go with them
+  mesh.resize(mesh.n_vertices(), connectivity.edges.size(), connectivity.faces.size());
+  link_inside(connectivity, mesh);
+  link_vertices(connectivity, mesh);
+  link_boundary(connectivity, mesh);
 }
 
 Eigen::Map<Mat3X> positions(TriMesh& mesh) {
@@ -71,14 +129,13 @@ void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<do
 }
 
 std::vector<Triangle> triangles_of(const TriMesh& mesh) {
-  std::vector<Triangle> triangles;
-  triangles.reserve(mesh.n_faces());
-  for (const auto face : mesh.faces()) {
-    auto corner = mesh.cfv_begin(face);
-    const int a = (corner++)->idx();
-    const int b = (corner++)->idx();
-    triangles.push_back({a, b, corner->idx()});
-  }
+  std::vector<Triangle> triangles(mesh.n_faces());
+  parallel_for(triangles.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      auto corner = mesh.cfv_begin(FaceHandle(static_cast<int>(f)));
+      for (int& v : triangles[f]) v = (corner++)->idx();
+    }
+  });
   return triangles;
 }
 

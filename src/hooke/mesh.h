@@ -9,7 +9,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Utils/PropertyManager.hh>
 
-#include "hooke/types.h"
+#include "hooke/connectivity.h"
 
 namespace hooke {
 
@@ -28,14 +28,16 @@ inline constexpr char force_property[] = "v:force";        // Vec3, lambda F_str
 inline constexpr char target_length_property[] =
     "v:target_length";  // double; an edge wants the mean of its ends
 
-/// Mesh from points and triangles, with the ids they have there.
-/// Pre-condition: the triangles are manifold and consistently oriented (see validation.h).
-/// Throws MeshError if OpenMesh refuses a face all the same.
+/// Mesh from points and connectivity, with the ids that vertices, edges and faces have there.
+TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity);
+
+/// The same from triangles, which need not have been looked at before. Throws MeshError unless they are
+/// manifold and consistently oriented (validation.h tells more).
 TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles);
 
 /// Gives the mesh other faces on the same vertices, which keep their ids, points and properties. Properties
-/// of edges and faces start anew. Pre-condition and exception as for build_mesh().
-void replace_faces(TriMesh& mesh, const std::vector<Triangle>& triangles);
+/// of edges and faces start anew. Pre-condition: as many vertices.
+void replace_faces(TriMesh& mesh, const Connectivity& connectivity);
 
 /// The points as a 3 x |V| matrix over the mesh's own storage. Dies when vertices are added or removed.
 Eigen::Map<Mat3X> positions(TriMesh& mesh);

@@ -160,14 +160,17 @@ void find_bad_vertices(size_t vertices, const std::vector<Triangle>& triangles, 
     std::vector<size_t> parent;
     for (size_t v = begin; v < end; ++v) parts[v] = count_parts(links.begin(v), links.end(v), nodes, parent);
   });
+  for (size_t v = 0; v < vertices; ++v)
+    if (parts[v] > 1) findings.add(ProblemKind::non_manifold_vertex, {}, {static_cast<int>(v)});
+}
+
+void find_lone_parts(const IntLists& vertex_faces, size_t faces, Findings& findings) {
   bool shared = false;
-  for (size_t v = 0; v < vertices; ++v) {
-    const int vertex = static_cast<int>(v);
-    if (parts[v] == 0) findings.add(ProblemKind::isolated_vertices, {}, {vertex});
-    if (parts[v] > 1) findings.add(ProblemKind::non_manifold_vertex, {}, {vertex});
-    shared |= links.end(v) - links.begin(v) > 1;
+  for (int v = 0; v < static_cast<int>(vertex_faces.first.size()) - 1; ++v) {
+    if (vertex_faces[v].empty()) findings.add(ProblemKind::isolated_vertices, {}, {v});
+    shared |= vertex_faces[v].size() > 1;
   }
-  if (!shared && triangles.size() > 1) findings.add(ProblemKind::unconnected_triangles, {}, {});
+  if (!shared && faces > 1) findings.add(ProblemKind::unconnected_triangles, {}, {});
 }
 
 // Zero up to the rounding of the coordinates. Lengths are taken relative to them, then heights to lengths: no
@@ -197,15 +200,21 @@ void find_zero_areas(const Mat3X& points, const std::vector<Triangle>& triangles
 
 }  // namespace
 
-std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triangle>& triangles) {
+std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triangle>& triangles,
+                                   VertexFans* fans) {
   Findings findings;
   if (triangles.empty()) findings.add(ProblemKind::no_faces, {}, {});
   find_bad_corners(points, triangles, findings);
   if (!findings.empty()) return findings.sorted();
   const auto vertices = static_cast<size_t>(points.cols());
-  find_bad_edges(vertices, triangles, findings);
-  find_bad_vertices(vertices, triangles, findings);
+  VertexFans own_fans = examine_fans(static_cast<int>(vertices), triangles);
+  if (first_broken(own_fans) >= 0) {  // then what, and where
+    find_bad_edges(vertices, triangles, findings);
+    find_bad_vertices(vertices, triangles, findings);
+  }
+  find_lone_parts(own_fans.faces, triangles.size(), findings);
   find_zero_areas(points, triangles, findings);
+  if (fans) *fans = std::move(own_fans);
   return findings.sorted();
 }
 

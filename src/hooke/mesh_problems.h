@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "hooke/types.h"
+#include "hooke/vertex_fans.h"
 
 namespace hooke {
 
@@ -36,6 +36,8 @@ struct Problem {
 /// Each kind of problem at most once, in the order of the enumeration. What only makes sense in a mesh
 /// without the first four is not looked for if one of them is there. Zero area is zero up to the rounding of
 /// the coordinates.
-std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triangle>& triangles);
+/// `fans`, where given, gets the fans of the vertices, unless there are problems of these four kinds.
+std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triangle>& triangles,
+                                   VertexFans* fans = nullptr);
 
 }  // namespace hooke

@@ -16,11 +16,14 @@ namespace {
 
 constexpr size_t block = 4096;
 
-std::vector<TriangleShape> measure_faces(const Mat3X& points, const std::vector<Triangle>& faces) {
+using Face = BoundingVolumeTree::Face;
+
+/// In the order of `faces`.
+std::vector<TriangleShape> measure_faces(std::span<const Face> faces) {
   std::vector<TriangleShape> shapes(faces.size());
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f)
-      shapes[f] = measure_triangle(points.col(faces[f][0]), points.col(faces[f][1]), points.col(faces[f][2]));
+    for (size_t k = begin; k < end; ++k)
+      shapes[k] = measure_triangle(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
   });
   return shapes;
 }
@@ -34,53 +37,68 @@ std::vector<double> measure_edges(const Mat3X& points, const std::vector<Edge>& 
   return lengths;
 }
 
-/// Cross products of two edges of every face: along the normal, twice the area long.
-Mat3X area_vectors(const Mat3X& points, const std::vector<Triangle>& faces) {
+/// Cross products of two edges of every face, by id: along the normal, twice the area long.
+Mat3X area_vectors(std::span<const Face> faces) {
   Mat3X vectors(3, static_cast<Eigen::Index>(faces.size()));
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      const Vec3 a = points.col(faces[f][0]);
-      const Vec3 b = points.col(faces[f][1]);
-      const Vec3 c = points.col(faces[f][2]);
-      vectors.col(static_cast<Eigen::Index>(f)) = (b - a).cross(c - a);
+    for (size_t k = begin; k < end; ++k) {
+      const auto& [a, b, c] = faces[k].corners;
+      vectors.col(faces[k].id) = (b - a).cross(c - a);
     }
   });
   return vectors;
 }
 
-size_t count_folded_edges(const Mat3X& area_vector, const Connectivity& connectivity) {
-  size_t folded = 0;
-  for (const auto& [left, right] : connectivity.edge_faces) {
-    if (right < 0) continue;
-    // Unit normals first: the plain product of two small faces' vectors could vanish.
-    const Vec3 n = area_vector.col(left).normalized(), m = area_vector.col(right).normalized();
-    folded += n.dot(m) < 0;
-  }
-  return folded;
+/// Sum over [0, count) of what is 1 or 0.
+template <typename Condition>
+size_t count_where(size_t count, const Condition& condition) {
+  const double sum = parallel_sum(count, block, [&](size_t begin, size_t end) {
+    size_t found = 0;
+    for (size_t i = begin; i < end; ++i) found += condition(i);
+    return static_cast<double>(found);
+  });
+  return static_cast<size_t>(sum);
 }
 
-std::vector<WorstFace> find_worst_faces(const Mat3X& points, const Connectivity& connectivity,
+size_t count_folded_edges(const Mat3X& area_vector, const Connectivity& connectivity) {
+  return count_where(connectivity.edge_faces.size(), [&](size_t e) {
+    const auto [left, right] = connectivity.edge_faces[e];
+    if (right < 0) return false;
+    // Unit normals first: the plain product of two small faces' vectors could vanish.
+    const Vec3 n = area_vector.col(left).normalized(), m = area_vector.col(right).normalized();
+    return n.dot(m) < 0;
+  });
+}
+
+size_t count_degenerate_faces(const Mat3X& area_vector, double least_area) {
+  return count_where(static_cast<size_t>(area_vector.cols()), [&](size_t f) {
+    const double area = .5 * area_vector.col(static_cast<Eigen::Index>(f)).norm();
+    return !(area > 0 && area >= least_area);
+  });
+}
+
+/// `shapes` in the order of the tree.
+std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface,
                                         const std::vector<TriangleShape>& shapes, size_t wanted) {
-  const std::vector<Triangle>& faces = connectivity.faces;
-  std::vector<int> order(faces.size());
+  const std::span<const Face> faces = surface.tree.faces();
+  std::vector<size_t> order(faces.size());
   std::iota(order.begin(), order.end(), 0);
   const auto count = static_cast<std::ptrdiff_t>(std::min(wanted, order.size()));
-  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int f, int g) {
-    const double a = shapes[static_cast<size_t>(f)].min_angle, b = shapes[static_cast<size_t>(g)].min_angle;
-    return a < b || (a == b && f < g);
+  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](size_t i, size_t k) {
+    const double a = shapes[i].min_angle, b = shapes[k].min_angle;
+    return a < b || (a == b && faces[i].id < faces[k].id);
   });
   std::vector<WorstFace> worst;
   for (auto it = order.begin(); it != order.begin() + count; ++it) {
-    const Triangle& t = faces[static_cast<size_t>(*it)];
-    worst.push_back({*it, shapes[static_cast<size_t>(*it)].min_angle, t,
-                     (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3,
-                     bound_least_angle(points, connectivity, *it)});
+    const auto& [a, b, c] = faces[*it].corners;
+    worst.push_back({faces[*it].id, shapes[*it].min_angle, faces[*it].vertices, (a + b + c) / 3,
+                     bound_least_angle(surface.points, surface.connectivity, faces[*it].id)});
   }
   return worst;
 }
 
-Range range_of(const std::vector<double>& values) {
-  const Statistics s = describe(values);
+Range range_of(std::vector<double> values) {
+  const Statistics s = describe(std::move(values));
   return {s.min, s.mean, s.max};
 }
 
@@ -119,31 +137,41 @@ void describe_all(const std::vector<TriangleShape>& shapes, const std::vector<do
 
 }  // namespace
 
-Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
-                        const std::vector<double>& edge_target_length, const QualityOptions& options) {
+Quality measure_quality(const MeasuredSurface& surface, const std::vector<double>& edge_target_length,
+                        const QualityOptions& options, Stopwatch* stopwatch) {
+  const Connectivity& connectivity = surface.connectivity;
+  const Mat3X& points = surface.points;
   assert(edge_target_length.empty() || edge_target_length.size() == connectivity.edges.size());
   Quality q;
-  q.topology = measure_topology(connectivity);
-  q.extent = measure_extent(points, connectivity);
-  q.valence = count_valences(connectivity);
-
-  const std::vector<TriangleShape> shapes = measure_faces(points, connectivity.faces);
-  describe_all(shapes, measure_edges(points, connectivity.edges), edge_target_length, q);
-  q.worst_faces = find_worst_faces(points, connectivity, shapes, options.worst_faces);
-
-  const Mat3X area_vector = area_vectors(points, connectivity.faces);
-  q.folded_edges = count_folded_edges(area_vector, connectivity);
-  const double least_area = 1e-14 * q.extent.diagonal * q.extent.diagonal;
-  for (Eigen::Index f = 0; f < area_vector.cols(); ++f) {
-    const double area = .5 * area_vector.col(f).norm();
-    q.degenerate_faces += !(area > 0 && area >= least_area);
-  }
-  const VertexCurvature curvature = measure_curvature(points, connectivity);
-  q.mean_curvature = range_of(curvature.mean);
-  q.gaussian_curvature = range_of(curvature.gaussian);
+  q.extent = surface.extent;
+  timed(stopwatch, "topology", [&] {
+    q.topology = measure_topology(connectivity);
+    q.valence = count_valences(connectivity);
+  });
+  timed(stopwatch, "angles", [&] {
+    const std::vector<TriangleShape> shapes = measure_faces(surface.tree.faces());
+    describe_all(shapes, measure_edges(points, connectivity.edges), edge_target_length, q);
+    q.worst_faces = find_worst_faces(surface, shapes, options.worst_faces);
+  });
+  timed(stopwatch, "folds", [&] {
+    const Mat3X area_vector = area_vectors(surface.tree.faces());
+    q.folded_edges = count_folded_edges(area_vector, connectivity);
+    q.degenerate_faces = count_degenerate_faces(area_vector, 1e-14 * q.extent.diagonal * q.extent.diagonal);
+  });
+  timed(stopwatch, "curvature", [&] {
+    VertexCurvature curvature = measure_curvature(points, connectivity, vertices_in_tree_order(surface));
+    q.mean_curvature = range_of(std::move(curvature.mean));
+    q.gaussian_curvature = range_of(std::move(curvature.gaussian));
+  });
   if (options.self_intersections)
-    q.self_intersections = find_self_intersections(points, connectivity.faces).size();
+    q.self_intersections =
+        timed(stopwatch, "self_intersections", [&] { return find_self_intersections(surface.tree).size(); });
   return q;
+}
+
+Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
+                        const std::vector<double>& edge_target_length, const QualityOptions& options) {
+  return measure_quality(MeasuredSurface(points, connectivity), edge_target_length, options);
 }
 
 }  // namespace hooke

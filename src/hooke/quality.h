@@ -5,8 +5,9 @@
 #include <optional>
 
 #include "hooke/angle_bound.h"
-#include "hooke/extent.h"
+#include "hooke/measured_surface.h"
 #include "hooke/statistics.h"
+#include "hooke/stopwatch.h"
 #include "hooke/topology.h"
 
 namespace hooke {
@@ -56,6 +57,8 @@ struct QualityOptions {
 };
 
 /// `edge_target_length` holds L_e for every edge of the connectivity, or nothing.
+Quality measure_quality(const MeasuredSurface& surface, const std::vector<double>& edge_target_length,
+                        const QualityOptions& options = {}, Stopwatch* stopwatch = nullptr);
 Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
                         const std::vector<double>& edge_target_length, const QualityOptions& options = {});
 

@@ -32,8 +32,8 @@ class Remeshing {
 
  private:
   Relaxation relaxation() {
-    return {work_.mesh, *work_.connectivity, work_.sweeps, work_.vertex_length,
-            energy_,    *work_.retraction,   guards_,      work_.placement};
+    return {work_.mesh, *work_.connectivity, work_.sweeps,   work_.vertex_length, energy_, *work_.retraction,
+            guards_,    work_.placement,     work_.stopwatch};
   }
 
   Observer watch(const char* stage) const {
@@ -48,6 +48,7 @@ class Remeshing {
   bool interrupted() const { return result_.reason == StopReason::interrupted; }
 
   void unfold() {
+    const Stage stage(work_.stopwatch, "untangle");
     Relaxation r = relaxation();
     const UntangleResult unfolded = untangle(r, options_.untangle, watch("untangle"));
     result_.folded_before = unfolded.folded_before;
@@ -74,6 +75,7 @@ class Remeshing {
   }
 
   void iterate() {
+    const Stage stage(work_.stopwatch, "relax");
     if (options_.refit == Refit::each && outer_ > 1) work_.refit();
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
@@ -88,6 +90,7 @@ class Remeshing {
   }
 
   void raise_angles() {
+    const Stage stage(work_.stopwatch, "polish");
     if (options_.refit == Refit::each) work_.refit();
     Relaxation r = relaxation();
     const bool flips = options_.connectivity == ConnectivityMode::flip;
@@ -179,12 +182,15 @@ std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& f
   return ids;
 }
 
-RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer) {
-  Workspace work(mesh, options.constraints, options.filter, options.retraction, options.guards);
+RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer,
+                    Stopwatch* stopwatch) {
+  Workspace work(mesh, options.constraints, options.filter, options.retraction, options.guards, stopwatch);
   FlipResult flips;
-  if (options.connectivity == ConnectivityMode::flip)
+  if (options.connectivity == ConnectivityMode::flip) {
+    const Stage stage(stopwatch, "flip");
     flips = flip_connectivity(work, options.flips, {.altitude = options.altitude}, options.guards,
                               options.constraints.corner_angle, observer);
+  }
   RemeshResult result = Remeshing(work, options, observer).run(flips);
   if (options.connectivity == ConnectivityMode::flip) {
     result.folded_before = flips.untangle.folded_before;

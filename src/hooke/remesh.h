@@ -82,6 +82,7 @@ std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& f
 /// connectivity; in mode `flip` the mesh gets new faces, of as many ids, and its vertices may travel far from
 /// where they were. The mesh is always left valid; an observer that returns false stops with what has been
 /// reached.
-RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr);
+RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr,
+                    Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

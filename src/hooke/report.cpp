@@ -1,7 +1,5 @@
 #include "hooke/report.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -105,15 +103,23 @@ Json flips_json(const RunRecord& run) {
           {"passes", f.passes}, {"max_travel", f.max_travel},   {"rms_travel", f.rms_travel}};
 }
 
+Json stages_json(const std::vector<StageTime>& stages) {
+  Json j = Json::object();
+  for (const StageTime& s : stages)
+    j[s.name] = {
+        {"calls", s.calls}, {"wall_s", s.wall_s}, {"cpu_s", s.cpu_s}, {"peak_rss_bytes", s.peak_rss_bytes}};
+  return j;
+}
+
 }  // namespace
 
 std::string connectivity_sha256(const std::vector<Triangle>& faces) {
-  std::string bytes;
-  bytes.reserve(12 * faces.size());
+  std::string bytes(12 * faces.size(), 0);
+  char* at = bytes.data();
   for (const Triangle& t : faces)
     for (int v : t)
       for (int shift = 0; shift < 32; shift += 8)
-        bytes.push_back(static_cast<char>(static_cast<std::uint32_t>(v) >> shift & 0xff));
+        *at++ = static_cast<char>(static_cast<std::uint32_t>(v) >> shift & 0xff);
   return sha256(bytes);
 }
 
@@ -169,13 +175,8 @@ Json parameters_json(const PaperOptions& o) {
 }
 
 Resources resources_used(double wall_seconds) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return {thread_count(), wall_seconds, seconds(usage.ru_utime) + seconds(usage.ru_stime),
-          usage.ru_maxrss * 1024LL};
+  const ProcessUse use = process_use();
+  return {thread_count(), wall_seconds, use.cpu_s, use.peak_rss_bytes};
 }
 
 std::string status_of(StopReason reason) {
@@ -227,7 +228,8 @@ Json report_json(const RunRecord& run) {
   j["resources"] = {{"threads", run.resources.threads},
                     {"wall_s", run.resources.wall_s},
                     {"cpu_s", run.resources.cpu_s},
-                    {"peak_rss_bytes", run.resources.peak_rss_bytes}};
+                    {"peak_rss_bytes", run.resources.peak_rss_bytes},
+                    {"stages", stages_json(run.stages)}};
   return j;
 }
 

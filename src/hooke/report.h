@@ -9,6 +9,7 @@
 #include "hooke/deviation.h"
 #include "hooke/paper_mode.h"
 #include "hooke/quality.h"
+#include "hooke/stopwatch.h"
 
 namespace hooke {
 
@@ -49,6 +50,7 @@ struct RunRecord {
   std::optional<Deviation> deviation;
   std::optional<RemeshResult> result;
   Warnings warnings;
+  std::vector<StageTime> stages;
   Resources resources;
 };
 

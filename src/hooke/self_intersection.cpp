@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "hooke/bounding_volume_tree.h"
 #include "hooke/parallel.h"
 #include "hooke/predicates.h"
 
@@ -85,37 +84,29 @@ bool hinge_is_shut(const Corners& s, const Vec3& tip) {
   return orient2d(a, b, drop_axis(s[2], axis)) * orient2d(a, b, drop_axis(tip, axis)) > 0;
 }
 
-class FacePairTest {
- public:
-  FacePairTest(const Mat3X& points, const std::vector<Triangle>& faces) : points_(points), faces_(faces) {}
+using Face = BoundingVolumeTree::Face;
 
-  bool meet(int f, int g) const {
-    const Triangle& s = faces_[static_cast<size_t>(f)];
-    const Triangle& t = faces_[static_cast<size_t>(g)];
-    std::array<size_t, 3> in_s{}, in_t{};  // places of the common vertices
-    size_t common = 0;
-    for (size_t i = 0; i < 3; ++i)
-      for (size_t j = 0; j < 3; ++j)
-        if (s[i] == t[j]) {
-          in_s[common] = i;
-          in_t[common] = j;
-          ++common;
-        }
-    if (common == 0) return triangles_meet(corners(s, 0), corners(t, 0));
-    if (common == 1) return fans_meet(corners(s, in_s[0]), corners(t, in_t[0]));
-    if (common == 3) return false;
-    const size_t tip_s = 3 - in_s[0] - in_s[1], tip_t = 3 - in_t[0] - in_t[1];
-    return hinge_is_shut(corners(s, (tip_s + 1) % 3), points_.col(t[tip_t]));
-  }
+/// The corners in their order, beginning with `first`.
+Corners corners_from(const Face& face, size_t first) {
+  return {face.corners[first], face.corners[(first + 1) % 3], face.corners[(first + 2) % 3]};
+}
 
- private:
-  Corners corners(const Triangle& t, size_t first) const {
-    return {points_.col(t[first]), points_.col(t[(first + 1) % 3]), points_.col(t[(first + 2) % 3])};
-  }
-
-  const Mat3X& points_;
-  const std::vector<Triangle>& faces_;
-};
+bool faces_meet(const Face& s, const Face& t) {
+  std::array<size_t, 3> in_s{}, in_t{};  // places of the common vertices
+  size_t common = 0;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j)
+      if (s.vertices[i] == t.vertices[j]) {
+        in_s[common] = i;
+        in_t[common] = j;
+        ++common;
+      }
+  if (common == 0) return triangles_meet(s.corners, t.corners);
+  if (common == 1) return fans_meet(corners_from(s, in_s[0]), corners_from(t, in_t[0]));
+  if (common == 3) return false;
+  const size_t tip_s = 3 - in_s[0] - in_s[1], tip_t = 3 - in_t[0] - in_t[1];
+  return hinge_is_shut(corners_from(s, (tip_s + 1) % 3), t.corners[tip_t]);
+}
 
 }  // namespace
 
@@ -133,34 +124,33 @@ bool triangles_meet(const Corners& s, const Corners& t) {
   return false;
 }
 
-std::vector<std::array<int, 2>> find_self_intersections(const Mat3X& points,
-                                                        const std::vector<Triangle>& faces) {
-  constexpr size_t block = 256;
-  std::vector<char> has_area(faces.size());
+std::vector<std::array<int, 2>> find_self_intersections(const BoundingVolumeTree& tree) {
+  constexpr size_t block = 1024;
+  const std::span<const Face> faces = tree.faces();
+  std::vector<char> has_area(faces.size());  // by id
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f)
-      has_area[f] = !is_collinear(points.col(faces[f][0]), points.col(faces[f][1]), points.col(faces[f][2]));
+    for (size_t k = begin; k < end; ++k)
+      has_area[static_cast<size_t>(faces[k].id)] =
+          !is_collinear(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
   });
 
-  const BoundingVolumeTree tree(points, faces);
-  const FacePairTest test(points, faces);
-  std::vector<std::vector<std::array<int, 2>>> found(faces.size() / block + 1);  // by block of f
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      if (!has_area[f]) continue;
-      const int id = static_cast<int>(f);
-      BoundingVolumeTree::Box box;
-      for (int v : faces[f]) box.extend(Vec3(points.col(v)));
-      tree.for_each_meeting(box, [&](int g) {
-        if (g > id && has_area[static_cast<size_t>(g)] && test.meet(id, g))
-          found[f / block].push_back({id, g});
-      });
-    }
+  std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / block + 1);
+  parallel_for(tree.parts(), block, [&](size_t begin, size_t end) {
+    tree.for_each_meeting_pair(begin, end, [&](const Face& f, const Face& g) {
+      const auto [low, high] = std::minmax(f.id, g.id);
+      if (!has_area[static_cast<size_t>(low)] || !has_area[static_cast<size_t>(high)]) return;
+      if (f.id < g.id ? faces_meet(f, g) : faces_meet(g, f)) found[begin / block].push_back({low, high});
+    });
   });
   std::vector<std::array<int, 2>> pairs;
   for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-  std::sort(pairs.begin(), pairs.end());  // the tree names the partners of a face in its own order
+  std::sort(pairs.begin(), pairs.end());  // the tree has its own order
   return pairs;
+}
+
+std::vector<std::array<int, 2>> find_self_intersections(const Mat3X& points,
+                                                        const std::vector<Triangle>& faces) {
+  return find_self_intersections(BoundingVolumeTree(points, faces));
 }
 
 }  // namespace hooke

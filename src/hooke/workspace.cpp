@@ -31,16 +31,21 @@ std::vector<int> identity(int count) {
 
 Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_options,
                      const FilterOptions& filter, const RetractionOptions& retraction_options,
-                     const GuardOptions& guard_options)
-    : filter_(filter), guard_options_(guard_options), retraction_options_(retraction_options) {
+                     const GuardOptions& guard_options, Stopwatch* stopwatch_or_none)
+    : stopwatch(stopwatch_or_none),
+      filter_(filter),
+      guard_options_(guard_options),
+      retraction_options_(retraction_options) {
   const std::vector<double> length = vertex_values(source, target_length_property);
   normalisation = normalisation_of(positions(source), length);
 
   const int n = static_cast<int>(source.n_vertices());
-  const Connectivity given = make_connectivity(n, triangles_of(source));
-  order = reorder(given, locality_order(given));
-  connectivity = std::make_shared<const Connectivity>(make_connectivity(n, order.faces));
-  sweeps = plan_sweeps(*connectivity);
+  timed(stopwatch, "order", [&] {
+    const Connectivity given = make_connectivity(n, triangles_of(source));
+    order = reorder(given, locality_order(given));
+    connectivity = std::make_shared<const Connectivity>(make_connectivity(n, order.faces));
+    sweeps = plan_sweeps(*connectivity);
+  });
 
   start.resize(3, n);
   vertex_length.resize(length.size());
@@ -55,9 +60,11 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   length_anchors_ = identity(n);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  constraints = find_constraints(start, *connectivity, reordered);
-  mesh = build_mesh(start, order.faces);
+  constraints =
+      timed(stopwatch, "constraints", [&] { return find_constraints(start, *connectivity, reordered); });
+  mesh = build_mesh(start, *connectivity);
 
+  const Stage stage(stopwatch, "fit");
   const SurfaceField field(start, connectivity, filter_);
   input_anchors_ = identity(n);
   to_input_ = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
@@ -66,6 +73,7 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
 }
 
 void Workspace::refit() {
+  const Stage stage(stopwatch, "fit");
   refitted_ = true;
   const SurfaceField field(placement.points, connectivity, filter_);
   finished_ += retraction->counts();
@@ -74,6 +82,7 @@ void Workspace::refit() {
 }
 
 int Workspace::land() {
+  const Stage stage(stopwatch, "land");
   if (!refitted_) input_anchors_ = placement.anchors;
   Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
   input_anchors_ = landed.anchors;
@@ -105,7 +114,7 @@ void Workspace::replace_faces(std::vector<Triangle> faces) {
       std::make_shared<const Connectivity>(make_connectivity(connectivity->vertex_count, std::move(faces)));
   sweeps = plan_sweeps(*connectivity);
   targets = spread_target_lengths(*connectivity, vertex_length);
-  hooke::replace_faces(mesh, connectivity->faces);
+  hooke::replace_faces(mesh, *connectivity);
   positions(mesh) = placement.points;
   input_anchors_ = placement.anchors;  // vertices may be far from where they were
   faces_replaced_ = true;
@@ -128,7 +137,7 @@ void Workspace::copy_back(TriMesh& target) const {
       for (size_t k = 0; k < 3; ++k)
         faces[static_cast<size_t>(order.old_face[f])][k] =
             order.old_vertex[static_cast<size_t>(connectivity->faces[f][k])];
-    hooke::replace_faces(target, faces);
+    hooke::replace_faces(target, make_connectivity(connectivity->vertex_count, std::move(faces)));
   }
   auto out = positions(target);
   for (Eigen::Index v = 0; v < start.cols(); ++v)

@@ -9,6 +9,7 @@
 #include "hooke/mesh.h"
 #include "hooke/ordering.h"
 #include "hooke/sizing.h"
+#include "hooke/stopwatch.h"
 #include "hooke/surface_field.h"
 #include "hooke/sweep_plan.h"
 
@@ -24,7 +25,7 @@ struct Normalisation {
 struct Workspace {
   /// Takes the target lengths from v:target_length.
   Workspace(const TriMesh& mesh, const ConstraintOptions& constraints, const FilterOptions& filter,
-            const RetractionOptions& retraction, const GuardOptions& guards);
+            const RetractionOptions& retraction, const GuardOptions& guards, Stopwatch* stopwatch = nullptr);
 
   /// Fits a new field to the vertices as they lie now and makes it the one that moves are projected to.
   /// [11]-[14]
@@ -48,6 +49,7 @@ struct Workspace {
 
   ProjectionCounts projection_counts() const;
 
+  Stopwatch* stopwatch;
   Normalisation normalisation;
   Reordered order;
   std::shared_ptr<const Connectivity> connectivity;

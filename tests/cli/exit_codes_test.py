@@ -99,6 +99,11 @@ class OutputErrors(CommandTest):
         self.refused(2, "good.obj", "-o", "out.obj", "--report", "good.obj", names="good.obj")
         self.refused(2, "good.obj", "-o", "out.obj", "--report", "out.obj", names="out.obj")
 
+    def test_trace_is_a_file_of_its_own(self):
+        for other in ("good.obj", "out.obj", "report.json"):
+            self.refused(2, "good.obj", "-o", "out.obj", "--report", "report.json", "--trace", other, names=other)
+        self.refused(5, "good.obj", "-o", "out.obj", "--trace", "no/trace.csv", names="trace.csv")
+
     def test_report_in_a_missing_folder(self):
         self.refused(5, "good.obj", "-o", "out.obj", "--report", "no/report.json", names="report.json")
 

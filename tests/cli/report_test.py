@@ -1,5 +1,6 @@
 """The JSON report: its keys, its figures, where it goes, and what standard error says beside it."""
 
+import csv
 import json
 import unittest
 
@@ -103,6 +104,21 @@ class Report(CommandTest):
         report = self.report(DATA / "blob.ply", "--check", "--sizing", "curvature:1%", "--gradation", "off")
         self.assertIsNone(report["parameters"]["gradation"])
         self.assertLess(report["parameters"]["L_min"], report["parameters"]["L_max"])
+    def test_trace_and_report_tell_the_same_of_every_stage(self):
+        report = self.report(DATA / "patch.obj", "-o", "out.obj", "--trace", "trace.csv")
+        with open(self.folder / "trace.csv", newline="") as lines:
+            trace = {row.pop("stage"): {k: float(v) for k, v in row.items()} for row in csv.DictReader(lines)}
+        stages = report["resources"]["stages"]
+        self.assertEqual(list(trace), list(stages))
+        for name, stage in stages.items():
+            self.assertEqual(set(stage), {"calls", "wall_s", "cpu_s", "peak_rss_bytes"})
+            for key, value in stage.items():
+                self.assertAlmostEqual(trace[name][key], value, places=5)
+        for name in ("read/parse", "before/self_intersections", "remesh/fit", "remesh/relax/energy",
+                     "remesh/relax/guards/projection", "remesh/polish", "deviation/to_reference", "write/file"):
+            self.assertIn(name, stages)
+        top = sum(stage["wall_s"] for name, stage in stages.items() if "/" not in name)
+        self.assertLessEqual(top, report["resources"]["wall_s"])
 
     def test_quiet_prints_nothing(self):
         self.assertEqual(self.run_command(DATA / "patch.obj", "-o", "out.obj", "-q"), ("", ""))

@@ -103,9 +103,38 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   return parse_mesh_file(bytes, printable(path.native()), input_format_of(path));
 }
 
-void end_polygon(MeshFile& file) {
-  if (file.polygons.items.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
+namespace {
+
+void check_corner_count(const MeshFile& file, size_t corners) {
+  if (corners > static_cast<size_t>(std::numeric_limits<int>::max()))
     throw LimitError(file.name + ": more than 2147483647 face corners; expected fewer; split the mesh");
+}
+
+}  // namespace
+
+void append_faces(MeshFile& file, const std::vector<MeshFile>& parts) {
+  size_t corners = file.polygons.items.size(), faces = file.polygons.first.size(), lines = file.lines.size();
+  for (const MeshFile& part : parts) {
+    corners += part.polygons.items.size();
+    faces += part.polygons.first.size() - 1;
+    lines += part.lines.size();
+  }
+  check_corner_count(file, corners);
+  IntLists& all = file.polygons;
+  all.items.reserve(corners);
+  all.first.reserve(faces);
+  file.lines.reserve(lines);
+  for (const MeshFile& part : parts) {
+    const int before = static_cast<int>(all.items.size());
+    all.items.insert(all.items.end(), part.polygons.items.begin(), part.polygons.items.end());
+    for (size_t f = 1; f < part.polygons.first.size(); ++f)
+      all.first.push_back(before + part.polygons.first[f]);
+    file.lines.insert(file.lines.end(), part.lines.begin(), part.lines.end());
+  }
+}
+
+void end_polygon(MeshFile& file) {
+  check_corner_count(file, file.polygons.items.size());
   file.polygons.first.push_back(static_cast<int>(file.polygons.items.size()));
 }
 

@@ -43,6 +43,9 @@ MeshFile read_mesh_file(const std::filesystem::path& path);
 /// corners.
 void end_polygon(MeshFile& file);
 
+/// Appends the polygons and lines of the parts, in order. Throws LimitError beyond 2^31 - 1 corners.
+void append_faces(MeshFile& file, const std::vector<MeshFile>& parts);
+
 /// Adds the warning `attributes_not_kept` that names the kinds of content a reader passed over; none if none.
 void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds);
 

@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "hooke/error.h"
-#include "hooke/io/append_number.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
+#include "hooke/io/text_pieces.h"
+#include "hooke/io/text_rows.h"
 
 namespace hooke {
 namespace {
@@ -17,22 +18,35 @@ namespace {
 // Elements of one kind that faces refer to: vertices, texture coordinates or normals.
 struct Referred {
   const char* kind;
-  int count = 0;      // so far
+  int count = 0;      // so far in the text
   int greatest = -1;  // 0-based index that a face asked for
   int greatest_line = 0;
 };
 
-struct ObjReader {
-  Scanner scanner;
-  MeshFile file{};
-  std::vector<double> coordinates{};
-  Referred vertices{"vertex"}, texture{"texture coordinate"}, normals{"normal"};
-  std::vector<std::string> not_kept{};
+// A kind of content that is passed over.
+struct NotKept {
+  std::string kind;
+  bool unknown = false;
+  bool operator==(const NotKept&) const = default;
 };
 
+// A piece of the text, and what was read from it.
+struct ObjReader {
+  Scanner scanner;
+  Mat3X& points;  // of the whole text
+  MeshFile part{};
+  Referred vertices{"vertex"}, texture{"texture coordinate"}, normals{"normal"};
+  std::vector<NotKept> not_kept{};
+};
+
+void note(std::vector<NotKept>& noted, NotKept content) {
+  constexpr size_t named = 10;  // a file of another kind would name hundreds
+  if (content.unknown && noted.size() >= named) content.kind = "other unknown statements";
+  if (std::ranges::find(noted, content) == noted.end()) noted.push_back(std::move(content));
+}
+
 void note(ObjReader& obj, const std::string& kind) {
-  if (std::find(obj.not_kept.begin(), obj.not_kept.end(), kind) == obj.not_kept.end())
-    obj.not_kept.push_back(kind);
+  note(obj.not_kept, {kind});
 }
 
 void count_one(const Scanner& scanner, Referred& elements) {
@@ -43,8 +57,9 @@ void count_one(const Scanner& scanner, Referred& elements) {
 
 void read_vertex(ObjReader& obj) {
   Scanner& in = obj.scanner;
-  for (const char* what : {"x", "y", "z"}) obj.coordinates.push_back(in.number(what));
   count_one(in, obj.vertices);
+  double* coordinate = obj.points.col(obj.vertices.count - 1).data();
+  for (const char* what : {"x", "y", "z"}) *coordinate++ = in.number(what);
   int extra = 0;
   double fourth = 1;
   for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra) {
@@ -93,14 +108,14 @@ int read_corner(ObjReader& obj, std::string_view corner) {
 void read_face(ObjReader& obj) {
   Scanner& in = obj.scanner;
   const int line = in.line();
-  const size_t before = obj.file.polygons.items.size();
+  const size_t before = obj.part.polygons.items.size();
   for (std::string_view token = in.token(); !token.empty(); token = in.token())
-    obj.file.polygons.items.push_back(read_corner(obj, token));
-  const size_t corners = obj.file.polygons.items.size() - before;
+    obj.part.polygons.items.push_back(read_corner(obj, token));
+  const size_t corners = obj.part.polygons.items.size() - before;
   if (corners < 3)
     in.fail_at(line, fmt::format("face with {} corners; expected 3 or more; correct or remove it", corners));
-  obj.file.lines.push_back(line);
-  end_polygon(obj.file);
+  obj.part.lines.push_back(line);
+  end_polygon(obj.part);
 }
 
 void read_other(ObjReader& obj, std::string_view keyword) {
@@ -118,11 +133,8 @@ void read_other(ObjReader& obj, std::string_view keyword) {
   }
   for (const auto& [word, kind] : known)
     if (keyword == word) return note(obj, kind);
-  constexpr size_t named = 10;  // a file of another kind would name hundreds
-  if (obj.not_kept.size() < named)
-    note(obj, fmt::format("{} statements (line {})", in_quotes(keyword), obj.scanner.line()));
-  else
-    note(obj, "other unknown statements");
+  note(obj.not_kept, {.kind = fmt::format("{} statements (line {})", in_quotes(keyword), obj.scanner.line()),
+                      .unknown = true});
 }
 
 void read_statement(ObjReader& obj, std::string_view keyword) {
@@ -141,43 +153,98 @@ void read_statement(ObjReader& obj, std::string_view keyword) {
   }
 }
 
+// How many elements faces can refer to.
+struct Counts {
+  int vertices = 0, texture = 0, normals = 0;
+};
+
+Counts count_elements(Scanner in) {
+  Counts counts;
+  while (in.next_line()) {
+    const std::string_view keyword = in.token();
+    counts.vertices += keyword == "v";
+    counts.texture += keyword == "vt";
+    counts.normals += keyword == "vn";
+  }
+  return counts;
+}
+
+// Readers of the pieces, each of which knows how much stands before it; makes room for the points.
+std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const std::string& name,
+                                     Mat3X& points) {
+  std::vector<Counts> counts(pieces.size());
+  read_pieces(pieces, [&](const TextPiece& piece, size_t p) { counts[p] = count_elements(piece.scanner); });
+  std::vector<ObjReader> readers;
+  long long vertices = 0, texture = 0, normals = 0;
+  const auto limited = [](long long count) {  // count_one() refuses what is beyond
+    return static_cast<int>(std::min<long long>(count, std::numeric_limits<int>::max()));
+  };
+  for (size_t p = 0; p < pieces.size(); ++p) {
+    ObjReader& reader = readers.emplace_back(ObjReader{pieces[p].scanner, points});
+    reader.part.name = name;
+    reader.vertices.count = limited(vertices);
+    reader.texture.count = limited(texture);
+    reader.normals.count = limited(normals);
+    vertices += counts[p].vertices;
+    texture += counts[p].texture;
+    normals += counts[p].normals;
+  }
+  points.resize(3, limited(vertices));
+  return readers;
+}
+
 // Positive indices may point forward, so their upper bound is known only at the end.
-void check_greatest(const Scanner& in, const Referred& elements) {
-  if (elements.greatest >= elements.count)
-    in.fail_at(elements.greatest_line,
-               fmt::format("{} index {}; expected at most {}, the number in the file; correct the index",
-                           elements.kind, elements.greatest + 1LL, elements.count));
+void check_greatest(const std::vector<ObjReader>& readers, const Referred ObjReader::*kind) {
+  const ObjReader* greatest = &readers.front();
+  for (const ObjReader& reader : readers)
+    if ((reader.*kind).greatest > (greatest->*kind).greatest) greatest = &reader;
+  const Referred& elements = greatest->*kind;
+  const int count = (readers.back().*kind).count;
+  if (elements.greatest >= count)
+    greatest->scanner.fail_at(
+        elements.greatest_line,
+        fmt::format("{} index {}; expected at most {}, the number in the file; correct the index",
+                    elements.kind, elements.greatest + 1LL, count));
+}
+
+std::vector<std::string> kinds_not_kept(const std::vector<ObjReader>& readers) {
+  std::vector<NotKept> noted;
+  for (const ObjReader& reader : readers)
+    for (const NotKept& content : reader.not_kept) note(noted, content);
+  std::vector<std::string> kinds;
+  for (NotKept& content : noted) kinds.push_back(std::move(content.kind));
+  return kinds;
 }
 
 }  // namespace
 
 MeshFile read_obj(std::string_view text, const std::string& name) {
-  ObjReader obj{Scanner(text, name, {.comments = true, .continuations = true})};
-  obj.file.name = name;
-  obj.file.format = "obj";
-  while (obj.scanner.next_line()) read_statement(obj, obj.scanner.token());
-  for (const Referred* elements : {&obj.vertices, &obj.texture, &obj.normals})
-    check_greatest(obj.scanner, *elements);
-  if (obj.vertices.count == 0)
+  MeshFile file;
+  file.name = name;
+  file.format = "obj";
+  const std::vector<TextPiece> pieces =
+      remaining_pieces(Scanner(text, name, {.comments = true, .continuations = true}));
+  std::vector<ObjReader> readers = start_readers(pieces, name, file.points);
+  read_pieces(pieces, [&](const TextPiece&, size_t p) {
+    Scanner& in = readers[p].scanner;
+    while (in.next_line()) read_statement(readers[p], in.token());
+  });
+  if (!readers.empty())
+    for (const auto kind : {&ObjReader::vertices, &ObjReader::texture, &ObjReader::normals})
+      check_greatest(readers, kind);
+  if (file.points.cols() == 0)
     throw InputError(name + ": no vertices; expected v lines; is this an OBJ file?");
-  obj.file.points = Eigen::Map<const Mat3X>(obj.coordinates.data(), 3, obj.vertices.count);
-  warn_not_kept(obj.file, obj.not_kept);
-  return std::move(obj.file);
+  std::vector<MeshFile> parts;
+  for (ObjReader& reader : readers) parts.push_back(std::move(reader.part));
+  append_faces(file, parts);
+  warn_not_kept(file, kinds_not_kept(readers));
+  return file;
 }
 
 std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles) {
   std::string text;
-  text.reserve(static_cast<size_t>(points.cols()) * 60 + triangles.size() * 24);
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    text += "v ";
-    append_three(text, points.col(v));
-    text += '\n';
-  }
-  for (const auto& [a, b, c] : triangles) {
-    text += "f ";
-    append_three(text, std::array{a + 1, b + 1, c + 1});
-    text += '\n';
-  }
+  append_vertex_rows(text, points, "v ");
+  append_face_rows(text, triangles, "f ", 1);
   return text;
 }
 

@@ -7,9 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "hooke/io/append_number.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
+#include "hooke/io/text_pieces.h"
+#include "hooke/io/text_rows.h"
 
 namespace hooke {
 namespace {
@@ -74,36 +75,39 @@ OffHeader read_header(Scanner& in) {
   return header;
 }
 
-void next_row(Scanner& in, const char* kind, int row, int count) {
-  if (!in.next_line())
-    in.fail(fmt::format(
-        "the file ends before {} {} of {} (counted from 0); the file is cut or the count is wrong", kind, row,
-        count));
+// How many numbers follow the coordinates in this line.
+int read_vertex(Scanner& in, double* coordinates) {
+  for (const char* what : {"x", "y", "z"}) *coordinates++ = in.number(what);
+  int extra = 0;
+  for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra)
+    in.number(token, "vertex value");
+  return extra;
 }
 
-// Returns how many numbers follow the coordinates, on every vertex line alike.
-int read_vertices(Scanner& in, const OffHeader& header, Mat3X& points) {
-  std::vector<double> coordinates;
-  coordinates.reserve(std::min<size_t>(3 * static_cast<size_t>(header.vertices), in.remaining()));
-  int extra = -1;
-  for (int v = 0; v < header.vertices; ++v) {
-    next_row(in, "vertex", v, header.vertices);
-    for (const char* what : {"x", "y", "z"}) coordinates.push_back(in.number(what));
-    int more = 0;
-    for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++more)
-      in.number(token, "vertex value");
-    if (extra < 0) extra = more;
-    if (more != extra)
-      in.fail(fmt::format(
-          "vertex {} with {} numbers; expected {} as on the first vertex line; is the vertex count right?", v,
-          3 + more, 3 + extra));
-  }
-  points = Eigen::Map<const Mat3X>(coordinates.data(), 3, header.vertices);
-  return std::max(extra, 0);
+// How many numbers follow the coordinates on the first vertex line, and so on all of them.
+int numbers_after_coordinates(const std::vector<TextPiece>& pieces, const OffHeader& header) {
+  if (header.vertices == 0 || pieces.empty()) return 0;
+  const auto first = std::ranges::find_if(pieces, [](const TextPiece& piece) { return piece.rows > 0; });
+  if (first == pieces.end()) return 0;
+  Scanner in = first->scanner;
+  in.next_line();
+  double coordinates[3];
+  return read_vertex(in, coordinates);
+}
+
+void check_vertex(const Scanner& in, const OffHeader& header, int vertex, int extra, int wanted_extra) {
+  if (extra != wanted_extra)
+    in.fail(fmt::format(
+        "vertex {} with {} numbers; expected {} as on the first vertex line; is the vertex count right?",
+        vertex, 3 + extra, 3 + wanted_extra));
+  const int by_keyword = (header.normals ? 3 : 0) + (header.colours ? 1 : 0) + (header.texture ? 2 : 0);
+  if (vertex == header.vertices - 1 && extra < by_keyword)
+    in.fail(fmt::format("vertices have {} numbers; expected at least {} by the keyword; correct the keyword",
+                        3 + extra, 3 + by_keyword));
 }
 
 // Returns whether the line ends in a colour.
-bool read_face(Scanner& in, int face, int vertex_count, MeshFile& file) {
+bool read_face(Scanner& in, int face, int vertex_count, MeshFile& part) {
   const long long corners = in.integer("face size");
   if (corners < 3)
     in.fail(fmt::format("face {} with {} corners; expected 3 or more; correct or remove it", face, corners));
@@ -112,7 +116,7 @@ bool read_face(Scanner& in, int face, int vertex_count, MeshFile& file) {
     if (id < 0 || id >= vertex_count)
       in.fail(fmt::format("face {} has vertex index {}; expected 0 to {}; correct the index", face, id,
                           vertex_count - 1));
-    file.polygons.items.push_back(static_cast<int>(id));
+    part.polygons.items.push_back(static_cast<int>(id));
   }
   int extra = 0;
   for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra)
@@ -121,8 +125,8 @@ bool read_face(Scanner& in, int face, int vertex_count, MeshFile& file) {
     in.fail(fmt::format(
         "{} numbers after face {}; expected a colour of 1, 3 or 4, or none; is the face size right?", extra,
         face));
-  file.lines.push_back(in.line());
-  end_polygon(file);
+  part.lines.push_back(in.line());
+  end_polygon(part);
   return extra > 0;
 }
 
@@ -137,44 +141,59 @@ std::vector<std::string> kinds_not_kept(const OffHeader& header, int vertex_extr
   return kinds;
 }
 
+// Where the rows end before all elements are there.
+[[noreturn]] void fail_at_end(Scanner in, const OffHeader& header, long long rows) {
+  while (in.next_line()) continue;
+  const bool vertex = rows < header.vertices;
+  in.fail(
+      fmt::format("the file ends before {} {} of {} (counted from 0); the file is cut or the count is wrong",
+                  vertex ? "vertex" : "face", vertex ? rows : rows - header.vertices,
+                  vertex ? header.vertices : header.faces));
+}
+
 }  // namespace
 
 MeshFile read_off(std::string_view text, const std::string& name) {
   Scanner in(text, name, {.comments = true});
   const OffHeader header = read_header(in);
+  const std::vector<TextPiece> pieces = remaining_pieces(in);
+  const long long rows = pieces.empty() ? 0 : pieces.back().first_row + pieces.back().rows;
+  const long long elements = static_cast<long long>(header.vertices) + header.faces;
+  const int extra = numbers_after_coordinates(pieces, header);
   MeshFile file;
   file.name = name;
   file.format = "off";
-  const int vertex_extra = read_vertices(in, header, file.points);
-  const int wanted = (header.normals ? 3 : 0) + (header.colours ? 1 : 0) + (header.texture ? 2 : 0);
-  if (header.vertices > 0 && vertex_extra < wanted)
-    in.fail(fmt::format("vertices have {} numbers; expected at least {} by the keyword; correct the keyword",
-                        3 + vertex_extra, 3 + wanted));
-  bool face_colours = false;
-  for (int f = 0; f < header.faces; ++f) {
-    next_row(in, "face", f, header.faces);
-    face_colours |= read_face(in, f, header.vertices, file);
-  }
-  if (in.next_line())
-    in.fail(
-        fmt::format("text after the last of {} faces; expected the end of the file; is the face count right?",
-                    header.faces));
-  warn_not_kept(file, kinds_not_kept(header, vertex_extra, face_colours));
+  file.points.resize(3, std::min<long long>(rows, header.vertices));
+  std::vector<MeshFile> parts(pieces.size());
+  std::vector<char> face_colours(pieces.size(), 0);
+  read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
+    Scanner rest = piece.scanner;
+    parts[p].name = name;
+    for (long long row = piece.first_row; rest.next_line(); ++row) {
+      if (row < header.vertices) {
+        const int found = read_vertex(rest, file.points.col(row).data());
+        check_vertex(rest, header, static_cast<int>(row), found, extra);
+      } else if (row < elements) {
+        const int face = static_cast<int>(row - header.vertices);
+        face_colours[p] |= static_cast<char>(read_face(rest, face, header.vertices, parts[p]));
+      } else {
+        rest.fail(fmt::format(
+            "text after the last of {} faces; expected the end of the file; is the face count right?",
+            header.faces));
+      }
+    }
+  });
+  if (rows < elements) fail_at_end(pieces.empty() ? in : pieces.back().scanner, header, rows);
+  append_faces(file, parts);
+  const bool any_face_colour = std::ranges::find(face_colours, 1) != face_colours.end();
+  warn_not_kept(file, kinds_not_kept(header, extra, any_face_colour));
   return file;
 }
 
 std::string write_off(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles) {
   std::string text = fmt::format("OFF\n{} {} 0\n", points.cols(), triangles.size());
-  text.reserve(static_cast<size_t>(points.cols()) * 60 + triangles.size() * 24);
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    append_three(text, points.col(v));
-    text += '\n';
-  }
-  for (const Triangle& triangle : triangles) {
-    text += "3 ";
-    append_three(text, triangle);
-    text += '\n';
-  }
+  append_vertex_rows(text, points, "");
+  append_face_rows(text, triangles, "3 ", 0);
   return text;
 }
 

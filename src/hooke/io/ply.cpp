@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <utility>
 
 #include "hooke/error.h"
-#include "hooke/io/append_number.h"
 #include "hooke/io/ply_body.h"
 #include "hooke/io/ply_header.h"
 #include "hooke/io/printable.h"
+#include "hooke/io/text_pieces.h"
 
 namespace hooke {
 namespace {
@@ -49,10 +48,9 @@ void check_face_element(const PlyElement& face, const std::string& name) {
 }
 
 template <typename Body>
-void read_vertices(Body& body, const PlyElement& vertex, Mat3X& points) {
+void read_vertices(Body& body, const PlyElement& vertex, const PlyRows& rows, Mat3X& points) {
   static constexpr const char* names[] = {"x", "y", "z"};
-  points.resize(3, vertex.count);
-  for (long long row = 0; row < vertex.count; ++row) {
+  for (long long row = rows.begin; row < rows.end; ++row) {
     body.begin_row(vertex, row);
     for (const PlyProperty& property : vertex.properties) {
       const int k = coordinate_of(property);
@@ -79,8 +77,9 @@ void read_corners(Body& body, const PlyProperty& list, long long vertex_count, M
 }
 
 template <typename Body>
-void read_faces(Body& body, const PlyElement& face, long long vertex_count, MeshFile& file) {
-  for (long long row = 0; row < face.count; ++row) {
+void read_faces(Body& body, const PlyElement& face, const PlyRows& rows, long long vertex_count,
+                MeshFile& file) {
+  for (long long row = rows.begin; row < rows.end; ++row) {
     body.begin_row(face, row);
     if (body.line() > 0) file.lines.push_back(body.line());
     for (const PlyProperty& property : face.properties) {
@@ -94,19 +93,71 @@ void read_faces(Body& body, const PlyElement& face, long long vertex_count, Mesh
   }
 }
 
+// The elements that a mesh is made of, and all that the header names.
+struct Elements {
+  const PlyHeader& header;
+  const PlyElement& vertex;
+  const PlyElement& face;
+};
+
+// Points go to their columns, faces to the end of `part`.
 template <typename Body>
-void read_body(Body body, const PlyHeader& header, const PlyElement& vertex, const PlyElement& face,
-               MeshFile& file) {
-  for (const PlyElement& element : header.elements) {
+void read_rows(Body& body, const Elements& elements, const PlyElement& element, const PlyRows& rows,
+               Mat3X& points, MeshFile& part) {
+  if (&element == &elements.vertex)
+    read_vertices(body, element, rows, points);
+  else if (&element == &elements.face)
+    read_faces(body, element, rows, elements.vertex.count, part);
+  else
+    skip_rows(body, element, rows);
+}
+
+// Without properties its rows take no bytes, however many there are.
+long long row_count(const PlyElement& element) {
+  return element.properties.empty() ? 0 : element.count;
+}
+
+template <typename Body>
+void read_body(Body body, const Elements& elements, MeshFile& file) {
+  for (const PlyElement& element : elements.header.elements) {
     body.begin_element(element);
-    if (&element == &vertex)
-      read_vertices(body, element, file.points);
-    else if (&element == &face)
-      read_faces(body, element, vertex.count, file);
-    else
-      skip_element(body, element);
+    if (&element == &elements.vertex) file.points.resize(3, element.count);
+    read_rows(body, elements, element, {0, row_count(element)}, file.points, file);
   }
   body.finish();
+}
+
+// A body with just as many lines as the header tells, in pieces.
+void read_pieces_of_body(const std::vector<TextPiece>& pieces, const Elements& elements, MeshFile& file) {
+  file.points.resize(3, elements.vertex.count);
+  std::vector<MeshFile> parts(pieces.size());
+  read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
+    AsciiPlyBody body(piece.scanner);
+    parts[p].name = file.name;
+    long long before = 0;  // rows of the elements before
+    for (const PlyElement& element : elements.header.elements) {
+      const auto row = [&](long long of_body) {
+        return std::clamp(of_body - before, 0LL, row_count(element));
+      };
+      const PlyRows rows = {row(piece.first_row), row(piece.first_row + piece.rows)};
+      read_rows(body, elements, element, rows, file.points, parts[p]);
+      before += row_count(element);
+    }
+  });
+  append_faces(file, parts);
+}
+
+void read_ascii_body(AsciiPlyBody body, const Elements& elements, MeshFile& file) {
+  if (body.one_line()) return read_body(std::move(body), elements, file);
+  const std::vector<TextPiece> pieces = remaining_pieces(body.scanner());
+  const long long there = pieces.empty() ? 0 : pieces.back().first_row + pieces.back().rows;
+  double expected = 0;  // counts may be anything
+  for (const PlyElement& element : elements.header.elements)
+    expected += static_cast<double>(row_count(element));
+  if (static_cast<double>(there) == expected)
+    read_pieces_of_body(pieces, elements, file);
+  else
+    read_body(std::move(body), elements, file);  // which finds where it goes wrong
 }
 
 std::string kind_of(const PlyElement& element, const PlyProperty& property) {
@@ -142,54 +193,6 @@ std::vector<std::string> kinds_not_kept(const PlyHeader& header, const PlyElemen
   return kinds;
 }
 
-const char* name_of(PlyEncoding encoding) {
-  switch (encoding) {
-    case PlyEncoding::ascii:
-      return "ascii";
-    case PlyEncoding::binary_little_endian:
-      return "binary_little_endian";
-    case PlyEncoding::binary_big_endian:
-      return "binary_big_endian";
-  }
-  return "";
-}
-
-std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encoding) {
-  return fmt::format(
-      "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      name_of(encoding), vertices, faces);
-}
-
-void append_text(std::string& text, Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles) {
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    append_three(text, points.col(v));
-    text += '\n';
-  }
-  for (const Triangle& triangle : triangles) {
-    text += "3 ";
-    append_three(text, triangle);
-    text += '\n';
-  }
-}
-
-template <typename T>
-void append_bytes(std::string& bytes, T value, bool swap) {
-  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  if (swap) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.data(), raw.size());
-}
-
-void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                   bool swap) {
-  for (Eigen::Index v = 0; v < points.cols(); ++v)
-    for (int k = 0; k < 3; ++k) append_bytes(bytes, points(k, v), swap);
-  for (const Triangle& triangle : triangles) {
-    bytes += '\3';
-    for (const int id : triangle) append_bytes(bytes, id, swap);
-  }
-}
-
 }  // namespace
 
 MeshFile read_ply(std::string_view bytes, const std::string& name) {
@@ -203,26 +206,11 @@ MeshFile read_ply(std::string_view bytes, const std::string& name) {
   file.format = "ply";
   file.encoding = header.encoding;
   if (header.encoding == PlyEncoding::ascii)
-    read_body(AsciiPlyBody(bytes, name, header), header, vertex, face, file);
+    read_ascii_body(AsciiPlyBody(bytes, name, header), {header, vertex, face}, file);
   else
-    read_body(BinaryPlyBody(bytes, name, header), header, vertex, face, file);
+    read_body(BinaryPlyBody(bytes, name, header), {header, vertex, face}, file);
   warn_not_kept(file, kinds_not_kept(header, vertex, face));
   return file;
-}
-
-std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                      PlyEncoding encoding) {
-  const bool ascii = encoding == PlyEncoding::ascii;
-  std::string bytes = header_text(points.cols(), triangles.size(), encoding);
-  bytes.reserve(bytes.size() + static_cast<size_t>(points.cols()) * (ascii ? 60 : 24) +
-                triangles.size() * (ascii ? 24 : 13));
-  if (ascii) {
-    append_text(bytes, points, triangles);
-  } else {
-    const bool little = encoding == PlyEncoding::binary_little_endian;
-    append_binary(bytes, points, triangles, little != (std::endian::native == std::endian::little));
-  }
-  return bytes;
 }
 
 }  // namespace hooke

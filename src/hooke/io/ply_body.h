@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "hooke/io/ply_header.h"
 #include "hooke/io/scanner.h"
@@ -15,6 +16,12 @@ namespace hooke {
 class AsciiPlyBody {
  public:
   AsciiPlyBody(std::string_view text, const std::string& name, const PlyHeader& header);
+
+  /// Rows on lines of their own that the scanner comes to.
+  explicit AsciiPlyBody(Scanner rows) : in_(std::move(rows)), one_line_(false) {}
+
+  bool one_line() const { return one_line_; }
+  const Scanner& scanner() const { return in_; }
 
   /// Throws InputError if the rows of the element cannot be there, before anybody allocates memory for them.
   void begin_element(const PlyElement& element);
@@ -73,15 +80,26 @@ void skip_property(Body& body, const PlyProperty& property) {
   for (long long k = 0; k < count; ++k) body.skip(property.type);
 }
 
-/// Passes over all rows of the element.
+/// Rows of an element, counted from 0.
+struct PlyRows {
+  long long begin = 0, end = 0;
+};
+
+/// Passes over rows of the element.
 template <typename Body>
-void skip_element(Body& body, const PlyElement& element) {
-  if (element.properties.empty()) return;  // its rows take no bytes, however many there are
-  for (long long row = 0; row < element.count; ++row) {
+void skip_rows(Body& body, const PlyElement& element, const PlyRows& rows) {
+  for (long long row = rows.begin; row < rows.end; ++row) {
     body.begin_row(element, row);
     for (const PlyProperty& property : element.properties) skip_property(body, property);
     body.end_row();
   }
+}
+
+/// Passes over all rows of the element.
+template <typename Body>
+void skip_element(Body& body, const PlyElement& element) {
+  if (element.properties.empty()) return;  // its rows take no bytes, however many there are
+  skip_rows(body, element, {0, element.count});
 }
 
 }  // namespace hooke

@@ -18,20 +18,28 @@ void append(Warnings& warnings, Warnings more) {
 
 }  // namespace
 
-LoadedMesh read_mesh(const std::filesystem::path& path) {
+LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   const std::string format = input_format_of(path);
-  std::string bytes = read_regular_file(path);
-  MeshFile file = parse_mesh_file(bytes, printable(path.native()), format);
-  const std::string hash = sha256(bytes);
+  std::string bytes = timed(stopwatch, "file", [&] { return read_regular_file(path); });
+  MeshFile file =
+      timed(stopwatch, "parse", [&] { return parse_mesh_file(bytes, printable(path.native()), format); });
+  const std::string hash = timed(stopwatch, "sha256", [&] { return sha256(bytes); });
   const size_t size = bytes.size();
   bytes = {};  // the memory is wanted for the mesh
-  Triangulation triangulation = triangulate(file.points, file.polygons);
+  Triangulation triangulation =
+      timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
   append(warnings, warnings_of(triangulation, file.name));
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
-  append(warnings, require_valid(file.points, triangulation.triangles, source));
+  VertexFans fans;
+  append(warnings, timed(stopwatch, "validate",
+                         [&] { return require_valid(file.points, triangulation.triangles, source, &fans); }));
+  Connectivity connectivity = timed(stopwatch, "connectivity", [&] {
+    return make_connectivity(std::move(triangulation.triangles), std::move(fans));
+  });
   // Built in place: OpenMesh has no move, and copies all of a mesh.
-  return {build_mesh(file.points, triangulation.triangles),
+  return {timed(stopwatch, "build", [&] { return build_mesh(file.points, connectivity); }),
+          std::move(connectivity),
           file.name,
           file.format,
           file.encoding,

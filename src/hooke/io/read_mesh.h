@@ -6,14 +6,16 @@
 
 #include "hooke/io/mesh_file.h"
 #include "hooke/mesh.h"
+#include "hooke/stopwatch.h"
 
 namespace hooke {
 
 /// A mesh, and what the report and the writer want to know about its file.
 struct LoadedMesh {
-  TriMesh mesh;        // vertices in file order; triangles too, those of a polygon together
-  std::string name;    // of the file, printable
-  std::string format;  // "obj", "ply" or "off"
+  TriMesh mesh;               // vertices in file order; triangles too, those of a polygon together
+  Connectivity connectivity;  // of the mesh
+  std::string name;           // of the file, printable
+  std::string format;         // "obj", "ply" or "off"
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a ply file
   std::string sha256;                                        // of the file's bytes, hex
   size_t bytes = 0;                                          // size of the file
@@ -23,6 +25,6 @@ struct LoadedMesh {
 
 /// Reads, triangulates, validates and builds. Throws InputError for what is not a well-formed mesh file,
 /// MeshError for what is not an oriented manifold with area, LimitError for what does not fit in memory.
-LoadedMesh read_mesh(const std::filesystem::path& path);
+LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

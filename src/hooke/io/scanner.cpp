@@ -90,6 +90,13 @@ bool Scanner::next_line() {
   }
 }
 
+void Scanner::finish_line() {
+  if (!started_) return;
+  skip_line();
+  if (cursor_ < end_) skip_line_end();
+  started_ = false;
+}
+
 double Scanner::number(std::string_view what) {
   return number(token(), what);
 }

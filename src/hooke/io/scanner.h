@@ -45,6 +45,15 @@ class Scanner {
   double number(std::string_view token, std::string_view what) const;
   long long integer(std::string_view token, std::string_view what) const;
 
+  /// Goes past the end of this line, where next_line() begins.
+  void finish_line();
+
+  /// What has not been read yet.
+  std::string_view rest() const { return {cursor_, remaining()}; }
+
+  /// A scanner with the same name and syntax on another text.
+  Scanner on(std::string_view text, int first_line) const { return {text, name_, syntax_, first_line}; }
+
   int line() const { return line_; }
   size_t offset() const { return static_cast<size_t>(cursor_ - begin_); }
   size_t remaining() const { return static_cast<size_t>(end_ - cursor_); }

@@ -22,10 +22,10 @@ std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncodi
 }
 
 WrittenFile write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
-                       PlyEncoding encoding) {
-  const std::string bytes = mesh_bytes(mesh, format, encoding);
-  write_file_atomically(path, bytes);
-  return {sha256(bytes), bytes.size()};
+                       PlyEncoding encoding, Stopwatch* stopwatch) {
+  const std::string bytes = timed(stopwatch, "format", [&] { return mesh_bytes(mesh, format, encoding); });
+  timed(stopwatch, "file", [&] { write_file_atomically(path, bytes); });
+  return {timed(stopwatch, "sha256", [&] { return sha256(bytes); }), bytes.size()};
 }
 
 }  // namespace hooke

@@ -6,6 +6,7 @@
 
 #include "hooke/io/mesh_file.h"
 #include "hooke/mesh.h"
+#include "hooke/stopwatch.h"
 
 namespace hooke {
 
@@ -22,6 +23,7 @@ struct WrittenFile {
 /// Writes these bytes by write_file_atomically (see there for what it throws). The usual format is
 /// format_of(path).
 WrittenFile write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
-                       PlyEncoding encoding = PlyEncoding::binary_little_endian);
+                       PlyEncoding encoding = PlyEncoding::binary_little_endian,
+                       Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke
