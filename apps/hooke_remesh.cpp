@@ -11,6 +11,7 @@
 #include "hooke/error.h"
 #include "hooke/io/atomic_write.h"
 #include "hooke/io/id_list.h"
+#include "hooke/io/map_text.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"
@@ -32,10 +33,17 @@ void require_outputs(const Settings& s) {
     require_distinct(s.input, s.output);
     require_writable(s.output);
   }
-  if (s.report.empty() || s.report == "-") return;
-  require_distinct(s.input, s.report);
-  if (!s.output.empty()) require_distinct(s.output, s.report);
-  require_writable(s.report);
+  const bool report = !s.report.empty() && s.report != "-";
+  if (report) {
+    require_distinct(s.input, s.report);
+    if (!s.output.empty()) require_distinct(s.output, s.report);
+    require_writable(s.report);
+  }
+  if (s.map.empty()) return;
+  require_distinct(s.input, s.map);
+  require_distinct(s.output, s.map);
+  if (report) require_distinct(s.report, s.map);
+  require_writable(s.map);
 }
 
 void write_report(const Settings& s, const RunRecord& run) {
@@ -118,19 +126,21 @@ int run(Settings s) {
   record.before = measure(mesh, connectivity, length);
 
   if (!s.check) {
-    warn_of_length(s, length, natural, record);
+    if (s.remesh.connectivity != ConnectivityMode::adapt) warn_of_length(s, length, natural, record);
     set_vertex_values(mesh, target_length_property, length);
     record.result = optimize(s, mesh);
     if (!positions(mesh).allFinite())
       throw NumericalError(
           fmt::format("{}: the result is not finite; nothing was written", record.input.path));
     record.status = status_of(record.result->reason);
-    const Connectivity after = make_connectivity(connectivity.vertex_count, triangles_of(mesh));
+    const Connectivity after = make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
     record.after = measure(mesh, after, length);
     record.deviation = measure_deviation(original, connectivity, positions(mesh), after);
+    if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
     const WrittenFile written = write_mesh(s.output, mesh, s.format, loaded.encoding);
     record.output = {printable(s.output.string()), written.sha256, s.format,
                      connectivity_sha256(after.faces)};
+    if (!s.map.empty()) write_file_atomically(s.map, map_text(record.result->map));
     add_result_warnings(s, record);
   }
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());

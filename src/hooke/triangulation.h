@@ -57,8 +57,9 @@ class Triangulation {
   /// id is the last one and is returned. Both halves are constrained if the edge was.
   int split(int h);
 
-  /// May the ends of h become one vertex without a change of the topology? The link condition: H. Edelsbrunner,
-  /// "Geometry and topology for mesh generation", 2001. Holes and components keep at least a triangle.
+  /// May the ends of h become one vertex without a change of the topology? The link condition: H.
+  /// Edelsbrunner, "Geometry and topology for mesh generation", 2001. Holes and components keep at least a
+  /// triangle.
   bool may_collapse(int h) const;
 
   /// Merges from(h) into to(h): that vertex and the faces of h are gone. Sides that fall together are
@@ -76,7 +77,7 @@ class Triangulation {
 
   std::vector<Triangle> faces_;
   std::vector<int> twins_;
-  std::vector<int> leaving_;  // per vertex: one half-edge that leaves it, -1 without faces
+  std::vector<int> leaving_;   // per vertex: one half-edge that leaves it, -1 without faces
   std::vector<int> valences_;  // -1 for a vertex that is gone
   std::vector<char> on_boundary_;
   std::vector<char> constrained_;  // per half-edge

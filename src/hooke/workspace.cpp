@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/parallel.h"
+
 namespace hooke {
 namespace {
 
@@ -53,6 +55,10 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   constraints = find_constraints(start, *connectivity, reordered);
   mesh = build_mesh(start, order.faces);
+  origins = identity(n);
+  input_order_ = order;
+  input_connectivity_ = connectivity;
+  start_length_ = vertex_length;
 
   const SurfaceField field(start, connectivity, filter_);
   input_anchors_ = identity(n);
@@ -107,20 +113,122 @@ void Workspace::replace_faces(std::vector<Triangle> faces) {
   faces_replaced_ = true;
 }
 
-void Workspace::copy_back(TriMesh& target) const {
-  if (faces_replaced_) {
-    std::vector<Triangle> faces(connectivity->faces.size());
-    for (size_t f = 0; f < faces.size(); ++f)
-      for (size_t k = 0; k < 3; ++k)
-        faces[static_cast<size_t>(order.old_face[f])][k] =
-            order.old_vertex[static_cast<size_t>(connectivity->faces[f][k])];
-    hooke::replace_faces(target, faces);
+void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>& before) {
+  const auto n = before.size();
+  std::vector<int> by_id = identity(static_cast<int>(n));  // in the order of the result
+  std::ranges::stable_sort(by_id, {}, [&](int v) {
+    const int old = before[static_cast<size_t>(v)];
+    return old < 0 ? std::numeric_limits<int>::max() : order.old_vertex[static_cast<size_t>(old)];
+  });
+  std::vector<int> id(n);
+  for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
+  for (Triangle& t : faces)
+    for (int& v : t) v = id[static_cast<size_t>(v)];
+  const Connectivity given = make_connectivity(static_cast<int>(n), std::move(faces));
+  order = reorder(given, locality_order(given));
+  connectivity = std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(n), order.faces));
+  sweeps = plan_sweeps(*connectivity);
+
+  std::vector<int> source(n), place(n);  // where each vertex comes from, and goes to
+  for (size_t v = 0; v < n; ++v) {
+    source[v] = by_id[static_cast<size_t>(order.old_vertex[v])];
+    place[static_cast<size_t>(source[v])] = static_cast<int>(v);
   }
-  auto out = positions(target);
-  for (Eigen::Index v = 0; v < start.cols(); ++v)
-    if (placement.points.col(v) != start.col(v))
-      out.col(order.old_vertex[static_cast<size_t>(v)]) =
-          normalisation.centre + normalisation.unit * placement.points.col(v);
+  const auto arrange = [&](auto& values) {
+    const auto old = values;
+    for (size_t v = 0; v < n; ++v) values[v] = old[static_cast<size_t>(source[v])];
+  };
+  for (Mat3X* matrix : {&placement.points, &placement.normals, &placement.tangents})
+    *matrix = (*matrix)(Eigen::all, source).eval();
+  arrange(placement.anchors);
+  arrange(placement.segments);
+  arrange(placement.drift);
+  arrange(vertex_length);
+  arrange(constraints.freedom);
+  arrange(constraints.curve);
+  arrange(constraints.segment);
+  for (Edge& crease : constraints.creases)
+    for (int& v : crease) v = place[static_cast<size_t>(v)];
+  std::vector<int> from(n, -1);
+  for (size_t v = 0; v < n; ++v)
+    if (const int old = before[static_cast<size_t>(source[v])]; old >= 0)
+      from[v] = origins[static_cast<size_t>(old)];
+  origins = std::move(from);
+
+  targets = spread_target_lengths(*connectivity, vertex_length);
+  mesh = build_mesh(placement.points, order.faces);
+  input_anchors_ = placement.anchors;
+  retraction->resize(n);
+  to_input_->resize(n);
+  vertices_replaced_ = true;
+}
+
+SurfacePoint Workspace::place_on_input(int v) const {
+  const std::vector<int>& anchors = refitted_ ? input_anchors_ : placement.anchors;
+  return locate(start, *input_connectivity_, placement.points.col(v), anchors[static_cast<size_t>(v)]);
+}
+
+std::vector<double> Workspace::input_lengths() const {
+  std::vector<double> lengths = vertex_length;
+  parallel_for(lengths.size(), 256, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      const SurfacePoint place = place_on_input(static_cast<int>(v));
+      if (place.face < 0) continue;
+      lengths[v] = 0;
+      for (size_t k = 0; k < 3; ++k)
+        lengths[v] += place.weights[static_cast<Eigen::Index>(k)] *
+                      start_length_[static_cast<size_t>(
+                          input_connectivity_->faces[static_cast<size_t>(place.face)][k])];
+    }
+  });
+  return lengths;
+}
+
+std::vector<MapEntry> Workspace::map() const {
+  std::vector<MapEntry> entries(order.old_vertex.size());
+  parallel_for(entries.size(), 256, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      MapEntry& entry = entries[static_cast<size_t>(order.old_vertex[v])];
+      entry.place = place_on_input(static_cast<int>(v));
+      if (entry.place.face >= 0)
+        entry.place.face = input_order_.old_face[static_cast<size_t>(entry.place.face)];
+      if (origins[v] >= 0) entry.vertex = input_order_.old_vertex[static_cast<size_t>(origins[v])];
+    }
+  });
+  return entries;
+}
+
+void Workspace::copy_back(TriMesh& target) const {
+  const Mat3X input = positions(target);
+  Mat3X points(3, placement.points.cols());
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    const int origin = origins[static_cast<size_t>(v)];
+    const bool stayed = origin >= 0 && placement.points.col(v) == start.col(origin);
+    auto point = points.col(order.old_vertex[static_cast<size_t>(v)]);
+    if (stayed)
+      point = input.col(input_order_.old_vertex[static_cast<size_t>(origin)]);
+    else
+      point = normalisation.centre + normalisation.unit * placement.points.col(v);
+  }
+  if (!faces_replaced_ && !vertices_replaced_) {
+    positions(target) = points;
+    return;
+  }
+  std::vector<Triangle> faces(connectivity->faces.size());
+  for (size_t f = 0; f < faces.size(); ++f)
+    for (size_t k = 0; k < 3; ++k)
+      faces[static_cast<size_t>(order.old_face[f])][k] =
+          order.old_vertex[static_cast<size_t>(connectivity->faces[f][k])];
+  if (!vertices_replaced_) {
+    hooke::replace_faces(target, faces);
+    positions(target) = points;
+    return;
+  }
+  target = build_mesh(points, faces);
+  auto length = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(target, target_length_property);
+  for (size_t v = 0; v < vertex_length.size(); ++v)
+    length[target.vertex_handle(static_cast<unsigned>(order.old_vertex[v]))] =
+        normalisation.unit * vertex_length[v];
 }
 
 ProjectionCounts Workspace::projection_counts() const {
