@@ -239,8 +239,8 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
 void settle(Settings& s, const Words& words, bool kernel_given, bool effort_given) {
   s.length = parse_length(s.length_text);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
-  s.remesh.flips = s.remesh.connectivity == ConnectivityMode::adapt ? adapt_flip_options(s.effort)
-                                                                    : flip_options(s.effort);
+  s.remesh.flips = flip_options(s.effort);
+  s.remesh.adaptation = adapt_options(s.effort);
   s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
   if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;

@@ -45,9 +45,6 @@ class Adaptation {
   }
 
   AdaptResult run() {
-    auto& oo = const_cast<AdaptOptions&>(options_);
-    if (const char* e = getenv("AR")) oo.rounds = atoi(e);
-    if (const char* e = getenv("AF")) oo.flow_rounds = atoi(e);
     for (int i = 0; i < options_.rounds && !result_.interrupted; ++i) change_lengths();
     for (int i = 0; i < options_.count_rounds && !result_.interrupted; ++i)
       if (!change_count()) break;
@@ -142,11 +139,9 @@ UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOpti
 
 }  // namespace
 
-FlipOptions adapt_flip_options(Effort effort) {
-  FlipOptions options = flip_options(effort);
-  if (const char* e = getenv("FR")) options.flow.rounds = atoi(e);
-  if (const char* e = getenv("PS")) options.polish.sweeps = atoi(e);
-  if (const char* e = getenv("PL")) options.polish.last_threshold = atoi(e);
+AdaptOptions adapt_options(Effort effort) {
+  AdaptOptions options;
+  if (effort == Effort::fast) options.rounds = 6;
   return options;
 }
 

@@ -23,9 +23,8 @@ struct AdaptOptions {
   CountOptions count;
 };
 
-/// What follows the adaptation, by effort: the options of mode `flip`, but for what adaptation has done
-/// already.
-FlipOptions adapt_flip_options(Effort effort);
+/// The options that an effort stands for.
+AdaptOptions adapt_options(Effort effort);
 
 struct AdaptResult {
   UntangleResult untangle;
