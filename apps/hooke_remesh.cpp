@@ -13,6 +13,7 @@
 #include "hooke/error.h"
 #include "hooke/io/atomic_write.h"
 #include "hooke/io/id_list.h"
+#include "hooke/io/map_text.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"
@@ -31,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 /// Everything that can be known to fail before the work is done.
 void require_outputs(const Settings& s) {
   std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path& file : {s.output, std::filesystem::path(s.report), s.trace}) {
+  for (const std::filesystem::path& file : {s.output, std::filesystem::path(s.report), s.trace, s.map}) {
     if (file.empty() || file == "-") continue;
     require_distinct(s.input, file);
     for (const std::filesystem::path& other : files) require_distinct(other, file);
@@ -115,7 +116,8 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const Connectivity& co
                             {"sizing", s.sizing_text}});
   record.parameters["gradation"] =
       std::isfinite(s.gradation) ? nlohmann::ordered_json(s.gradation) : nlohmann::ordered_json();
-  if (!s.check) warn_of_length(s, covering_length(points, connectivity, targets), natural, record);
+  if (!s.check && s.remesh.connectivity != ConnectivityMode::adapt)
+    warn_of_length(s, covering_length(points, connectivity, targets), natural, record);
 }
 
 RemeshResult optimize(const Settings& s, TriMesh& mesh, Stopwatch& stopwatch) {
@@ -160,18 +162,21 @@ int run(Settings s) {
     record.status = status_of(record.result->reason);
     const bool faces_kept = s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
     const Connectivity changed =
-        faces_kept ? Connectivity{} : make_connectivity(connectivity.vertex_count, triangles_of(mesh));
+        faces_kept ? Connectivity{}
+                   : make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
     const Connectivity& after = faces_kept ? connectivity : changed;
     const MeasuredSurface result =
         timed(&stopwatch, "tree", [&] { return MeasuredSurface(positions(mesh), after); });
     record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, stopwatch); });
     record.deviation =
         timed(&stopwatch, "deviation", [&] { return measure_deviation(original, result, &stopwatch); });
+    if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
     const WrittenFile written = timed(&stopwatch, "write", [&] {
       return write_mesh(s.output, mesh, s.format, loaded.encoding, &stopwatch);
     });
     record.output = {printable(s.output.string()), written.sha256, s.format,
                      faces_kept ? record.input.connectivity_sha256 : connectivity_sha256(after.faces)};
+    if (!s.map.empty()) write_file_atomically(s.map, map_text(record.result->map));
     add_result_warnings(s, record);
   }
   record.stages = stopwatch.stages();

@@ -75,7 +75,12 @@ void print_summary(const Settings& s, const RunRecord& run) {
   fmt::print(stderr, "{}", quality_table(run.before, *run.after, *run.deviation));
   fmt::print(stderr, "\n{}\n", reason_in_words(run));
   const FlipResult& f = run.result->flips;
-  if (f.flow.rounds > 0)
+  const AdaptResult& a = run.result->adaptation;
+  if (a.rounds > 0)
+    fmt::print(stderr, "{} edges split, {} collapsed, {} flipped: {} vertices, {} faces ({:.0f} wanted)\n",
+               a.splits, a.collapses, a.flips + f.flips, run.after->topology.vertices,
+               run.after->topology.faces, a.wanted_faces);
+  else if (f.flow.rounds > 0)
     fmt::print(stderr, "{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n",
                f.flips, f.max_travel, f.rms_travel);
   fmt::print(stderr, "{} written in {:.2f} s\n", run.output->path, run.resources.wall_s);

@@ -62,7 +62,8 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
   const std::map<std::string, IntegratorKind> integrators{{"lbfgs", IntegratorKind::lbfgs},
                                                           {"damped", IntegratorKind::damped}};
   const std::map<std::string, ConnectivityMode> modes{{"fixed", ConnectivityMode::fixed},
-                                                      {"flip", ConnectivityMode::flip}};
+                                                      {"flip", ConnectivityMode::flip},
+                                                      {"adapt", ConnectivityMode::adapt}};
   const std::map<std::string, Effort> efforts{
       {"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}};
   const std::map<std::string, FilterKind> filters{{"local", FilterKind::local},
@@ -109,10 +110,17 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
       ->group(target);
 
   app.add_option("--connectivity", s.remesh.connectivity,
-                 "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel")
+                 "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel; "
+                 "adapt: new vertices and faces, as many as --length asks for")
       ->transform(one_of(modes))
-      ->type_name("fixed|flip")
+      ->type_name("fixed|flip|adapt")
       ->default_str("fixed")
+      ->group(target);
+
+  app.add_option("--map", s.map,
+                 "Where the output's vertices lie on the input: per line its vertex id there or -1, a face "
+                 "of the input and three weights of that face's corners")
+      ->type_name("FILE")
       ->group(target);
 
   const char* method = "Method";
@@ -272,6 +280,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   settle_sizing(s, words);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
   set_effort(s.remesh, s.effort);
+  s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
   if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
@@ -280,9 +289,11 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
     s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *words.max_steps;
   if (words.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *words.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
-  const bool flips = s.remesh.connectivity == ConnectivityMode::flip;
-  if (s.paper && flips) throw Error("--paper keeps the faces; leave out --connectivity flip");
+  if (s.paper && s.remesh.connectivity != ConnectivityMode::fixed)
+    throw Error("--paper keeps the faces; leave out --connectivity");
   if (s.paper && effort_given) throw Error("--paper takes the time it takes; leave out --effort");
+  if (s.paper && !s.map.empty()) throw Error("--paper makes no map; leave out --map");
+  if (s.check && !s.map.empty()) throw Error("--check makes no map; leave out --map");
   if (s.check && !s.output.empty()) throw Error("--check writes no mesh; leave out --output");
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");

@@ -24,6 +24,7 @@ struct Settings {
   bool check = false;                     // measure the input only
   bool paper = false;
   Effort effort = Effort::standard;
+  std::filesystem::path map;  // empty without
   RemeshOptions remesh;
   PaperOptions paper_options;
   std::filesystem::path fix;    // file of vertex ids that stay; empty without

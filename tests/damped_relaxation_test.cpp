@@ -37,7 +37,7 @@ struct Bench {
 
   Relaxation relaxation() {
     return {work.mesh, *work.connectivity, work.sweeps, work.vertex_length,
-            energy,    *work.retraction,   guards,       work.placement};
+            energy,    *work.retraction,   guards,      work.placement};
   }
   IntegrationResult damped(const IntegrationOptions& options = {}, const DampedOptions& constants = {},
                            const Observer& observer = nullptr) {
@@ -171,7 +171,7 @@ TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
   Retraction retraction(runs_away, b.work.constraints, {});
   const Mat3X before = b.work.placement.points;
   Relaxation r{b.work.mesh, *b.work.connectivity, b.work.sweeps, b.work.vertex_length,
-               b.energy,    retraction,           b.guards,       b.work.placement};
+               b.energy,    retraction,           b.guards,      b.work.placement};
   const IntegrationResult result = relax_damped(r, {}, {}, nullptr);
   EXPECT_EQ(result.reason, StopReason::jammed);
   EXPECT_EQ(result.steps, 0);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "flipping_scene.h"
+#include "hooke/topology.h"
 
 namespace hooke {
 namespace {
@@ -91,6 +92,64 @@ TEST(Triangulation, FlipsAroundKeepConstrainedEdges) {
       EXPECT_FALSE(t.is_constrained(side));
   }
   EXPECT_EQ(constrained(), before);
+}
+
+/// Splits and collapses at random, then closes the gaps.
+Triangulation shaken(Triangulation t, int steps, unsigned seed) {
+  std::mt19937 random(seed);
+  for (int i = 0; i < steps; ++i) {
+    const int h = static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count()));
+    if (t.is_gone(h / 3)) continue;
+    if (random() % 3 == 0)
+      t.split(h);
+    else if (t.may_collapse(h))
+      t.collapse(h);
+  }
+  t.compact();
+  return t;
+}
+
+TEST(Triangulation, SplitsAndCollapsesKeepTheTopology) {
+  for (const test::Triangles& start : {test::grid(6, test::flat), test::sphere(2)}) {
+    const Topology before =
+        measure_topology(make_connectivity(static_cast<int>(start.points.cols()), start.faces));
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const Triangulation t = shaken(triangulate(start), 3000, seed);
+      expect_sound(t, t.vertex_count());
+      const Topology after = measure_topology(make_connectivity(t.vertex_count(), t.faces()));
+      EXPECT_EQ(after.euler, before.euler);
+      EXPECT_EQ(after.boundary_loops, before.boundary_loops);
+      EXPECT_EQ(after.components, before.components);
+      EXPECT_EQ(after.isolated_vertices, 0);
+    }
+  }
+}
+
+TEST(Triangulation, ATriangleAndATetrahedronDoNotCollapse) {
+  const Triangulation triangle(make_connectivity(3, {{0, 1, 2}}));
+  const Triangulation tetrahedron(make_connectivity(4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}));
+  for (const Triangulation* t : {&triangle, &tetrahedron})
+    for (int h = 0; h < t->half_edge_count(); ++h) EXPECT_FALSE(t->may_collapse(h));
+}
+
+TEST(Triangulation, BothHalvesOfAConstrainedEdgeAreConstrained) {
+  Triangulation t = triangulate(test::sphere(1));
+  const int h = 10, a = t.from(h), b = t.to(h);
+  t.constrain(h);
+  const int v = t.split(h);
+  for (const auto& [from, to] : {std::pair(a, v), std::pair(v, b), std::pair(v, a), std::pair(b, v)})
+    EXPECT_TRUE(t.is_constrained(test::half_edge(t, from, to)));
+  EXPECT_EQ(std::ranges::count_if(t.outgoing(v), [&](int s) { return t.is_constrained(s); }), 2);
+  t.collapse(test::half_edge(t, v, a));
+  EXPECT_TRUE(t.is_constrained(test::half_edge(t, a, b)));
+  EXPECT_EQ(t.compact().size(), 42u);
+}
+
+TEST(Triangulation, CompactKeepsWhatHasNoFaces) {
+  Triangulation t(make_connectivity(7, {{1, 2, 3}, {3, 2, 5}, {2, 4, 5}}));
+  const int h = test::half_edge(t, 2, 5);
+  ASSERT_FALSE(t.may_collapse(h));
+  EXPECT_EQ(t.compact(), (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
 }
 
 TEST(Triangulation, AFlipJoinsTheCornersAcross) {

@@ -15,7 +15,8 @@ class FlipMode {
         terms_(terms),
         guards_(guards),
         observer_(observer),
-        corner_valences_(corner_valences(work.start, *work.connectivity, work.constraints, corner_angle)) {}
+        corner_valences_(
+            corner_valences(positions(work.mesh), *work.connectivity, work.constraints, corner_angle)) {}
 
   FlipResult run() {
     unfold();

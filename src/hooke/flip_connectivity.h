@@ -15,6 +15,7 @@ namespace hooke {
 enum class ConnectivityMode {
   fixed,  // the faces stay
   flip,   // edges are flipped
+  adapt,  // they are split and collapsed too: other vertices and faces
 };
 
 /// How long to go on for better triangles.
@@ -49,7 +50,7 @@ struct FlipResult {
 FlipResult flip_connectivity(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
                              const GuardOptions& guards, double corner_angle, const Observer& observer);
 
-/// How far the vertices are from where they started, in target lengths.
+/// How far the vertices are from where they started, in target lengths. Pre-condition: they are the same.
 void measure_travel(const Workspace& work, FlipResult& result);
 
 }  // namespace hooke

@@ -85,7 +85,7 @@ class PaperRun {
     seen.points = work_.placement.points;
     Guards guards(*work_.connectivity, work_.targets, {});
     guards.accept(seen);
-    return faces_of_input(work_, guards.folded_faces());
+    return faces_of_result(work_, guards.folded_faces());
   }
 
   std::vector<int> input_anchors() const {

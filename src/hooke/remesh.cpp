@@ -74,9 +74,14 @@ class Remeshing {
     throw Error("unknown integrator");
   }
 
+  /// A coarser mesh knows less of the surface than the input does.
+  bool refits() const {
+    return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt;
+  }
+
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
-    if (options_.refit == Refit::each && outer_ > 1) work_.refit();
+    if (refits() && outer_ > 1) work_.refit();
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
     result_.not_landed = work_.land();
@@ -91,9 +96,9 @@ class Remeshing {
 
   void raise_angles() {
     const Stage stage(work_.stopwatch, "polish");
-    if (options_.refit == Refit::each) work_.refit();
+    if (refits()) work_.refit();
     Relaxation r = relaxation();
-    const bool flips = options_.connectivity == ConnectivityMode::flip;
+    const bool flips = options_.connectivity != ConnectivityMode::fixed;
     result_.polish =
         polish(r, work_.targets, flips ? options_.flips.polish : options_.polish, watch("polish"));
     if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
@@ -104,7 +109,7 @@ class Remeshing {
 
   void conclude() {
     guards_.accept(work_.placement);
-    result_.folded_faces = faces_of_input(work_, guards_.folded_faces());
+    result_.folded_faces = faces_of_result(work_, guards_.folded_faces());
     result_.projection = work_.projection_counts();
   }
 
@@ -135,7 +140,8 @@ class Remeshing {
 
 void set_effort(RemeshOptions& options, Effort effort) {
   options.flips = flip_options(effort);
-  if (options.connectivity == ConnectivityMode::flip) return;
+  options.adaptation = adapt_options(effort);
+  if (options.connectivity != ConnectivityMode::fixed) return;
   switch (effort) {
     case Effort::fast:  // one round, and angle springs once, not in rising stages
       options.max_outer = 1;
@@ -175,7 +181,7 @@ IterationRecord iteration_record(const Workspace& work, const char* stage, const
   return record;
 }
 
-std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& faces) {
+std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces) {
   std::vector<int> ids;
   for (int f : faces) ids.push_back(work.order.old_face[static_cast<size_t>(f)]);
   std::ranges::sort(ids);
@@ -185,17 +191,33 @@ std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& f
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer,
                     Stopwatch* stopwatch) {
   Workspace work(mesh, options.constraints, options.filter, options.retraction, options.guards, stopwatch);
+  const EnergyTerms terms{.altitude = options.altitude};
+  const double corner_angle = options.constraints.corner_angle;
+  AdaptResult adapted;
   FlipResult flips;
-  if (options.connectivity == ConnectivityMode::flip) {
-    const Stage stage(stopwatch, "flip");
-    flips = flip_connectivity(work, options.flips, {.altitude = options.altitude}, options.guards,
-                              options.constraints.corner_angle, observer);
-  }
+  if (options.connectivity == ConnectivityMode::adapt)
+    adapted = timed(stopwatch, "adapt", [&] {
+      return adapt(work, options.adaptation, options.flips.guard, terms, options.guards, corner_angle, observer);
+    });
+  flips.interrupted = adapted.interrupted;
+  if (options.connectivity != ConnectivityMode::fixed && !flips.interrupted)
+    flips = timed(stopwatch, "flip", [&] {
+      return flip_connectivity(work, options.flips, terms, options.guards, corner_angle, observer);
+    });
   RemeshResult result = Remeshing(work, options, observer).run(flips);
-  if (options.connectivity == ConnectivityMode::flip) {
-    result.folded_before = flips.untangle.folded_before;
-    measure_travel(work, result.flips);
+  result.adaptation = adapted;
+  switch (options.connectivity) {
+    case ConnectivityMode::fixed:
+      break;
+    case ConnectivityMode::flip:
+      result.folded_before = flips.untangle.folded_before;
+      measure_travel(work, result.flips);
+      break;
+    case ConnectivityMode::adapt:
+      result.folded_before = adapted.untangle.folded_before;
+      break;
   }
+  if (options.map) result.map = work.map();
   work.copy_back(mesh);
   return result;
 }

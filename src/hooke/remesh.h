@@ -2,6 +2,7 @@
 // "Hooke's Optimization for 3D triangular mesh".
 #pragma once
 
+#include "hooke/adaptation.h"
 #include "hooke/damped_relaxation.h"
 #include "hooke/flip_connectivity.h"
 #include "hooke/lbfgs.h"
@@ -21,7 +22,9 @@ enum class IntegratorKind {
 
 struct RemeshOptions {
   ConnectivityMode connectivity = ConnectivityMode::fixed;
-  FlipOptions flips = flip_options(Effort::standard);  // in mode `flip`
+  FlipOptions flips = flip_options(Effort::standard);  // in the modes `flip` and `adapt`
+  AdaptOptions adaptation;                             // in mode `adapt`
+  bool map = false;                                    // RemeshResult::map is wanted
   IntegratorKind integrator = IntegratorKind::lbfgs;
   IntegrationOptions integration;
   LbfgsOptions lbfgs;
@@ -32,7 +35,7 @@ struct RemeshOptions {
   PolishOptions polish;
   bool polish_angles = true;
   FilterOptions filter;
-  Refit refit = Refit::each;  // of the field, before each outer iteration or once
+  Refit refit = Refit::each;  // of the field, before each outer iteration or once, which `adapt` always does
   RetractionOptions retraction{.tolerance = 1e-6, .lazy = .05};
   ConstraintOptions constraints;
   double tolerance = 1e-3;   // of every edge, in parts of its target length
@@ -61,8 +64,10 @@ struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
   int folded_before = 0;
-  std::vector<int> folded_faces;  // still folded away from the surface, ids of the input
-  FlipResult flips;               // in mode `flip`
+  std::vector<int> folded_faces;  // still folded away from the surface, ids of the result
+  FlipResult flips;               // in the modes `flip` and `adapt`
+  AdaptResult adaptation;         // in mode `adapt`
+  std::vector<MapEntry> map;      // per vertex of the result
   int not_landed = 0;             // vertices that stay off the input's field, where landing would fold a face
   PolishResult polish;
   ProjectionCounts projection;
@@ -74,14 +79,15 @@ struct RemeshResult {
 /// The state of the work after `done`; all but the seconds.
 IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done);
 
-/// The ids that these faces of the work have in the mesh it was made from, ascending.
-std::vector<int> faces_of_input(const Workspace& work, const std::vector<int>& faces);
+/// The ids that these faces of the work have in the result, ascending.
+std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces);
 
 /// Moves the vertices of the mesh on its own surface until its edges are as near to their target lengths
 /// (v:target_length) as the connectivity allows, then raises its least angles. Ids stay, and in mode `fixed`
 /// connectivity; in mode `flip` the mesh gets new faces, of as many ids, and its vertices may travel far from
-/// where they were. The mesh is always left valid; an observer that returns false stops with what has been
-/// reached.
+/// where they were. In mode `adapt` it gets other vertices too: first those that are left of its own, in
+/// their order, then new ones. The mesh is always left valid; an observer that returns false stops with what
+/// has been reached.
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr,
                     Stopwatch* stopwatch = nullptr);
 

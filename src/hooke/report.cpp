@@ -41,6 +41,18 @@ const char* name_of(BoundaryRule rule) {
   return "";
 }
 
+const char* name_of(ConnectivityMode mode) {
+  switch (mode) {
+    case ConnectivityMode::fixed:
+      return "fixed";
+    case ConnectivityMode::flip:
+      return "flip";
+    case ConnectivityMode::adapt:
+      return "adapt";
+  }
+  return "";
+}
+
 void add_filter(Json& j, const FilterOptions& filter) {
   j["filter"] = name_of(filter.kind);
   j["kernel"] = filter.kernel == Kernel::r3 ? "r3" : "r2logr";
@@ -95,12 +107,24 @@ Json geometry_json(const RunRecord& run) {
   return j;
 }
 
-/// What mode `flip` did: null without it. Travel is in target lengths.
+/// What mode `flip` did, and mode `adapt` after it had adapted: null without. Travel is in target lengths,
+/// null where vertices came and went.
 Json flips_json(const RunRecord& run) {
   if (!run.result || run.result->flips.flow.rounds == 0) return nullptr;
   const FlipResult& f = run.result->flips;
-  return {{"flips", f.flips},   {"flow_rounds", f.flow.rounds}, {"spring_rounds", f.spring_rounds},
-          {"passes", f.passes}, {"max_travel", f.max_travel},   {"rms_travel", f.rms_travel}};
+  Json j = {{"flips", f.flips},   {"flow_rounds", f.flow.rounds}, {"spring_rounds", f.spring_rounds},
+            {"passes", f.passes}, {"max_travel", f.max_travel},   {"rms_travel", f.rms_travel}};
+  if (run.result->adaptation.rounds > 0) j["max_travel"] = j["rms_travel"] = nullptr;
+  return j;
+}
+
+/// What mode `adapt` did: null without it.
+Json adaptation_json(const RunRecord& run) {
+  if (!run.result || run.result->adaptation.rounds == 0) return nullptr;
+  const AdaptResult& a = run.result->adaptation;
+  return {{"rounds", a.rounds}, {"count_rounds", a.count_rounds},
+          {"splits", a.splits}, {"collapses", a.collapses},
+          {"flips", a.flips},   {"wanted_faces", a.wanted_faces}};
 }
 
 Json stages_json(const std::vector<StageTime>& stages) {
@@ -126,7 +150,7 @@ std::string connectivity_sha256(const std::vector<Triangle>& faces) {
 Json parameters_json(const RemeshOptions& o) {
   Json j;
   j["paper"] = false;
-  j["connectivity"] = o.connectivity == ConnectivityMode::fixed ? "fixed" : "flip";
+  j["connectivity"] = name_of(o.connectivity);
   j["flow_rounds"] = o.connectivity == ConnectivityMode::fixed ? 0 : o.flips.flow.rounds;
   j["integrator"] = o.integrator == IntegratorKind::lbfgs ? "lbfgs" : "damped";
   j["polish"] = o.polish_angles;
@@ -136,7 +160,9 @@ Json parameters_json(const RemeshOptions& o) {
   j["polish_up_to"] = polish.last_threshold;
   j["polish_edge_limit"] = polish.edge_error_limit;
   add_filter(j, o.filter);
-  j["refit"] = o.refit == Refit::each ? "each" : "once";
+  const bool adapts = o.connectivity == ConnectivityMode::adapt;
+  j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
+  j["refit"] = o.refit == Refit::each && !adapts ? "each" : "once";
   j["altitude"] = o.altitude;
   j["string"] = o.damped.string;
   j["torque"] = o.damped.torque;
@@ -220,6 +246,7 @@ Json report_json(const RunRecord& run) {
     j["held_back"] = run.result->held_back;
   }
   j["flips"] = flips_json(run);
+  j["adaptation"] = adaptation_json(run);
   j["gates"] = Json::array();
   j["warnings"] = Json::array();
   for (const Warning& w : run.warnings) j["warnings"].push_back({{"code", w.code}, {"message", w.message}});

@@ -152,6 +152,11 @@ void Retraction::constrain(const Placement& at, Mat3X& vectors) const {
   });
 }
 
+void Retraction::resize(size_t vertices) {
+  count();
+  uncounted_.resize(vertices);
+}
+
 void Retraction::count() {
   for (Uncounted& vertex : uncounted_) {
     const int calls = std::reduce(vertex.by_status.begin(), vertex.by_status.end());

@@ -71,6 +71,10 @@ class Retraction {
   /// Removes what a vertex may not do: the normal part, all but the part along its curve, or everything.
   void constrain(const Placement& at, Mat3X& vectors) const;
 
+  /// To be called when the constraints have come to be of another number of vertices, or to be ready for as
+  /// many.
+  void resize(size_t vertices);
+
   const ProjectionCounts& counts() const { return counts_; }
   bool stands_still(int vertex) const;
   const Surface& surface() const { return surface_; }

@@ -1,5 +1,6 @@
 #include "hooke/triangulation.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace hooke {
@@ -44,6 +45,14 @@ std::vector<int> Triangulation::outgoing(int vertex) const {
   return spokes;
 }
 
+std::vector<int> Triangulation::neighbours(int vertex) const {
+  const std::vector<int> spokes = outgoing(vertex);
+  std::vector<int> ring;
+  for (int h : spokes) ring.push_back(to(h));
+  if (!spokes.empty() && twin(previous(spokes.back())) < 0) ring.push_back(apex(spokes.back()));
+  return ring;
+}
+
 bool Triangulation::adjacent(int a, int b) const {
   for (int h : outgoing(a))
     if (to(h) == b || apex(h) == b) return true;
@@ -85,6 +94,117 @@ void Triangulation::flip(int h) {
   --valences_[static_cast<size_t>(b)];
   ++valences_[static_cast<size_t>(c)];
   ++valences_[static_cast<size_t>(d)];
+}
+
+/// Cuts the face of h between its apex and the new vertex: h ends there, and the last face goes on.
+void Triangulation::halve(int h, int vertex) {
+  const int b = to(h), c = apex(h), across = twin(next(h));
+  const auto f = static_cast<size_t>(h / 3), side = static_cast<size_t>(next(h));
+  const int g = static_cast<int>(twins_.size());  // first half-edge of the new face
+  faces_[f][side % 3] = vertex;
+  faces_.push_back({vertex, b, c});
+  twins_.insert(twins_.end(), 3, -1);
+  constrained_.insert(constrained_.end(), {constrained_[static_cast<size_t>(h)], constrained_[side], 0});
+  constrained_[side] = 0;
+  link(g + 1, across);
+  link(g + 2, next(h));
+  leaving_[static_cast<size_t>(vertex)] = g;
+  leaving_[static_cast<size_t>(b)] = g + 1;
+  ++valences_[static_cast<size_t>(vertex)];
+  ++valences_[static_cast<size_t>(c)];
+}
+
+int Triangulation::split(int h) {
+  const int t = twin(h), a = from(h);
+  const int vertex = vertex_count();
+  valences_.push_back(2);
+  leaving_.push_back(-1);
+  on_boundary_.push_back(t < 0);
+  halve(h, vertex);
+  const int beyond = half_edge_count() - 3;  // from the vertex to the old end of h
+  leaving_[static_cast<size_t>(a)] = h;
+  if (t < 0) return vertex;
+  halve(t, vertex);
+  link(h, half_edge_count() - 3);
+  link(t, beyond);
+  return vertex;
+}
+
+bool Triangulation::may_collapse(int h) const {
+  const int a = from(h), b = to(h), t = twin(h);
+  if (t >= 0 && on_boundary(a) && on_boundary(b)) return false;
+  const auto may_lose = [this](int v) { return valence(v) > (on_boundary(v) ? 2 : 3); };
+  if (!may_lose(apex(h)) || (t >= 0 && !may_lose(apex(t)))) return false;
+  const std::vector<int> ring = neighbours(a);
+  int common = 0;
+  for (int v : neighbours(b)) common += std::ranges::count(ring, v) > 0;
+  return common == (t < 0 ? 1 : 2);
+}
+
+/// Removes the face of h, whose other two sides fall together.
+void Triangulation::close(int h) {
+  const int b = to(h), c = apex(h);
+  const int left = twin(next(h)), right = twin(previous(h));
+  const bool marked = is_constrained(next(h)) || is_constrained(previous(h));
+  if (left >= 0) twins_[static_cast<size_t>(left)] = right;
+  if (right >= 0) twins_[static_cast<size_t>(right)] = left;
+  for (int side : {left, right})
+    if (side >= 0) constrained_[static_cast<size_t>(side)] = marked;
+  leaving_[static_cast<size_t>(b)] = left >= 0 ? next(left) : right;
+  leaving_[static_cast<size_t>(c)] = left >= 0 ? left : next(right);
+  --valences_[static_cast<size_t>(c)];
+  faces_[static_cast<size_t>(h / 3)] = {-1, -1, -1};
+  for (int side : {h, next(h), previous(h)}) {
+    twins_[static_cast<size_t>(side)] = -1;
+    constrained_[static_cast<size_t>(side)] = 0;
+  }
+}
+
+void Triangulation::collapse(int h) {
+  assert(may_collapse(h));
+  const int a = from(h), b = to(h), t = twin(h);
+  for (int spoke : outgoing(a)) faces_[static_cast<size_t>(spoke / 3)][static_cast<size_t>(spoke % 3)] = b;
+  // Every edge of a but those to b and to the apexes is new at b.
+  valences_[static_cast<size_t>(b)] += valences_[static_cast<size_t>(a)] - (t < 0 ? 3 : 4);
+  on_boundary_[static_cast<size_t>(b)] |= on_boundary_[static_cast<size_t>(a)];
+  close(h);
+  if (t >= 0) close(t);
+  leaving_[static_cast<size_t>(a)] = -1;
+  valences_[static_cast<size_t>(a)] = -1;
+}
+
+std::vector<int> Triangulation::compact() {
+  std::vector<int> kept, vertex_id(valences_.size(), -1), face_id(faces_.size(), -1);
+  for (int v = 0; v < vertex_count(); ++v)
+    if (valence(v) >= 0) {
+      vertex_id[static_cast<size_t>(v)] = static_cast<int>(kept.size());
+      kept.push_back(v);
+    }
+  int faces = 0;
+  for (size_t f = 0; f < faces_.size(); ++f)
+    if (!is_gone(static_cast<int>(f))) face_id[f] = faces++;
+  const auto renumber = [&](int h) { return h < 0 ? -1 : 3 * face_id[static_cast<size_t>(h / 3)] + h % 3; };
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    if (face_id[f] < 0) continue;
+    const auto g = static_cast<size_t>(face_id[f]);
+    for (size_t k = 0; k < 3; ++k) {
+      faces_[g][k] = vertex_id[static_cast<size_t>(faces_[f][k])];
+      twins_[3 * g + k] = renumber(twins_[3 * f + k]);
+      constrained_[3 * g + k] = constrained_[3 * f + k];
+    }
+  }
+  for (size_t i = 0; i < kept.size(); ++i) {
+    const auto v = static_cast<size_t>(kept[i]);
+    leaving_[i] = renumber(leaving_[v]);
+    valences_[i] = valences_[v];
+    on_boundary_[i] = on_boundary_[v];
+  }
+  faces_.resize(static_cast<size_t>(faces));
+  twins_.resize(3 * faces_.size());
+  constrained_.resize(3 * faces_.size());
+  for (auto* per_vertex : {&leaving_, &valences_}) per_vertex->resize(kept.size());
+  on_boundary_.resize(kept.size());
+  return kept;
 }
 
 }  // namespace hooke

@@ -1,5 +1,6 @@
-// Triangles whose edges can be flipped: who lies across each edge, in flat arrays. Faces and vertices keep
-// their ids; a flip reuses the ids of the two faces it joins.
+// Triangles whose edges can be flipped, split and collapsed: who lies across each edge, in flat arrays. Faces
+// and vertices keep their ids; a flip reuses the ids of the two faces it joins, a split adds ids at the end,
+// and those that a collapse sets free stay unused until compact().
 #pragma once
 
 #include "hooke/connectivity.h"
@@ -12,6 +13,7 @@ class Triangulation {
   explicit Triangulation(const Connectivity& connectivity);
 
   const std::vector<Triangle>& faces() const { return faces_; }
+  int vertex_count() const { return static_cast<int>(valences_.size()); }  // with those that are gone
   int half_edge_count() const { return static_cast<int>(twins_.size()); }
 
   int from(int h) const { return faces_[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
@@ -24,11 +26,17 @@ class Triangulation {
   /// Number of edges at the vertex.
   int valence(int vertex) const { return valences_[static_cast<size_t>(vertex)]; }
 
+  /// A face that a collapse has removed: its half-edges join nothing and have no twins.
+  bool is_gone(int face) const { return faces_[static_cast<size_t>(face)][0] < 0; }
+
   bool on_boundary(int vertex) const { return on_boundary_[static_cast<size_t>(vertex)] != 0; }
 
   /// The half-edges that leave the vertex, counter-clockwise; the first is the boundary one where there is
   /// one.
   std::vector<int> outgoing(int vertex) const;
+
+  /// The vertices that share an edge with this one, counter-clockwise.
+  std::vector<int> neighbours(int vertex) const;
 
   /// Does an edge join a and b?
   bool adjacent(int a, int b) const;
@@ -45,13 +53,32 @@ class Triangulation {
   /// The half-edge of the flipped edge in the face of h, after flip(h).
   static int flipped(int h) { return h / 3 * 3 + 2; }
 
+  /// Puts a new vertex on the edge of h and cuts the faces there in two. h comes to end in the vertex, whose
+  /// id is the last one and is returned. Both halves are constrained if the edge was.
+  int split(int h);
+
+  /// May the ends of h become one vertex without a change of the topology? The link condition: H.
+  /// Edelsbrunner, "Geometry and topology for mesh generation", 2001. Holes and components keep at least a
+  /// triangle.
+  bool may_collapse(int h) const;
+
+  /// Merges from(h) into to(h): that vertex and the faces of h are gone. Sides that fall together are
+  /// constrained if one of them was. Pre-condition: may_collapse(h).
+  void collapse(int h);
+
+  /// Gives up the unused ids. Returns the old ids of the vertices that are left, ascending; the faces keep
+  /// their order too.
+  std::vector<int> compact();
+
  private:
   void link(int h, int twin);
+  void halve(int h, int vertex);
+  void close(int h);
 
   std::vector<Triangle> faces_;
   std::vector<int> twins_;
-  std::vector<int> leaving_;  // per vertex: one half-edge that leaves it, -1 without faces
-  std::vector<int> valences_;
+  std::vector<int> leaving_;   // per vertex: one half-edge that leaves it, -1 without faces
+  std::vector<int> valences_;  // -1 for a vertex that is gone
   std::vector<char> on_boundary_;
   std::vector<char> constrained_;  // per half-edge
 };

@@ -56,13 +56,15 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
     vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
   }
   targets = spread_target_lengths(*connectivity, vertex_length);
-  lengths_ = LengthField(start, connectivity, vertex_length);
-  length_anchors_ = identity(n);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(start, *connectivity, reordered); });
   mesh = build_mesh(start, *connectivity);
+  origins = identity(n);
+  input_order_ = order;
+  input_connectivity_ = connectivity;
+  start_length_ = vertex_length;
 
   const Stage stage(stopwatch, "fit");
   const SurfaceField field(start, connectivity, filter_);
@@ -120,35 +122,129 @@ void Workspace::replace_faces(std::vector<Triangle> faces) {
   faces_replaced_ = true;
 }
 
-void Workspace::resample_lengths() {
-  if (lengths_.uniform()) return;
-  parallel_for(vertex_length.size(), 512, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v)
-      vertex_length[v] = lengths_.at(placement.points.col(static_cast<Eigen::Index>(v)), length_anchors_[v]);
+void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>& before) {
+  const auto n = before.size();
+  std::vector<int> by_id = identity(static_cast<int>(n));  // in the order of the result
+  std::ranges::stable_sort(by_id, {}, [&](int v) {
+    const int old = before[static_cast<size_t>(v)];
+    return old < 0 ? std::numeric_limits<int>::max() : order.old_vertex[static_cast<size_t>(old)];
   });
+  std::vector<int> id(n);
+  for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
+  for (Triangle& t : faces)
+    for (int& v : t) v = id[static_cast<size_t>(v)];
+  const Connectivity given = make_connectivity(static_cast<int>(n), std::move(faces));
+  order = reorder(given, locality_order(given));
+  connectivity = std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(n), order.faces));
+  sweeps = plan_sweeps(*connectivity);
+
+  std::vector<int> source(n), place(n);  // where each vertex comes from, and goes to
+  for (size_t v = 0; v < n; ++v) {
+    source[v] = by_id[static_cast<size_t>(order.old_vertex[v])];
+    place[static_cast<size_t>(source[v])] = static_cast<int>(v);
+  }
+  const auto arrange = [&](auto& values) {
+    const auto old = values;
+    for (size_t v = 0; v < n; ++v) values[v] = old[static_cast<size_t>(source[v])];
+  };
+  for (Mat3X* matrix : {&placement.points, &placement.normals, &placement.tangents})
+    *matrix = (*matrix)(Eigen::all, source).eval();
+  arrange(placement.anchors);
+  arrange(placement.segments);
+  arrange(placement.drift);
+  arrange(vertex_length);
+  arrange(constraints.freedom);
+  arrange(constraints.curve);
+  arrange(constraints.segment);
+  for (Edge& crease : constraints.creases)
+    for (int& v : crease) v = place[static_cast<size_t>(v)];
+  std::vector<int> from(n, -1);
+  for (size_t v = 0; v < n; ++v)
+    if (const int old = before[static_cast<size_t>(source[v])]; old >= 0)
+      from[v] = origins[static_cast<size_t>(old)];
+  origins = std::move(from);
+
   targets = spread_target_lengths(*connectivity, vertex_length);
-  lengths_resampled_ = true;
+  mesh = build_mesh(placement.points, *connectivity);
+  input_anchors_ = placement.anchors;
+  retraction->resize(n);
+  to_input_->resize(n);
+  vertices_replaced_ = true;
+}
+
+SurfacePoint Workspace::place_on_input(int v) const {
+  const std::vector<int>& anchors = refitted_ ? input_anchors_ : placement.anchors;
+  return locate(start, *input_connectivity_, placement.points.col(v), anchors[static_cast<size_t>(v)]);
+}
+
+void Workspace::resample_lengths() {
+  if (!graded()) return;
+  vertex_length = input_lengths();
+  targets = spread_target_lengths(*connectivity, vertex_length);
+}
+
+bool Workspace::graded() const {
+  const auto [least, most] = std::ranges::minmax_element(start_length_);
+  return least != start_length_.end() && *least != *most;
+}
+
+std::vector<double> Workspace::input_lengths() const {
+  std::vector<double> lengths = vertex_length;
+  parallel_for(lengths.size(), 256, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      const SurfacePoint place = place_on_input(static_cast<int>(v));
+      if (place.face < 0) continue;
+      lengths[v] = 0;
+      for (size_t k = 0; k < 3; ++k)
+        lengths[v] += place.weights[static_cast<Eigen::Index>(k)] *
+                      start_length_[static_cast<size_t>(
+                          input_connectivity_->faces[static_cast<size_t>(place.face)][k])];
+    }
+  });
+  return lengths;
+}
+
+std::vector<MapEntry> Workspace::map() const {
+  std::vector<MapEntry> entries(order.old_vertex.size());
+  parallel_for(entries.size(), 256, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      MapEntry& entry = entries[static_cast<size_t>(order.old_vertex[v])];
+      entry.place = place_on_input(static_cast<int>(v));
+      if (entry.place.face >= 0)
+        entry.place.face = input_order_.old_face[static_cast<size_t>(entry.place.face)];
+      if (origins[v] >= 0) entry.vertex = input_order_.old_vertex[static_cast<size_t>(origins[v])];
+    }
+  });
+  return entries;
 }
 
 void Workspace::copy_back(TriMesh& target) const {
-  if (faces_replaced_) {
+  const Mat3X input = positions(target);
+  Mat3X points(3, placement.points.cols());
+  std::vector<double> lengths(vertex_length.size());
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    const auto place = static_cast<size_t>(order.old_vertex[static_cast<size_t>(v)]);
+    const int origin = origins[static_cast<size_t>(v)];
+    const bool stayed = origin >= 0 && placement.points.col(v) == start.col(origin);
+    points.col(static_cast<Eigen::Index>(place)) =
+        stayed ? Vec3(input.col(input_order_.old_vertex[static_cast<size_t>(origin)]))
+               : Vec3(normalisation.centre + normalisation.unit * placement.points.col(v));
+    lengths[place] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
+  }
+  if (faces_replaced_ || vertices_replaced_) {
     std::vector<Triangle> faces(connectivity->faces.size());
     for (size_t f = 0; f < faces.size(); ++f)
       for (size_t k = 0; k < 3; ++k)
         faces[static_cast<size_t>(order.old_face[f])][k] =
             order.old_vertex[static_cast<size_t>(connectivity->faces[f][k])];
-    hooke::replace_faces(target, make_connectivity(connectivity->vertex_count, std::move(faces)));
+    const Connectivity result = make_connectivity(connectivity->vertex_count, std::move(faces));
+    if (vertices_replaced_)
+      target = build_mesh(points, result);
+    else
+      hooke::replace_faces(target, result);
   }
-  auto out = positions(target);
-  for (Eigen::Index v = 0; v < start.cols(); ++v)
-    if (placement.points.col(v) != start.col(v))
-      out.col(order.old_vertex[static_cast<size_t>(v)]) =
-          normalisation.centre + normalisation.unit * placement.points.col(v);
-  if (!lengths_resampled_) return;
-  std::vector<double> lengths(vertex_length.size());
-  for (size_t v = 0; v < lengths.size(); ++v)
-    lengths[static_cast<size_t>(order.old_vertex[v])] = normalisation.unit * vertex_length[v];
-  set_vertex_values(target, target_length_property, lengths);
+  positions(target) = points;
+  if (graded() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
 }
 
 ProjectionCounts Workspace::projection_counts() const {

@@ -5,12 +5,12 @@
 
 #include "hooke/constraints.h"
 #include "hooke/guards.h"
-#include "hooke/length_field.h"
 #include "hooke/mesh.h"
 #include "hooke/ordering.h"
 #include "hooke/sizing.h"
 #include "hooke/stopwatch.h"
 #include "hooke/surface_field.h"
+#include "hooke/surface_point.h"
 #include "hooke/sweep_plan.h"
 
 namespace hooke {
@@ -39,41 +39,60 @@ struct Workspace {
   /// The vertices must still be on the field of the input: before the first refit().
   void replace_faces(std::vector<Triangle> faces);
 
-  /// Gives the vertices the target lengths of the places they have come to. Does nothing where these are the
-  /// same everywhere. The targets change in place.
+  /// Gives the work other vertices and faces. The caller has changed what the work holds per vertex in public
+  /// members, `faces` join the vertices as they stand there, and `origins` tells for each which vertex it was
+  /// before: -1 for a new one. All are put into memory order; in the result the vertices that were there keep
+  /// their order, and new ones follow. Pre-condition as for replace_faces().
+  void replace_mesh(std::vector<Triangle> faces, const std::vector<int>& origins);
+
+  /// Do target lengths vary?
+  bool graded() const;
+
+  /// Target lengths of the input at the places of the vertices, linear in its faces.
+  std::vector<double> input_lengths() const;
+
+  /// Gives the vertices the target lengths of the places they have come to, where these vary. The targets
+  /// change in place.
   void resample_lengths();
 
-  /// Writes the faces, where they were replaced, the points of all vertices that moved, and v:target_length,
-  /// where it was resampled, back to the mesh it was made from.
+  /// Writes the points of all vertices that moved back to the mesh it was made from, and v:target_length where
+  /// it varies; where they were replaced, the faces, or a new mesh.
   void copy_back(TriMesh& target) const;
+
+  /// Where the vertices of the result, in their order there, lie on the mesh the work was made from.
+  std::vector<MapEntry> map() const;
 
   ProjectionCounts projection_counts() const;
 
   Stopwatch* stopwatch;
   Normalisation normalisation;
-  Reordered order;
+  Reordered order;  // the ids in the result, which are those of the input while its vertices stay
   std::shared_ptr<const Connectivity> connectivity;
   SweepPlan sweeps;
   std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
   TargetLengths targets;
   Constraints constraints;
   TriMesh mesh;                            // normalised, in memory order; carries velocity and force
-  Mat3X start;                             // its points at the start
+  Mat3X start;                             // the points of the input
+  std::vector<int> origins;                // per vertex: which of `start` it was, -1 for a new one
   Placement placement;                     // of the vertices on the field fitted last
   std::unique_ptr<Retraction> retraction;  // to that field
 
  private:
+  SurfacePoint place_on_input(int vertex) const;
+
   FilterOptions filter_;
   GuardOptions guard_options_;
   RetractionOptions retraction_options_;
-  LengthField lengths_;              // on the input
-  std::vector<int> length_anchors_;  // where each vertex is tracked on it
   bool faces_replaced_ = false;
-  bool lengths_resampled_ = false;
-  bool refitted_ = false;                 // until then both fields are the same
-  std::vector<int> input_anchors_;        // where each vertex is tracked on the input
-  std::unique_ptr<Retraction> to_input_;  // to the field of the input
-  ProjectionCounts finished_;             // of the retractions that are gone
+  bool vertices_replaced_ = false;
+  Reordered input_order_;                                   // the ids in the input
+  std::shared_ptr<const Connectivity> input_connectivity_;  // on `start`
+  std::vector<double> start_length_;                        // target lengths there
+  bool refitted_ = false;                                   // until then both fields are the same
+  std::vector<int> input_anchors_;                          // where each vertex is tracked on the input
+  std::unique_ptr<Retraction> to_input_;                    // to the field of the input
+  ProjectionCounts finished_;                               // of the retractions that are gone
 };
 
 }  // namespace hooke

@@ -1,0 +1,161 @@
+#include "hooke/adaptation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hooke {
+namespace {
+
+Triangulation triangulate(const Workspace& work) {
+  Triangulation t(*work.connectivity);
+  for (const auto& [a, b] : work.constraints.creases)
+    for (int h : t.outgoing(a))
+      if (t.to(h) == b || t.apex(h) == b) {
+        t.constrain(t.to(h) == b ? h : Triangulation::previous(h));
+        break;
+      }
+  return t;
+}
+
+std::vector<int> all_vertices(const Workspace& work) {
+  std::vector<int> ids(work.vertex_length.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+class Adaptation {
+ public:
+  Adaptation(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
+             const GuardOptions& guards, double corner_angle, const Observer& observer)
+      : work_(work),
+        options_(options),
+        flip_guard_(flip_guard),
+        guards_(guards),
+        observer_(observer),
+        triangulation_(triangulate(work)),
+        corner_valences_(
+            corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)),
+        origins_(all_vertices(work)),
+        curve_finder_(work.constraints.curves),
+        graded_(std::ranges::adjacent_find(work.vertex_length, std::ranges::not_equal_to()) !=
+                work.vertex_length.end()) {
+    result_.wanted_faces =
+        wanted_face_count(work.placement.points, work.connectivity->faces, work.vertex_length);
+  }
+
+  AdaptResult run() {
+    for (int i = 0; i < options_.rounds && !result_.interrupted; ++i) change_lengths();
+    for (int i = 0; i < options_.count_rounds && !result_.interrupted; ++i)
+      if (!change_count()) break;
+    work_.replace_mesh(triangulation_.faces(), origins_);
+    return result_;
+  }
+
+ private:
+  void change_lengths() {
+    count_curve_edges(m_, options_.chord_error);
+    result_.splits += split_long_edges(m_, options_.split);
+    flip();
+    result_.collapses += collapse_short_edges(m_, options_.collapse);
+    add(settle_curves(m_, options_.count));
+    compact(m_);
+    ++result_.rounds;
+    settle(options_.flow_rounds);
+  }
+
+  bool change_count() {
+    if (std::abs(static_cast<double>(triangulation_.faces().size()) - result_.wanted_faces) <=
+        options_.count_slack)
+      return false;
+    count_curve_edges(m_, options_.chord_error);
+    const CountChanges curves = settle_curves(m_, options_.count);
+    const CountChanges inner = approach_count(m_, result_.wanted_faces, options_.count);
+    compact(m_);
+    add(curves);
+    add(inner);
+    if (inner.splits + inner.collapses == 0) return false;
+    ++result_.count_rounds;
+    settle(options_.count_flow);
+    return true;
+  }
+
+  void flip() {
+    FlippingMesh flipping = m_.flipping();
+    result_.flips += flip_to_delaunay(flipping, flip_guard_);
+  }
+
+  /// Flow, after which the mesh is Delaunay and its vertices lie on the surface.
+  void settle(int rounds) {
+    FlippingMesh flipping = m_.flipping();
+    result_.flips += flip_to_delaunay(flipping, flip_guard_) + force_corners(flipping, flip_guard_);
+    FlowOptions options;
+    options.rounds = rounds;
+    const FlowResult flowed = flow(flipping, options, flip_guard_, guards_, watch());
+    result_.flips += flowed.flips;
+    result_.interrupted = flowed.interrupted;
+    if (graded_) work_.vertex_length = work_.input_lengths();
+  }
+
+  void add(const CountChanges& changes) {
+    result_.splits += changes.splits;
+    result_.collapses += changes.collapses;
+  }
+
+  Observer watch() const {
+    if (!observer_) return nullptr;
+    return [this](Progress p) {
+      p.stage = "adapt";
+      p.outer = result_.rounds + result_.count_rounds;
+      return observer_(p);
+    };
+  }
+
+  Workspace& work_;
+  const AdaptOptions& options_;
+  const FlipGuardOptions& flip_guard_;
+  const GuardOptions& guards_;
+  const Observer& observer_;
+  Triangulation triangulation_;
+  std::vector<int> corner_valences_;
+  std::vector<int> origins_;
+  const CurveFinder curve_finder_;
+  CurveEdges curve_edges_;
+  const bool graded_;
+  AdaptingMesh m_{triangulation_,    work_.placement,     *work_.retraction,
+                  work_.constraints, work_.vertex_length, corner_valences_,
+                  origins_,          curve_finder_,       curve_edges_};
+  AdaptResult result_;
+};
+
+UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOptions& guard_options,
+                      const Observer& observer) {
+  Energy energy(*work.connectivity, work.targets, terms);
+  Guards guards(*work.connectivity, work.targets, guard_options);
+  Relaxation r{work.mesh, *work.connectivity, work.sweeps, work.vertex_length,
+               energy,    *work.retraction,   guards,      work.placement};
+  return untangle(r, UntangleOptions{}, observer);
+}
+
+}  // namespace
+
+AdaptOptions adapt_options(Effort effort) {
+  AdaptOptions options;
+  if (effort == Effort::fast) options.rounds = 6;
+  return options;
+}
+
+AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
+                  const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
+                  const Observer& observer) {
+  const UntangleResult unfolded = unfold(work, terms, guards, observer);
+  AdaptResult result;
+  if (unfolded.interrupted)
+    result.interrupted = true;
+  else
+    result = Adaptation(work, options, flip_guard, guards, corner_angle, observer).run();
+  result.untangle = unfolded;
+  return result;
+}
+
+}  // namespace hooke

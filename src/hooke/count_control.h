@@ -1,0 +1,34 @@
+// Count control: as many edges on each curve as it wants, and as many faces as the target lengths ask for.
+#pragma once
+
+#include "hooke/edge_collapses.h"
+#include "hooke/edge_splits.h"
+
+namespace hooke {
+
+struct CountOptions {
+  double largest_part = .02;   // of the edges, changed in one go
+  double valence_weight = .1;  // of an irregular valence against l / L when edges are chosen
+  SplitOptions split{.longest = 0};
+  /// Looser guards: the last edges too many sit where the surface bends.
+  CollapseOptions collapse{.longest = 1.8, .sagitta = .35};
+};
+
+/// 4 A / (sqrt 3 L^2), summed over the faces: the number of equilateral triangles of the target length that
+/// cover the surface.
+double wanted_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
+                         const std::vector<double>& vertex_length);
+
+/// Splits the longest and collapses the shortest edges of each curve until it has as many as it wants.
+/// Returns the numbers of splits and collapses.
+struct CountChanges {
+  int splits = 0;
+  int collapses = 0;
+};
+CountChanges settle_curves(AdaptingMesh& mesh, const CountOptions& options);
+
+/// Brings the number of faces closer to `wanted` by splits or collapses of inner edges that are far apart:
+/// those that are the longest or shortest and leave the best valences.
+CountChanges approach_count(AdaptingMesh& mesh, double wanted, const CountOptions& options);
+
+}  // namespace hooke

@@ -1,0 +1,294 @@
+#include "hooke/adaptation.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "flipping_scene.h"
+#include "hooke/parallel.h"
+#include "hooke/quality.h"
+#include "hooke/remesh.h"
+#include "hooke/topology.h"
+
+namespace hooke {
+namespace {
+
+double wave(double x, double y) {
+  return .1 * std::sin(5 * x) * std::cos(4 * y);
+}
+
+test::Triangles with_holes(double (*height)(double, double)) {
+  test::Triangles t = test::grid(14, height, .3, 2);
+  std::erase_if(t.faces, [&](const Triangle& f) {
+    const Vec3 middle = (t.points.col(f[0]) + t.points.col(f[1]) + t.points.col(f[2])) / 3;
+    return (middle.head(2) - Eigen::Vector2d(.3, .3)).norm() < .15 ||
+           (middle.head(2) - Eigen::Vector2d(.7, .65)).norm() < .12;
+  });
+  return t;
+}
+
+double natural(const test::Triangles& t) {
+  return natural_length(total_area(t.points, t.faces), t.faces.size());
+}
+
+struct Outcome {
+  RemeshResult result;
+  Mat3X points;
+  Connectivity connectivity;
+};
+
+RemeshOptions adapting(Effort effort = Effort::fast) {
+  RemeshOptions options;
+  options.connectivity = ConnectivityMode::adapt;
+  options.flips = flip_options(effort);
+  options.adaptation = adapt_options(effort);
+  options.map = true;
+  return options;
+}
+
+Outcome adapted(const test::Triangles& t, const RemeshOptions& options, const std::vector<double>& lengths,
+                const Observer& observer = nullptr) {
+  TriMesh mesh = test::to_mesh(t);
+  auto length = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, target_length_property);
+  for (const auto v : mesh.vertices()) length[v] = lengths[static_cast<size_t>(v.idx())];
+  Outcome o;
+  o.result = remesh(mesh, options, observer);
+  o.points = positions(mesh);
+  o.connectivity = make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
+  return o;
+}
+
+Outcome adapted(const test::Triangles& t, double length, const RemeshOptions& options = adapting(),
+                const Observer& observer = nullptr) {
+  return adapted(t, options, std::vector<double>(static_cast<size_t>(t.points.cols()), length), observer);
+}
+
+/// The same topology, no face against its neighbours, no crossing.
+void expect_sound(const test::Triangles& t, const Outcome& o) {
+  const Topology before = measure_topology(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+  const Topology after = measure_topology(o.connectivity);
+  EXPECT_EQ(after.euler, before.euler);
+  EXPECT_EQ(after.boundary_loops, before.boundary_loops);
+  EXPECT_EQ(after.components, before.components);
+  EXPECT_EQ(after.isolated_vertices, before.isolated_vertices);
+  EXPECT_TRUE(o.points.allFinite());
+  const Quality quality =
+      measure_quality(o.points, o.connectivity, std::vector<double>(o.connectivity.edges.size(), 1.));
+  EXPECT_EQ(quality.folded_edges, 0u);
+  EXPECT_EQ(quality.self_intersections.value_or(1), 0u);
+}
+
+TEST(Adaptation, HasAsManyFacesAsTheLengthAsksFor) {
+  for (const test::Triangles& t : {with_holes(wave), test::sphere(3, .3, 4)})
+    for (double factor : {.3, 1., 3.}) {
+      const Outcome o = adapted(t, factor * natural(t));
+      const double wanted = static_cast<double>(t.faces.size()) / (factor * factor);
+      // The small holes keep more edges than three lengths ask for.
+      const double slack = factor > 2 && o.connectivity.vertex_count < 60 ? .2 : .03;
+      EXPECT_NEAR(static_cast<double>(o.connectivity.faces.size()), wanted, std::max(3., slack * wanted));
+      EXPECT_NEAR(o.result.adaptation.wanted_faces, wanted, .001 * wanted);
+      expect_sound(t, o);
+    }
+}
+
+TEST(Adaptation, MakesGoodTriangles) {
+  const test::Triangles t = test::sphere(3, .45, 4);
+  const Outcome o = adapted(t, natural(t), adapting(Effort::standard));
+  EXPECT_GT(least_angle(o.points, o.connectivity.faces), 44);
+  EXPECT_LT(least_angle(t.points, t.faces), 15);
+}
+
+TEST(Adaptation, CornersAndGivenVerticesStayBitForBit) {
+  const test::Triangles t = with_holes(wave);
+  RemeshOptions options = adapting();
+  options.constraints.fixed_vertices = {100, 112};
+  const Outcome o = adapted(t, .8 * natural(t), options);
+  std::set<int> found;
+  for (size_t v = 0; v < o.result.map.size(); ++v)
+    for (int kept : {0, 14, 210, 224, 100, 112})
+      if (o.result.map[v].vertex == kept) {
+        EXPECT_EQ(o.points.col(static_cast<Eigen::Index>(v)), t.points.col(kept));
+        found.insert(kept);
+      }
+  EXPECT_EQ(found.size(), 6u);
+}
+
+TEST(Adaptation, TheRimStaysOnItsPolyline) {
+  const test::Triangles t = with_holes(test::flat);
+  const Connectivity input = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  const Constraints rim = find_constraints(t.points, input, {});
+  const Outcome o = adapted(t, .7 * natural(t));
+  const std::vector<char> boundary = boundary_vertices(o.connectivity);
+  for (size_t v = 0; v < boundary.size(); ++v) {
+    if (!boundary[v]) continue;
+    const Vec3 x = o.points.col(static_cast<Eigen::Index>(v));
+    double least = 1;
+    for (const Curve& curve : rim.curves)
+      for (int s = 0; s < curve.segment_count(); ++s)
+        least = std::min(least, (project_to_curve(curve, x, s).point - x).norm());
+    EXPECT_LT(least, 1e-12);
+  }
+}
+
+TEST(Adaptation, TheMapReproducesThePoints) {
+  const test::Triangles t = with_holes(test::flat);
+  const Outcome o = adapted(t, .8 * natural(t));
+  ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
+  int last = -1;
+  bool fresh = false;
+  for (size_t v = 0; v < o.result.map.size(); ++v) {
+    const auto& [vertex, place] = o.result.map[v];
+    fresh |= vertex < 0;
+    if (fresh)
+      EXPECT_EQ(vertex, -1) << "old vertices come first";
+    else
+      EXPECT_LT(std::exchange(last, vertex), vertex) << "in their old order";
+    if (o.connectivity.vertex_faces[static_cast<int>(v)].empty()) continue;
+    EXPECT_NEAR(place.weights.sum(), 1, 1e-12);
+    EXPECT_GE(place.weights.minCoeff(), 0);
+    Vec3 x = Vec3::Zero();
+    for (size_t k = 0; k < 3; ++k)
+      x += place.weights[static_cast<Eigen::Index>(k)] *
+           t.points.col(t.faces[static_cast<size_t>(place.face)][k]);
+    EXPECT_LT((x - o.points.col(static_cast<Eigen::Index>(v))).norm(), 1e-9);
+  }
+  EXPECT_TRUE(fresh);
+}
+
+TEST(Adaptation, TheMapIsKeptInTheOtherModes) {
+  const test::Triangles t = test::sphere(2, .3, 4);
+  const double L = natural(t);
+  for (ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
+    RemeshOptions options = adapting();
+    options.connectivity = mode;
+    const Outcome o = adapted(t, L, options);
+    ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
+    for (size_t v = 0; v < o.result.map.size(); ++v) {
+      const MapEntry& entry = o.result.map[v];
+      EXPECT_EQ(entry.vertex, static_cast<int>(v));
+      Vec3 x = Vec3::Zero();
+      for (size_t k = 0; k < 3; ++k)
+        x += entry.place.weights[static_cast<Eigen::Index>(k)] *
+             t.points.col(t.faces[static_cast<size_t>(entry.place.face)][k]);
+      EXPECT_LT((x - o.points.col(static_cast<Eigen::Index>(v))).norm(), .3 * L);  // the faces' sagitta
+    }
+  }
+}
+
+TEST(Adaptation, OneThreadAndTwoGiveTheSameBits) {
+  const test::Triangles t = test::grid(40, wave, .35);
+  std::vector<Outcome> outcomes;
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    outcomes.push_back(adapted(t, .8 * natural(t)));
+  }
+  EXPECT_EQ(outcomes[0].points, outcomes[1].points);
+  EXPECT_EQ(outcomes[0].connectivity.faces, outcomes[1].connectivity.faces);
+}
+
+TEST(Adaptation, APowerOfTwoScalesTheResultExactly) {
+  const test::Triangles t = with_holes(wave);
+  test::Triangles large = t;
+  large.points *= 8;
+  const double L = 1.2 * natural(t);
+  const Outcome one = adapted(t, L), eight = adapted(large, 8 * L);
+  EXPECT_EQ(8 * one.points, eight.points);
+  EXPECT_EQ(one.connectivity.faces, eight.connectivity.faces);
+}
+
+TEST(Adaptation, StopsWithAValidMeshWheneverTheObserverSaysSo) {
+  const test::Triangles t = with_holes(wave);
+  for (int calls : {1, 2, 17, 40, 75}) {
+    int left = calls;
+    const Outcome o = adapted(t, .6 * natural(t), adapting(), [&](const Progress&) { return --left > 0; });
+    EXPECT_EQ(o.result.reason, StopReason::interrupted);
+    expect_sound(t, o);
+  }
+}
+
+TEST(Adaptation, SmallMeshesSurvive) {
+  test::Triangles face, tetrahedron;
+  face.points = Mat3X{{0, 3, .1}, {0, 0, 2}, {0, 0, 0}};
+  face.faces = {{0, 1, 2}};
+  tetrahedron.points = Mat3X{{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  tetrahedron.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  for (const test::Triangles& t : {face, tetrahedron})
+    for (double factor : {.5, 1., 5.}) {
+      const Outcome o = adapted(t, factor * natural(t));
+      EXPECT_TRUE(o.points.allFinite());
+      const Topology before = measure_topology(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+      EXPECT_EQ(measure_topology(o.connectivity).euler, before.euler);
+      EXPECT_GE(o.connectivity.faces.size(), factor < 1 ? 2 * t.faces.size() : t.faces.size() / 2);
+    }
+}
+
+TEST(Adaptation, EdgesFollowGradedTargets) {
+  const test::Triangles t = test::grid(20, test::flat, .3);
+  std::vector<double> lengths;
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) lengths.push_back(natural(t) * (.6 + t.points(0, v)));
+  const Outcome o = adapted(t, adapting(), lengths);
+  double left = 0, right = 0, lefts = 0, rights = 0;
+  for (const auto& [a, b] : o.connectivity.edges) {
+    const double x = .5 * (o.points(0, a) + o.points(0, b)), l = (o.points.col(a) - o.points.col(b)).norm();
+    if (x < .2) left += l, ++lefts;
+    if (x > .8) right += l, ++rights;
+  }
+  EXPECT_NEAR(right / rights / (left / lefts), 1.5 / .7, .25);
+}
+
+/// A grid whose middle row of edges is a crease between two corners.
+struct CreasedScene : test::FlippingScene {
+  CurveFinder finder{constraints.curves};
+  CurveEdges curve_edges;
+  std::vector<int> origins;
+  AdaptingMesh adapting{triangulation,   placement, retraction, constraints, vertex_length,
+                        corner_valences, origins,   finder,     curve_edges};
+
+  static constexpr int n = 8;
+
+  explicit CreasedScene(const test::Triangles& t) : FlippingScene(t, test::plane()) {
+    Curve crease;
+    crease.points.resize(3, n + 1);
+    for (int i = 0; i <= n; ++i) crease.points.col(i) = t.points.col(vertex(i));
+    crease.tangents = Vec3::UnitX().replicate(1, n + 1);
+    for (int i = 0; i <= n; ++i) {
+      const auto v = static_cast<size_t>(vertex(i));
+      constraints.freedom[v] = i == 0 || i == n ? Freedom::fixed : Freedom::curve;
+      constraints.curve[v] = i == 0 || i == n ? -1 : static_cast<int>(constraints.curves.size());
+      placement.segments[v] = std::min(i, n - 1);
+      if (i < n) triangulation.constrain(test::half_edge(triangulation, vertex(i), vertex(i + 1)));
+    }
+    constraints.curves.push_back(crease);
+    finder = CurveFinder(constraints.curves);
+    origins.resize(vertex_length.size());
+  }
+
+  static int vertex(int i) { return (n / 2) * (n + 1) + i; }
+};
+
+TEST(AdaptingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
+  for (double factor : {.4, 2.5}) {
+    CreasedScene s(test::grid(CreasedScene::n, test::flat));
+    for (double& length : s.vertex_length) length *= factor;
+    for (int round = 0; round < 4; ++round) {
+      count_curve_edges(s.adapting, .1);
+      split_long_edges(s.adapting, {});
+      FlippingMesh flipping = s.adapting.flipping();
+      flip_to_delaunay(flipping, {});
+      collapse_short_edges(s.adapting, {});
+      settle_curves(s.adapting, {});
+      compact(s.adapting);
+    }
+    const double wanted = std::lround(1 / s.vertex_length[0]);
+    EXPECT_NEAR(static_cast<double>(s.constraints.creases.size()), wanted, 1);
+    double length = 0;
+    for (const auto& [a, b] : s.constraints.creases) {
+      EXPECT_NEAR(s.placement.points(1, a), .5, 1e-12);
+      length += (s.placement.points.col(a) - s.placement.points.col(b)).norm();
+    }
+    EXPECT_NEAR(length, 1, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace hooke
