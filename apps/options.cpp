@@ -25,6 +25,17 @@ double parse_tolerance(const std::string& text) {
   return unit == "%" ? value / 100 : value;
 }
 
+/// "40" or "off": degrees, 180 for none.
+double parse_feature_angle(const std::string& text) {
+  if (text == "off") return 180;
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || !(value > 0) || !(value < 180))
+    throw Error("--feature-angle '" + printable(text) + "'; expected degrees between 0 and 180, or off");
+  return value;
+}
+
 /// Threads that a batch system or OpenMP grants; 0 when they say nothing.
 int threads_of_environment() {
   for (const char* name : {"SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS"}) {
@@ -40,6 +51,7 @@ int threads_of_environment() {
 /// What the user said in words, before it is given its meaning.
 struct Words {
   std::string tolerance = "0.1%";
+  std::optional<std::string> feature_angle;
   std::optional<double> rho;
   std::optional<int> max_outer, max_steps;
   std::optional<BoundaryRule> boundary;
@@ -199,6 +211,13 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
       ->type_name("slide|fixed|free")
       ->default_str("slide; free with --paper")
       ->group(constraints);
+  app.add_option(
+         "--feature-angle", words.feature_angle,
+         "Faces that meet at more degrees make a crease: its vertices slide along it, and the surface is "
+         "smooth on either side only")
+      ->type_name("DEG|off")
+      ->default_str("40; off with --paper")
+      ->group(constraints);
   app.add_option("--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are")
       ->type_name("FILE")
       ->group(constraints);
@@ -234,6 +253,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   s.remesh.flips = flip_options(s.effort);
   s.paper_options.evolution.damped = s.remesh.damped;
   if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;
+  if (words.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*words.feature_angle);
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
   if (words.max_outer) s.remesh.max_outer = s.paper_options.max_outer = *words.max_outer;
   if (words.max_steps)
@@ -242,6 +262,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   if (s.threads == 0) s.threads = threads_of_environment();
   const bool flips = s.remesh.connectivity == ConnectivityMode::flip;
   if (s.paper && flips) throw Error("--paper keeps the faces; leave out --connectivity flip");
+  if (s.paper && words.feature_angle) throw Error("--paper knows no creases; leave out --feature-angle");
   if (effort_given && !flips) throw Error("--effort is of --connectivity flip; leave it out, or flip");
   if (s.check && !s.output.empty()) throw Error("--check writes no mesh; leave out --output");
   if (s.check) return;

@@ -97,6 +97,18 @@ Json geometry_json(const RunRecord& run) {
   return j;
 }
 
+/// Null where none were found.
+Json creases_json(const RunRecord& run) {
+  if (!run.result || run.result->creases.edges == 0) return nullptr;
+  const CreaseCounts& c = run.result->creases;
+  return {{"chains", c.curves},
+          {"crease_edges", c.edges},
+          {"crease_edges_kept", c.kept},
+          {"corners", c.corners},
+          {"curve_vertices", c.curve_vertices},
+          {"charts", c.charts}};
+}
+
 /// What mode `flip` did: null without it. Travel is in target lengths.
 Json flips_json(const RunRecord& run) {
   if (!run.result || run.result->flips.flow.rounds == 0) return nullptr;
@@ -135,6 +147,7 @@ Json parameters_json(const RemeshOptions& o) {
   j["max_steps"] = o.integration.max_steps;
   j["boundary"] = name_of(o.constraints.boundary);
   j["corner_angle"] = o.constraints.corner_angle;
+  j["feature_angle"] = o.constraints.features.angle < 180 ? Json(o.constraints.features.angle) : Json();
   j["fixed_vertices"] = o.constraints.fixed_vertices.size();
   j["guard_area_ratio"] = o.guards.area_ratio;
   j["guard_alignment"] = o.guards.alignment;
@@ -212,6 +225,7 @@ Json report_json(const RunRecord& run) {
     j["projection"]["not_landed"] = run.result->not_landed;
     j["held_back"] = run.result->held_back;
   }
+  j["features"] = creases_json(run);
   j["flips"] = flips_json(run);
   j["gates"] = Json::array();
   j["warnings"] = Json::array();

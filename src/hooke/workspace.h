@@ -43,9 +43,12 @@ struct Workspace {
 
   ProjectionCounts projection_counts() const;
 
+  /// Smooth pieces of the surface: the components of the mesh cut open at its creases.
+  int chart_count() const;
+
   Normalisation normalisation;
   Reordered order;
-  std::shared_ptr<const Connectivity> connectivity;
+  std::shared_ptr<const Connectivity> connectivity;  // with its creases
   SweepPlan sweeps;
   std::vector<double> vertex_length;  // target lengths, normalised
   TargetLengths targets;
@@ -56,6 +59,9 @@ struct Workspace {
   std::unique_ptr<Retraction> retraction;  // to that field
 
  private:
+  void connect(Connectivity c, const std::vector<Edge>& creases);
+  SurfaceField fit(const Mat3X& points) const;
+
   FilterOptions filter_;
   GuardOptions guard_options_;
   RetractionOptions retraction_options_;
