@@ -37,6 +37,17 @@ double parse_gradation(const std::string& text) {
   return value;
 }
 
+/// "40" or "off": degrees, 180 for none.
+double parse_feature_angle(const std::string& text) {
+  if (text == "off") return 180;
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || rest != end || !(value > 0) || !(value < 180))
+    throw Error("--feature-angle '" + printable(text) + "'; expected degrees between 0 and 180, or off");
+  return value;
+}
+
 /// Threads that a batch system or OpenMP grants; 0 when they say nothing.
 int threads_of_environment() {
   for (const char* name : {"SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS"}) {
@@ -53,6 +64,7 @@ int threads_of_environment() {
 struct Words {
   std::string tolerance = "0.1%";
   std::string gradation;
+  std::optional<std::string> feature_angle;
   std::optional<double> rho;
   std::optional<int> max_outer, max_steps;
   std::optional<BoundaryRule> boundary;
@@ -233,6 +245,13 @@ void add_options(CLI::App& app, Settings& s, Words& words) {
       ->type_name("slide|fixed|free")
       ->default_str("slide; free with --paper")
       ->group(constraints);
+  app.add_option(
+         "--feature-angle", words.feature_angle,
+         "Faces that meet at more degrees make a crease: its vertices slide along it, and the surface is "
+         "smooth on either side only")
+      ->type_name("DEG|off")
+      ->default_str("40; off with --paper")
+      ->group(constraints);
   app.add_option("--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are")
       ->type_name("FILE")
       ->group(constraints);
@@ -283,6 +302,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
   if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;
+  if (words.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*words.feature_angle);
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
   if (words.max_outer) s.remesh.max_outer = s.paper_options.max_outer = *words.max_outer;
   if (words.max_steps)
@@ -292,6 +312,7 @@ void settle(Settings& s, const Words& words, bool kernel_given, bool effort_give
   if (s.paper && s.remesh.connectivity != ConnectivityMode::fixed)
     throw Error("--paper keeps the faces; leave out --connectivity");
   if (s.paper && effort_given) throw Error("--paper takes the time it takes; leave out --effort");
+  if (s.paper && words.feature_angle) throw Error("--paper knows no creases; leave out --feature-angle");
   if (s.paper && !s.map.empty()) throw Error("--paper makes no map; leave out --map");
   if (s.check && !s.map.empty()) throw Error("--check makes no map; leave out --map");
   if (s.check && !s.output.empty()) throw Error("--check writes no mesh; leave out --output");

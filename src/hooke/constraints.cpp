@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/creases.h"
+
 namespace hooke {
 namespace {
 
@@ -44,32 +46,130 @@ bool is_corner(const Mat3X& points, int before, int at, int after, double cos_co
   return in.dot(out) < cos_corner * in.norm() * out.norm();
 }
 
-/// One loop of boundary vertices, cut into curves at its corners.
-void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corner, Constraints& result) {
+/// The vertices become a curve along which those between its ends slide.
+void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool closed, Constraints& result) {
+  Curve curve;
+  curve.closed = closed;
+  curve.points.resize(3, std::ssize(vertices));
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const auto v = static_cast<size_t>(vertices[i]);
+    curve.points.col(static_cast<Eigen::Index>(i)) = points.col(static_cast<Eigen::Index>(v));
+    if (result.freedom[v] == Freedom::fixed) continue;
+    result.freedom[v] = Freedom::curve;
+    result.curve[v] = static_cast<int>(result.curves.size());
+    result.segment[v] = static_cast<int>(i);
+  }
+  set_tangents(curve);
+  result.curves.push_back(std::move(curve));
+}
+
+/// One loop of vertices, cut into curves at its corners and at `breaks`.
+void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corner,
+              const std::vector<char>& breaks, Constraints& result) {
   const size_t n = loop.size();
   std::vector<size_t> corners;
   for (size_t i = 0; i < n; ++i)
-    if (is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner))
+    if (breaks[static_cast<size_t>(loop[i])] ||
+        is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner))
       corners.push_back(i);
+  if (corners.empty()) return add_curve(points, loop, true, result);
   for (size_t i : corners) result.freedom[static_cast<size_t>(loop[i])] = Freedom::fixed;
+  for (size_t p = 0; p < corners.size(); ++p) {
+    const size_t begin = corners[p];
+    const size_t length = (corners[(p + 1) % corners.size()] + n - begin - 1) % n + 2;
+    std::vector<int> piece;
+    for (size_t i = 0; i < length; ++i) piece.push_back(loop[(begin + i) % n]);
+    add_curve(points, piece, false, result);
+  }
+}
 
-  const size_t pieces = std::max<size_t>(corners.size(), 1);
-  for (size_t p = 0; p < pieces; ++p) {
-    Curve curve;
-    curve.closed = corners.empty();
-    const size_t begin = curve.closed ? 0 : corners[p];
-    const size_t length = curve.closed ? n : (corners[(p + 1) % pieces] + n - begin - 1) % n + 2;
-    curve.points.resize(3, static_cast<Eigen::Index>(length));
-    for (size_t i = 0; i < length; ++i) {
-      const auto v = static_cast<size_t>(loop[(begin + i) % n]);
-      curve.points.col(static_cast<Eigen::Index>(i)) = points.col(static_cast<Eigen::Index>(v));
-      if (result.freedom[v] == Freedom::fixed) continue;
-      result.freedom[v] = Freedom::curve;
-      result.curve[v] = static_cast<int>(result.curves.size());
-      result.segment[v] = static_cast<int>(i);
+/// The crease edges, traced from corner to corner.
+class CreaseTracer {
+ public:
+  CreaseTracer(const Mat3X& points, const Connectivity& c, double cos_corner, Constraints& result)
+      : points_(points),
+        c_(c),
+        result_(result),
+        breaks_(crease_breaks(points, c, cos_corner)),
+        traced_(c.edges.size(), 0) {}
+
+  void run() {
+    for (size_t v = 0; v < breaks_.size(); ++v)
+      if (breaks_[v]) result_.freedom[v] = Freedom::fixed;
+    for (const bool at_corners : {true, false})  // what is left then are loops without a corner
+      for (size_t v = 0; v < breaks_.size(); ++v)
+        if (!at_corners || breaks_[v])
+          for (int e : c_.vertex_edges[static_cast<int>(v)])
+            if (c_.is_crease(e) && !traced_[static_cast<size_t>(e)]) trace(static_cast<int>(v), e);
+  }
+
+  /// Vertices where curves of creases end.
+  static std::vector<char> crease_breaks(const Mat3X& points, const Connectivity& c, double cos_corner) {
+    std::vector<char> breaks(static_cast<size_t>(c.vertex_count), 0);
+    if (c.creases.empty()) return breaks;
+    for (int v = 0; v < c.vertex_count; ++v) {
+      std::vector<int> ends;
+      bool boundary = false;
+      const auto edges = c.vertex_edges[v], neighbours = c.vertex_neighbours[v];
+      for (size_t i = 0; i < edges.size(); ++i) {
+        if (c.is_crease(edges[i])) ends.push_back(neighbours[i]);
+        boundary |= c.is_boundary_edge(edges[i]);
+      }
+      if (ends.empty()) continue;
+      breaks[static_cast<size_t>(v)] =
+          boundary || ends.size() != 2 || is_corner(points, ends[0], v, ends[1], cos_corner);
     }
-    set_tangents(curve);
-    result.curves.push_back(std::move(curve));
+    return breaks;
+  }
+
+ private:
+  void trace(int start, int edge) {
+    std::vector<int> vertices = {start};
+    while (edge >= 0) {
+      traced_[static_cast<size_t>(edge)] = 1;
+      const Edge& ends = c_.edges[static_cast<size_t>(edge)];
+      const int v = ends[0] == vertices.back() ? ends[1] : ends[0];
+      if (v == start && !breaks_[static_cast<size_t>(v)]) {
+        add_curve(points_, vertices, true, result_);
+        ++result_.crease_curves;
+        return;
+      }
+      vertices.push_back(v);
+      edge = breaks_[static_cast<size_t>(v)] ? -1 : next_at(v);
+    }
+    add_curve(points_, vertices, false, result_);
+    ++result_.crease_curves;
+  }
+
+  int next_at(int v) const {
+    for (int e : c_.vertex_edges[v])
+      if (c_.is_crease(e) && !traced_[static_cast<size_t>(e)]) return e;
+    return -1;
+  }
+
+  const Mat3X& points_;
+  const Connectivity& c_;
+  Constraints& result_;
+  std::vector<char> breaks_;
+  std::vector<char> traced_;
+};
+
+void add_boundary(const Mat3X& points, const Connectivity& c, BoundaryRule rule, double cos_corner,
+                  Constraints& result) {
+  const std::vector<int> next = boundary_successors(c);
+  const std::vector<char> breaks = CreaseTracer::crease_breaks(points, c, cos_corner);
+  std::vector<bool> seen(next.size(), false);
+  for (size_t start = 0; start < next.size(); ++start) {
+    if (next[start] < 0 || seen[start]) continue;
+    std::vector<int> loop;
+    for (int v = static_cast<int>(start); !seen[static_cast<size_t>(v)]; v = next[static_cast<size_t>(v)]) {
+      seen[static_cast<size_t>(v)] = true;
+      loop.push_back(v);
+    }
+    if (rule == BoundaryRule::fixed)
+      for (int v : loop) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+    else
+      add_loop(points, loop, cos_corner, breaks, result);
   }
 }
 
@@ -107,23 +207,12 @@ Constraints find_constraints(const Mat3X& points, const Connectivity& c, const C
   for (size_t v = 0; v < n; ++v)
     if (c.vertex_faces[static_cast<int>(v)].empty()) result.freedom[v] = Freedom::fixed;
   for (int v : options.fixed_vertices) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
-  if (options.boundary == BoundaryRule::free) return result;
 
   const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);
-  const std::vector<int> next = boundary_successors(c);
-  std::vector<bool> seen(n, false);
-  for (size_t start = 0; start < n; ++start) {
-    if (next[start] < 0 || seen[start]) continue;
-    std::vector<int> loop;
-    for (int v = static_cast<int>(start); !seen[static_cast<size_t>(v)]; v = next[static_cast<size_t>(v)]) {
-      seen[static_cast<size_t>(v)] = true;
-      loop.push_back(v);
-    }
-    if (options.boundary == BoundaryRule::fixed)
-      for (int v : loop) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
-    else
-      add_loop(points, loop, cos_corner, result);
-  }
+  if (options.boundary != BoundaryRule::free) add_boundary(points, c, options.boundary, cos_corner, result);
+  if (!c.creases.empty()) CreaseTracer(points, c, cos_corner, result).run();
+  result.creases = crease_edges(c);
+  result.further_sides = c.further_sides;
   return result;
 }
 

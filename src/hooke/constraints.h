@@ -1,7 +1,7 @@
 // What a vertex may do: move on the surface, slide along a curve of the input, or stand still.
 #pragma once
 
-#include "hooke/connectivity.h"
+#include "hooke/features.h"
 
 namespace hooke {
 
@@ -12,7 +12,8 @@ enum class BoundaryRule { slide, fixed, free };
 struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
   std::vector<int> fixed_vertices = {};  // ids of vertices that stay where they are
-  double corner_angle = 35;  // degrees; a boundary that turns by more in 3-D has a corner, which stands still
+  double corner_angle = 35;  // degrees; a curve that turns by more in 3-D has a corner, which stands still
+  FeatureOptions features = {};
 };
 
 /// A polyline of the input along which vertices slide: open between two corners, or closed.
@@ -39,10 +40,14 @@ struct Constraints {
   std::vector<int> curve;        // per vertex: index into curves, -1 without
   std::vector<int> segment;      // per vertex: where on its curve it starts
   std::vector<Curve> curves;
-  std::vector<Edge> creases;  // edges, by their vertices, that no change of the connectivity may lose
+  std::vector<Edge> creases;       // edges, by their vertices, that no change of the connectivity may lose
+  std::vector<int> further_sides;  // of vertices on creases, see connectivity.h; each has a normal of its own
+  int crease_curves = 0;           // of the curves: the last ones
 };
 
-/// Boundary loops become curves, split at their corners. Vertices without faces stand still.
+/// Boundary loops and the creases of the connectivity become curves. They end at corners, where three or more
+/// of them meet or one ends, and where a crease meets the boundary: such vertices stand still. So do vertices
+/// without faces.
 Constraints find_constraints(const Mat3X& points, const Connectivity& connectivity,
                              const ConstraintOptions& options);
 

@@ -5,7 +5,6 @@
 
 #include "hooke/guards.h"
 #include "hooke/polish.h"
-#include "hooke/topology.h"
 
 namespace hooke {
 namespace {
@@ -16,13 +15,13 @@ constexpr int most_pushes = 8;
 /// One corner and what can be done about its valence.
 class Corner {
  public:
-  Corner(FlippingMesh& mesh, const FlipGuardOptions& options, int vertex)
-      : m_(mesh), t_(mesh.triangulation), options_(options), vertex_(vertex) {}
+  Corner(FlippingMesh& mesh, const FlipGuardOptions& options, int vertex, int side)
+      : m_(mesh), t_(mesh.triangulation), options_(options), vertex_(vertex), side_(side) {}
 
   int settle() {
-    const int wanted = m_.corner_valences[static_cast<size_t>(vertex_)];
-    while (t_.valence(vertex_) < wanted && flip_best(sides_across())) ++flips_;
-    while (t_.valence(vertex_) > wanted) {
+    const int wanted = m_.corner_valences[static_cast<size_t>(side_)];
+    while (valence() < wanted && flip_best(sides_across())) ++flips_;
+    while (valence() > wanted) {
       if (!flip_best(inner_spokes()) && !free_inner_neighbour() && !push_inner_neighbour() && !pull_sides())
         break;
       ++flips_;
@@ -31,16 +30,23 @@ class Corner {
   }
 
  private:
-  std::vector<int> inner_spokes() const {
-    std::vector<int> spokes;
+  std::vector<int> spokes() const {
     for (int h : t_.outgoing(vertex_))
-      if (t_.twin(h) >= 0) spokes.push_back(h);
-    return spokes;
+      if (t_.side(h) == side_) return t_.sector(h);
+    return {};
+  }
+
+  int valence() const { return static_cast<int>(spokes().size()) + 1; }
+
+  std::vector<int> inner_spokes() const {
+    std::vector<int> inner = spokes();
+    std::erase_if(inner, [&](int h) { return t_.twin(h) < 0 || t_.is_constrained(h); });
+    return inner;
   }
 
   std::vector<int> sides_across() const {
     std::vector<int> sides;
-    for (int h : t_.outgoing(vertex_)) sides.push_back(Triangulation::next(h));
+    for (int h : spokes()) sides.push_back(Triangulation::next(h));
     return sides;
   }
 
@@ -64,7 +70,7 @@ class Corner {
   bool free_inner_neighbour() {
     for (int h : inner_spokes()) {
       const int w = t_.to(h);
-      if (t_.valence(w) != 3 || t_.on_boundary(w)) continue;
+      if (t_.valence(w) != 3 || is_on_border(w)) continue;
       for (int side : t_.outgoing(w)) {
         const int across = Triangulation::next(side);
         if (t_.from(across) == vertex_ || t_.to(across) == vertex_) continue;
@@ -81,15 +87,17 @@ class Corner {
   bool push_inner_neighbour() {
     for (int h : inner_spokes()) {
       const int w = t_.to(h);
-      if (!t_.on_boundary(w) && shift({w}, push)) return true;
+      if (!is_on_border(w) && shift({w}, push)) return true;
     }
     return false;
   }
 
   bool pull_sides() {
-    const std::vector<int> spokes = t_.outgoing(vertex_);
-    return shift({t_.to(spokes.front()), t_.apex(spokes.back())}, -push);
+    const std::vector<int> all = spokes();
+    return shift({t_.to(all.front()), t_.apex(all.back())}, -push);
   }
+
+  bool is_on_border(int vertex) const { return t_.on_boundary(vertex) || t_.on_crease(vertex); }
 
   /// Moves the vertices along the lines from the corner, bit by bit, until a spoke can be flipped.
   bool shift(const std::vector<int>& vertices, double part) {
@@ -118,9 +126,11 @@ class Corner {
 
   std::vector<double> alignments(int v) const {
     std::vector<double> values;
-    for (int h : t_.outgoing(v))
+    for (int h : t_.outgoing(v)) {
+      const auto f = static_cast<size_t>(h / 3);
       values.push_back(
-          face_alignment(m_.placement.points, m_.placement.normals, t_.faces()[static_cast<size_t>(h / 3)]));
+          face_alignment(m_.placement.points, m_.placement.normals, t_.faces()[f], t_.sides()[f]));
+    }
     return values;
   }
 
@@ -128,6 +138,7 @@ class Corner {
   Triangulation& t_;
   const FlipGuardOptions& options_;
   int vertex_;
+  int side_;
   int flips_ = 0;
 };
 
@@ -135,30 +146,41 @@ class Corner {
 
 std::vector<int> corner_valences(const Mat3X& points, const Connectivity& c, const Constraints& constraints,
                                  double corner_angle) {
-  const std::vector<char> boundary = boundary_vertices(c);
-  std::vector<int> wanted(static_cast<size_t>(c.vertex_count), 0);
-  for (int v = 0; v < c.vertex_count; ++v) {
-    if (!boundary[static_cast<size_t>(v)]) continue;
-    if (constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed) continue;
-    double angle = 0;
-    for (int f : c.vertex_faces[v]) {
-      const Triangle& t = c.faces[static_cast<size_t>(f)];
-      const size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-      const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(v);
-      const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(v);
-      angle += std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+  std::vector<int> borders(static_cast<size_t>(c.vertex_count), 0);
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_border(static_cast<int>(e)))
+      for (int v : c.edges[e]) ++borders[static_cast<size_t>(v)];
+  const auto is_corner = [&](int v) {
+    return borders[static_cast<size_t>(v)] >= 2 &&
+           constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed;
+  };
+  std::vector<double> angles(static_cast<size_t>(c.side_count()), 0);  // degrees
+  for (size_t f = 0; f < c.faces.size(); ++f) {
+    const Triangle& t = c.faces[f];
+    for (size_t k = 0; k < 3; ++k) {
+      if (!is_corner(t[k])) continue;
+      const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(t[k]);
+      const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(t[k]);
+      angles[static_cast<size_t>(c.sides_of_faces()[f][k])] +=
+          std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
     }
-    if (std::abs(180 - angle) < corner_angle) continue;
-    wanted[static_cast<size_t>(v)] = 1 + std::max(1, static_cast<int>(std::lround(angle / 60)));
   }
+  std::vector<int> wanted(angles.size(), 0);
+  for (size_t side = 0; side < angles.size(); ++side)
+    if (angles[side] > 0 && std::abs(180 - angles[side]) >= corner_angle)
+      wanted[side] = 1 + std::max(1, static_cast<int>(std::lround(angles[side] / 60)));
   return wanted;
 }
 
 int force_corners(FlippingMesh& m, const FlipGuardOptions& options) {
+  const int vertices = static_cast<int>(m.vertex_length.size());
   int flips = 0;
-  for (size_t v = 0; v < m.corner_valences.size(); ++v)
-    if (m.corner_valences[v] > 0 && m.triangulation.valence(static_cast<int>(v)) > 0)
-      flips += Corner(m, options, static_cast<int>(v)).settle();
+  for (size_t side = 0; side < m.corner_valences.size(); ++side) {
+    const int i = static_cast<int>(side);
+    const int v = i < vertices ? i : m.constraints.further_sides[static_cast<size_t>(i - vertices)];
+    if (m.corner_valences[side] > 0 && m.triangulation.valence(v) > 0)
+      flips += Corner(m, options, v, i).settle();
+  }
   m.retraction.count();
   return flips;
 }

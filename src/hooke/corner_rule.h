@@ -1,14 +1,14 @@
-// Corners of the boundary: as many faces as fit their angle. Delaunay flips alone cut a corner of 42 degrees
-// into two of 21, which no motion mends.
+// Corners of the boundary and of creases: as many faces as fit their angle. Delaunay flips alone cut a corner
+// of 42 degrees into two of 21, which no motion mends.
 #pragma once
 
 #include "hooke/edge_flips.h"
 
 namespace hooke {
 
-/// The number of edges that each corner wants: 1 + max(1, round(angle / 60 degrees)), by the angle that its
-/// faces span. 0 for all other vertices. A corner is a vertex of the boundary that stands still and where the
-/// faces span no straight angle to within `corner_angle` degrees.
+/// Per side: the number of edges that each corner wants: 1 + max(1, round(angle / 60 degrees)), by the angle
+/// that its faces span. 0 for all others. A corner is a side, between two creases or boundary edges, of a
+/// vertex that stands still, where the faces span no straight angle to within `corner_angle` degrees.
 std::vector<int> corner_valences(const Mat3X& points, const Connectivity& connectivity,
                                  const Constraints& constraints, double corner_angle);
 

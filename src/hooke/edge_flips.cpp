@@ -23,16 +23,15 @@ double area(const Mat3X& points, const Triangle& t) {
   return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
 }
 
-/// Lowering the valence of `vertex` by one: does it stay a fair vertex?
-bool may_lose_an_edge(const FlippingMesh& m, int vertex) {
-  const int corner = m.corner_valences[static_cast<size_t>(vertex)];
-  const int valence = m.triangulation.valence(vertex);
-  return corner > 0 ? valence > std::max(2, corner) : valence > 3;
+/// Lowering the valence at the corner where h leaves by one: does its vertex stay fair?
+bool may_lose_an_edge(const FlippingMesh& m, int h) {
+  const CornerValence corner = corner_valence(m, h);
+  return corner.has > (corner.wanted > 0 ? std::max(2, corner.wanted) : 3);
 }
 
-bool may_gain_an_edge(const FlippingMesh& m, int vertex) {
-  const int corner = m.corner_valences[static_cast<size_t>(vertex)];
-  return corner == 0 || m.triangulation.valence(vertex) < corner;
+bool may_gain_an_edge(const FlippingMesh& m, int h) {
+  const CornerValence corner = corner_valence(m, h);
+  return corner.wanted == 0 || corner.has < corner.wanted;
 }
 
 /// Is the sum of the angles across the edge less than pi beyond doubt? Its sine tells without an arctangent.
@@ -74,7 +73,7 @@ double least_fold(const FlippingMesh& m, const Triangle& left, const Triangle& r
   const Mat3X& X = m.placement.points;
   double least = cosine_between(X, left, right);
   const auto look_across = [&](const Triangle& face, int side) {
-    if (const int twin = m.triangulation.twin(side); twin >= 0)
+    if (const int twin = m.triangulation.twin(side); twin >= 0 && !m.triangulation.is_constrained(side))
       least =
           std::min(least, cosine_between(X, face, m.triangulation.faces()[static_cast<size_t>(twin / 3)]));
   };
@@ -100,24 +99,35 @@ double opposite_angles(const Triangulation& t, const Mat3X& points, int h) {
   return angle_at(points, t.apex(h), a, b) + angle_at(points, t.apex(t.twin(h)), a, b);
 }
 
+CornerValence corner_valence(const FlippingMesh& m, int h) {
+  const Triangulation& t = m.triangulation;
+  const int wanted = m.corner_valences[static_cast<size_t>(t.side(h))];
+  return {wanted, wanted > 0 ? static_cast<int>(t.sector(h).size()) + 1 : t.valence(t.from(h))};
+}
+
 bool may_flip(const FlippingMesh& m, int h, const FlipGuardOptions& o) {
   const Triangulation& t = m.triangulation;
   if (t.twin(h) < 0 || t.is_constrained(h)) return false;
-  const int a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));
-  if (!may_lose_an_edge(m, a) || !may_lose_an_edge(m, b)) return false;
-  if (!may_gain_an_edge(m, c) || !may_gain_an_edge(m, d)) return false;
+  const int g = t.twin(h), apex_h = Triangulation::previous(h), apex_g = Triangulation::previous(g);
+  if (!may_lose_an_edge(m, h) || !may_lose_an_edge(m, g)) return false;
+  if (!may_gain_an_edge(m, apex_h) || !may_gain_an_edge(m, apex_g)) return false;
 
   const Mat3X& X = m.placement.points;
   const Mat3X& N = m.placement.normals;
-  const Triangle old_faces[] = {{a, b, c}, {b, a, d}}, new_faces[] = {{c, a, d}, {d, b, c}};
-  const double pair = area(X, old_faces[0]) + area(X, old_faces[1]);
-  const double c_old = std::min(face_alignment(X, N, old_faces[0]), face_alignment(X, N, old_faces[1]));
-  for (const Triangle& f : new_faces)
-    if (area(X, f) < o.area_share * pair || face_alignment(X, N, f) < std::min(o.alignment, c_old))
-      return false;
+  const int a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(g);
+  const int sa = t.side(h), sb = t.side(g), sc = t.side(apex_h), sd = t.side(apex_g);
+  const double pair = area(X, {a, b, c}) + area(X, {b, a, d});
+  const double c_old =
+      std::min(face_alignment(X, N, {a, b, c}, {sa, sb, sc}), face_alignment(X, N, {b, a, d}, {sb, sa, sd}));
+  const auto is_fair = [&](const Triangle& f, const Triangle& sides) {
+    return area(X, f) >= o.area_share * pair &&
+           face_alignment(X, N, f, sides) >= std::min(o.alignment, c_old);
+  };
+  if (!is_fair({c, a, d}, {sc, sa, sd}) || !is_fair({d, b, c}, {sd, sb, sc})) return false;
   const double length =
       .5 * (m.vertex_length[static_cast<size_t>(c)] + m.vertex_length[static_cast<size_t>(d)]);
-  if (edge_sagitta(X, N, {c, d}) > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}))) return false;
+  const double sagitta = edge_sagitta(X, N, {c, d}, {sc, sd});
+  if (sagitta > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}, {sa, sb}))) return false;
   return !t.adjacent(c, d) && !folds(m, h, o.fold);
 }
 

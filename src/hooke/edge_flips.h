@@ -23,13 +23,21 @@ struct FlippingMesh {
   Retraction& retraction;
   const Constraints& constraints;
   const std::vector<double>& vertex_length;  // target length per vertex
-  const std::vector<int>& corner_valences;   // wanted at corners of the boundary, 0 elsewhere: corner_rule.h
+  const std::vector<int>& corner_valences;   // per side: wanted at corners, 0 elsewhere: corner_rule.h
   /// Called when vertices have moved, so that their target lengths can become those of their new places.
   std::function<void()> after_move = nullptr;
 };
 
 /// Sum of the two angles across an inner edge, radians; Delaunay up to pi.
 double opposite_angles(const Triangulation& triangulation, const Mat3X& points, int half_edge);
+
+/// The edges that the corner wants at which h leaves, and those it has: between the creases about h's face,
+/// or in all where it wants none (0).
+struct CornerValence {
+  int wanted;
+  int has;
+};
+CornerValence corner_valence(const FlippingMesh& mesh, int half_edge);
 
 /// May the edge be flipped? It may not on the boundary or on a crease; where the new edge exists already;
 /// where a vertex comes to have fewer than 3 edges (2 at a corner) or a corner moves away from the valence it

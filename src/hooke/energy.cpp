@@ -20,7 +20,12 @@ struct FaceFrame {
   double doubled_area;
 };
 
-FaceFrame frame_of(const Placement& at, const Triangle& t, double target) {
+/// Sum of the surface normals at the corners, unit.
+Vec3 surface_normal(const Placement& at, const Triangle& sides) {
+  return (at.normals.col(sides[0]) + at.normals.col(sides[1]) + at.normals.col(sides[2])).stableNormalized();
+}
+
+FaceFrame frame_of(const Placement& at, const Triangle& t, const Triangle& sides, double target) {
   const std::array<Vec3, 3> p = {at.points.col(t[0]), at.points.col(t[1]), at.points.col(t[2])};
   FaceFrame f;
   for (size_t k = 0; k < 3; ++k) {
@@ -33,7 +38,7 @@ FaceFrame frame_of(const Placement& at, const Triangle& t, double target) {
   if (f.doubled_area > floor) {
     f.normal /= f.doubled_area;
   } else {
-    f.normal = (at.normals.col(t[0]) + at.normals.col(t[1]) + at.normals.col(t[2])).stableNormalized();
+    f.normal = surface_normal(at, sides);
     f.doubled_area = floor;
   }
   return f;
@@ -78,11 +83,10 @@ double altitude_energy(const FaceFrame& f, double weight, double h0, double& by_
 
 /// 3/2 ((d - s) / d)^2 with the signed area s = (2 A n) . r / (.866 L^2), r the surface normal. Unlike
 /// springs on unsigned altitudes it pushes a folded face the right way round.
-double unfold_energy(const Placement& at, const Triangle& t, const FaceFrame& f, const EnergyTerms& terms,
-                     double target, std::array<Vec3, 3>& gradient) {
+double unfold_energy(const Vec3& r, const FaceFrame& f, const EnergyTerms& terms, double target,
+                     std::array<Vec3, 3>& gradient) {
   const double d = terms.unfold_below;
   const double unit = altitude_ratio * target * target;
-  const Vec3 r = (at.normals.col(t[0]) + at.normals.col(t[1]) + at.normals.col(t[2])).stableNormalized();
   const double s = f.opposite[2].cross(-f.opposite[1]).dot(r) / unit;
   if (s >= d) return 0;
   const double slope = -3 * terms.unfold * (d - s) / (d * d) / unit;
@@ -107,7 +111,8 @@ Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
 double Energy::face_energy(const Placement& at, size_t face, double* corner_gradients) const {
   const Triangle& t = connectivity_.faces[face];
   const double target = targets_.face[face];
-  const FaceFrame f = frame_of(at, t, target);
+  const Triangle& sides = connectivity_.sides_of_faces()[face];
+  const FaceFrame f = frame_of(at, t, sides, target);
   double energy = 0;
   double by_area = 0;
   std::array<double, 3> by_length{};
@@ -121,8 +126,8 @@ double Energy::face_energy(const Placement& at, size_t face, double* corner_grad
     energy += terms.string * u.value / (L * L);
     by_length[k] += terms.string * u.slope / (L * L);
   }
-  if (terms.unfold > 0 && face_alignment(at.points, at.normals, t) < terms.unfold_below) {
-    energy += unfold_energy(at, t, f, terms, target, gradient);
+  if (terms.unfold > 0 && face_alignment(at.points, at.normals, t, sides) < terms.unfold_below) {
+    energy += unfold_energy(surface_normal(at, sides), f, terms, target, gradient);
   } else {
     if (terms.altitude > 0)
       energy += altitude_energy(f, terms.altitude, altitude_ratio * target, by_area, by_length);

@@ -10,24 +10,24 @@ namespace {
 
 /// The neighbourhood of an edge as a small mesh of its own, in which a flip is tried.
 struct Patch {
-  std::vector<int> vertices;  // of the whole mesh; those that may move come first
-  size_t movable = 0;
+  std::vector<int> vertices;    // sides of the whole mesh; those that may move come first
+  size_t movable = 0;           // vertices on creases among them, which do not
   std::vector<Triangle> faces;  // all faces about the movable vertices, in patch ids
   Placement placement;
   std::vector<double> vertex_length;
   Constraints constraints;
 };
 
-/// Cuts patches out of a mesh.
+/// Cuts patches out of a mesh, each within the creases around it.
 class PatchCutter {
  public:
   explicit PatchCutter(const FlippingMesh& mesh)
-      : m_(mesh), local_(mesh.vertex_length.size(), -1), seen_(mesh.triangulation.faces().size(), 0) {}
+      : m_(mesh), local_(mesh.corner_valences.size(), -1), seen_(mesh.triangulation.faces().size(), 0) {}
 
   Patch cut(int half_edge, int rings) {
     Patch patch;
-    add(patch, m_.triangulation.from(half_edge));
-    add(patch, m_.triangulation.to(half_edge));
+    add(patch, m_.triangulation.side(half_edge));
+    add(patch, m_.triangulation.side(Triangulation::next(half_edge)));
     for (size_t begin = 0; rings > 0; --rings) {
       const size_t end = patch.vertices.size();
       for (; begin < end; ++begin) add_neighbours(patch, patch.vertices[begin]);
@@ -35,14 +35,14 @@ class PatchCutter {
     patch.movable = patch.vertices.size();
     std::vector<int> faces;
     for (size_t i = 0; i < patch.movable; ++i)
-      for (int h : m_.triangulation.outgoing(patch.vertices[i])) {
+      for (int h : outgoing(patch.vertices[i])) {
         char& seen = seen_[static_cast<size_t>(h / 3)];
         if (!seen) faces.push_back(h / 3);
         seen = 1;
       }
     for (int f : faces) {
       seen_[static_cast<size_t>(f)] = 0;
-      Triangle t = m_.triangulation.faces()[static_cast<size_t>(f)];
+      Triangle t = m_.triangulation.sides()[static_cast<size_t>(f)];
       for (int& v : t) v = add(patch, v);
       patch.faces.push_back(t);
     }
@@ -52,6 +52,18 @@ class PatchCutter {
   }
 
  private:
+  /// The vertex that a side is of.
+  int vertex_of(int side) const {
+    const auto vertices = static_cast<int>(m_.vertex_length.size());
+    return side < vertices ? side : m_.constraints.further_sides[static_cast<size_t>(side - vertices)];
+  }
+
+  std::vector<int> outgoing(int side) const {
+    std::vector<int> spokes = m_.triangulation.outgoing(vertex_of(side));
+    std::erase_if(spokes, [&](int h) { return m_.triangulation.side(h) != side; });
+    return spokes;
+  }
+
   int add(Patch& patch, int v) {
     int& id = local_[static_cast<size_t>(v)];
     if (id < 0) {
@@ -62,9 +74,9 @@ class PatchCutter {
   }
 
   void add_neighbours(Patch& patch, int v) {
-    for (int h : m_.triangulation.outgoing(v)) {
-      add(patch, m_.triangulation.to(h));
-      add(patch, m_.triangulation.apex(h));
+    for (int h : outgoing(v)) {
+      add(patch, m_.triangulation.side(Triangulation::next(h)));
+      add(patch, m_.triangulation.side(Triangulation::previous(h)));
     }
   }
 
@@ -76,10 +88,16 @@ class PatchCutter {
     p.segments.resize(n);
     p.drift.resize(n);
     for (size_t i = 0; i < n; ++i) {
-      const auto v = static_cast<size_t>(patch.vertices[i]);
-      VertexPlace(m_.placement, patch.vertices[i]).write_to(p, static_cast<int>(i));
+      const int side = patch.vertices[i], vertex = vertex_of(side);
+      const auto v = static_cast<size_t>(vertex);
+      VertexPlace place(m_.placement, vertex);
+      place.normal = m_.placement.normals.col(side);
+      place.anchor = m_.placement.anchors[static_cast<size_t>(side)];
+      place.other_side = -1;
+      place.write_to(p, static_cast<int>(i));
+      const bool on_crease = !m_.constraints.creases.empty() && m_.triangulation.on_crease(vertex);
       patch.vertex_length.push_back(m_.vertex_length[v]);
-      patch.constraints.freedom.push_back(m_.constraints.freedom[v]);
+      patch.constraints.freedom.push_back(on_crease ? Freedom::fixed : m_.constraints.freedom[v]);
       patch.constraints.segment.push_back(m_.constraints.segment[v]);
       patch.constraints.curve.push_back(local_curve(patch, m_.constraints.curve[v]));
     }
@@ -102,17 +120,20 @@ class PatchCutter {
   mutable std::vector<int> patch_curves_;
 };
 
-int irregularity(const FlippingMesh& m, int vertex) {
-  const int corner = m.corner_valences[static_cast<size_t>(vertex)];
-  const int regular = corner > 0 ? corner : m.triangulation.on_boundary(vertex) ? 4 : 6;
-  return m.triangulation.valence(vertex) - regular;
+/// Of the corner where h leaves.
+int irregularity(const FlippingMesh& m, int h) {
+  const CornerValence corner = corner_valence(m, h);
+  if (corner.wanted > 0) return corner.has - corner.wanted;
+  return corner.has - (m.triangulation.on_boundary(m.triangulation.from(h)) ? 4 : 6);
 }
 
 /// Two or more irregular vertices about the edge, and no more irregularity after the flip.
 bool worth_a_try(const FlippingMesh& m, int h) {
   const Triangulation& t = m.triangulation;
-  const int ends[] = {irregularity(m, t.from(h)), irregularity(m, t.to(h))};
-  const int apexes[] = {irregularity(m, t.apex(h)), irregularity(m, t.apex(t.twin(h)))};
+  const int g = t.twin(h);
+  const int ends[] = {irregularity(m, h), irregularity(m, g)};
+  const int apexes[] = {irregularity(m, Triangulation::previous(h)),
+                        irregularity(m, Triangulation::previous(g))};
   int irregular = 0, before = 0, after = 0;
   for (int i : ends) {
     irregular += i != 0;
@@ -162,12 +183,15 @@ int flip_irregular_edges(FlippingMesh& m, const EnergyTerms& terms, const FlipPa
   TriMesh unused;
   int flips = 0;
   for (int h = 0; h < m.triangulation.half_edge_count(); ++h) {
-    if (m.triangulation.twin(h) < h || !worth_a_try(m, h) || !may_flip(m, h, flip_guard)) continue;
+    if (m.triangulation.twin(h) < h || m.triangulation.is_constrained(h) || !worth_a_try(m, h) ||
+        !may_flip(m, h, flip_guard))
+      continue;
     Patch patch = cutter.cut(h, options.rings);
     if (try_flip(patch, m, terms, options, guards, unused) < options.gain) continue;
     m.triangulation.flip(h);
     for (size_t i = 0; i < patch.movable; ++i)
-      VertexPlace(patch.placement, static_cast<int>(i)).write_to(m.placement, patch.vertices[i]);
+      if (patch.constraints.freedom[i] != Freedom::fixed)
+        VertexPlace(patch.placement, static_cast<int>(i)).write_to(m.placement, patch.vertices[i]);
     ++flips;
   }
   return flips;

@@ -16,8 +16,8 @@ struct FlipPassOptions {
 };
 
 /// One pass over the edges with two or more irregular vertices among the four about them. An inner vertex is
-/// regular with 6 edges, one on the boundary with 4, a corner with those it wants. Returns the number of
-/// flips kept.
+/// regular with 6 edges, one on the boundary with 4, a corner with those it wants. Vertices on creases stand
+/// still meanwhile. Returns the number of flips kept.
 int flip_irregular_edges(FlippingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
                          const FlipGuardOptions& flip_guard, const GuardOptions& guards);
 

@@ -1,5 +1,7 @@
 #include "hooke/flow.h"
 
+#include "hooke/creases.h"
+
 namespace hooke {
 namespace {
 
@@ -23,13 +25,17 @@ int move_vertices(FlippingMesh& m, const Connectivity& connectivity, const Lloyd
 FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOptions& flip_guard,
                 const GuardOptions& guards, const Observer& observer) {
   FlowResult result;
-  const int vertices = static_cast<int>(m.placement.points.cols());
-  Connectivity connectivity = make_connectivity(vertices, m.triangulation.faces());
+  const auto connect = [&m] {
+    Connectivity c = make_connectivity(static_cast<int>(m.placement.points.cols()), m.triangulation.faces());
+    part_at_creases(c, m.constraints.creases);
+    return c;
+  };
+  Connectivity connectivity = connect();
   while (result.rounds < options.rounds && !result.interrupted) {
     int flips = flip_to_delaunay(m, flip_guard);
     if (result.rounds >= options.rounds / 4 && result.rounds % options.corner_every == 0)
       flips += force_corners(m, flip_guard);
-    if (flips > 0) connectivity = make_connectivity(vertices, m.triangulation.faces());
+    if (flips > 0) connectivity = connect();
     result.held_back += move_vertices(m, connectivity, options.lloyd, guards);
     if (m.after_move) m.after_move();
     result.flips += flips;

@@ -34,15 +34,16 @@ double face_area(const Mat3X& points, const Triangle& t) {
 
 }  // namespace
 
-double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
+                      const Triangle& sides) {
   const Vec3 n = doubled_area_vector(points, face);
-  const Vec3 r = normals.col(face[0]) + normals.col(face[1]) + normals.col(face[2]);
+  const Vec3 r = normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2]);
   const double lengths = std::sqrt(n.squaredNorm() * r.squaredNorm());
   return lengths > 0 ? n.dot(r) / lengths : 0;
 }
 
-double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge) {
-  const double c = std::clamp(normals.col(edge[0]).dot(normals.col(edge[1])), -1., 1.);
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides) {
+  const double c = std::clamp(normals.col(sides[0]).dot(normals.col(sides[1])), -1., 1.);
   const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
   return .5 * (points.col(edge[1]) - points.col(edge[0])).norm() * tan_quarter;
 }
@@ -67,18 +68,19 @@ Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, c
 void Guards::measure_face(const Placement& p, size_t face) {
   const Triangle& t = connectivity_.faces[face];
   trial_.area[face] = face_area(p.points, t);
-  trial_.alignment[face] = face_alignment(p.points, p.normals, t);
+  trial_.alignment[face] = face_alignment(p.points, p.normals, t, connectivity_.sides_of_faces()[face]);
 }
 
 double Guards::fold_at(const Mat3X& points, size_t edge) const {
   const auto [left, right] = connectivity_.edge_faces[edge];
-  if (right < 0) return 1;
+  if (right < 0 || connectivity_.is_crease(static_cast<int>(edge))) return 1;
   return cosine_between(points, connectivity_.faces[static_cast<size_t>(left)],
                         connectivity_.faces[static_cast<size_t>(right)]);
 }
 
 void Guards::measure_edge(const Placement& p, size_t edge) {
-  trial_.sagitta[edge] = edge_sagitta(p.points, p.normals, connectivity_.edges[edge]);
+  trial_.sagitta[edge] =
+      edge_sagitta(p.points, p.normals, connectivity_.edges[edge], connectivity_.sides_of_edges()[edge]);
   trial_.fold[edge] = fold_at(p.points, edge);
 }
 

@@ -8,17 +8,29 @@
 
 namespace hooke {
 
-/// Cosine between the face and the sum of the surface normals at its corners; 0 without area.
-double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face);
+/// Cosine between the face and the sum of the surface normals at its corners; 0 without area. `sides` are the
+/// columns of the corners' normals.
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face, const Triangle& sides);
+
+/// The same away from creases, where the corners are the columns.
+inline double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
+  return face_alignment(points, normals, face, face);
+}
 
 /// Sagitta (l / 2) tan(theta / 4) of a circular arc over a chord of length l whose ends' normals differ by
-/// theta.
-double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge);
+/// theta. `sides` are the columns of the ends' normals.
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides);
+
+inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge) {
+  return edge_sagitta(points, normals, edge, edge);
+}
 
 /// Cosine between the normals of two faces; 1 where one has no area.
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
 
-/// Judges steps against the last accepted placement. Keeps references to the connectivity and the targets.
+/// Judges steps against the last accepted placement. Each face and edge is measured on its own side of a
+/// crease; a crease itself may be as sharp as it is. Keeps references to the connectivity
+/// and the targets.
 class Guards {
  public:
   Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options);

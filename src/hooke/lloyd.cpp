@@ -32,21 +32,24 @@ double corner_angle(const Mat3X& points, const Triangle& t, size_t k) {
   return std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
-/// Edges across which Voronoi cells are not made of kites.
+/// Edges across which Voronoi cells are not made of kites. A crease bounds the cells on either side.
 std::vector<char> crooked_edges(const Mat3X& points, const Connectivity& c) {
   constexpr double limit = std::numbers::pi + 1e-9;
   std::vector<char> crooked(c.edges.size());
   parallel_for(c.edges.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
-      double angles = c.edge_faces[e][1] < 0 ? std::numbers::pi / 2 : 0;
+      double sum = 0, widest = 0;
       for (int f : c.edge_faces[e]) {
         if (f < 0) continue;
         const auto face = static_cast<size_t>(f);
         for (size_t k = 0; k < 3; ++k)
-          if (c.face_edges[face][k] == static_cast<int>(e))
-            angles += corner_angle(points, c.faces[face], (k + 2) % 3);
+          if (c.face_edges[face][k] == static_cast<int>(e)) {
+            const double angle = corner_angle(points, c.faces[face], (k + 2) % 3);
+            sum += angle;
+            widest = std::max(widest, angle);
+          }
       }
-      crooked[e] = angles > limit;
+      crooked[e] = (c.is_border(static_cast<int>(e)) ? widest + std::numbers::pi / 2 : sum) > limit;
     }
   });
   return crooked;
@@ -60,7 +63,7 @@ class Lloyd {
 
   Vec3 step(int v) const {
     if (c_.vertex_faces[v].empty()) return Vec3::Zero();
-    const std::array<int, 2> sides = boundary_neighbours(v);
+    const std::array<int, 2> sides = border_neighbours(v);
     if (sides[1] >= 0) return boundary_step(v, sides[0], sides[1]);
     Moments cell = has_straight_cell(v) ? voronoi_cell(v) : Moments{};
     if (!(cell.mass > 0)) cell = faces_about(v);
@@ -70,12 +73,12 @@ class Lloyd {
 
  private:
   /// -1 for an inner vertex.
-  std::array<int, 2> boundary_neighbours(int v) const {
+  std::array<int, 2> border_neighbours(int v) const {
     std::array<int, 2> sides = {-1, -1};
     const auto edges = c_.vertex_edges[v], neighbours = c_.vertex_neighbours[v];
     size_t count = 0;
     for (size_t i = 0; i < edges.size() && count < 2; ++i)
-      if (c_.is_boundary_edge(edges[i])) sides[count++] = neighbours[i];
+      if (c_.is_border(edges[i])) sides[count++] = neighbours[i];
     return sides;
   }
 

@@ -16,9 +16,9 @@ struct LloydOptions {
 /// Where every vertex is to go; the caller makes that tangential and retracts. The cell is made of signed
 /// kites between the vertex, the middles of its edges and the circumcentres of its faces; its density is
 /// L^-4, which makes the lengths of the edges follow L. A vertex near an edge that is not Delaunay, or near a
-/// boundary edge that faces an obtuse angle, has no such cell and takes the centroid of its faces. Boundary
-/// vertices go along the line between their neighbours to where the two edges have the ratio of their target
-/// lengths.
+/// boundary edge that faces an obtuse angle, has no such cell and takes the centroid of its faces. Vertices
+/// on the boundary or a crease go along the line between their neighbours to where the two edges have the
+/// ratio of their target lengths.
 Mat3X lloyd_step(const Placement& placement, const Connectivity& connectivity,
                  const std::vector<double>& vertex_length, const LloydOptions& options);
 

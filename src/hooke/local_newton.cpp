@@ -47,7 +47,9 @@ LocalCurvature curvature_of(const RingModel& model, const Mat32& basis) {
 }  // namespace
 
 LocalNewton::LocalNewton(Relaxation& relaxation)
-    : r_(relaxation), ring_(relaxation.sweeps.spokes, relaxation.energy.targets()) {}
+    : r_(relaxation),
+      side_{VertexRing(relaxation.sweeps.spokes, relaxation.energy.targets()), {}, {}},
+      other_side_(side_) {}
 
 Mat32 LocalNewton::directions(int vertex) const {
   const Placement& at = r_.placement;
@@ -62,11 +64,33 @@ Mat32 LocalNewton::directions(int vertex) const {
 bool LocalNewton::look(int vertex) {
   const Placement& at = r_.placement;
   if (r_.sweeps.spokes[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
-  ring_.gather(at, vertex);
-  ring_.shape(at.points.col(vertex), at.normals.col(vertex), before_);
   basis_ = directions(vertex);
-  model_ = ring_.model(before_, r_.energy.terms, basis_.col(0), basis_.col(1));
+  const auto model = [&](Side& s, int side) {
+    s.ring.gather(at, side);
+    s.ring.shape(at.points.col(vertex), at.normals.col(side), s.before);
+    return s.ring.model(s.before, r_.energy.terms, basis_.col(0), basis_.col(1));
+  };
+  model_ = model(side_, vertex);
+  const int other = at.other_side_of(vertex);
+  two_sided_ = other >= 0;
+  if (!two_sided_) return true;
+  const RingModel more = model(other_side_, other);
+  model_.energy += more.energy;
+  model_.gradient += more.gradient;
+  model_.hessian += more.hessian;
   return true;
+}
+
+bool LocalNewton::may_move(const VertexPlace& place) {
+  double energy = 0;
+  const auto obeys = [&](Side& s, const Vec3& normal) {
+    s.ring.shape(place.point, normal, s.after);
+    if (!s.ring.obeys(s.before, s.after, r_.guards.options())) return false;
+    energy += s.ring.energy(s.after, r_.energy.terms);
+    return true;
+  };
+  return obeys(side_, place.normal) && (!two_sided_ || obeys(other_side_, place.other_normal)) &&
+         energy <= model_.energy;
 }
 
 LocalCurvature LocalNewton::curvature(int vertex) {
@@ -84,11 +108,10 @@ double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
 
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
     const VertexPlace place = r_.retraction.moved(at, vertex, step);
-    ring_.shape(place.point, place.normal, after_);
-    if (ring_.obeys(before_, after_, r_.guards.options()) &&
-        ring_.energy(after_, r_.energy.terms) <= model_.energy) {
+    if (may_move(place)) {
+      const double way = (place.point - at.points.col(vertex)).norm();
       place.write_to(at, vertex);
-      return (place.point - before_.point).norm() / length;
+      return way / length;
     }
   }
   return 0;

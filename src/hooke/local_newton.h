@@ -36,12 +36,19 @@ class LocalNewton {
   double improve(int vertex, const LocalNewtonOptions& options);
 
  private:
+  /// The ring of one side of the vertex, where it is and where it is to go.
+  struct Side {
+    VertexRing ring;
+    RingShape before, after;
+  };
+
   bool look(int vertex);
   Mat32 directions(int vertex) const;
+  bool may_move(const VertexPlace& place);
 
   Relaxation& r_;
-  VertexRing ring_;
-  RingShape before_, after_;
+  Side side_, other_side_;
+  bool two_sided_ = false;
   Mat32 basis_ = Mat32::Zero();
   RingModel model_;
 };

@@ -12,8 +12,9 @@ struct PaperOptions {
   EvolutionOptions evolution;  // Algorithm 2, for each outer iteration; tolerance in mean target lengths
   FilterOptions filter{.kind = FilterKind::global, .kernel = Kernel::r2logr, .offset = .02};
   RetractionOptions retraction;
-  ConstraintOptions constraints{.boundary = BoundaryRule::free};  // the paper does not speak of boundaries
-  int max_outer = 10;                                             // outer iterations
+  ConstraintOptions constraints{.boundary = BoundaryRule::free,  // the paper does not speak of boundaries
+                                .features = {.angle = 180}};     // or creases
+  int max_outer = 10;                                            // outer iterations
   double outer_drop = 1e-3;  // stalled when an outer iteration lowers the energy by less than this part
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hooke/creases.h"
 #include "hooke/error.h"
 
 namespace hooke {
@@ -110,7 +111,26 @@ class Remeshing {
   void conclude() {
     guards_.accept(work_.placement);
     result_.folded_faces = faces_of_result(work_, guards_.folded_faces());
+    result_.creases = count_creases();
     result_.projection = work_.projection_counts();
+  }
+
+  CreaseCounts count_creases() const {
+    const Constraints& constraints = work_.constraints;
+    CreaseCounts counts;
+    if (constraints.creases.empty()) return counts;
+    counts.curves = constraints.crease_curves;
+    counts.edges = static_cast<int>(constraints.creases.size());
+    counts.kept = static_cast<int>(crease_edges(*work_.connectivity).size());
+    counts.charts = work_.chart_count();
+    std::vector<int> ends;
+    for (const Edge& e : constraints.creases) ends.insert(ends.end(), e.begin(), e.end());
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    for (int v : ends)
+      ++(constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed ? counts.corners
+                                                                       : counts.curve_vertices);
+    return counts;
   }
 
   void stop(StopReason reason) {
@@ -197,7 +217,8 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
   FlipResult flips;
   if (options.connectivity == ConnectivityMode::adapt)
     adapted = timed(stopwatch, "adapt", [&] {
-      return adapt(work, options.adaptation, options.flips.guard, terms, options.guards, corner_angle, observer);
+      return adapt(work, options.adaptation, options.flips.guard, terms, options.guards, corner_angle,
+                   observer);
     });
   flips.interrupted = adapted.interrupted;
   if (options.connectivity != ConnectivityMode::fixed && !flips.interrupted)

@@ -60,15 +60,26 @@ struct IterationRecord {
   double seconds = 0;      // since the start
 };
 
+/// What was found of creases, and what of it is left.
+struct CreaseCounts {
+  int curves = 0;          // from corner to corner, or closed
+  int edges = 0;           // of the input
+  int kept = 0;            // of them, still there
+  int corners = 0;         // vertices on creases that stand still
+  int curve_vertices = 0;  // that slide along a crease
+  int charts = 1;          // smooth pieces between creases
+};
+
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the result
-  FlipResult flips;               // in the modes `flip` and `adapt`
-  AdaptResult adaptation;         // in mode `adapt`
-  std::vector<MapEntry> map;      // per vertex of the result
-  int not_landed = 0;             // vertices that stay off the input's field, where landing would fold a face
+  CreaseCounts creases;
+  FlipResult flips;           // in the modes `flip` and `adapt`
+  AdaptResult adaptation;     // in mode `adapt`
+  std::vector<MapEntry> map;  // per vertex of the result
+  int not_landed = 0;         // vertices that stay off the input's field, where landing would fold a face
   PolishResult polish;
   ProjectionCounts projection;
   long long held_back = 0;  // vertex steps shortened by the guards

@@ -107,6 +107,18 @@ Json geometry_json(const RunRecord& run) {
   return j;
 }
 
+/// Null where none were found.
+Json creases_json(const RunRecord& run) {
+  if (!run.result || run.result->creases.edges == 0) return nullptr;
+  const CreaseCounts& c = run.result->creases;
+  return {{"chains", c.curves},
+          {"crease_edges", c.edges},
+          {"crease_edges_kept", c.kept},
+          {"corners", c.corners},
+          {"curve_vertices", c.curve_vertices},
+          {"charts", c.charts}};
+}
+
 /// What mode `flip` did, and mode `adapt` after it had adapted: null without. Travel is in target lengths,
 /// null where vertices came and went.
 Json flips_json(const RunRecord& run) {
@@ -173,6 +185,7 @@ Json parameters_json(const RemeshOptions& o) {
   j["max_steps"] = o.integration.max_steps;
   j["boundary"] = name_of(o.constraints.boundary);
   j["corner_angle"] = o.constraints.corner_angle;
+  j["feature_angle"] = o.constraints.features.angle < 180 ? Json(o.constraints.features.angle) : Json();
   j["fixed_vertices"] = o.constraints.fixed_vertices.size();
   j["guard_area_ratio"] = o.guards.area_ratio;
   j["guard_alignment"] = o.guards.alignment;
@@ -245,6 +258,7 @@ Json report_json(const RunRecord& run) {
     j["projection"]["not_landed"] = run.result->not_landed;
     j["held_back"] = run.result->held_back;
   }
+  j["features"] = creases_json(run);
   j["flips"] = flips_json(run);
   j["adaptation"] = adaptation_json(run);
   j["gates"] = Json::array();

@@ -6,8 +6,21 @@
 
 namespace hooke {
 namespace {
+
 constexpr size_t block = 256;
+
+/// The sides of vertices that stand still are not written by a step.
+void copy_sides(const Placement& from, Placement& to) {
+  to.other_side = from.other_side;
+  to.normals.resize(3, from.normals.cols());
+  to.anchors.resize(from.anchors.size());
+  for (size_t side = from.drift.size(); side < from.anchors.size(); ++side) {
+    to.normals.col(static_cast<Eigen::Index>(side)) = from.normals.col(static_cast<Eigen::Index>(side));
+    to.anchors[side] = from.anchors[side];
+  }
 }
+
+}  // namespace
 
 ProjectionCounts& ProjectionCounts::operator+=(const ProjectionCounts& other) {
   calls += other.calls;
@@ -28,7 +41,12 @@ VertexPlace::VertexPlace(const Placement& p, int vertex)
       tangent(p.tangents.col(vertex)),
       anchor(p.anchors[static_cast<size_t>(vertex)]),
       segment(p.segments[static_cast<size_t>(vertex)]),
-      drift(p.drift[static_cast<size_t>(vertex)]) {}
+      drift(p.drift[static_cast<size_t>(vertex)]),
+      other_side(p.other_side_of(vertex)) {
+  if (other_side < 0) return;
+  other_normal = p.normals.col(other_side);
+  other_anchor = p.anchors[static_cast<size_t>(other_side)];
+}
 
 void VertexPlace::write_to(Placement& p, int vertex) const {
   p.points.col(vertex) = point;
@@ -37,6 +55,9 @@ void VertexPlace::write_to(Placement& p, int vertex) const {
   p.anchors[static_cast<size_t>(vertex)] = anchor;
   p.segments[static_cast<size_t>(vertex)] = segment;
   p.drift[static_cast<size_t>(vertex)] = drift;
+  if (other_side < 0) return;
+  p.normals.col(other_side) = other_normal;
+  p.anchors[static_cast<size_t>(other_side)] = other_anchor;
 }
 
 VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
@@ -49,15 +70,25 @@ VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
   return place;
 }
 
+Foot Retraction::foot(const Vec3& point, int anchor, int vertex) {
+  Uncounted& uncounted = uncounted_[static_cast<size_t>(vertex)];
+  const Foot foot = surface_(point, anchor, options_.tolerance);
+  ++uncounted.by_status[static_cast<size_t>(foot.status)];
+  uncounted.evaluations += foot.evaluations;
+  return foot;
+}
+
 VertexPlace Retraction::on_surface(VertexPlace place, int vertex) {
-  const auto v = static_cast<size_t>(vertex);
-  const Foot foot = surface_(place.point, place.anchor, options_.tolerance);
-  ++uncounted_[v].by_status[static_cast<size_t>(foot.status)];
-  uncounted_[v].evaluations += foot.evaluations;
+  const Foot on_side = foot(place.point, place.anchor, vertex);
+  if (place.other_side >= 0) {
+    const Foot on_other_side = foot(place.point, place.other_anchor, vertex);
+    place.other_normal = on_other_side.normal;
+    place.other_anchor = on_other_side.anchor;
+  }
   // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
-  if (constraints_.freedom[v] == Freedom::surface) place.point = foot.point;
-  place.normal = foot.normal;
-  place.anchor = foot.anchor;
+  if (constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::surface) place.point = on_side.point;
+  place.normal = on_side.normal;
+  place.anchor = on_side.anchor;
   place.drift = 0;
   return place;
 }
@@ -80,11 +111,15 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
   Placement p;
   p.points = points;
-  p.normals = Mat3X::Zero(3, points.cols());
+  const auto& further = constraints_.further_sides;
+  p.normals = Mat3X::Zero(3, points.cols() + std::ssize(further));
   p.tangents = Mat3X::Zero(3, points.cols());
   p.anchors = std::move(anchors);
   p.segments = std::move(segments);
   p.drift.assign(static_cast<size_t>(points.cols()), 0);
+  if (!further.empty()) p.other_side.assign(p.drift.size(), -1);
+  for (size_t s = further.size(); s-- > 0;)
+    p.other_side[static_cast<size_t>(further[s])] = static_cast<int>(p.drift.size() + s);
   parallel_for(static_cast<size_t>(points.cols()), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
@@ -93,6 +128,14 @@ Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::
       on_surface(place, v).write_to(p, v);
     }
   });
+  for (size_t s = 0; s < further.size(); ++s) {  // third and further sides of corners
+    const size_t side = p.drift.size() + s;
+    const int v = further[s];
+    if (p.other_side_of(v) == static_cast<int>(side)) continue;
+    const Foot on_side = foot(p.points.col(v), p.anchors[side], v);
+    p.normals.col(static_cast<Eigen::Index>(side)) = on_side.normal;
+    p.anchors[side] = on_side.anchor;
+  }
   count();
   return p;
 }
@@ -108,9 +151,8 @@ void Retraction::step(const Placement& from, const Mat3X& displacement, std::spa
 
 void Retraction::step(const Placement& from, const Mat3X& displacement, Placement& to) {
   to.points.resize(3, from.points.cols());
-  to.normals.resize(3, from.points.cols());
   to.tangents.resize(3, from.points.cols());
-  to.anchors.resize(from.anchors.size());
+  copy_sides(from, to);
   to.segments.resize(from.segments.size());
   to.drift.resize(from.drift.size());
   parallel_for(static_cast<size_t>(from.points.cols()), block, [&](size_t begin, size_t end) {

@@ -8,17 +8,24 @@
 
 namespace hooke {
 
-/// How the vertices sit on the surface and its curves.
+/// How the vertices sit on the surface and its curves. Where creases part the surface, normals and anchors go
+/// on after those of the vertices with those of their further sides.
 struct Placement {
   Mat3X points;
-  Mat3X normals;              // unit, outward, of the surface
-  Mat3X tangents;             // unit, of the curve; zero for vertices without
-  std::vector<int> anchors;   // where on the surface each vertex is tracked
-  std::vector<int> segments;  // where on its curve
-  std::vector<double> drift;  // length moved in tangent planes since the last projection
+  Mat3X normals;                // unit, outward, of the surface; per side
+  Mat3X tangents;               // unit, of the curve; zero for vertices without
+  std::vector<int> anchors;     // where on the surface each side is tracked
+  std::vector<int> segments;    // where on its curve
+  std::vector<double> drift;    // length moved in tangent planes since the last projection
+  std::vector<int> other_side;  // of a vertex on a crease, -1 without one; empty without creases
+
+  int other_side_of(int vertex) const {
+    return other_side.empty() ? -1 : other_side[static_cast<size_t>(vertex)];
+  }
 };
 
-/// One vertex of a placement.
+/// One vertex of a placement. Where more than two sides meet the vertex stands still: it has no more than two
+/// here.
 struct VertexPlace {
   Vec3 point;
   Vec3 normal;
@@ -26,6 +33,9 @@ struct VertexPlace {
   int anchor;
   int segment;
   double drift;
+  int other_side;  // -1 without
+  Vec3 other_normal = Vec3::Zero();
+  int other_anchor = -1;
 
   VertexPlace(const Placement& placement, int vertex);
   void write_to(Placement& placement, int vertex) const;
@@ -50,7 +60,7 @@ class Retraction {
  public:
   Retraction(Surface surface, const Constraints& constraints, const RetractionOptions& options);
 
-  /// Puts every point on the surface or its curve. `anchors` are kept where they are given.
+  /// Puts every point on the surface or its curve. `anchors` are those of all sides.
   Placement place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments);
 
   /// to = retract(from + displacement) for the given vertices; all other entries of `to` stay.
@@ -83,6 +93,7 @@ class Retraction {
  private:
   VertexPlace on_curve(VertexPlace place, int vertex) const;
   VertexPlace on_surface(VertexPlace place, int vertex);
+  Foot foot(const Vec3& point, int anchor, int vertex);
 
   Surface surface_;
   const Constraints& constraints_;

@@ -15,11 +15,14 @@ namespace {
 constexpr double longest_step = .5;  // of Newton, in mean edge lengths at the anchor
 constexpr double longest_move = 2;
 
-/// Vertices that have faces, without the repetitions of one place.
-std::vector<int> distinct_vertices(const Mat3X& points, const Connectivity& connectivity) {
+/// Vertices of the piece that have faces, without the repetitions of one place.
+std::vector<int> distinct_vertices(const Mat3X& points, const Connectivity& connectivity,
+                                   const std::vector<int>& pieces, int piece) {
   std::vector<int> vertices;
   for (int v = 0; v < connectivity.vertex_count; ++v)
-    if (!connectivity.vertex_faces[v].empty()) vertices.push_back(v);
+    if (!connectivity.vertex_faces[v].empty() &&
+        (pieces.empty() || pieces[static_cast<std::size_t>(v)] == piece))
+      vertices.push_back(v);
   const auto place = [&](int v) { return std::array{points(0, v), points(1, v), points(2, v)}; };
   std::ranges::stable_sort(vertices, {}, place);
   vertices.erase(
@@ -35,11 +38,9 @@ double mean_edge_length(const Mat3X& points, const Connectivity& connectivity) {
   return connectivity.edges.empty() ? 0 : sum / static_cast<double>(connectivity.edges.size());
 }
 
-/// One spline through all vertices [11]-[13], grown outward; the value rho instead of 1 makes it a distance.
-ThinPlateSpline fit_global_spline(const Mat3X& points, const Connectivity& connectivity, const Mat3X& normals,
-                                  const FilterOptions& options) {
-  const std::vector<int> vertices = distinct_vertices(points, connectivity);
-  const double rho = options.offset * mean_edge_length(points, connectivity);
+/// One spline through the vertices [11]-[13], grown outward; the value rho instead of 1 makes it a distance.
+ThinPlateSpline fit_global_spline(const Mat3X& points, const std::vector<int>& vertices, const Mat3X& normals,
+                                  double rho, const FilterOptions& options) {
   Mat3X centres(3, 2 * static_cast<Eigen::Index>(vertices.size()));
   Eigen::VectorXd values(centres.cols());
   Eigen::Index count = 0;
@@ -68,7 +69,8 @@ struct SurfaceField::State {
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
   std::optional<PartitionOfUnity> partition;
-  std::optional<ThinPlateSpline> spline;
+  std::vector<int> pieces;               // per vertex; empty: one
+  std::vector<ThinPlateSpline> splines;  // per piece
 
   int nearest_vertex(const Vec3& x, int anchor) const;
   Foot closest_point(const Vec3& x, int anchor) const;
@@ -135,7 +137,8 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int anchor) const {
     case FilterKind::local:
       return (*partition)(x, anchor);
     case FilterKind::global:
-      return (*spline)(x);
+      return splines[pieces.empty() ? 0 : static_cast<std::size_t>(pieces[static_cast<std::size_t>(anchor)])](
+          x);
     case FilterKind::closest: {
       const Foot foot = closest_point(x, anchor);
       const double distance = (x - foot.point).norm();
@@ -167,7 +170,7 @@ Foot SurfaceField::State::project(const Vec3& x, int anchor, double tolerance) c
 }
 
 SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> connectivity,
-                           const FilterOptions& options) {
+                           const FilterOptions& options, std::vector<int> pieces) {
   auto state = std::make_shared<State>();
   state->kind = options.kind;
   state->normals = vertex_normals(points, *connectivity);
@@ -175,8 +178,14 @@ SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> con
   if (options.kind == FilterKind::local)
     state->partition.emplace(points, *connectivity, state->normals, state->edge_lengths,
                              PartitionOptions{.kernel = options.kernel, .offset = options.offset});
-  if (options.kind == FilterKind::global)
-    state->spline = fit_global_spline(points, *connectivity, state->normals, options);
+  if (options.kind == FilterKind::global) {
+    const double rho = options.offset * mean_edge_length(points, *connectivity);
+    const int count = pieces.empty() ? 1 : 1 + *std::ranges::max_element(pieces);
+    for (int piece = 0; piece < count; ++piece)
+      state->splines.push_back(fit_global_spline(
+          points, distinct_vertices(points, *connectivity, pieces, piece), state->normals, rho, options));
+    state->pieces = std::move(pieces);
+  }
   state->points = std::move(points);
   state->connectivity = std::move(connectivity);
   state_ = std::move(state);
@@ -207,7 +216,8 @@ std::size_t SurfaceField::memory_bytes() const {
   const auto doubles = state_->points.size() + state_->normals.size() + state_->edge_lengths.size();
   return sizeof(double) * static_cast<std::size_t>(doubles) +
          (state_->partition ? state_->partition->memory_bytes() : 0) +
-         (state_->spline ? state_->spline->memory_bytes() : 0);
+         std::transform_reduce(state_->splines.begin(), state_->splines.end(), std::size_t{0}, std::plus<>(),
+                               [](const ThinPlateSpline& s) { return s.memory_bytes(); });
 }
 
 }  // namespace hooke

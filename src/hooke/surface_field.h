@@ -33,8 +33,10 @@ class SurfaceField {
  public:
   /// Throws LimitError when the global fit needs more than the memory limit, NumericalError when it has no
   /// solution (all vertices in one place, or two nearly so).
+  /// `pieces` numbers the parts of the surface by vertex, for the global fit to give each a spline of its
+  /// own; empty: one spline.
   SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> connectivity,
-               const FilterOptions& options = {});
+               const FilterOptions& options = {}, std::vector<int> pieces = {});
 
   /// Puts x, tracked near the reference vertex `anchor`, back on the surface to within `tolerance` (a
   /// length). The anchor first walks over mesh edges to the nearest vertex it can reach downhill. Where

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hooke/creases.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -51,9 +52,9 @@ Spoke* write_fan(const Connectivity& c, int vertex, int start, Spoke* out) {
     const auto f = static_cast<size_t>(face);
     const Triangle& t = c.faces[f];
     const size_t k = corner_of(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
-    *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next)};
+    *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next), t[next], true};
     const int after = beyond(c, c.face_edges[f][last], face);
-    if (after < 0) *out++ = {t[last], c.face_edges[f][last], -1, -1};
+    if (after < 0) *out++ = {t[last], c.face_edges[f][last], -1, -1, t[last], true};
     if (after < 0 || after == start) return out;
     face = after;
   }
@@ -84,18 +85,51 @@ Spokes make_spokes(const Connectivity& c) {
   return spokes;
 }
 
+/// Spokes of the mesh cut open at its creases, in terms of the mesh itself.
+Spokes make_parted_spokes(const Connectivity& c) {
+  const Connectivity cut = cut_open(c);
+  Spokes spokes = make_spokes(cut);
+  const auto vertex_of = [&](int side) {
+    return side < c.vertex_count ? side : c.further_sides[static_cast<size_t>(side - c.vertex_count)];
+  };
+  for (int s = 0; s < cut.vertex_count; ++s) {
+    const int v = vertex_of(s);
+    int face = -1;
+    for (int i = spokes.first[static_cast<size_t>(s)]; i < spokes.first[static_cast<size_t>(s) + 1]; ++i) {
+      Spoke& spoke = spokes.items[static_cast<size_t>(i)];
+      spoke.neighbour = vertex_of(spoke.side);
+      if (spoke.across >= 0) spoke.across = vertex_of(spoke.across);
+      if (spoke.face >= 0) face = spoke.face;
+      const auto f = static_cast<size_t>(face);
+      const size_t k = corner_of(c.faces[f], v);
+      spoke.edge = c.face_edges[f][spoke.face >= 0 ? k : (k + 2) % 3];
+      const auto e = static_cast<size_t>(spoke.edge);
+      spoke.owned = c.side_edges[e][c.edges[e][0] == v ? 0 : 1] == s;
+    }
+  }
+  return spokes;
+}
+
 /// The other blocks that the vertices of each block look at, and those that look at them.
-std::vector<std::vector<int>> blocks_seen(const Spokes& spokes, int vertex_count, int block) {
+std::vector<std::vector<int>> blocks_seen(const Spokes& spokes, const Connectivity& c, int block) {
+  const int vertex_count = c.vertex_count;
   const auto blocks = static_cast<size_t>((vertex_count + block - 1) / block);
   std::vector<std::vector<int>> seen(blocks);
+  const auto further_side = [&](int vertex) {  // the first of this vertex or a later one
+    return static_cast<size_t>(std::ranges::lower_bound(c.further_sides, vertex) - c.further_sides.begin());
+  };
   parallel_for(blocks, 8, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {
       const int first = static_cast<int>(b) * block, last = std::min(first + block, vertex_count);
       const auto from = spokes.items.begin() + spokes.first[static_cast<size_t>(first)];
       const auto to = spokes.items.begin() + spokes.first[static_cast<size_t>(last)];
-      for (auto s = from; s != to; ++s)
-        for (int v : {s->neighbour, s->across})
+      const auto look = [&](const Spoke& s) {
+        for (int v : {s.neighbour, s.across})
           if (v >= 0 && (v < first || v >= last)) seen[b].push_back(v / block);
+      };
+      std::for_each(from, to, look);
+      for (size_t i = further_side(first); i < further_side(last); ++i)
+        for (const Spoke& s : spokes[vertex_count + static_cast<int>(i)]) look(s);
       std::ranges::sort(seen[b]);
       seen[b].erase(std::unique(seen[b].begin(), seen[b].end()), seen[b].end());
     }
@@ -124,18 +158,18 @@ std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighb
 
 SweepPlan plan_sweeps(const Connectivity& connectivity) {
   SweepPlan plan;
-  plan.spokes = make_spokes(connectivity);
+  plan.spokes = connectivity.creases.empty() ? make_spokes(connectivity) : make_parted_spokes(connectivity);
+  plan.vertices = connectivity.vertex_count;
   plan.block = block_size(connectivity.vertex_count);
-  plan.waves = colour(blocks_seen(plan.spokes, connectivity.vertex_count, plan.block));
+  plan.waves = colour(blocks_seen(plan.spokes, connectivity, plan.block));
   return plan;
 }
 
 void for_each_block(const SweepPlan& plan, const std::function<void(int begin, int end)>& body) {
-  const int count = static_cast<int>(plan.spokes.first.size()) - 1;
   for (const std::vector<int>& wave : plan.waves)
     parallel_for(wave.size(), 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
-        body(wave[i] * plan.block, std::min(count, (wave[i] + 1) * plan.block));
+        body(wave[i] * plan.block, std::min(plan.vertices, (wave[i] + 1) * plan.block));
     });
 }
 

@@ -10,18 +10,20 @@ struct Spoke {
   int neighbour;  // the other end
   int edge;
   int face;    // -1 after the last edge of an open fan
-  int across;  // corner of the face beyond that face's far edge; -1 without one
+  int across;  // corner of the face beyond that face's far edge; -1 without one, or beyond a crease
+  int side;    // of the neighbour, as this spoke sees it
+  bool owned;  // false for a crease that belongs to the vertex's other side
 };
 
-/// The spokes of each vertex, counter-clockwise; a closed fan ends where it begins, an open one begins at the
-/// boundary.
+/// The spokes of each vertex or, where creases part it, of each of its sides, counter-clockwise; a closed fan
+/// ends where it begins, an open one begins at the boundary or a crease.
 struct Spokes {
-  std::vector<int> first;  // size n + 1
+  std::vector<int> first;  // size: sides + 1
   std::vector<Spoke> items;
 
-  std::span<const Spoke> operator[](int vertex) const {
-    const auto v = static_cast<size_t>(vertex);
-    return {items.data() + first[v], items.data() + first[v + 1]};
+  std::span<const Spoke> operator[](int side) const {
+    const auto s = static_cast<size_t>(side);
+    return {items.data() + first[s], items.data() + first[s + 1]};
   }
 };
 
@@ -29,6 +31,7 @@ struct Spokes {
 /// another block of its wave: they may be worked at the same time, each from its first vertex to its last.
 struct SweepPlan {
   Spokes spokes;
+  int vertices = 0;
   int block = 1;  // vertices of a block
   std::vector<std::vector<int>> waves;
 };

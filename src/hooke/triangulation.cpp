@@ -7,6 +7,7 @@ namespace hooke {
 
 Triangulation::Triangulation(const Connectivity& c)
     : faces_(c.faces),
+      sides_(c.side_faces),
       twins_(3 * c.faces.size(), -1),
       leaving_(static_cast<size_t>(c.vertex_count), -1),
       valences_(static_cast<size_t>(c.vertex_count), 0),
@@ -28,6 +29,8 @@ Triangulation::Triangulation(const Connectivity& c)
       ++valences_[static_cast<size_t>(v)];
       if (c.is_boundary_edge(static_cast<int>(e))) on_boundary_[static_cast<size_t>(v)] = 1;
     }
+  for (size_t h = 0; h < twins_.size(); ++h)
+    if (c.is_crease(c.face_edges[h / 3][h % 3])) constrained_[h] = 1;
 }
 
 std::vector<int> Triangulation::outgoing(int vertex) const {
@@ -51,6 +54,21 @@ std::vector<int> Triangulation::neighbours(int vertex) const {
   for (int h : spokes) ring.push_back(to(h));
   if (!spokes.empty() && twin(previous(spokes.back())) < 0) ring.push_back(apex(spokes.back()));
   return ring;
+}
+
+std::vector<int> Triangulation::sector(int h) const {
+  const auto is_border = [&](int side) { return twin(side) < 0 || is_constrained(side); };
+  const int any = h;
+  while (!is_border(h) && next(twin(h)) != any) h = next(twin(h));
+  std::vector<int> spokes = {h};
+  for (int side = previous(h); !is_border(side) && twin(side) != spokes.front(); side = previous(twin(side)))
+    spokes.push_back(twin(side));
+  return spokes;
+}
+
+bool Triangulation::on_crease(int vertex) const {
+  return std::ranges::any_of(outgoing(vertex),
+                             [&](int h) { return is_constrained(h) || is_constrained(previous(h)); });
 }
 
 bool Triangulation::adjacent(int a, int b) const {
@@ -77,6 +95,11 @@ void Triangulation::flip(int h) {
   const int f = h / 3, g = t / 3;
   const auto mark = [this](int side) { return constrained_[static_cast<size_t>(side)]; };
   const std::array<char, 4> marks = {mark(previous(h)), mark(next(t)), mark(previous(t)), mark(next(h))};
+  if (!sides_.empty()) {  // neither face leaves its sector
+    const int sa = side(h), sb = side(t), sc = side(previous(h)), sd = side(previous(t));
+    sides_[static_cast<size_t>(f)] = {sc, sa, sd};
+    sides_[static_cast<size_t>(g)] = {sd, sb, sc};
+  }
   faces_[static_cast<size_t>(f)] = {c, a, d};
   faces_[static_cast<size_t>(g)] = {d, b, c};
   link(3 * f, ca);

@@ -7,19 +7,22 @@
 
 namespace hooke {
 
-/// Half-edge 3 f + k runs from corner k of face f to corner k + 1; its twin runs back in the face across.
+/// Creases of the connectivity are constrained from the start. Half-edge 3 f + k runs from corner k of face f
+/// to corner k + 1; its twin runs back in the face across.
 class Triangulation {
  public:
   explicit Triangulation(const Connectivity& connectivity);
 
   const std::vector<Triangle>& faces() const { return faces_; }
   int vertex_count() const { return static_cast<int>(valences_.size()); }  // with those that are gone
+  const std::vector<Triangle>& sides() const { return sides_.empty() ? faces_ : sides_; }  // of the corners
   int half_edge_count() const { return static_cast<int>(twins_.size()); }
 
   int from(int h) const { return faces_[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
   int to(int h) const { return from(next(h)); }
   int apex(int h) const { return from(previous(h)); }  // the corner across the half-edge in its face
   int twin(int h) const { return twins_[static_cast<size_t>(h)]; }  // -1 on the boundary
+  int side(int h) const { return sides()[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
   static int next(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static int previous(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
@@ -37,6 +40,12 @@ class Triangulation {
 
   /// The vertices that share an edge with this one, counter-clockwise.
   std::vector<int> neighbours(int vertex) const;
+  /// Those of them that leave from(h) between the same two creases or boundary edges as h; of those two the
+  /// first is among them.
+  std::vector<int> sector(int h) const;
+
+  /// Does a crease run through the vertex or end there?
+  bool on_crease(int vertex) const;
 
   /// Does an edge join a and b?
   bool adjacent(int a, int b) const;
@@ -76,6 +85,7 @@ class Triangulation {
   void close(int h);
 
   std::vector<Triangle> faces_;
+  std::vector<Triangle> sides_;  // empty without creases: they are the vertices
   std::vector<int> twins_;
   std::vector<int> leaving_;   // per vertex: one half-edge that leaves it, -1 without faces
   std::vector<int> valences_;  // -1 for a vertex that is gone

@@ -400,8 +400,8 @@ HOOKE_SIMD void ring_model(const double* fixed, const double* shape, std::size_t
 
 }  // namespace
 
-void VertexRing::gather(const Placement& at, int vertex) {
-  vertex_ = vertex;
+void VertexRing::gather(const Placement& at, int side) {
+  side_ = side;
   const auto ring = spokes();
   const std::size_t count = ring.size();
   stride_ = padded_to_lanes(count);
@@ -415,8 +415,8 @@ void VertexRing::gather(const Placement& at, int vertex) {
     const Spoke& next = ring[face ? (i + 1) % count : i - 1];
     put(at.points.col(spoke.neighbour), data + near * S + i, S);
     put(at.points.col(next.neighbour), data + far * S + i, S);
-    put(at.normals.col(spoke.neighbour) + at.normals.col(next.neighbour), data + face_normals * S + i, S);
-    put(at.normals.col(spoke.neighbour), data + edge_normal * S + i, S);
+    put(at.normals.col(spoke.side) + at.normals.col(next.side), data + face_normals * S + i, S);
+    put(at.normals.col(spoke.side), data + edge_normal * S + i, S);
     Vec3 other = Vec3::Zero();
     if (spoke.across >= 0) {
       const Vec3 b = at.points.col(next.neighbour);
@@ -426,7 +426,7 @@ void VertexRing::gather(const Placement& at, int vertex) {
     data[edge_target * S + i] = targets_.edge[static_cast<std::size_t>(spoke.edge)];
     data[face_target * S + i] =
         face ? targets_.face[static_cast<std::size_t>(spoke.face)] : data[edge_target * S + i];
-    data[has_edge * S + i] = 1;
+    data[has_edge * S + i] = spoke.owned;
     data[has_face * S + i] = face;
   }
   for (std::size_t c = 0; c < fixed_columns; ++c)

@@ -29,14 +29,16 @@ struct RingMeasures {
   std::vector<double> far_fold;         // and on both sides of the face's far edge
 };
 
-/// Holds no more than one ring at a time; made once for many vertices, for its memory.
+/// Holds no more than one ring at a time; made once for many vertices, for its memory. On a crease each side
+/// of the vertex has a ring of its own, and the energy is the sum.
 class VertexRing {
  public:
   /// Keeps references.
   VertexRing(const Spokes& spokes, const TargetLengths& targets) : spokes_(spokes), targets_(targets) {}
 
-  /// Takes in all but the vertex itself. Pre-condition: the vertex has faces.
-  void gather(const Placement& at, int vertex);
+  /// Takes in all but the vertex itself. Pre-condition: the vertex has faces. `side` is the vertex or one of
+  /// its further sides.
+  void gather(const Placement& at, int side);
 
   /// The ring with its vertex at this point, where the surface has this normal.
   void shape(const Vec3& point, const Vec3& normal, RingShape& shape) const;
@@ -54,13 +56,13 @@ class VertexRing {
   RingMeasures measures(const RingShape& shape) const;
 
  private:
-  std::span<const Spoke> spokes() const { return spokes_[vertex_]; }
+  std::span<const Spoke> spokes() const { return spokes_[side_]; }
   RingModel unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
                    std::vector<double>& unfolded) const;
 
   const Spokes& spokes_;
   const TargetLengths& targets_;
-  int vertex_ = 0;
+  int side_ = 0;
   std::size_t stride_ = 0;       // entries of a column: whole groups of lanes
   std::vector<double> columns_;  // what stays as it is while the vertex moves
 };

@@ -5,7 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/creases.h"
 #include "hooke/parallel.h"
+#include "hooke/topology.h"
 
 namespace hooke {
 namespace {
@@ -40,11 +42,10 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   normalisation = normalisation_of(positions(source), length);
 
   const int n = static_cast<int>(source.n_vertices());
-  timed(stopwatch, "order", [&] {
+  Connectivity smooth = timed(stopwatch, "order", [&] {
     const Connectivity given = make_connectivity(n, triangles_of(source));
     order = reorder(given, locality_order(given));
-    connectivity = std::make_shared<const Connectivity>(make_connectivity(n, order.faces));
-    sweeps = plan_sweeps(*connectivity);
+    return make_connectivity(n, order.faces);
   });
 
   start.resize(3, n);
@@ -55,7 +56,10 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
     start.col(v) = (input.col(old) - normalisation.centre) / normalisation.unit;
     vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
   }
-  targets = spread_target_lengths(*connectivity, vertex_length);
+  std::vector<Edge> creases;
+  for (int e : find_features(start, smooth, vertex_length, constraint_options.features))
+    creases.push_back(smooth.edges[static_cast<size_t>(e)]);
+  connect(std::move(smooth), creases);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   constraints =
@@ -67,20 +71,39 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   start_length_ = vertex_length;
 
   const Stage stage(stopwatch, "fit");
-  const SurfaceField field(start, connectivity, filter_);
-  input_anchors_ = identity(n);
+  const SurfaceField field = fit(start);
+  input_anchors_ = identity(connectivity->side_count());
   to_input_ = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   placement = retraction->place(start, input_anchors_, constraints.segment);
 }
 
+void Workspace::connect(Connectivity c, const std::vector<Edge>& creases) {
+  part_at_creases(c, creases);
+  sweeps = plan_sweeps(c);
+  targets = spread_target_lengths(c, vertex_length);
+  connectivity = std::make_shared<const Connectivity>(std::move(c));
+}
+
+/// A field of which each side of a crease has its own.
+SurfaceField Workspace::fit(const Mat3X& points) const {
+  if (connectivity->creases.empty()) return SurfaceField(points, connectivity, filter_);
+  const auto cut = std::make_shared<const Connectivity>(cut_open(*connectivity));
+  return SurfaceField(side_points(points, *connectivity), cut, filter_, label_components(*cut));
+}
+
+int Workspace::chart_count() const {
+  const Connectivity cut = cut_open(*connectivity);
+  return measure_topology(cut).components;
+}
+
 void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;
-  const SurfaceField field(placement.points, connectivity, filter_);
+  const SurfaceField field = fit(placement.points);
   finished_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  placement = retraction->place(placement.points, identity(connectivity->vertex_count), placement.segments);
+  placement = retraction->place(placement.points, identity(connectivity->side_count()), placement.segments);
 }
 
 int Workspace::land() {
@@ -102,6 +125,8 @@ int Workspace::land() {
       if (!std::exchange(stays[static_cast<size_t>(v)], 1)) {
         landed.points.col(v) = placement.points.col(v);
         landed.normals.col(v) = placement.normals.col(v);
+        if (const int other = landed.other_side_of(v); other >= 0)
+          landed.normals.col(other) = placement.normals.col(other);
         ++more;
       }
     if (more == 0) break;
@@ -112,10 +137,7 @@ int Workspace::land() {
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {
-  connectivity =
-      std::make_shared<const Connectivity>(make_connectivity(connectivity->vertex_count, std::move(faces)));
-  sweeps = plan_sweeps(*connectivity);
-  targets = spread_target_lengths(*connectivity, vertex_length);
+  connect(make_connectivity(connectivity->vertex_count, std::move(faces)), constraints.creases);
   hooke::replace_faces(mesh, *connectivity);
   positions(mesh) = placement.points;
   input_anchors_ = placement.anchors;  // vertices may be far from where they were
@@ -135,8 +157,6 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>
     for (int& v : t) v = id[static_cast<size_t>(v)];
   const Connectivity given = make_connectivity(static_cast<int>(n), std::move(faces));
   order = reorder(given, locality_order(given));
-  connectivity = std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(n), order.faces));
-  sweeps = plan_sweeps(*connectivity);
 
   std::vector<int> source(n), place(n);  // where each vertex comes from, and goes to
   for (size_t v = 0; v < n; ++v) {
@@ -164,7 +184,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>
       from[v] = origins[static_cast<size_t>(old)];
   origins = std::move(from);
 
-  targets = spread_target_lengths(*connectivity, vertex_length);
+  connect(make_connectivity(static_cast<int>(n), order.faces), constraints.creases);
   mesh = build_mesh(placement.points, *connectivity);
   input_anchors_ = placement.anchors;
   retraction->resize(n);
@@ -174,7 +194,8 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>
 
 SurfacePoint Workspace::place_on_input(int v) const {
   const std::vector<int>& anchors = refitted_ ? input_anchors_ : placement.anchors;
-  return locate(start, *input_connectivity_, placement.points.col(v), anchors[static_cast<size_t>(v)]);
+  return locate(start, *input_connectivity_, placement.points.col(v),
+                input_connectivity_->vertex_of_side(anchors[static_cast<size_t>(v)]));
 }
 
 void Workspace::resample_lengths() {

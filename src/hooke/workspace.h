@@ -55,8 +55,8 @@ struct Workspace {
   /// change in place.
   void resample_lengths();
 
-  /// Writes the points of all vertices that moved back to the mesh it was made from, and v:target_length where
-  /// it varies; where they were replaced, the faces, or a new mesh.
+  /// Writes the points of all vertices that moved back to the mesh it was made from, and v:target_length
+  /// where it varies; where they were replaced, the faces, or a new mesh.
   void copy_back(TriMesh& target) const;
 
   /// Where the vertices of the result, in their order there, lie on the mesh the work was made from.
@@ -64,10 +64,13 @@ struct Workspace {
 
   ProjectionCounts projection_counts() const;
 
+  /// Smooth pieces of the surface: the components of the mesh cut open at its creases.
+  int chart_count() const;
+
   Stopwatch* stopwatch;
   Normalisation normalisation;
   Reordered order;  // the ids in the result, which are those of the input while its vertices stay
-  std::shared_ptr<const Connectivity> connectivity;
+  std::shared_ptr<const Connectivity> connectivity;  // with its creases
   SweepPlan sweeps;
   std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
   TargetLengths targets;
@@ -80,6 +83,8 @@ struct Workspace {
 
  private:
   SurfacePoint place_on_input(int vertex) const;
+  void connect(Connectivity c, const std::vector<Edge>& creases);
+  SurfaceField fit(const Mat3X& points) const;
 
   FilterOptions filter_;
   GuardOptions guard_options_;

@@ -1,0 +1,177 @@
+#include "hooke/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hooke/normals.h"
+#include "hooke/parallel.h"
+
+namespace hooke {
+namespace {
+
+size_t idx(int i) {
+  return static_cast<size_t>(i);
+}
+
+/// Degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces without
+/// area.
+std::vector<double> edge_angles(const Mat3X& points, const Connectivity& c) {
+  const Mat3X normals = face_normals(points, c);
+  std::vector<double> angles(c.edges.size(), 0);
+  parallel_for(angles.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      if (c.is_boundary_edge(static_cast<int>(e))) continue;
+      const Vec3 a = normals.col(c.edge_faces[e][0]), b = normals.col(c.edge_faces[e][1]);
+      angles[e] = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+    }
+  });
+  return angles;
+}
+
+class FeatureSearch {
+ public:
+  FeatureSearch(const Mat3X& points, const Connectivity& c, const std::vector<double>& length,
+                const FeatureOptions& o)
+      : X_(points),
+        c_(c),
+        length_(length),
+        o_(o),
+        angle_(edge_angles(points, c)),
+        kept_(c.edges.size(), 0),
+        cos_turn_(std::cos(o.turn * std::numbers::pi / 180)) {}
+
+  std::vector<int> run() {
+    if (grow() > 0) drop_loose_chains();
+    std::vector<int> edges;
+    for (size_t e = 0; e < kept_.size(); ++e)
+      if (kept_[e]) edges.push_back(static_cast<int>(e));
+    return edges;
+  }
+
+ private:
+  /// How the flatter of its two other edges bends each face of the edge, over the edge's own angle.
+  double bend(int edge) const {
+    double worst = 0;
+    for (int f : c_.edge_faces[idx(edge)]) {
+      double least = 180;
+      for (int e : c_.face_edges[idx(f)])
+        if (e != edge) least = std::min(least, angle_[idx(e)]);
+      worst = std::max(worst, least);
+    }
+    return worst / angle_[idx(edge)];
+  }
+
+  bool may_belong(int edge, double least_angle) const {
+    return angle_[idx(edge)] > least_angle && bend(edge) <= o_.bend;
+  }
+
+  int other_end(int edge, int vertex) const {
+    const Edge& e = c_.edges[idx(edge)];
+    return e[0] == vertex ? e[1] : e[0];
+  }
+
+  double length(int edge) const {
+    const auto& [a, b] = c_.edges[idx(edge)];
+    return (X_.col(a) - X_.col(b)).norm() / (.5 * (length_[idx(a)] + length_[idx(b)]));
+  }
+
+  /// Does the chain go nearly straight on at the vertex?
+  bool goes_on(int edge, int next, int vertex) const {
+    const Vec3 in = X_.col(vertex) - X_.col(other_end(edge, vertex));
+    const Vec3 out = X_.col(other_end(next, vertex)) - X_.col(vertex);
+    return in.dot(out) >= cos_turn_ * in.norm() * out.norm();
+  }
+
+  /// Sharp edges, and the weaker ones that go on from them. Returns how many.
+  size_t grow() {
+    size_t count = 0;
+    std::vector<int> front;
+    for (size_t e = 0; e < kept_.size(); ++e)
+      if (may_belong(static_cast<int>(e), o_.angle)) {
+        kept_[e] = 1;
+        front.push_back(static_cast<int>(e));
+      }
+    while (!front.empty()) {
+      const int edge = front.back();
+      front.pop_back();
+      ++count;
+      for (int v : c_.edges[idx(edge)])
+        for (int next : c_.vertex_edges[v]) {
+          if (kept_[idx(next)] || !may_belong(next, o_.weak * o_.angle) || !goes_on(edge, next, v)) continue;
+          kept_[idx(next)] = 1;
+          front.push_back(next);
+        }
+    }
+    return count;
+  }
+
+  std::vector<int> kept_edges(int vertex) const {
+    std::vector<int> edges;
+    for (int e : c_.vertex_edges[vertex])
+      if (kept_[idx(e)]) edges.push_back(e);
+    return edges;
+  }
+
+  /// From a loose end to where another chain meets it, it turns, or it ends.
+  std::vector<int> chain_from(int vertex, int edge) const {
+    std::vector<int> chain = {edge};
+    for (;;) {
+      vertex = other_end(edge, vertex);
+      const std::vector<int> here = kept_edges(vertex);
+      if (here.size() != 2) return chain;
+      const int next = here[0] == edge ? here[1] : here[0];
+      if (!goes_on(edge, next, vertex)) return chain;
+      chain.push_back(edge = next);
+    }
+  }
+
+  bool is_worth_keeping(const std::vector<int>& chain) const {
+    double sum = 0;
+    int sharp = 0;
+    std::vector<double> bends;
+    for (int e : chain) {
+      sum += length(e);
+      sharp += angle_[idx(e)] > o_.angle;
+      bends.push_back(bend(e));
+    }
+    const auto middle = bends.begin() + std::ssize(bends) / 2;
+    std::nth_element(bends.begin(), middle, bends.end());
+    const auto edges = static_cast<int>(chain.size());
+    return edges >= o_.least_edges && sum >= o_.least_length && sharp >= o_.sharp_share * edges &&
+           *middle <= o_.chain_bend;
+  }
+
+  void drop_loose_chains() {
+    std::vector<int> ends;
+    for (int v = c_.vertex_count; v-- > 0;) ends.push_back(v);
+    while (!ends.empty()) {
+      const int v = ends.back();
+      ends.pop_back();
+      const std::vector<int> here = kept_edges(v);
+      if (here.size() != 1) continue;
+      const std::vector<int> chain = chain_from(v, here[0]);
+      if (is_worth_keeping(chain)) continue;
+      for (int e : chain) kept_[idx(e)] = 0;
+      ends.insert(ends.end(), c_.edges[idx(chain.back())].begin(), c_.edges[idx(chain.back())].end());
+    }
+  }
+
+  const Mat3X& X_;
+  const Connectivity& c_;
+  const std::vector<double>& length_;
+  const FeatureOptions& o_;
+  std::vector<double> angle_;
+  std::vector<char> kept_;
+  double cos_turn_;
+};
+
+}  // namespace
+
+std::vector<int> find_features(const Mat3X& points, const Connectivity& connectivity,
+                               const std::vector<double>& vertex_length, const FeatureOptions& options) {
+  if (options.angle >= 180) return {};
+  return FeatureSearch(points, connectivity, vertex_length, options).run();
+}
+
+}  // namespace hooke
