@@ -10,19 +10,28 @@
 namespace hooke {
 namespace {
 
-constexpr size_t enough = 9;       // vertices for the six coefficients, with some to spare against noise
-constexpr double same_sheet = .2;  // least cosine between the normals
+constexpr size_t enough = 9;  // vertices for the six coefficients, with some to spare against noise
+constexpr double any_side = -2;
+constexpr double same_sheet = .2;  // least cosine of a normal with the axis
 
-/// The vertices within some rings of `centre`, which comes first.
-std::vector<int> neighbourhood(const Connectivity& c, const Mat3X& normals, int centre) {
+/// Mean normal of the vertex and its neighbours: their majority stands where one ring is folded.
+Vec3 axis_at(const Connectivity& c, const Mat3X& normals, int vertex) {
+  Vec3 sum = normals.col(vertex);
+  for (int w : c.vertex_neighbours[vertex]) sum += normals.col(w);
+  return sum.normalized();
+}
+
+/// The vertices within some rings of `centre`, which comes first, whose normals lean at most so far from the
+/// axis.
+std::vector<int> neighbourhood(const Connectivity& c, const Mat3X& normals, int centre, const Vec3& axis,
+                               double least_cosine) {
   std::vector<int> found = {centre};
   size_t ring_begin = 0;
   for (int ring = 1; ring <= 2 || (ring == 3 && found.size() <= enough); ++ring) {
     const size_t ring_end = found.size();
     for (; ring_begin < ring_end; ++ring_begin)
       for (int w : c.vertex_neighbours[found[ring_begin]])
-        if (normals.col(w).dot(normals.col(centre)) > same_sheet &&
-            std::ranges::find(found, w) == found.end())
+        if (normals.col(w).dot(axis) >= least_cosine && std::ranges::find(found, w) == found.end())
           found.push_back(w);
   }
   return found;
@@ -39,8 +48,8 @@ double largest_curvature(double a, double b, double c, double d, double e) {
   return shape.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-double fit_curvature(const Mat3X& points, const Mat3X& normals, const std::vector<int>& vertices) {
-  const Vec3 origin = points.col(vertices[0]), n = normals.col(vertices[0]);
+double fit_curvature(const Mat3X& points, const Vec3& n, const std::vector<int>& vertices) {
+  const Vec3 origin = points.col(vertices[0]);
   double radius = 0;
   for (int v : vertices) radius = std::max(radius, (points.col(v) - origin).norm());
   if (!(radius > 0)) return 0;
@@ -69,8 +78,11 @@ std::vector<double> largest_curvatures(const Mat3X& points, const Connectivity& 
   std::vector<double> curvature(static_cast<size_t>(c.vertex_count), 0);
   parallel_for(curvature.size(), 256, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
-      const std::vector<int> vertices = neighbourhood(c, normals, static_cast<int>(v));
-      if (vertices.size() > 1) curvature[v] = fit_curvature(points, normals, vertices);
+      const int centre = static_cast<int>(v);
+      const Vec3 axis = axis_at(c, normals, centre);
+      std::vector<int> vertices = neighbourhood(c, normals, centre, axis, same_sheet);
+      if (vertices.size() <= enough) vertices = neighbourhood(c, normals, centre, axis, any_side);
+      if (vertices.size() > 1) curvature[v] = fit_curvature(points, axis, vertices);
     }
   });
   return curvature;

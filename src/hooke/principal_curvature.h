@@ -8,8 +8,8 @@
 namespace hooke {
 
 /// The largest principal curvature by size at each vertex, 1/length; 0 at a vertex without faces. Fits two
-/// rings, and a third where they have fewer than nine vertices; faces turned away by more than 78 degrees
-/// (the other side of a thin sheet) do not count.
+/// rings, and a third where they have fewer than ten vertices. Those turned away by more than 78 degrees (on
+/// the other side of a thin sheet) do not count, unless too few are left.
 std::vector<double> largest_curvatures(const Mat3X& points, const Connectivity& connectivity);
 
 }  // namespace hooke
