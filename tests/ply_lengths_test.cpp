@@ -65,7 +65,7 @@ TEST(PlyLengths, AMissingPropertyIsToldWithThoseThereAre) {
 
 TEST(PlyLengths, AreFiniteAndPositive) {
   for (const char* value : {"0", "-1", "nan", "inf", "x", ""})
-    EXPECT_ERROR(InputError, "m.ply:11: ",
+    EXPECT_ERROR(InputError, "m.ply:12: ",
                  read(header("ascii", "property float size\n") + "0 0 0 1\n0 0 0 " + value + "\n"));
 }
 
