@@ -10,8 +10,8 @@ struct CountOptions {
   double largest_part = .02;   // of the edges, changed in one go
   double valence_weight = .1;  // of an irregular valence against l / L when edges are chosen
   SplitOptions split{.longest = 0};
-  /// Looser guards: the last edges too many sit where the surface bends.
-  CollapseOptions collapse{.longest = 1.8, .sagitta = .35};
+  CollapseOptions collapse{.longest = 1.6, .valence = 8};
+};
 };
 
 /// 4 A / (sqrt 3 L^2), summed over the faces: the number of equilateral triangles of the target length that
