@@ -12,19 +12,18 @@ struct CountOptions {
   SplitOptions split{.longest = 0};
   CollapseOptions collapse{.longest = 1.6, .valence = 8};
 };
-};
 
 /// 4 A / (sqrt 3 L^2), summed over the faces: the number of equilateral triangles of the target length that
 /// cover the surface.
 double wanted_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
                          const std::vector<double>& vertex_length);
 
-/// Splits the longest and collapses the shortest edges of each curve until it has as many as it wants.
-/// Returns the numbers of splits and collapses.
 struct CountChanges {
   int splits = 0;
   int collapses = 0;
 };
+
+/// Splits the longest and collapses the shortest edges of each curve until it has as many as it wants.
 CountChanges settle_curves(AdaptingMesh& mesh, const CountOptions& options);
 
 /// Brings the number of faces closer to `wanted` by splits or collapses of inner edges that are far apart:
