@@ -65,6 +65,14 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   if (crossings > before)
     run.warnings.push_back({"self_intersections_added", fmt::format("{}: {} self-intersections, {} before",
                                                                     run.output->path, crossings, before)});
+  const double faces = run.after->topology.faces, wanted = r.adaptation.wanted_faces;
+  if (r.adaptation.rounds > 0 && std::abs(faces - wanted) > std::max(3., .03 * wanted))
+    run.warnings.push_back(
+        {"face_count_missed",
+         fmt::format(
+             "{}: {} faces, where the target length asks for {:.0f}; edges that the surface, a boundary "
+             "or a fixed vertex needs stay; use a smaller length",
+             run.output->path, faces, wanted)});
   if (s.paper && r.reason != StopReason::converged)
     run.warnings.push_back({"paper_jams", fmt::format("{}: {}", run.input.path, paper_message(r))});
 }

@@ -10,8 +10,7 @@ struct CountOptions {
   double largest_part = .02;   // of the edges, changed in one go
   double valence_weight = .1;  // of an irregular valence against l / L when edges are chosen
   SplitOptions split{.longest = 0};
-  /// Looser guards: the last edges too many sit where the surface bends.
-  CollapseOptions collapse{.longest = 1.8, .sagitta = .35};
+  CollapseOptions collapse{.longest = 1.6, .valence = 8};
 };
 
 /// 4 A / (sqrt 3 L^2), summed over the faces: the number of equilateral triangles of the target length that
@@ -19,12 +18,12 @@ struct CountOptions {
 double wanted_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
                          const std::vector<double>& vertex_length);
 
-/// Splits the longest and collapses the shortest edges of each curve until it has as many as it wants.
-/// Returns the numbers of splits and collapses.
 struct CountChanges {
   int splits = 0;
   int collapses = 0;
 };
+
+/// Splits the longest and collapses the shortest edges of each curve until it has as many as it wants.
 CountChanges settle_curves(AdaptingMesh& mesh, const CountOptions& options);
 
 /// Brings the number of faces closer to `wanted` by splits or collapses of inner edges that are far apart:
