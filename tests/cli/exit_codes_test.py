@@ -15,7 +15,9 @@ class UsageErrors(CommandTest):
 
     def test_bad_values_of_options(self):
         for option in (["-L", "none"], ["-L", "-1"], ["-L", "0"], ["-L", "nan"], ["--tolerance", "1m"],
-                       ["--threads", "0"], ["--filter", "magic"], ["--max-outer", "0"], ["--format", "stl"]):
+                       ["--threads", "0"], ["--filter", "magic"], ["--max-outer", "0"], ["--format", "stl"],
+                       ["--feature-angle", "0"], ["--feature-angle", "180"], ["--feature-angle", "sharp"],
+                       ["--feature-angle", "40", "--paper"]):
             with self.subTest(option=option):
                 self.refused(2, "good.obj", "-o", "out.obj", *option,
                              says="length" if option[0] == "-L" else option[0])
