@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""make_samples.py [FOLDER]   writes the sample meshes of this folder: badly shaped triangles on smooth surfaces.
+"""make_samples.py [FOLDER]   writes the sample meshes of this folder: badly shaped triangles on smooth surfaces
+and on solids with sharp edges.
 
 Python 3 standard library only; the same files on every machine (coordinates are rounded to 1e-6).
 Each mesh is the Delaunay triangulation of independent random points of its parameter domain: a square for the
-open patch, the unit sphere for the blob, a periodic rectangle for the torus. Points are inserted one by one
+open patch, the unit sphere for the blob, a periodic rectangle for the torus, each smooth piece for the solids. Points are inserted one by one
 and edges flipped until all are Delaunay again (C. L. Lawson, Software for C1 surface interpolation, 1977).
 """
 
@@ -167,6 +168,111 @@ def torus(seed=3, around=8, across=4, count=800, major=1., minor=.42):
     return vertices, faces
 
 
+class Solid:
+    """Vertices by place, so that faces share those of their common edges, and triangles."""
+
+    def __init__(self, seed):
+        self.rng = random.Random(seed)
+        self.vertices, self.faces, self._ids, self._edges = [], [], {}, {}
+
+    def vertex(self, point):
+        key = tuple(round(c, 6) + 0. for c in point)
+        if key not in self._ids:
+            self._ids[key] = len(self.vertices)
+            self.vertices.append(key)
+        return self._ids[key]
+
+    def edge(self, p, q, step):
+        """Places from p to before q, irregular, the same from both ends."""
+        if (p, q) not in self._edges:
+            count = max(1, round(math.dist(p, q) / step))
+            parts = [0.] + [(i + .8 * (self.rng.random() - .5)) / count for i in range(1, count)]
+            points = [tuple(a + t * (b - a) for a, b in zip(p, q)) for t in parts]
+            self._edges[p, q], self._edges[q, p] = points, [q] + points[:0:-1]
+        return self._edges[p, q]
+
+    def polygon(self, corners, to_plane, to_space, middle, step, inner):
+        """A flat face, counter-clockwise, whose `middle` sees all of it; `inner` random points."""
+        ring = []
+        for p, q in zip(corners, corners[1:] + corners[:1]):
+            ring += [to_plane(x) for x in self.edge(p, q, step)]
+        points = ring + [middle] + inner
+        fan = [(i, (i + 1) % len(ring), len(ring)) for i in range(len(ring))]
+        self.add(points, triangulate_flat(points, fan, lambda p, q: (q[0] - p[0], q[1] - p[1])), to_space)
+
+    def add(self, points, faces, to_space):
+        ids = [self.vertex(to_space(p)) for p in points]
+        self.faces += [tuple(ids[v] for v in face) for face in faces]
+
+
+def prism(outline, height, middle, seed, step, density):
+    """Walls over a counter-clockwise outline of axis-parallel edges, with a floor and a ceiling."""
+    solid = Solid(seed)
+    rng = solid.rng
+    inside = lambda x, y: sum((y0 > y) != (y1 > y) and x < x0 for (x0, y0), (x1, y1)
+                              in zip(outline, outline[1:] + outline[:1])) % 2 == 1
+    low = [(float(x), float(y), 0.) for x, y in outline]
+    high = [(float(x), float(y), float(height)) for x, y in outline]
+    box = [max(c[k] for c in outline) for k in range(2)]
+
+    def scattered():
+        points = ((rng.uniform(.03, box[0] - .03), rng.uniform(.03, box[1] - .03))
+                  for _ in range(int(density * box[0] * box[1])))
+        return [p for p in points if all(inside(p[0] + dx, p[1] + dy) for dx in (-.02, .02) for dy in (-.02, .02))]
+
+    solid.polygon(high, lambda p: p[:2], lambda q: (q[0], q[1], height), middle, step, scattered())
+    turned = lambda p: (p[1], p[0])
+    solid.polygon(low[::-1], turned, lambda q: (q[1], q[0], 0.), turned(middle), step, [turned(p) for p in scattered()])
+    for i, p in enumerate(low):
+        j = (i + 1) % len(low)
+        length = math.dist(p, low[j])
+        along = tuple((b - a) / length for a, b in zip(p, low[j]))
+        to_plane = lambda x, p=p, along=along: (sum((a - b) * c for a, b, c in zip(x, p, along)), x[2])
+        to_space = lambda q, p=p, along=along: (p[0] + q[0] * along[0], p[1] + q[0] * along[1], q[1])
+        inner = [(rng.uniform(.03, length - .03), rng.uniform(.03, height - .03))
+                 for _ in range(int(density * length * height))]
+        solid.polygon([p, low[j], high[j], high[i]], to_plane, to_space, (.47 * length, .52 * height), step, inner)
+    return solid.vertices, solid.faces
+
+
+def cube(seed=5):
+    """The unit cube."""
+    return prism([(0, 0), (1, 0), (1, 1), (0, 1)], 1, (.48, .53), seed, .125, 60)
+
+
+def step_block(seed=6):
+    """A block with a step: two by two by one, one quarter missing."""
+    return prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 1, (.52, .47), seed, .17, 32)
+
+
+def cylinder(seed=9, around=40, height=2., inner=420):
+    """A closed cylinder of radius 1; the points of its rims are irregular, too."""
+    solid = Solid(seed)
+    rng = solid.rng
+    turns = [2 * math.pi * (i + .7 * (rng.random() - .5)) / around for i in range(around)]
+    ring = [(math.cos(t), math.sin(t)) for t in turns]
+    fan = [(i, (i + 1) % around, around) for i in range(around)]
+    plain = lambda p, q: (q[0] - p[0], q[1] - p[1])
+    for z, to_space in ((height, lambda q: (q[0], q[1], height)), (0., lambda q: (q[0], -q[1], 0.))):
+        rim = ring if z > 0 else [(x, -y) for x, y in ring[::-1]]
+        radii = [(.97 * math.sqrt(rng.random()), rng.uniform(0, 2 * math.pi)) for _ in range(inner // 3)]
+        points = rim + [(.02, -.03)] + [(r * math.cos(t), r * math.sin(t)) for r, t in radii]
+        solid.add(points, triangulate_flat(points, fan, plain), to_space)
+
+    def wrapped(p, q):
+        x = q[0] - p[0]
+        return x - 2 * math.pi * round(x / (2 * math.pi)), q[1] - p[1]
+
+    points = [(t, 0.) for t in turns] + [(t, height) for t in turns]
+    faces = []
+    for i in range(around):
+        j = (i + 1) % around
+        faces += [(i, j, around + j), (i, around + j, around + i)]
+    points += [(rng.uniform(0, 2 * math.pi), rng.uniform(.03, height - .03)) for _ in range(inner)]
+    solid.add(points, triangulate_flat(points, faces, wrapped), lambda q: (math.cos(q[0]), math.sin(q[0]), q[1]))
+    return solid.vertices, solid.faces
+
+
 def rounded(vertices):
     return [tuple(round(c, 6) + 0. for c in v) for v in vertices]
 
@@ -193,7 +299,8 @@ def write_ply(path, vertices, faces):
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
     for name, write, make in (("patch.obj", write_obj, bumpy_patch), ("blob.ply", write_ply, blob),
-                              ("torus.off", write_off, torus)):
+                              ("torus.off", write_off, torus), ("cube.obj", write_obj, cube),
+                              ("block.ply", write_ply, step_block), ("cylinder.off", write_off, cylinder)):
         vertices, faces = make()
         write(folder / name, rounded(vertices), faces)
         print("%s: %d vertices, %d faces" % (folder / name, len(vertices), len(faces)))

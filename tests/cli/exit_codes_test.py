@@ -16,7 +16,10 @@ class UsageErrors(CommandTest):
     def test_bad_values_of_options(self):
         for option in (["-L", "none"], ["-L", "-1"], ["-L", "0"], ["-L", "nan"], ["--tolerance", "1m"],
                        ["--sizing", "ply:"], ["--sizing", "curvature:0"], ["--gradation", "0", "--sizing", "curvature"],
-                       ["--gradation", "1"], ["-L", "sizing"], ["--threads", "0"], ["--filter", "magic"], ["--max-outer", "0"], ["--format", "stl"]):
+                       ["--gradation", "1"], ["-L", "sizing"], ["--threads", "0"], ["--filter", "magic"],
+                       ["--max-outer", "0"], ["--format", "stl"], ["--feature-angle", "0"],
+                       ["--feature-angle", "180"], ["--feature-angle", "sharp"],
+                       ["--feature-angle", "40", "--paper"]):
             with self.subTest(option=option):
                 self.refused(2, "good.obj", "-o", "out.obj", *option,
                              says={"-L": "length", "--sizing": "izing"}.get(option[0], option[0]))

@@ -46,6 +46,17 @@ class Report(CommandTest):
         self.has({"greatest_displacement"}, report["paper"])
         self.has({"threads", "wall_s", "cpu_s", "peak_rss_bytes"}, report["resources"])
 
+    def test_creases_are_counted(self):
+        report = self.report(DATA / "cube.obj", "-o", "out.obj")
+        self.assertEqual(report["parameters"]["feature_angle"], 40)
+        self.assertEqual(report["features"], {"chains": 12, "crease_edges": 96, "crease_edges_kept": 96,
+                                              "corners": 8, "curve_vertices": 84, "charts": 6})
+        self.assertAlmostEqual(report["output"]["volume"], 1, places=6)
+        report = self.report(DATA / "cube.obj", "-o", "out.obj", "--feature-angle", "off")
+        self.assertIsNone(report["parameters"]["feature_angle"])
+        self.assertIsNone(report["features"])
+        self.assertIsNone(self.report(DATA / "torus.off", "-o", "out.off")["features"])
+
     def test_check_measures_and_writes_nothing(self):
         report = self.report("good.obj", "--check")
         self.assertEqual(report["status"], "checked")

@@ -1,0 +1,200 @@
+// What remeshing keeps of a solid with sharp edges.
+#include <gtest/gtest.h>
+
+#include "crease_solids.h"
+#include "hooke/creases.h"
+#include "hooke/error.h"
+#include "hooke/parallel.h"
+#include "hooke/remesh.h"
+#include "scene.h"
+
+namespace hooke {
+namespace {
+
+struct Outcome {
+  Mat3X points;
+  std::vector<Triangle> faces;
+  RemeshResult result;
+};
+
+double length_of(const test::Triangles& t) {
+  return natural_length(total_area(t.points, t.faces), t.faces.size());
+}
+
+RemeshOptions in_mode(ConnectivityMode mode) {
+  RemeshOptions options;
+  options.connectivity = mode;
+  options.flips = flip_options(Effort::fast);
+  return options;
+}
+
+Outcome remeshed(const test::Triangles& t, const RemeshOptions& options) {
+  TriMesh mesh = test::to_mesh(t);
+  set_vertex_values(mesh, target_length_property, length_of(t));
+  Outcome o;
+  o.result = remesh(mesh, options);
+  o.points = positions(mesh);
+  o.faces = triangles_of(mesh);
+  return o;
+}
+
+double volume(const Mat3X& X, const std::vector<Triangle>& faces) {
+  double sum = 0;
+  for (const auto& [a, b, c] : faces) sum += X.col(a).dot(X.col(b).cross(X.col(c))) / 6;
+  return sum;
+}
+
+constexpr ConnectivityMode both_modes[] = {ConnectivityMode::fixed, ConnectivityMode::flip};
+
+/// Every face of an axis-parallel solid lies in one of its planes; its outside has not turned.
+void expect_flat_faces(const test::Triangles& t, const Outcome& o, double tolerance) {
+  for (const Triangle& f : o.faces) {
+    const Vec3 n = test::area_vector(o.points, f).normalized();
+    Eigen::Index axis;
+    EXPECT_NEAR(n.cwiseAbs().maxCoeff(&axis), 1, 1e-6);
+    for (int v : f) EXPECT_NEAR(o.points(axis, v), std::round(o.points(axis, v)), tolerance);
+  }
+  EXPECT_NEAR(volume(o.points, o.faces) / volume(t.points, t.faces), 1, 1e-6);
+}
+
+/// The creases cover those of the input and nothing else: the same sum of lengths, all within the
+/// axis-parallel edges they started on, and the corners where they were.
+void expect_same_creases(const test::Triangles& t, const Outcome& o, double tolerance) {
+  const auto creases = [](const Mat3X& X, const std::vector<Triangle>& faces) {
+    const Connectivity c = make_connectivity(static_cast<int>(X.cols()), faces);
+    const std::vector<double> length(static_cast<size_t>(X.cols()), 1);
+    std::vector<Edge> edges;
+    for (int e : find_features(X, c, length, {})) edges.push_back(c.edges[static_cast<size_t>(e)]);
+    return edges;
+  };
+  const auto sum = [](const Mat3X& X, const std::vector<Edge>& edges) {
+    double length = 0;
+    for (const auto& [a, b] : edges) length += (X.col(a) - X.col(b)).norm();
+    return length;
+  };
+  const auto before = creases(t.points, t.faces), after = creases(o.points, o.faces);
+  EXPECT_EQ(before.size(), after.size());
+  EXPECT_NEAR(sum(o.points, after), sum(t.points, before), 1e-9 * sum(t.points, before));
+  for (const auto& [a, b] : after) {  // along an axis, on lattice planes in the two others
+    const Vec3 d = (o.points.col(a) - o.points.col(b)).cwiseAbs();
+    Eigen::Index along;
+    d.maxCoeff(&along);
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (k != along)
+        for (int v : {a, b}) EXPECT_NEAR(o.points(k, v), std::round(t.points(k, v)), tolerance);
+  }
+  EXPECT_EQ(o.result.creases.kept, o.result.creases.edges);
+}
+
+TEST(CreaseRemesh, ACubeStaysACube) {
+  const test::Triangles t = test::irregular_cube(7);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    expect_flat_faces(t, o, 1e-9);
+    expect_same_creases(t, o, 1e-9);
+    EXPECT_EQ(o.result.creases.curves, 12);
+    EXPECT_EQ(o.result.creases.corners, 8);
+    EXPECT_EQ(o.result.creases.charts, 6);
+    EXPECT_TRUE(o.result.folded_faces.empty());
+    EXPECT_GT(least_angle(o.points, o.faces), least_angle(t.points, t.faces) + 10);
+  }
+}
+
+TEST(CreaseRemesh, AStepBlockKeepsItsConcaveEdge) {
+  const test::Triangles t = test::step_block(4);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    expect_flat_faces(t, o, 1e-9);
+    expect_same_creases(t, o, 1e-9);
+    EXPECT_EQ(o.result.creases.curves, 18);
+    EXPECT_EQ(o.result.creases.corners, 12);
+    EXPECT_EQ(o.result.creases.charts, 8);
+  }
+}
+
+TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
+  const test::Triangles t = test::cylinder(40);
+  const double L = length_of(t);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    EXPECT_EQ(o.result.creases.curves, 2);
+    EXPECT_EQ(o.result.creases.corners, 0);
+    EXPECT_EQ(o.result.creases.charts, 3);
+    EXPECT_EQ(o.result.creases.kept, 80);
+    int on_rims = 0;
+    for (Eigen::Index v = 0; v < o.points.cols(); ++v) {
+      const Vec3 x = o.points.col(v);
+      const double r = std::hypot(x[0], x[1]);
+      const bool on_cap = std::min(std::abs(x[2]), std::abs(x[2] - 2)) < 1e-9 * L;
+      if (!on_cap) EXPECT_NEAR(r, 1, 2e-3 * L);
+      EXPECT_LE(r, 1 + 2e-3 * L);
+      on_rims += on_cap && r > .98;  // rims are polygons of 40 sides
+    }
+    EXPECT_EQ(on_rims, 80);
+    EXPECT_TRUE(o.result.folded_faces.empty());
+    EXPECT_GT(least_angle(o.points, o.faces), least_angle(t.points, t.faces) + 5);
+  }
+}
+
+TEST(CreaseRemesh, WithoutCreasesACubeIsRounded) {
+  const test::Triangles t = test::irregular_cube(7);
+  RemeshOptions options;
+  options.constraints.features.angle = 180;
+  const Outcome o = remeshed(t, options);
+  EXPECT_EQ(o.result.creases.edges, 0);
+  EXPECT_GT(std::abs(volume(o.points, o.faces) / volume(t.points, t.faces) - 1), 1e-5);
+}
+
+TEST(CreaseRemesh, EveryFilterKeepsTheSidesFlat) {
+  const test::Triangles t = test::irregular_cube(4);
+  for (FilterKind kind : {FilterKind::local, FilterKind::global, FilterKind::closest}) {
+    RemeshOptions options;
+    options.filter.kind = kind;
+    const Outcome o = remeshed(t, options);
+    expect_flat_faces(t, o, 1e-6);
+    expect_same_creases(t, o, 1e-6);
+  }
+}
+
+TEST(CreaseRemesh, ThoroughFlipsKeepCreases) {
+  const test::Triangles t = test::irregular_cube(5);
+  RemeshOptions options = in_mode(ConnectivityMode::flip);
+  options.flips = flip_options(Effort::thorough);
+  options.flips.flow.rounds = 20;
+  options.flips.passes.passes = 2;
+  const Outcome o = remeshed(t, options);
+  expect_flat_faces(t, o, 1e-9);
+  expect_same_creases(t, o, 1e-9);
+}
+
+TEST(CreaseRemesh, ACubeOfTwelveFacesIsLeftAlone) {
+  const test::Triangles t = test::cube();
+  for (ConnectivityMode mode : both_modes) EXPECT_EQ(remeshed(t, in_mode(mode)).points, t.points);
+}
+
+TEST(CreaseRemesh, AScaleOfTwoChangesNothing) {
+  const test::Triangles t = test::step_block(3);
+  test::Triangles large = t;
+  large.points *= 4;
+  for (ConnectivityMode mode : both_modes)
+    EXPECT_EQ(remeshed(large, in_mode(mode)).points, 4 * remeshed(t, in_mode(mode)).points);
+}
+
+TEST(CreaseRemesh, ThreadsChangeNothing) {
+  const test::Triangles t = test::irregular_cube(8);
+  for (ConnectivityMode mode : both_modes) {
+    Mat3X one, two;
+    {
+      const ThreadLimit limit(1);
+      one = remeshed(t, in_mode(mode)).points;
+    }
+    {
+      const ThreadLimit limit(2);
+      two = remeshed(t, in_mode(mode)).points;
+    }
+    EXPECT_EQ(one, two);
+  }
+}
+
+}  // namespace
+}  // namespace hooke

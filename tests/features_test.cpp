@@ -1,0 +1,70 @@
+#include "hooke/features.h"
+
+#include <gtest/gtest.h>
+
+#include "crease_solids.h"
+
+namespace hooke {
+namespace {
+
+std::vector<Edge> features_of(const test::Triangles& t, const FeatureOptions& options = {}) {
+  const Connectivity c = test::connect(t);
+  const std::vector<double> length(static_cast<size_t>(c.vertex_count), 1);
+  std::vector<Edge> edges;
+  for (int e : find_features(t.points, c, length, options)) edges.push_back(c.edges[static_cast<size_t>(e)]);
+  return edges;
+}
+
+/// A sheet n x n, bent along x = n / 2 by `degrees(y)`, in cells of 1.
+test::Triangles bent_sheet(int n, const std::function<double(double)>& degrees) {
+  test::Triangles t = test::grid(n, test::flat);
+  t.points *= n;
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    t.points(2, v) =
+        -std::abs(t.points(0, v) - .5 * n) * std::tan(degrees(t.points(1, v)) * std::numbers::pi / 360);
+  return t;
+}
+
+TEST(Features, ACubeHasItsTwelveEdges) {
+  EXPECT_EQ(features_of(test::cube()).size(), 12u);
+  EXPECT_EQ(features_of(test::irregular_cube(5)).size(), 60u);
+  EXPECT_EQ(features_of(test::moved(test::irregular_cube(5), .25)).size(), 60u);
+}
+
+TEST(Features, OffMeansNone) {
+  EXPECT_TRUE(features_of(test::cube(), {.angle = 180}).empty());
+}
+
+TEST(Features, OnlyAnglesAboveTheThresholdCount) {
+  const auto bent = [](double degrees) {
+    return features_of(bent_sheet(20, [degrees](double) { return degrees; })).size();
+  };
+  EXPECT_EQ(bent(39), 0u);
+  EXPECT_EQ(bent(41), 20u);
+}
+
+TEST(Features, AWeakerEdgeGoesOnFromASharpOne) {
+  const test::Triangles t = bent_sheet(30, [](double y) { return 60 - 2 * y; });
+  const auto weakest = [&](const FeatureOptions& options) { return features_of(t, options).size(); };
+  EXPECT_NEAR(static_cast<double>(weakest({})), 18, 1);           // to 24 degrees
+  EXPECT_NEAR(static_cast<double>(weakest({.weak = 1})), 10, 1);  // to 40
+}
+
+TEST(Features, AChainWithALooseEndIsLong) {
+  const auto bent = [](double end) { return bent_sheet(30, [end](double y) { return y < end ? 60. : 0.; }); };
+  EXPECT_TRUE(features_of(bent(8)).empty());
+  EXPECT_GE(features_of(bent(16)).size(), 15u);
+  EXPECT_TRUE(features_of(bent(16), {.least_length = 40}).empty());
+}
+
+TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
+  EXPECT_TRUE(features_of(test::sphere(0)).empty());  // an icosahedron bends by 42 degrees everywhere
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    EXPECT_TRUE(features_of(test::sphere(2, .45, seed)).empty());
+    EXPECT_TRUE(features_of(test::shaken(test::sphere(2, 0, seed), .04, seed)).empty());
+    EXPECT_TRUE(features_of(test::shaken(test::grid(15, test::flat), .02, seed)).empty());
+  }
+}
+
+}  // namespace
+}  // namespace hooke
