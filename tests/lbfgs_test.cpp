@@ -63,7 +63,8 @@ TEST(RelaxLbfgs, KeepsEveryVertexOnTheSurfaceAndNoFaceFolds) {
   for (double lazy : {0., .01}) {
     test::SceneOptions options;
     options.retraction.lazy = lazy;
-    test::Scene s = test::sphere_scene(.4, options);
+    test::Scene s = test::sphere_scene(.3, options);
+    ASSERT_TRUE(s.guards.folded_faces().empty());  // what is folded at the start may stay so
     relax(s);
     EXPECT_LT((s.placement.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
     for (const Triangle& t : s.connectivity.faces)
