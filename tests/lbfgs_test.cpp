@@ -48,7 +48,8 @@ TEST(RelaxLbfgs, GetsLowerThanGradientSteps) {
 
 TEST(RelaxLbfgs, ComesToRestWhereTheGradientIsSmall) {
   for (bool on_sphere : {true, false}) {
-    test::Scene s = on_sphere ? test::sphere_scene(.4) : test::ground_scene(.4);
+    test::Scene s = on_sphere ? test::sphere_scene(.35) : test::ground_scene(.4);
+    ASSERT_TRUE(s.guards.folded_faces().empty());  // they would block the way
     const double start = s.tangent_gradient().norm();
     const double energy = s.energy(s.placement, nullptr);
     const IntegrationResult result = relax(s);
@@ -63,7 +64,8 @@ TEST(RelaxLbfgs, KeepsEveryVertexOnTheSurfaceAndNoFaceFolds) {
   for (double lazy : {0., .01}) {
     test::SceneOptions options;
     options.retraction.lazy = lazy;
-    test::Scene s = test::sphere_scene(.4, options);
+    test::Scene s = test::sphere_scene(.35, options);
+    ASSERT_TRUE(s.guards.folded_faces().empty());  // what is folded at the start may stay so
     relax(s);
     EXPECT_LT((s.placement.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
     for (const Triangle& t : s.connectivity.faces)

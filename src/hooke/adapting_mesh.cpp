@@ -78,7 +78,7 @@ void keep_only(std::vector<T>& values, const std::vector<int>& kept) {
 
 }  // namespace
 
-CurveFinder::CurveFinder(const std::vector<Curve>& curves) : curves_(curves) {
+CurveFinder::CurveFinder(const std::vector<Curve>& curves) : curves_(&curves) {
   for (size_t c = 0; c < curves.size(); ++c)
     for (Eigen::Index i = 0; i < curves[c].points.cols(); ++i)
       places_[key_of(curves[c].points.col(i))].push_back(
@@ -95,7 +95,7 @@ CurveFinder::Place CurveFinder::common(const Vec3& a, const Vec3& b) const {
     for (const Place& q : at_b->second) {
       if (p.curve != q.curve) continue;
       const int halfway = (p.segment + q.segment) / 2;
-      const CurveFoot foot = project_to_curve(curves_[static_cast<size_t>(p.curve)], middle, halfway);
+      const CurveFoot foot = project_to_curve((*curves_)[static_cast<size_t>(p.curve)], middle, halfway);
       const double distance = (foot.point - middle).squaredNorm();
       if (distance >= least) continue;
       least = distance;

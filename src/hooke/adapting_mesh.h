@@ -24,7 +24,7 @@ class CurveFinder {
   Place common(const Vec3& a, const Vec3& b) const;
 
  private:
-  const std::vector<Curve>& curves_;
+  const std::vector<Curve>* curves_;
   std::map<std::array<double, 3>, std::vector<Place>> places_;
 };
 

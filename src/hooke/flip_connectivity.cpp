@@ -122,7 +122,7 @@ FlipOptions flip_options(Effort effort) {
       options.flow.rounds = 20;
       options.spring_rounds = 3;
       options.polish.last_threshold = 36;
-      options.polish.sweeps = 8;
+      options.polish.sweeps = 4;
       break;
     case Effort::standard:
       options.flow.rounds = 60;

@@ -17,6 +17,14 @@ double dot(const Mat3X& a, const Mat3X& b) {
   });
 }
 
+/// a += factor * b
+void add_scaled(double factor, const Mat3X& b, Mat3X& a) {
+  parallel_for(static_cast<size_t>(a.cols()), 4096, [&](size_t begin, size_t end) {
+    const auto from = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+    a.middleCols(from, count) += factor * b.middleCols(from, count);
+  });
+}
+
 /// H0: the inverse curvature around each vertex plus the grids.
 class Preconditioner {
  public:
@@ -87,12 +95,12 @@ class Memory {
     std::vector<double> alpha(pairs_.size());
     for (size_t i = pairs_.size(); i-- > 0;) {
       alpha[i] = pairs_[i].rho * dot(pairs_[i].s, q);
-      q -= alpha[i] * pairs_[i].y;
+      add_scaled(-alpha[i], pairs_[i].y, q);
     }
     q = scale_ * h0.apply(r, q);
     for (size_t i = 0; i < pairs_.size(); ++i) {
       const double beta = pairs_[i].rho * dot(pairs_[i].y, q);
-      q += (alpha[i] - beta) * pairs_[i].s;
+      add_scaled(alpha[i] - beta, pairs_[i].s, q);
     }
     return q;
   }

@@ -2,33 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "hooke/local_newton.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
 
+namespace {
+
+/// Cotangent of the least angle of a face: the corner across from its shortest edge.
+double greatest_cotangent(const Mat3X& points, const Triangle& face) {
+  const Vec3 p = points.col(face[0]), q = points.col(face[1]), r = points.col(face[2]);
+  const Vec3 a = r - q, b = p - r, c = q - p;
+  const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
+  const double cosine = .5 * (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // times the other two lengths
+  const double sine = b.cross(c).norm();
+  return sine > 0 ? cosine / sine : std::numeric_limits<double>::infinity();
+}
+
+double angle_of(double cotangent) {
+  return std::atan2(1, cotangent) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
 std::vector<double> least_angles(const Mat3X& points, const std::vector<Triangle>& faces) {
   std::vector<double> least(faces.size());
   parallel_for(faces.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      least[f] = 180;
-      for (size_t k = 0; k < 3; ++k) {
-        const Vec3 p = points.col(faces[f][k]);
-        const Vec3 a = points.col(faces[f][(k + 1) % 3]) - p;
-        const Vec3 b = points.col(faces[f][(k + 2) % 3]) - p;
-        least[f] = std::min(least[f], std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi);
-      }
-    }
+    for (size_t f = begin; f < end; ++f) least[f] = angle_of(greatest_cotangent(points, faces[f]));
   });
   return least;
 }
 
 double least_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
-  const std::vector<double> least = least_angles(points, faces);
-  const auto it = std::min_element(least.begin(), least.end());
-  return it == least.end() ? 0 : *it;
+  constexpr size_t block = 4096;
+  std::vector<double> greatest((faces.size() + block - 1) / block);
+  parallel_for(greatest.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t b = begin; b < end; ++b) {
+      double cotangent = -std::numeric_limits<double>::infinity();
+      for (size_t f = b * block; f < std::min(faces.size(), (b + 1) * block); ++f)
+        cotangent = std::max(cotangent, greatest_cotangent(points, faces[f]));
+      greatest[b] = cotangent;
+    }
+  });
+  return greatest.empty() ? 0 : angle_of(*std::ranges::max_element(greatest));
 }
 
 double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edges,
@@ -53,31 +73,54 @@ double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edg
 
 namespace {
 
-/// Adds the neighbours of all marked vertices.
-void grow(const Connectivity& c, std::vector<char>& marked) {
-  const std::vector<char> inner = marked;
-  for (const auto& [a, b] : c.edges)
-    if (inner[static_cast<size_t>(a)] || inner[static_cast<size_t>(b)])
-      marked[static_cast<size_t>(a)] = marked[static_cast<size_t>(b)] = 1;
+/// Marks the neighbours of these vertices and adds them to the list.
+void grow(const Connectivity& c, std::vector<char>& marked, std::vector<int>& vertices) {
+  for (size_t i = 0, count = vertices.size(); i < count; ++i)
+    for (int n : c.vertex_neighbours[vertices[i]])
+      if (!std::exchange(marked[static_cast<size_t>(n)], 1)) vertices.push_back(n);
 }
 
-/// Vertices that still move, and their neighbours: all others have found their place.
-std::vector<char> still_moving(const Connectivity& c, const std::vector<double>& moves, double rest) {
-  std::vector<char> marked(moves.size());
-  for (size_t v = 0; v < moves.size(); ++v) marked[v] = moves[v] > rest;
-  grow(c, marked);
-  return marked;
-}
-
-/// Marks the corners of all faces with an angle below the threshold (degrees) and `rings` rings around them.
-std::vector<char> around_bad_faces(const Mat3X& points, const Connectivity& c, double threshold, int rings) {
-  std::vector<char> active(static_cast<size_t>(c.vertex_count), 0);
-  const std::vector<double> angles = least_angles(points, c.faces);
+/// The corners of all faces with an angle below the threshold (degrees) and `rings` rings around them.
+std::vector<int> around_bad_faces(const Mat3X& points, const Connectivity& c, double threshold, int rings) {
+  const double limit = 1 / std::tan(threshold * std::numbers::pi / 180);
+  std::vector<char> bad(c.faces.size());
+  parallel_for(c.faces.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) bad[f] = greatest_cotangent(points, c.faces[f]) > limit;
+  });
+  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<int> vertices;
   for (size_t f = 0; f < c.faces.size(); ++f)
-    if (angles[f] < threshold)
-      for (int v : c.faces[f]) active[static_cast<size_t>(v)] = 1;
-  for (int ring = 0; ring < rings; ++ring) grow(c, active);
-  return active;
+    if (bad[f])
+      for (int v : c.faces[f])
+        if (!std::exchange(marked[static_cast<size_t>(v)], 1)) vertices.push_back(v);
+  for (int ring = 0; ring < rings; ++ring) grow(c, marked, vertices);
+  return vertices;
+}
+
+/// Marks those of the vertices that moved farther than `rest` and the neighbours of those: all others have
+/// found their place.
+void mark_restless(const Connectivity& c, const std::vector<int>& vertices, const std::vector<double>& moves,
+                   double rest, std::vector<char>& active) {
+  const auto moved = [&](int v) { return moves[static_cast<size_t>(v)] > rest; };
+  parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      active[static_cast<size_t>(vertices[i])] =
+          moved(vertices[i]) || std::ranges::any_of(c.vertex_neighbours[vertices[i]], moved);
+  });
+}
+
+/// One stage: sweeps over what lies around faces with an angle below the threshold.
+void raise(Relaxation& r, double threshold, const PolishOptions& o, const Observer& observer,
+           PolishResult& result) {
+  const std::vector<int> vertices = around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings);
+  std::vector<char> active(static_cast<size_t>(r.connectivity.vertex_count), 0);
+  for (int v : vertices) active[static_cast<size_t>(v)] = 1;
+  for (int sweep = 0; sweep < o.sweeps && !result.interrupted; ++sweep, ++result.sweeps) {
+    const std::vector<double> moves =
+        local_newton_sweep(r, active, {.over_relaxation = o.over_relaxation, .rest = .3 * o.rest});
+    mark_restless(r.connectivity, vertices, moves, o.rest, active);
+    result.interrupted = observer && !observer({.step = result.sweeps});
+  }
 }
 
 }  // namespace
@@ -101,13 +144,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   for (; threshold <= o.last_threshold && !result.interrupted; threshold += step) {
     r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
-    const std::vector<char> around = around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings);
-    std::vector<char> active = around;
-    for (int sweep = 0; sweep < o.sweeps && !result.interrupted; ++sweep, ++result.sweeps) {
-      active = still_moving(r.connectivity, local_newton_sweep(r, active, LocalNewtonOptions{}), o.rest);
-      for (size_t v = 0; v < active.size(); ++v) active[v] &= around[v];
-      result.interrupted = observer && !observer({.step = result.sweeps});
-    }
+    raise(r, threshold, o, observer, result);
     ++result.stages;
 
     const double angle = least_angle(r.placement.points, faces);

@@ -36,7 +36,7 @@ struct RemeshOptions {
   bool polish_angles = true;
   FilterOptions filter;
   Refit refit = Refit::each;  // of the field, before each outer iteration or once, which `adapt` always does
-  RetractionOptions retraction{.tolerance = 1e-6, .lazy = .05};
+  RetractionOptions retraction{.tolerance = 1e-6, .lazy = .1};
   ConstraintOptions constraints;
   double tolerance = 1e-3;   // of every edge, in parts of its target length
   int max_outer = 6;         // outer iterations

@@ -1,6 +1,8 @@
 #include "hooke/retraction.h"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "hooke/parallel.h"
 
@@ -18,6 +20,14 @@ void copy_sides(const Placement& from, Placement& to) {
     to.normals.col(static_cast<Eigen::Index>(side)) = from.normals.col(static_cast<Eigen::Index>(side));
     to.anchors[side] = from.anchors[side];
   }
+}
+
+/// Adds the calls of one vertex.
+template <class Uncounted>
+void add(const Uncounted& vertex, ProjectionCounts& counts) {
+  counts.calls += std::reduce(vertex.by_status.begin(), vertex.by_status.end());
+  counts.evaluations += vertex.evaluations;
+  for (size_t s = 0; s < counts.by_status.size(); ++s) counts.by_status[s] += vertex.by_status[s];
 }
 
 }  // namespace
@@ -200,14 +210,15 @@ void Retraction::resize(size_t vertices) {
 }
 
 void Retraction::count() {
-  for (Uncounted& vertex : uncounted_) {
-    const int calls = std::reduce(vertex.by_status.begin(), vertex.by_status.end());
-    if (calls == 0) continue;
-    counts_.calls += calls;
-    counts_.evaluations += vertex.evaluations;
-    for (size_t s = 0; s < vertex.by_status.size(); ++s) counts_.by_status[s] += vertex.by_status[s];
-    vertex = {};
-  }
+  constexpr size_t vertices_per_task = 8192;
+  std::vector<ProjectionCounts> parts((uncounted_.size() + vertices_per_task - 1) / vertices_per_task);
+  parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t part = begin; part < end; ++part)
+      for (size_t v = part * vertices_per_task;
+           v < std::min(uncounted_.size(), (part + 1) * vertices_per_task); ++v)
+        add(std::exchange(uncounted_[v], {}), parts[part]);
+  });
+  for (const ProjectionCounts& part : parts) counts_ += part;
 }
 
 }  // namespace hooke

@@ -1,0 +1,112 @@
+// Time of the kernels in which a run spends its time, per vertex or face of a jittered sphere.
+#include <benchmark/benchmark.h>
+
+#include <numeric>
+
+#include "hooke/local_newton.h"
+#include "hooke/surface_field.h"
+#include "meshes.h"
+
+namespace hooke {
+namespace {
+
+/// 10 * 4^level vertices with all that a relaxation works on.
+struct Sphere {
+  explicit Sphere(int levels)
+      : start(test::sphere(levels, .35, 7)),
+        connectivity(std::make_shared<const Connectivity>(
+            make_connectivity(static_cast<int>(start.points.cols()), start.faces))),
+        length(start.points.cols(),
+               natural_length(total_area(start.points, start.faces), start.faces.size())),
+        mesh(test::to_mesh(start)) {
+    std::vector<int> anchors(length.size());
+    std::iota(anchors.begin(), anchors.end(), 0);
+    placement = retraction.place(start.points, anchors, constraints.segment);
+    guards.accept(placement);
+  }
+
+  Relaxation relaxation() {
+    return {mesh, *connectivity, sweeps, length, energy, retraction, guards, placement};
+  }
+
+  test::Triangles start;
+  std::shared_ptr<const Connectivity> connectivity;
+  std::vector<double> length;
+  TriMesh mesh;
+  SweepPlan sweeps = plan_sweeps(*connectivity);
+  TargetLengths targets = spread_target_lengths(*connectivity, length);
+  Constraints constraints = find_constraints(start.points, *connectivity, {});
+  SurfaceField field{start.points, connectivity};
+  Retraction retraction{field.surface(), constraints, {}};
+  Energy energy{*connectivity, targets, {}};
+  Guards guards{*connectivity, targets, {}};
+  Placement placement;
+};
+
+void per_item(benchmark::State& state, size_t items) {
+  state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(items));
+}
+
+void energy_and_gradient(benchmark::State& state) {
+  Sphere s(static_cast<int>(state.range(0)));
+  Mat3X gradient;
+  for (auto _ : state) benchmark::DoNotOptimize(s.energy(s.placement, &gradient));
+  per_item(state, s.connectivity->faces.size());
+}
+
+void guards_of_all(benchmark::State& state) {
+  Sphere s(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(s.guards.offenders(s.placement));
+  per_item(state, s.connectivity->faces.size());
+}
+
+void ring_curvature(benchmark::State& state) {
+  Sphere s(static_cast<int>(state.range(0)));
+  Relaxation r = s.relaxation();
+  LocalNewton newton(r);
+  for (auto _ : state)
+    for (int v = 0; v < s.connectivity->vertex_count; ++v) benchmark::DoNotOptimize(newton.curvature(v));
+  per_item(state, s.length.size());
+}
+
+void newton_sweep(benchmark::State& state) {
+  Sphere s(static_cast<int>(state.range(0)));
+  const Placement start = s.placement;
+  Relaxation r = s.relaxation();
+  for (auto _ : state) {
+    s.placement = start;
+    benchmark::DoNotOptimize(local_newton_sweep(r, {}, {}));
+  }
+  per_item(state, s.length.size());
+}
+
+void projection(benchmark::State& state) {
+  const Sphere s(static_cast<int>(state.range(0)));
+  for (auto _ : state)
+    for (int v = 0; v < s.connectivity->vertex_count; ++v)
+      benchmark::DoNotOptimize(s.field.project(1.01 * s.start.points.col(v), v, 1e-6 * s.length[0]));
+  per_item(state, s.length.size());
+}
+
+void field_fit(benchmark::State& state) {
+  const Sphere s(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(SurfaceField(s.start.points, s.connectivity));
+  per_item(state, s.length.size());
+}
+
+void sweep_plan(benchmark::State& state) {
+  const Sphere s(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(plan_sweeps(*s.connectivity));
+  per_item(state, s.length.size());
+}
+
+BENCHMARK(energy_and_gradient)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(guards_of_all)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(ring_curvature)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(newton_sweep)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(projection)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(field_fit)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(sweep_plan)->Arg(5)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace hooke
