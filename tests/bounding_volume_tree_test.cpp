@@ -108,7 +108,7 @@ TEST(BoundingVolumeTree, PairsOfBoxesThatMeetAreAllVisitedOnce) {
   EXPECT_EQ(visited, expected);
 }
 
-TEST(BoundingVolumeTree, PointsAskedForTogetherGetTheAnswersOfEachAlone) {
+TEST(BoundingVolumeTree, PointsAskedForTogetherGetTheDistancesOfEachAlone) {
   const test::Triangles t = test::shaken(test::sphere(3), .3);
   const BoundingVolumeTree tree(t.points, t.faces);
   std::mt19937 random(7);
@@ -123,8 +123,7 @@ TEST(BoundingVolumeTree, PointsAskedForTogetherGetTheAnswersOfEachAlone) {
     for (size_t i = 0; i < points.size(); ++i) {
       const ClosestPoint alone = tree.closest(points[i]);
       EXPECT_EQ(together[i].squared_distance, alone.squared_distance);
-      EXPECT_EQ(together[i].face, alone.face);
-      EXPECT_EQ(together[i].point, alone.point);
+      EXPECT_LT((together[i].point - alone.point).norm(), 1e-12);  // of a tie either face may be told
     }
   }
 }

@@ -48,7 +48,8 @@ class BoundingVolumeTree {
   ClosestPoint closest(const Vec3& x, int hint = -1) const;
 
   /// The same for several points. One walk through the tree serves all of them: fast when they lie close to
-  /// each other. Pre-condition: one result per point.
+  /// each other. Of faces at the same distance up to rounding any may be told. Pre-condition: one result per
+  /// point.
   void closest(std::span<const Vec3> points, int hint, std::span<ClosestPoint> results) const;
 
   /// The pairs of faces whose boxes meet come in parts, one per node: with parts [begin, end) visit(f, g) is

@@ -4,15 +4,10 @@
 #include <cstddef>
 #include <optional>
 
-#include "hooke/measured_surface.h"
 #include "hooke/stopwatch.h"
+#include "hooke/surface_distance.h"
 
 namespace hooke {
-
-struct MaxRms {
-  double max = 0;
-  double rms = 0;
-};
 
 /// Lengths are in file units, angles in degrees. Distances are sampled at ten points a face: its corners, its
 /// edge midpoints, and the centres of the four triangles between them. A max is attained at a sample and so
