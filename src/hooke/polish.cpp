@@ -149,6 +149,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
 
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);
+    if (kept_stages > 0 && angle < best - o.keep_within) break;  // what bounds it is not the threshold
     const double limit = kept_stages > 0 ? o.edge_error_limit : 1;
     if (error > limit * result.edge_error_before) {  // too far: half the way, from where it was not
       r.placement = kept;
