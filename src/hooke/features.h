@@ -15,7 +15,7 @@ struct FeatureOptions {
   double sharp_share = .3;  // least part of sharp edges in a chain with a loose end
   int least_edges = 12;     // of a chain with a loose end
   double least_length = 8;  // of a chain with a loose end, in target lengths
-  double least_curve = 3;   // mean number of edges from corner to corner in a network of chains, unless
+  double least_curve = 5;   // mean number of edges from corner to corner in a network of chains, unless
   double flat_bend = .02;   // the median of its bends is below this: flat faces may have short edges
 };
 
