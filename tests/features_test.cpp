@@ -43,18 +43,24 @@ TEST(Features, OnlyAnglesAboveTheThresholdCount) {
   EXPECT_EQ(bent(41), 20u);
 }
 
+/// Bent by 60 degrees at y = 0, by one less every cell.
+test::Triangles fading_sheet() {
+  return bent_sheet(60, [](double y) { return 60 - y; });
+}
+
 TEST(Features, AWeakerEdgeGoesOnFromASharpOne) {
-  const test::Triangles t = bent_sheet(30, [](double y) { return 60 - 2 * y; });
-  const auto weakest = [&](const FeatureOptions& options) { return features_of(t, options).size(); };
-  EXPECT_NEAR(static_cast<double>(weakest({})), 18, 1);           // to 24 degrees
-  EXPECT_NEAR(static_cast<double>(weakest({.weak = 1})), 10, 1);  // to 40
+  const auto edges = [](const FeatureOptions& options) {
+    return static_cast<double>(features_of(fading_sheet(), options).size());
+  };
+  EXPECT_NEAR(edges({}), 36, 1);           // to 24 degrees
+  EXPECT_NEAR(edges({.weak = 1}), 20, 1);  // to 40
 }
 
 TEST(Features, AChainWithALooseEndIsLong) {
-  const auto bent = [](double end) { return bent_sheet(30, [end](double y) { return y < end ? 60. : 0.; }); };
-  EXPECT_TRUE(features_of(bent(8)).empty());
-  EXPECT_GE(features_of(bent(16)).size(), 15u);
-  EXPECT_TRUE(features_of(bent(16), {.least_length = 40}).empty());
+  EXPECT_FALSE(features_of(fading_sheet()).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.least_edges = 40}).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.least_length = 40}).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.sharp_share = .7}).empty());
 }
 
 TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {

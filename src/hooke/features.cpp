@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "hooke/normals.h"
 #include "hooke/parallel.h"
@@ -42,7 +43,10 @@ class FeatureSearch {
         cos_turn_(std::cos(o.turn * std::numbers::pi / 180)) {}
 
   std::vector<int> run() {
-    if (grow() > 0) drop_loose_chains();
+    if (grow() > 0) {
+      drop_loose_chains();
+      drop_noise();
+    }
     std::vector<int> edges;
     for (size_t e = 0; e < kept_.size(); ++e)
       if (kept_[e]) edges.push_back(static_cast<int>(e));
@@ -126,20 +130,24 @@ class FeatureSearch {
     }
   }
 
+  double median_bend(const std::vector<int>& edges) const {
+    std::vector<double> bends;
+    for (int e : edges) bends.push_back(bend(e));
+    const auto middle = bends.begin() + std::ssize(bends) / 2;
+    std::nth_element(bends.begin(), middle, bends.end());
+    return *middle;
+  }
+
   bool is_worth_keeping(const std::vector<int>& chain) const {
     double sum = 0;
     int sharp = 0;
-    std::vector<double> bends;
     for (int e : chain) {
       sum += length(e);
       sharp += angle_[idx(e)] > o_.angle;
-      bends.push_back(bend(e));
     }
-    const auto middle = bends.begin() + std::ssize(bends) / 2;
-    std::nth_element(bends.begin(), middle, bends.end());
     const auto edges = static_cast<int>(chain.size());
     return edges >= o_.least_edges && sum >= o_.least_length && sharp >= o_.sharp_share * edges &&
-           *middle <= o_.chain_bend;
+           median_bend(chain) <= o_.chain_bend;
   }
 
   void drop_loose_chains() {
@@ -154,6 +162,40 @@ class FeatureSearch {
       if (is_worth_keeping(chain)) continue;
       for (int e : chain) kept_[idx(e)] = 0;
       ends.insert(ends.end(), c_.edges[idx(chain.back())].begin(), c_.edges[idx(chain.back())].end());
+    }
+  }
+
+  /// All edges that hang together with this one.
+  std::vector<int> network_of(int edge, std::vector<char>& seen) const {
+    std::vector<int> network = {edge};
+    seen[idx(edge)] = 1;
+    for (size_t i = 0; i < network.size(); ++i)
+      for (int v : c_.edges[idx(network[i])])
+        for (int e : kept_edges(v))
+          if (!std::exchange(seen[idx(e)], 1)) network.push_back(e);
+    return network;
+  }
+
+  /// Edges that end at a corner, counted at both ends.
+  int curve_ends(const std::vector<int>& network) const {
+    int ends = 0;
+    for (int e : network)
+      for (int v : c_.edges[idx(e)]) {
+        const std::vector<int> here = kept_edges(v);
+        ends += here.size() != 2 || !goes_on(here[0], here[1], v);
+      }
+    return ends;
+  }
+
+  void drop_noise() {
+    std::vector<char> seen(kept_.size(), 0);
+    for (size_t e = 0; e < kept_.size(); ++e) {
+      if (!kept_[e] || seen[e]) continue;
+      const std::vector<int> network = network_of(static_cast<int>(e), seen);
+      const bool short_curves =
+          2 * static_cast<double>(network.size()) < o_.least_curve * curve_ends(network);
+      if (short_curves && median_bend(network) > o_.flat_bend)
+        for (int i : network) kept_[idx(i)] = 0;
     }
   }
 

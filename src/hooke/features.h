@@ -15,12 +15,15 @@ struct FeatureOptions {
   double sharp_share = .3;  // least part of sharp edges in a chain with a loose end
   int least_edges = 12;     // of a chain with a loose end
   double least_length = 8;  // of a chain with a loose end, in target lengths
+  double least_curve = 3;   // mean number of edges from corner to corner in a network of chains, unless
+  double flat_bend = .02;   // the median of its bends is below this: flat faces may have short edges
 };
 
 /// The crease edges, ascending. An edge counts when its faces meet at a sharp angle while each of them goes
 /// on nearly flat across one of its other edges: a coarse mesh of a round body bends everywhere. Chains end
 /// loosely where no other crease or chain goes on from their last vertex; such ones must be long, straight
-/// and clean, since noise makes short ones.
+/// and clean, since noise makes short ones. What is left hangs together in networks; noise makes such of many
+/// corners between rough faces.
 std::vector<int> find_features(const Mat3X& points, const Connectivity& connectivity,
                                const std::vector<double>& vertex_length, const FeatureOptions& options);
 

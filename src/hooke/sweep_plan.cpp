@@ -52,9 +52,9 @@ Spoke* write_fan(const Connectivity& c, int vertex, int start, Spoke* out) {
     const auto f = static_cast<size_t>(face);
     const Triangle& t = c.faces[f];
     const size_t k = corner_of(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
-    *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next), t[next], true};
+    *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next)};
     const int after = beyond(c, c.face_edges[f][last], face);
-    if (after < 0) *out++ = {t[last], c.face_edges[f][last], -1, -1, t[last], true};
+    if (after < 0) *out++ = {t[last], c.face_edges[f][last], -1, -1};
     if (after < 0 || after == start) return out;
     face = after;
   }
@@ -97,14 +97,15 @@ Spokes make_parted_spokes(const Connectivity& c) {
     int face = -1;
     for (int i = spokes.first[static_cast<size_t>(s)]; i < spokes.first[static_cast<size_t>(s) + 1]; ++i) {
       Spoke& spoke = spokes.items[static_cast<size_t>(i)];
-      spoke.neighbour = vertex_of(spoke.side);
+      spokes.sides.push_back(spoke.neighbour);
+      spoke.neighbour = vertex_of(spoke.neighbour);
       if (spoke.across >= 0) spoke.across = vertex_of(spoke.across);
       if (spoke.face >= 0) face = spoke.face;
       const auto f = static_cast<size_t>(face);
       const size_t k = corner_of(c.faces[f], v);
       spoke.edge = c.face_edges[f][spoke.face >= 0 ? k : (k + 2) % 3];
       const auto e = static_cast<size_t>(spoke.edge);
-      spoke.owned = c.side_edges[e][c.edges[e][0] == v ? 0 : 1] == s;
+      spokes.owned.push_back(c.side_edges[e][c.edges[e][0] == v ? 0 : 1] == s);
     }
   }
   return spokes;

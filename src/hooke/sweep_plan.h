@@ -11,8 +11,6 @@ struct Spoke {
   int edge;
   int face;    // -1 after the last edge of an open fan
   int across;  // corner of the face beyond that face's far edge; -1 without one, or beyond a crease
-  int side;    // of the neighbour, as this spoke sees it
-  bool owned;  // false for a crease that belongs to the vertex's other side
 };
 
 /// The spokes of each vertex or, where creases part it, of each of its sides, counter-clockwise; a closed fan
@@ -20,6 +18,9 @@ struct Spoke {
 struct Spokes {
   std::vector<int> first;  // size: sides + 1
   std::vector<Spoke> items;
+  // Per item; empty without creases:
+  std::vector<int> sides;   // the neighbour's side, as the spoke sees it
+  std::vector<char> owned;  // 0 for a crease that is counted on the vertex's other side
 
   std::span<const Spoke> operator[](int side) const {
     const auto s = static_cast<size_t>(side);

@@ -408,15 +408,20 @@ void VertexRing::gather(const Placement& at, int side) {
   const std::size_t S = stride_;
   columns_.resize(fixed_columns * S);
   double* const data = columns_.data();
+  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(side)]);
+  const auto normal = [&](std::size_t i) {
+    return at.normals.col(spokes_.sides.empty() ? ring[i].neighbour : spokes_.sides[item + i]);
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const Spoke& spoke = ring[i];
     const bool face = spoke.face >= 0;
     // The last edge of an open fan has no face: one across the edge before keeps the numbers finite.
-    const Spoke& next = ring[face ? (i + 1) % count : i - 1];
+    const std::size_t j = face ? (i + 1) % count : i - 1;
+    const Spoke& next = ring[j];
     put(at.points.col(spoke.neighbour), data + near * S + i, S);
     put(at.points.col(next.neighbour), data + far * S + i, S);
-    put(at.normals.col(spoke.side) + at.normals.col(next.side), data + face_normals * S + i, S);
-    put(at.normals.col(spoke.side), data + edge_normal * S + i, S);
+    put(normal(i) + normal(j), data + face_normals * S + i, S);
+    put(normal(i), data + edge_normal * S + i, S);
     Vec3 other = Vec3::Zero();
     if (spoke.across >= 0) {
       const Vec3 b = at.points.col(next.neighbour);
@@ -426,7 +431,7 @@ void VertexRing::gather(const Placement& at, int side) {
     data[edge_target * S + i] = targets_.edge[static_cast<std::size_t>(spoke.edge)];
     data[face_target * S + i] =
         face ? targets_.face[static_cast<std::size_t>(spoke.face)] : data[edge_target * S + i];
-    data[has_edge * S + i] = spoke.owned;
+    data[has_edge * S + i] = spokes_.owned.empty() || spokes_.owned[item + i];
     data[has_face * S + i] = face;
   }
   for (std::size_t c = 0; c < fixed_columns; ++c)
