@@ -134,8 +134,12 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, Stopwatch& stopwatch) {
     line.show(p);
     return caught_signal() == 0;
   };
-  return s.paper ? paper_remesh(mesh, s.paper_options, observer)
-                 : remesh(mesh, s.remesh, observer, &stopwatch);
+  try {
+    return s.paper ? paper_remesh(mesh, s.paper_options, observer)
+                   : remesh(mesh, s.remesh, observer, &stopwatch);
+  } catch (const MeshError& e) {
+    throw MeshError(printable(s.input.string()) + ": " + e.what());
+  }
 }
 
 int run(Settings s) {

@@ -1,8 +1,12 @@
 #include "hooke/adaptation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "hooke/error.h"
 
 namespace hooke {
 namespace {
@@ -148,6 +152,11 @@ AdaptOptions adapt_options(Effort effort) {
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
                   const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
                   const Observer& observer) {
+  if (!work.constraints.creases.empty())
+    throw MeshError(fmt::format(
+        "the mesh has {} crease edges, which mode adapt cannot split or join; expected a smooth mesh; use "
+        "--feature-angle off to round them, or --connectivity flip to keep them",
+        work.constraints.creases.size()));
   const UntangleResult unfolded = unfold(work, terms, guards, observer);
   AdaptResult result;
   if (unfolded.interrupted)

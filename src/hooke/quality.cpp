@@ -60,13 +60,16 @@ size_t count_where(size_t count, const Condition& condition) {
   return static_cast<size_t>(sum);
 }
 
+/// Creases of a right angle are no folds, whichever way they are rounded.
+constexpr double least_fold = -1e-6;
+
 size_t count_folded_edges(const Mat3X& area_vector, const Connectivity& connectivity) {
   return count_where(connectivity.edge_faces.size(), [&](size_t e) {
     const auto [left, right] = connectivity.edge_faces[e];
     if (right < 0) return false;
     // Unit normals first: the plain product of two small faces' vectors could vanish.
     const Vec3 n = area_vector.col(left).normalized(), m = area_vector.col(right).normalized();
-    return n.dot(m) < 0;
+    return n.dot(m) < least_fold;
   });
 }
 

@@ -39,7 +39,7 @@ struct Quality {
   Statistics edge_length;
   Statistics length_error;  // (l - L_e) / L_e; empty when no target lengths were given
 
-  std::size_t folded_edges = 0;                   // the unit normals on both sides have a negative product
+  std::size_t folded_edges = 0;                   // the unit normals on both sides have a product below -1e-6
   std::size_t degenerate_faces = 0;               // area below 1e-14 times the squared diagonal of the box
   std::optional<std::size_t> self_intersections;  // pairs of faces; none when not asked for
   Valence valence;

@@ -54,6 +54,33 @@ class Result(CommandTest):
                     self.assertEqual((self.folder / "one.off").read_bytes(),
                                      (self.folder / "two.off").read_bytes())
 
+    def test_adapt_makes_a_mesh_of_the_length_and_tells_where_it_came_from(self):
+        report = self.report(DATA / "blob.ply", "-o", "out.off", "--connectivity", "adapt", "-L", "1.5x", "--map", "map")
+        faces = report["input"]["faces"] / 1.5 ** 2
+        self.assertAlmostEqual(report["output"]["faces"] / faces, 1, delta=.03)
+        self.assertEqual(report["output"]["euler"], report["input"]["euler"])
+        self.assertGreater(report["after"]["min_angle"]["min"], 35)
+        self.assertIsNone(report["geometry"]["displacement"])
+        lines = (self.folder / "map").read_text().splitlines()
+        rows = [line.split() for line in lines if not line.startswith("#")]
+        self.assertEqual(len(rows), report["output"]["vertices"])
+        for vertex, face, *weights in rows:
+            self.assertLess(int(vertex), report["input"]["vertices"])
+            self.assertLess(int(face), report["input"]["faces"])
+            self.assertAlmostEqual(sum(map(float, weights)), 1, 9)
+
+    def test_creases_stay(self):
+        for sample in ("cube.obj", "block.ply", "cylinder.off"):
+            for mode in ("fixed", "flip"):
+                with self.subTest(sample=sample, mode=mode):
+                    report = self.report(DATA / sample, "-o", "out.off", "--connectivity", mode)
+                    features = report["features"]
+                    self.assertEqual(features["crease_edges_kept"], features["crease_edges"])
+                    self.assertGreater(features["crease_edges"], 20)
+                    self.assertLess(abs(report["geometry"]["volume_change"]), 1e-2 if "cyl" in sample else 1e-6)
+                    self.assertEqual(report["after"]["folded_edges"], 0)
+                    self.assertGreater(report["after"]["min_angle"]["min"], 18)
+
     def test_corners_stay_and_the_boundary_slides(self):
         original, faces = read_mesh(DATA / "patch.obj")
         moved, _ = self.optimized(DATA / "patch.obj", "out.obj")
