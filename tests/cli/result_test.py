@@ -78,7 +78,8 @@ class Result(CommandTest):
                     self.assertEqual(features["crease_edges_kept"], features["crease_edges"])
                     self.assertGreater(features["crease_edges"], 20)
                     self.assertLess(abs(report["geometry"]["volume_change"]), 1e-2 if "cyl" in sample else 1e-6)
-                    self.assertEqual(report["after"]["folded_edges"], 0)
+                    self.assertEqual(report["geometry"]["flipped_faces"], 0)
+                    self.assertEqual(report["after"]["self_intersections"], 0)
                     self.assertGreater(report["after"]["min_angle"]["min"], 18)
 
     def test_corners_stay_and_the_boundary_slides(self):
