@@ -4,6 +4,7 @@
 
 #include "hooke/parallel.h"
 #include "meshes.h"
+#include "named_terms.h"
 
 namespace hooke {
 namespace {
@@ -15,15 +16,7 @@ Placement on_unit_sphere(const Mat3X& points) {
   return p;
 }
 
-struct Terms {
-  const char* name;
-  EnergyTerms terms;
-};
-void PrintTo(const Terms& t, std::ostream* out) {
-  *out << t.name;
-}
-
-class EnergyLaws : public testing::TestWithParam<Terms> {
+class EnergyLaws : public testing::TestWithParam<test::NamedTerms> {
  protected:
   test::Triangles mesh_ = test::sphere(2, .35, 7);
   Connectivity c_ = make_connectivity(static_cast<int>(mesh_.points.cols()), mesh_.faces);
@@ -95,8 +88,10 @@ EnergyTerms strings() {
   return t;
 }
 INSTANTIATE_TEST_SUITE_P(All, EnergyLaws,
-                         testing::Values(Terms{"strings", strings()}, Terms{"altitudes", EnergyTerms{}},
-                                         Terms{"angles", angles()}, Terms{"unfold", unfolding()}),
+                         testing::Values(test::NamedTerms{"strings", strings()},
+                                         test::NamedTerms{"altitudes", EnergyTerms{}},
+                                         test::NamedTerms{"angles", angles()},
+                                         test::NamedTerms{"unfold", unfolding()}),
                          [](const auto& i) { return std::string(i.param.name); });
 
 TEST(Energy, VanishesOnEquilateralTrianglesOfTheTargetLength) {

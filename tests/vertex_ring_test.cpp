@@ -2,21 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "named_terms.h"
 #include "scene.h"
 
 namespace hooke {
 namespace {
 
-struct Terms {
-  const char* name;
-  EnergyTerms terms;
-};
-void PrintTo(const Terms& t, std::ostream* out) {
-  *out << t.name;
-}
-
 /// A mesh with slivers and folds on a sphere and a grid with a boundary, looked at vertex by vertex.
-class RingLaws : public testing::TestWithParam<Terms> {
+class RingLaws : public testing::TestWithParam<test::NamedTerms> {
  protected:
   test::SceneOptions options() const {
     test::SceneOptions o;
@@ -121,9 +114,10 @@ EnergyTerms unfolding() {
   return t;
 }
 INSTANTIATE_TEST_SUITE_P(All, RingLaws,
-                         testing::Values(Terms{"strings", strings()}, Terms{"altitudes", EnergyTerms{}},
-                                         Terms{"angles", angles()}, Terms{"all", all()},
-                                         Terms{"unfold", unfolding()}),
+                         testing::Values(test::NamedTerms{"strings", strings()},
+                                         test::NamedTerms{"altitudes", EnergyTerms{}},
+                                         test::NamedTerms{"angles", angles()}, test::NamedTerms{"all", all()},
+                                         test::NamedTerms{"unfold", unfolding()}),
                          [](const auto& i) { return std::string(i.param.name); });
 
 TEST(VertexRing, AFaceWithoutAreaHasAFiniteModel) {
