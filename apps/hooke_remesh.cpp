@@ -180,6 +180,8 @@ int run(Settings s) {
     const MeasuredSurface result =
         timed(&stopwatch, "tree", [&] { return MeasuredSurface(positions(mesh), after); });
     record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, stopwatch); });
+    if (!record.result->holds.empty())
+      for (WorstFace& face : record.after->worst_faces) face.reasons = hindrances(face, record.result->holds);
     record.deviation =
         timed(&stopwatch, "deviation", [&] { return measure_deviation(original, result, &stopwatch); });
     if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices

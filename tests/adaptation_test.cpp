@@ -5,6 +5,7 @@
 #include <set>
 
 #include "flipping_scene.h"
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/quality.h"
 #include "hooke/remesh.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hooke/polish.h"
+#include "hooke/least_angle.h"
 #include "solids.h"
 
 namespace hooke {

@@ -4,6 +4,7 @@
 #include "crease_solids.h"
 #include "hooke/creases.h"
 #include "hooke/error.h"
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/remesh.h"
 #include "scene.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "flipping_scene.h"
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/quality.h"
 #include "hooke/remesh.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "flipping_scene.h"
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
-#include "hooke/polish.h"
 
 namespace hooke {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/vertex_ring.h"
 #include "scene.h"
@@ -29,6 +30,9 @@ std::string broken_rule(const test::Scene& s, const Placement& from, const Place
     const bool was_folded = alignment(from) < o.alignment;
     if (!was_folded && ratio < o.area_ratio * (1 - 1e-9)) return "area";
     if (!was_folded && alignment(to) < o.alignment - 1e-12) return "alignment";
+    const double cotangent = greatest_cotangent(to.points, t);
+    if (!was_folded && cotangent > std::max(greatest_cotangent(from.points, t), o.cotangent) * (1 + 1e-12))
+      return "angle";
     if (was_folded && alignment(to) < alignment(from) - 1.1e-7) return "turned away";
   }
   for (size_t e = 0; e < s.connectivity.edges.size(); ++e) {
@@ -65,7 +69,7 @@ TEST(Guards, SagittaIsThatOfACircle) {
 }
 
 TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
-  const GuardOptions tight{.area_ratio = .8, .alignment = .9, .sagitta = .04};
+  const GuardOptions tight{.area_ratio = .8, .alignment = .9, .sagitta = .04, .cotangent = 1.5};
   for (const GuardOptions& guards : {GuardOptions{}, tight})
     for (unsigned seed = 1; seed <= 5; ++seed) {
       test::SceneOptions options;

@@ -3,39 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "hooke/closest_point.h"
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
+#include "remeshed.h"
 #include "scene.h"
 
 namespace hooke {
 namespace {
 
-double natural(const test::Triangles& t) {
-  return natural_length(total_area(t.points, t.faces), t.faces.size());
-}
-
-TriMesh with_length(const test::Triangles& t, double length) {
-  TriMesh mesh = test::to_mesh(t);
-  set_vertex_values(mesh, target_length_property, length);
-  return mesh;
-}
-
-struct Outcome {
-  Mat3X points;
-  RemeshResult result;
-  TriMesh mesh;
-};
-
-Outcome remeshed(const test::Triangles& t, double length, const RemeshOptions& options = {},
-                 const Observer& observer = nullptr) {
-  Outcome o;
-  o.mesh = with_length(t, length);
-  o.result = remesh(o.mesh, options, observer);
-  o.points = positions(o.mesh);
-  return o;
-}
-Outcome remeshed(const test::Triangles& t, const RemeshOptions& options = {}) {
-  return remeshed(t, natural(t), options);
-}
+using test::natural, test::Outcome, test::remeshed, test::with_length;
 
 double wave(double x, double y) {
   return .12 * std::sin(4 * x) * std::cos(3 * y);
@@ -273,17 +249,6 @@ TEST(Remesh, PerfectMeshesHardlyMove) {
   }
 }
 
-TEST(Remesh, GoodMeshesHardlyMove) {
-  for (int levels : {1, 2, 3}) {
-    const test::Triangles t = test::sphere(levels);
-    const Outcome o = remeshed(t);
-    EXPECT_LT(largest_move(o.points, t.points), .2 * natural(t));
-    EXPECT_LT(deviation(t, o.points), deviation(t, t.points));
-    // Springs trade angles far above the polish's thresholds for edge lengths, but no more than this.
-    EXPECT_GT(least_angle(o.points, t.faces), least_angle(t.points, t.faces) - .5);
-  }
-}
-
 TEST(Remesh, SmallMeshesWork) {
   const test::Triangles sliver = test::triangles({{0, 0, 0}, {3, 0, 0}, {.1, .2, 0}}, {{0, 1, 2}});
   for (const test::Triangles& t : {sliver, test::shaken(test::tetrahedron(), .3), test::cube()})
@@ -399,82 +364,6 @@ TEST(Remesh, ConvergesWhereEveryEdgeCanHaveItsLength) {
   const Outcome o = remeshed(t, 1. / 6, options);
   EXPECT_EQ(o.result.reason, StopReason::converged);
   EXPECT_LT(largest_move(o.points, perfect), .05 / 6);
-}
-
-/// A sphere with evenly dense vertices and target lengths that vary by 4 from pole to pole.
-TriMesh graded_sphere() {
-  const test::Triangles t = test::sphere(3, .3, 4);
-  Sizing sizing;
-  for (const auto p : t.points.colwise()) sizing.vertex_length.push_back(2.5 + 1.5 * p[2]);
-  TriMesh mesh = test::to_mesh(t);
-  set_vertex_values(mesh, target_length_property,
-                    resolve_vertex_lengths({}, sizing, t.points, test::connect(t)));
-  return mesh;
-}
-
-RemeshOptions in_mode(ConnectivityMode mode, Effort effort = Effort::standard) {
-  RemeshOptions options;
-  options.connectivity = mode;
-  set_effort(options, effort);
-  return options;
-}
-
-double rms_length_error(const TriMesh& mesh) {
-  const Mat3X points = positions(mesh);
-  const Connectivity c = make_connectivity(static_cast<int>(points.cols()), triangles_of(mesh));
-  const TargetLengths targets = spread_target_lengths(c, vertex_values(mesh, target_length_property));
-  double sum = 0;
-  for (size_t e = 0; e < c.edges.size(); ++e) {
-    const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
-    sum += std::pow(l / targets.edge[e] - 1, 2);
-  }
-  return std::sqrt(sum / static_cast<double>(c.edges.size()));
-}
-
-TEST(Remesh, EdgesFollowTargetsThatVary) {
-  TriMesh fixed = graded_sphere(), flip = graded_sphere();
-  EXPECT_GT(rms_length_error(fixed), .4);
-  remesh(fixed, {});
-  EXPECT_LT(rms_length_error(fixed), .2);
-  remesh(flip, in_mode(ConnectivityMode::flip));
-  EXPECT_LT(rms_length_error(flip), .12);
-  for (const TriMesh* mesh : {&fixed, &flip}) {  // the targets are those of the places
-    const std::vector<double> lengths = vertex_values(*mesh, target_length_property);
-    const auto points = positions(*mesh);
-    const double scale = lengths[0] / (2.5 + 1.5 * points(2, 0));
-    for (size_t v = 0; v < lengths.size(); ++v)
-      EXPECT_NEAR(lengths[v] / scale, 2.5 + 1.5 * points(2, static_cast<Eigen::Index>(v)), .05);
-  }
-}
-
-TEST(Remesh, OneThreadAndTwoFollowThemWithTheSameBits) {
-  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
-    TriMesh meshes[] = {graded_sphere(), graded_sphere()};
-    for (int threads : {1, 2}) {
-      const ThreadLimit limit(threads);
-      remesh(meshes[threads - 1], in_mode(mode, Effort::fast));
-    }
-    EXPECT_EQ(positions(meshes[0]), positions(meshes[1]));
-    EXPECT_EQ(triangles_of(meshes[0]), triangles_of(meshes[1]));
-  }
-}
-
-TEST(Remesh, StandardEffortIsTheDefault) {
-  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
-    RemeshOptions plain;
-    plain.connectivity = mode;
-    EXPECT_EQ(remeshed(jittered_grid(), in_mode(mode)).points, remeshed(jittered_grid(), plain).points);
-  }
-}
-
-TEST(Remesh, EffortRaisesTheLeastAngle) {
-  double before = 0;
-  for (const Effort effort : {Effort::fast, Effort::standard, Effort::thorough}) {
-    const Outcome o = remeshed(jittered_grid(), in_mode(ConnectivityMode::fixed, effort));
-    const double angle = least_angle(o.points, jittered_grid().faces);
-    EXPECT_GE(angle, before);
-    before = angle;
-  }
 }
 
 }  // namespace

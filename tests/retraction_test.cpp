@@ -120,6 +120,19 @@ TEST(Retraction, FixedVerticesStandStillAndFreeOnesLeaveTheRim) {
   }
 }
 
+TEST(Retraction, NoVertexGoesBeyondItsReach) {
+  test::Scene s = test::ground_scene();
+  s.constraints.home = s.placement.points;
+  s.constraints.reach.assign(s.constraints.freedom.size(), .1 * s.L());
+  Placement at = s.placement, to;
+  for (unsigned step = 1; step <= 5; ++step) {
+    s.retraction.step(at, test::random_vectors(at.points.cols(), .5 * s.L(), step), to);
+    std::swap(at, to);
+    EXPECT_LT((at.points - s.placement.points).colwise().norm().maxCoeff(), .11 * s.L());
+  }
+  EXPECT_GT((at.points - s.placement.points).colwise().norm().maxCoeff(), .09 * s.L());
+}
+
 TEST(Retraction, LazyVerticesDriftInTheirPlaneUntilTheyHaveMovedEnough) {
   test::SceneOptions options;
   options.retraction.lazy = .025;

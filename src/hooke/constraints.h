@@ -43,6 +43,9 @@ struct Constraints {
   std::vector<Edge> creases;       // edges, by their vertices, that no change of the connectivity may lose
   std::vector<int> further_sides;  // of vertices on creases, see connectivity.h; each has a normal of its own
   int crease_curves = 0;           // of the curves: the last ones
+  // How far each vertex may go from its home; both are empty where there is no limit.
+  Mat3X home;
+  std::vector<double> reach;
 };
 
 /// Boundary loops and the creases of the connectivity become curves. They end at corners, where three or more

@@ -4,7 +4,7 @@
 
 #include "hooke/edge_queue.h"
 #include "hooke/guards.h"
-#include "hooke/polish.h"
+#include "hooke/least_angle.h"
 
 namespace hooke {
 namespace {

@@ -5,6 +5,14 @@
 
 namespace hooke {
 
+/// 1/3 + q/5 + q^2/7 + ... + q^((last - 3) / 2) / last, by Horner's rule.
+template <int last>
+HOOKE_INLINE void sum_odd_series(const Lanes& q, Lanes& series) {
+  series = Lanes{} + 1. / last;
+#pragma GCC unroll 16
+  for (int n = last - 2; n >= 3; n -= 2) series = q * series + 1. / n;
+}
+
 /// x := log x, to a relative error of some 1e-15. Pre-condition: finite, positive and not subnormal.
 HOOKE_INLINE void take_log(Lanes& x) {
   using Bits = long long __attribute__((vector_size(32)));
@@ -19,13 +27,8 @@ HOOKE_INLINE void take_log(Lanes& x) {
   // log m = 2 artanh s, |s| < .172.
   const Lanes s = (m - 1.) / (m + 1.);
   const Lanes q = s * s;
-  Lanes series = q * (1. / 17) + 1. / 15;
-  series = q * series + 1. / 13;
-  series = q * series + 1. / 11;
-  series = q * series + 1. / 9;
-  series = q * series + 1. / 7;
-  series = q * series + 1. / 5;
-  series = q * series + 1. / 3;
+  Lanes series;
+  sum_odd_series<17>(q, series);
   constexpr double log_2 = 0.6931471805599453;
   x = e * log_2 + 2. * s * (1. + q * series);
 }
@@ -40,16 +43,8 @@ HOOKE_INLINE void take_angle(const Lanes& x, const Lanes& y, const Lanes& r, Lan
     t = t / (1. + root);
   }
   const Lanes q = -t * t;
-  Lanes series = q * (1. / 23) + 1. / 21;
-  series = q * series + 1. / 19;
-  series = q * series + 1. / 17;
-  series = q * series + 1. / 15;
-  series = q * series + 1. / 13;
-  series = q * series + 1. / 11;
-  series = q * series + 1. / 9;
-  series = q * series + 1. / 7;
-  series = q * series + 1. / 5;
-  series = q * series + 1. / 3;
+  Lanes series;
+  sum_odd_series<23>(q, series);
   angle = 8. * t * (1. + q * series);
 }
 

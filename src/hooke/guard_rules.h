@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 namespace hooke {
 
@@ -10,8 +11,10 @@ struct GuardOptions {
   double alignment = .3;   // least cosine between a face and the surface under it; below, it may only grow
   double fold = .1;        // least cosine between two neighbouring faces; below, it may only grow
   double sagitta = .2;     // greatest sagitta of an edge over its target length; above, it may only shrink
-  double slack = 1e-7;     // by which a cosine may still fall, or a sagitta over its target length rise
-  int max_halvings = 8;    // of a vertex's step, before it stands still for this step
+  // Greatest cotangent of a face's least angle; above, it may only fall. Infinite: angles are free.
+  double cotangent = std::numeric_limits<double>::infinity();
+  double slack = 1e-7;   // by which a cosine may still fall, or a sagitta over its target length rise
+  int max_halvings = 8;  // of a vertex's step, before it stands still for this step
 };
 
 inline bool face_breaks(const GuardOptions& o, double area_before, double area, double alignment_before,
@@ -20,6 +23,11 @@ inline bool face_breaks(const GuardOptions& o, double area_before, double area, 
   if (alignment_before >= o.alignment) return shrinks || alignment < o.alignment;
   // A folded face passes through zero area on its way back: it may do all that turns it the right way.
   return alignment < alignment_before - o.slack || (shrinks && alignment <= alignment_before);
+}
+
+/// Only faces on the surface: a folded one passes through zero area.
+inline bool angle_breaks(const GuardOptions& o, double alignment_before, double before, double after) {
+  return alignment_before >= o.alignment && after > std::max(before, o.cotangent);
 }
 
 inline bool sagitta_breaks(const GuardOptions& o, double target, double before, double after) {

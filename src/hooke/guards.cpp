@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -60,6 +61,7 @@ Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, c
   for (Measures* m : {&accepted_, &trial_}) {
     m->area.resize(connectivity.faces.size());
     m->alignment.resize(connectivity.faces.size());
+    m->cotangent.resize(connectivity.faces.size());
     m->sagitta.resize(connectivity.edges.size());
     m->fold.resize(connectivity.edges.size());
   }
@@ -69,6 +71,7 @@ void Guards::measure_face(const Placement& p, size_t face) {
   const Triangle& t = connectivity_.faces[face];
   trial_.area[face] = face_area(p.points, t);
   trial_.alignment[face] = face_alignment(p.points, p.normals, t, connectivity_.sides_of_faces()[face]);
+  trial_.cotangent[face] = greatest_cotangent(p.points, t);
 }
 
 double Guards::fold_at(const Mat3X& points, size_t edge) const {
@@ -86,7 +89,8 @@ void Guards::measure_edge(const Placement& p, size_t edge) {
 
 bool Guards::face_breaks(size_t f) const {
   return hooke::face_breaks(options_, accepted_.area[f], trial_.area[f], accepted_.alignment[f],
-                            trial_.alignment[f]);
+                            trial_.alignment[f]) ||
+         angle_breaks(options_, accepted_.alignment[f], accepted_.cotangent[f], trial_.cotangent[f]);
 }
 
 bool Guards::fold_breaks(size_t e) const {
@@ -184,6 +188,26 @@ std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat
     offenders = offenders_around(to, slowed);
   }
   return held;
+}
+
+std::vector<int> Guards::vertices_at_limits() const {
+  constexpr double cosine_margin = .02, sagitta_part = .95;
+  std::vector<int> vertices;
+  for (size_t f = 0; f < accepted_.alignment.size(); ++f)
+    if (accepted_.alignment[f] < options_.alignment + cosine_margin)
+      vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
+  for (size_t e = 0; e < accepted_.fold.size(); ++e) {
+    const bool folds = accepted_.fold[e] < options_.fold + cosine_margin;
+    if (!folds && accepted_.sagitta[e] < sagitta_part * options_.sagitta * targets_.edge[e]) continue;
+    vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
+    if (!folds) continue;
+    for (const int f : connectivity_.edge_faces[e]) {
+      const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
+      vertices.insert(vertices.end(), t.begin(), t.end());
+    }
+  }
+  sort_unique(vertices);
+  return vertices;
 }
 
 std::vector<int> Guards::folded_faces() const {

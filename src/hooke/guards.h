@@ -55,6 +55,10 @@ class Guards {
   /// Faces of the accepted placement that lie against the surface (alignment below the threshold).
   std::vector<int> folded_faces() const;
 
+  /// The vertices of faces and edges that are at a limit, in the accepted placement, or beyond it. Angles
+  /// have none here.
+  std::vector<int> vertices_at_limits() const;
+
  private:
   bool face_breaks(size_t face) const;
   bool fold_breaks(size_t edge) const;
@@ -70,8 +74,8 @@ class Guards {
   const TargetLengths& targets_;
   GuardOptions options_;
   struct Measures {
-    std::vector<double> area, alignment;  // per face
-    std::vector<double> sagitta, fold;    // per edge
+    std::vector<double> area, alignment, cotangent;  // per face
+    std::vector<double> sagitta, fold;               // per edge
   };
   Measures accepted_, trial_;
 };

@@ -34,12 +34,6 @@ struct PolishResult {
 PolishResult polish(Relaxation& relaxation, const TargetLengths& targets, const PolishOptions& options,
                     const Observer& observer);
 
-/// Least corner angle of each face, degrees.
-std::vector<double> least_angles(const Mat3X& points, const std::vector<Triangle>& faces);
-
-/// Least corner angle of all faces, degrees.
-double least_angle(const Mat3X& points, const std::vector<Triangle>& faces);
-
 /// Standard deviation of l / L_e over the edges.
 double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edges,
                                const TargetLengths& targets);

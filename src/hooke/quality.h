@@ -24,7 +24,8 @@ struct WorstFace {
   double min_angle = 0;  // degrees
   Triangle vertices{};
   Vec3 centre = Vec3::Zero();
-  AngleBound bound;  // what the connectivity about it allows
+  AngleBound bound;                       // what the connectivity about it allows
+  std::vector<std::string> reasons = {};  // what bounds the angle, see hindrances.h; none where it is unknown
 };
 
 struct Quality {

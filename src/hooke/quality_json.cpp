@@ -39,7 +39,8 @@ Json worst_faces(const std::vector<WorstFace>& faces) {
                     {"vertices", w.vertices},
                     {"centre", vector(w.centre)},
                     {"bound", number(w.bound.degrees)},
-                    {"bound_vertices", w.bound.vertices}});
+                    {"bound_vertices", w.bound.vertices},
+                    {"reasons", w.reasons}});
   return json;
 }
 

@@ -5,6 +5,7 @@
 
 #include "hooke/creases.h"
 #include "hooke/error.h"
+#include "hooke/least_angle.h"
 
 namespace hooke {
 namespace {
@@ -17,7 +18,7 @@ class Remeshing {
         observer_(observer),
         work_(work),
         energy_(*work_.connectivity, work_.targets, {.altitude = options.altitude}),
-        guards_(*work_.connectivity, work_.targets, options.guards) {}
+        guards_(*work_.connectivity, work_.targets, work_.guards) {}
 
   RemeshResult run(const FlipResult& flips) {
     result_.flips = flips;
@@ -111,6 +112,7 @@ class Remeshing {
   void conclude() {
     guards_.accept(work_.placement);
     result_.folded_faces = faces_of_result(work_, guards_.folded_faces());
+    result_.holds = holds_of_result(work_, guards_, options_.constraints.fixed_vertices);
     result_.creases = count_creases();
     result_.projection = work_.projection_counts();
   }
@@ -225,7 +227,9 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
     flips = timed(stopwatch, "flip", [&] {
       return flip_connectivity(work, options.flips, terms, options.guards, corner_angle, observer);
     });
+  const bool near_regular = options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm);
   RemeshResult result = Remeshing(work, options, observer).run(flips);
+  result.near_regular = near_regular;
   result.adaptation = adapted;
   switch (options.connectivity) {
     case ConnectivityMode::fixed:

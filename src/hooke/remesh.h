@@ -4,7 +4,9 @@
 
 #include "hooke/adaptation.h"
 #include "hooke/damped_relaxation.h"
+#include "hooke/do_no_harm.h"
 #include "hooke/flip_connectivity.h"
+#include "hooke/hindrances.h"
 #include "hooke/lbfgs.h"
 #include "hooke/polish.h"
 #include "hooke/untangle.h"
@@ -31,6 +33,7 @@ struct RemeshOptions {
   DampedOptions damped;
   double altitude = 1;  // beta, weight of the altitude springs against the strings
   GuardOptions guards;
+  HarmOptions harm;  // in mode `fixed`
   UntangleOptions untangle;
   PolishOptions polish;
   bool polish_angles = true;
@@ -73,13 +76,15 @@ struct CreaseCounts {
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
+  bool near_regular = false;  // in mode `fixed`: see do_no_harm.h
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the result
   CreaseCounts creases;
-  FlipResult flips;           // in the modes `flip` and `adapt`
-  AdaptResult adaptation;     // in mode `adapt`
-  std::vector<MapEntry> map;  // per vertex of the result
-  int not_landed = 0;         // vertices that stay off the input's field, where landing would fold a face
+  FlipResult flips;                  // in the modes `flip` and `adapt`
+  AdaptResult adaptation;            // in mode `adapt`
+  std::vector<MapEntry> map;         // per vertex of the result
+  std::vector<unsigned char> holds;  // per vertex of the result, see hindrances.h
+  int not_landed = 0;  // vertices that stay off the input's field, where landing would fold a face
   PolishResult polish;
   ProjectionCounts projection;
   long long held_back = 0;  // vertex steps shortened by the guards

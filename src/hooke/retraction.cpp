@@ -70,6 +70,13 @@ void VertexPlace::write_to(Placement& p, int vertex) const {
   p.anchors[static_cast<size_t>(other_side)] = other_anchor;
 }
 
+Vec3 Retraction::within_reach(const Vec3& point, int vertex) const {
+  if (constraints_.reach.empty()) return point;
+  const Vec3 home = constraints_.home.col(vertex), way = point - home;
+  const double length = way.norm(), reach = constraints_.reach[static_cast<size_t>(vertex)];
+  return length > reach ? Vec3(home + way * (reach / length)) : point;
+}
+
 VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
   const Curve& curve =
       constraints_.curves[static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)])];
@@ -112,7 +119,7 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
   const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
   const double length = displacement.norm();
   if (length == 0 || freedom == Freedom::fixed) return place;
-  place.point += displacement;
+  place.point = within_reach(place.point + displacement, vertex);
   place.drift += length;
   if (freedom == Freedom::curve) place = on_curve(place, vertex);
   return place.drift < options_.lazy ? place : on_surface(place, vertex);

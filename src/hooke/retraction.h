@@ -91,6 +91,7 @@ class Retraction {
   const RetractionOptions& options() const { return options_; }
 
  private:
+  Vec3 within_reach(const Vec3& point, int vertex) const;
   VertexPlace on_curve(VertexPlace place, int vertex) const;
   VertexPlace on_surface(VertexPlace place, int vertex);
   Foot foot(const Vec3& point, int anchor, int vertex);

@@ -2,18 +2,11 @@
 // order, and what the guards ask of a move.
 #pragma once
 
-#include "hooke/energy.h"
 #include "hooke/guard_rules.h"
+#include "hooke/ring_terms.h"
 #include "hooke/sweep_plan.h"
 
 namespace hooke {
-
-/// The energy around a vertex to second order in two directions.
-struct RingModel {
-  double energy = 0;  // up to a constant
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-};
 
 /// The shape of a ring with its vertex at one place. Columns of numbers, one entry a spoke.
 struct RingShape {
@@ -24,6 +17,7 @@ struct RingShape {
 /// What the guards measure on a ring, one entry a spoke.
 struct RingMeasures {
   std::vector<double> area, alignment;  // of the face
+  std::vector<double> cotangent;        // of its least angle
   std::vector<double> sagitta;          // of the edge
   std::vector<double> fold;             // cosine between the faces on both sides of the edge
   std::vector<double> far_fold;         // and on both sides of the face's far edge
@@ -57,6 +51,7 @@ class VertexRing {
 
  private:
   std::span<const Spoke> spokes() const { return spokes_[side_]; }
+  RingView view(const RingShape& s) const { return {columns_.data(), s.columns.data(), stride_, s.normal}; }
   RingModel unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
                    std::vector<double>& unfolded) const;
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hooke/creases.h"
+#include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/topology.h"
 
@@ -23,6 +24,10 @@ constexpr double landing_slack = .05;  // two fields of one surface differ a lit
 
 constexpr double landing_area_ratio = .01;
 
+/// Steps keep this much from the least angle, in parts of its cotangent, so that the landing need not fall
+/// below it.
+constexpr double landing_cotangent = 3e-3;
+
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
   std::iota(ids.begin(), ids.end(), 0);
@@ -35,8 +40,8 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
                      const FilterOptions& filter, const RetractionOptions& retraction_options,
                      const GuardOptions& guard_options, Stopwatch* stopwatch_or_none)
     : stopwatch(stopwatch_or_none),
+      guards(guard_options),
       filter_(filter),
-      guard_options_(guard_options),
       retraction_options_(retraction_options) {
   const std::vector<double> length = vertex_values(source, target_length_property);
   normalisation = normalisation_of(positions(source), length);
@@ -85,6 +90,10 @@ void Workspace::connect(Connectivity c, const std::vector<Edge>& creases) {
   connectivity = std::make_shared<const Connectivity>(std::move(c));
 }
 
+void Workspace::keep_angles() {
+  guards.cotangent = greatest_cotangent(placement.points, connectivity->faces) / (1 + landing_cotangent);
+}
+
 /// A field of which each side of a crease has its own.
 SurfaceField Workspace::fit(const Mat3X& points) const {
   if (connectivity->creases.empty()) return SurfaceField(points, connectivity, filter_);
@@ -112,16 +121,17 @@ int Workspace::land() {
   Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
   input_anchors_ = landed.anchors;
 
-  GuardOptions options = guard_options_;
+  GuardOptions options = guards;
   options.slack = landing_slack;
   options.area_ratio = landing_area_ratio;
   options.sagitta = std::numeric_limits<double>::infinity();
-  Guards guards(*connectivity, targets, options);
-  guards.accept(placement);
+  options.cotangent *= 1 + landing_cotangent;
+  Guards judge(*connectivity, targets, options);
+  judge.accept(placement);
   std::vector<char> stays(landed.anchors.size(), 0);
   for (;;) {
     int more = 0;
-    for (int v : guards.offenders(landed))
+    for (int v : judge.offenders(landed))
       if (!std::exchange(stays[static_cast<size_t>(v)], 1)) {
         landed.points.col(v) = placement.points.col(v);
         landed.normals.col(v) = placement.normals.col(v);
@@ -225,6 +235,11 @@ std::vector<double> Workspace::input_lengths() const {
   return lengths;
 }
 
+int Workspace::vertex_of_input(int vertex) const {
+  const int origin = origins[static_cast<size_t>(vertex)];
+  return origin < 0 ? -1 : input_order_.old_vertex[static_cast<size_t>(origin)];
+}
+
 std::vector<MapEntry> Workspace::map() const {
   std::vector<MapEntry> entries(order.old_vertex.size());
   parallel_for(entries.size(), 256, [&](size_t begin, size_t end) {
@@ -233,7 +248,7 @@ std::vector<MapEntry> Workspace::map() const {
       entry.place = place_on_input(static_cast<int>(v));
       if (entry.place.face >= 0)
         entry.place.face = input_order_.old_face[static_cast<size_t>(entry.place.face)];
-      if (origins[v] >= 0) entry.vertex = input_order_.old_vertex[static_cast<size_t>(origins[v])];
+      entry.vertex = vertex_of_input(static_cast<int>(v));
     }
   });
   return entries;

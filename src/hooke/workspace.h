@@ -31,6 +31,9 @@ struct Workspace {
   /// [11]-[14]
   void refit();
 
+  /// From now on no face's least angle falls below the least of all as they are now.
+  void keep_angles();
+
   /// Projects the vertices to the field of the input, which is what they are to lie on in the end. A vertex
   /// whose landing would break a guard stays where it is; returns their number.
   int land();
@@ -59,6 +62,9 @@ struct Workspace {
   /// where it varies; where they were replaced, the faces, or a new mesh.
   void copy_back(TriMesh& target) const;
 
+  /// The id that a vertex of the work had in the mesh the work was made from; -1 for a new one.
+  int vertex_of_input(int vertex) const;
+
   /// Where the vertices of the result, in their order there, lie on the mesh the work was made from.
   std::vector<MapEntry> map() const;
 
@@ -68,6 +74,7 @@ struct Workspace {
   int chart_count() const;
 
   Stopwatch* stopwatch;
+  GuardOptions guards;  // of all steps; landings have looser ones
   Normalisation normalisation;
   Reordered order;  // the ids in the result, which are those of the input while its vertices stay
   std::shared_ptr<const Connectivity> connectivity;  // with its creases
@@ -87,7 +94,6 @@ struct Workspace {
   SurfaceField fit(const Mat3X& points) const;
 
   FilterOptions filter_;
-  GuardOptions guard_options_;
   RetractionOptions retraction_options_;
   bool faces_replaced_ = false;
   bool vertices_replaced_ = false;
