@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/least_angle.h"
 #include "scene.h"
 
 namespace hooke {
@@ -29,7 +30,7 @@ TEST(Untangle, UnfoldsAVertexThatWasPulledAcrossAnEdge) {
   EXPECT_EQ(result.folded_before, before);
   EXPECT_TRUE(result.folded.empty());
   EXPECT_EQ(downward_faces(s), 0);
-  EXPECT_GT(result.evaluations, 0);
+  EXPECT_GT(result.sweeps, 0);
   EXPECT_FALSE(result.interrupted);
   EXPECT_EQ(positions(s.mesh), s.placement.points);
 }
@@ -46,13 +47,23 @@ TEST(Untangle, UnfoldsOnASphere) {
     EXPECT_GT(test::area_vector(s.placement.points, face).dot(s.placement.points.col(face[0])), 0);
 }
 
+TEST(Untangle, OpensASliverThatHardlyLiesOutsideTheRim) {
+  test::Triangles t = test::grid(8, test::flat, .1);
+  t.points.col(13) = Vec3(t.points(0, 13), -.002, 0);  // next to the rim
+  test::Scene s(t, test::to_ground);
+  ASSERT_GT(downward_faces(s), 0);
+  Relaxation r = s.relaxation();
+  EXPECT_TRUE(untangle(r, {}, nullptr).folded.empty());
+  EXPECT_GT(least_angle(s.placement.points, t.faces), 2);
+}
+
 TEST(Untangle, AMeshWithoutFoldsIsLeftAlone) {
   test::Scene s = test::ground_scene(.3);
   const Placement before = s.placement;
   Relaxation r = s.relaxation();
   const UntangleResult result = untangle(r, {}, nullptr);
   EXPECT_EQ(result.folded_before, 0);
-  EXPECT_EQ(result.evaluations, 0);
+  EXPECT_EQ(result.sweeps, 0);
   EXPECT_TRUE(test::same(s.placement, before));
 }
 

@@ -81,16 +81,23 @@ bool LocalNewton::look(int vertex) {
   return true;
 }
 
+/// A face that is unfolded gets the springs of all others, which cost more than what unfolding gains: such a
+/// move needs no lower energy.
 bool LocalNewton::may_move(const VertexPlace& place) {
   double energy = 0;
+  int unfolded = 0;
+  const EnergyTerms& terms = r_.energy.terms;
   const auto obeys = [&](Side& s, const Vec3& normal) {
     s.ring.shape(place.point, normal, s.after);
     if (!s.ring.obeys(s.before, s.after, r_.guards.options())) return false;
-    energy += s.ring.energy(s.after, r_.energy.terms);
+    energy += s.ring.energy(s.after, terms);
+    if (terms.unfold > 0)
+      unfolded += s.ring.folded_faces(s.before, terms.unfold_below) -
+                  s.ring.folded_faces(s.after, terms.unfold_below);
     return true;
   };
   return obeys(side_, place.normal) && (!two_sided_ || obeys(other_side_, place.other_normal)) &&
-         energy <= model_.energy;
+         (unfolded > 0 || energy <= model_.energy);
 }
 
 LocalCurvature LocalNewton::curvature(int vertex) {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "hooke/least_angle.h"
-#include "hooke/local_newton.h"
+#include "hooke/local_relaxation.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -33,13 +32,6 @@ double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edg
 
 namespace {
 
-/// Marks the neighbours of these vertices and adds them to the list.
-void grow(const Connectivity& c, std::vector<char>& marked, std::vector<int>& vertices) {
-  for (size_t i = 0, count = vertices.size(); i < count; ++i)
-    for (int n : c.vertex_neighbours[vertices[i]])
-      if (!std::exchange(marked[static_cast<size_t>(n)], 1)) vertices.push_back(n);
-}
-
 /// The corners of all faces with an angle below the threshold (degrees) and `rings` rings around them.
 std::vector<int> around_bad_faces(const Mat3X& points, const Connectivity& c, double threshold, int rings) {
   const double limit = 1 / std::tan(threshold * std::numbers::pi / 180);
@@ -47,40 +39,25 @@ std::vector<int> around_bad_faces(const Mat3X& points, const Connectivity& c, do
   parallel_for(c.faces.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) bad[f] = greatest_cotangent(points, c.faces[f]) > limit;
   });
-  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
   std::vector<int> vertices;
   for (size_t f = 0; f < c.faces.size(); ++f)
-    if (bad[f])
-      for (int v : c.faces[f])
-        if (!std::exchange(marked[static_cast<size_t>(v)], 1)) vertices.push_back(v);
-  for (int ring = 0; ring < rings; ++ring) grow(c, marked, vertices);
-  return vertices;
-}
-
-/// Marks those of the vertices that moved farther than `rest` and the neighbours of those: all others have
-/// found their place.
-void mark_restless(const Connectivity& c, const std::vector<int>& vertices, const std::vector<double>& moves,
-                   double rest, std::vector<char>& active) {
-  const auto moved = [&](int v) { return moves[static_cast<size_t>(v)] > rest; };
-  parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i)
-      active[static_cast<size_t>(vertices[i])] =
-          moved(vertices[i]) || std::ranges::any_of(c.vertex_neighbours[vertices[i]], moved);
-  });
+    if (bad[f]) vertices.insert(vertices.end(), c.faces[f].begin(), c.faces[f].end());
+  return with_rings(c, vertices, rings);
 }
 
 /// One stage: sweeps over what lies around faces with an angle below the threshold.
 void raise(Relaxation& r, double threshold, const PolishOptions& o, const Observer& observer,
            PolishResult& result) {
-  const std::vector<int> vertices = around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings);
-  std::vector<char> active(static_cast<size_t>(r.connectivity.vertex_count), 0);
-  for (int v : vertices) active[static_cast<size_t>(v)] = 1;
-  for (int sweep = 0; sweep < o.sweeps && !result.interrupted; ++sweep, ++result.sweeps) {
-    const std::vector<double> moves =
-        local_newton_sweep(r, active, {.over_relaxation = o.over_relaxation, .rest = .3 * o.rest});
-    mark_restless(r.connectivity, vertices, moves, o.rest, active);
-    result.interrupted = observer && !observer({.step = result.sweeps});
-  }
+  const auto watch = [&](Progress p) {
+    p.step += result.sweeps;
+    return observer(p);
+  };
+  const LocalRelaxationResult relaxed =
+      relax_locally(r, around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings),
+                    {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation, .rest = o.rest},
+                    observer ? Observer(watch) : nullptr);
+  result.sweeps += relaxed.sweeps;
+  result.interrupted = relaxed.interrupted;
 }
 
 }  // namespace

@@ -55,13 +55,13 @@ class Remeshing {
     const UntangleResult unfolded = untangle(r, options_.untangle, watch("untangle"));
     result_.folded_before = unfolded.folded_before;
     if (unfolded.interrupted) stop(StopReason::interrupted);
-    if (unfolded.evaluations > 0) record("untangle", {.evaluations = unfolded.evaluations});
+    if (unfolded.sweeps > 0) record("untangle", {.steps = unfolded.sweeps});
   }
 
-  /// The sweeps take out slivers, and after the first iteration there are hardly any left.
+  /// The sweeps take out slivers, of which hardly any are left after an iteration that no guard held back.
   LbfgsOptions lbfgs() const {
     LbfgsOptions lbfgs = options_.lbfgs;
-    if (outer_ > 1) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
+    if (outer_ > 1 && !held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
     return lbfgs;
   }
 
@@ -86,6 +86,7 @@ class Remeshing {
     if (refits() && outer_ > 1) work_.refit();
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
+    held_back_ = relaxed.held_back > 0;
     result_.not_landed = work_.land();
     work_.resample_lengths();
     record("relax", relaxed);
@@ -155,6 +156,7 @@ class Remeshing {
   Guards guards_;
   RemeshResult result_;
   int outer_ = 0;
+  bool held_back_ = false;  // by the guards, in the last relaxation
   bool done_ = false;
 };
 

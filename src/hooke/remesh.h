@@ -16,7 +16,7 @@ namespace hooke {
 
 enum class Refit { each, once };
 
-/// What brings the springs to their equilibrium; untangling and polishing always use L-BFGS.
+/// What brings the springs to their equilibrium; untangling and polishing go vertex by vertex.
 enum class IntegratorKind {
   lbfgs,   // minimises the energy
   damped,  // follows the evolution [17], torque included

@@ -1,25 +1,44 @@
 #include "hooke/untangle.h"
 
 namespace hooke {
+namespace {
 
-UntangleResult untangle(Relaxation& r, const UntangleOptions& options, const Observer& observer) {
+std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces) {
+  std::vector<int> vertices;
+  for (int f : faces) {
+    const Triangle& t = c.faces[static_cast<size_t>(f)];
+    vertices.insert(vertices.end(), t.begin(), t.end());
+  }
+  return vertices;
+}
+
+}  // namespace
+
+UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer& observer) {
   UntangleResult result;
   r.guards.accept(r.placement);
   result.folded = r.guards.folded_faces();
   result.folded_before = static_cast<int>(result.folded.size());
+  if (result.folded.empty()) return result;
 
   const EnergyTerms terms = r.energy.terms;
   r.energy.terms.unfold = 1;
-  IntegrationOptions integration;
-  integration.max_steps = options.evaluations;
-  for (int round = 0; round < options.max_rounds && !result.folded.empty() && !result.interrupted; ++round) {
-    const IntegrationResult relaxed = relax_lbfgs(r, integration, LbfgsOptions{}, observer);
-    result.evaluations += relaxed.evaluations;
-    result.interrupted = relaxed.reason == StopReason::interrupted;
+  size_t least = result.folded.size();
+  for (int round = 0, in_vain = 0;
+       round < o.rounds && in_vain < o.patience && !result.folded.empty() && !result.interrupted; ++round) {
+    const LocalRelaxationResult relaxed =
+        relax_locally(r,
+                      with_rings(r.connectivity, corners_of(r.connectivity, result.folded),
+                                 o.first_rings + round * o.more_rings),
+                      {.sweeps = o.sweeps}, observer);
+    result.sweeps += relaxed.sweeps;
+    result.interrupted = relaxed.interrupted;
     r.guards.accept(r.placement);
     result.folded = r.guards.folded_faces();
-    if (relaxed.steps == 0) break;
+    in_vain = result.folded.size() < least ? 0 : in_vain + 1;
+    least = std::min(least, result.folded.size());
   }
+  positions(r.mesh) = r.placement.points;
   r.energy.terms = terms;
   return result;
 }

@@ -2,19 +2,22 @@
 // wrong way, so they first feel a spring on their signed area.
 #pragma once
 
-#include "hooke/lbfgs.h"
+#include "hooke/local_relaxation.h"
 
 namespace hooke {
 
 struct UntangleOptions {
-  int max_rounds = 10;
-  int evaluations = 30;  // per round
+  int rounds = 12;      // at most; each takes in more about the folded faces than the one before
+  int first_rings = 2;  // about the folded faces, within which vertices move in the first round
+  int more_rings = 2;   // in each round
+  int sweeps = 30;      // per round, at most
+  int patience = 3;     // rounds without fewer folded faces, after which it gives up
 };
 
 struct UntangleResult {
   int folded_before = 0;
   std::vector<int> folded;  // faces that are still folded, in the numbering of the connectivity
-  int evaluations = 0;
+  int sweeps = 0;
   bool interrupted = false;
 };
 

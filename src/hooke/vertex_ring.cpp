@@ -165,6 +165,11 @@ RingMeasures VertexRing::measures(const RingShape& shape) const {
   return m;
 }
 
+int VertexRing::folded_faces(const RingShape& shape, double limit) const {
+  return static_cast<int>(
+      std::ranges::count_if(measures(shape).alignment, [limit](double a) { return a < limit; }));
+}
+
 bool VertexRing::obeys(const RingShape& before, const RingShape& after, const GuardOptions& o) const {
   if (within_limits(view(before), view(after), o)) return true;
   const RingMeasures b = measures(before), a = measures(after);

@@ -49,6 +49,9 @@ class VertexRing {
 
   RingMeasures measures(const RingShape& shape) const;
 
+  /// The number of faces with an alignment below `limit`.
+  int folded_faces(const RingShape& shape, double limit) const;
+
  private:
   std::span<const Spoke> spokes() const { return spokes_[side_]; }
   RingView view(const RingShape& s) const { return {columns_.data(), s.columns.data(), stride_, s.normal}; }

@@ -1,0 +1,57 @@
+#include "hooke/local_relaxation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hooke/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr double still = .3;  // of `rest`: a vertex that wants to move less is not moved at all
+
+/// Marks those of the vertices that moved farther than `rest` and the neighbours of those: all others have
+/// found their place. Returns whether there are any.
+bool mark_restless(const Connectivity& c, const std::vector<int>& vertices, const std::vector<double>& moves,
+                   double rest, std::vector<char>& active) {
+  const auto moved = [&](int v) { return moves[static_cast<size_t>(v)] > rest; };
+  parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      active[static_cast<size_t>(vertices[i])] =
+          moved(vertices[i]) || std::ranges::any_of(c.vertex_neighbours[vertices[i]], moved);
+  });
+  return std::ranges::any_of(vertices, [&](int v) { return active[static_cast<size_t>(v)] != 0; });
+}
+
+}  // namespace
+
+std::vector<int> with_rings(const Connectivity& c, const std::vector<int>& vertices, int rings) {
+  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<int> all;
+  const auto add = [&](int v) {
+    if (!std::exchange(marked[static_cast<size_t>(v)], 1)) all.push_back(v);
+  };
+  std::ranges::for_each(vertices, add);
+  for (int ring = 0; ring < rings; ++ring)
+    for (size_t i = 0, count = all.size(); i < count; ++i)
+      std::ranges::for_each(c.vertex_neighbours[all[i]], add);
+  return all;
+}
+
+LocalRelaxationResult relax_locally(Relaxation& r, const std::vector<int>& vertices,
+                                    const LocalRelaxationOptions& o, const Observer& observer) {
+  LocalRelaxationResult result;
+  std::vector<char> active(static_cast<size_t>(r.connectivity.vertex_count), 0);
+  for (int v : vertices) active[static_cast<size_t>(v)] = 1;
+  bool restless = !vertices.empty();
+  while (restless && result.sweeps < o.sweeps && !result.interrupted) {
+    const std::vector<double> moves =
+        local_newton_sweep(r, active, {.over_relaxation = o.over_relaxation, .rest = still * o.rest});
+    restless = mark_restless(r.connectivity, vertices, moves, o.rest, active);
+    result.interrupted = observer && !observer({.step = result.sweeps});
+    ++result.sweeps;
+  }
+  return result;
+}
+
+}  // namespace hooke
