@@ -49,6 +49,31 @@ void write_report(const Settings& s, const RunRecord& run) {
     throw OutputError("standard output: the report was not written; expected an open reader");
 }
 
+/// Edges that do not follow the sizing: what a mode can reach on a mesh whose lengths vary by four.
+void warn_of_sizing(const Settings& s, RunRecord& run) {
+  const Statistics& error = run.after->length_error;
+  const double rms = std::hypot(error.mean, error.std), most = [&] {
+    switch (s.remesh.connectivity) {
+      case ConnectivityMode::fixed:
+        return .35;
+      case ConnectivityMode::flip:
+        return .25;
+      default:
+        return .15;
+    }
+  }();
+  if (s.sizing.kind == SizingSource::Kind::none || rms <= most) return;
+  const char* advice = s.remesh.connectivity == ConnectivityMode::adapt
+                           ? "a smaller --gradation, or lengths that the boundary can take"
+                           : "--connectivity adapt, or lengths nearer to those of the input";
+  run.warnings.push_back(
+      {"sizing_missed",
+       fmt::format(
+           "{}: the edges miss the lengths of the sizing by {:.0f} % (rms), expected at most {:.0f} % "
+           "with these vertices and faces; use {}",
+           run.output->path, 100 * rms, 100 * most, advice)});
+}
+
 /// What the result must not hide, and what the length means where it is out of reach.
 void add_result_warnings(const Settings& s, RunRecord& run) {
   const RemeshResult& r = *run.result;
@@ -73,6 +98,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
              "{}: {} faces, where the target length asks for {:.0f}; edges that the surface, a boundary "
              "or a fixed vertex needs stay; use a smaller length",
              run.output->path, faces, wanted)});
+  warn_of_sizing(s, run);
   if (s.paper && r.reason != StopReason::converged)
     run.warnings.push_back({"paper_jams", fmt::format("{}: {}", run.input.path, paper_message(r))});
 }

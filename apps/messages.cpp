@@ -74,6 +74,10 @@ void print_summary(const Settings& s, const RunRecord& run) {
   if (s.verbose) print_iterations(*run.result);
   fmt::print(stderr, "{}", quality_table(run.before, *run.after, *run.deviation));
   fmt::print(stderr, "\n{}\n", reason_in_words(run));
+  if (run.result->near_regular)
+    fmt::print(
+        stderr,
+        "the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
   const FlipResult& f = run.result->flips;
   const AdaptResult& a = run.result->adaptation;
   if (a.rounds > 0)

@@ -115,6 +115,32 @@ class Report(CommandTest):
         report = self.report(DATA / "blob.ply", "--check", "--sizing", "curvature:1%", "--gradation", "off")
         self.assertIsNone(report["parameters"]["gradation"])
         self.assertLess(report["parameters"]["L_min"], report["parameters"]["L_max"])
+    def test_edges_that_cannot_follow_a_sizing_are_a_warning(self):
+        vertices = read_mesh(DATA / "torus.off")[0]
+        lengths = [1 if i % 2 else 8 for i in range(len(vertices))]
+        (self.folder / "lengths").write_text("\n".join(map(str, lengths)))
+        options = (DATA / "torus.off", "-o", "out.off", "--sizing", "lengths", "--gradation", "off")
+        codes = [w["code"] for w in self.report(*options)["warnings"]]
+        self.assertIn("sizing_missed", codes)
+        codes = [w["code"] for w in self.report(DATA / "torus.off", "-o", "out.off", "--sizing", "curvature")["warnings"]]
+        self.assertNotIn("sizing_missed", codes)
+
+    def test_worst_faces_say_what_bounds_them(self):
+        for mode in ("fixed", "flip"):
+            worst = self.report(DATA / "patch.obj", "-o", "out.off", "--connectivity", mode)["after"]["worst_faces"]
+            names = {"corner", "fixed", "crease", "boundary", "valence", "guard", "lengths"}
+            for face in worst:
+                self.assertTrue(face["reasons"])
+                self.assertLessEqual(set(face["reasons"]), names)
+        self.assertIn("boundary", {name for face in worst for name in face["reasons"]})
+
+    def test_a_result_is_near_regular_and_stays(self):
+        self.run_command(DATA / "torus.off", "-o", "once.off", "--connectivity", "flip", "-q")
+        report = self.report("once.off", "-o", "twice.off")
+        self.assertTrue(report["near_regular"])
+        self.assertGreaterEqual(report["after"]["min_angle"]["min"], report["before"]["min_angle"]["min"])
+        self.assertLess(report["geometry"]["displacement"]["max"], .2 * report["parameters"]["L"])
+
     def test_trace_and_report_tell_the_same_of_every_stage(self):
         report = self.report(DATA / "patch.obj", "-o", "out.obj", "--trace", "trace.csv")
         with open(self.folder / "trace.csv", newline="") as lines:
