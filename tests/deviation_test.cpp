@@ -125,6 +125,17 @@ TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {
   EXPECT_TRUE(measure(t, t).opposing_faces.empty());
 }
 
+TEST(Deviation, WhichOfTwoFacesAtAFoldIsTheCloserDoesNotMatter) {
+  // The reference is folded back along the y axis, and the result's face lies beyond that edge.
+  const auto beyond = test::triangles({{.1, 0, 0}, {.3, 0, 0}, {.2, .3, 0}}, {{0, 1, 2}});
+  for (const bool upper_first : {true, false}) {
+    test::Triangles folded =
+        test::triangles({{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 0, -.2}}, {{0, 1, 2}, {1, 0, 3}});
+    if (!upper_first) std::swap(folded.faces[0], folded.faces[1]);
+    EXPECT_EQ(measure(folded, beyond).opposing_faces, std::vector<int>{0});
+  }
+}
+
 TEST(Deviation, RigidMotionOfBothChangesNothingAndScaleScales) {
   const test::Triangles a = test::sphere(3, .1, 1), b = test::sphere(3, .3, 2);
   const Deviation d = measure(a, b), e = measure(test::moved(a, 10), test::moved(b, 10));

@@ -69,28 +69,16 @@ TEST_P(EnergyLaws, OneThreadAndTwoGiveTheSameBits) {
   EXPECT_EQ(one, two);
 }
 
-EnergyTerms angles() {
-  EnergyTerms t;
-  t.altitude = 0;
-  t.angle = 30;
-  t.angle_threshold = .7;
-  return t;
-}
 EnergyTerms unfolding() {
   EnergyTerms t;
   t.unfold = 1;
   t.unfold_below = .95;  // so high that it acts on a fair sphere
   return t;
 }
-EnergyTerms strings() {
-  EnergyTerms t;
-  t.altitude = 0;
-  return t;
-}
 INSTANTIATE_TEST_SUITE_P(All, EnergyLaws,
-                         testing::Values(test::NamedTerms{"strings", strings()},
+                         testing::Values(test::NamedTerms{"strings", test::only_strings()},
                                          test::NamedTerms{"altitudes", EnergyTerms{}},
-                                         test::NamedTerms{"angles", angles()},
+                                         test::NamedTerms{"angles", test::only_angles()},
                                          test::NamedTerms{"unfold", unfolding()}),
                          [](const auto& i) { return std::string(i.param.name); });
 

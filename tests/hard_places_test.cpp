@@ -26,16 +26,7 @@ test::Triangles needle() {
 /// Every tenth face is split at its centre: valence 3 there.
 test::Triangles valence_three() {
   test::Triangles t = test::grid(10, test::paraboloid, .2, 5);
-  const size_t count = t.faces.size();
-  for (size_t f = 0; f < count; f += 10) {
-    const auto [a, b, c] = t.faces[f];
-    const int v = static_cast<int>(t.points.cols());
-    t.points.conservativeResize(3, v + 1);
-    t.points.col(v) = (t.points.col(a) + t.points.col(b) + t.points.col(c)) / 3;
-    t.faces[f] = {a, b, v};
-    t.faces.push_back({b, c, v});
-    t.faces.push_back({c, a, v});
-  }
+  test::split_at_centres(t, 0, 10);
   return t;
 }
 

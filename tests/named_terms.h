@@ -15,4 +15,17 @@ inline void PrintTo(const NamedTerms& t, std::ostream* out) {
   *out << t.name;
 }
 
+inline EnergyTerms only_strings() {
+  EnergyTerms t;
+  t.altitude = 0;
+  return t;
+}
+inline EnergyTerms only_angles() {
+  EnergyTerms t;
+  t.altitude = 0;
+  t.angle = 30;
+  t.angle_threshold = .7;
+  return t;
+}
+
 }  // namespace hooke::test

@@ -25,16 +25,7 @@ PolishResult polished(test::Scene& s, const PolishOptions& options = {}, const O
 /// 3 in every fourth of them.
 test::Triangles irregular(unsigned seed = 11) {
   test::Triangles t = test::grid(8, test::flat, .25, seed);
-  const size_t faces = t.faces.size();
-  for (size_t f = 5; f < faces; f += 4) {
-    const auto [a, b, c] = t.faces[f];
-    const int middle = static_cast<int>(t.points.cols());
-    t.points.conservativeResize(3, middle + 1);
-    t.points.col(middle) = (t.points.col(a) + t.points.col(b) + t.points.col(c)) / 3;
-    t.faces[f] = {a, b, middle};
-    t.faces.push_back({b, c, middle});
-    t.faces.push_back({c, a, middle});
-  }
+  test::split_at_centres(t, 5, 4);
   return t;
 }
 

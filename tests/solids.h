@@ -70,4 +70,18 @@ inline Triangles shaken(Triangles t, double size, unsigned seed = 1) {
   return t;
 }
 
+/// Splits every `step`-th face from `first` on at its centre, which has valence 3 then.
+inline void split_at_centres(Triangles& t, size_t first, size_t step) {
+  const size_t count = t.faces.size();
+  for (size_t f = first; f < count; f += step) {
+    const auto [a, b, c] = t.faces[f];
+    const int centre = static_cast<int>(t.points.cols());
+    t.points.conservativeResize(3, centre + 1);
+    t.points.col(centre) = (t.points.col(a) + t.points.col(b) + t.points.col(c)) / 3;
+    t.faces[f] = {a, b, centre};
+    t.faces.push_back({b, c, centre});
+    t.faces.push_back({c, a, centre});
+  }
+}
+
 }  // namespace hooke::test

@@ -87,18 +87,6 @@ TEST_P(RingLaws, TheHessianEqualsDifferencesOfTheGradient) {
   });
 }
 
-EnergyTerms strings() {
-  EnergyTerms t;
-  t.altitude = 0;
-  return t;
-}
-EnergyTerms angles() {
-  EnergyTerms t;
-  t.altitude = 0;
-  t.angle = 30;
-  t.angle_threshold = .7;
-  return t;
-}
 EnergyTerms all() {
   EnergyTerms t;
   t.string = .7;
@@ -114,9 +102,10 @@ EnergyTerms unfolding() {
   return t;
 }
 INSTANTIATE_TEST_SUITE_P(All, RingLaws,
-                         testing::Values(test::NamedTerms{"strings", strings()},
+                         testing::Values(test::NamedTerms{"strings", test::only_strings()},
                                          test::NamedTerms{"altitudes", EnergyTerms{}},
-                                         test::NamedTerms{"angles", angles()}, test::NamedTerms{"all", all()},
+                                         test::NamedTerms{"angles", test::only_angles()},
+                                         test::NamedTerms{"all", all()},
                                          test::NamedTerms{"unfold", unfolding()}),
                          [](const auto& i) { return std::string(i.param.name); });
 

@@ -43,6 +43,32 @@ double angle_between(const Vec3& n, const Vec3& m) {
   return std::atan2(n.cross(m).norm(), n.dot(m)) * (180 / std::numbers::pi);
 }
 
+/// Does a face with this area vector oppose one of the reference's faces that fold at the closest point?
+/// Where that is on an edge or a vertex, it is the closest point of several faces.
+bool opposes_at_fold(const MeasuredSurface& reference, const ClosestPoint& at, const Vec3& n) {
+  constexpr double on_side = 1e-9;  // of a barycentric weight
+  constexpr double fold = -.1;      // cosine; a crease of a right angle is none
+  const Triangle& t = face_at(reference, at);
+  const Vec3 weights = barycentric(at.point, reference.points.col(t[0]), reference.points.col(t[1]),
+                                   reference.points.col(t[2]));
+  const Vec3 own = area_vector(reference.points, t).normalized();
+  const auto touches = [&](const Triangle& other) {
+    for (size_t k = 0; k < 3; ++k)
+      if (weights[static_cast<Eigen::Index>(k)] > on_side && std::ranges::find(other, t[k]) == other.end())
+        return false;
+    return true;
+  };
+  if (weights.minCoeff() > on_side) return false;
+  Eigen::Index corner = 0;
+  weights.maxCoeff(&corner);
+  for (int f : reference.connectivity.vertex_faces[t[static_cast<size_t>(corner)]]) {
+    const Triangle& other = reference.connectivity.faces[static_cast<size_t>(f)];
+    const Vec3 m = area_vector(reference.points, other).normalized();
+    if (touches(other) && m.dot(own) < fold && m.dot(n) < 0) return true;
+  }
+  return false;
+}
+
 /// `closest` belongs to the centres of the result's faces.
 MaxRms measure_normal_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
                                 const std::vector<ClosestPoint>& closest) {
@@ -104,7 +130,8 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       if (closest[f].face < 0) continue;
       const Vec3 n = area_vector(result.points, face.vertices);
       flipped[f] = n.dot(normal_at(reference, normals, closest[f])) < 0;
-      opposing[f] = flipped[f] || n.dot(area_vector(reference.points, face_at(reference, closest[f]))) < 0;
+      opposing[f] = flipped[f] || n.dot(area_vector(reference.points, face_at(reference, closest[f]))) < 0 ||
+                    opposes_at_fold(reference, closest[f], n);
     }
   });
   deviation.flipped_faces = static_cast<size_t>(std::ranges::count(flipped, 1));
