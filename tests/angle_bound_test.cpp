@@ -55,5 +55,12 @@ TEST(AngleBound, TheRegularIcosahedronReachesIts) {
   EXPECT_NEAR(b.degrees, 60, 2e-3);
 }
 
+TEST(AngleBound, WhatCannotBeMeasuredIsNotBounded) {
+  test::Triangles t = test::sphere(1);
+  t.points *= 1e200;
+  EXPECT_EQ(bound(t, 0).degrees, 60);
+  EXPECT_TRUE(bound(t, 0).vertices.empty());
+}
+
 }  // namespace
 }  // namespace hooke

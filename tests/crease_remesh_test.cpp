@@ -114,6 +114,26 @@ TEST(CreaseRemesh, AStepBlockKeepsItsConcaveEdge) {
   }
 }
 
+TEST(CreaseRemesh, NoCreaseBecomesAcute) {
+  const auto sharpest = [](const Mat3X& points, const std::vector<Triangle>& faces) {
+    const Connectivity c = make_connectivity(static_cast<int>(points.cols()), faces);
+    double least = 1;
+    for (const auto& [left, right] : c.edge_faces)
+      if (right >= 0)
+        least = std::min(least, cosine_between(points, faces[static_cast<size_t>(left)],
+                                               faces[static_cast<size_t>(right)]));
+    return least;
+  };
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const test::Triangles t =
+        test::shaken(test::irregular_cube(6, seed), .04, seed);  // rough, with jagged edges
+    for (ConnectivityMode mode : both_modes) {
+      const Outcome o = remeshed(t, in_mode(mode));
+      EXPECT_GT(sharpest(o.points, o.faces), std::min(sharpest(t.points, t.faces), -.1) - .03);
+    }
+  }
+}
+
 TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
   const test::Triangles t = test::cylinder(40);
   const double L = length_of(t);

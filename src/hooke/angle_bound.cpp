@@ -166,6 +166,8 @@ Verdict share_out(const Patch& p, double t) {
 AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivity, int face, int rings) {
   const Patch patch = patch_about(points, connectivity, face, rings);
   AngleBound bound;
+  const auto unknown = [](double sum) { return !std::isfinite(sum); };
+  if (std::ranges::any_of(patch.angle_sum, unknown)) return bound;
   double possible = 0, impossible = 60;
   if (share_out(patch, impossible).possible) return bound;
   while (impossible - possible > 1e-3) {

@@ -34,6 +34,12 @@ inline bool sagitta_breaks(const GuardOptions& o, double target, double before, 
   return after > std::max(before + o.slack * target, o.sagitta * target);
 }
 
+/// A crease may be as sharp as it is, but one that is blunter than a right angle stays so, and one of about a
+/// right angle does not become an acute one.
+inline bool crease_fold_breaks(const GuardOptions& o, double before, double after) {
+  return (before >= o.fold && after < o.fold) || (before >= -o.fold && after < -o.fold);
+}
+
 inline bool fold_breaks(const GuardOptions& o, double before, double after) {
   return after < std::min(o.fold, before - o.slack);
 }

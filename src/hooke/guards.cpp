@@ -76,7 +76,7 @@ void Guards::measure_face(const Placement& p, size_t face) {
 
 double Guards::fold_at(const Mat3X& points, size_t edge) const {
   const auto [left, right] = connectivity_.edge_faces[edge];
-  if (right < 0 || connectivity_.is_crease(static_cast<int>(edge))) return 1;
+  if (right < 0) return 1;
   return cosine_between(points, connectivity_.faces[static_cast<size_t>(left)],
                         connectivity_.faces[static_cast<size_t>(right)]);
 }
@@ -94,7 +94,9 @@ bool Guards::face_breaks(size_t f) const {
 }
 
 bool Guards::fold_breaks(size_t e) const {
-  return hooke::fold_breaks(options_, accepted_.fold[e], trial_.fold[e]);
+  const double before = accepted_.fold[e], after = trial_.fold[e];
+  return connectivity_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(options_, before, after)
+                                                      : hooke::fold_breaks(options_, before, after);
 }
 
 bool Guards::edge_breaks(size_t e) const {
@@ -197,7 +199,8 @@ std::vector<int> Guards::vertices_at_limits() const {
     if (accepted_.alignment[f] < options_.alignment + cosine_margin)
       vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
   for (size_t e = 0; e < accepted_.fold.size(); ++e) {
-    const bool folds = accepted_.fold[e] < options_.fold + cosine_margin;
+    const bool folds =
+        !connectivity_.is_crease(static_cast<int>(e)) && accepted_.fold[e] < options_.fold + cosine_margin;
     if (!folds && accepted_.sagitta[e] < sagitta_part * options_.sagitta * targets_.edge[e]) continue;
     vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
     if (!folds) continue;

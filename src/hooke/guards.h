@@ -29,7 +29,7 @@ inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
 
 /// Judges steps against the last accepted placement. Each face and edge is measured on its own side of a
-/// crease; a crease itself may be as sharp as it is. Keeps references to the connectivity
+/// crease. Keeps references to the connectivity
 /// and the targets.
 class Guards {
  public:

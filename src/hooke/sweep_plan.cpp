@@ -95,15 +95,19 @@ Spokes make_parted_spokes(const Connectivity& c) {
   for (int s = 0; s < cut.vertex_count; ++s) {
     const int v = vertex_of(s);
     int face = -1;
+    spokes.mate.push_back(-1);
     for (int i = spokes.first[static_cast<size_t>(s)]; i < spokes.first[static_cast<size_t>(s) + 1]; ++i) {
       Spoke& spoke = spokes.items[static_cast<size_t>(i)];
       spokes.sides.push_back(spoke.neighbour);
       spoke.neighbour = vertex_of(spoke.neighbour);
-      if (spoke.across >= 0) spoke.across = vertex_of(spoke.across);
       if (spoke.face >= 0) face = spoke.face;
       const auto f = static_cast<size_t>(face);
-      const size_t k = corner_of(c.faces[f], v);
+      const size_t k = corner_of(c.faces[f], v), far = (k + 1) % 3;
+      spoke.across = spoke.face >= 0 ? vertex_across(c, face, far) : -1;
+      spokes.far_crease.push_back(spoke.face >= 0 && c.is_crease(c.face_edges[f][far]));
       spoke.edge = c.face_edges[f][spoke.face >= 0 ? k : (k + 2) % 3];
+      if (i == spokes.first[static_cast<size_t>(s)] && c.is_crease(spoke.edge))
+        spokes.mate.back() = vertex_across(c, face, k);
       const auto e = static_cast<size_t>(spoke.edge);
       spokes.owned.push_back(c.side_edges[e][c.edges[e][0] == v ? 0 : 1] == s);
     }

@@ -10,7 +10,7 @@ struct Spoke {
   int neighbour;  // the other end
   int edge;
   int face;    // -1 after the last edge of an open fan
-  int across;  // corner of the face beyond that face's far edge; -1 without one, or beyond a crease
+  int across;  // corner of the face beyond that face's far edge; -1 without one
 };
 
 /// The spokes of each vertex or, where creases part it, of each of its sides, counter-clockwise; a closed fan
@@ -19,8 +19,12 @@ struct Spokes {
   std::vector<int> first;  // size: sides + 1
   std::vector<Spoke> items;
   // Per item; empty without creases:
-  std::vector<int> sides;   // the neighbour's side, as the spoke sees it
-  std::vector<char> owned;  // 0 for a crease that is counted on the vertex's other side
+  std::vector<int> sides;        // the neighbour's side, as the spoke sees it
+  std::vector<char> owned;       // 0 for a crease that is counted on the vertex's other side
+  std::vector<char> far_crease;  // 1 where the face's far edge is a crease
+  // Per side; empty without creases: corner of the face beyond the crease with which the side begins, -1
+  // where it begins otherwise.
+  std::vector<int> mate;
 
   std::span<const Spoke> operator[](int side) const {
     const auto s = static_cast<size_t>(side);

@@ -47,6 +47,7 @@ void VertexRing::gather(const Placement& at, int side) {
   columns_.resize(fixed_columns * S);
   double* const data = columns_.data();
   const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(side)]);
+  if (begins_at_crease()) mate_ = at.points.col(spokes_.mate[static_cast<std::size_t>(side)]);
   const auto normal = [&](std::size_t i) {
     return at.normals.col(spokes_.sides.empty() ? ring[i].neighbour : spokes_.sides[item + i]);
   };
@@ -91,6 +92,10 @@ void VertexRing::shape(const Vec3& point, const Vec3& normal, RingShape& shape) 
       data[(previous_vector + k) * S + i] = pair ? data[(area_vector + k) * S + before] : 0;
     data[previous_area * S + i] = pair ? data[doubled_area * S + before] : 0;
   }
+  if (!begins_at_crease()) return;
+  const Vec3 beyond_crease = (mate_ - point).cross(get(data + to_near * S, S));
+  put(beyond_crease, data + previous_vector * S, S);
+  data[previous_area * S] = beyond_crease.norm();
 }
 
 double VertexRing::energy(const RingShape& shape, const EnergyTerms& terms) const {
@@ -170,6 +175,17 @@ int VertexRing::folded_faces(const RingShape& shape, double limit) const {
       std::ranges::count_if(measures(shape).alignment, [limit](double a) { return a < limit; }));
 }
 
+bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMeasures& b,
+                             const RingMeasures& a) const {
+  const auto breaks = [&](bool crease, double before, double after) {
+    return crease ? crease_fold_breaks(o, before, after) : hooke::fold_breaks(o, before, after);
+  };
+  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(side_)]) + i;
+  const bool far_crease = !spokes_.far_crease.empty() && spokes_.far_crease[item];
+  return breaks(i == 0 && begins_at_crease(), b.fold[i], a.fold[i]) ||
+         breaks(far_crease, b.far_fold[i], a.far_fold[i]);
+}
+
 bool VertexRing::obeys(const RingShape& before, const RingShape& after, const GuardOptions& o) const {
   if (within_limits(view(before), view(after), o)) return true;
   const RingMeasures b = measures(before), a = measures(after);
@@ -177,7 +193,7 @@ bool VertexRing::obeys(const RingShape& before, const RingShape& after, const Gu
     if (face_breaks(o, b.area[i], a.area[i], b.alignment[i], a.alignment[i]) ||
         angle_breaks(o, b.alignment[i], b.cotangent[i], a.cotangent[i]) ||
         sagitta_breaks(o, columns_[edge_target * stride_ + i], b.sagitta[i], a.sagitta[i]) ||
-        fold_breaks(o, b.fold[i], a.fold[i]) || fold_breaks(o, b.far_fold[i], a.far_fold[i]))
+        fold_breaks(o, i, b, a))
       return false;
   return true;
 }

@@ -60,7 +60,14 @@ class VertexRing {
 
   const Spokes& spokes_;
   const TargetLengths& targets_;
+  bool fold_breaks(const GuardOptions& options, std::size_t spoke, const RingMeasures& before,
+                   const RingMeasures& after) const;
+  bool begins_at_crease() const {
+    return !spokes_.mate.empty() && spokes_.mate[static_cast<std::size_t>(side_)] >= 0;
+  }
+
   int side_ = 0;
+  Vec3 mate_ = Vec3::Zero();     // corner of the face beyond the crease with which the side begins
   std::size_t stride_ = 0;       // entries of a column: whole groups of lanes
   std::vector<double> columns_;  // what stays as it is while the vertex moves
 };
