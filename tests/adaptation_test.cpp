@@ -242,27 +242,16 @@ TEST(Adaptation, EdgesFollowGradedTargets) {
 
 constexpr int cells = 8;
 
-/// A grid whose middle row of edges is a crease between two corners.
-struct CreasedGrid : test::FlippingScene {
-  CreasedGrid() : FlippingScene(test::grid(cells, test::flat), test::plane()) {
-    const auto vertex = [](int i) { return (cells / 2) * (cells + 1) + i; };
-    Curve crease;
-    crease.points.resize(3, cells + 1);
-    crease.tangents = Vec3::UnitX().replicate(1, cells + 1);
-    for (int i = 0; i <= cells; ++i) {
-      const auto v = static_cast<size_t>(vertex(i));
-      const bool end = i == 0 || i == cells;
-      crease.points.col(i) = placement.points.col(vertex(i));
-      constraints.freedom[v] = end ? Freedom::fixed : Freedom::curve;
-      constraints.curve[v] = end ? -1 : static_cast<int>(constraints.curves.size());
-      placement.segments[v] = std::min(i, cells - 1);
-      if (i < cells) triangulation.constrain(test::half_edge(triangulation, vertex(i), vertex(i + 1)));
-    }
-    constraints.curves.push_back(crease);
-  }
-};
+/// The middle row of edges of a grid.
+std::vector<Edge> middle_row() {
+  std::vector<Edge> row;
+  for (int v = cells / 2 * (cells + 1); row.size() < cells; ++v) row.push_back({v, v + 1});
+  return row;
+}
 
-struct CreasedScene : CreasedGrid {
+struct CreasedScene : test::FlippingScene {
+  CreasedScene() : FlippingScene(test::grid(cells, test::flat), test::plane(), middle_row()) {}
+
   CurveFinder finder{constraints.curves};
   CurveEdges curve_edges;
   std::vector<int> origins = std::vector<int>(vertex_length.size(), 0);

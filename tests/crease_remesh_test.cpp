@@ -1,26 +1,14 @@
 // What remeshing keeps of a solid with sharp edges.
 #include <gtest/gtest.h>
 
-#include "crease_solids.h"
-#include "hooke/creases.h"
-#include "hooke/error.h"
+#include "crease_outcome.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
-#include "hooke/remesh.h"
-#include "scene.h"
 
 namespace hooke {
 namespace {
 
-struct Outcome {
-  Mat3X points;
-  std::vector<Triangle> faces;
-  RemeshResult result;
-};
-
-double length_of(const test::Triangles& t) {
-  return natural_length(total_area(t.points, t.faces), t.faces.size());
-}
+using test::Outcome, test::remeshed, test::length_of, test::volume;
 
 RemeshOptions in_mode(ConnectivityMode mode) {
   RemeshOptions options;
@@ -29,64 +17,7 @@ RemeshOptions in_mode(ConnectivityMode mode) {
   return options;
 }
 
-Outcome remeshed(const test::Triangles& t, const RemeshOptions& options) {
-  TriMesh mesh = test::to_mesh(t);
-  set_vertex_values(mesh, target_length_property, length_of(t));
-  Outcome o;
-  o.result = remesh(mesh, options);
-  o.points = positions(mesh);
-  o.faces = triangles_of(mesh);
-  return o;
-}
-
-double volume(const Mat3X& X, const std::vector<Triangle>& faces) {
-  double sum = 0;
-  for (const auto& [a, b, c] : faces) sum += X.col(a).dot(X.col(b).cross(X.col(c))) / 6;
-  return sum;
-}
-
 constexpr ConnectivityMode both_modes[] = {ConnectivityMode::fixed, ConnectivityMode::flip};
-
-/// Every face of an axis-parallel solid lies in one of its planes; its outside has not turned.
-void expect_flat_faces(const test::Triangles& t, const Outcome& o, double tolerance) {
-  for (const Triangle& f : o.faces) {
-    const Vec3 n = test::area_vector(o.points, f).normalized();
-    Eigen::Index axis;
-    EXPECT_NEAR(n.cwiseAbs().maxCoeff(&axis), 1, 1e-6);
-    for (int v : f) EXPECT_NEAR(o.points(axis, v), std::round(o.points(axis, v)), tolerance);
-  }
-  EXPECT_NEAR(volume(o.points, o.faces) / volume(t.points, t.faces), 1, 1e-6);
-}
-
-/// The creases cover those of the input and nothing else: the same sum of lengths, all within the
-/// axis-parallel edges they started on, and the corners where they were.
-void expect_same_creases(const test::Triangles& t, const Outcome& o, double tolerance) {
-  const auto creases = [](const Mat3X& X, const std::vector<Triangle>& faces) {
-    const Connectivity c = make_connectivity(static_cast<int>(X.cols()), faces);
-    const std::vector<double> length(static_cast<size_t>(X.cols()), 1);
-    std::vector<Edge> edges;
-    for (int e : find_features(X, c, length, {})) edges.push_back(c.edges[static_cast<size_t>(e)]);
-    return edges;
-  };
-  const auto sum = [](const Mat3X& X, const std::vector<Edge>& edges) {
-    double length = 0;
-    for (const auto& [a, b] : edges) length += (X.col(a) - X.col(b)).norm();
-    return length;
-  };
-  const auto before = creases(t.points, t.faces), after = creases(o.points, o.faces);
-  EXPECT_EQ(before.size(), after.size());
-  EXPECT_NEAR(sum(o.points, after), sum(t.points, before), 1e-9 * sum(t.points, before));
-  for (const auto& [a, b] : after) {  // along an axis, on lattice planes in the two others
-    const Vec3 d = (o.points.col(a) - o.points.col(b)).cwiseAbs();
-    Eigen::Index along;
-    d.maxCoeff(&along);
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      if (k == along) continue;
-      for (int v : {a, b}) EXPECT_NEAR(o.points(k, v), std::round(o.points(k, v)), tolerance);
-    }
-  }
-  EXPECT_EQ(o.result.creases.kept, o.result.creases.edges);
-}
 
 TEST(CreaseRemesh, ACubeStaysACube) {
   const test::Triangles t = test::irregular_cube(7);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "hooke/normals.h"
 #include "solids.h"
 
 namespace hooke::test {
@@ -107,6 +108,17 @@ inline Triangles cylinder(int around, double jitter = .3, unsigned seed = 2) {
   t.points.resize(3, static_cast<Eigen::Index>(p.size()));
   for (size_t v = 0; v < p.size(); ++v) t.points.col(static_cast<Eigen::Index>(v)) = p[v];
   return t;
+}
+
+/// The edges between faces that meet at more than 60 degrees.
+inline std::vector<Edge> bent_edges(const Mat3X& X, const std::vector<Triangle>& faces) {
+  const Connectivity c = make_connectivity(static_cast<int>(X.cols()), faces);
+  const Mat3X normals = face_normals(X, c);
+  std::vector<Edge> edges;
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (normals.col(c.edge_faces[e][0]).dot(normals.col(c.edge_faces[e][1])) < .5)
+      edges.push_back(c.edges[e]);
+  return edges;
 }
 
 }  // namespace hooke::test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/creases.h"
 #include "hooke/edge_flips.h"
 #include "hooke/guards.h"
 #include "hooke/sizing.h"
@@ -35,18 +36,23 @@ struct FlippingScene {
   std::vector<int> corner_valences;
   FlippingMesh mesh{triangulation, placement, retraction, constraints, vertex_length, corner_valences};
 
-  FlippingScene(const Triangles& t, const Surface& surface)
-      : connectivity(make_connectivity(static_cast<int>(t.points.cols()), t.faces)),
+  FlippingScene(const Triangles& t, const Surface& surface, const std::vector<Edge>& creases = {})
+      : connectivity(part_at(creases, make_connectivity(static_cast<int>(t.points.cols()), t.faces))),
         constraints(find_constraints(t.points, connectivity, {})),
         retraction(surface, constraints, {}),
-        placement(retraction.place(t.points, std::vector<int>(static_cast<size_t>(t.points.cols()), 0),
+        placement(retraction.place(t.points, std::vector<int>(static_cast<size_t>(connectivity.side_count())),
                                    constraints.segment)),
         triangulation(connectivity),
         vertex_length(static_cast<size_t>(t.points.cols()),
                       natural_length(total_area(t.points, t.faces), t.faces.size())),
-        corner_valences(static_cast<size_t>(t.points.cols()), 0) {}
+        corner_valences(static_cast<size_t>(connectivity.side_count()), 0) {}
   FlippingScene(const FlippingScene&) = delete;
   FlippingScene& operator=(const FlippingScene&) = delete;
+
+  static Connectivity part_at(const std::vector<Edge>& creases, Connectivity c) {
+    part_at_creases(c, creases);
+    return c;
+  }
 };
 
 /// The half-edge from a to b, -1 without.

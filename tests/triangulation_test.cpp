@@ -3,17 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
+#include "crease_solids.h"
 #include "flipping_scene.h"
+#include "hooke/creases.h"
 #include "hooke/topology.h"
 
 namespace hooke {
 namespace {
 
-Triangulation triangulate(const test::Triangles& t) {
-  return Triangulation(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+Triangulation triangulate(const test::Triangles& t, const std::vector<Edge>& creases = {}) {
+  Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  part_at_creases(c, creases);
+  return Triangulation(c);
 }
 
 std::multiset<std::set<int>> corner_sets(const Triangulation& t) {
@@ -72,8 +77,14 @@ TEST(Triangulation, TwoFlipsOfAnEdgeGiveTheSameFaces) {
 }
 
 TEST(Triangulation, FlipsAroundKeepConstrainedEdges) {
-  Triangulation t = triangulate(test::grid(6, test::flat));
+  const test::Triangles grid = test::grid(6, test::flat);
   std::mt19937 random(5);
+  std::vector<Edge> creases;
+  for (int i = 0; i < 20; ++i) {
+    const Triangle& face = grid.faces[random() % grid.faces.size()];
+    creases.push_back({face[0], face[1]});
+  }
+  Triangulation t = triangulate(grid, creases);
   const auto any = [&] { return static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count())); };
   const auto constrained = [&] {
     std::multiset<std::set<int>> edges;
@@ -81,7 +92,6 @@ TEST(Triangulation, FlipsAroundKeepConstrainedEdges) {
       if (t.is_constrained(h)) edges.insert({t.from(h), t.to(h)});
     return edges;
   };
-  for (int i = 0; i < 20; ++i) t.constrain(any());
   const auto before = constrained();
   EXPECT_GE(before.size(), 20u);
   for (int i = 0; i < 500; ++i) {
@@ -103,7 +113,7 @@ Triangulation shaken(Triangulation t, int steps, unsigned seed) {
     if (random() % 3 == 0)
       t.split(h);
     else if (t.may_collapse(h))
-      t.collapse(h);
+      t.collapse(h, t.to(h));
   }
   t.compact();
   return t;
@@ -115,13 +125,58 @@ TEST(Triangulation, SplitsAndCollapsesKeepTheTopology) {
         measure_topology(make_connectivity(static_cast<int>(start.points.cols()), start.faces));
     for (unsigned seed = 1; seed <= 4; ++seed) {
       const Triangulation t = shaken(triangulate(start), 3000, seed);
-      expect_sound(t, t.vertex_count());
-      const Topology after = measure_topology(make_connectivity(t.vertex_count(), t.faces()));
+      expect_sound(t, t.id_count());
+      const Topology after = measure_topology(make_connectivity(t.id_count(), t.faces()));
       EXPECT_EQ(after.euler, before.euler);
       EXPECT_EQ(after.boundary_loops, before.boundary_loops);
       EXPECT_EQ(after.components, before.components);
       EXPECT_EQ(after.isolated_vertices, 0);
     }
+  }
+}
+
+/// May the end of h go without a crease losing its way? Those that slide along the crease may.
+bool is_free_to_go(const Triangulation& t, int h, int end) {
+  int creases = 0;
+  for (int spoke : t.outgoing(end)) creases += t.is_constrained(spoke);
+  return creases == 0 || (creases == 2 && t.is_constrained(h));
+}
+
+TEST(Triangulation, SplitsAndCollapsesKeepTheSidesOfCreases) {
+  const test::Triangles cube = test::irregular_cube(4);
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    Triangulation t = triangulate(cube, test::bent_edges(cube.points, cube.faces));
+    std::mt19937 random(seed);
+    int collapses = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const int h = static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count()));
+      if (t.is_gone(h / 3)) continue;
+      if (random() % 3 == 0) {
+        t.split(h);
+      } else if (is_free_to_go(t, h, t.from(h)) && t.may_collapse(h)) {
+        t.collapse(h, t.to(h));
+        ++collapses;
+      }
+    }
+    EXPECT_GT(collapses, 300);
+    const int vertices = static_cast<int>(t.compact().size());
+    std::vector<Edge> creases;
+    for (int h = 0; h < t.half_edge_count(); ++h)
+      if (t.is_constrained(h)) creases.push_back({t.from(h), t.to(h)});
+    Connectivity c = make_connectivity(vertices, t.faces());
+    part_at_creases(c, creases);
+    EXPECT_EQ(measure_topology(cut_open(c)).components, 6);
+    std::map<int, int> numbers;  // of the sides, where there and here are one to one
+    std::set<int> there;
+    for (size_t f = 0; f < c.faces.size(); ++f)
+      for (size_t k = 0; k < 3; ++k) {
+        const auto [side, fresh] = numbers.emplace(t.sides()[f][k], c.side_faces[f][k]);
+        EXPECT_EQ(side->second, c.side_faces[f][k]);
+        if (fresh) {
+          EXPECT_TRUE(there.insert(side->second).second);
+        }
+      }
+    EXPECT_EQ(static_cast<int>(there.size()), c.side_count());
   }
 }
 
@@ -133,14 +188,16 @@ TEST(Triangulation, ATriangleAndATetrahedronDoNotCollapse) {
 }
 
 TEST(Triangulation, BothHalvesOfAConstrainedEdgeAreConstrained) {
-  Triangulation t = triangulate(test::sphere(1));
-  const int h = 10, a = t.from(h), b = t.to(h);
-  t.constrain(h);
+  const test::Triangles ball = test::sphere(1);
+  const int a = ball.faces[3][1], b = ball.faces[3][2];
+  Triangulation t = triangulate(ball, {{a, b}});
+  const int h = 10;
+  ASSERT_TRUE(t.is_constrained(h));
   const int v = t.split(h);
   for (const auto& [from, to] : {std::pair(a, v), std::pair(v, b), std::pair(v, a), std::pair(b, v)})
     EXPECT_TRUE(t.is_constrained(test::half_edge(t, from, to)));
   EXPECT_EQ(std::ranges::count_if(t.outgoing(v), [&](int s) { return t.is_constrained(s); }), 2);
-  t.collapse(test::half_edge(t, v, a));
+  t.collapse(test::half_edge(t, v, a), a);
   EXPECT_TRUE(t.is_constrained(test::half_edge(t, a, b)));
   EXPECT_EQ(t.compact().size(), 42u);
 }

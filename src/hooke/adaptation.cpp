@@ -1,26 +1,11 @@
 #include "hooke/adaptation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "hooke/error.h"
-
 namespace hooke {
 namespace {
-
-Triangulation triangulate(const Workspace& work) {
-  Triangulation t(*work.connectivity);
-  for (const auto& [a, b] : work.constraints.creases)
-    for (int h : t.outgoing(a))
-      if (t.to(h) == b || t.apex(h) == b) {
-        t.constrain(t.to(h) == b ? h : Triangulation::previous(h));
-        break;
-      }
-  return t;
-}
 
 std::vector<int> all_vertices(const Workspace& work) {
   std::vector<int> ids(work.vertex_length.size());
@@ -37,7 +22,7 @@ class Adaptation {
         flip_guard_(flip_guard),
         guards_(guards),
         observer_(observer),
-        triangulation_(triangulate(work)),
+        triangulation_(*work.connectivity),
         corner_valences_(
             corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)),
         origins_(all_vertices(work)),
@@ -52,7 +37,7 @@ class Adaptation {
     for (int i = 0; i < options_.rounds && !result_.interrupted; ++i) change_lengths();
     for (int i = 0; i < options_.count_rounds && !result_.interrupted; ++i)
       if (!change_count()) break;
-    work_.replace_mesh(triangulation_.faces(), origins_);
+    work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_);
     return result_;
   }
 
@@ -152,11 +137,6 @@ AdaptOptions adapt_options(Effort effort) {
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
                   const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
                   const Observer& observer) {
-  if (!work.constraints.creases.empty())
-    throw MeshError(fmt::format(
-        "the mesh has {} crease edges, which mode adapt cannot split or join; expected a smooth mesh; use "
-        "--feature-angle off to round them, or --connectivity flip to keep them",
-        work.constraints.creases.size()));
   const UntangleResult unfolded = unfold(work, terms, guards, observer);
   AdaptResult result;
   if (unfolded.interrupted)

@@ -35,8 +35,8 @@ struct AdaptResult {
   bool interrupted = false;
 };
 
-/// Replaces the mesh of the work. Boundary loops, corners and fixed vertices are kept, as is the topology.
-/// Throws MeshError for a mesh with creases. Pre-condition: no refit() yet.
+/// Replaces the mesh of the work. Boundary loops, creases, corners and fixed vertices are kept, as is the
+/// topology. Pre-condition: no refit() yet.
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
                   const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
                   const Observer& observer);

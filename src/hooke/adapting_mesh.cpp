@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/creases.h"
+
 namespace hooke {
 namespace {
 
@@ -10,17 +12,29 @@ std::array<double, 3> key_of(const Vec3& point) {
   return {point[0], point[1], point[2]};
 }
 
-/// Room for one more vertex, with room to spare: columns cost a copy of the matrix.
-void make_room(AdaptingMesh& m, size_t vertices) {
+/// Room for so many ids, with room to spare: columns cost a copy of the matrix.
+void make_room(AdaptingMesh& m, size_t ids) {
   Placement& p = m.placement;
-  if (p.anchors.size() >= vertices) return;
+  if (p.drift.size() >= ids) return;
   const size_t room = std::max<size_t>(16, 2 * p.anchors.size());
   for (Mat3X* matrix : {&p.points, &p.normals, &p.tangents})
     matrix->conservativeResize(3, static_cast<Eigen::Index>(room));
   p.anchors.resize(room, 0);
   p.segments.resize(room, 0);
   p.drift.resize(room, 0);
+  if (!p.other_side.empty()) p.other_side.resize(room, -1);
   m.retraction.resize(room);
+}
+
+/// Gives the lists an entry for each of so many ids, or takes the last ones away.
+void resize_lists(AdaptingMesh& m, int ids) {
+  const auto n = static_cast<size_t>(ids);
+  m.constraints.freedom.resize(n, Freedom::fixed);
+  m.constraints.curve.resize(n, -1);
+  m.constraints.segment.resize(n, 0);
+  m.vertex_length.resize(n, 0);
+  m.corner_valences.resize(n, 0);
+  m.origins.resize(n, -1);
 }
 
 /// Lengths along the curve up to each of its points, the first again at the end of a closed one.
@@ -72,8 +86,9 @@ int wanted_edges(const Curve& curve, double target, double chord_error) {
 
 template <typename T>
 void keep_only(std::vector<T>& values, const std::vector<int>& kept) {
-  for (size_t i = 0; i < kept.size(); ++i) values[i] = values[static_cast<size_t>(kept[i])];
-  values.resize(kept.size());
+  std::vector<T> left(kept.size());
+  for (size_t i = 0; i < kept.size(); ++i) left[i] = values[static_cast<size_t>(kept[i])];
+  values = std::move(left);
 }
 
 }  // namespace
@@ -141,66 +156,68 @@ void count_curve_edges(AdaptingMesh& m, double chord_error) {
 
 int add_vertex(AdaptingMesh& m, int h) {
   const Triangulation& t = m.triangulation;
-  const int a = t.from(h), b = t.to(h), v = t.vertex_count();
+  const int a = t.from(h), b = t.to(h), v = t.id_count(), twin = t.twin(h);
+  const int other_side = t.is_constrained(h) ? v + 1 : -1;
   const CurveFinder::Place on = is_rim(t, h) ? curve_of(m, h) : CurveFinder::Place{};
-  make_room(m, static_cast<size_t>(v) + 1);
-  m.constraints.freedom.push_back(on.curve >= 0 ? Freedom::curve : Freedom::surface);
-  m.constraints.curve.push_back(on.curve);
-  m.constraints.segment.push_back(on.segment);
-  m.vertex_length.push_back(
-      .5 * (m.vertex_length[static_cast<size_t>(a)] + m.vertex_length[static_cast<size_t>(b)]));
-  m.corner_valences.push_back(0);
-  m.origins.push_back(-1);
+  const int ids = std::max(v, other_side) + 1;
+  make_room(m, static_cast<size_t>(ids));
+  resize_lists(m, ids);
+  const auto i = static_cast<size_t>(v);
+  m.constraints.freedom[i] = on.curve >= 0 ? Freedom::curve : Freedom::surface;
+  m.constraints.curve[i] = on.curve;
+  m.constraints.segment[i] = on.segment;
+  m.vertex_length[i] =
+      .5 * (m.vertex_length[static_cast<size_t>(a)] + m.vertex_length[static_cast<size_t>(b)]);
 
-  VertexPlace start(m.placement, a);
+  Placement& p = m.placement;
+  VertexPlace start(p, a);
   start.segment = on.segment;
   start.tangent.setZero();
   start.drift = 0;
-  start.write_to(m.placement, v);
-  const Vec3 half_way = .5 * (m.placement.points.col(b) - m.placement.points.col(a));
-  m.retraction.moved(m.placement, v, half_way).write_to(m.placement, v);
+  start.anchor = p.anchors[static_cast<size_t>(t.side(h))];
+  start.other_side = other_side;
+  if (other_side >= 0) {
+    p.other_side[i] = other_side;
+    start.other_anchor = p.anchors[static_cast<size_t>(t.side(Triangulation::next(twin)))];
+  }
+  start.write_to(p, v);
+  const Vec3 half_way = .5 * (p.points.col(b) - p.points.col(a));
+  m.retraction.moved(p, v, half_way).write_to(p, v);
   return v;
 }
 
 void drop_vertex(AdaptingMesh& m) {
-  m.constraints.freedom.pop_back();
-  m.constraints.curve.pop_back();
-  m.constraints.segment.pop_back();
-  m.vertex_length.pop_back();
-  m.corner_valences.pop_back();
-  m.origins.pop_back();
-}
-
-void copy_vertex(AdaptingMesh& m, int from, int to) {
-  const auto f = static_cast<size_t>(from), t = static_cast<size_t>(to);
-  VertexPlace(m.placement, from).write_to(m.placement, to);
-  m.constraints.freedom[t] = m.constraints.freedom[f];
-  m.constraints.curve[t] = m.constraints.curve[f];
-  m.constraints.segment[t] = m.constraints.segment[f];
-  m.vertex_length[t] = m.vertex_length[f];
-  m.corner_valences[t] = m.corner_valences[f];
-  m.origins[t] = m.origins[f];
+  resize_lists(m, m.triangulation.id_count());
 }
 
 void compact(AdaptingMesh& m) {
-  const std::vector<int> kept = m.triangulation.compact();
+  Triangulation& t = m.triangulation;
+  const std::vector<int> kept = t.compact();
+  std::vector<int> sides = kept;
+  m.constraints.creases.clear();
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.is_constrained(h) && t.twin(h) < h) m.constraints.creases.push_back({t.from(h), t.to(h)});
+  if (!m.constraints.creases.empty()) {
+    Connectivity c = make_connectivity(static_cast<int>(kept.size()), t.faces());
+    part_at_creases(c, m.constraints.creases);
+    sides = sides_before(c, t.sides(), kept);
+    t.set_sides(c);
+    m.constraints.further_sides = c.further_sides;
+  }
   keep_only(m.constraints.freedom, kept);
   keep_only(m.constraints.curve, kept);
   keep_only(m.constraints.segment, kept);
   keep_only(m.vertex_length, kept);
-  keep_only(m.corner_valences, kept);
+  keep_only(m.corner_valences, sides);
   keep_only(m.origins, kept);
   Placement& p = m.placement;
-  for (Mat3X* matrix : {&p.points, &p.normals, &p.tangents}) *matrix = (*matrix)(Eigen::all, kept).eval();
-  keep_only(p.anchors, kept);
+  for (Mat3X* matrix : {&p.points, &p.tangents}) *matrix = (*matrix)(Eigen::all, kept).eval();
+  p.normals = p.normals(Eigen::all, sides).eval();
+  keep_only(p.anchors, sides);
   keep_only(p.segments, kept);
   keep_only(p.drift, kept);
+  p.other_side = other_sides(kept.size(), m.constraints.further_sides);
   m.retraction.resize(kept.size());
-
-  const Triangulation& t = m.triangulation;
-  m.constraints.creases.clear();
-  for (int h = 0; h < t.half_edge_count(); ++h)
-    if (t.is_constrained(h) && t.twin(h) < h) m.constraints.creases.push_back({t.from(h), t.to(h)});
 }
 
 }  // namespace hooke

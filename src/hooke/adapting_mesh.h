@@ -33,8 +33,8 @@ struct CurveEdges {
   std::vector<int> present, wanted;
 };
 
-/// All references are to objects that outlive it. The arrays per vertex may hold more than there are
-/// vertices, and vertices that are gone, until compact().
+/// All references are to objects that outlive it. Until compact() the arrays are by the ids of the
+/// triangulation, and may have room for more.
 struct AdaptingMesh {
   Triangulation& triangulation;
   Placement& placement;
@@ -66,17 +66,16 @@ double relative_length(const AdaptingMesh& mesh, int half_edge);
 /// `chord_error` target lengths of the curve.
 void count_curve_edges(AdaptingMesh& mesh, double chord_error);
 
-/// Adds what belongs to a vertex in the middle of the edge, on its curve or on the surface: the only place
-/// where a vertex is born. The triangles do not know it yet. Returns its id, the last one.
+/// Adds what belongs to a vertex in the middle of the edge, on its curve or on the surface, and to its sides:
+/// the only place where a vertex is born. The triangles do not know it yet. Returns the id that a split of
+/// the edge will give it.
 int add_vertex(AdaptingMesh& mesh, int half_edge);
 
-/// Takes back the vertex that was added last.
+/// Takes back what was added last.
 void drop_vertex(AdaptingMesh& mesh);
 
-/// Makes vertex `to` what vertex `from` is.
-void copy_vertex(AdaptingMesh& mesh, int from, int to);
-
-/// Gives up the ids that are unused, and writes the constrained edges to constraints.creases.
+/// Gives up the ids that are unused, numbers the sides as part_at_creases() does, and writes the creases to
+/// the constraints.
 void compact(AdaptingMesh& mesh);
 
 }  // namespace hooke

@@ -15,10 +15,11 @@ int face_count(const Triangulation& t) {
   return count;
 }
 
-/// How many edges more than six, four on a boundary; corners have what they want.
-int excess(const AdaptingMesh& m, int v) {
-  if (m.corner_valences[static_cast<size_t>(v)] > 0) return 0;
-  return m.triangulation.valence(v) - (m.triangulation.on_boundary(v) ? 4 : 6);
+/// How many edges more than six, four on a boundary, where h leaves; corners have what they want.
+int excess(const AdaptingMesh& m, int h) {
+  const Triangulation& t = m.triangulation;
+  if (m.corner_valences[static_cast<size_t>(t.side(h))] > 0) return 0;
+  return t.valence(t.from(h)) - (t.on_boundary(t.from(h)) ? 4 : 6);
 }
 
 struct Candidate {
@@ -35,8 +36,9 @@ std::vector<Candidate> candidates(const AdaptingMesh& m, bool split, size_t coun
   std::vector<Candidate> edges;
   for (int h = 0; h < t.half_edge_count(); ++h) {
     if (t.is_gone(h / 3) || is_rim(t, h) || t.twin(h) > h) continue;
-    const int ends = excess(m, t.from(h)) + excess(m, t.to(h));
-    const int apexes = excess(m, t.apex(h)) + excess(m, t.apex(t.twin(h)));
+    const int twin = t.twin(h);
+    const int ends = excess(m, h) + excess(m, twin);
+    const int apexes = excess(m, Triangulation::previous(h)) + excess(m, Triangulation::previous(twin));
     const double l = relative_length(m, h);
     edges.push_back({split ? -l + weight * apexes : l + weight * (ends - apexes), h});
   }
@@ -75,7 +77,7 @@ CountChanges settle_curves(AdaptingMesh& m, const CountOptions& options) {
     if (lacking(h) <= 0) continue;
     const int v = split_edge(m, h, options.split);
     if (v < 0) continue;
-    longest.push_spokes(v);
+    longest.push_about(v);
     ++changes.splits;
   }
   EdgeQueue shortest(t, [&](int h) { return is_rim(t, h) ? 1 / (1e-9 + relative_length(m, h)) : 0; });
@@ -83,7 +85,7 @@ CountChanges settle_curves(AdaptingMesh& m, const CountOptions& options) {
     if (lacking(h) >= 0) continue;
     const int v = collapse_edge(m, h, options.collapse);
     if (v < 0) continue;
-    shortest.push_spokes(v);
+    shortest.push_about(v);
     ++changes.collapses;
   }
   m.retraction.count();
@@ -98,7 +100,7 @@ CountChanges approach_count(AdaptingMesh& m, double wanted, const CountOptions& 
   const bool split = missing > 0;
   const int most = std::max(1, static_cast<int>(options.largest_part * 1.5 * faces));
   const int count = std::min(most, static_cast<int>(std::lround(std::abs(missing))));
-  std::vector<char> touched(static_cast<size_t>(t.vertex_count() + count), 0);
+  std::vector<char> touched(static_cast<size_t>(t.id_count() + count), 0);
   int done = 0;
   for (const Candidate& c :
        candidates(m, split, 8 * static_cast<size_t>(count) + 64, options.valence_weight)) {

@@ -1,6 +1,7 @@
 #include "hooke/creases.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace hooke {
 namespace {
@@ -96,6 +97,23 @@ std::vector<Edge> crease_edges(const Connectivity& c) {
 
 Connectivity cut_open(const Connectivity& c) {
   return make_connectivity(c.side_count(), c.sides_of_faces());
+}
+
+std::vector<int> sides_before(const Connectivity& c, const std::vector<Triangle>& sides,
+                              std::vector<int> vertices) {
+  std::vector<int> before = std::move(vertices);
+  before.resize(static_cast<size_t>(c.side_count()), -1);
+  for (size_t f = 0; f < sides.size(); ++f)
+    for (size_t k = 0; k < 3; ++k) before[static_cast<size_t>(c.sides_of_faces()[f][k])] = sides[f][k];
+  return before;
+}
+
+std::vector<int> other_sides(std::size_t vertex_count, const std::vector<int>& further_sides) {
+  if (further_sides.empty()) return {};
+  std::vector<int> others(vertex_count, -1);
+  for (size_t s = further_sides.size(); s-- > 0;)
+    others[static_cast<size_t>(further_sides[s])] = static_cast<int>(vertex_count + s);
+  return others;
 }
 
 Mat3X side_points(const Mat3X& points, const Connectivity& c) {

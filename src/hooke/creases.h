@@ -18,6 +18,14 @@ std::vector<Edge> crease_edges(const Connectivity& connectivity);
 /// The mesh on its sides: cut along the creases, further sides as vertices of their own.
 Connectivity cut_open(const Connectivity& connectivity);
 
+/// For each side of the connectivity the one that its corners had before: `sides` are those of the faces'
+/// corners then, and `vertices` the ids then of the vertices, for those without faces.
+std::vector<int> sides_before(const Connectivity& connectivity, const std::vector<Triangle>& sides,
+                              std::vector<int> vertices);
+
+/// Per vertex: its second side, -1 without one; empty without creases. `further_sides` are a connectivity's.
+std::vector<int> other_sides(std::size_t vertex_count, const std::vector<int>& further_sides);
+
 /// Points of all sides.
 Mat3X side_points(const Mat3X& points, const Connectivity& connectivity);
 

@@ -28,18 +28,17 @@ class Collapse {
     if (!may_vanish(a_) && !may_vanish(b_)) return -1;
     if (!is_welcome() || !t_.may_collapse(h_)) return -1;
     const int curve = is_rim(t_, h_) ? curve_of(m_, h_).curve : -1;
-    collect_sides();
-    measure_before();
     const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
+    collect_ring(stays);
+    measure_before();
     const VertexPlace before(m_.placement, stays);
     const Vec3 way = m_.placement.points.col(goes) - before.point;
     for (double part : parts(stays, goes)) {
       if (part > 0) m_.retraction.moved(m_.placement, stays, part * way).write_to(m_.placement, stays);
-      if (obeys(stays)) {
-        if (stays != b_) copy_vertex(m_, stays, b_);
-        t_.collapse(h_);
+      if (obeys()) {
+        t_.collapse(h_, stays);
         if (curve >= 0) --m_.curve_edges.present[static_cast<size_t>(curve)];
-        return b_;
+        return stays;
       }
       before.write_to(m_.placement, stays);
     }
@@ -61,8 +60,8 @@ class Collapse {
     if (t_.valence(a_) + t_.valence(b_) - (twin < 0 ? 3 : 4) > options_.valence) return false;
     for (int side : {h_, twin}) {
       if (side < 0) continue;
-      const int apex = t_.apex(side);
-      if (t_.valence(apex) <= m_.corner_valences[static_cast<size_t>(apex)]) return false;
+      const CornerValence apex = corner_valence(m_.flipping(), Triangulation::previous(side));
+      if (apex.has <= apex.wanted) return false;
     }
     if (!is_rim(t_, h_)) return true;
     const int curve = curve_of(m_, h_).curve;
@@ -88,59 +87,82 @@ class Collapse {
     return alike ? std::vector<double>{.5, 0, 1} : std::vector<double>{0};
   }
 
-  /// The edges across from the vertex that stays, by the half-edges in the faces that stay.
-  void collect_sides() {
+  /// A face, the sides of its corners, and its half-edge across from the first of them.
+  struct Face {
+    Triangle corners;
+    Triangle sides;
+    int across;
+  };
+
+  Face face_at(int spoke) const {
+    const int next = Triangulation::next(spoke), previous = Triangulation::previous(spoke);
+    return {{t_.from(spoke), t_.from(next), t_.from(previous)},
+            {t_.side(spoke), t_.side(next), t_.side(previous)},
+            next};
+  }
+
+  /// The faces that stay, as they will be about the vertex that stays.
+  void collect_ring(int stays) {
     const int dying[] = {h_ / 3, t_.twin(h_) < 0 ? -1 : t_.twin(h_) / 3};
     for (int v : {a_, b_})
       for (int spoke : t_.outgoing(v)) {
         if (spoke / 3 == dying[0] || spoke / 3 == dying[1]) continue;
-        sides_.push_back(Triangulation::next(spoke));
+        Face f = face_at(spoke);
+        f.corners[0] = stays;
+        f.sides[0] = t_.side_after_collapse(h_, stays, spoke);
+        ring_.push_back(f);
       }
   }
 
-  const Triangle& face(int h) const { return t_.faces()[static_cast<size_t>(h / 3)]; }
-
-  void look_at_face(const Triangle& f, Worst& worst) const {
-    worst.angle = std::min(worst.angle, least_angle(m_.placement.points, {f}));
-    worst.alignment = std::min(worst.alignment, face_alignment(m_.placement.points, m_.placement.normals, f));
+  void look_at_face(const Face& f, Worst& worst) const {
+    worst.angle = std::min(worst.angle, least_angle(m_.placement.points, {f.corners}));
+    worst.alignment = std::min(worst.alignment,
+                               face_alignment(m_.placement.points, m_.placement.normals, f.corners, f.sides));
   }
 
-  void look_at_edge(int v, int w, Worst& worst) const {
+  /// The edge from corner k to the next.
+  void look_at_edge(const Face& f, size_t k, Worst& worst) const {
     const Mat3X& X = m_.placement.points;
-    const double target =
-        .5 * (m_.vertex_length[static_cast<size_t>(v)] + m_.vertex_length[static_cast<size_t>(w)]);
-    worst.length = std::max(worst.length, (X.col(v) - X.col(w)).norm() / target);
-    worst.sagitta = std::max(worst.sagitta, edge_sagitta(X, m_.placement.normals, {v, w}) / target);
+    const Edge edge = {f.corners[k], f.corners[(k + 1) % 3]};
+    const double target = .5 * (m_.vertex_length[static_cast<size_t>(edge[0])] +
+                                m_.vertex_length[static_cast<size_t>(edge[1])]);
+    const double sagitta = edge_sagitta(X, m_.placement.normals, edge, {f.sides[k], f.sides[(k + 1) % 3]});
+    worst.length = std::max(worst.length, (X.col(edge[0]) - X.col(edge[1])).norm() / target);
+    worst.sagitta = std::max(worst.sagitta, sagitta / target);
   }
 
-  void look_across(const Triangle& f, int side, Worst& worst) const {
-    if (const int twin = t_.twin(side); twin >= 0)
-      worst.fold = std::min(worst.fold, cosine_between(m_.placement.points, f, face(twin)));
+  /// The fold across one side of a face. Creases are folds that shall be.
+  void look_across(const Triangle& corners, int side, Worst& worst) const {
+    const int twin = t_.twin(side);
+    if (twin < 0 || t_.is_constrained(side)) return;
+    const Triangle& across = t_.faces()[static_cast<size_t>(twin / 3)];
+    worst.fold = std::min(worst.fold, cosine_between(m_.placement.points, corners, across));
   }
 
   void measure_before() {
     for (int v : {a_, b_})
       for (int spoke : t_.outgoing(v)) {
-        look_at_face(face(spoke), before_);
-        for (int side : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)}) {
-          look_across(face(spoke), side, before_);
-          look_at_edge(t_.from(side), t_.to(side), before_);
-        }
+        const Face f = face_at(spoke);
+        look_at_face(f, before_);
+        for (int side : {spoke, f.across, Triangulation::previous(spoke)})
+          look_across(f.corners, side, before_);
+        for (size_t k : {0, 1, 2}) look_at_edge(f, k, before_);
       }
   }
 
-  bool obeys(int stays) const {
+  bool obeys() const {
     Worst after;
-    const auto about = [&](int side) { return Triangle{stays, t_.from(side), t_.to(side)}; };
-    for (int side : sides_) {
-      const Triangle f = about(side);
+    for (const Face& f : ring_) {
       look_at_face(f, after);
-      look_across(f, side, after);
-      look_at_edge(stays, f[1], after);
-      look_at_edge(stays, f[2], after);
-      for (int other : sides_)
-        if (t_.to(side) == t_.from(other))
-          after.fold = std::min(after.fold, cosine_between(m_.placement.points, f, about(other)));
+      look_across(f.corners, f.across, after);
+      look_at_edge(f, 0, after);
+      look_at_edge(f, 2, after);
+      for (const Face& g : ring_) {
+        const bool crease = t_.is_constrained(Triangulation::next(f.across)) ||
+                            t_.is_constrained(Triangulation::previous(g.across));
+        if (f.corners[2] == g.corners[1] && !crease)
+          after.fold = std::min(after.fold, cosine_between(m_.placement.points, f.corners, g.corners));
+      }
     }
     return after.angle >= std::min(options_.angle, before_.angle) &&
            after.alignment >= std::min(options_.alignment, before_.alignment) &&
@@ -153,7 +175,7 @@ class Collapse {
   Triangulation& t_;
   const CollapseOptions& options_;
   int h_, a_, b_;
-  std::vector<int> sides_;
+  std::vector<Face> ring_;
   Worst before_;
 };
 
@@ -169,7 +191,7 @@ int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
   for (int h = queue.pop(); h >= 0; h = queue.pop()) {
     const int v = collapse_edge(m, h, options);
     if (v < 0) continue;
-    queue.push_spokes(v);
+    queue.push_about(v);
     ++collapses;
   }
   m.retraction.count();

@@ -22,10 +22,11 @@ class EdgeQueue {
     if (const double urgency = urgency_(h); urgency > 0) entries_.push({urgency, h});
   }
 
-  /// All the edges of the vertex.
-  void push_spokes(int vertex) {
+  /// All the edges of the vertex's faces. After a split those across from it go by other half-edges too.
+  void push_about(int vertex) {
     for (int h : t_.outgoing(vertex)) {
       push(h);
+      push(Triangulation::next(h));
       if (t_.twin(Triangulation::previous(h)) < 0) push(Triangulation::previous(h));
     }
   }

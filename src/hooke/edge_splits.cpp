@@ -7,16 +7,22 @@
 namespace hooke {
 namespace {
 
-/// May vertex v halve the face of h?
-bool may_halve(const AdaptingMesh& m, int h, int v, const SplitOptions& o) {
+/// May vertex v, of which the face of h sees `side`, halve that face?
+bool may_halve(const AdaptingMesh& m, int h, int v, int side, const SplitOptions& o) {
   const Triangulation& t = m.triangulation;
   const Mat3X& X = m.placement.points;
   const Mat3X& N = m.placement.normals;
   const Triangle old = {t.from(h), t.to(h), t.apex(h)};
+  const Triangle seen = {t.side(h), t.side(Triangulation::next(h)), t.side(Triangulation::previous(h))};
   const double least_area = o.area_share * face_shape(X, old).area;
-  const double least_alignment = std::min(o.alignment, face_alignment(X, N, old));
-  for (const Triangle& half : {Triangle{old[0], v, old[2]}, Triangle{v, old[1], old[2]}})
-    if (face_shape(X, half).area < least_area || face_alignment(X, N, half) < least_alignment) return false;
+  const double least_alignment = std::min(o.alignment, face_alignment(X, N, old, seen));
+  for (size_t k : {0, 1}) {  // the corner that the vertex replaces
+    Triangle half = old, half_seen = seen;
+    half[k] = v;
+    half_seen[k] = side;
+    if (face_shape(X, half).area < least_area || face_alignment(X, N, half, half_seen) < least_alignment)
+      return false;
+  }
   return true;
 }
 
@@ -27,13 +33,25 @@ bool stands_still(const AdaptingMesh& m, int h) {
   return is_rim(t, h) && fixed(t.from(h)) && fixed(t.to(h)) && curve_of(m, h).curve < 0;
 }
 
+/// Would a split leave all new edges shorter than the old one? Else splits might go on for ever where the
+/// longest edge of a flat face may not be split.
+bool shortens(const AdaptingMesh& m, int h) {
+  const Triangulation& t = m.triangulation;
+  const Mat3X& X = m.placement.points;
+  const Vec3 a = X.col(t.from(h)), b = X.col(t.to(h)), middle = .5 * a + .5 * b;
+  const auto shorter = [&](int side) {
+    return (middle - X.col(t.apex(side))).squaredNorm() < (b - a).squaredNorm();
+  };
+  return shorter(h) && (t.twin(h) < 0 || shorter(t.twin(h)));
+}
+
 }  // namespace
 
 int split_edge(AdaptingMesh& m, int h, const SplitOptions& options) {
   Triangulation& t = m.triangulation;
   if (stands_still(m, h)) return -1;
-  const int v = add_vertex(m, h), twin = t.twin(h);
-  if (!may_halve(m, h, v, options) || (twin >= 0 && !may_halve(m, twin, v, options))) {
+  const int v = add_vertex(m, h), twin = t.twin(h), right = t.is_constrained(h) ? v + 1 : v;
+  if (!may_halve(m, h, v, v, options) || (twin >= 0 && !may_halve(m, twin, v, right, options))) {
     drop_vertex(m);
     return -1;
   }
@@ -47,9 +65,10 @@ int split_long_edges(AdaptingMesh& m, const SplitOptions& options) {
   EdgeQueue queue(m.triangulation, [&](int h) { return relative_length(m, h) - options.longest; });
   int splits = 0;
   for (int h = queue.pop(); h >= 0; h = queue.pop()) {
+    if (!shortens(m, h)) continue;
     const int v = split_edge(m, h, options);
     if (v < 0) continue;
-    queue.push_spokes(v);
+    queue.push_about(v);
     ++splits;
   }
   m.retraction.count();

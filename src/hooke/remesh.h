@@ -63,10 +63,11 @@ struct IterationRecord {
   double seconds = 0;      // since the start
 };
 
-/// What was found of creases, and what of it is left.
+/// What was found of creases, and what of it is left. Mode `adapt` gives creases other edges: then the edges
+/// are those of the result.
 struct CreaseCounts {
   int curves = 0;          // from corner to corner, or closed
-  int edges = 0;           // of the input
+  int edges = 0;
   int kept = 0;            // of them, still there
   int corners = 0;         // vertices on creases that stand still
   int curve_vertices = 0;  // that slide along a crease

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/creases.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -134,9 +135,7 @@ Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::
   p.anchors = std::move(anchors);
   p.segments = std::move(segments);
   p.drift.assign(static_cast<size_t>(points.cols()), 0);
-  if (!further.empty()) p.other_side.assign(p.drift.size(), -1);
-  for (size_t s = further.size(); s-- > 0;)
-    p.other_side[static_cast<size_t>(further[s])] = static_cast<int>(p.drift.size() + s);
+  p.other_side = other_sides(p.drift.size(), further);
   parallel_for(static_cast<size_t>(points.cols()), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);

@@ -9,10 +9,11 @@ Triangulation::Triangulation(const Connectivity& c)
     : faces_(c.faces),
       sides_(c.side_faces),
       twins_(3 * c.faces.size(), -1),
-      leaving_(static_cast<size_t>(c.vertex_count), -1),
-      valences_(static_cast<size_t>(c.vertex_count), 0),
-      on_boundary_(static_cast<size_t>(c.vertex_count), 0),
+      leaving_(static_cast<size_t>(c.side_count()), -1),
+      valences_(static_cast<size_t>(c.side_count()), -1),
+      on_boundary_(static_cast<size_t>(c.side_count()), 0),
       constrained_(3 * c.faces.size(), 0) {
+  std::fill_n(valences_.begin(), c.vertex_count, 0);
   std::vector<int> first(c.edges.size(), -1);
   for (size_t f = 0; f < faces_.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
@@ -57,7 +58,6 @@ std::vector<int> Triangulation::neighbours(int vertex) const {
 }
 
 std::vector<int> Triangulation::sector(int h) const {
-  const auto is_border = [&](int side) { return twin(side) < 0 || is_constrained(side); };
   const int any = h;
   while (!is_border(h) && next(twin(h)) != any) h = next(twin(h));
   std::vector<int> spokes = {h};
@@ -80,11 +80,6 @@ bool Triangulation::adjacent(int a, int b) const {
 void Triangulation::link(int h, int twin) {
   if (h >= 0) twins_[static_cast<size_t>(h)] = twin;
   if (twin >= 0) twins_[static_cast<size_t>(twin)] = h;
-}
-
-void Triangulation::constrain(int h) {
-  constrained_[static_cast<size_t>(h)] = 1;
-  if (const int t = twin(h); t >= 0) constrained_[static_cast<size_t>(t)] = 1;
 }
 
 void Triangulation::flip(int h) {
@@ -119,16 +114,21 @@ void Triangulation::flip(int h) {
   ++valences_[static_cast<size_t>(d)];
 }
 
-/// Cuts the face of h between its apex and the new vertex: h ends there, and the last face goes on.
-void Triangulation::halve(int h, int vertex) {
+/// Cuts the face of h between its apex and the new vertex, of which it sees `side`: h ends there, and the
+/// last face goes on.
+void Triangulation::halve(int h, int vertex, int side) {
   const int b = to(h), c = apex(h), across = twin(next(h));
-  const auto f = static_cast<size_t>(h / 3), side = static_cast<size_t>(next(h));
+  const auto f = static_cast<size_t>(h / 3), cut = static_cast<size_t>(next(h));
   const int g = static_cast<int>(twins_.size());  // first half-edge of the new face
-  faces_[f][side % 3] = vertex;
+  if (!sides_.empty()) {
+    sides_.push_back({side, this->side(next(h)), this->side(previous(h))});
+    sides_[f][cut % 3] = side;
+  }
+  faces_[f][cut % 3] = vertex;
   faces_.push_back({vertex, b, c});
   twins_.insert(twins_.end(), 3, -1);
-  constrained_.insert(constrained_.end(), {constrained_[static_cast<size_t>(h)], constrained_[side], 0});
-  constrained_[side] = 0;
+  constrained_.insert(constrained_.end(), {constrained_[static_cast<size_t>(h)], constrained_[cut], 0});
+  constrained_[cut] = 0;
   link(g + 1, across);
   link(g + 2, next(h));
   leaving_[static_cast<size_t>(vertex)] = g;
@@ -139,15 +139,16 @@ void Triangulation::halve(int h, int vertex) {
 
 int Triangulation::split(int h) {
   const int t = twin(h), a = from(h);
-  const int vertex = vertex_count();
+  const int vertex = id_count(), right = is_constrained(h) ? vertex + 1 : vertex;
   valences_.push_back(2);
-  leaving_.push_back(-1);
-  on_boundary_.push_back(t < 0);
-  halve(h, vertex);
+  if (right != vertex) valences_.push_back(-1);
+  leaving_.resize(valences_.size(), -1);
+  on_boundary_.resize(valences_.size(), t < 0);
+  halve(h, vertex, vertex);
   const int beyond = half_edge_count() - 3;  // from the vertex to the old end of h
   leaving_[static_cast<size_t>(a)] = h;
   if (t < 0) return vertex;
-  halve(t, vertex);
+  halve(t, vertex, right);
   link(h, half_edge_count() - 3);
   link(t, beyond);
   return vertex;
@@ -157,7 +158,9 @@ bool Triangulation::may_collapse(int h) const {
   const int a = from(h), b = to(h), t = twin(h);
   if (t >= 0 && on_boundary(a) && on_boundary(b)) return false;
   const auto may_lose = [this](int v) { return valence(v) > (on_boundary(v) ? 2 : 3); };
-  if (!may_lose(apex(h)) || (t >= 0 && !may_lose(apex(t)))) return false;
+  for (int side : {h, t})
+    if (side >= 0 && (!may_lose(apex(side)) || (is_border(next(side)) && is_border(previous(side)))))
+      return false;
   const std::vector<int> ring = neighbours(a);
   int common = 0;
   for (int v : neighbours(b)) common += std::ranges::count(ring, v) > 0;
@@ -183,22 +186,36 @@ void Triangulation::close(int h) {
   }
 }
 
-void Triangulation::collapse(int h) {
+int Triangulation::side_after_collapse(int h, int stays, int spoke) const {
+  if (from(spoke) == stays) return side(spoke);
+  const auto at = [this](int along, int end) { return side(from(along) == end ? along : next(along)); };
+  const bool on_the_left = twin(h) < 0 || side(spoke) == at(h, from(spoke));
+  return at(on_the_left ? h : twin(h), stays);
+}
+
+void Triangulation::collapse(int h, int stays) {
   assert(may_collapse(h));
-  const int a = from(h), b = to(h), t = twin(h);
-  for (int spoke : outgoing(a)) faces_[static_cast<size_t>(spoke / 3)][static_cast<size_t>(spoke % 3)] = b;
-  // Every edge of a but those to b and to the apexes is new at b.
-  valences_[static_cast<size_t>(b)] += valences_[static_cast<size_t>(a)] - (t < 0 ? 3 : 4);
-  on_boundary_[static_cast<size_t>(b)] |= on_boundary_[static_cast<size_t>(a)];
+  const int goes = from(h) == stays ? to(h) : from(h), t = twin(h);
+  const std::vector<int> spokes = outgoing(goes);
+  std::vector<int> sides;
+  for (int spoke : spokes) sides.push_back(side_after_collapse(h, stays, spoke));
+  for (size_t i = 0; i < spokes.size(); ++i) {
+    const auto f = static_cast<size_t>(spokes[i] / 3), k = static_cast<size_t>(spokes[i] % 3);
+    faces_[f][k] = stays;
+    if (!sides_.empty()) sides_[f][k] = sides[i];
+  }
+  // Every edge of the one but those to the other and to the apexes is new there.
+  valences_[static_cast<size_t>(stays)] += valences_[static_cast<size_t>(goes)] - (t < 0 ? 3 : 4);
+  on_boundary_[static_cast<size_t>(stays)] |= on_boundary_[static_cast<size_t>(goes)];
   close(h);
   if (t >= 0) close(t);
-  leaving_[static_cast<size_t>(a)] = -1;
-  valences_[static_cast<size_t>(a)] = -1;
+  leaving_[static_cast<size_t>(goes)] = -1;
+  valences_[static_cast<size_t>(goes)] = -1;
 }
 
 std::vector<int> Triangulation::compact() {
   std::vector<int> kept, vertex_id(valences_.size(), -1), face_id(faces_.size(), -1);
-  for (int v = 0; v < vertex_count(); ++v)
+  for (int v = 0; v < id_count(); ++v)
     if (valence(v) >= 0) {
       vertex_id[static_cast<size_t>(v)] = static_cast<int>(kept.size());
       kept.push_back(v);
@@ -210,6 +227,7 @@ std::vector<int> Triangulation::compact() {
   for (size_t f = 0; f < faces_.size(); ++f) {
     if (face_id[f] < 0) continue;
     const auto g = static_cast<size_t>(face_id[f]);
+    if (!sides_.empty()) sides_[g] = sides_[f];
     for (size_t k = 0; k < 3; ++k) {
       faces_[g][k] = vertex_id[static_cast<size_t>(faces_[f][k])];
       twins_[3 * g + k] = renumber(twins_[3 * f + k]);
@@ -223,11 +241,19 @@ std::vector<int> Triangulation::compact() {
     on_boundary_[i] = on_boundary_[v];
   }
   faces_.resize(static_cast<size_t>(faces));
+  if (!sides_.empty()) sides_.resize(faces_.size());
   twins_.resize(3 * faces_.size());
   constrained_.resize(3 * faces_.size());
   for (auto* per_vertex : {&leaving_, &valences_}) per_vertex->resize(kept.size());
   on_boundary_.resize(kept.size());
   return kept;
+}
+
+void Triangulation::set_sides(const Connectivity& c) {
+  sides_ = c.side_faces;
+  valences_.resize(static_cast<size_t>(c.side_count()), -1);
+  leaving_.resize(valences_.size(), -1);
+  on_boundary_.resize(valences_.size(), 0);
 }
 
 }  // namespace hooke

@@ -1,20 +1,21 @@
 // Triangles whose edges can be flipped, split and collapsed: who lies across each edge, in flat arrays. Faces
 // and vertices keep their ids; a flip reuses the ids of the two faces it joins, a split adds ids at the end,
-// and those that a collapse sets free stay unused until compact().
+// and those that a collapse sets free stay unused until compact(). Vertices and the further sides that they
+// have on creases share one row of ids.
 #pragma once
 
 #include "hooke/connectivity.h"
 
 namespace hooke {
 
-/// Creases of the connectivity are constrained from the start. Half-edge 3 f + k runs from corner k of face f
-/// to corner k + 1; its twin runs back in the face across.
+/// Creases of the connectivity are constrained: no flip may lose them. Half-edge 3 f + k runs from corner k
+/// of face f to corner k + 1; its twin runs back in the face across.
 class Triangulation {
  public:
   explicit Triangulation(const Connectivity& connectivity);
 
   const std::vector<Triangle>& faces() const { return faces_; }
-  int vertex_count() const { return static_cast<int>(valences_.size()); }  // with those that are gone
+  int id_count() const { return static_cast<int>(valences_.size()); }  // with those that are gone
   const std::vector<Triangle>& sides() const { return sides_.empty() ? faces_ : sides_; }  // of the corners
   int half_edge_count() const { return static_cast<int>(twins_.size()); }
 
@@ -50,9 +51,7 @@ class Triangulation {
   /// Does an edge join a and b?
   bool adjacent(int a, int b) const;
 
-  /// Marks the edge of h, in both its faces, as one that is never flipped: a crease. Flips of other edges
-  /// keep the mark.
-  void constrain(int h);
+  /// Is the edge of h part of a crease?
   bool is_constrained(int h) const { return constrained_[static_cast<size_t>(h)] != 0; }
 
   /// The edge of h comes to join the two corners across it.
@@ -63,33 +62,43 @@ class Triangulation {
   static int flipped(int h) { return h / 3 * 3 + 2; }
 
   /// Puts a new vertex on the edge of h and cuts the faces there in two. h comes to end in the vertex, whose
-  /// id is the last one and is returned. Both halves are constrained if the edge was.
+  /// id is the first new one and is returned. Both halves are constrained if the edge was; then the next id
+  /// is the vertex's side on the right of h.
   int split(int h);
 
-  /// May the ends of h become one vertex without a change of the topology? The link condition: H.
-  /// Edelsbrunner, "Geometry and topology for mesh generation", 2001. Holes and components keep at least a
-  /// triangle.
+  /// May the ends of h become one vertex without a change of the topology, that of the creases included? The
+  /// link condition: H. Edelsbrunner, "Geometry and topology for mesh generation", 2001. Holes, components
+  /// and the pieces between creases keep at least a triangle.
   bool may_collapse(int h) const;
 
-  /// Merges from(h) into to(h): that vertex and the faces of h are gone. Sides that fall together are
-  /// constrained if one of them was. Pre-condition: may_collapse(h).
-  void collapse(int h);
+  /// Which side of `stays`, an end of h, the corner at which `spoke` leaves either end is to see when the
+  /// edge of h collapses. Pre-condition: the other end has no sides but those along h.
+  int side_after_collapse(int h, int stays, int spoke) const;
 
-  /// Gives up the unused ids. Returns the old ids of the vertices that are left, ascending; the faces keep
-  /// their order too.
+  /// Merges the other end of h into `stays`: that vertex and the faces of h are gone. Edges that fall
+  /// together are constrained if one of them was. Pre-condition: may_collapse(h).
+  void collapse(int h, int stays);
+
+  /// Gives up the unused ids of vertices and faces. Returns the old ids of the vertices that are left,
+  /// ascending; the faces keep their order too, and the sides their ids: set_sides() is to follow where there
+  /// are creases.
   std::vector<int> compact();
+
+  /// Numbers the sides anew, as the connectivity of the same faces does.
+  void set_sides(const Connectivity& connectivity);
 
  private:
   void link(int h, int twin);
-  void halve(int h, int vertex);
+  bool is_border(int h) const { return twin(h) < 0 || is_constrained(h); }
+  void halve(int h, int vertex, int side);
   void close(int h);
 
   std::vector<Triangle> faces_;
   std::vector<Triangle> sides_;  // empty without creases: they are the vertices
   std::vector<int> twins_;
-  std::vector<int> leaving_;   // per vertex: one half-edge that leaves it, -1 without faces
-  std::vector<int> valences_;  // -1 for a vertex that is gone
-  std::vector<char> on_boundary_;
+  std::vector<int> leaving_;       // per id: one half-edge that leaves the vertex, -1 without faces
+  std::vector<int> valences_;      // per id: -1 for a vertex that is gone and for a further side
+  std::vector<char> on_boundary_;  // per id
   std::vector<char> constrained_;  // per half-edge
 };
 

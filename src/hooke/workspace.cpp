@@ -154,7 +154,8 @@ void Workspace::replace_faces(std::vector<Triangle> faces) {
   faces_replaced_ = true;
 }
 
-void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>& before) {
+void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& sides,
+                             const std::vector<int>& before) {
   const auto n = before.size();
   std::vector<int> by_id = identity(static_cast<int>(n));  // in the order of the result
   std::ranges::stable_sort(by_id, {}, [&](int v) {
@@ -177,9 +178,8 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>
     const auto old = values;
     for (size_t v = 0; v < n; ++v) values[v] = old[static_cast<size_t>(source[v])];
   };
-  for (Mat3X* matrix : {&placement.points, &placement.normals, &placement.tangents})
+  for (Mat3X* matrix : {&placement.points, &placement.tangents})
     *matrix = (*matrix)(Eigen::all, source).eval();
-  arrange(placement.anchors);
   arrange(placement.segments);
   arrange(placement.drift);
   arrange(vertex_length);
@@ -195,6 +195,17 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<int>
   origins = std::move(from);
 
   connect(make_connectivity(static_cast<int>(n), order.faces), constraints.creases);
+  if (!constraints.creases.empty()) {
+    std::vector<Triangle> moved;
+    for (int f : order.old_face) moved.push_back(sides[static_cast<size_t>(f)]);
+    source = sides_before(*connectivity, moved, source);
+    constraints.further_sides = connectivity->further_sides;
+  }
+  placement.normals = placement.normals(Eigen::all, source).eval();
+  std::vector<int> anchors;
+  for (int side : source) anchors.push_back(placement.anchors[static_cast<size_t>(side)]);
+  placement.anchors = std::move(anchors);
+  placement.other_side = other_sides(n, constraints.further_sides);
   mesh = build_mesh(placement.points, *connectivity);
   input_anchors_ = placement.anchors;
   retraction->resize(n);

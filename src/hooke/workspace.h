@@ -42,11 +42,13 @@ struct Workspace {
   /// The vertices must still be on the field of the input: before the first refit().
   void replace_faces(std::vector<Triangle> faces);
 
-  /// Gives the work other vertices and faces. The caller has changed what the work holds per vertex in public
-  /// members, `faces` join the vertices as they stand there, and `origins` tells for each which vertex it was
-  /// before: -1 for a new one. All are put into memory order; in the result the vertices that were there keep
-  /// their order, and new ones follow. Pre-condition as for replace_faces().
-  void replace_mesh(std::vector<Triangle> faces, const std::vector<int>& origins);
+  /// Gives the work other vertices and faces. The caller has changed what the work holds per vertex and side
+  /// in public members, `faces` join the vertices as they stand there, `sides` are those of their corners,
+  /// and `origins` tells for each vertex which one it was before: -1 for a new one. All are put into memory
+  /// order; in the result the vertices that were there keep their order, and new ones follow. Pre-condition
+  /// as for replace_faces().
+  void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& sides,
+                    const std::vector<int>& origins);
 
   /// Do target lengths vary?
   bool graded() const;

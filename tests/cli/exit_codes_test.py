@@ -86,9 +86,6 @@ class InputErrors(CommandTest):
         self.write("empty.obj", "v 0 0 0\n")
         self.refused(4, "empty.obj", "--check", names="empty.obj")
 
-    def test_adapt_refuses_creases(self):
-        self.refused(4, DATA / "cube.obj", "-o", "out.obj", "--connectivity", "adapt", says="--feature-angle off")
-
 
 class OutputErrors(CommandTest):
     def test_missing_folder(self):

@@ -71,7 +71,7 @@ class Result(CommandTest):
 
     def test_creases_stay(self):
         for sample in ("cube.obj", "block.ply", "cylinder.off"):
-            for mode in ("fixed", "flip"):
+            for mode in ("fixed", "flip", "adapt"):
                 with self.subTest(sample=sample, mode=mode):
                     report = self.report(DATA / sample, "-o", "out.off", "--connectivity", mode)
                     features = report["features"]
