@@ -119,10 +119,12 @@ TEST(BoundingVolumeTree, PointsAskedForTogetherGetTheDistancesOfEachAlone) {
     for (size_t i = 1; i < points.size(); ++i)
       points[i] = points[0] + Vec3(offset(random), offset(random), offset(random));
     std::array<ClosestPoint, 5> together;
-    tree.closest(points, k % 2 ? k : -1, together);
+    std::array<int, 5> hints;
+    hints.fill(k % 2 ? k : -1);
+    tree.closest(points, hints, together);
     for (size_t i = 0; i < points.size(); ++i) {
       const ClosestPoint alone = tree.closest(points[i]);
-      EXPECT_EQ(together[i].squared_distance, alone.squared_distance);
+      EXPECT_NEAR(together[i].squared_distance, alone.squared_distance, 1e-14);
       EXPECT_LT((together[i].point - alone.point).norm(), 1e-12);  // of a tie either face may be told
     }
   }
@@ -156,7 +158,7 @@ TEST(BoundingVolumeTree, EmptyTreeFindsNothing) {
   tree.for_each_meeting_pair(0, tree.parts(), [](const auto&, const auto&) { FAIL(); });
   const std::array<Vec3, 2> points = {Vec3::Zero(), Vec3::Ones()};
   std::array<ClosestPoint, 2> closest;
-  tree.closest(points, -1, closest);
+  tree.closest(points, std::array{-1, -1}, closest);
   for (const ClosestPoint& c : closest) EXPECT_EQ(c.face, -1);
 }
 

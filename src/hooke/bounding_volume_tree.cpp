@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hooke/lanes.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -41,6 +42,116 @@ void try_face(const Vec3& x, const BoundingVolumeTree::Face& face, ClosestPoint&
   best.face = face.id;
 }
 
+/// Thinner triangles have no normal to speak of: their edges are as close as their inside.
+constexpr double least_squared_area = 1e-24;  // doubled, over the fourth power of the longest edge
+
+/// Four points and where each is closest to, as far as it is known.
+struct FourPoints {
+  double points[3 * lane_count];
+  double squared_distance[lane_count];
+  long long place[lane_count];  // of a face, in the order of the tree
+};
+
+/// Squared distances of four points to a box.
+HOOKE_INLINE void distances_to(const Eigen::AlignedBox3d& box, const LaneVec& x, Lanes& squared) {
+  const auto outside = [](const Lanes& t, double low, double high, Lanes& d) {
+    const Lanes zero = {}, below = low - t, above = t - high;
+    d = below > above ? below : above;
+    d = d > zero ? d : zero;
+  };
+  LaneVec d;
+  outside(x.x, box.min()[0], box.max()[0], d.x);
+  outside(x.y, box.min()[1], box.max()[1], d.y);
+  outside(x.z, box.min()[2], box.max()[2], d.z);
+  dot(d, d, squared);
+}
+
+HOOKE_INLINE void dot(const LaneVec& a, const Vec3& b, Lanes& product) {
+  product = a.x * b[0] + a.y * b[1] + a.z * b[2];
+}
+
+/// Squared distance from the corner a to the segment of length^2 l2 along d; x is seen from there.
+HOOKE_INLINE void distances_to_segment(const LaneVec& x, const Vec3& d, double l2, Lanes& squared) {
+  const Lanes zero = {}, one = zero + 1.;
+  Lanes t;
+  dot(x, d, t);
+  t *= l2 > 0 ? 1 / l2 : 0;
+  t = t > zero ? t : zero;
+  t = t < one ? t : one;
+  const LaneVec way = {x.x - t * d[0], x.y - t * d[1], x.z - t * d[2]};
+  dot(way, way, squared);
+}
+
+/// Squared distances of four points to a triangle: closest_point() without the point.
+HOOKE_INLINE void distances_to(const BoundingVolumeTree::Face& face, const LaneVec& x, Lanes& squared) {
+  const auto& [a, b, c] = face.corners;
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const LaneVec from_a = {x.x - a[0], x.y - a[1], x.z - a[2]}, from_b = {x.x - b[0], x.y - b[1], x.z - b[2]},
+                from_c = {x.x - c[0], x.y - c[1], x.z - c[2]};
+  const double ab2 = ab.squaredNorm(), bc2 = bc.squaredNorm(), ca2 = ca.squaredNorm();
+  Lanes other;
+  distances_to_segment(from_a, ab, ab2, squared);
+  distances_to_segment(from_b, bc, bc2, other);
+  squared = other < squared ? other : squared;
+  distances_to_segment(from_c, ca, ca2, other);
+  squared = other < squared ? other : squared;
+
+  const Vec3 n = ab.cross(-ca);
+  const double nn = n.squaredNorm(), longest = std::max({ab2, bc2, ca2});
+  if (!(nn > least_squared_area * longest * longest)) return;
+  Lanes beside_ab, beside_bc, beside_ca, height;
+  dot(from_a, n.cross(ab), beside_ab);
+  dot(from_b, n.cross(bc), beside_bc);
+  dot(from_c, n.cross(ca), beside_ca);
+  dot(from_a, n, height);
+  const LaneMask inside = (beside_ab >= 0.) & (beside_bc >= 0.) & (beside_ca >= 0.);
+  squared = inside ? height * height * (1 / nn) : squared;
+}
+
+HOOKE_INLINE void try_face(const BoundingVolumeTree::Face& face, long long place, const LaneVec& x,
+                           Lanes& best, LaneMask& places) {
+  Lanes squared;
+  distances_to(face, x, squared);
+  const LaneMask closer = squared < best;
+  best = closer ? squared : best;
+  places = closer ? place + LaneMask{} : places;
+}
+
+/// One walk for four points: down wherever one of them may come closer, first where they are closer together.
+HOOKE_SIMD void find_closest(const BoundingVolumeTree::Node* nodes, const BoundingVolumeTree::Face* faces,
+                             int first_place, FourPoints& four) {
+  LaneVec x;
+  Lanes best, near, far;
+  LaneMask places = {};
+  load(four.points, lane_count, x);
+  load(four.squared_distance, best);
+  try_face(faces[first_place], first_place, x, best, places);
+  int stack[BoundingVolumeTree::max_depth];
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const int i = stack[--size];
+    const BoundingVolumeTree::Node& node = nodes[i];
+    distances_to(node.box, x, near);
+    if (!any(near < best)) continue;
+    if (node.count > 0) {
+      for (int k = node.first_or_right; k < node.first_or_right + node.count; ++k)
+        try_face(faces[k], k, x, best, places);
+      continue;
+    }
+    const int left = i + 1, right = node.first_or_right;
+    distances_to(nodes[left].box, x, near);
+    distances_to(nodes[right].box, x, far);
+    const bool left_first = sum_of(near) <= sum_of(far);
+    const bool wants_left = any(near < best), wants_right = any(far < best);
+    if (left_first && wants_right) stack[size++] = right;
+    if (wants_left) stack[size++] = left;
+    if (!left_first && wants_right) stack[size++] = right;
+  }
+  store(best, four.squared_distance);
+  std::memcpy(four.place, &places, sizeof(places));
+}
+
 }  // namespace
 
 ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -48,8 +159,7 @@ ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Ve
   const Vec3 n = (b - a).cross(c - a);
   const double nn = n.squaredNorm();
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  // Thinner triangles have no normal to speak of: their edges are as close as their inside.
-  if (nn > 1e-24 * longest * longest) {
+  if (nn > least_squared_area * longest * longest) {
     const bool inside =
         n.cross(b - a).dot(x - a) >= 0 && n.cross(c - b).dot(x - b) >= 0 && n.cross(a - c).dot(x - c) >= 0;
     if (inside) {
@@ -163,32 +273,27 @@ void BoundingVolumeTree::enclose_nodes() {
   }
 }
 
-void BoundingVolumeTree::closest(std::span<const Vec3> points, int hint,
+void BoundingVolumeTree::closest(std::span<const Vec3> points, std::span<const int> hints,
                                  std::span<ClosestPoint> results) const {
-  if (points.empty()) return;
-  results[0] = closest(points[0], hint);
-  if (empty()) return std::fill(results.begin(), results.end(), results[0]);
-  Box box;
-  double greatest = 0;  // squared: no closest point is farther off
-  for (size_t i = 1; i < points.size(); ++i) {
-    results[i].squared_distance = std::numeric_limits<double>::infinity();
-    try_face(points[i], face(results[0].face), results[i]);
-    greatest = std::max(greatest, results[i].squared_distance);
-    box.extend(points[i]);
-  }
-  if (box.isEmpty()) return;
-  const double size = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-  const double margin = std::sqrt(greatest) * (1 + 1e-9) + size * 1e-15;  // rounding must lose no face
-  box.min().array() -= margin;
-  box.max().array() += margin;
-  for_each_leaf_meeting(box, 0, [&](size_t leaf) {
-    for (const Face& face : faces_of(leaf)) {
-      const Box around = face.box();
-      for (size_t i = 1; i < points.size(); ++i)
-        if (squared_distance(around, points[i]) <= results[i].squared_distance)
-          try_face(points[i], face, results[i]);
+  if (empty()) return std::fill(results.begin(), results.end(), closest(Vec3::Zero()));
+  for (size_t first = 0; first < points.size(); first += lane_count) {
+    const size_t count = std::min(lane_count, points.size() - first);
+    FourPoints four;
+    for (size_t i = 0; i < lane_count; ++i) {
+      const size_t k = first + std::min(i, count - 1);
+      for (size_t d = 0; d < 3; ++d)
+        four.points[d * lane_count + i] = points[k][static_cast<Eigen::Index>(d)];
+      four.place[i] = 0;
+      four.squared_distance[i] = std::numeric_limits<double>::infinity();
     }
-  });
+    const int hint = hints[first];
+    find_closest(nodes_.data(), faces_.data(), hint < 0 ? 0 : place_[static_cast<size_t>(hint)], four);
+    for (size_t i = 0; i < count; ++i) {
+      const Face& f = faces_[static_cast<size_t>(four.place[i])];
+      results[first + i] = closest_point(points[first + i], f.corners[0], f.corners[1], f.corners[2]);
+      results[first + i].face = f.id;
+    }
+  }
 }
 
 ClosestPoint BoundingVolumeTree::closest(const Vec3& x, int hint) const {

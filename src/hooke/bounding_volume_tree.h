@@ -36,6 +36,13 @@ class BoundingVolumeTree {
     }
   };
 
+  static constexpr int max_depth = 64;  // halving 2^31 faces needs 31
+  struct Node {
+    Box box;
+    int first_or_right = 0;  // leaf: place in faces(); else: right child, the left one follows its parent
+    int count = 0;           // faces of a leaf; 0 for an inner node
+  };
+
   /// A triangle may repeat a vertex id: it then stands for a segment.
   BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces);
 
@@ -47,10 +54,10 @@ class BoundingVolumeTree {
   /// `hint` is a face that is likely close (-1: none): it saves time.
   ClosestPoint closest(const Vec3& x, int hint = -1) const;
 
-  /// The same for several points. One walk through the tree serves all of them: fast when they lie close to
-  /// each other. Of faces at the same distance up to rounding any may be told. Pre-condition: one result per
-  /// point.
-  void closest(std::span<const Vec3> points, int hint, std::span<ClosestPoint> results) const;
+  /// The same for many points with a hint each, fast where points that stand next to each other are close in
+  /// space. Of faces at the same distance up to rounding any may be told.
+  void closest(std::span<const Vec3> points, std::span<const int> hints,
+               std::span<ClosestPoint> results) const;
 
   /// The pairs of faces whose boxes meet come in parts, one per node: with parts [begin, end) visit(f, g) is
   /// called for theirs. All parts together have each pair once.
@@ -72,14 +79,8 @@ class BoundingVolumeTree {
   }
 
  private:
-  static constexpr int max_depth = 64;  // halving 2^31 faces needs 31
   static constexpr size_t leaf_size = 4;
 
-  struct Node {
-    Box box;
-    int first_or_right = 0;  // leaf: place in faces_; else: right child, the left one follows its parent
-    int count = 0;           // faces of a leaf; 0 for an inner node
-  };
   struct Centre {
     Vec3 point;
     int face;

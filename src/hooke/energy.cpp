@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/face_springs.h"
 #include "hooke/guards.h"
 #include "hooke/parallel.h"
 #include "hooke/spring_law.h"
@@ -30,11 +31,11 @@ FaceFrame frame_of(const Placement& at, const Triangle& t, const Triangle& sides
   FaceFrame f;
   for (size_t k = 0; k < 3; ++k) {
     f.opposite[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
-    f.length[k] = std::max(f.opposite[k].norm(), 1e-9 * target);  // a zero edge has a force, not a NaN
+    f.length[k] = std::max(f.opposite[k].norm(), FaceSprings::least_length * target);
   }
   f.normal = f.opposite[2].cross(-f.opposite[1]);
   f.doubled_area = f.normal.norm();
-  const double floor = 1e-9 * target * target;
+  const double floor = FaceSprings::least_length * target * target;
   if (f.doubled_area > floor) {
     f.normal /= f.doubled_area;
   } else {
@@ -145,11 +146,48 @@ double Energy::face_energy(const Placement& at, size_t face, double* corner_grad
   return energy;
 }
 
+/// Four faces from `face` on or as many as there are, together where nothing but springs acts on them.
+double Energy::energy_of_four(const Placement& at, size_t face, double* corner_gradients) const {
+  const size_t count = std::min(lane_count, connectivity_.faces.size() - face);
+  if (terms.unfold <= 0 && terms.angle <= 0) {
+    FaceSprings four;
+    gather_faces(at, face, count, four);
+    evaluate_face_springs(terms.string, terms.altitude, four);
+    if (!four.flat) {
+      if (corner_gradients)
+        for (size_t i = 0; i < count; ++i)
+          for (size_t k = 0; k < 9; ++k) corner_gradients[9 * i + k] = four.gradient[k * lane_count + i];
+      return four.energy;
+    }
+  }
+  double energy = 0;
+  for (size_t i = 0; i < count; ++i)
+    energy += face_energy(at, face + i, corner_gradients ? corner_gradients + 9 * i : nullptr);
+  return energy;
+}
+
+void Energy::gather_faces(const Placement& at, size_t face, size_t count, FaceSprings& four) const {
+  for (size_t i = 0; i < lane_count; ++i) {
+    const size_t f = face + std::min(i, count - 1);
+    const Triangle& t = connectivity_.faces[f];
+    for (size_t k = 0; k < 3; ++k) {
+      const auto e = static_cast<size_t>(connectivity_.face_edges[f][(k + 1) % 3]);
+      for (size_t d = 0; d < 3; ++d)
+        four.corners[(3 * k + d) * lane_count + i] = at.points(static_cast<Eigen::Index>(d), t[k]);
+      four.edge_target[k * lane_count + i] = targets_.edge[e];
+      // An edge belongs to its first face.
+      four.has_edge[k * lane_count + i] = i < count && connectivity_.edge_faces[e][0] == static_cast<int>(f);
+    }
+    four.face_target[i] = targets_.face[f];
+    four.has_face[i] = i < count;
+  }
+}
+
 double Energy::operator()(const Placement& at, Mat3X* gradient) {
   const double energy = parallel_sum(connectivity_.faces.size(), 1024, [&](size_t begin, size_t end) {
     double sum = 0;
-    for (size_t f = begin; f < end; ++f)
-      sum += face_energy(at, f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
+    for (size_t f = begin; f < end; f += lane_count)
+      sum += energy_of_four(at, f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
     return sum;
   });
   if (!gradient) return energy;

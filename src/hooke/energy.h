@@ -8,6 +8,8 @@
 
 namespace hooke {
 
+struct FaceSprings;
+
 /// Weights of the terms; a term with weight 0 costs nothing.
 struct EnergyTerms {
   double string = 1;           // lambda: U(l; L_e) / L_e^2 per edge [2]-[4]
@@ -32,6 +34,8 @@ class Energy {
   EnergyTerms terms;
 
  private:
+  double energy_of_four(const Placement& at, size_t face, double* corner_gradients) const;
+  void gather_faces(const Placement& at, size_t face, size_t count, FaceSprings& four) const;
   double face_energy(const Placement& at, size_t face, double* corner_gradients) const;
 
   const Connectivity& connectivity_;

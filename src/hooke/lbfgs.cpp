@@ -10,20 +10,43 @@
 namespace hooke {
 namespace {
 
-double dot(const Mat3X& a, const Mat3X& b) {
+/// What is kept from step to step directs the next ones and need not be exact: half the memory, half the
+/// time.
+using Kept = Eigen::Matrix<float, 3, Eigen::Dynamic>;
+
+template <typename A>
+double dot(const A& a, const Mat3X& b) {
   return parallel_sum(static_cast<size_t>(a.cols()), 4096, [&](size_t begin, size_t end) {
     const auto from = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
-    return a.middleCols(from, count).cwiseProduct(b.middleCols(from, count)).sum();
+    return a.middleCols(from, count).template cast<double>().cwiseProduct(b.middleCols(from, count)).sum();
   });
 }
 
 /// a += factor * b
-void add_scaled(double factor, const Mat3X& b, Mat3X& a) {
+void add_scaled(double factor, const Kept& b, Mat3X& a) {
   parallel_for(static_cast<size_t>(a.cols()), 4096, [&](size_t begin, size_t end) {
     const auto from = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
-    a.middleCols(from, count) += factor * b.middleCols(from, count);
+    a.middleCols(from, count) += factor * b.middleCols(from, count).cast<double>();
   });
 }
+
+/// Symmetric.
+struct KeptMatrix {
+  float xx, yy, zz, xy, yz, zx;
+
+  explicit KeptMatrix(const Eigen::Matrix3d& m = Eigen::Matrix3d::Zero())
+      : xx(static_cast<float>(m(0, 0))),
+        yy(static_cast<float>(m(1, 1))),
+        zz(static_cast<float>(m(2, 2))),
+        xy(static_cast<float>(m(0, 1))),
+        yz(static_cast<float>(m(1, 2))),
+        zx(static_cast<float>(m(2, 0))) {}
+
+  Vec3 operator*(const Vec3& v) const {
+    return {xx * v[0] + xy * v[1] + zx * v[2], xy * v[0] + yy * v[1] + yz * v[2],
+            zx * v[0] + yz * v[1] + zz * v[2]};
+  }
+};
 
 /// H0: the inverse curvature around each vertex plus the grids.
 class Preconditioner {
@@ -39,7 +62,7 @@ class Preconditioner {
       LocalNewton newton(r);
       for (size_t v = begin; v < end; ++v) {
         const LocalCurvature c = newton.curvature(static_cast<int>(v));
-        inverse_[v] = c.inverse;
+        inverse_[v] = KeptMatrix(c.inverse);
         mean[v] = c.mean;
       }
     });
@@ -52,7 +75,8 @@ class Preconditioner {
     Mat3X result(3, vectors.cols());
     parallel_for(static_cast<size_t>(vectors.cols()), 4096, [&](size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v)
-        result.col(static_cast<Eigen::Index>(v)) = inverse_[v] * vectors.col(static_cast<Eigen::Index>(v));
+        result.col(static_cast<Eigen::Index>(v)) =
+            inverse_[v] * Vec3(vectors.col(static_cast<Eigen::Index>(v)));
     });
     grids_.add(vectors, grid_weight_, result);
     r.retraction.constrain(r.placement, result);
@@ -62,7 +86,7 @@ class Preconditioner {
  private:
   LbfgsOptions options_;
   GridHierarchy grids_;
-  std::vector<Eigen::Matrix3d> inverse_;
+  std::vector<KeptMatrix> inverse_;
   double grid_weight_ = 0;
 };
 
@@ -80,12 +104,12 @@ class Memory {
   }
 
   /// `preconditioned` is H0 y.
-  void push(Mat3X s, Mat3X y, const Mat3X& preconditioned) {
+  void push(const Mat3X& s, const Mat3X& y, const Mat3X& preconditioned) {
     const double sy = dot(s, y);
     if (!(sy > 1e-12 * dot(y, y)))
       return;  // no curvature along this step: it would spoil the inverse Hessian
     if (pushed_++ < options_.scaled_pairs) scale_ = sy / dot(y, preconditioned);
-    pairs_.push_back({std::move(s), std::move(y), 1 / sy});
+    pairs_.push_back({s.cast<float>(), y.cast<float>(), 1 / sy});
     if (pairs_.size() > static_cast<size_t>(options_.memory)) pairs_.pop_front();
   }
 
@@ -107,7 +131,7 @@ class Memory {
 
  private:
   struct Pair {
-    Mat3X s, y;
+    Kept s, y;
     double rho;  // 1 / s.y
   };
   LbfgsOptions options_;
@@ -193,9 +217,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       break;
     }
     r.retraction.constrain(trial, trial_gradient);
-    Mat3X y = trial_gradient - gradient;
-    const Mat3X preconditioned = h0.apply(r, y);
-    memory.push(trial.points - r.placement.points, std::move(y), preconditioned);
+    const Mat3X y = trial_gradient - gradient;
+    memory.push(trial.points - r.placement.points, y, h0.apply(r, y));
     std::swap(r.placement, trial);
     std::swap(gradient, trial_gradient);
     r.guards.accept_step();

@@ -5,6 +5,7 @@
 #include "hooke/normals.h"
 #include "hooke/parallel.h"
 #include "hooke/patch_grower.h"
+#include "hooke/spline_group.h"
 
 namespace hooke {
 namespace {
@@ -40,25 +41,6 @@ std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const
   return unfolded;
 }
 
-/// Centres and values of one spline, in coordinates scaled by the patch.
-struct SplineData {
-  Mat3X centres;
-  Eigen::VectorXd values;
-  Eigen::Index count = 0;
-
-  void clear(std::size_t capacity) {
-    centres.resize(3, static_cast<Eigen::Index>(capacity));
-    values.resize(static_cast<Eigen::Index>(capacity));
-    count = 0;
-  }
-  void add(const Vec3& centre, double value) {
-    for (Eigen::Index i = 0; i < count; ++i)
-      if ((centres.col(i) - centre).squaredNorm() < coincidence * coincidence) return;
-    centres.col(count) = centre;
-    values[count++] = value;
-  }
-};
-
 /// Every third vertex of a patch has an offset point, outside and inside in turn. (All of them: no better.)
 constexpr std::size_t offset_stride = 3;
 
@@ -67,8 +49,10 @@ std::size_t most_centres(std::size_t vertices) {
   return vertices + (vertices + offset_stride - 1) / offset_stride;
 }
 
-PatchFit fit_patch(const SplineData& data, Kernel kernel, std::size_t vertices, SplineWorkspace& workspace,
+/// The way for patches that the group has no spline for.
+PatchFit fit_patch(SplineData& data, Kernel kernel, std::size_t vertices, SplineWorkspace& workspace,
                    double* storage) {
+  data.drop_repeated(coincidence);
   const auto centres = data.centres.leftCols(data.count);
   const auto values = data.values.head(data.count);
   if (values.isZero(0)) return PatchFit::failed;  // no offset says where outside is
@@ -123,22 +107,41 @@ IntLists PartitionOfUnity::cover(const Eigen::Ref<const Mat3X>& points, const Co
 void PartitionOfUnity::fit(const Eigen::Ref<const Mat3X>& points, const Mat3X& normals,
                            const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
                            const IntLists& members, const PartitionOptions& options) {
+  const auto gather = [&](std::size_t p, SplineData& data) {
+    const Patch& patch = patches_[p];
+    const auto vertices = members[static_cast<int>(p)];
+    data.clear(most_centres(vertices.size()));
+    for (int v : vertices) data.add((points.col(v) - patch.centre) / patch.radius, 0);
+    for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {  // [11] [13]
+      const int v = vertices[i];
+      if (!unfolded[idx(v)]) continue;
+      const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * options.offset * edge_lengths[v];
+      data.add((points.col(v) + rho * normals.col(v) - patch.centre) / patch.radius, rho / patch.radius);
+    }
+  };
   parallel_for(patches_.size(), patches_per_task, [&](std::size_t begin, std::size_t end) {
     SplineWorkspace workspace;
-    SplineData data;
-    for (std::size_t p = begin; p < end; ++p) {
-      Patch& patch = patches_[p];
-      const auto vertices = members[static_cast<int>(p)];
-      data.clear(most_centres(vertices.size()));
-      for (int v : vertices) data.add((points.col(v) - patch.centre) / patch.radius, 0);
-      for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {  // [11] [13]
-        const int v = vertices[i];
-        if (!unfolded[idx(v)]) continue;
-        const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * options.offset * edge_lengths[v];
-        data.add((points.col(v) + rho * normals.col(v) - patch.centre) / patch.radius, rho / patch.radius);
+    SplineGroup group;
+    SplineGroup::Data data;
+    for (std::size_t first = begin; first < end; first += lane_count) {
+      SplineGroup::Flags wanted{};
+      const std::size_t count = std::min(lane_count, end - first);
+      for (std::size_t k = 0; k < count; ++k) {
+        gather(first + k, data[k]);
+        const std::size_t vertices = members[static_cast<int>(first + k)].size();
+        wanted[k] = vertices >= least_quadratic_size && idx(static_cast<int>(data[k].count)) > vertices;
       }
-      patch.fit = fit_patch(data, kernel_, vertices.size(), workspace, &storage_[patch.storage]);
-      patch.centres = static_cast<int>(data.count);
+      const SplineGroup::Flags fitted = group.fit(data, wanted, kernel_, coincidence);
+      for (std::size_t k = 0; k < count; ++k) {
+        Patch& patch = patches_[first + k];
+        double* const storage = &storage_[patch.storage];
+        if (fitted[k])
+          group.store(data, k, storage);
+        else
+          patch.fit =
+              fit_patch(data[k], kernel_, members[static_cast<int>(first + k)].size(), workspace, storage);
+        patch.centres = static_cast<int>(data[k].count);
+      }
     }
   });
 }

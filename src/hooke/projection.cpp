@@ -9,7 +9,7 @@ Foot project_by_newton(const ScalarField& psi, const Vec3& x, int anchor, const 
   const auto fail = [&](FootStatus status) {
     return Foot{x, Vec3::Zero(), anchor, status, foot.evaluations};
   };
-  double last_distance = 0;
+  double last_distance = options.convergence > 0 ? 1 / options.convergence : 0;
   for (int step = 0; step <= options.most_steps; ++step) {
     const FieldSample s = psi(foot.point, anchor);
     ++foot.evaluations;

@@ -12,6 +12,8 @@ struct NewtonOptions {
   double longest_step = .5;     // a length; longer steps are shortened to it
   double longest_move = 2;      // from the start, a length
   double least_gradient = .01;  // of a field that is a distance near its surface
+  double convergence = 0;  // error of a step over the square of the distance before it, 1 / length, as far
+                           // as it is known beforehand; 0: the first step is always looked at
   int most_steps = 12;
 };
 

@@ -78,7 +78,14 @@ class Remeshing {
 
   /// A coarser mesh knows less of the surface than the input does.
   bool refits() const {
-    return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt;
+    return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt && !unhindered_;
+  }
+
+  /// Came to rest where the guards had next to nothing to hold back: there the surface is smooth under the
+  /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same.
+  bool is_unhindered(const IntegrationResult& relaxed) const {
+    return options_.integrator == IntegratorKind::lbfgs && relaxed.reason == StopReason::stalled &&
+           static_cast<double>(relaxed.held_back) <= options_.hindered * work_.connectivity->vertex_count;
   }
 
   void iterate() {
@@ -93,7 +100,9 @@ class Remeshing {
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
-    if (before - relaxed.energy <= options_.outer_drop * before) return stop(StopReason::stalled);
+    unhindered_ = is_unhindered(relaxed);
+    if (unhindered_ || before - relaxed.energy <= options_.outer_drop * before)
+      return stop(StopReason::stalled);
     result_.reason = StopReason::step_limit;
   }
 
@@ -157,6 +166,7 @@ class Remeshing {
   RemeshResult result_;
   int outer_ = 0;
   bool held_back_ = false;  // by the guards, in the last relaxation
+  bool unhindered_ = false;
   bool done_ = false;
 };
 

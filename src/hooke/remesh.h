@@ -38,12 +38,15 @@ struct RemeshOptions {
   PolishOptions polish;
   bool polish_angles = true;
   FilterOptions filter;
-  Refit refit = Refit::each;  // of the field, before each outer iteration or once, which `adapt` always does
-  RetractionOptions retraction{.tolerance = 1e-6, .lazy = .1};
+  // Of the field: before each outer iteration, where the guards hindered the last; or once, which `adapt`
+  // always does.
+  Refit refit = Refit::each;
+  RetractionOptions retraction{.tolerance = 1e-5, .lazy = .5};
   ConstraintOptions constraints;
   double tolerance = 1e-3;   // of every edge, in parts of its target length
   int max_outer = 6;         // outer iterations
-  double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part
+  double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part ...
+  double hindered = 2e-3;  // ... or comes to rest with no more steps held back than this part of the vertices
 };
 
 /// Sets the counts and limits that an effort stands for, in the connectivity mode of the options. `standard`

@@ -123,7 +123,13 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
   place.point = within_reach(place.point + displacement, vertex);
   place.drift += length;
   if (freedom == Freedom::curve) place = on_curve(place, vertex);
-  return place.drift < options_.lazy ? place : on_surface(place, vertex);
+  return may_drift(place) ? place : on_surface(place, vertex);
+}
+
+/// A tangent plane is half the curvature times the square of the way off the surface.
+bool Retraction::may_drift(const VertexPlace& place) const {
+  return place.drift < options_.lazy &&
+         .5 * surface_.curvature(place.anchor) * place.drift * place.drift < options_.lazy_error;
 }
 
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {

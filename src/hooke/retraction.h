@@ -53,6 +53,7 @@ struct ProjectionCounts {
 struct RetractionOptions {
   double tolerance = 1e-6;  // of a projection, in mean target lengths
   double lazy = 0;  // a vertex that moved less than this since its last projection stays in its tangent plane
+  double lazy_error = 1e-3;  // ... where the curvature takes it no farther than this from the surface
 };
 
 /// Keeps references to the surface and the constraints: they must outlive it.
@@ -94,6 +95,7 @@ class Retraction {
   Vec3 within_reach(const Vec3& point, int vertex) const;
   VertexPlace on_curve(VertexPlace place, int vertex) const;
   VertexPlace on_surface(VertexPlace place, int vertex);
+  bool may_drift(const VertexPlace& place) const;
   Foot foot(const Vec3& point, int anchor, int vertex);
 
   Surface surface_;

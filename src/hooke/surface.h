@@ -2,6 +2,9 @@
 // and a test's sphere all fit.
 #pragma once
 
+#include <concepts>
+#include <utility>
+
 #include "hooke/types.h"
 
 namespace hooke {
@@ -24,8 +27,28 @@ struct Foot {
   int evaluations = 0;  // of the field
 };
 
-/// Projects a point that is tracked near the vertex `anchor` to within `tolerance` (a length) of the surface.
-/// Must be safe to call from several threads at once.
-using Surface = std::function<Foot(const Vec3& point, int anchor, double tolerance)>;
+/// Its members must be safe to call from several threads at once.
+class Surface {
+ public:
+  /// Projects a point that is tracked near the vertex `anchor` to within `tolerance` (a length) of the
+  /// surface.
+  using Project = std::function<Foot(const Vec3& point, int anchor, double tolerance)>;
+  /// About the greatest curvature near the vertex `anchor`, 1 / length.
+  using Curvature = std::function<double(int anchor)>;
+
+  template <typename F>
+  requires std::convertible_to<F, Project> &&(!std::same_as<std::remove_cvref_t<F>, Surface>)Surface(
+      F&& project, Curvature curvature = [](int) { return 0.; })
+      : project_(std::forward<F>(project)), curvature_(std::move(curvature)) {}
+
+  Foot operator()(const Vec3& point, int anchor, double tolerance) const {
+    return project_(point, anchor, tolerance);
+  }
+  double curvature(int anchor) const { return curvature_(anchor); }
+
+ private:
+  Project project_;
+  Curvature curvature_;
+};
 
 }  // namespace hooke

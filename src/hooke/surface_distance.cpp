@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 1024;
+constexpr size_t block = 256;  // faces whose samples are looked for together
 
 using Face = BoundingVolumeTree::Face;
 
@@ -50,9 +50,9 @@ class FaceSamples {
       samples.vertices[static_cast<size_t>(vertices_[k])] = distance(4 + edge_count_ + k);
   }
 
+ private:
   static constexpr size_t most = 10;
 
- private:
   void add(const Vec3& point) { points_[count_++] = point; }
 
   std::array<Vec3, most> points_;
@@ -76,11 +76,21 @@ DistanceSamples sample_distances(const MeasuredSurface& from, const MeasuredSurf
   samples.quarters.resize(c.faces.size());
   const std::span<const Face> faces = from.tree.faces();
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    std::array<ClosestPoint, FaceSamples::most> closest;
+    std::vector<FaceSamples> wanted;
+    std::vector<Vec3> points;
+    std::vector<int> hints;
+    for (const Face& face : faces.subspan(begin, end - begin)) {
+      wanted.emplace_back(from, face);
+      points.insert(points.end(), wanted.back().points().begin(), wanted.back().points().end());
+      hints.resize(points.size(), hint(to, face.id));
+    }
+    std::vector<ClosestPoint> closest(points.size());
+    to.tree.closest(points, hints, closest);
+    std::span<const ClosestPoint> found = closest;
     for (size_t k = begin; k < end; ++k) {
-      const FaceSamples wanted(from, faces[k]);
-      to.tree.closest(wanted.points(), hint(to, faces[k].id), {closest.data(), wanted.points().size()});
-      wanted.store(closest, faces[k].id, samples);
+      const FaceSamples& of_face = wanted[k - begin];
+      of_face.store(found, faces[k].id, samples);
+      found = found.subspan(of_face.points().size());
     }
   });
   return samples;

@@ -6,6 +6,7 @@
 #include "hooke/closest_point.h"
 #include "hooke/error.h"
 #include "hooke/normals.h"
+#include "hooke/parallel.h"
 #include "hooke/partition_of_unity.h"
 #include "hooke/projection.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double longest_step = .5;  // of Newton, in mean edge lengths at the anchor
 constexpr double longest_move = 2;
+constexpr double convergence = 2;  // of Newton's method, over the mean edge length at the anchor
 
 /// Vertices of the piece that have faces, without the repetitions of one place.
 std::vector<int> distinct_vertices(const Mat3X& points, const Connectivity& connectivity,
@@ -60,6 +62,33 @@ ThinPlateSpline fit_global_spline(const Mat3X& points, const std::vector<int>& v
   return *std::move(spline);
 }
 
+/// How much the normal turns on the way along each vertex's edges, the most within two rings.
+std::vector<float> greatest_curvatures(const Mat3X& points, const Mat3X& normals,
+                                       const Connectivity& connectivity) {
+  constexpr std::size_t block = 1024;
+  const auto n = static_cast<std::size_t>(connectivity.vertex_count);
+  std::vector<float> at_vertex(n, 0), nearby(n, 0);
+  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      double most = 0;  // squared
+      for (int w : connectivity.vertex_neighbours[v]) {
+        const double turn = (normals.col(w) - normals.col(v)).squaredNorm();
+        const double way = (points.col(w) - points.col(v)).squaredNorm();
+        if (turn > most * way) most = turn / way;  // infinite where there is no way
+      }
+      at_vertex[static_cast<std::size_t>(v)] = static_cast<float>(std::sqrt(most));
+    }
+  });
+  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      nearby[v] = at_vertex[v];
+      for (int w : connectivity.vertex_neighbours[static_cast<int>(v)])
+        nearby[v] = std::max(nearby[v], at_vertex[static_cast<std::size_t>(w)]);
+    }
+  });
+  return nearby;
+}
+
 }  // namespace
 
 struct SurfaceField::State {
@@ -68,6 +97,7 @@ struct SurfaceField::State {
   Mat3X points;
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
+  std::vector<float> curvature;  // about the greatest within two rings
   std::optional<PartitionOfUnity> partition;
   std::vector<int> pieces;               // per vertex; empty: one
   std::vector<ThinPlateSpline> splines;  // per piece
@@ -159,6 +189,7 @@ Foot SurfaceField::State::project(const Vec3& x, int anchor, double tolerance) c
   newton.tolerance = tolerance;
   newton.longest_step = longest_step * edge_lengths[anchor];
   newton.longest_move = longest_move * edge_lengths[anchor];
+  newton.convergence = convergence / edge_lengths[anchor];
   const Foot foot =
       project_by_newton([this](const Vec3& p, int a) { return sample(p, a); }, x, anchor, newton);
   if (foot.status == FootStatus::converged) return foot;
@@ -175,6 +206,7 @@ SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> con
   state->kind = options.kind;
   state->normals = vertex_normals(points, *connectivity);
   state->edge_lengths = mean_edge_lengths(points, *connectivity);
+  state->curvature = greatest_curvatures(points, state->normals, *connectivity);
   if (options.kind == FilterKind::local)
     state->partition.emplace(points, *connectivity, state->normals, state->edge_lengths,
                              PartitionOptions{.kernel = options.kernel, .offset = options.offset});
@@ -200,9 +232,13 @@ FieldSample SurfaceField::sample(const Vec3& x, int anchor) const {
 }
 
 Surface SurfaceField::surface() const {
-  return [state = state_](const Vec3& x, int anchor, double tolerance) {
+  const auto project = [state = state_](const Vec3& x, int anchor, double tolerance) {
     return state->project(x, anchor, tolerance);
   };
+  const auto curvature = [state = state_](int anchor) {
+    return static_cast<double>(state->curvature[static_cast<std::size_t>(anchor)]);
+  };
+  return {project, curvature};
 }
 
 const Mat3X& SurfaceField::points() const {
@@ -214,7 +250,7 @@ const Mat3X& SurfaceField::normals() const {
 
 std::size_t SurfaceField::memory_bytes() const {
   const auto doubles = state_->points.size() + state_->normals.size() + state_->edge_lengths.size();
-  return sizeof(double) * static_cast<std::size_t>(doubles) +
+  return sizeof(double) * static_cast<std::size_t>(doubles) + sizeof(float) * state_->curvature.capacity() +
          (state_->partition ? state_->partition->memory_bytes() : 0) +
          std::transform_reduce(state_->splines.begin(), state_->splines.end(), std::size_t{0}, std::plus<>(),
                                [](const ThinPlateSpline& s) { return s.memory_bytes(); });

@@ -5,10 +5,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
-#include <limits>
 
 #include "hooke/error.h"
-#include "hooke/fast_log.h"
+#include "hooke/spline_kernel.h"
 
 namespace hooke {
 namespace {
@@ -18,8 +17,6 @@ namespace {
 // the data lie.
 constexpr std::size_t polynomial_size = 10;
 
-constexpr double smallest =
-    std::numeric_limits<double>::min();      // r^2 log r is 0 at r = 0: keep the log finite
 constexpr double least_column_ratio = 1e-8;  // of a polynomial's part that the ones before it do not explain
 constexpr double least_pivot_ratio = 1e-7;   // of the Cholesky diagonal: beyond, coefficients are noise
 
@@ -40,24 +37,6 @@ FieldSample evaluate_polynomial(const double* c, const Vec3& p) {
   s.gradient = {c[1] + 2 * x * c[4] + y * c[7] + z * c[9], c[2] + 2 * y * c[5] + x * c[7] + z * c[8],
                 c[3] + 2 * z * c[6] + y * c[8] + x * c[9]};
   return s;
-}
-
-/// The kernel [27] and its derivative over r, at r2 = r^2.
-struct KernelSample {
-  Lanes value, slope_over_r;
-};
-
-HOOKE_INLINE void sample_kernel(Kernel kernel, const Lanes& r2, KernelSample& sample) {
-  if (kernel == Kernel::r2logr) {
-    Lanes log_r2 = r2 > smallest ? r2 : Lanes{} + smallest;
-    take_log(log_r2);
-    sample.value = .5 * r2 * log_r2;
-    sample.slope_over_r = log_r2 + 1.;
-  } else {
-    const Lanes r = {std::sqrt(r2[0]), std::sqrt(r2[1]), std::sqrt(r2[2]), std::sqrt(r2[3])};
-    sample.value = r2 * r;
-    sample.slope_over_r = 3. * r;
-  }
 }
 
 /// Lower triangle of the kernel matrix. [32]
@@ -170,13 +149,19 @@ bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const E
   }
   if (!a.allFinite() || !d.head(m).allFinite()) return false;
 
-  const std::size_t stride = padded(static_cast<std::size_t>(n));
+  store_spline(centres, {a.data(), static_cast<std::size_t>(n)}, {d.data(), static_cast<std::size_t>(m)},
+               storage);
+  return true;
+}
+
+void store_spline(const Eigen::Ref<const Mat3X>& centres, std::span<const double> radial,
+                  std::span<const double> polynomial, double* storage) {
+  const std::size_t stride = padded(radial.size());
   std::fill_n(storage, 4 * stride + polynomial_size, 0.);
   for (int k = 0; k < 3; ++k)
-    Eigen::VectorXd::Map(storage + static_cast<size_t>(k) * stride, n) = centres.row(k);
-  Eigen::VectorXd::Map(storage + 3 * stride, n) = a;
-  Eigen::VectorXd::Map(storage + 4 * stride, m) = d.head(m);
-  return true;
+    Eigen::VectorXd::Map(storage + static_cast<std::size_t>(k) * stride, centres.cols()) = centres.row(k);
+  std::ranges::copy(radial, storage + 3 * stride);
+  std::ranges::copy(polynomial, storage + 4 * stride);
 }
 
 FieldSample evaluate_spline(const double* storage, std::size_t centres, Kernel kernel, const Vec3& x) {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "hooke/types.h"
 
@@ -39,6 +40,11 @@ std::size_t spline_storage_size(std::size_t centres);
 /// storage holds spline_storage_size(centres.cols()) doubles.
 bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const Eigen::VectorXd>& values,
                 Kernel kernel, SplineDegree degree, SplineWorkspace& workspace, double* storage);
+
+/// Writes a spline with these coefficients of the kernel at the centres and of the monomials, which are 1, x,
+/// y, z, x x, y y, z z, x y, y z, z x. Pre-condition as for fit_spline.
+void store_spline(const Eigen::Ref<const Mat3X>& centres, std::span<const double> radial,
+                  std::span<const double> polynomial, double* storage);
 
 /// Value [30] and gradient [35] at x of a spline stored for so many centres.
 FieldSample evaluate_spline(const double* storage, std::size_t centres, Kernel kernel, const Vec3& x);

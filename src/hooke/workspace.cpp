@@ -28,6 +28,8 @@ constexpr double landing_area_ratio = .01;
 /// below it.
 constexpr double landing_cotangent = 3e-3;
 
+constexpr double landing_tolerance = 1e-7;  // in mean target lengths
+
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
   std::iota(ids.begin(), ids.end(), 0);
@@ -78,7 +80,8 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   const Stage stage(stopwatch, "fit");
   const SurfaceField field = fit(start);
   input_anchors_ = identity(connectivity->side_count());
-  to_input_ = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
+  to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
+                                           RetractionOptions{.tolerance = landing_tolerance});
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   placement = retraction->place(start, input_anchors_, constraints.segment);
 }
