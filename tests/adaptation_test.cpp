@@ -10,9 +10,12 @@
 #include "hooke/quality.h"
 #include "hooke/remesh.h"
 #include "hooke/topology.h"
+#include "remeshed.h"
 
 namespace hooke {
 namespace {
+
+using test::natural;
 
 double wave(double x, double y) {
   return .1 * std::sin(5 * x) * std::cos(4 * y);
@@ -26,10 +29,6 @@ test::Triangles with_holes(double (*height)(double, double)) {
            (middle.head(2) - Eigen::Vector2d(.7, .65)).norm() < .12;
   });
   return t;
-}
-
-double natural(const test::Triangles& t) {
-  return natural_length(total_area(t.points, t.faces), t.faces.size());
 }
 
 struct Outcome {

@@ -4,31 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "crease_solids.h"
-#include "hooke/remesh.h"
+#include "remeshed.h"
 #include "scene.h"
 
 namespace hooke::test {
-
-struct Outcome {
-  Mat3X points;
-  std::vector<Triangle> faces;
-  RemeshResult result;
-};
-
-inline double length_of(const Triangles& t) {
-  return natural_length(total_area(t.points, t.faces), t.faces.size());
-}
-
-/// `factor` times the natural length is the target.
-inline Outcome remeshed(const Triangles& t, const RemeshOptions& options, double factor = 1) {
-  TriMesh mesh = to_mesh(t);
-  set_vertex_values(mesh, target_length_property, factor * length_of(t));
-  Outcome o;
-  o.result = remesh(mesh, options);
-  o.points = positions(mesh);
-  o.faces = triangles_of(mesh);
-  return o;
-}
 
 inline double volume(const Mat3X& X, const std::vector<Triangle>& faces) {
   double sum = 0;

@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-using test::Outcome, test::remeshed, test::length_of, test::volume;
+using test::Outcome, test::remeshed, test::natural, test::volume;
 
 RemeshOptions in_mode(ConnectivityMode mode) {
   RemeshOptions options;
@@ -67,7 +67,7 @@ TEST(CreaseRemesh, NoCreaseBecomesAcute) {
 
 TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
   const test::Triangles t = test::cylinder(40);
-  const double L = length_of(t);
+  const double L = natural(t);
   for (ConnectivityMode mode : both_modes) {
     const Outcome o = remeshed(t, in_mode(mode));
     EXPECT_EQ(o.result.creases.curves, 2);

@@ -19,6 +19,7 @@ inline TriMesh with_length(const Triangles& t, double length) {
 
 struct Outcome {
   Mat3X points;
+  std::vector<Triangle> faces;
   RemeshResult result;
   TriMesh mesh;
 };
@@ -29,6 +30,7 @@ inline Outcome remeshed(const Triangles& t, double length, const RemeshOptions& 
   o.mesh = with_length(t, length);
   o.result = remesh(o.mesh, options, observer);
   o.points = positions(o.mesh);
+  o.faces = triangles_of(o.mesh);
   return o;
 }
 inline Outcome remeshed(const Triangles& t, const RemeshOptions& options = {}) {

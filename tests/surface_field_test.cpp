@@ -275,8 +275,7 @@ TEST(SurfaceField, GlobalRefusesWhatItCannotDo) {
 }
 
 TEST(SurfaceField, SurfaceOutlivesItsField) {
-  Surface surface;
-  { surface = field_of(test::sphere(2)).surface(); }
+  const Surface surface = field_of(test::sphere(2)).surface();  // the field is gone
   EXPECT_NEAR(surface({1.05, 0, 0}, 0, 1e-9).point.norm(), 1, 1e-3);
 }
 

@@ -6,6 +6,8 @@
 
 namespace hooke {
 
+namespace ring {
+
 /// Columns of what stays as it is while the vertex moves. A vector takes three.
 enum Fixed : std::size_t {
   near = 0,          // the neighbour a
@@ -32,6 +34,8 @@ enum Moving : std::size_t {
   far_length = 15,
   moving_columns = 16
 };
+
+}  // namespace ring
 
 /// A ring with its vertex at one place.
 struct RingView {

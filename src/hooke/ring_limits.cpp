@@ -1,6 +1,9 @@
 #include "hooke/ring_limits.h"
 
 namespace hooke {
+
+using namespace ring;
+
 namespace {
 
 constexpr double rounding = 1e-9;  // margin of tests that must not contradict the rules

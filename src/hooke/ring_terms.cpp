@@ -4,6 +4,9 @@
 #include "hooke/ring_sums.h"
 
 namespace hooke {
+
+using namespace ring;
+
 namespace {
 
 constexpr double least_length = 1e-9;  // of the target: a zero edge has a force, not a NaN

@@ -3,6 +3,9 @@
 #include "hooke/ring_limits.h"
 
 namespace hooke {
+
+using namespace ring;
+
 namespace {
 
 HOOKE_SIMD void make_shape(const double* fixed, std::size_t stride, const Vec3& x, double* shape) {
