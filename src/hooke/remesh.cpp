@@ -110,10 +110,13 @@ class Remeshing {
     const Stage stage(work_.stopwatch, "polish");
     if (refits()) work_.refit();
     Relaxation r = relaxation();
-    const bool flips = options_.connectivity != ConnectivityMode::fixed;
-    result_.polish =
-        polish(r, work_.targets, flips ? options_.flips.polish : options_.polish, watch("polish"));
-    if (result_.polish.interrupted) result_.reason = StopReason::interrupted;
+    const PolishOptions& options =
+        options_.connectivity == ConnectivityMode::fixed ? options_.polish : options_.flips.polish;
+    result_.polish = polish(r, work_.targets, options, watch("polish"));
+    if (result_.polish.interrupted)
+      result_.reason = StopReason::interrupted;
+    else
+      search_angles(r, options_.search);
     result_.not_landed = work_.land();
     work_.resample_lengths();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});

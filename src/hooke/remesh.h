@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hooke/adaptation.h"
+#include "hooke/angle_search.h"
 #include "hooke/damped_relaxation.h"
 #include "hooke/do_no_harm.h"
 #include "hooke/flip_connectivity.h"
@@ -37,6 +38,7 @@ struct RemeshOptions {
   UntangleOptions untangle;
   PolishOptions polish;
   bool polish_angles = true;
+  AngleSearchOptions search;  // after the polish
   FilterOptions filter;
   // Of the field: before each outer iteration, where the guards hindered the last; or once, which `adapt`
   // always does.
@@ -69,7 +71,7 @@ struct IterationRecord {
 /// What was found of creases, and what of it is left. Mode `adapt` gives creases other edges: then the edges
 /// are those of the result.
 struct CreaseCounts {
-  int curves = 0;          // from corner to corner, or closed
+  int curves = 0;  // from corner to corner, or closed
   int edges = 0;
   int kept = 0;            // of them, still there
   int corners = 0;         // vertices on creases that stand still

@@ -1,0 +1,33 @@
+// The worst corners, last: where springs have settled against a guard or against each other, a vertex may
+// still find a better place by trying. Maximises the least angle itself, which has no gradient where it
+// matters.
+#pragma once
+
+#include "hooke/integrator.h"
+
+namespace hooke {
+
+struct AngleSearchOptions {
+  double above_least = 1;           // degrees; faces up to so much above the least angle are worked on
+  int max_faces = 500;              // the worst of them
+  int rings = 1;                    // about their corners, within which vertices move
+  int directions = 12;              // that a vertex looks into
+  double first_step = .3;           // target lengths, halved ...
+  double last_step = .01;           // ... down to this
+  double least_gain = 1e-3;         // of the cotangent; less is not worth a move
+  double edge_error_limit = 1.005;  // of the standard deviation of l / L_e at the start
+  int max_rounds = 40;              // each must raise the least angle by ...
+  double least_rise = .02;          // ... this many degrees
+};
+
+struct AngleSearchResult {
+  int rounds = 0;
+  int moves = 0;
+};
+
+/// Raises the least angle of all as far as edges may pay for it. No face
+/// about a vertex that moves has a smaller angle than the least of them had before; all moves obey the
+/// guards.
+AngleSearchResult search_angles(Relaxation& relaxation, const AngleSearchOptions& options);
+
+}  // namespace hooke

@@ -1,0 +1,84 @@
+#include "hooke/angle_search.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/lbfgs.h"
+#include "hooke/least_angle.h"
+#include "hooke/parallel.h"
+#include "hooke/polish.h"
+#include "scene.h"
+
+namespace hooke {
+namespace {
+
+/// Irregular connectivity, whose springs are at rest.
+test::Triangles irregular(unsigned seed) {
+  test::Triangles t = test::grid(8, test::flat, .3, seed);
+  test::split_at_centres(t, 5, 9);
+  return t;
+}
+
+struct Outcome {
+  double angle_before, angle_after, error_before, error_after;
+  int upside_down = 0;
+  AngleSearchResult result;
+  Mat3X points;
+};
+
+Outcome search(const test::Triangles& t, const AngleSearchOptions& options = {}) {
+  test::Scene s(t, test::to_ground);
+  Relaxation r = s.relaxation();
+  relax_lbfgs(r, {}, {}, nullptr);
+  const auto angle = [&] { return least_angle(s.placement.points, t.faces); };
+  const auto error = [&] {
+    return relative_edge_deviation(s.placement.points, s.connectivity.edges, s.targets);
+  };
+  Outcome o{.angle_before = angle(), .error_before = error()};
+  o.result = search_angles(r, options);
+  o.angle_after = angle();
+  o.error_after = error();
+  for (const Triangle& f : t.faces) o.upside_down += test::area_vector(s.placement.points, f)[2] <= 0;
+  o.points = s.placement.points;
+  EXPECT_EQ(positions(s.mesh), s.placement.points);
+  return o;
+}
+
+TEST(AngleSearch, RaisesTheLeastAngleForLittleOfTheEdges) {
+  double risen = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const Outcome o = search(irregular(seed));
+    EXPECT_GE(o.angle_after, o.angle_before);
+    EXPECT_LE(o.error_after, 1.005 * o.error_before);
+    EXPECT_EQ(o.upside_down, 0);
+    risen += o.angle_after - o.angle_before;
+  }
+  EXPECT_GT(risen / 6, .5);
+}
+
+TEST(AngleSearch, MayPayMoreWhereItIsAllowedTo) {
+  AngleSearchOptions dear;
+  dear.edge_error_limit = 1.2;
+  const Outcome cheap = search(irregular(3)), better = search(irregular(3), dear);
+  EXPECT_GT(better.angle_after, cheap.angle_after + 1);
+  EXPECT_LE(better.error_after, 1.2 * better.error_before);
+}
+
+TEST(AngleSearch, LeavesAPerfectMeshAlone) {
+  test::Triangles t = test::grid(6, test::flat);
+  for (auto x : t.points.colwise()) x = Vec3(x[0] - .5 * x[1], std::sqrt(.75) * x[1], 0);
+  EXPECT_EQ(search(t).result.moves, 0);
+}
+
+TEST(AngleSearch, AScaleOfTwoAndThreadsChangeNothing) {
+  test::Triangles t = irregular(2);
+  const Mat3X once = search(t).points;
+  {
+    const ThreadLimit one(1);
+    EXPECT_EQ(search(t).points, once);
+  }
+  t.points *= 2;
+  EXPECT_EQ(search(t).points, 2 * once);
+}
+
+}  // namespace
+}  // namespace hooke
