@@ -101,11 +101,7 @@ class Retraction {
   Surface surface_;
   const Constraints& constraints_;
   RetractionOptions options_;
-  struct Uncounted {  // of one vertex, so that threads do not share a counter
-    std::array<int, 5> by_status{};
-    int evaluations = 0;
-  };
-  std::vector<Uncounted> uncounted_;
+  std::vector<long long> uncounted_;  // tallies of groups of vertices, one after the other
   ProjectionCounts counts_;
 };
 
