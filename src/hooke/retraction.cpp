@@ -13,6 +13,8 @@ namespace {
 
 constexpr size_t block = 256;
 
+constexpr double short_way = .1;  // in mean target lengths: whatever the curvature
+
 /// The sides of vertices that stand still are not written by a step.
 void copy_sides(const Placement& from, Placement& to) {
   to.other_side = from.other_side;
@@ -135,7 +137,8 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
 /// A tangent plane is half the curvature times the square of the way off the surface.
 bool Retraction::may_drift(const VertexPlace& place) const {
   return place.drift < options_.lazy &&
-         .5 * surface_.curvature(place.anchor) * place.drift * place.drift < options_.lazy_error;
+         (place.drift < short_way ||
+          .5 * surface_.curvature(place.anchor) * place.drift * place.drift < options_.lazy_error);
 }
 
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
