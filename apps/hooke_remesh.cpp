@@ -179,8 +179,10 @@ int run(Settings s) {
   if (!s.fix.empty())
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
         read_id_list(s.fix, connectivity.vertex_count);
-  const MeasuredSurface original =
-      timed(&stopwatch, "tree", [&] { return MeasuredSurface(positions(mesh), connectivity); });
+  const Mat3X original = positions(mesh);
+  const auto surface_of = [&](const Mat3X& points, const Connectivity& c) {
+    return timed(&stopwatch, "tree", [&] { return MeasuredSurface(points, c); });
+  };
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
@@ -190,7 +192,10 @@ int run(Settings s) {
   record.warnings = loaded.warnings;
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh);
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, connectivity, record); });
-  record.before = timed(&stopwatch, "before", [&] { return measure(original, mesh, stopwatch); });
+  {  // memory for the work: the surface is made again when it is needed again
+    const MeasuredSurface surface = surface_of(original, connectivity);
+    record.before = timed(&stopwatch, "before", [&] { return measure(surface, mesh, stopwatch); });
+  }
 
   if (!s.check) {
     record.result = timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, stopwatch); });
@@ -203,13 +208,13 @@ int run(Settings s) {
         faces_kept ? Connectivity{}
                    : make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
     const Connectivity& after = faces_kept ? connectivity : changed;
-    const MeasuredSurface result =
-        timed(&stopwatch, "tree", [&] { return MeasuredSurface(positions(mesh), after); });
+    const MeasuredSurface result = surface_of(positions(mesh), after);
     record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, stopwatch); });
     if (!record.result->holds.empty())
       for (WorstFace& face : record.after->worst_faces) face.reasons = hindrances(face, record.result->holds);
+    const MeasuredSurface reference = surface_of(original, connectivity);
     record.deviation =
-        timed(&stopwatch, "deviation", [&] { return measure_deviation(original, result, &stopwatch); });
+        timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
     if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
     const WrittenFile written = timed(&stopwatch, "write", [&] {
       return write_mesh(s.output, mesh, s.format, loaded.encoding, &stopwatch);

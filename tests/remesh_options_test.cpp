@@ -76,6 +76,19 @@ TEST(RemeshToSizing, OneThreadAndTwoFollowThemWithTheSameBits) {
   }
 }
 
+TEST(RemeshRefit, WhereNothingHindersOneFieldAndOneIterationDo) {
+  const test::Triangles t = test::sphere(3, .25, 4);
+  RemeshOptions once, stubborn;
+  once.refit = Refit::once;
+  stubborn.hindered = -1;  // whatever is held back is too much
+  const Outcome o = remeshed(t), same = remeshed(t, once), more = remeshed(t, stubborn);
+  EXPECT_EQ(o.points, same.points);
+  EXPECT_EQ(o.result.reason, StopReason::stalled);
+  ASSERT_EQ(o.result.iterations.size(), 2);  // relaxed, polished
+  ASSERT_GT(more.result.iterations.size(), 2);
+  EXPECT_LT(o.result.iterations[0].energy, 1.001 * more.result.iterations[1].energy);
+}
+
 TEST(RemeshEffort, StandardEffortIsTheDefault) {
   for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
     RemeshOptions plain;

@@ -53,14 +53,15 @@ TEST(Workspace, IsCentredAndHasAMeanTargetLengthOfOne) {
 TEST(Workspace, TheMeshIsTheInputInAnotherOrder) {
   const test::Triangles t = test::moved(wavy());
   const Workspace w = on(with_natural_length(t));
-  for (size_t f = 0; f < w.order.faces.size(); ++f)
+  for (size_t f = 0; f < w.connectivity->faces.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
-      const int fresh = w.order.faces[f][k], old = t.faces[static_cast<size_t>(w.order.old_face[f])][k];
+      const int fresh = w.connectivity->faces[f][k],
+                old = t.faces[static_cast<size_t>(w.order.old_face[f])][k];
       EXPECT_EQ(w.order.old_vertex[static_cast<size_t>(fresh)], old);
       const Vec3 x = w.normalisation.centre + w.normalisation.unit * w.start.col(fresh);
       EXPECT_LT((x - t.points.col(old)).norm(), 1e-14);
     }
-  EXPECT_EQ(triangles_of(w.mesh), w.order.faces);
+  EXPECT_EQ(triangles_of(w.mesh), w.connectivity->faces);
 }
 
 TEST(Workspace, APowerOfTwoChangesNoBit) {

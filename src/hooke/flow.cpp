@@ -26,7 +26,7 @@ FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOpti
                 const GuardOptions& guards, const Observer& observer) {
   FlowResult result;
   const auto connect = [&m] {
-    Connectivity c = make_connectivity(static_cast<int>(m.placement.points.cols()), m.triangulation.faces());
+    Connectivity c = connectivity_of(m.triangulation, static_cast<int>(m.placement.points.cols()));
     part_at_creases(c, m.constraints.creases);
     return c;
   };

@@ -25,31 +25,47 @@ double density(double length) {
   return 1 / (length * length * length * length);
 }
 
-/// Angle at corner k of the face, radians.
-double corner_angle(const Mat3X& points, const Triangle& t, size_t k) {
-  const Vec3 p = points.col(t[k]);
-  const Vec3 u = points.col(t[(k + 1) % 3]) - p, v = points.col(t[(k + 2) % 3]) - p;
-  return std::atan2(u.cross(v).norm(), u.dot(v));
+/// An angle by its sine and cosine, both times the same length.
+struct CornerAngle {
+  double sine = 0, cosine = 1;
+
+  double radians() const { return std::atan2(sine, cosine); }
+  double length() const { return sine + std::abs(cosine); }  // about
+};
+
+/// The angle across edge k of the face.
+CornerAngle angle_across(const Mat3X& points, const Triangle& t, size_t k) {
+  const Vec3 p = points.col(t[(k + 2) % 3]);
+  const Vec3 u = points.col(t[k]) - p, v = points.col(t[(k + 1) % 3]) - p;
+  return {u.cross(v).norm(), u.dot(v)};
+}
+
+/// Is the sum of two angles less than pi beyond doubt? Its sine tells without an arctangent.
+bool clearly_less_than_pi(const CornerAngle& a, const CornerAngle& b) {
+  return a.sine * b.cosine + a.cosine * b.sine > 1e-9 * a.length() * b.length();
 }
 
 /// Edges across which Voronoi cells are not made of kites. A crease bounds the cells on either side.
 std::vector<char> crooked_edges(const Mat3X& points, const Connectivity& c) {
   constexpr double limit = std::numbers::pi + 1e-9;
+  constexpr CornerAngle right_angle{1, 0};
   std::vector<char> crooked(c.edges.size());
   parallel_for(c.edges.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
-      double sum = 0, widest = 0;
-      for (int f : c.edge_faces[e]) {
-        if (f < 0) continue;
-        const auto face = static_cast<size_t>(f);
-        for (size_t k = 0; k < 3; ++k)
-          if (c.face_edges[face][k] == static_cast<int>(e)) {
-            const double angle = corner_angle(points, c.faces[face], (k + 2) % 3);
-            sum += angle;
-            widest = std::max(widest, angle);
-          }
+      std::array<CornerAngle, 2> angles;
+      for (size_t side = 0; side < 2; ++side) {
+        if (c.edge_faces[e][side] < 0) continue;
+        const auto face = static_cast<size_t>(c.edge_faces[e][side]);
+        const Triangle& edges = c.face_edges[face];
+        const size_t k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
+        angles[side] = angle_across(points, c.faces[face], k);
       }
-      crooked[e] = (c.is_border(static_cast<int>(e)) ? widest + std::numbers::pi / 2 : sum) > limit;
+      const auto is_crooked = [&](const CornerAngle& a, const CornerAngle& b) {
+        return !clearly_less_than_pi(a, b) && a.radians() + b.radians() > limit;
+      };
+      crooked[e] = c.is_border(static_cast<int>(e))
+                       ? is_crooked(angles[0], right_angle) || is_crooked(angles[1], right_angle)
+                       : is_crooked(angles[0], angles[1]);
     }
   });
   return crooked;

@@ -1,5 +1,6 @@
 #include "hooke/multigrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the last
 constexpr int most_levels = 24;
+constexpr size_t most_parts = 8, least_part = 4096;  // of the vertices, summed on their own
 
 using Cell = std::array<int, 3>;
 
@@ -78,7 +80,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
         weight *= high ? t[d] : 1 - t[d];
       }
       finest_[static_cast<size_t>(v)].node[k] = nodes[corner];
-      finest_[static_cast<size_t>(v)].weight[k] = weight;
+      finest_[static_cast<size_t>(v)].weight[k] = static_cast<float>(weight);
     }
   }
   for (;;) {
@@ -102,7 +104,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
           weight *= odd ? .5 : (high ? 0 : 1);
         }
         row.node[k] = coarser[corner];
-        row.weight[k] = weight;
+        row.weight[k] = static_cast<float>(weight);
       }
       level.to_coarser.push_back(row);
     }
@@ -111,13 +113,29 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
   }
 }
 
+/// P^T residual on the finest grid. Parts of the vertices are summed on their own, then added in order.
+Mat3X GridHierarchy::collect(const Mat3X& residual) const {
+  const size_t count = std::clamp<size_t>(finest_.size() / least_part, 1, most_parts);
+  std::vector<Mat3X> parts(count);
+  parallel_for(count, 1, [&](size_t begin, size_t end) {
+    for (size_t part = begin; part < end; ++part) {
+      parts[part] = Mat3X::Zero(3, levels_[0].nodes);
+      for (size_t v = part * finest_.size() / count; v < (part + 1) * finest_.size() / count; ++v)
+        for (size_t k = 0; k < 8; ++k)
+          parts[part].col(finest_[v].node[k]) +=
+              finest_[v].weight[k] * residual.col(static_cast<Eigen::Index>(v));
+    }
+  });
+  Mat3X sum = std::move(parts[0]);
+  for (size_t part = 1; part < count; ++part) sum += parts[part];
+  return sum;
+}
+
 void GridHierarchy::add(const Mat3X& residual, double weight, Mat3X& vectors) const {
   if (levels_.empty()) return;
   std::vector<Mat3X> values;
   for (const Level& level : levels_) values.push_back(Mat3X::Zero(3, level.nodes));
-  for (size_t v = 0; v < finest_.size(); ++v)
-    for (size_t k = 0; k < 8; ++k)
-      values[0].col(finest_[v].node[k]) += finest_[v].weight[k] * residual.col(static_cast<Eigen::Index>(v));
+  values[0] = collect(residual);
   for (size_t l = 0; l + 1 < levels_.size(); ++l)
     for (size_t i = 0; i < levels_[l].to_coarser.size(); ++i)
       for (size_t k = 0; k < 8; ++k)

@@ -21,9 +21,11 @@ class GridHierarchy {
   int level_count() const { return static_cast<int>(levels_.size()); }
 
  private:
+  Mat3X collect(const Mat3X& residual) const;
+
   struct Weighted {
     std::array<int, 8> node;
-    std::array<double, 8> weight;
+    std::array<float, 8> weight;
   };
   struct Level {
     int nodes = 0;

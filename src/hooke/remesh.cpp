@@ -82,9 +82,11 @@ class Remeshing {
   }
 
   /// Came to rest where the guards had next to nothing to hold back: there the surface is smooth under the
-  /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same.
+  /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same, unless the
+  /// vertices have come to places with other target lengths.
   bool is_unhindered(const IntegrationResult& relaxed) const {
-    return options_.integrator == IntegratorKind::lbfgs && relaxed.reason == StopReason::stalled &&
+    return options_.integrator == IntegratorKind::lbfgs && !work_.graded() &&
+           relaxed.reason == StopReason::stalled &&
            static_cast<double>(relaxed.held_back) <= options_.hindered * work_.connectivity->vertex_count;
   }
 

@@ -1,7 +1,8 @@
 #include "hooke/retraction.h"
 
 #include <algorithm>
-#include <numeric>
+#include <atomic>
+#include <tuple>
 #include <utility>
 
 #include "hooke/creases.h"
@@ -11,6 +12,8 @@ namespace hooke {
 namespace {
 
 constexpr size_t block = 256;
+
+constexpr double short_way = .1;  // in mean target lengths: whatever the curvature
 
 /// The sides of vertices that stand still are not written by a step.
 void copy_sides(const Placement& from, Placement& to) {
@@ -23,12 +26,17 @@ void copy_sides(const Placement& from, Placement& to) {
   }
 }
 
-/// Adds the calls of one vertex.
-template <class Uncounted>
-void add(const Uncounted& vertex, ProjectionCounts& counts) {
-  counts.calls += std::reduce(vertex.by_status.begin(), vertex.by_status.end());
-  counts.evaluations += vertex.evaluations;
-  for (size_t s = 0; s < counts.by_status.size(); ++s) counts.by_status[s] += vertex.by_status[s];
+/// Few vertices share a tally, so that threads seldom meet there.
+constexpr size_t vertices_of_tally = 64;
+constexpr size_t statuses = std::tuple_size_v<decltype(ProjectionCounts::by_status)>;
+constexpr size_t tally_size = statuses + 1;  // the last is of evaluations
+
+size_t tallies_for(size_t vertices) {
+  return (vertices / vertices_of_tally + 1) * tally_size;
+}
+
+void add(int count, long long& tally) {
+  std::atomic_ref(tally).fetch_add(count, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -44,7 +52,7 @@ Retraction::Retraction(Surface surface, const Constraints& constraints, const Re
     : surface_(std::move(surface)),
       constraints_(constraints),
       options_(options),
-      uncounted_(constraints.freedom.size()) {}
+      uncounted_(tallies_for(constraints.freedom.size()), 0) {}
 
 VertexPlace::VertexPlace(const Placement& p, int vertex)
     : point(p.points.col(vertex)),
@@ -89,10 +97,10 @@ VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
 }
 
 Foot Retraction::foot(const Vec3& point, int anchor, int vertex) {
-  Uncounted& uncounted = uncounted_[static_cast<size_t>(vertex)];
   const Foot foot = surface_(point, anchor, options_.tolerance);
-  ++uncounted.by_status[static_cast<size_t>(foot.status)];
-  uncounted.evaluations += foot.evaluations;
+  long long* const tally = &uncounted_[static_cast<size_t>(vertex) / vertices_of_tally * tally_size];
+  add(1, tally[static_cast<size_t>(foot.status)]);
+  add(foot.evaluations, tally[statuses]);
   return foot;
 }
 
@@ -129,7 +137,8 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
 /// A tangent plane is half the curvature times the square of the way off the surface.
 bool Retraction::may_drift(const VertexPlace& place) const {
   return place.drift < options_.lazy &&
-         .5 * surface_.curvature(place.anchor) * place.drift * place.drift < options_.lazy_error;
+         (place.drift < short_way ||
+          .5 * surface_.curvature(place.anchor) * place.drift * place.drift < options_.lazy_error);
 }
 
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
@@ -218,19 +227,20 @@ void Retraction::constrain(const Placement& at, Mat3X& vectors) const {
 
 void Retraction::resize(size_t vertices) {
   count();
-  uncounted_.resize(vertices);
+  uncounted_.resize(tallies_for(vertices), 0);
 }
 
 void Retraction::count() {
-  constexpr size_t vertices_per_task = 8192;
-  std::vector<ProjectionCounts> parts((uncounted_.size() + vertices_per_task - 1) / vertices_per_task);
-  parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t part = begin; part < end; ++part)
-      for (size_t v = part * vertices_per_task;
-           v < std::min(uncounted_.size(), (part + 1) * vertices_per_task); ++v)
-        add(std::exchange(uncounted_[v], {}), parts[part]);
-  });
-  for (const ProjectionCounts& part : parts) counts_ += part;
+  for (size_t i = 0; i < uncounted_.size(); ++i) {
+    const long long n = std::exchange(uncounted_[i], 0);
+    const size_t counter = i % tally_size;
+    if (counter == statuses) {
+      counts_.evaluations += n;
+    } else {
+      counts_.by_status[counter] += n;
+      counts_.calls += n;
+    }
+  }
 }
 
 }  // namespace hooke

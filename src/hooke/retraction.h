@@ -53,7 +53,7 @@ struct ProjectionCounts {
 struct RetractionOptions {
   double tolerance = 1e-6;  // of a projection, in mean target lengths
   double lazy = 0;  // a vertex that moved less than this since its last projection stays in its tangent plane
-  double lazy_error = 1e-3;  // ... where the curvature takes it no farther than this from the surface
+  double lazy_error = 1e-3;  // ... and after .1 the curvature takes it no farther than this off the surface
 };
 
 /// Keeps references to the surface and the constraints: they must outlive it.
@@ -101,11 +101,7 @@ class Retraction {
   Surface surface_;
   const Constraints& constraints_;
   RetractionOptions options_;
-  struct Uncounted {  // of one vertex, so that threads do not share a counter
-    std::array<int, 5> by_status{};
-    int evaluations = 0;
-  };
-  std::vector<Uncounted> uncounted_;
+  std::vector<long long> uncounted_;  // tallies of groups of vertices, one after the other
   ProjectionCounts counts_;
 };
 

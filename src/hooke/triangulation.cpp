@@ -256,4 +256,11 @@ void Triangulation::set_sides(const Connectivity& c) {
   on_boundary_.resize(valences_.size(), 0);
 }
 
+Connectivity connectivity_of(const Triangulation& t, int vertex_count) {
+  const std::vector<Triangle>& faces = t.faces();
+  return make_connectivity(faces, {.faces = invert(vertex_count, faces),
+                                   .kinds = std::vector<Fan>(static_cast<size_t>(vertex_count), Fan::whole),
+                                   .twins = t.twins()});
+}
+
 }  // namespace hooke

@@ -52,7 +52,7 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   Connectivity smooth = timed(stopwatch, "order", [&] {
     const Connectivity given = make_connectivity(n, triangles_of(source));
     order = reorder(given, locality_order(given));
-    return make_connectivity(n, order.faces);
+    return make_connectivity(n, std::move(order.faces));
   });
 
   start.resize(3, n);
@@ -197,7 +197,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
       from[v] = origins[static_cast<size_t>(old)];
   origins = std::move(from);
 
-  connect(make_connectivity(static_cast<int>(n), order.faces), constraints.creases);
+  connect(make_connectivity(static_cast<int>(n), std::move(order.faces)), constraints.creases);
   if (!constraints.creases.empty()) {
     std::vector<Triangle> moved;
     for (int f : order.old_face) moved.push_back(sides[static_cast<size_t>(f)]);

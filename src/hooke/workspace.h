@@ -78,7 +78,7 @@ struct Workspace {
   Stopwatch* stopwatch;
   GuardOptions guards;  // of all steps; landings have looser ones
   Normalisation normalisation;
-  Reordered order;  // the ids in the result, which are those of the input while its vertices stay
+  Reordered order;  // ids in the result, those of the input while its vertices stay; without its faces
   std::shared_ptr<const Connectivity> connectivity;  // with its creases
   SweepPlan sweeps;
   std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
