@@ -61,9 +61,9 @@ TEST(VertexData, BrokenNumbersOfVerticesAreErrors) {
            value + "\n0 1 0 1\n3 0 1 2\n";
   };
   EXPECT_NO_THROW(read_ply(ply("float", "-inf"), "m.ply"));
-  EXPECT_ERROR(InputError, "m.ply:11: q is 'red'", read_ply(ply("float", "red"), "m.ply"));
-  EXPECT_ERROR(InputError, "m.ply:11: q is 'nan'", read_ply(ply("uchar", "nan"), "m.ply"));
-  EXPECT_ERROR(InputError, "m.ply:11: a value is missing", read_ply(ply("float", ""), "m.ply"));
+  EXPECT_ERROR(InputError, "m.ply:12: q is 'red'", read_ply(ply("float", "red"), "m.ply"));
+  EXPECT_ERROR(InputError, "m.ply:12: q is 'nan'", read_ply(ply("uchar", "nan"), "m.ply"));
+  EXPECT_ERROR(InputError, "m.ply:12: a value is missing", read_ply(ply("float", ""), "m.ply"));
 }
 
 TEST(VertexData, IsLinearInTheFaces) {
