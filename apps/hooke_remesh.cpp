@@ -1,6 +1,7 @@
 // hooke-remesh: reads a mesh, optimizes it, writes it, and says what was reached.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,11 +13,13 @@
 #include "exit_codes.h"
 #include "hooke/error.h"
 #include "hooke/io/atomic_write.h"
+#include "hooke/io/format_data.h"
 #include "hooke/io/id_list.h"
 #include "hooke/io/map_text.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"
+#include "hooke/normals.h"
 #include "hooke/parallel.h"
 #include "hooke/quality_table.h"
 #include "hooke/report.h"
@@ -125,6 +128,23 @@ void warn_of_length(const Settings& s, double length, double natural, RunRecord&
            printable(s.input.string()), length, ratio, natural)});
 }
 
+/// What the input told of its vertices, for those of the result: the same while vertices stay what they were,
+/// else the values at their places. Normals are always those of the result.
+VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const MeasuredSurface& result,
+                          RunRecord& run) {
+  const bool same_places = s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
+  FormatData carried = data_for_format(
+      same_places ? loaded.vertex_data
+                  : carry_over(loaded.vertex_data, run.result->map, loaded.connectivity.faces),
+      loaded.format, s.format);
+  set_normals(carried.data, vertex_normals(result.points, result.connectivity));
+  if (!carried.left_out.empty())
+    run.warnings.push_back({"attributes_not_kept",
+                            fmt::format("{}: {} files cannot hold {}; use PLY", printable(s.output.string()),
+                                        s.format, fmt::join(carried.left_out, ", "))});
+  return std::move(carried.data);
+}
+
 /// Against the target lengths that the vertices have now.
 Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, Stopwatch& stopwatch) {
   const std::vector<double> lengths = vertex_values(mesh, target_length_property);
@@ -190,6 +210,7 @@ int run(Settings s) {
   record.input = {printable(s.input.string()), loaded.sha256, loaded.format,
                   timed(&stopwatch, "sha256", [&] { return connectivity_sha256(connectivity.faces); })};
   record.warnings = loaded.warnings;
+  s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh);
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, connectivity, record); });
   {  // memory for the work: the surface is made again when it is needed again
@@ -216,8 +237,9 @@ int run(Settings s) {
     record.deviation =
         timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
     if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
+    const VertexData data = data_of_result(s, loaded, result, record);
     const WrittenFile written = timed(&stopwatch, "write", [&] {
-      return write_mesh(s.output, mesh, s.format, loaded.encoding, &stopwatch);
+      return write_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
     });
     record.output = {printable(s.output.string()), written.sha256, s.format,
                      faces_kept ? record.input.connectivity_sha256 : connectivity_sha256(after.faces)};

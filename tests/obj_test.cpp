@@ -58,9 +58,18 @@ TEST(Obj, SaysWhatIsNotKept) {
       not_kept(three + "vt 0 0\nvn 0 0 1\ng a\no b\ns 1\nusemtl x\nmtllib y\nl 1 2\np 1\nfrob 1\nf 1 2 3"),
       "m.obj: not kept in the output: texture coordinates, normals, groups, objects, smoothing groups, "
       "materials, lines, points, 'frob' statements (line 13)");
-  EXPECT_EQ(not_kept("v 0 0 0 1 .5 0\nv 1 0 0 1 .5 0\nv 0 1 0 1 .5 0\nf 1 2 3"),
+  EXPECT_EQ(not_kept("v 0 0 0 1 .5 0\nv 1 0 0\nv 0 1 0 1 .5 0\nf 1 2 3"),
             "m.obj: not kept in the output: vertex colours");
   EXPECT_EQ(not_kept(three + "s off\nf 1 2 3"), "");
+}
+
+TEST(Obj, KeepsTheColoursOfVertices) {
+  const std::string text = "v 0 0 0 1 0.5 0\nv 1 0 0 0.25 0.5 0\nv 0 1 0 0 0.5 1\nf 1 2 3\n";
+  const MeshFile file = read(text);
+  EXPECT_TRUE(file.warnings.empty());
+  ASSERT_EQ(file.vertex_data.size(), 3u);
+  EXPECT_EQ(file.vertex_data[0].values, (std::vector<double>{1, .25, 0}));
+  EXPECT_EQ(write_obj(file.points, {{0, 1, 2}}, file.vertex_data), text);
 }
 
 TEST(Obj, ErrorsNameTheLine) {

@@ -106,9 +106,12 @@ TEST(Ply, OtherPropertiesAndElementsArePassedOverAndNamed) {
   expect_the_triangle(mesh);
   ASSERT_EQ(mesh.warnings.size(), 1u);
   EXPECT_EQ(mesh.warnings[0].message,
-            "m.ply: not kept in the output: element 'camera', normals, vertex property 'w', face colours, "
+            "m.ply: not kept in the output: element 'camera', vertex property 'w', face colours, "
             "face property 'quality'");
   EXPECT_EQ(mesh.warnings[0].code, "attributes_not_kept");
+  ASSERT_EQ(mesh.vertex_data.size(), 1u);
+  EXPECT_EQ(mesh.vertex_data[0].name, "nx");
+  EXPECT_EQ(mesh.vertex_data[0].values, (std::vector<double>{9, 9, 9}));
 }
 
 TEST(Ply, BodyBeginsRightAfterTheHeadersOwnLineEnd) {

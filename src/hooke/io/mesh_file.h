@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "hooke/connectivity.h"
-#include "hooke/types.h"
+#include "hooke/vertex_data.h"
 
 namespace hooke {
 
@@ -21,6 +20,7 @@ struct MeshFile {
   Mat3X points;                                              // in file order
   IntLists polygons{{0}, {}};  // corner ids (0-based) of each face, in file order
   std::vector<int> lines;      // line of each polygon in the file; empty for binary files
+  VertexData vertex_data;      // what the format tells of vertices besides, in file order
   Warnings warnings;
 };
 

@@ -37,6 +37,7 @@ struct ObjReader {
   MeshFile part{};
   Referred vertices{"vertex"}, texture{"texture coordinate"}, normals{"normal"};
   std::vector<NotKept> not_kept{};
+  std::vector<Vec3> colours{};  // of the vertices that have one
 };
 
 void note(std::vector<NotKept>& noted, NotKept content) {
@@ -61,15 +62,16 @@ void read_vertex(ObjReader& obj) {
   double* coordinate = obj.points.col(obj.vertices.count - 1).data();
   for (const char* what : {"x", "y", "z"}) *coordinate++ = in.number(what);
   int extra = 0;
-  double fourth = 1;
+  Vec3 more = Vec3::Ones();
   for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra) {
     const double value = in.number(token, "vertex value");
-    if (extra == 0) fourth = value;
+    if (extra < 3) more[extra] = value;
   }
-  if (extra == 1 && fourth != 1)
-    in.fail(fmt::format("vertex weight w is {}; expected 1; rational vertices cannot be read", fourth));
+  if (extra == 1 && more[0] != 1)
+    in.fail(fmt::format("vertex weight w is {}; expected 1; rational vertices cannot be read", more[0]));
   if (extra == 2) in.fail("vertex with 5 numbers; expected x y z, x y z w or x y z r g b; correct it");
-  if (extra > 2) note(obj, "vertex colours");
+  if (extra == 3) obj.colours.push_back(more);
+  if (extra > 3) note(obj, "vertex colours");
 }
 
 // 0-based id of `text`, the index of one of `elements` in the face corner `corner`.
@@ -207,6 +209,23 @@ void check_greatest(const std::vector<ObjReader>& readers, const Referred ObjRea
                     elements.kind, elements.greatest + 1LL, count));
 }
 
+// The colours as channels where every vertex has one.
+VertexData collect_colours(std::vector<ObjReader>& readers, size_t vertices) {
+  size_t coloured = 0;
+  for (const ObjReader& reader : readers) coloured += reader.colours.size();
+  if (coloured == 0) return {};
+  if (coloured < vertices) {
+    note(readers.front(), "vertex colours");
+    return {};
+  }
+  VertexData data = {{.name = "red"}, {.name = "green"}, {.name = "blue"}};
+  for (size_t k = 0; k < 3; ++k)
+    for (const ObjReader& reader : readers)
+      for (const Vec3& colour : reader.colours)
+        data[k].values.push_back(colour[static_cast<Eigen::Index>(k)]);
+  return data;
+}
+
 std::vector<std::string> kinds_not_kept(const std::vector<ObjReader>& readers) {
   std::vector<NotKept> noted;
   for (const ObjReader& reader : readers)
@@ -234,6 +253,7 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
       check_greatest(readers, kind);
   if (file.points.cols() == 0)
     throw InputError(name + ": no vertices; expected v lines; is this an OBJ file?");
+  file.vertex_data = collect_colours(readers, static_cast<size_t>(file.points.cols()));
   std::vector<MeshFile> parts;
   for (ObjReader& reader : readers) parts.push_back(std::move(reader.part));
   append_faces(file, parts);
@@ -241,9 +261,10 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   return file;
 }
 
-std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles) {
+std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      const VertexData& data) {
   std::string text;
-  append_vertex_rows(text, points, "v ");
+  append_vertex_rows(text, points, "v ", data);
   append_face_rows(text, triangles, "f ", 1);
   return text;
 }

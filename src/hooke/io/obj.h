@@ -9,13 +9,14 @@
 
 namespace hooke {
 
-/// Reads `v` (3 numbers; a fourth must be 1; from six on colours) and `f` (v, v/vt, v//vn, v/vt/vn; negative
-/// indices count back from the last element so far; positive ones may point forward). Texture and normal
-/// indices are checked too. Texture coordinates, normals, colours, groups, materials, lines and unknown
-/// statements are not kept: one warning says which. Throws InputError "NAME:LINE: ...".
+/// Reads `v` (3 numbers; a fourth must be 1; six: with a colour, kept when all vertices have one) and `f` (v,
+/// v/vt, v//vn, v/vt/vn; negative indices count back from the last element so far; positive ones may point
+/// forward). Texture and normal indices are checked too. Texture coordinates, normals, groups, materials,
+/// lines and unknown statements are not kept: one warning says which. Throws InputError "NAME:LINE: ...".
 MeshFile read_obj(std::string_view text, const std::string& name);
 
-/// `v` and `f` lines whose numbers read back as exactly the same.
-std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles);
+/// `v` and `f` lines whose numbers read back as exactly the same. `data`: none, or red, green and blue.
+std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      const VertexData& data = {});
 
 }  // namespace hooke

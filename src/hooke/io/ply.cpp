@@ -47,17 +47,29 @@ void check_face_element(const PlyElement& face, const std::string& name) {
         "{}: faces without one integer list 'vertex_indices'; expected it once; correct the header", name));
 }
 
+// Makes room for the vertices and what is told of them.
+void allocate_vertices(const PlyElement& vertex, MeshFile& file) {
+  file.points.resize(3, vertex.count);
+  for (const PlyProperty& property : vertex.properties)
+    if (coordinate_of(property) < 0 && !property.count_type)
+      file.vertex_data.push_back(
+          {property.name, property.type, std::vector<double>(static_cast<size_t>(vertex.count))});
+}
+
 template <typename Body>
-void read_vertices(Body& body, const PlyElement& vertex, const PlyRows& rows, Mat3X& points) {
+void read_vertices(Body& body, const PlyElement& vertex, const PlyRows& rows, MeshFile& file) {
   static constexpr const char* names[] = {"x", "y", "z"};
   for (long long row = rows.begin; row < rows.end; ++row) {
     body.begin_row(vertex, row);
+    auto channel = file.vertex_data.begin();
     for (const PlyProperty& property : vertex.properties) {
       const int k = coordinate_of(property);
       if (k >= 0)
-        points(k, row) = body.number(property.type, names[k]);
-      else
+        file.points(k, row) = body.number(property.type, names[k]);
+      else if (property.count_type)
         skip_property(body, property);
+      else
+        (channel++)->values[static_cast<size_t>(row)] = body.any_number(property.type, property.name);
     }
     body.end_row();
   }
@@ -100,12 +112,12 @@ struct Elements {
   const PlyElement& face;
 };
 
-// Points go to their columns, faces to the end of `part`.
+// Vertices go to their places in `file`, faces to the end of `part`.
 template <typename Body>
 void read_rows(Body& body, const Elements& elements, const PlyElement& element, const PlyRows& rows,
-               Mat3X& points, MeshFile& part) {
+               MeshFile& file, MeshFile& part) {
   if (&element == &elements.vertex)
-    read_vertices(body, element, rows, points);
+    read_vertices(body, element, rows, file);
   else if (&element == &elements.face)
     read_faces(body, element, rows, elements.vertex.count, part);
   else
@@ -121,15 +133,15 @@ template <typename Body>
 void read_body(Body body, const Elements& elements, MeshFile& file) {
   for (const PlyElement& element : elements.header.elements) {
     body.begin_element(element);
-    if (&element == &elements.vertex) file.points.resize(3, element.count);
-    read_rows(body, elements, element, {0, row_count(element)}, file.points, file);
+    if (&element == &elements.vertex) allocate_vertices(element, file);
+    read_rows(body, elements, element, {0, row_count(element)}, file, file);
   }
   body.finish();
 }
 
 // A body with just as many lines as the header tells, in pieces.
 void read_pieces_of_body(const std::vector<TextPiece>& pieces, const Elements& elements, MeshFile& file) {
-  file.points.resize(3, elements.vertex.count);
+  allocate_vertices(elements.vertex, file);
   std::vector<MeshFile> parts(pieces.size());
   read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
     AsciiPlyBody body(piece.scanner);
@@ -140,7 +152,7 @@ void read_pieces_of_body(const std::vector<TextPiece>& pieces, const Elements& e
         return std::clamp(of_body - before, 0LL, row_count(element));
       };
       const PlyRows rows = {row(piece.first_row), row(piece.first_row + piece.rows)};
-      read_rows(body, elements, element, rows, file.points, parts[p]);
+      read_rows(body, elements, element, rows, file, parts[p]);
       before += row_count(element);
     }
   });
@@ -186,7 +198,7 @@ std::vector<std::string> kinds_not_kept(const PlyHeader& header, const PlyElemen
       continue;
     }
     for (const PlyProperty& property : element.properties) {
-      const bool kept = &element == &vertex ? coordinate_of(property) >= 0 : is_index_list(property);
+      const bool kept = &element == &vertex ? !property.count_type : is_index_list(property);
       if (!kept) note(kind_of(element, property));
     }
   }

@@ -9,14 +9,16 @@
 
 namespace hooke {
 
-/// Reads x, y, z of the element `vertex` and the list vertex_indices (or vertex_index) of the element `face`,
-/// of any types, in any order. Other properties and elements are not kept: one warning says which. Throws
-/// InputError "NAME:LINE: ...", for a binary body "NAME: ELEMENT ROW, byte OFFSET: ...", also for bytes after
-/// the last element.
+/// Reads x, y, z and all other scalar properties of the element `vertex` and the list vertex_indices (or
+/// vertex_index) of the element `face`, of any types, in any order; NaN and infinities only in the other
+/// properties. Lists of vertices, more of faces and other elements are not kept: one warning says which.
+/// Throws InputError "NAME:LINE: ...", for a binary body "NAME: ELEMENT ROW, byte OFFSET: ...", also for
+/// bytes after the last element.
 MeshFile read_ply(std::string_view bytes, const std::string& name);
 
-/// Coordinates as double, corners as int; numbers read back as exactly the same in every encoding.
+/// Coordinates as double, corners as int, and the channels of the data as what they are; numbers read back as
+/// exactly the same in every encoding.
 std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                      PlyEncoding encoding = PlyEncoding::binary_little_endian);
+                      PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
 
 }  // namespace hooke

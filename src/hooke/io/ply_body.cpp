@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "hooke/error.h"
 #include "hooke/io/printable.h"
@@ -61,6 +62,19 @@ void AsciiPlyBody::end_row() {
 
 void AsciiPlyBody::skip(PlyType) {
   if (in_.token().empty()) fail("a value is missing; the line ends too early; complete it");
+}
+
+double AsciiPlyBody::any_number(PlyType type, const std::string& what) {
+  const std::string_view token = in_.token();
+  const bool negative = token.starts_with('-');
+  const std::string_view word = token.substr(negative || token.starts_with('+') ? 1 : 0);
+  if (!is_integer(type)) {
+    if (equal_ignoring_case(word, "nan")) return std::numeric_limits<double>::quiet_NaN();
+    if (equal_ignoring_case(word, "inf") || equal_ignoring_case(word, "infinity"))
+      return (negative ? -1 : 1) * std::numeric_limits<double>::infinity();
+  }
+  if (token.empty()) fail("a value is missing; the line ends too early; complete it");
+  return in_.number(token, what);
 }
 
 void AsciiPlyBody::finish() {
@@ -120,6 +134,11 @@ double BinaryPlyBody::number(PlyType type, const char* what) {
   const double x = type == PlyType::float32 ? value<float>() : value<double>();
   if (!std::isfinite(x)) fail(fmt::format("{} is {}; expected a finite number; correct it", what, x));
   return x;
+}
+
+double BinaryPlyBody::any_number(PlyType type, const std::string& what) {
+  if (is_integer(type)) return static_cast<double>(integer(type, what.c_str()));
+  return type == PlyType::float32 ? value<float>() : value<double>();
 }
 
 long long BinaryPlyBody::integer(PlyType type, const char* what) {

@@ -31,6 +31,8 @@ class AsciiPlyBody {
   void finish();
 
   double number(PlyType, const char* what) { return in_.number(what); }
+  /// A number that need not be finite.
+  double any_number(PlyType type, const std::string& what);
   long long integer(PlyType, const char* what) { return in_.integer(what); }
   int line() const { return in_.line(); }
   [[noreturn]] void fail(std::string_view message) const { in_.fail(message); }
@@ -53,6 +55,7 @@ class BinaryPlyBody {
   void finish() const;
 
   double number(PlyType type, const char* what);
+  double any_number(PlyType type, const std::string& what);
   long long integer(PlyType type, const char* what);
   int line() const { return 0; }
   [[noreturn]] void fail(std::string_view message) const;

@@ -11,14 +11,10 @@
 
 namespace hooke {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using PlyType = NumberType;  // PLY has just these
 
 /// Bytes of a value in a binary file.
 size_t size_of(PlyType type);
-
-inline bool is_integer(PlyType type) {
-  return type < PlyType::float32;
-}
 
 struct PlyProperty {
   std::string name;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 
 #include "hooke/io/ply.h"
+#include "hooke/io/ply_header.h"
 #include "hooke/io/text_rows.h"
 
 namespace hooke {
@@ -22,11 +24,20 @@ const char* name_of(PlyEncoding encoding) {
   return "";
 }
 
-std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encoding) {
+const char* name_of(PlyType type) {
+  static constexpr const char* names[] = {"char", "uchar", "short", "ushort",
+                                          "int",  "uint",  "float", "double"};
+  return names[static_cast<size_t>(type)];
+}
+
+std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encoding, const VertexData& data) {
+  std::string channels;
+  for (const VertexChannel& channel : data)
+    channels += fmt::format("property {} {}\n", name_of(channel.type), channel.name);
   return fmt::format(
-      "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      name_of(encoding), vertices, faces);
+      name_of(encoding), vertices, channels, faces);
 }
 
 /// The value's bytes at `at`, which moves on.
@@ -37,14 +48,40 @@ void put(char*& at, T value, bool swap) {
   at = std::copy(raw.begin(), raw.end(), at);
 }
 
+void put(char*& at, PlyType type, double value, bool swap) {
+  switch (type) {
+    case PlyType::int8:
+      return put(at, static_cast<std::int8_t>(value), swap);
+    case PlyType::uint8:
+      return put(at, static_cast<std::uint8_t>(value), swap);
+    case PlyType::int16:
+      return put(at, static_cast<std::int16_t>(value), swap);
+    case PlyType::uint16:
+      return put(at, static_cast<std::uint16_t>(value), swap);
+    case PlyType::int32:
+      return put(at, static_cast<std::int32_t>(value), swap);
+    case PlyType::uint32:
+      return put(at, static_cast<std::uint32_t>(value), swap);
+    case PlyType::float32:
+      return put(at, static_cast<float>(value), swap);
+    case PlyType::float64:
+      return put(at, value, swap);
+  }
+}
+
 void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                   bool swap) {
-  constexpr size_t vertex_size = 3 * sizeof(double), face_size = 1 + 3 * sizeof(int);
+                   const VertexData& data, bool swap) {
+  constexpr size_t face_size = 1 + 3 * sizeof(int);
+  size_t vertex_size = 3 * sizeof(double);
+  for (const VertexChannel& channel : data) vertex_size += size_of(channel.type);
   const size_t header = bytes.size();
   bytes.resize(header + static_cast<size_t>(points.cols()) * vertex_size + triangles.size() * face_size);
   char* at = bytes.data() + header;
-  for (Eigen::Index v = 0; v < points.cols(); ++v)
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
     for (int k = 0; k < 3; ++k) put(at, points(k, v), swap);
+    for (const VertexChannel& channel : data)
+      put(at, channel.type, channel.values[static_cast<size_t>(v)], swap);
+  }
   for (const Triangle& triangle : triangles) {
     *at++ = 3;
     for (const int id : triangle) put(at, id, swap);
@@ -54,15 +91,15 @@ void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std
 }  // namespace
 
 std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                      PlyEncoding encoding) {
+                      PlyEncoding encoding, const VertexData& data) {
   const bool ascii = encoding == PlyEncoding::ascii;
-  std::string bytes = header_text(points.cols(), triangles.size(), encoding);
+  std::string bytes = header_text(points.cols(), triangles.size(), encoding, data);
   if (ascii) {
-    append_vertex_rows(bytes, points, "");
+    append_vertex_rows(bytes, points, "", data);
     append_face_rows(bytes, triangles, "3 ", 0);
   } else {
     const bool little = encoding == PlyEncoding::binary_little_endian;
-    append_binary(bytes, points, triangles, little != (std::endian::native == std::endian::little));
+    append_binary(bytes, points, triangles, data, little != (std::endian::native == std::endian::little));
   }
   return bytes;
 }

@@ -45,6 +45,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
           file.encoding,
           hash,
           size,
+          std::move(file.vertex_data),
           triangulation.polygons_cut,
           std::move(warnings)};
 }

@@ -21,12 +21,26 @@ void append_rows(std::string& text, size_t count, const Append& append) {
   for (const std::string& piece : pieces) text += piece;
 }
 
+void append_value(std::string& row, NumberType type, double value) {
+  if (is_integer(type))
+    append_number(row, static_cast<long long>(value));
+  else if (type == NumberType::float32)
+    append_number(row, static_cast<float>(value));
+  else
+    append_number(row, value);
+}
+
 }  // namespace
 
-void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix) {
+void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix,
+                        const VertexData& data) {
   append_rows(text, static_cast<size_t>(points.cols()), [&](std::string& row, size_t v) {
     row += prefix;
     append_three(row, points.col(static_cast<Eigen::Index>(v)));
+    for (const VertexChannel& channel : data) {
+      row += ' ';
+      append_value(row, channel.type, channel.values[v]);
+    }
     row += '\n';
   });
 }

@@ -3,12 +3,14 @@
 
 #include <string>
 
-#include "hooke/types.h"
+#include "hooke/vertex_data.h"
 
 namespace hooke {
 
-/// A row per vertex: `prefix`, then x, y and z as the shortest numbers that read back as exactly the same.
-void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix);
+/// A row per vertex: `prefix`, then x, y, z and the values of the channels as the shortest numbers that read
+/// back as exactly the same.
+void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix,
+                        const VertexData& data = {});
 
 /// A row per face: `prefix`, then its vertex ids, counted from `first_id`.
 void append_face_rows(std::string& text, const std::vector<Triangle>& faces, const char* prefix,

@@ -12,18 +12,20 @@
 
 namespace hooke {
 
-std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncoding encoding) {
+std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncoding encoding,
+                       const VertexData& data) {
   const auto points = positions(mesh);
   const std::vector<Triangle> triangles = triangles_of(mesh);
-  if (format == "obj") return write_obj(points, triangles);
-  if (format == "ply") return write_ply(points, triangles, encoding);
+  if (format == "obj") return write_obj(points, triangles, data);
+  if (format == "ply") return write_ply(points, triangles, encoding, data);
   if (format == "off") return write_off(points, triangles);
   throw Error(fmt::format("format {}; expected obj, ply or off; choose one of them", in_quotes(format)));
 }
 
 WrittenFile write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
-                       PlyEncoding encoding, Stopwatch* stopwatch) {
-  const std::string bytes = timed(stopwatch, "format", [&] { return mesh_bytes(mesh, format, encoding); });
+                       PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
+  const std::string bytes =
+      timed(stopwatch, "format", [&] { return mesh_bytes(mesh, format, encoding, data); });
   timed(stopwatch, "file", [&] { write_file_atomically(path, bytes); });
   return {timed(stopwatch, "sha256", [&] { return sha256(bytes); }), bytes.size()};
 }

@@ -1,0 +1,60 @@
+#include "hooke/vertex_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/parallel.h"
+
+namespace hooke {
+namespace {
+
+double value_at(const MapEntry& entry, const std::vector<double>& values,
+                const std::vector<Triangle>& faces) {
+  if (entry.place.face < 0) return entry.vertex < 0 ? 0 : values[static_cast<size_t>(entry.vertex)];
+  const Triangle& corners = faces[static_cast<size_t>(entry.place.face)];
+  double value = 0;
+  for (size_t k = 0; k < 3; ++k) {  // a corner without weight may be without a number
+    const double weight = entry.place.weights[static_cast<Eigen::Index>(k)];
+    if (weight > 0) value += weight * values[static_cast<size_t>(corners[k])];
+  }
+  return value;
+}
+
+}  // namespace
+
+const VertexChannel* find_channel(const VertexData& data, const std::string& name) {
+  const auto found = std::ranges::find(data, name, &VertexChannel::name);
+  return found == data.end() ? nullptr : &*found;
+}
+
+VertexChannel* find_channel(VertexData& data, const std::string& name) {
+  const auto found = std::ranges::find(data, name, &VertexChannel::name);
+  return found == data.end() ? nullptr : &*found;
+}
+
+VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
+                      const std::vector<Triangle>& faces) {
+  VertexData carried;
+  for (const VertexChannel& channel : data) {
+    VertexChannel& to = carried.emplace_back(VertexChannel{channel.name, channel.type, {}});
+    to.values.resize(map.size());
+    parallel_for(map.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t v = begin; v < end; ++v) {
+        const double value = value_at(map[v], channel.values, faces);
+        to.values[v] = is_integer(channel.type) ? std::round(value) : value;
+      }
+    });
+  }
+  return carried;
+}
+
+void set_normals(VertexData& data, const Mat3X& normals) {
+  VertexChannel* const channels[] = {find_channel(data, "nx"), find_channel(data, "ny"),
+                                     find_channel(data, "nz")};
+  if (std::ranges::count(channels, nullptr) > 0) return;
+  for (size_t k = 0; k < 3; ++k)
+    for (Eigen::Index v = 0; v < normals.cols(); ++v)
+      channels[k]->values[static_cast<size_t>(v)] = normals(static_cast<Eigen::Index>(k), v);
+}
+
+}  // namespace hooke

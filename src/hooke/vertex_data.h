@@ -1,0 +1,37 @@
+// Numbers that belong to the vertices besides their coordinates: colours, normals, any values of a file.
+#pragma once
+
+#include <string>
+
+#include "hooke/surface_point.h"
+
+namespace hooke {
+
+/// How a number is written in a file.
+enum class NumberType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+inline bool is_integer(NumberType type) {
+  return type < NumberType::float32;
+}
+
+/// One number per vertex.
+struct VertexChannel {
+  std::string name;  // as PLY files have it: red, nx, quality
+  NumberType type = NumberType::float64;
+  std::vector<double> values = {};
+};
+using VertexData = std::vector<VertexChannel>;
+
+/// The channel of that name; null without.
+VertexChannel* find_channel(VertexData& data, const std::string& name);
+const VertexChannel* find_channel(const VertexData& data, const std::string& name);
+
+/// The values at the places of the map, linear in the faces there; integers rounded. Vertices on no face keep
+/// the value of the vertex that they were.
+VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
+                      const std::vector<Triangle>& faces);
+
+/// Writes normals to the channels nx, ny and nz where there are all three.
+void set_normals(VertexData& data, const Mat3X& normals);
+
+}  // namespace hooke

@@ -1,0 +1,131 @@
+#include "hooke/vertex_data.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "errors.h"
+#include "hooke/error.h"
+#include "hooke/io/format_data.h"
+#include "hooke/io/ply.h"
+#include "hooke/remesh.h"
+#include "hooke/sizing.h"
+#include "meshes.h"
+
+namespace hooke {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// A channel of each type on three vertices.
+VertexData all_types() {
+  return {{"a", NumberType::int8, {-128, 0, 127}},
+          {"red", NumberType::uint8, {0, 1, 255}},
+          {"c", NumberType::int16, {-32768, 7, 32767}},
+          {"d", NumberType::uint16, {0, 1, 65535}},
+          {"e", NumberType::int32, {-2147483648., 0, 2147483647}},
+          {"f", NumberType::uint32, {0, 1, 4294967295.}},
+          {"g", NumberType::float32, {.5, nan, -inf}},
+          {"h", NumberType::float64, {1. / 3, inf, 1e-300}}};
+}
+
+TEST(VertexData, PlyReturnsEveryNumberOfEveryType) {
+  const Mat3X points{{0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+  for (PlyEncoding encoding :
+       {PlyEncoding::ascii, PlyEncoding::binary_little_endian, PlyEncoding::binary_big_endian}) {
+    const MeshFile file = read_ply(write_ply(points, {{0, 1, 2}}, encoding, all_types()), "m.ply");
+    EXPECT_TRUE(file.warnings.empty());
+    EXPECT_EQ(file.points, points);
+    EXPECT_EQ(file.polygons.items, (std::vector{0, 1, 2}));
+    ASSERT_EQ(file.vertex_data.size(), 8u);
+    for (size_t c = 0; c < 8; ++c) {
+      const VertexChannel expected = all_types()[c], &channel = file.vertex_data[c];
+      EXPECT_EQ(channel.name, expected.name);
+      EXPECT_EQ(channel.type, expected.type);
+      for (size_t v = 0; v < 3; ++v)
+        if (std::isnan(expected.values[v]))
+          EXPECT_TRUE(std::isnan(channel.values[v]));
+        else
+          EXPECT_EQ(channel.values[v], expected.values[v]);
+    }
+  }
+}
+
+TEST(VertexData, BrokenNumbersOfVerticesAreErrors) {
+  const auto ply = [](const std::string& type, const std::string& value) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+           "property " +
+           type + " q\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1\n1 0 0 " +
+           value + "\n0 1 0 1\n3 0 1 2\n";
+  };
+  EXPECT_NO_THROW(read_ply(ply("float", "-inf"), "m.ply"));
+  EXPECT_ERROR(InputError, "m.ply:12: q is 'red'", read_ply(ply("float", "red"), "m.ply"));
+  EXPECT_ERROR(InputError, "m.ply:12: q is 'nan'", read_ply(ply("uchar", "nan"), "m.ply"));
+  EXPECT_ERROR(InputError, "m.ply:12: a value is missing", read_ply(ply("float", ""), "m.ply"));
+}
+
+TEST(VertexData, IsLinearInTheFaces) {
+  const VertexData data = {{"w", NumberType::float64, {1, 2, 4, nan}},
+                           {"n", NumberType::uint8, {0, 1, 1, 9}}};
+  const std::vector<Triangle> faces = {{0, 1, 2}, {2, 1, 3}};
+  const std::vector<MapEntry> map = {
+      {0, {0, Vec3(1, 0, 0)}}, {-1, {0, Vec3(.5, .25, .25)}}, {-1, {1, Vec3(.5, .5, 0)}}, {3, {}}};
+  const VertexData carried = carry_over(data, map, faces);
+  EXPECT_EQ(carried[0].values[0], 1);
+  EXPECT_EQ(carried[0].values[1], 2);
+  EXPECT_EQ(carried[0].values[2], 3) << "the corner without weight does not count";
+  EXPECT_TRUE(std::isnan(carried[0].values[3]));
+  EXPECT_EQ(carried[1].values, (std::vector<double>{0, 1, 1, 9}));
+}
+
+TEST(VertexData, ALinearFieldOnAPlaneGoesWithAnAdaptedMesh) {
+  const test::Triangles t = test::grid(8, test::flat, .3);
+  VertexData data = {{.name = "field"}};
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    data[0].values.push_back(3 * t.points(0, v) - t.points(1, v));
+  TriMesh mesh = test::to_mesh(t);
+  set_vertex_values(mesh, target_length_property,
+                    .7 * natural_length(total_area(t.points, t.faces), t.faces.size()));
+  RemeshOptions options;
+  options.connectivity = ConnectivityMode::adapt;
+  options.map = true;
+  const VertexData carried = carry_over(data, remesh(mesh, options).map, t.faces);
+  const Mat3X points = positions(mesh);
+  ASSERT_EQ(carried[0].values.size(), static_cast<size_t>(points.cols()));
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    EXPECT_NEAR(carried[0].values[static_cast<size_t>(v)], 3 * points(0, v) - points(1, v), 1e-9);
+}
+
+TEST(VertexData, NormalsNeedAllThreeChannels) {
+  VertexData data = {{.name = "nx", .values = {9}}, {.name = "nz", .values = {9}}};
+  set_normals(data, Vec3(1, 2, 3));
+  EXPECT_EQ(data[0].values[0], 9);
+  data.push_back({.name = "ny", .values = {9}});
+  set_normals(data, Vec3(1, 2, 3));
+  EXPECT_EQ(data[0].values[0], 1);
+  EXPECT_EQ(data[1].values[0], 3);
+  EXPECT_EQ(data[2].values[0], 2);
+}
+
+TEST(FormatData, ColoursChangeTheirScaleBetweenFormats) {
+  const VertexData bytes = {{"red", NumberType::uint8, {0, 255}},
+                            {"green", NumberType::uint8, {51, 255}},
+                            {"blue", NumberType::uint8, {255, 0}},
+                            {"quality", NumberType::float32, {1, 2}}};
+  const FormatData obj = data_for_format(bytes, "ply", "obj");
+  ASSERT_EQ(obj.data.size(), 3u);
+  EXPECT_EQ(obj.data[1].values, (std::vector<double>{.2, 1}));
+  EXPECT_EQ(obj.left_out, std::vector<std::string>{"quality"});
+  const FormatData ply = data_for_format(obj.data, "obj", "ply");
+  for (size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(ply.data[c].type, NumberType::uint8);
+    EXPECT_EQ(ply.data[c].values, bytes[c].values);
+  }
+  EXPECT_EQ(data_for_format(bytes, "ply", "off").left_out.size(), 4u);
+  EXPECT_EQ(data_for_format(bytes, "ply", "ply").data.size(), 4u);
+}
+
+}  // namespace
+}  // namespace hooke
