@@ -118,7 +118,7 @@ class Remeshing {
     if (result_.polish.interrupted)
       result_.reason = StopReason::interrupted;
     else
-      search_angles(r, options_.search);
+      timed(work_.stopwatch, "search", [&] { return search_angles(r, options_.search); });
     result_.not_landed = work_.land();
     work_.resample_lengths();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
