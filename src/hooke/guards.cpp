@@ -29,18 +29,20 @@ Vec3 doubled_area_vector(const Mat3X& points, const Triangle& t) {
   return (points.col(t[1]) - a).cross(points.col(t[2]) - a);
 }
 
-double face_area(const Mat3X& points, const Triangle& t) {
-  return .5 * doubled_area_vector(points, t).norm();
+double cosine(const Vec3& a, const Vec3& b, double otherwise) {
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0 ? a.dot(b) / lengths : otherwise;
+}
+
+Vec3 sum_of_normals(const Mat3X& normals, const Triangle& sides) {
+  return normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2]);
 }
 
 }  // namespace
 
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
                       const Triangle& sides) {
-  const Vec3 n = doubled_area_vector(points, face);
-  const Vec3 r = normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2]);
-  const double lengths = std::sqrt(n.squaredNorm() * r.squaredNorm());
-  return lengths > 0 ? n.dot(r) / lengths : 0;
+  return cosine(doubled_area_vector(points, face), sum_of_normals(normals, sides), 0);
 }
 
 double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides) {
@@ -50,10 +52,7 @@ double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge,
 }
 
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other) {
-  const Vec3 a = doubled_area_vector(points, face);
-  const Vec3 b = doubled_area_vector(points, other);
-  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
-  return lengths > 0 ? a.dot(b) / lengths : 1;
+  return cosine(doubled_area_vector(points, face), doubled_area_vector(points, other), 1);
 }
 
 Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options)
@@ -61,7 +60,8 @@ Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, c
   for (Measures* m : {&accepted_, &trial_}) {
     m->area.resize(connectivity.faces.size());
     m->alignment.resize(connectivity.faces.size());
-    m->cotangent.resize(connectivity.faces.size());
+    m->area_vector.resize(3, static_cast<Eigen::Index>(connectivity.faces.size()));
+    if (std::isfinite(options.cotangent)) m->cotangent.resize(connectivity.faces.size());
     m->sagitta.resize(connectivity.edges.size());
     m->fold.resize(connectivity.edges.size());
   }
@@ -69,28 +69,31 @@ Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, c
 
 void Guards::measure_face(const Placement& p, size_t face) {
   const Triangle& t = connectivity_.faces[face];
-  trial_.area[face] = face_area(p.points, t);
-  trial_.alignment[face] = face_alignment(p.points, p.normals, t, connectivity_.sides_of_faces()[face]);
-  trial_.cotangent[face] = greatest_cotangent(p.points, t);
+  const Vec3 n = doubled_area_vector(p.points, t);
+  trial_.area_vector.col(static_cast<Eigen::Index>(face)) = n;
+  trial_.area[face] = .5 * n.norm();
+  trial_.alignment[face] = cosine(n, sum_of_normals(p.normals, connectivity_.sides_of_faces()[face]), 0);
+  if (!trial_.cotangent.empty()) trial_.cotangent[face] = greatest_cotangent(p.points, t);
 }
 
-double Guards::fold_at(const Mat3X& points, size_t edge) const {
+/// Pre-condition: the faces have been measured.
+double Guards::fold_at(size_t edge) const {
   const auto [left, right] = connectivity_.edge_faces[edge];
   if (right < 0) return 1;
-  return cosine_between(points, connectivity_.faces[static_cast<size_t>(left)],
-                        connectivity_.faces[static_cast<size_t>(right)]);
+  return cosine(trial_.area_vector.col(left), trial_.area_vector.col(right), 1);
 }
 
 void Guards::measure_edge(const Placement& p, size_t edge) {
   trial_.sagitta[edge] =
       edge_sagitta(p.points, p.normals, connectivity_.edges[edge], connectivity_.sides_of_edges()[edge]);
-  trial_.fold[edge] = fold_at(p.points, edge);
+  trial_.fold[edge] = fold_at(edge);
 }
 
 bool Guards::face_breaks(size_t f) const {
   return hooke::face_breaks(options_, accepted_.area[f], trial_.area[f], accepted_.alignment[f],
                             trial_.alignment[f]) ||
-         angle_breaks(options_, accepted_.alignment[f], accepted_.cotangent[f], trial_.cotangent[f]);
+         (!trial_.cotangent.empty() &&
+          angle_breaks(options_, accepted_.alignment[f], accepted_.cotangent[f], trial_.cotangent[f]));
 }
 
 bool Guards::fold_breaks(size_t e) const {

@@ -63,7 +63,7 @@ class Guards {
   bool face_breaks(size_t face) const;
   bool fold_breaks(size_t edge) const;
   bool edge_breaks(size_t edge) const;
-  double fold_at(const Mat3X& points, size_t edge) const;
+  double fold_at(size_t edge) const;
   void add_offenders(size_t edge, std::vector<int>& vertices) const;
   void measure_face(const Placement& placement, size_t face);
   void measure_edge(const Placement& placement, size_t edge);
@@ -74,7 +74,8 @@ class Guards {
   const TargetLengths& targets_;
   GuardOptions options_;
   struct Measures {
-    std::vector<double> area, alignment, cotangent;  // per face
+    Mat3X area_vector;                               // doubled, per face
+    std::vector<double> area, alignment, cotangent;  // per face; cotangents only where they are limited
     std::vector<double> sagitta, fold;               // per edge
   };
   Measures accepted_, trial_;
