@@ -75,7 +75,7 @@ DistanceSamples sample_distances(const MeasuredSurface& from, const MeasuredSurf
   samples.centres.resize(c.faces.size());
   samples.quarters.resize(c.faces.size());
   const std::span<const Face> faces = from.tree.faces();
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  const auto look = [&](size_t begin, size_t end) {
     std::vector<FaceSamples> wanted;
     std::vector<Vec3> points;
     std::vector<int> hints;
@@ -92,7 +92,12 @@ DistanceSamples sample_distances(const MeasuredSurface& from, const MeasuredSurf
       of_face.store(found, faces[k].id, samples);
       found = found.subspan(of_face.points().size());
     }
-  });
+  };
+  parallel_for((faces.size() + block - 1) / block, 1,
+               [&](size_t begin, size_t end) {  // one thread: all blocks
+                 for (size_t k = begin; k < end; ++k)
+                   look(k * block, std::min(faces.size(), (k + 1) * block));
+               });
   return samples;
 }
 
