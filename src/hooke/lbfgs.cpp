@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "hooke/local_newton.h"
+#include "hooke/local_relaxation.h"
 #include "hooke/multigrid.h"
 #include "hooke/parallel.h"
 
@@ -159,6 +159,14 @@ Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, 
   }
 }
 
+/// What the guards hold back is out of step with what is around it: lets these places find their own way.
+void mend(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs, Placement& trial) {
+  std::swap(r.placement, trial);
+  relax_locally(r, with_rings(r.connectivity, held, lbfgs.mended_rings), {.sweeps = lbfgs.mending_sweeps},
+                nullptr);
+  std::swap(r.placement, trial);
+}
+
 }  // namespace
 
 IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
@@ -189,11 +197,12 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     Mat3X step = timed(r.stopwatch, "direction",
                        [&] { return descent_direction(r, options, gradient, blocked, h0, memory); });
     bool accepted = false;
+    bool mended = false;
     double trial_energy = 0;
     for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
-      if (tries > 0 && held.empty()) step *= .5;
-      if (tries > 0 &&
-          !held.empty()) {  // what the guards hold back spoils the step of the others: without it
+      if (tries > 0 && (held.empty() || mended)) {
+        step *= .5;
+      } else if (tries > 0) {  // what the guards hold back spoils the step of the others: without it
         blocked.insert(blocked.end(), held.begin(), held.end());
         step = descent_direction(r, options, gradient, blocked, h0, memory);
       }
@@ -202,6 +211,9 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
         return r.guards.step(r.retraction, r.placement, displacement, trial, r.stopwatch);
       });
       result.held_back += static_cast<long long>(held.size());
+      mended =
+          !held.empty() && static_cast<double>(held.size()) <= lbfgs.mendable * r.connectivity.vertex_count;
+      if (mended) timed(r.stopwatch, "mending", [&] { mend(r, held, lbfgs, trial); });
       trial_energy = timed(r.stopwatch, "energy", [&] { return r.energy(trial, &trial_gradient); });
       ++result.evaluations;
       displacement = trial.points - r.placement.points;
@@ -221,8 +233,13 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     memory.push(trial.points - r.placement.points, y, h0.apply(r, y));
     std::swap(r.placement, trial);
     std::swap(gradient, trial_gradient);
-    r.guards.accept_step();
-    blocked = held;
+    if (mended) {
+      r.guards.accept(r.placement);
+      blocked.clear();
+    } else {
+      r.guards.accept_step();
+      blocked = held;
+    }
     result.energy = trial_energy;
     ++result.steps;
     if (observer && !observer({"", 0, result.steps, result.energy})) {

@@ -18,6 +18,9 @@ struct LbfgsOptions {
   double grid_weight = .3;    // of each grid, over the median curvature
   double armijo = 1e-4;       // part of the predicted decrease that a step must bring
   int max_backtracks = 12;    // halvings of a step before it is given up
+  double mendable = .01;      // part of the vertices: no more than so many that guards hold back are mended
+  int mended_rings = 1;       // about them, within which vertices move ...
+  int mending_sweeps = 3;     // ... in so many sweeps
 };
 
 /// Moves relaxation.placement to a minimum of relaxation.energy on the surface.
