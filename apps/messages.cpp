@@ -6,19 +6,17 @@
 #include <chrono>
 #include <cstdio>
 
+#include "hooke/io/printable.h"
 #include "hooke/quality_table.h"
 
 namespace hooke::app {
-
-void print_error(const std::string& message) {
-  fmt::print(stderr, "hooke-remesh: error: {}\n", message);
-}
-
-void print_warning(const Warning& warning) {
-  fmt::print(stderr, "hooke-remesh: warning: {}\n", warning.message);
-}
-
 namespace {
+
+/// To standard error. Where nobody can read it, the work goes on all the same: fmt::print would throw.
+template <typename... Arguments>
+void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  std::fputs(fmt::format(text, std::forward<Arguments>(arguments)...).c_str(), stderr);
+}
 
 std::string reason_in_words(const RunRecord& run) {
   const RemeshResult& r = *run.result;
@@ -38,14 +36,22 @@ std::string reason_in_words(const RunRecord& run) {
 }
 
 void print_iterations(const RemeshResult& r) {
-  fmt::print(stderr, "{:<10}{:>7}{:>8}{:>14}{:>12}{:>12}{:>12}\n", "stage", "steps", "evals", "energy",
-             "rms error", "max error", "least angle");
+  say("{:<10}{:>7}{:>8}{:>14}{:>12}{:>12}{:>12}\n", "stage", "steps", "evals", "energy", "rms error",
+      "max error", "least angle");
   for (const IterationRecord& i : r.iterations)
-    fmt::print(stderr, "{:<10}{:>7}{:>8}{:>14.6g}{:>12.4f}{:>12.4f}{:>12.3f}\n", i.stage, i.steps,
-               i.evaluations, i.energy, i.rms_length_error, i.max_length_error, i.least_angle);
+    say("{:<10}{:>7}{:>8}{:>14.6g}{:>12.4f}{:>12.4f}{:>12.3f}\n", i.stage, i.steps, i.evaluations, i.energy,
+        i.rms_length_error, i.max_length_error, i.least_angle);
 }
 
 }  // namespace
+
+void print_error(const std::string& message) {
+  say("hooke-remesh: error: {}\n", printable(message));
+}
+
+void print_warning(const Warning& warning) {
+  say("hooke-remesh: warning: {}\n", printable(warning.message));
+}
 
 std::string paper_message(const RemeshResult& r) {
   const BoundCounts& b = r.bound;
@@ -64,30 +70,27 @@ void print_summary(const Settings& s, const RunRecord& run) {
   std::string range;
   if (length("L_min") < length("L_max"))
     range = fmt::format(" on average, {:.6g} to {:.6g}", length("L_min"), length("L_max"));
-  fmt::print(stderr, "{}: {} vertices, {} faces; target length {:.6g}{} (natural {:.6g})\n", run.input.path,
-             run.before.topology.vertices, run.before.topology.faces, length("L"), range,
-             length("L_natural"));
+  say("{}: {} vertices, {} faces; target length {:.6g}{} (natural {:.6g})\n", run.input.path,
+      run.before.topology.vertices, run.before.topology.faces, length("L"), range, length("L_natural"));
   if (!run.result) {
-    fmt::print(stderr, "{}", quality_table(run.before));
+    say("{}", quality_table(run.before));
     return;
   }
   if (s.verbose) print_iterations(*run.result);
-  fmt::print(stderr, "{}", quality_table(run.before, *run.after, *run.deviation));
-  fmt::print(stderr, "\n{}\n", reason_in_words(run));
+  say("{}", quality_table(run.before, *run.after, *run.deviation));
+  say("\n{}\n", reason_in_words(run));
   if (run.result->near_regular)
-    fmt::print(
-        stderr,
-        "the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
+    say("the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
   const FlipResult& f = run.result->flips;
   const AdaptResult& a = run.result->adaptation;
   if (a.rounds > 0)
-    fmt::print(stderr, "{} edges split, {} collapsed, {} flipped: {} vertices, {} faces ({:.0f} wanted)\n",
-               a.splits, a.collapses, a.flips + f.flips, run.after->topology.vertices,
-               run.after->topology.faces, a.wanted_faces);
+    say("{} edges split, {} collapsed, {} flipped: {} vertices, {} faces ({:.0f} wanted)\n", a.splits,
+        a.collapses, a.flips + f.flips, run.after->topology.vertices, run.after->topology.faces,
+        a.wanted_faces);
   else if (f.flow.rounds > 0)
-    fmt::print(stderr, "{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n",
-               f.flips, f.max_travel, f.rms_travel);
-  fmt::print(stderr, "{} written in {:.2f} s\n", run.output->path, run.resources.wall_s);
+    say("{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n", f.flips,
+        f.max_travel, f.rms_travel);
+  say("{} written in {:.2f} s\n", run.output->path, run.resources.wall_s);
 }
 
 ProgressLine::ProgressLine(const Settings& s)
@@ -95,7 +98,7 @@ ProgressLine::ProgressLine(const Settings& s)
                (s.progress == ProgressStyle::bar || isatty(STDERR_FILENO) == 1)) {}
 
 ProgressLine::~ProgressLine() {
-  if (shown_) fmt::print(stderr, "\r{:<60}\r", "");
+  if (shown_) say("\r{:<60}\r", "");
 }
 
 void ProgressLine::show(const Progress& p) {
@@ -107,7 +110,7 @@ void ProgressLine::show(const Progress& p) {
   if (now - last_ms_ < every_ms) return;
   last_ms_ = now;
   shown_ = true;
-  fmt::print(stderr, "\r{:<60}", fmt::format("{}: outer iteration {}, step {}", p.stage, p.outer, p.step));
+  say("\r{:<60}", fmt::format("{}: outer iteration {}, step {}", p.stage, p.outer, p.step));
   std::fflush(stderr);
 }
 

@@ -1,324 +1,244 @@
 #include "options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cstdlib>
-#include <limits>
+#include <cmath>
+#include <iostream>
+#include <utility>
 
 #include "exit_codes.h"
 #include "hooke/error.h"
-#include "hooke/io/mesh_file.h"
 #include "hooke/io/printable.h"
 #include "messages.h"
+#include "words.h"
 
 namespace hooke::app {
 namespace {
 
-/// "0.1%" or ".001": parts of the target length.
-double parse_tolerance(const std::string& text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  const std::string_view unit(rest, end);
-  if (error != std::errc() || !(unit.empty() || unit == "%") || !(value >= 0) || !std::isfinite(value))
-    throw Error("--tolerance '" + printable(text) +
-                "'; expected a number that is not negative, or X% of the target length");
-  return unit == "%" ? value / 100 : value;
+template <typename T>
+using Choices = std::vector<std::pair<const char*, T>>;
+
+/// An option with one of these words as its value, which may also be optional.
+template <typename Value, typename T>
+CLI::Option* add_choice(CLI::App& app, const char* name, Value& value, const char* help,
+                        const Choices<T>& choices) {
+  std::string words;
+  for (const auto& choice : choices) words += (words.empty() ? "" : "|") + std::string(choice.first);
+  const auto choose = [&value, name, words, choices](const std::string& text) {
+    for (const auto& [word, meaning] : choices)
+      if (text == word) {
+        value = meaning;
+        return;
+      }
+    throw CLI::ValidationError(name, in_quotes(text) + "; expected " + words);
+  };
+  return app.add_option_function<std::string>(name, choose, help)->type_name(words);
 }
 
-/// "off" or a positive number.
-double parse_gradation(const std::string& text) {
-  if (text == "off") return std::numeric_limits<double>::infinity();
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !(value > 0) || !std::isfinite(value))
-    throw Error("--gradation '" + printable(text) + "'; expected a positive number, or off");
-  return value;
-}
-
-/// "40" or "off": degrees, 180 for none.
-double parse_feature_angle(const std::string& text) {
-  if (text == "off") return 180;
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !(value > 0) || !(value < 180))
-    throw Error("--feature-angle '" + printable(text) + "'; expected degrees between 0 and 180, or off");
-  return value;
-}
-
-/// Threads that a batch system or OpenMP grants; 0 when they say nothing.
-int threads_of_environment() {
-  for (const char* name : {"SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS"}) {
-    const char* text = std::getenv(name);
-    if (!text) continue;
-    int threads = 0;
-    std::from_chars(text, text + std::string_view(text).size(), threads);
-    if (threads > 0) return threads;
-  }
-  return 0;
-}
-
-/// What the user said in words, before it is given its meaning.
-struct Words {
-  std::string tolerance = "0.1%";
-  std::string gradation;
-  std::optional<std::string> feature_angle;
-  std::optional<double> rho;
-  std::optional<int> max_outer, max_steps;
-  std::optional<BoundaryRule> boundary;
+/// Which numbers an option takes.
+struct Range {
+  const char* words;
+  bool (*holds)(double);  // of finite numbers
 };
+constexpr Range positive{"a positive number", [](double x) { return x > 0; }};
+constexpr Range not_negative{"a number that is not negative", [](double x) { return x >= 0; }};
+constexpr Range cosine{"a number from -1 to 1", [](double x) { return std::abs(x) <= 1; }};
+constexpr Range count{"a whole number from 1", [](double x) { return x >= 1; }};
 
-void add_options(CLI::App& app, Settings& s, Words& words) {
-  const std::map<std::string, IntegratorKind> integrators{{"lbfgs", IntegratorKind::lbfgs},
-                                                          {"damped", IntegratorKind::damped}};
-  const std::map<std::string, ConnectivityMode> modes{{"fixed", ConnectivityMode::fixed},
-                                                      {"flip", ConnectivityMode::flip},
-                                                      {"adapt", ConnectivityMode::adapt}};
-  const std::map<std::string, Effort> efforts{
-      {"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}};
-  const std::map<std::string, FilterKind> filters{{"local", FilterKind::local},
-                                                  {"global", FilterKind::global},
-                                                  {"closest", FilterKind::closest},
-                                                  {"none", FilterKind::none}};
-  const std::map<std::string, Kernel> kernels{{"r2logr", Kernel::r2logr}, {"r3", Kernel::r3}};
-  const std::map<std::string, Refit> refits{{"each", Refit::each}, {"once", Refit::once}};
-  const std::map<std::string, BoundaryRule> boundaries{
-      {"slide", BoundaryRule::slide}, {"fixed", BoundaryRule::fixed}, {"free", BoundaryRule::free}};
-  const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
-  const std::map<std::string, ProgressStyle> styles{
-      {"auto", ProgressStyle::automatic}, {"bar", ProgressStyle::bar}, {"none", ProgressStyle::none}};
-  const auto one_of = [](const auto& map) { return CLI::CheckedTransformer(map).description(""); };
-  DampedOptions& damped = s.remesh.damped;
-  TimeStepOptions& step = s.paper_options.evolution.time_step;
+/// An option with a number as its value, which may also be optional.
+template <typename Number, typename Value>
+CLI::Option* add_number(CLI::App& app, const char* name, Value& value, const char* help, Range range) {
+  const auto read = [&value, name, range](const std::string& text) {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || rest != end || !std::isfinite(static_cast<double>(number)) ||
+        !range.holds(static_cast<double>(number)))
+      throw CLI::ValidationError(name, fmt::format("{}; expected {}", in_quotes(text), range.words));
+    value = number;
+  };
+  return app.add_option_function<std::string>(name, read, help)
+      ->type_name(std::is_integral_v<Number> ? "N" : "X");
+}
 
-  app.add_option("INPUT", s.input, "Mesh to read: .obj, .ply or .off")->required()->type_name("");
-  app.add_option("-o,--output", s.output, "Mesh to write; required unless --check")->type_name("FILE");
-  app.add_option("--format", s.format, "Format of the output: obj, ply or off (default: by extension)")
-      ->check(CLI::IsMember({"obj", "ply", "off"}).description(""))
-      ->type_name("NAME");
+/// The same for a value that is there already.
+CLI::Option* add_number(CLI::App& app, const char* name, double& value, const char* help, Range range) {
+  return add_number<double, double>(app, name, value, help, range)->default_str(fmt::format("{}", value));
+}
 
-  const char* target = "Target";
+/// Not empty, and not `-`, which is no stream here.
+CLI::Validator file_name() {
+  const auto check = [](const std::string& text) {
+    return text.empty() || text == "-" ? in_quotes(text) + "; expected the name of a file" : std::string();
+  };
+  return {check, ""};
+}
+
+CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file, const char* help) {
+  return app.add_option(name, file, help)->check(file_name())->type_name("FILE");
+}
+
+void add_target(CLI::App& app, Settings& s, Words& words) {
   app.add_option(
          "-L,--length", s.length_text,
          "Target edge length: auto = sqrt(4 A / (sqrt 3 F)), mean = mean edge length, X in file units, "
          "X% of the box's diagonal, Xx times auto; with --sizing it scales the lengths: auto and Xx to cover "
          "the area, others to that mean, sizing = as they are")
       ->type_name("LENGTH")
-      ->capture_default_str()
-      ->group(target);
+      ->capture_default_str();
   app.add_option(
          "--sizing", s.sizing_text,
          "Target length per vertex: a file with one a line, a float property of a PLY input's "
          "vertices, or by curvature, for chord errors in file units or % of the box's diagonal (0.1%)")
+      ->check(file_name())
       ->type_name("FILE|ply:PROPERTY|curvature[:ERROR]")
-      ->default_str("off")
-      ->group(target);
+      ->default_str("off");
   app.add_option("--gradation", words.gradation,
                  "Greatest change of a sizing's lengths along an edge, over the edge's length")
       ->type_name("X|off")
-      ->default_str("0.3")
-      ->group(target);
+      ->default_str("0.3");
+  add_choice(app, "--connectivity", s.remesh.connectivity,
+             "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel; "
+             "adapt: new vertices and faces, as many as --length asks for",
+             Choices<ConnectivityMode>{{"fixed", ConnectivityMode::fixed},
+                                       {"flip", ConnectivityMode::flip},
+                                       {"adapt", ConnectivityMode::adapt}})
+      ->default_str("fixed");
+  add_file(app, "--map", s.map,
+           "Where the output's vertices lie on the input: per line its vertex id there or -1, a face "
+           "of the input and three weights of that face's corners");
+}
 
-  app.add_option("--connectivity", s.remesh.connectivity,
-                 "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel; "
-                 "adapt: new vertices and faces, as many as --length asks for")
-      ->transform(one_of(modes))
-      ->type_name("fixed|flip|adapt")
-      ->default_str("fixed")
-      ->group(target);
-
-  app.add_option("--map", s.map,
-                 "Where the output's vertices lie on the input: per line its vertex id there or -1, a face "
-                 "of the input and three weights of that face's corners")
-      ->type_name("FILE")
-      ->group(target);
-
-  const char* method = "Method";
-  app.add_option("--effort", s.effort, "How long to go on for better triangles")
-      ->transform(one_of(efforts))
-      ->type_name("fast|default|thorough")
-      ->default_str("default")
-      ->group(method);
-  app.add_option("--integrator", s.remesh.integrator,
-                 "lbfgs: minimise the springs' energy; damped: follow the paper's equation of motion")
-      ->transform(one_of(integrators))
-      ->type_name("lbfgs|damped")
-      ->default_str("lbfgs")
-      ->group(method);
-  app.add_option("--polish", s.remesh.polish_angles, "Angle springs on the worst faces after the equilibrium")
-      ->transform(one_of(switches))
-      ->type_name("on|off")
-      ->default_str("on")
-      ->group(method);
+void add_method(CLI::App& app, Settings& s, Words& words) {
+  add_choice(
+      app, "--effort", s.effort, "How long to go on for better triangles",
+      Choices<Effort>{{"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}})
+      ->default_str("default");
+  add_choice(app, "--integrator", s.remesh.integrator,
+             "lbfgs: minimise the springs' energy; damped: follow the paper's equation of motion",
+             Choices<IntegratorKind>{{"lbfgs", IntegratorKind::lbfgs}, {"damped", IntegratorKind::damped}})
+      ->default_str("lbfgs");
+  add_choice(app, "--polish", s.remesh.polish_angles,
+             "Angle springs on the worst faces after the equilibrium",
+             Choices<bool>{{"on", true}, {"off", false}})
+      ->default_str("on");
   app.add_flag(
-         "--paper", s.paper,
-         "Algorithms 1 to 3 of the paper to the letter, for comparison: global time step, torque, global "
-         "spline, the paper's constants; mostly jams, may fold faces")
-      ->group(method);
-  app.add_option(
-         "--filter", s.remesh.filter.kind,
-         "Where vertices are put back: local = splines blended over patches, global = one dense spline, "
-         "closest = the input's faces, none")
-      ->transform(one_of(filters))
-      ->type_name("local|global|closest|none")
-      ->default_str("local")
-      ->group(method);
-  app.add_option("--kernel", s.remesh.filter.kernel, "Kernel of the splines")
-      ->transform(one_of(kernels))
-      ->type_name("r2logr|r3")
-      ->default_str("r3; r2logr with --paper")
-      ->group(method);
-  app.add_option("--refit", s.remesh.refit, "Fit the field anew before each outer iteration, or once")
-      ->transform(one_of(refits))
-      ->type_name("each|once")
-      ->default_str("each")
-      ->group(method);
-  app.add_option("--altitude", s.remesh.altitude, "Weight of the altitude springs against the strings")
-      ->check(CLI::NonNegativeNumber.description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--string", damped.string, "String tension lambda (damped and paper)")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--torque", damped.torque, "Torque coefficient mu (damped and paper)")
-      ->check(CLI::NonNegativeNumber.description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--friction", damped.friction, "Friction tau (damped and paper)")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--rho", words.rho, "Offset of the field's second points, over the edge length")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("X")
-      ->default_str("0.3; 0.02 with --paper")
-      ->group(method);
-  app.add_option("--step-angle", step.angle, "Least cosine a face may turn by in a time step (paper)")
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--step-expansion", step.expansion,
-                 "Greatest relative change of a face's area in a time step (paper)")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--step-displacement", step.displacement,
-                 "Greatest move of a vertex in a time step, over the shortest edge (paper)")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--step-area", step.area_bound,
-                 "Least area of a face after a time step, over the squared target length (paper)")
-      ->check(CLI::NonNegativeNumber.description(""))
-      ->type_name("X")
-      ->capture_default_str()
-      ->group(method);
+      "--paper", s.paper,
+      "Algorithms 1 to 3 of the paper to the letter, for comparison: global time step, torque, global "
+      "spline, the paper's constants; mostly jams, may fold faces");
+  add_choice(app, "--filter", s.remesh.filter.kind,
+             "Where vertices are put back: local = splines blended over patches, global = one dense spline, "
+             "closest = the input's faces, none",
+             Choices<FilterKind>{{"local", FilterKind::local},
+                                 {"global", FilterKind::global},
+                                 {"closest", FilterKind::closest},
+                                 {"none", FilterKind::none}})
+      ->default_str("local");
+  add_choice(app, "--kernel", s.remesh.filter.kernel, "Kernel of the splines",
+             Choices<Kernel>{{"r2logr", Kernel::r2logr}, {"r3", Kernel::r3}})
+      ->default_str("r3; r2logr with --paper");
+  add_choice(app, "--refit", s.remesh.refit, "Fit the field anew before each outer iteration, or once",
+             Choices<Refit>{{"each", Refit::each}, {"once", Refit::once}})
+      ->default_str("each");
+  add_number(app, "--altitude", s.remesh.altitude, "Weight of the altitude springs against the strings",
+             not_negative);
+  add_number<double>(app, "--rho", words.rho, "Offset of the field's second points, over the edge length",
+                     positive)
+      ->default_str("0.3; 0.02 with --paper");
   app.add_option("--tolerance", words.tolerance,
                  "Converged when every edge is this near to the target length")
       ->type_name("X%")
-      ->capture_default_str()
-      ->group(method);
-  app.add_option("--max-outer", words.max_outer, "Outer iterations: relaxation and filtering")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("N")
-      ->default_str("6; 10 with --paper")
-      ->group(method);
-  app.add_option("--max-steps", words.max_steps, "Steps per outer iteration")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("N")
-      ->default_str("2000; 400 with --paper")
-      ->group(method);
+      ->capture_default_str();
+  add_number<int>(app, "--max-outer", words.max_outer, "Outer iterations: relaxation and filtering", count)
+      ->default_str("6; 10 with --paper");
+  add_number<int>(app, "--max-steps", words.max_steps, "Steps per outer iteration", count)
+      ->default_str("2000; 400 with --paper");
+}
 
-  const char* constraints = "Constraints";
-  app.add_option("--boundary", words.boundary,
-                 "Boundary vertices slide along the input's boundary, stay fixed, or are free on the surface")
-      ->transform(one_of(boundaries))
-      ->type_name("slide|fixed|free")
-      ->default_str("slide; free with --paper")
-      ->group(constraints);
+void add_motion(CLI::App& app, Settings& s) {
+  DampedOptions& damped = s.remesh.damped;
+  TimeStepOptions& step = s.paper_options.evolution.time_step;
+  add_number(app, "--string", damped.string, "String tension lambda (damped and paper)", positive);
+  add_number(app, "--torque", damped.torque, "Torque coefficient mu (damped and paper)", not_negative);
+  add_number(app, "--friction", damped.friction, "Friction tau (damped and paper)", positive);
+  add_number(app, "--step-angle", step.angle, "Least cosine a face may turn by in a time step (paper)",
+             cosine);
+  add_number(app, "--step-expansion", step.expansion,
+             "Greatest relative change of a face's area in a time step (paper)", positive);
+  add_number(app, "--step-displacement", step.displacement,
+             "Greatest move of a vertex in a time step, over the shortest edge (paper)", positive);
+  add_number(app, "--step-area", step.area_bound,
+             "Least area of a face after a time step, over the squared target length (paper)", not_negative);
+}
+
+void add_constraints(CLI::App& app, Settings& s, Words& words) {
+  add_choice(
+      app, "--boundary", words.boundary,
+      "Boundary vertices slide along the input's boundary, stay fixed, or are free on the surface",
+      Choices<BoundaryRule>{
+          {"slide", BoundaryRule::slide}, {"fixed", BoundaryRule::fixed}, {"free", BoundaryRule::free}})
+      ->default_str("slide; free with --paper");
   app.add_option(
          "--feature-angle", words.feature_angle,
          "Faces that meet at more degrees make a crease: its vertices slide along it, and the surface is "
          "smooth on either side only")
       ->type_name("DEG|off")
-      ->default_str("40; off with --paper")
-      ->group(constraints);
-  app.add_option("--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are")
-      ->type_name("FILE")
-      ->group(constraints);
+      ->default_str("40; off with --paper");
+  add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
+}
 
-  const char* reports = "Measuring and reports";
-  app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report")
-      ->group(reports);
+void add_reports(CLI::App& app, Settings& s) {
+  app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
-      ->type_name("FILE")
-      ->group(reports);
-  app.add_option("--trace", s.trace, "Seconds and memory of every stage, as CSV")
-      ->type_name("FILE")
-      ->group(reports);
-
-  const char* run = "Running";
-  app.add_option(
-         "-j,--threads", s.threads,
-         "Threads (default: SLURM_CPUS_PER_TASK, OMP_NUM_THREADS, or all); results do not depend on it")
-      ->check(CLI::PositiveNumber.description(""))
-      ->type_name("N")
-      ->group(run);
-  app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only")->group(run);
-  app.add_flag("-v,--verbose", s.verbose, "Print every outer iteration")->group(run);
-  app.add_option("--progress", s.progress, "Progress line: auto = on a terminal")
-      ->transform(one_of(styles))
-      ->type_name("auto|bar|none")
-      ->default_str("auto")
-      ->group(run);
-  app.set_version_flag("-V,--version", "hooke-remesh " HOOKE_VERSION);
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return text.empty() ? "''; expected the name of a file, or -" : std::string();
+          },
+          ""))
+      ->type_name("FILE");
+  add_file(app, "--trace", s.trace, "Seconds and memory of every stage, as CSV");
 }
 
-void settle_sizing(Settings& s, const Words& words) {
-  const bool sized = s.sizing_text != "off";
-  if (sized) s.sizing = parse_sizing(s.sizing_text);
-  if (!words.gradation.empty()) s.gradation = parse_gradation(words.gradation);
-  if (sized) return;
-  if (!words.gradation.empty()) throw Error("--gradation is of --sizing; leave it out, or name a sizing");
-  if (s.length.kind == LengthSpec::Kind::as_given)
-    throw Error("--length sizing without --sizing; name a sizing, or another length");
+void add_run(CLI::App& app, Settings& s) {
+  add_number<int>(
+      app, "-j,--threads", s.threads,
+      "Threads (default: SLURM_CPUS_PER_TASK, OMP_NUM_THREADS, or all); results do not depend on it", count);
+  app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");
+  app.add_flag("-v,--verbose", s.verbose, "Print every outer iteration");
+  add_choice(
+      app, "--progress", s.progress, "Progress line: auto = on a terminal",
+      Choices<ProgressStyle>{
+          {"auto", ProgressStyle::automatic}, {"bar", ProgressStyle::bar}, {"none", ProgressStyle::none}})
+      ->default_str("auto");
 }
 
-/// Gives the words their meaning and checks what belongs together. Throws Error.
-void settle(Settings& s, const Words& words, bool kernel_given, bool effort_given) {
-  s.length = parse_length(s.length_text);
-  settle_sizing(s, words);
-  s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
-  set_effort(s.remesh, s.effort);
-  s.remesh.map = !s.map.empty();
-  s.paper_options.evolution.damped = s.remesh.damped;
-  if (kernel_given) s.paper_options.filter.kernel = s.remesh.filter.kernel;
-  if (words.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*words.feature_angle);
-  if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
-  if (words.max_outer) s.remesh.max_outer = s.paper_options.max_outer = *words.max_outer;
-  if (words.max_steps)
-    s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *words.max_steps;
-  if (words.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *words.boundary;
-  if (s.threads == 0) s.threads = threads_of_environment();
-  if (s.paper && s.remesh.connectivity != ConnectivityMode::fixed)
-    throw Error("--paper keeps the faces; leave out --connectivity");
-  if (s.paper && effort_given) throw Error("--paper takes the time it takes; leave out --effort");
-  if (s.paper && words.feature_angle) throw Error("--paper knows no creases; leave out --feature-angle");
-  if (s.paper && !s.map.empty()) throw Error("--paper makes no map; leave out --map");
-  if (s.check && !s.map.empty()) throw Error("--check makes no map; leave out --map");
-  if (s.check && !s.output.empty()) throw Error("--check writes no mesh; leave out --output");
-  if (s.check) return;
-  if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
-  if (s.format.empty()) s.format = format_of(s.output);
+void add_options(CLI::App& app, Settings& s, Words& words) {
+  app.add_option("INPUT", s.input, "Mesh to read: .obj, .ply or .off")->required()->type_name("");
+  add_file(app, "-o,--output", s.output, "Mesh to write; required unless --check");
+  add_choice(app, "--format", s.format, "Format of the output (default: by extension)",
+             Choices<std::string>{{"obj", "obj"}, {"ply", "ply"}, {"off", "off"}});
+  app.option_defaults()->group("Target");
+  add_target(app, s, words);
+  app.option_defaults()->group("Method");
+  add_method(app, s, words);
+  add_motion(app, s);
+  app.option_defaults()->group("Constraints");
+  add_constraints(app, s, words);
+  app.option_defaults()->group("Measuring and reports");
+  add_reports(app, s);
+  app.option_defaults()->group("Running");
+  add_run(app, s);
+  app.set_version_flag("-V,--version", "hooke-remesh " HOOKE_VERSION)->group("Options");
+}
+
+/// The exit code of help and version, which go to standard output.
+int print_wanted(const CLI::App& app, const CLI::ParseError& wanted) {
+  app.exit(wanted);
+  if (std::cout.flush()) return done;
+  print_error("standard output: cannot be written; expected an open reader or room");
+  return output_failed;
 }
 
 }  // namespace
@@ -331,12 +251,13 @@ Parsed parse_command_line(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   Settings settings;
   Words words;
+  words.given = [&app](const char* option) { return app.count(option) > 0; };
   add_options(app, settings, words);
   try {
     app.parse(argc, argv);
-    settle(settings, words, app.count("--kernel") > 0, app.count("--effort") > 0);
+    settle(settings, words);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return {std::nullopt, app.exit(e)};  // help and version
+    if (e.get_exit_code() == 0) return {std::nullopt, print_wanted(app, e)};
     print_error(e.what() + std::string("; see hooke-remesh --help"));
     return {std::nullopt, usage};
   } catch (const Error& e) {

@@ -25,11 +25,28 @@ mode_t mode_of(const fs::path& path) {
   return status.st_mode & 07777;
 }
 
+void write_now(const fs::path& path, std::string_view bytes) {
+  PendingFile(path, bytes).commit();
+}
+
+TEST(AtomicWrite, NothingHasChangedBeforeTheCommit) {
+  const TemporaryFolder folder;
+  write_text(folder / "f", "old");
+  { const PendingFile dropped(folder / "f", "new"); }
+  EXPECT_EQ(folder.file_count(), 1u);
+  PendingFile file(folder / "f", "new");
+  EXPECT_EQ(read_text(folder / "f"), "old");
+  PendingFile moved = std::move(file);
+  moved.commit();
+  EXPECT_EQ(read_text(folder / "f"), "new");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
 TEST(AtomicWrite, WritesAllBytesAndNothingElse) {
   const TemporaryFolder folder;
   const std::string bytes("a\0b\n", 4);
   const mode_t old_mask = ::umask(027);
-  write_file_atomically(folder / "f", bytes);
+  write_now(folder / "f", bytes);
   ::umask(old_mask);
   EXPECT_EQ(read_text(folder / "f"), bytes);
   EXPECT_EQ(mode_of(folder / "f"), 0640u);
@@ -40,7 +57,7 @@ TEST(AtomicWrite, ReplacesAFileAndKeepsItsMode) {
   const TemporaryFolder folder;
   write_text(folder / "f", "old and longer");
   ::chmod((folder / "f").c_str(), 0604);
-  write_file_atomically(folder / "f", "new");
+  write_now(folder / "f", "new");
   EXPECT_EQ(read_text(folder / "f"), "new");
   EXPECT_EQ(mode_of(folder / "f"), 0604u);
 }
@@ -50,7 +67,7 @@ TEST(AtomicWrite, FollowsALinkAndLeavesOtherNamesOfTheOldFile) {
   write_text(folder / "real", "old");
   fs::create_hard_link(folder / "real", folder / "hard");
   fs::create_symlink("real", folder / "link");
-  write_file_atomically(folder / "link", "new");
+  write_now(folder / "link", "new");
   EXPECT_TRUE(fs::is_symlink(folder / "link"));
   EXPECT_EQ(read_text(folder / "real"), "new");
   EXPECT_EQ(read_text(folder / "hard"), "old");
@@ -67,7 +84,7 @@ TEST(AtomicWrite, RefusesWhatIsNotAPlaceForAFile) {
   for (const char* name : {"folder", "full", "dangling", "loop", "pipe", "no/such/file", "folder/"}) {
     const fs::path path = folder / name;
     EXPECT_ERROR(OutputError, path.native() + ": ", require_writable(path));
-    EXPECT_ERROR(OutputError, path.native() + ": ", write_file_atomically(path, "x"));
+    EXPECT_ERROR(OutputError, path.native() + ": ", write_now(path, "x"));
   }
   EXPECT_THROW(require_writable(""), OutputError);
   EXPECT_EQ(folder.file_count(), before);
@@ -94,7 +111,7 @@ TEST(AtomicWrite, LeavesTheOldFileAloneIfTheNewOneDoesNotFit) {
   const auto old_handler = ::signal(SIGXFSZ, SIG_IGN);
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
   const std::string message =
-      test::message_of<OutputError>([&] { write_file_atomically(folder / "f", std::string(5000, 'x')); });
+      test::message_of<OutputError>([&] { write_now(folder / "f", std::string(5000, 'x')); });
   ::setrlimit(RLIMIT_FSIZE, &old_limit);
   ::signal(SIGXFSZ, old_handler);
   EXPECT_TRUE(test::has(message, "File too large")) << message;
@@ -111,17 +128,28 @@ TEST(AtomicWrite, RequireWritableLeavesNoTrace) {
   EXPECT_EQ(read_text(folder / "f"), "old");
 }
 
-TEST(AtomicWrite, OneFileUnderTwoNamesIsNotDistinct) {
+TEST(AtomicWrite, OneFileUnderTwoNamesIsTheSame) {
   const TemporaryFolder folder;
   write_text(folder / "f", "x");
   write_text(folder / "other", "x");
   fs::create_symlink("f", folder / "link");
   fs::create_hard_link(folder / "f", folder / "hard");
   for (const char* name : {"f", "link", "hard", "./f"})
-    EXPECT_ERROR(Error, (folder / name).native() + ": is the input",
-                 require_distinct(folder / "f", folder / name));
-  require_distinct(folder / "f", folder / "other");
-  require_distinct(folder / "f", folder / "new");
+    EXPECT_TRUE(same_file(folder / "f", folder / name)) << name;
+  EXPECT_FALSE(same_file(folder / "f", folder / "other"));
+  EXPECT_FALSE(same_file(folder / "f", folder / "new"));
+}
+
+TEST(AtomicWrite, OnePlaceUnderTwoNamesIsTheSameBeforeTheFileIsThere) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "real");
+  fs::create_directory_symlink("real", folder / "link");
+  for (const char* name : {"real/new", "./real/new", "real/../link/new", "link/new"})
+    EXPECT_TRUE(same_file(folder / "real/new", folder / name)) << name;
+  EXPECT_FALSE(same_file(folder / "real/new", folder / "new"));
+  EXPECT_FALSE(same_file(folder / "real/new", folder / "link/newer"));
+  const fs::path here = fs::current_path() / "no file of this name";
+  EXPECT_TRUE(same_file(here.filename(), here));
 }
 
 }  // namespace

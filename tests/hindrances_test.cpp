@@ -64,6 +64,19 @@ TEST(Hindrances, HoldsAreThoseOfTheInputsVertices) {
   }
 }
 
+TEST(Hindrances, AFixedBoundaryIsARequest) {
+  const test::Triangles t = test::grid(6, test::flat, .2, 3);
+  RemeshOptions options;
+  options.constraints.boundary = BoundaryRule::fixed;
+  const auto holds = holds_of(t, options);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+    const auto on_end = [](double x) { return x == 0 || x == 1; };
+    const bool rim = on_end(t.points(0, v)) || on_end(t.points(1, v));
+    EXPECT_EQ(holds[static_cast<size_t>(v)] & ~held_by_guard, rim ? held_by_request | held_by_boundary : 0)
+        << v;
+  }
+}
+
 TEST(Hindrances, CreasesHoldTheirVertices) {
   const test::Triangles t = test::irregular_cube(4);
   const auto holds = holds_of(t);

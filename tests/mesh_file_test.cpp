@@ -5,6 +5,7 @@
 
 #include "errors.h"
 #include "hooke/error.h"
+#include "hooke/io/read_mesh.h"
 #include "temporary_folder.h"
 
 namespace hooke {
@@ -19,7 +20,7 @@ const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 std::string error_of(const fs::path& path) {
-  return test::message_of<InputError>([&] { read_mesh_file(path); });
+  return test::message_of<InputError>([&] { read_mesh(path); });
 }
 
 TEST(MeshFile, TheExtensionInAnyCaseIsTheFormat) {

@@ -48,7 +48,8 @@ TEST(ReadMesh, EveryFormatReturnsEveryBitOfTheMesh) {
                                        {"c.ply", PlyEncoding::ascii},
                                        {"d.ply", PlyEncoding::binary_little_endian},
                                        {"e.ply", PlyEncoding::binary_big_endian}}) {
-    const WrittenFile written = write_mesh(folder / name, mesh, format_of(name), encoding);
+    PendingMesh written = prepare_mesh(folder / name, mesh, format_of(name), encoding);
+    written.file.commit();
     const LoadedMesh loaded = read_mesh(folder / name);
     expect_same_bits(loaded.mesh, t);
     EXPECT_TRUE(loaded.warnings.empty());
@@ -57,7 +58,6 @@ TEST(ReadMesh, EveryFormatReturnsEveryBitOfTheMesh) {
       EXPECT_EQ(loaded.encoding, encoding);
     }
     EXPECT_EQ(loaded.sha256, written.sha256);
-    EXPECT_EQ(loaded.bytes, written.bytes);
     // Once more: the bytes are a fixed point.
     EXPECT_EQ(mesh_bytes(loaded.mesh, loaded.format, encoding), read_text(folder / name));
   }
@@ -70,7 +70,6 @@ TEST(ReadMesh, GathersTheWarningsOfEachStep) {
   const LoadedMesh loaded = read_mesh(folder / "m.obj");
   EXPECT_EQ(loaded.mesh.n_vertices(), 5u);
   EXPECT_EQ(loaded.mesh.n_faces(), 2u);
-  EXPECT_EQ(loaded.polygons_cut, 1);
   std::vector<std::string> codes;
   for (const Warning& warning : loaded.warnings) codes.push_back(warning.code);
   EXPECT_EQ(codes,
@@ -94,7 +93,7 @@ TEST(ReadMesh, ErrorsOfEachKindKeepTheirKind) {
   EXPECT_THROW(read_mesh(folder / "bad.obj"), InputError);
   EXPECT_THROW(read_mesh(folder / "m.stl"), InputError);
   EXPECT_THROW(mesh_bytes(test::to_mesh(test::sphere(0)), "stl"), Error);
-  EXPECT_THROW(write_mesh(folder / "no/m.obj", test::to_mesh(test::sphere(0)), "obj"), OutputError);
+  EXPECT_THROW(prepare_mesh(folder / "no/m.obj", test::to_mesh(test::sphere(0)), "obj"), OutputError);
 }
 
 TEST(Sha256, AgreesWithTheStandardsExamples) {

@@ -152,5 +152,12 @@ TEST(Validation, ManyPlacesMakeAShortMessageAndThreadsChangeNothing) {
   EXPECT_EQ(message(), all);
 }
 
+TEST(Validation, SizesBeyondTheRangeOfTheirSquaresAreRefused) {
+  const test::Triangles t = test::sphere(0);
+  for (double scale : {1e-49, 1., 1e49}) require_workable_size(scale * t.points, "m");
+  for (double scale : {0., 1e-51, 1e51, 1e308})
+    EXPECT_ERROR(MeshError, "m: the diagonal of its box is ", require_workable_size(scale * t.points, "m"));
+}
+
 }  // namespace
 }  // namespace hooke

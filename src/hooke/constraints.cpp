@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/coincident_boundary.h"
 #include "hooke/creases.h"
 
 namespace hooke {
@@ -207,6 +208,9 @@ Constraints find_constraints(const Mat3X& points, const Connectivity& c, const C
   for (size_t v = 0; v < n; ++v)
     if (c.vertex_faces[static_cast<int>(v)].empty()) result.freedom[v] = Freedom::fixed;
   for (int v : options.fixed_vertices) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+
+  for (int v : coincident_boundary_vertices(points, c))
+    result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
 
   const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);
   if (options.boundary != BoundaryRule::free) add_boundary(points, c, options.boundary, cos_corner, result);

@@ -19,22 +19,25 @@ unsigned char hold_of_curve(const Workspace& work, size_t vertex) {
 }  // namespace
 
 std::vector<unsigned char> holds_of_result(const Workspace& work, const Guards& guards,
-                                           std::vector<int> fixed_vertices) {
+                                           const ConstraintOptions& asked) {
+  std::vector<int> fixed_vertices = asked.fixed_vertices;
   std::ranges::sort(fixed_vertices);
   const Connectivity& c = *work.connectivity;
   std::vector<unsigned char> holds(work.origins.size());
-  for (size_t v = 0; v < holds.size(); ++v) {
-    holds[v] = hold_of_curve(work, v);
-    if (work.constraints.freedom[v] != Freedom::fixed) continue;
-    const int id = work.vertex_of_input(static_cast<int>(v));
-    holds[v] |= std::ranges::binary_search(fixed_vertices, id) ? held_by_request : held_at_corner;
-  }
+  for (size_t v = 0; v < holds.size(); ++v) holds[v] = hold_of_curve(work, v);
   for (size_t e = 0; e < c.edges.size(); ++e)
     for (const int v : c.edges[e]) {
       auto& hold = holds[static_cast<size_t>(v)];
       if (c.edge_faces[e][1] < 0) hold |= held_by_boundary;
       if (c.is_crease(static_cast<int>(e))) hold |= held_by_crease;
     }
+  for (size_t v = 0; v < holds.size(); ++v) {
+    if (work.constraints.freedom[v] != Freedom::fixed) continue;
+    const bool requested =
+        std::ranges::binary_search(fixed_vertices, work.vertex_of_input(static_cast<int>(v))) ||
+        (asked.boundary == BoundaryRule::fixed && (holds[v] & held_by_boundary));
+    holds[v] |= requested ? held_by_request : held_at_corner;
+  }
   for (const int v : guards.vertices_at_limits()) holds[static_cast<size_t>(v)] |= held_by_guard;
 
   std::vector<unsigned char> of_result(holds.size());

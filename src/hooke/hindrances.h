@@ -12,14 +12,15 @@ enum Hold : unsigned char {
   held_by_nothing = 0,
   held_by_boundary = 1,  // slides along it or lies on it
   held_by_crease = 2,    // slides along it or lies on it
-  held_at_corner = 4,    // stands still, where curves of the input end or turn
+  held_at_corner = 4,    // stands still, where curves of the input end, turn or lie on each other
   held_by_request = 8,   // stands still, because it was asked to
   held_by_guard = 16,    // next to a face or an edge that is at a limit of the guards
 };
 
-/// Per vertex of the result. Pre-condition: the placement of the work is the accepted one of the guards.
+/// Per vertex of the result, where `asked` is what the constraints of the work were made from. Pre-condition:
+/// the placement of the work is the accepted one of the guards.
 std::vector<unsigned char> holds_of_result(const Workspace& work, const Guards& guards,
-                                           std::vector<int> fixed_vertices);
+                                           const ConstraintOptions& asked);
 
 /// What bounds the least angle of a face, by name. Where the connectivity does, what the vertices are that
 /// set the bound: "corner", "fixed", "crease", "boundary", or "valence" inside. Otherwise what holds the

@@ -96,6 +96,7 @@ class PaperRun {
 
   void record(const EvolutionResult& evolved) {
     IterationRecord record = iteration_record(work_, "paper", evolved);
+    record.outer = outer_;
     record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     result_.iterations.push_back(record);
     result_.bound += evolved.bound;

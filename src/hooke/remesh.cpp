@@ -98,7 +98,7 @@ class Remeshing {
     held_back_ = relaxed.held_back > 0;
     result_.not_landed = work_.land();
     work_.resample_lengths();
-    record("relax", relaxed);
+    record("relax", relaxed, outer_);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
@@ -127,7 +127,7 @@ class Remeshing {
   void conclude() {
     guards_.accept(work_.placement);
     result_.folded_faces = faces_of_result(work_, guards_.folded_faces());
-    result_.holds = holds_of_result(work_, guards_, options_.constraints.fixed_vertices);
+    result_.holds = holds_of_result(work_, guards_, options_.constraints);
     result_.creases = count_creases();
     result_.projection = work_.projection_counts();
   }
@@ -155,8 +155,9 @@ class Remeshing {
     done_ = true;
   }
 
-  void record(const char* stage, const IntegrationResult& done) {
+  void record(const char* stage, const IntegrationResult& done, int outer = 0) {
     IterationRecord record = iteration_record(work_, stage, done);
+    record.outer = outer;
     record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     result_.iterations.push_back(record);
     result_.held_back += done.held_back;

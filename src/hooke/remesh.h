@@ -58,6 +58,7 @@ void set_effort(RemeshOptions& options, Effort effort);
 /// One outer iteration.
 struct IterationRecord {
   const char* stage = "";
+  int outer = 0;  // outer iteration, from 1; 0 before and after all of them
   int steps = 0;
   int evaluations = 0;  // of the energy
   long long field_evaluations = 0;

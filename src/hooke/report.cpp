@@ -15,50 +15,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const char* name_of(FilterKind kind) {
-  switch (kind) {
-    case FilterKind::local:
-      return "local";
-    case FilterKind::global:
-      return "global";
-    case FilterKind::closest:
-      return "closest";
-    case FilterKind::none:
-      return "none";
-  }
-  return "";
-}
-
-const char* name_of(BoundaryRule rule) {
-  switch (rule) {
-    case BoundaryRule::slide:
-      return "slide";
-    case BoundaryRule::fixed:
-      return "fixed";
-    case BoundaryRule::free:
-      return "free";
-  }
-  return "";
-}
-
-const char* name_of(ConnectivityMode mode) {
-  switch (mode) {
-    case ConnectivityMode::fixed:
-      return "fixed";
-    case ConnectivityMode::flip:
-      return "flip";
-    case ConnectivityMode::adapt:
-      return "adapt";
-  }
-  return "";
-}
-
-void add_filter(Json& j, const FilterOptions& filter) {
-  j["filter"] = name_of(filter.kind);
-  j["kernel"] = filter.kernel == Kernel::r3 ? "r3" : "r2logr";
-  j["rho"] = filter.offset;
-}
-
 Json file_json(const FileRecord& file, const Quality& quality) {
   Json j = {{"path", file.path}, {"sha256", file.sha256}, {"format", file.format}};
   j.update(to_json(quality.topology, quality.extent));
@@ -68,6 +24,7 @@ Json file_json(const FileRecord& file, const Quality& quality) {
 
 Json iteration_json(const IterationRecord& r) {
   return {{"stage", r.stage},
+          {"outer", r.outer > 0 ? Json(r.outer) : Json()},
           {"steps", r.steps},
           {"evaluations", r.evaluations},
           {"energy", r.energy},
@@ -159,60 +116,6 @@ std::string connectivity_sha256(const std::vector<Triangle>& faces) {
   return sha256(bytes);
 }
 
-Json parameters_json(const RemeshOptions& o) {
-  Json j;
-  j["paper"] = false;
-  j["connectivity"] = name_of(o.connectivity);
-  j["flow_rounds"] = o.connectivity == ConnectivityMode::fixed ? 0 : o.flips.flow.rounds;
-  j["integrator"] = o.integrator == IntegratorKind::lbfgs ? "lbfgs" : "damped";
-  j["polish"] = o.polish_angles;
-  const PolishOptions& polish = o.connectivity == ConnectivityMode::flip ? o.flips.polish : o.polish;
-  j["polish_sweeps"] = polish.sweeps;
-  j["polish_step"] = polish.threshold_step;
-  j["polish_up_to"] = polish.last_threshold;
-  j["polish_edge_limit"] = polish.edge_error_limit;
-  add_filter(j, o.filter);
-  const bool adapts = o.connectivity == ConnectivityMode::adapt;
-  j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
-  j["refit"] = o.refit == Refit::each && !adapts ? "each" : "once";
-  j["altitude"] = o.altitude;
-  j["string"] = o.damped.string;
-  j["torque"] = o.damped.torque;
-  j["friction"] = o.damped.friction;
-  j["tolerance"] = o.tolerance;
-  j["max_outer"] = o.max_outer;
-  j["outer_drop"] = o.outer_drop;
-  j["max_steps"] = o.integration.max_steps;
-  j["boundary"] = name_of(o.constraints.boundary);
-  j["corner_angle"] = o.constraints.corner_angle;
-  j["feature_angle"] = o.constraints.features.angle < 180 ? Json(o.constraints.features.angle) : Json();
-  j["fixed_vertices"] = o.constraints.fixed_vertices.size();
-  j["guard_area_ratio"] = o.guards.area_ratio;
-  j["guard_alignment"] = o.guards.alignment;
-  j["guard_fold"] = o.guards.fold;
-  j["guard_sagitta"] = o.guards.sagitta;
-  return j;
-}
-
-Json parameters_json(const PaperOptions& o) {
-  Json j;
-  j["paper"] = true;
-  add_filter(j, o.filter);
-  j["string"] = o.evolution.damped.string;
-  j["torque"] = o.evolution.damped.torque;
-  j["friction"] = o.evolution.damped.friction;
-  j["step_angle"] = o.evolution.time_step.angle;
-  j["step_expansion"] = o.evolution.time_step.expansion;
-  j["step_displacement"] = o.evolution.time_step.displacement;
-  j["step_area"] = o.evolution.time_step.area_bound;
-  j["tolerance"] = o.evolution.tolerance;
-  j["max_outer"] = o.max_outer;
-  j["max_steps"] = o.evolution.max_steps;
-  j["boundary"] = name_of(o.constraints.boundary);
-  j["fixed_vertices"] = o.constraints.fixed_vertices.size();
-  return j;
-}
-
 Resources resources_used(double wall_seconds) {
   const ProcessUse use = process_use();
   return {thread_count(), wall_seconds, use.cpu_s, use.peak_rss_bytes};
@@ -273,6 +176,11 @@ Json report_json(const RunRecord& run) {
                     {"peak_rss_bytes", run.resources.peak_rss_bytes},
                     {"stages", stages_json(run.stages)}};
   return j;
+}
+
+std::string report_text(const RunRecord& run) {
+  constexpr int indent = 2;
+  return report_json(run).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace hooke

@@ -24,10 +24,6 @@ struct FileRecord {
 /// SHA-256 of the faces' vertex ids as little-endian 32-bit integers.
 std::string connectivity_sha256(const std::vector<Triangle>& faces);
 
-/// Every effective value of a run.
-nlohmann::ordered_json parameters_json(const RemeshOptions& options);
-nlohmann::ordered_json parameters_json(const PaperOptions& options);
-
 struct Resources {
   int threads = 0;
   double wall_s = 0;
@@ -44,7 +40,7 @@ struct RunRecord {
   std::string status;  // see status_of()
   FileRecord input;
   std::optional<FileRecord> output;
-  nlohmann::ordered_json parameters;
+  nlohmann::ordered_json parameters;  // see parameters_json.h
   Quality before;
   std::optional<Quality> after;
   std::optional<Deviation> deviation;
@@ -62,5 +58,8 @@ std::string status_of(StopReason reason);
 std::vector<int> folded_faces(const RunRecord& run);
 
 nlohmann::ordered_json report_json(const RunRecord& run);
+
+/// The report as a text. What is not UTF-8 in names is replaced.
+std::string report_text(const RunRecord& run);
 
 }  // namespace hooke

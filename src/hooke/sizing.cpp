@@ -46,8 +46,8 @@ LengthSpec parse_length(const std::string& text) {
   if (unit == "x") spec.kind = LengthSpec::Kind::times_natural;
   const bool known = unit.empty() || unit == "%" || unit == "x";
   if (error != std::errc() || !known || !(spec.value > 0) || !std::isfinite(spec.value))
-    throw Error(fmt::format(
-        "length '{}'; expected auto, mean, sizing, or a positive number, alone or with % or x", text));
+    throw Error(
+        fmt::format("'{}'; expected auto, mean, sizing, or a positive number, alone or with % or x", text));
   return spec;
 }
 

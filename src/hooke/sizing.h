@@ -25,7 +25,7 @@ struct LengthSpec {
 };
 
 /// Reads "auto", "mean", "X", "X%" (of the box's diagonal), "Xx" (times the natural length) or "sizing" (the
-/// lengths of a sizing as they are). Throws Error.
+/// lengths of a sizing as they are). Throws Error that begins with the text.
 LengthSpec parse_length(const std::string& text);
 
 /// The length that is meant, in the unit of the points. Pre-condition: not as_given.

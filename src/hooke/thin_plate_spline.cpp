@@ -181,7 +181,7 @@ std::optional<ThinPlateSpline> ThinPlateSpline::fit(const Mat3X& centres, const 
   if (bytes > memory_limit_bytes)
     throw LimitError(
         fmt::format("a thin-plate spline of {} centres takes {} bytes; {} bytes are allowed; "
-                    "use the local filter or raise the memory limit",
+                    "use the local filter, or more memory",
                     spline.centres_, bytes, memory_limit_bytes));
   if (spline.centres_ == 0) return std::nullopt;
   spline.origin_ = centres.rowwise().mean();

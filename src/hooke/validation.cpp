@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "hooke/error.h"
+#include "hooke/sizing.h"
 
 namespace hooke {
 namespace {
@@ -99,6 +100,16 @@ Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangl
     throw MeshError(fmt::format("{}: {}; expected an oriented manifold surface with area; {}", source.name,
                                 errors, help));
   return warnings;
+}
+
+void require_workable_size(const Mat3X& points, const std::string& name) {
+  constexpr double least = 1e-50, most = 1e50;
+  const double diagonal = box_diagonal(points);
+  if (!(diagonal >= least && diagonal <= most))
+    throw MeshError(fmt::format(
+        "{}: the diagonal of its box is {:.3g}; expected {:.0e} to {:.0e}; scale the mesh, or use "
+        "another unit",
+        name, diagonal, least, most));
 }
 
 }  // namespace hooke

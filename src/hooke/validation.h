@@ -29,4 +29,8 @@ struct MeshSource {
 Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source,
                        VertexFans* fans = nullptr);
 
+/// Throws MeshError when the box of the points is so small or so large that the squares of areas would leave
+/// the range of numbers.
+void require_workable_size(const Mat3X& points, const std::string& name);
+
 }  // namespace hooke

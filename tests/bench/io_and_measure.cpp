@@ -78,13 +78,14 @@ void write(benchmark::State& state, const Format& format) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
   const TriMesh mesh = build_mesh(s.points, s.connectivity);
   const TemporaryFile file(format.ending);
-  for (auto _ : state) write_mesh(file.path, mesh, format_of(file.path), format.encoding);
+  for (auto _ : state) prepare_mesh(file.path, mesh, format_of(file.path), format.encoding).file.commit();
 }
 
 void read(benchmark::State& state, const Format& format) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
   const TemporaryFile file(format.ending);
-  write_mesh(file.path, build_mesh(s.points, s.connectivity), format_of(file.path), format.encoding);
+  prepare_mesh(file.path, build_mesh(s.points, s.connectivity), format_of(file.path), format.encoding)
+      .file.commit();
   for (auto _ : state) benchmark::DoNotOptimize(read_mesh(file.path));
 }
 

@@ -34,28 +34,32 @@ class CommandTest(unittest.TestCase):
     def files(self):
         return sorted(p.name for p in self.folder.iterdir())
 
-    def start(self, *arguments, **environment):
-        """The running command; thread settings of the caller's environment do not reach it."""
+    def start(self, *arguments, streams=None, prepare=None, **environment):
+        """The running command; thread settings of the caller's environment do not reach it. `streams` replace its
+        standard streams, `prepare` is called in its process first."""
         env = {k: v for k, v in os.environ.items() if k not in ("SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS")}
-        return subprocess.Popen([TOOL, *map(str, arguments)], cwd=self.folder, env={**env, **environment},
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **(streams or {})}
+        return subprocess.Popen([TOOL, *(a if isinstance(a, bytes) else str(a) for a in arguments)], cwd=self.folder, env={**env, **environment},
+                                preexec_fn=prepare, **streams)
 
     def run_command(self, *arguments, expect=0, **environment):
         """(standard output, standard error) of a run that must end with the exit code expected."""
         process = self.start(*arguments, **environment)
-        out, err = (text.decode() for text in process.communicate())
+        out, err = ((text or b"").decode() for text in process.communicate())
         self.assertEqual(process.returncode, expect, err)
         return out, err
 
-    def refused(self, code, *arguments, names=None, says=None):
+    def refused(self, code, *arguments, names=None, says=None, **how):
         """A run that must fail with one message and leave the folder's files as they are."""
-        before = {name: (self.folder / name).read_bytes() for name in self.files()}
-        out, err = self.run_command(*arguments, expect=code)
+        contents = lambda: {p.name: p.read_bytes() if p.is_file() else None for p in self.folder.iterdir()}
+        before = contents()
+        out, err = self.run_command(*arguments, expect=code, **how)
         self.assertEqual(out, "")
+        self.assertEqual(err.count("\n"), 1, err)
         self.assertTrue(err.startswith("hooke-remesh: error: "), err)
         for text in filter(None, (names, says)):
             self.assertIn(text, err)
-        self.assertEqual({name: (self.folder / name).read_bytes() for name in self.files()}, before)
+        self.assertEqual(contents(), before)
         return err
 
     def report(self, *arguments, expect=0, **environment):

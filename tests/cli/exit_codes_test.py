@@ -1,9 +1,11 @@
 """Every way to fail has its exit code, one message that names the culprit, and leaves no file behind."""
 
 import os
+import resource
+import subprocess
 import unittest
 
-from command import DATA, CommandTest
+from command import DATA, TETRAHEDRON, CommandTest, irregular_torus, write_off
 
 
 class UsageErrors(CommandTest):
@@ -22,7 +24,62 @@ class UsageErrors(CommandTest):
                        ["--feature-angle", "40", "--paper"]):
             with self.subTest(option=option):
                 self.refused(2, "good.obj", "-o", "out.obj", *option,
-                             says={"-L": "length", "--sizing": "izing"}.get(option[0], option[0]))
+                             says={"-L": "--length"}.get(option[0], option[0]))
+
+    def test_numbers_are_finite_and_in_range(self):
+        for option in ("--altitude", "--rho", "--string", "--torque", "--friction", "--step-angle", "--step-expansion",
+                       "--step-displacement", "--step-area", "--tolerance", "--gradation", "--feature-angle",
+                       "--max-outer", "--max-steps", "--threads"):
+            for value in ("nan", "inf", "1e999", "-2", "", "1z", "0x1p3"):
+                with self.subTest(option=option, value=value):
+                    message = self.refused(2, "good.obj", "-o", "out.obj", option + "=" + value, says=option)
+                    self.assertLess(len(message), 150)
+        self.refused(2, "good.obj", "-o", "out.obj", "--paper", "--step-angle", "1.5", says="--step-angle")
+
+    def test_words_are_words(self):
+        for option, words in (("--connectivity", "fixed|flip|adapt"), ("--polish", "on|off"), ("--filter", "local|"),
+                              ("--integrator", "lbfgs|damped"), ("--boundary", "slide|fixed|free")):
+            for value in ("7", "0", "true", "magic"):
+                with self.subTest(option=option, value=value):
+                    message = self.refused(2, "good.obj", "-o", "out.obj", option, value, names=option, says=words)
+                    self.assertNotIn("{", message)
+
+    def test_no_terminal_obeys_a_message(self):
+        escape = "\x1b[31mred\n"
+        for arguments in (["--connectivity", escape], ["--" + escape], ["-L", escape], ["--sizing", "curvature:" + escape],
+                          ["--rho", escape], ["--tolerance", escape], ["--fix", escape], ["-o", escape]):
+            with self.subTest(arguments=arguments):
+                code = 3 if arguments[0] == "--fix" else 2
+                output = [] if arguments[0] == "-o" else ["-o", "out.obj"]
+                self.assertNotIn("\x1b", self.refused(code, "good.obj", *output, *arguments))
+
+    def test_files_have_names(self):
+        for option in ("--fix", "--report", "--trace", "--map", "--sizing", "--output"):
+            for name in ("", "-"):
+                if (option, name) != ("--report", "-"):
+                    output = [] if option == "--output" else ["-o", "out.obj"]
+                    with self.subTest(option=option, name=name):
+                        self.refused(2, "good.obj", *output, option + "=" + name, says=option)
+
+    def test_options_that_would_do_nothing(self):
+        for option in (["--effort", "fast"], ["--map", "map"], ["--integrator", "damped"], ["--polish", "on"],
+                       ["--altitude", "1"], ["--refit", "once"], ["--filter", "local"], ["--connectivity", "flip"]):
+            with self.subTest(option=option):
+                self.refused(2, "good.obj", "-o", "out.obj", "--paper", *option, names=option[0], says="--paper")
+        for option in ("--step-angle", "--step-expansion", "--step-displacement", "--step-area", "--string", "--torque",
+                       "--friction"):
+            with self.subTest(option=option):
+                self.refused(2, "good.obj", "-o", "out.obj", option, ".5", names=option)
+        for option in (["--kernel", "r3"], ["--rho", ".1"]):
+            self.refused(2, "good.obj", "-o", "out.obj", "--filter", "closest", *option, names=option[0])
+
+    def test_lengths_out_of_all_proportion(self):
+        for length in ("1e-7x", "1e7x", "1e-300", "1e300", "1e-320", "1e-9%"):
+            with self.subTest(length=length):
+                self.refused(2, "good.obj", "-o", "out.obj", "-L", length, names="--length '" + length)
+        self.write("lengths", "1\n1e9\n1\n1\n")
+        self.refused(2, "good.obj", "-o", "out.obj", "--sizing", "lengths", "-L", "sizing", "--gradation", "off",
+                     names="--sizing 'lengths'")
 
     def test_output_is_needed(self):
         self.refused(2, "good.obj", says="-o FILE")
@@ -81,6 +138,11 @@ class InputErrors(CommandTest):
         mixed = corner + "v 1 1 0\nf 1 2 3\nf 2 3 4\n"
         self.refused_text(4, mixed)
 
+    def test_sizes_beyond_the_range_of_numbers(self):
+        for scale in ("1e-60", "1e-300", "1e60", "1e300"):
+            self.refused_text(4, TETRAHEDRON.replace("1 ", scale + " ", 2).replace("v 0 0 1", "v 0 0 " + scale),
+                              says="scale the mesh")
+
     def test_same_refusals_with_check(self):
         self.refused(3, "gone.obj", "--check", names="gone.obj")
         self.write("empty.obj", "v 0 0 0\n")
@@ -111,8 +173,37 @@ class OutputErrors(CommandTest):
         self.refused(5, "good.obj", "-o", "out.obj", "--report", "no/report.json", names="report.json")
 
     def test_full_device(self):
-        out, err = self.run_command("good.obj", "--check", "--report", "/dev/full", expect=5)
-        self.assertIn("/dev/full", err)
+        self.write("out.obj", "precious\n")
+        with open("/dev/full", "wb") as full:
+            for stream in (full, subprocess.DEVNULL):
+                closed = stream == subprocess.DEVNULL
+                self.refused(5, "good.obj", "-o", "out.obj", "--report", "-", names="standard output",
+                             streams={"stdout": stream}, prepare=(lambda: os.close(1)) if closed else None)
+            self.refused(5, "--help", names="standard output", streams={"stdout": full})
+
+    def test_no_older_file_is_replaced_unless_all_can_be_written(self):
+        for name in ("out.obj", "report.json", "map"):
+            self.write(name, "precious\n")
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))  # the report is larger
+        self.refused(5, "good.obj", "-o", "out.obj", "--report", "report.json", "--map", "map", names="report.json",
+                     prepare=limit)
+
+    def test_no_output_is_another_file_of_the_command(self):
+        self.write("ids", "0\n")
+        self.write("lengths", "1\n1\n1\n1\n")
+        os.symlink(".", self.folder / "link")
+        here = str(self.folder.resolve())
+        for arguments, roles in ((["--fix", "ids", "--map", "ids"], ("--fix", "--map")),
+                                 (["--fix", "ids", "--map", "link/ids"], ("--fix", "--map")),
+                                 (["--sizing", "lengths", "--trace", "lengths"], ("--sizing", "--trace")),
+                                 (["--report", here + "/out.obj"], ("--output", "--report")),
+                                 (["--report", "link/out.obj"], ("--output", "--report")),
+                                 (["--report", "new", "--map", "link/link/new"], ("--report", "--map")),
+                                 (["--trace", "link/good.obj"], ("INPUT", "--trace"))):
+            with self.subTest(arguments=arguments):
+                message = self.refused(2, "good.obj", "-o", "out.obj", *arguments)
+                for role in roles:
+                    self.assertIn(role, message)
 
     def test_old_output_stays_when_the_input_is_refused(self):
         self.write("out.obj", "precious\n")
@@ -124,6 +215,43 @@ class OutputErrors(CommandTest):
         self.run_command("good.obj", "-o", "out.obj")
         self.assertEqual(self.files(), ["good.obj", "out.obj"])
         self.assertTrue((self.folder / "out.obj").read_text().startswith("v "))
+
+
+class DeafReaders(CommandTest):
+    """A result is not lost because nobody can read what is said about it."""
+
+    def written(self, code=0, **how):
+        self.run_command(DATA / "patch.obj", "-o", "out.obj", "-L", "1.5x", expect=code, **how)
+        self.assertEqual(self.files(), ["good.obj", "out.obj"])
+        self.assertTrue((self.folder / "out.obj").read_text().startswith("v "))
+        (self.folder / "out.obj").unlink()
+
+    def test_closed_standard_error(self):
+        self.written(prepare=lambda: os.close(2))
+        self.written(prepare=lambda: os.closerange(0, 3))
+
+    def test_full_device(self):
+        with open("/dev/full", "wb") as full:
+            self.written(streams={"stderr": full})
+            self.run_command("gone.obj", "-o", "out.obj", expect=3, streams={"stderr": full})
+            self.run_command("--nothing", expect=2, streams={"stderr": full})
+
+    def test_closed_pipe(self):
+        reading, writing = os.pipe()
+        os.close(reading)
+        with open(writing, "wb") as pipe:
+            self.run_command(DATA / "patch.obj", "-o", "out.obj", "--progress", "bar", streams={"stderr": pipe})
+            self.assertTrue((self.folder / "out.obj").is_file())
+            self.run_command("--nothing", expect=2, streams={"stderr": pipe})
+
+
+class Limits(CommandTest):
+    def test_a_dense_spline_beyond_the_memory(self):
+        vertices, faces = irregular_torus(80, 80)
+        write_off(self.folder / "torus.off", vertices, faces)
+        gigabyte = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+        for option in (["--filter", "global"], ["--paper"]):
+            self.refused(8, "torus.off", "-o", "out.off", *option, names="torus.off", says="local filter", prepare=gigabyte)
 
 
 if __name__ == "__main__":

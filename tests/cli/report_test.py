@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import unittest
 
 from command import DATA, CommandTest, read_mesh, write_off
@@ -17,7 +18,7 @@ COUNTS = {"folded_edges", "self_intersections", "degenerate_faces", "valence", "
           "gaussian_curvature", "worst_faces"}
 GEOMETRY = {"displacement", "distance_to_input", "distance_from_input", "normal_deviation", "area_change",
             "volume_change", "flipped_faces", "boundary_distance"}
-STAGE = {"stage", "steps", "energy", "max_length_error", "rms_length_error", "min_angle", "field_evaluations", "t_s"}
+STAGE = {"stage", "outer", "steps", "energy", "max_length_error", "rms_length_error", "min_angle", "field_evaluations", "t_s"}
 
 
 class Report(CommandTest):
@@ -115,6 +116,7 @@ class Report(CommandTest):
         report = self.report(DATA / "blob.ply", "--check", "--sizing", "curvature:1%", "--gradation", "off")
         self.assertIsNone(report["parameters"]["gradation"])
         self.assertLess(report["parameters"]["L_min"], report["parameters"]["L_max"])
+
     def test_edges_that_cannot_follow_a_sizing_are_a_warning(self):
         vertices = read_mesh(DATA / "torus.off")[0]
         lengths = [1 if i % 2 else 8 for i in range(len(vertices))]
@@ -124,6 +126,53 @@ class Report(CommandTest):
         self.assertIn("sizing_missed", codes)
         codes = [w["code"] for w in self.report(DATA / "torus.off", "-o", "out.off", "--sizing", "curvature")["warnings"]]
         self.assertNotIn("sizing_missed", codes)
+
+    def test_parameters_are_those_in_effect(self):
+        parameters = lambda *options: self.report(DATA / "patch.obj", "-o", "out.off", *options)["parameters"]
+        plain, flip, adapt = (parameters("--connectivity", mode) for mode in ("fixed", "flip", "adapt"))
+        self.assertEqual([plain[key] for key in ("effort", "torque", "friction", "polish_up_to", "near_regular_angle")],
+                         ["default", None, None, 32, 35])
+        for key in ("from", "step", "up_to", "edge_limit"):
+            self.assertEqual(flip["polish_" + key], adapt["polish_" + key])
+        self.assertEqual((flip["polish_up_to"], flip["near_regular_angle"]), (60, None))
+        other = parameters("--integrator", "damped", "--polish", "off", "--filter", "closest", "--effort", "fast")
+        self.assertEqual([other[key] for key in ("effort", "friction", "polish_up_to", "kernel", "rho", "refit")],
+                         ["fast", 1000, None, None, None, None])
+        paper = parameters("--paper", "--max-steps", 5)
+        self.assertEqual((paper["filter"], paper["step_expansion"]), ("global", .01))
+
+    def test_iterations_are_numbered(self):
+        iterations = self.report(DATA / "patch.obj", "-o", "out.off")["iterations"]
+        relaxed = [i["outer"] for i in iterations if i["stage"] == "relax"]
+        self.assertEqual(relaxed, list(range(1, len(relaxed) + 1)))
+        self.assertEqual({i["outer"] for i in iterations if i["stage"] != "relax"}, {None})
+
+    def test_a_surface_that_was_left_is_a_warning(self):
+        codes = lambda *options: [w["code"] for w in self.report(*options)["warnings"]]
+        for sample in ("patch.obj", "blob.ply", "torus.off", "cube.obj"):
+            self.assertEqual(codes(DATA / sample, "-o", "out.off"), [])
+        coarse = (DATA / "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", "4x")
+        self.assertIn("surface_left", codes(*coarse))
+
+    def test_a_seam_stays_closed_and_says_so(self):
+        grid = lambda side: [(side * (i + .3 * (i == 1 and j == 1)) / 2, (j + .2 * (j == 1 and i == 1)) / 2, 0)
+                             for j in range(3) for i in range(3)]
+        faces = [f for a in (0, 1, 3, 4) for f in ((a, a + 1, a + 4), (a, a + 4, a + 3))]
+        vertices = grid(1) + grid(-1)
+        write_off(self.folder / "seam.off", vertices, faces + [(9 + a, 9 + c, 9 + b) for a, b, c in faces])
+        report = self.report("seam.off", "-o", "out.off")
+        (warning,) = report["warnings"]
+        self.assertEqual(warning["code"], "coincident_boundary")
+        self.assertIn("6 boundary vertices", warning["message"])
+        moved = read_mesh(self.folder / "out.off")[0]
+        for v in (0, 3, 6, 9, 12, 15):
+            self.assertEqual(tuple(moved[v]), vertices[v])
+
+    def test_names_that_are_not_utf8(self):
+        name = b"l\xff\xfe"
+        (self.folder / os.fsdecode(name)).write_text("1\n" * 4)
+        report = self.report("good.obj", "--check", "--sizing", name)
+        self.assertEqual(report["parameters"]["sizing"], "l\\xff\\xfe")
 
     def test_worst_faces_say_what_bounds_them(self):
         for mode in ("fixed", "flip"):

@@ -131,29 +131,51 @@ void sync_folder(const fs::path& name, const fs::path& target) {
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  const Target target = find_target(path);
-  TemporaryFile temporary(path, target.path);
-  temporary.write(bytes);
-  if (target.mode) temporary.set_mode(*target.mode);
-  temporary.sync_and_close();
-  temporary.rename_to(target.path);
-  sync_folder(path, target.path);
+/// With the place it is to go to.
+class PendingFile::Written {
+ public:
+  Written(const fs::path& path, std::string_view bytes)
+      : path_(path), target_(find_target(path)), temporary_(path, target_.path) {
+    temporary_.write(bytes);
+    if (target_.mode) temporary_.set_mode(*target_.mode);
+    temporary_.sync_and_close();
+  }
+
+  void commit() {
+    temporary_.rename_to(target_.path);
+    sync_folder(path_, target_.path);
+  }
+
+ private:
+  fs::path path_;
+  Target target_;
+  TemporaryFile temporary_;
+};
+
+PendingFile::PendingFile(const fs::path& path, std::string_view bytes)
+    : written_(std::make_unique<Written>(path, bytes)) {}
+PendingFile::PendingFile(PendingFile&&) noexcept = default;
+PendingFile::~PendingFile() = default;
+
+void PendingFile::commit() {
+  written_->commit();
 }
 
 void require_writable(const fs::path& path) {
   TemporaryFile(path, find_target(path).path);
 }
 
-void require_distinct(const fs::path& input, const fs::path& output) {
-  struct stat in {
-  }, out{};
-  const bool both_exist = ::stat(input.c_str(), &in) == 0 && ::stat(output.c_str(), &out) == 0;
-  const bool same = both_exist ? in.st_dev == out.st_dev && in.st_ino == out.st_ino
-                               : input.lexically_normal() == output.lexically_normal();
-  if (same)
-    throw Error(fmt::format("{}: is the input {} itself; expected another file; choose another output",
-                            printable(output.native()), printable(input.native())));
+bool same_file(const fs::path& a, const fs::path& b) {
+  struct stat first {
+  }, second{};
+  const bool a_exists = ::stat(a.c_str(), &first) == 0, b_exists = ::stat(b.c_str(), &second) == 0;
+  if (a_exists && b_exists) return first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+  const auto resolved = [](const fs::path& path) {
+    std::error_code error;
+    const fs::path folder = fs::weakly_canonical(folder_of(path), error);
+    return (error ? folder_of(path).lexically_normal() : folder) / path.filename();
+  };
+  return a_exists == b_exists && resolved(a) == resolved(b);
 }
 
 }  // namespace hooke

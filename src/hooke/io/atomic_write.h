@@ -2,22 +2,37 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace hooke {
 
-/// Writes the bytes to `path` through a temporary file in the same folder. A symbolic link is followed: the
-/// file it points to is replaced. The mode is that of the file replaced, or what the umask gives a new file.
-/// Throws OutputError that names the file and the system's reason; then no temporary is left, and an old file
-/// is as it was (but for a failing sync of the folder after the rename, which the message says).
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+/// A file that is written, checked and synced beside its place, where commit() puts it. Without commit() it
+/// is removed, and nothing has changed: so several files can be there all or not at all.
+class PendingFile {
+ public:
+  /// Writes the bytes to a temporary file in the folder of `path`. A symbolic link is followed: the file it
+  /// points to is to be replaced. The mode is that of the file to be replaced, or what the umask gives a new
+  /// file. Throws OutputError that names the file and the system's reason; then no temporary is left.
+  PendingFile(const std::filesystem::path& path, std::string_view bytes);
+  PendingFile(PendingFile&&) noexcept;
+  ~PendingFile();
 
-/// Throws OutputError if write_file_atomically could not start: a missing or read-only folder, a target that
+  /// Puts the file in its place, once. Throws OutputError; then an old file is as it was (but for a failing
+  /// sync of the folder after the rename, which the message says).
+  void commit();
+
+ private:
+  class Written;
+  std::unique_ptr<Written> written_;
+};
+
+/// Throws OutputError if a PendingFile could not be made: a missing or read-only folder, a target that
 /// is a folder, a device, a dangling link or write-protected. Creates and removes a temporary file to find
 /// out.
 void require_writable(const std::filesystem::path& path);
 
-/// Throws Error if both names lead to the same file, directly or by a link of any kind.
-void require_distinct(const std::filesystem::path& input, const std::filesystem::path& output);
+/// Do both names lead to the same file, directly or by a link of any kind? A file need not be there yet.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace hooke

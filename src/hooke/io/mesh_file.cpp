@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "hooke/error.h"
-#include "hooke/io/file_bytes.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
@@ -96,11 +95,6 @@ MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const 
   if (format == "obj") return read_obj(bytes, name);
   if (format == "ply") return read_ply(bytes, name);
   return read_off(bytes, name);
-}
-
-MeshFile read_mesh_file(const std::filesystem::path& path) {
-  const std::string bytes = read_regular_file(path);
-  return parse_mesh_file(bytes, printable(path.native()), input_format_of(path));
 }
 
 namespace {

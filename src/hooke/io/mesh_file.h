@@ -35,10 +35,6 @@ std::string input_format_of(const std::filesystem::path& path);
 /// the format wants it.
 MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const std::string& format);
 
-/// Reads a file. Throws InputError if it is missing, not a regular file, unreadable, of unknown or wrong
-/// format, or malformed, and LimitError if it does not fit in memory.
-MeshFile read_mesh_file(const std::filesystem::path& path);
-
 /// Ends the polygon whose corners were appended to file.polygons.items. Throws LimitError beyond 2^31 - 1
 /// corners.
 void end_polygon(MeshFile& file);

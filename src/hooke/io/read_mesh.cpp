@@ -24,7 +24,6 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   MeshFile file =
       timed(stopwatch, "parse", [&] { return parse_mesh_file(bytes, printable(path.native()), format); });
   const std::string hash = timed(stopwatch, "sha256", [&] { return sha256(bytes); });
-  const size_t size = bytes.size();
   bytes = {};  // the memory is wanted for the mesh
   Triangulation triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
@@ -34,19 +33,17 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   VertexFans fans;
   append(warnings, timed(stopwatch, "validate",
                          [&] { return require_valid(file.points, triangulation.triangles, source, &fans); }));
+  require_workable_size(file.points, file.name);
   Connectivity connectivity = timed(stopwatch, "connectivity", [&] {
     return make_connectivity(std::move(triangulation.triangles), std::move(fans));
   });
   // Built in place: OpenMesh has no move, and copies all of a mesh.
   return {timed(stopwatch, "build", [&] { return build_mesh(file.points, connectivity); }),
           std::move(connectivity),
-          file.name,
           file.format,
           file.encoding,
           hash,
-          size,
           std::move(file.vertex_data),
-          triangulation.polygons_cut,
           std::move(warnings)};
 }
 

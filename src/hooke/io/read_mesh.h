@@ -14,13 +14,10 @@ namespace hooke {
 struct LoadedMesh {
   TriMesh mesh;               // vertices in file order; triangles too, those of a polygon together
   Connectivity connectivity;  // of the mesh
-  std::string name;           // of the file, printable
   std::string format;         // "obj", "ply" or "off"
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a ply file
   std::string sha256;                                        // of the file's bytes, hex
-  size_t bytes = 0;                                          // size of the file
   VertexData vertex_data;                                    // of the file
-  int polygons_cut = 0;                                      // faces that had more than three corners
   Warnings warnings;  // of reading, triangulation and validation, in this order
 };
 

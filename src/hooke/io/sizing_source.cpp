@@ -26,10 +26,10 @@ SizingSource parse_curvature(std::string_view error) {
   source.percent = unit == "%";
   if (failed != std::errc() || !(unit.empty() || source.percent) || !(source.chord_error > 0) ||
       !std::isfinite(source.chord_error))
-    throw Error(fmt::format(
-        "chord error {} of a sizing by curvature; expected a positive number, alone or with %; for instance "
-        "curvature:0.1%",
-        in_quotes(error)));
+    throw Error(
+        fmt::format("curvature: chord error {}; expected a positive number, alone or with %; for instance "
+                    "curvature:0.1%",
+                    in_quotes(error)));
   return source;
 }
 
@@ -56,7 +56,7 @@ SizingSource parse_sizing(const std::string& text) {
   const bool is_property = text.starts_with(ply);
   const std::string name = is_property ? text.substr(ply.size()) : text;
   if (name.empty())
-    throw Error(fmt::format("sizing {}; expected FILE, ply:PROPERTY or curvature[:ERROR]", in_quotes(text)));
+    throw Error(fmt::format("{}; expected FILE, ply:PROPERTY or curvature[:ERROR]", in_quotes(text)));
   return {.kind = is_property ? SizingSource::Kind::ply_property : SizingSource::Kind::file, .name = name};
 }
 

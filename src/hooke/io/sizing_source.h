@@ -16,7 +16,8 @@ struct SizingSource {
   bool percent = true;      // of the box's diagonal; else in the unit of the points
 };
 
-/// Reads "FILE", "ply:PROPERTY", "curvature", "curvature:X" or "curvature:X%". Throws Error.
+/// Reads "FILE", "ply:PROPERTY", "curvature", "curvature:X" or "curvature:X%". Throws Error whose
+/// message begins with what is wrong.
 SizingSource parse_sizing(const std::string& text);
 
 /// The lengths, one per vertex; none without a source. From curvature none is longer than a tenth of the

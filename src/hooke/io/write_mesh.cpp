@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "hooke/error.h"
-#include "hooke/io/atomic_write.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
@@ -22,12 +21,12 @@ std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncodi
   throw Error(fmt::format("format {}; expected obj, ply or off; choose one of them", in_quotes(format)));
 }
 
-WrittenFile write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
-                       PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
+PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
+                         PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
   const std::string bytes =
       timed(stopwatch, "format", [&] { return mesh_bytes(mesh, format, encoding, data); });
-  timed(stopwatch, "file", [&] { write_file_atomically(path, bytes); });
-  return {timed(stopwatch, "sha256", [&] { return sha256(bytes); }), bytes.size()};
+  PendingFile file = timed(stopwatch, "file", [&] { return PendingFile(path, bytes); });
+  return {std::move(file), timed(stopwatch, "sha256", [&] { return sha256(bytes); })};
 }
 
 }  // namespace hooke

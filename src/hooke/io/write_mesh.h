@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "hooke/io/atomic_write.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/mesh.h"
 #include "hooke/stopwatch.h"
@@ -16,15 +17,15 @@ namespace hooke {
 std::string mesh_bytes(const TriMesh& mesh, const std::string& format,
                        PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
 
-struct WrittenFile {
+struct PendingMesh {
+  PendingFile file;    // to be committed
   std::string sha256;  // of its bytes, hex
-  size_t bytes = 0;
 };
 
-/// Writes these bytes by write_file_atomically (see there for what it throws). The usual format is
-/// format_of(path).
-WrittenFile write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
-                       PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {},
-                       Stopwatch* stopwatch = nullptr);
+/// Writes these bytes beside their place, which is `path` (see atomic_write.h for what it throws). The usual
+/// format is format_of(path).
+PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
+                         PlyEncoding encoding = PlyEncoding::binary_little_endian,
+                         const VertexData& data = {}, Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

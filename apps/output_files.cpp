@@ -1,0 +1,55 @@
+#include "output_files.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "hooke/error.h"
+#include "hooke/io/printable.h"
+
+namespace hooke::app {
+namespace {
+
+struct NamedFile {
+  const char* role;  // the option that names it
+  std::filesystem::path path;
+};
+
+std::vector<NamedFile> inputs_of(const Settings& s) {
+  std::vector<NamedFile> files{{"INPUT", s.input}};
+  if (!s.fix.empty()) files.push_back({"--fix", s.fix});
+  if (s.sizing.kind == SizingSource::Kind::file) files.push_back({"--sizing", s.sizing.name});
+  return files;
+}
+
+std::vector<NamedFile> outputs_of(const Settings& s) {
+  std::vector<NamedFile> files;
+  for (const NamedFile& file : {NamedFile{"--output", s.output},
+                                {"--report", s.report == "-" ? "" : s.report},
+                                {"--trace", s.trace},
+                                {"--map", s.map}})
+    if (!file.path.empty()) files.push_back(file);
+  return files;
+}
+
+}  // namespace
+
+void require_outputs(const Settings& s) {
+  std::vector<NamedFile> taken = inputs_of(s);
+  for (const NamedFile& file : outputs_of(s)) {
+    for (const NamedFile& other : taken)
+      if (same_file(other.path, file.path))
+        throw Error(fmt::format("{} {}: is the file {} of {}; expected a file of its own; choose another",
+                                file.role, printable(file.path.native()), printable(other.path.native()),
+                                other.role));
+    require_writable(file.path);
+    taken.push_back(file);
+  }
+}
+
+void write_to_standard_output(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw OutputError("standard output: cannot be written; expected an open reader or room");
+}
+
+}  // namespace hooke::app

@@ -1,0 +1,128 @@
+#include "result_warnings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "messages.h"
+
+namespace hooke::app {
+namespace {
+
+void warn_of_folds(RunRecord& run) {
+  std::vector<int> folded = folded_faces(run);
+  if (folded.empty()) return;
+  constexpr size_t most = 10;
+  const size_t count = folded.size();
+  folded.resize(std::min(count, most));
+  run.warnings.push_back(
+      {"folded_faces",
+       fmt::format("{}: {} of its faces lie against the surface of {}, or at folds that are there already: "
+                   "faces {}{}; look at both meshes there",
+                   run.output->path, count, run.input.path, fmt::join(folded, " "),
+                   count > most ? " ..." : "")});
+}
+
+void warn_of_crossings(RunRecord& run) {
+  const size_t crossings = run.after->self_intersections.value_or(0),
+               before = run.before.self_intersections.value_or(0);
+  if (crossings > before)
+    run.warnings.push_back({"self_intersections_added", fmt::format("{}: {} self-intersections, {} before",
+                                                                    run.output->path, crossings, before)});
+}
+
+/// Half an edge away from the surface is another surface.
+void warn_of_distance(const Settings& s, RunRecord& run) {
+  const double natural = run.parameters["L_natural"].get<double>();
+  const double distance = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
+  if (!(distance > .5 * natural)) return;
+  const bool closest = !s.paper && s.remesh.filter.kind == FilterKind::closest;
+  run.warnings.push_back(
+      {"surface_left",
+       fmt::format("{}: its surface and that of {} are up to {:.3g} natural lengths apart; expected at most "
+                   "0.5; try {}a smaller --length, or another --feature-angle",
+                   run.output->path, run.input.path, distance / natural,
+                   closest ? "" : "--filter closest, ")});
+}
+
+void warn_of_count(RunRecord& run) {
+  const AdaptResult& adapted = run.result->adaptation;
+  const double faces = run.after->topology.faces, wanted = adapted.wanted_faces;
+  if (adapted.rounds > 0 && std::abs(faces - wanted) > std::max(3., .03 * wanted))
+    run.warnings.push_back(
+        {"face_count_missed",
+         fmt::format(
+             "{}: {} faces, where the target length asks for {:.0f}; edges that the surface, a boundary "
+             "or a fixed vertex needs stay; use a smaller length",
+             run.output->path, faces, wanted)});
+}
+
+/// The rms error of the edges that a mode can keep to on a mesh whose lengths vary by four.
+double reachable_length_error(ConnectivityMode mode) {
+  switch (mode) {
+    case ConnectivityMode::fixed:
+      return .35;
+    case ConnectivityMode::flip:
+      return .25;
+    case ConnectivityMode::adapt:
+      break;
+  }
+  return .15;
+}
+
+void warn_of_sizing(const Settings& s, RunRecord& run) {
+  const Statistics& error = run.after->length_error;
+  const double rms = std::hypot(error.mean, error.std);
+  const double most = reachable_length_error(s.remesh.connectivity);
+  if (s.sizing.kind == SizingSource::Kind::none || rms <= most) return;
+  const char* advice = s.remesh.connectivity == ConnectivityMode::adapt
+                           ? "a smaller --gradation, or lengths that the boundary can take"
+                           : "--connectivity adapt, or lengths nearer to those of the input";
+  run.warnings.push_back(
+      {"sizing_missed",
+       fmt::format(
+           "{}: the edges miss the lengths of the sizing by {:.0f} % (rms), expected at most {:.0f} % "
+           "with these vertices and faces; use {}",
+           run.output->path, 100 * rms, 100 * most, advice)});
+}
+
+}  // namespace
+
+void warn_of_length(const Settings& s, double length, double natural, RunRecord& run) {
+  const double ratio = length / natural;
+  if (ratio >= .9 && ratio <= 1.1) return;
+  const std::string asked =
+      s.sizing.kind == SizingSource::Kind::none
+          ? fmt::format("the target length {:.6g} is {:.2f} times the natural length {:.6g}", length, ratio,
+                        natural)
+          : fmt::format("the lengths of the sizing ask for {:.2f} times the faces there are",
+                        1 / (ratio * ratio));
+  run.warnings.push_back(
+      {"length_out_of_reach",
+       fmt::format("{}: {}; the faces are as many as they are, so the edges cannot get there and only pull "
+                   "or push; use -L auto, or a value within 0.9x and 1.1x",
+                   run.input.path, asked)});
+}
+
+void warn_of_coincident_boundary(std::size_t count, RunRecord& run) {
+  if (count == 0) return;
+  run.warnings.push_back(
+      {"coincident_boundary",
+       fmt::format("{}: {} boundary vertices share their place with another and stand still, so that no gap "
+                   "opens between them; weld them to let them move",
+                   run.input.path, count)});
+}
+
+void add_result_warnings(const Settings& s, RunRecord& run) {
+  warn_of_folds(run);
+  warn_of_crossings(run);
+  warn_of_distance(s, run);
+  warn_of_count(run);
+  warn_of_sizing(s, run);
+  if (s.paper && run.result->reason != StopReason::converged)
+    run.warnings.push_back({"paper_jams", fmt::format("{}: {}", run.input.path, paper_message(*run.result))});
+}
+
+}  // namespace hooke::app

@@ -1,0 +1,140 @@
+#include "words.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+#include <limits>
+
+#include "hooke/error.h"
+#include "hooke/io/mesh_file.h"
+#include "hooke/io/printable.h"
+
+namespace hooke::app {
+namespace {
+
+/// A number and what follows it; NaN where there is none.
+struct NumberAndUnit {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  std::string_view unit;
+};
+
+NumberAndUnit split(std::string_view text) {
+  NumberAndUnit result;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, result.value);
+  if (error != std::errc()) return {};
+  result.unit = std::string_view(rest, end);
+  return result;
+}
+
+/// "0.1%" or ".001": parts of the target length.
+double parse_tolerance(const std::string& text) {
+  const auto [value, unit] = split(text);
+  if (!(unit.empty() || unit == "%") || !(value >= 0) || !std::isfinite(value))
+    throw Error(
+        fmt::format("--tolerance {}; expected a number that is not negative, or X% of the target length",
+                    in_quotes(text)));
+  return unit == "%" ? value / 100 : value;
+}
+
+/// "off" or a positive number.
+double parse_gradation(const std::string& text) {
+  if (text == "off") return std::numeric_limits<double>::infinity();
+  const auto [value, unit] = split(text);
+  if (!unit.empty() || !(value > 0) || !std::isfinite(value))
+    throw Error(fmt::format("--gradation {}; expected a positive number, or off", in_quotes(text)));
+  return value;
+}
+
+/// "40" or "off": degrees, 180 for none.
+double parse_feature_angle(const std::string& text) {
+  if (text == "off") return 180;
+  const auto [value, unit] = split(text);
+  if (!unit.empty() || !(value > 0) || !(value < 180))
+    throw Error(
+        fmt::format("--feature-angle {}; expected degrees between 0 and 180, or off", in_quotes(text)));
+  return value;
+}
+
+/// parse(text), whose messages begin with the text, in the name of an option.
+template <typename Parse>
+auto parsed(const char* option, const Parse& parse, const std::string& text) {
+  try {
+    return parse(text);
+  } catch (const Error& e) {
+    throw Error(fmt::format("{} {}", option, e.what()));
+  }
+}
+
+/// Threads that a batch system or OpenMP grants; 0 when they say nothing.
+int threads_of_environment() {
+  for (const char* name : {"SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS"}) {
+    const char* text = std::getenv(name);
+    if (!text) continue;
+    int threads = 0;
+    std::from_chars(text, text + std::string_view(text).size(), threads);
+    if (threads > 0) return threads;
+  }
+  return 0;
+}
+
+void settle_sizing(Settings& s, const Words& words) {
+  const bool sized = s.sizing_text != "off";
+  if (sized) s.sizing = parsed("--sizing", parse_sizing, s.sizing_text);
+  if (!words.gradation.empty()) s.gradation = parse_gradation(words.gradation);
+  if (sized) return;
+  if (!words.gradation.empty()) throw Error("--gradation is of --sizing; leave it out, or name a sizing");
+  if (s.length.kind == LengthSpec::Kind::as_given)
+    throw Error("--length sizing without --sizing; name a sizing, or another length");
+}
+
+/// What would do nothing is refused: who says it expects something of it.
+void refuse_idle(const Settings& s, const Words& words) {
+  const auto refuse = [&](bool idle, std::initializer_list<const char*> options, const char* why) {
+    for (const char* option : options)
+      if (idle && words.given(option)) throw Error(fmt::format("{} {}; leave it out", option, why));
+  };
+  refuse(s.paper,
+         {"--effort", "--feature-angle", "--map", "--integrator", "--polish", "--altitude", "--refit"},
+         "has no part in --paper");
+  refuse(s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--connectivity"},
+         "changes faces, which --paper keeps");
+  refuse(s.paper && s.remesh.filter.kind != FilterKind::global, {"--filter"},
+         "names another filter than the global one of --paper");
+  refuse(!s.paper, {"--step-angle", "--step-expansion", "--step-displacement", "--step-area"},
+         "is of --paper only");
+  refuse(!s.paper && s.remesh.integrator == IntegratorKind::lbfgs, {"--string", "--torque", "--friction"},
+         "is of --integrator damped and --paper only");
+  const bool splines =
+      s.paper || s.remesh.filter.kind == FilterKind::local || s.remesh.filter.kind == FilterKind::global;
+  refuse(!splines, {"--kernel", "--rho"}, "is of splines, which this --filter has none of");
+  refuse(s.check, {"--map", "--output"}, "is not written by --check");
+}
+
+}  // namespace
+
+void settle(Settings& s, const Words& words) {
+  s.length = parsed("--length", parse_length, s.length_text);
+  settle_sizing(s, words);
+  refuse_idle(s, words);
+  s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
+  set_effort(s.remesh, s.effort);
+  s.remesh.map = !s.map.empty();
+  s.paper_options.evolution.damped = s.remesh.damped;
+  if (words.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
+  if (words.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*words.feature_angle);
+  if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
+  if (words.max_outer) s.remesh.max_outer = s.paper_options.max_outer = *words.max_outer;
+  if (words.max_steps)
+    s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *words.max_steps;
+  if (words.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *words.boundary;
+  if (s.threads == 0) s.threads = threads_of_environment();
+  if (s.check) return;
+  if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
+  if (s.format.empty()) s.format = format_of(s.output);
+}
+
+}  // namespace hooke::app
