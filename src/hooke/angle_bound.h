@@ -14,8 +14,8 @@ struct AngleBound {
 /// The largest t for which the faces within `rings` rings about the face can have angles of at least t that
 /// sum to 180 degrees in each face and, at each vertex, to what they sum to now: 360 degrees less the
 /// curvature inside, the measured angle on the boundary. Where the surface and the boundary stay as they are
-/// no movement gets beyond it; the geometry may allow less. 60 degrees where the coordinates are too large for
-/// the angles to be measured.
+/// no movement gets beyond it; the geometry may allow less. 60 degrees where the coordinates are too large
+/// for the angles to be measured.
 AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivity, int face, int rings = 2);
 
 }  // namespace hooke
