@@ -119,8 +119,8 @@ FlipOptions flip_options(Effort effort) {
   options.passes.passes = 0;
   switch (effort) {
     case Effort::fast:
-      options.flow.rounds = 20;
-      options.spring_rounds = 3;
+      options.flow.rounds = 14;
+      options.spring_rounds = 1;
       options.polish.last_threshold = 36;
       options.polish.sweeps = 4;
       break;

@@ -181,6 +181,8 @@ class Remeshing {
 void set_effort(RemeshOptions& options, Effort effort) {
   options.flips = flip_options(effort);
   options.adaptation = adapt_options(effort);
+  if (options.connectivity == ConnectivityMode::adapt && effort == Effort::fast)
+    options.flips.flow.rounds = 24;  // where others make edges that are more even
   if (options.connectivity != ConnectivityMode::fixed) return;
   switch (effort) {
     case Effort::fast:  // one round, and angle springs once, not in rising stages
