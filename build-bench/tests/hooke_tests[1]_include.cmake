@@ -1,5 +1,0 @@
-if(EXISTS "/tmp/wt/lead/build-bench/tests/hooke_tests[1]_tests.cmake")
-  include("/tmp/wt/lead/build-bench/tests/hooke_tests[1]_tests.cmake")
-else()
-  add_test(hooke_tests_NOT_BUILT hooke_tests_NOT_BUILT)
-endif()
