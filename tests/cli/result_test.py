@@ -68,6 +68,7 @@ class Result(CommandTest):
             self.assertLess(int(vertex), report["input"]["vertices"])
             self.assertLess(int(face), report["input"]["faces"])
             self.assertAlmostEqual(sum(map(float, weights)), 1, 9)
+            self.assertNotIn("-0", weights)
 
     def test_creases_stay(self):
         for sample in ("cube.obj", "block.ply", "cylinder.off"):

@@ -12,7 +12,7 @@ std::string map_text(const std::vector<MapEntry>& map) {
     append_number(text, entry.place.face);
     for (double weight : entry.place.weights) {
       text += ' ';
-      append_number(text, weight);
+      append_number(text, weight + 0.);  // no -0
     }
     text += '\n';
   }
