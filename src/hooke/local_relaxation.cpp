@@ -38,6 +38,8 @@ std::vector<int> with_rings(const Connectivity& c, const std::vector<int>& verti
   return all;
 }
 
+/// Steps are Newton's, not longer: where guards hold and springs end, longer ones magnify every difference,
+/// and a mesh that is moved or turned would come out another.
 LocalRelaxationResult relax_locally(Relaxation& r, const std::vector<int>& vertices,
                                     const LocalRelaxationOptions& o, const Observer& observer) {
   LocalRelaxationResult result;

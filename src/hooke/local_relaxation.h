@@ -7,8 +7,8 @@ namespace hooke {
 
 struct LocalRelaxationOptions {
   int sweeps = 8;
-  double over_relaxation = 1.5;
-  double rest = 3e-3;  // of a target length; what moves less in a sweep sits out the next
+  double over_relaxation = 1;  // more is faster where vertices have far to go, and less the same every time
+  double rest = 3e-3;          // of a target length; what moves less in a sweep sits out the next
 };
 
 struct LocalRelaxationResult {

@@ -54,8 +54,7 @@ void raise(Relaxation& r, double threshold, const PolishOptions& o, const Observ
   };
   const LocalRelaxationResult relaxed =
       relax_locally(r, around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings),
-                    {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation, .rest = o.rest},
-                    observer ? Observer(watch) : nullptr);
+                    {.sweeps = o.sweeps, .rest = o.rest}, observer ? Observer(watch) : nullptr);
   result.sweeps += relaxed.sweeps;
   result.interrupted = relaxed.interrupted;
 }

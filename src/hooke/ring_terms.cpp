@@ -135,12 +135,16 @@ HOOKE_INLINE void add_altitudes(const FaceLanes& q, const Lanes& h0, double weig
   }
 }
 
-/// An angle with its cosine and sine.
+/// The angle up to which springs act and the one up to which the model looks, with its cosine and sine.
 struct Threshold {
-  double angle, cosine, sine;
+  Threshold(double t, double looks)
+      : angle(t), felt(looks * t), cosine(std::cos(felt)), sine(std::sin(felt)) {}
+  double angle, felt, cosine, sine;
 };
 
-/// Corner angles below the threshold t: U(theta; t) / t^2 = ln z - 1 + 1 / z, z = t / theta.
+/// Corner angles below the threshold t: U(theta; t) / t^2 = ln z - 1 + 1 / z, z = t / theta. Their curvature
+/// ends at t with a leap, and Newton's steps would leap with it wherever springs have brought an angle to t:
+/// the model lets it fade out beyond.
 template <bool second_order>
 HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, double weight,
                              const Directions& d, RingSums& s) {
@@ -160,29 +164,32 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
   is_below(at_b, on_b);
   if (!any(on_x | on_a | on_b)) return;
 
-  const auto angle_of = [&](const LaneMask& on, const Lanes& cosine, Lanes& angle) {
+  const auto angle_of = [&](const LaneMask& on, const Lanes& cosine, Lanes& angle, Lanes& part) {
     Lanes r = cosine * cosine + q.area * q.area;
     take_sqrt(r);
     take_angle(cosine, q.area, r, angle);
     angle = angle > 1e-6 ? angle : zero + 1e-6;
-    angle = on ? angle : zero + t;
+    part = on ? (threshold.felt - angle) / (threshold.felt - t) : zero;
+    part = part < 1. ? part : one;
+    angle = on & (angle < t) ? angle : zero + t;
   };
-  Lanes x, a, b;
-  angle_of(on_x, at_x, x);
-  angle_of(on_a, at_a, a);
-  angle_of(on_b, at_b, b);
+  Lanes x, a, b, part_x, part_a, part_b;  // the angles, and what part of their curvature counts
+  angle_of(on_x, at_x, x, part_x);
+  angle_of(on_a, at_a, a, part_a);
+  angle_of(on_b, at_b, b, part_b);
   Lanes log_z = (t / x) * (t / a) * (t / b);
   take_log(log_z);
-  s.energy += weight * (log_z + ((x + a + b) / t - 3.));
+  s.energy += weight * (log_z + ((x - t) + (a - t) + (b - t)) / t);
   if constexpr (second_order) {
-    const auto terms_of = [&](const LaneMask& on, const Lanes& angle, Lanes& slope, Lanes& curvature) {
-      slope = on ? weight * (1. / t - 1. / angle) : zero;
-      curvature = on ? weight / (angle * angle) : zero;
+    const auto terms_of = [&](const Lanes& part, const Lanes& angle, Lanes& slope, Lanes& curvature) {
+      const Lanes over = 1. / angle;
+      slope = weight * (1. / t - over);
+      curvature = part * (weight * over * over);
     };
     Lanes slope_x, slope_a, slope_b, curvature_x, curvature_a, curvature_b;
-    terms_of(on_x, x, slope_x, curvature_x);
-    terms_of(on_a, a, slope_a, curvature_a);
-    terms_of(on_b, b, slope_b, curvature_b);
+    terms_of(part_x, x, slope_x, curvature_x);
+    terms_of(part_a, a, slope_a, curvature_a);
+    terms_of(part_b, b, slope_b, curvature_b);
     const Lanes ia = one / (q.la * q.la), ib = one / (q.lb * q.lb);
     LaneVec turned;
     LanePair ga, gb;  // gradients of the angles at a and b; that of the vertex's own is minus their sum
@@ -209,7 +216,7 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
 template <bool second_order>
 HOOKE_INLINE void sum_ring(const RingView& r, const double* unfolded, const EnergyTerms& terms,
                            const Directions& d, RingSums& s) {
-  const Threshold t{terms.angle_threshold, std::cos(terms.angle_threshold), std::sin(terms.angle_threshold)};
+  const Threshold t(terms.angle_threshold, second_order ? angle_felt : 1);
   for (std::size_t i = 0; i < r.stride; i += lane_count) {
     FaceLanes q;
     load_face(r, i, q);

@@ -8,6 +8,8 @@ namespace hooke {
 
 constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
 
+constexpr double angle_felt = 1.06;  // of the threshold, to where the curvature of angle springs fades out
+
 /// The energy around a vertex to second order in two directions.
 struct RingModel {
   double energy = 0;  // up to a constant

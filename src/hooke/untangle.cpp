@@ -30,7 +30,7 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
         relax_locally(r,
                       with_rings(r.connectivity, corners_of(r.connectivity, result.folded),
                                  o.first_rings + round * o.more_rings),
-                      {.sweeps = o.sweeps}, observer);
+                      {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation}, observer);
     result.sweeps += relaxed.sweeps;
     result.interrupted = relaxed.interrupted;
     r.guards.accept(r.placement);

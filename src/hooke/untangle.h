@@ -7,11 +7,12 @@
 namespace hooke {
 
 struct UntangleOptions {
-  int rounds = 12;      // at most; each takes in more about the folded faces than the one before
-  int first_rings = 2;  // about the folded faces, within which vertices move in the first round
-  int more_rings = 2;   // in each round
-  int sweeps = 30;      // per round, at most
-  int patience = 3;     // rounds without fewer folded faces, after which it gives up
+  int rounds = 12;               // at most; each takes in more about the folded faces than the one before
+  int first_rings = 2;           // about the folded faces, within which vertices move in the first round
+  int more_rings = 2;            // in each round
+  int sweeps = 30;               // per round, at most
+  int patience = 3;              // rounds without fewer folded faces, after which it gives up
+  double over_relaxation = 1.5;  // of the sweeps: faces unfold sooner
 };
 
 struct UntangleResult {
