@@ -15,7 +15,7 @@ struct EnergyTerms {
   double string = 1;           // lambda: U(l; L_e) / L_e^2 per edge [2]-[4]
   double altitude = 1;         // beta: U(h; h0) / h0^2 per altitude h < h0 = (sqrt 3 / 2) L_f
   double angle = 0;            // w: U(theta; t) / t^2 per corner angle theta < t
-  double angle_threshold = 0;  // t, radians
+  double angle_threshold = 0;  // t, radians, below pi / 2
   double unfold = 0;           // weight of 3/2 ((d - s) / d)^2 for faces with alignment < d; replaces the
                                // altitude and angle terms of such a face
   double unfold_below = .3;    // d

@@ -1,5 +1,8 @@
 #include "hooke/ring_terms.h"
 
+#include <limits>
+#include <numbers>
+
 #include "hooke/fast_log.h"
 #include "hooke/ring_sums.h"
 
@@ -135,11 +138,15 @@ HOOKE_INLINE void add_altitudes(const FaceLanes& q, const Lanes& h0, double weig
   }
 }
 
-/// The angle up to which springs act and the one up to which the model looks, with its cosine and sine.
+/// The angle up to which springs act, the one up to which the model feels them, and a number that its tangent
+/// stays below: tan x < pi^2 x / (pi^2 - 4 x^2) (M. Becker, E. Stark, 1978).
 struct Threshold {
-  Threshold(double t, double looks)
-      : angle(t), felt(looks * t), cosine(std::cos(felt)), sine(std::sin(felt)) {}
-  double angle, felt, cosine, sine;
+  Threshold(double t, double felt_above) : angle(t), felt(felt_above * t) {
+    constexpr double square = std::numbers::pi * std::numbers::pi;
+    const double rest = square - 4 * felt * felt;
+    tangent = rest > 0 ? square * felt / rest : std::numeric_limits<double>::infinity();
+  }
+  double angle, felt, tangent;
 };
 
 /// Corner angles below the threshold t: U(theta; t) / t^2 = ln z - 1 + 1 / z, z = t / theta. Their curvature
@@ -155,13 +162,13 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
   dot(q.e, q.c, at_a);
   at_a = -at_a;
   dot(q.f, q.c, at_b);
-  const auto is_below = [&](const Lanes& cosine, LaneMask& on) {
-    on = (q.face > 0.) & (cosine * threshold.sine > q.area * threshold.cosine);
+  const auto may_be_below = [&](const Lanes& cosine, LaneMask& on) {
+    on = (q.face > 0.) & (cosine * threshold.tangent > q.area);
   };
   LaneMask on_x, on_a, on_b;
-  is_below(at_x, on_x);
-  is_below(at_a, on_a);
-  is_below(at_b, on_b);
+  may_be_below(at_x, on_x);
+  may_be_below(at_a, on_a);
+  may_be_below(at_b, on_b);
   if (!any(on_x | on_a | on_b)) return;
 
   const auto angle_of = [&](const LaneMask& on, const Lanes& cosine, Lanes& angle, Lanes& part) {
@@ -171,6 +178,7 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
     angle = angle > 1e-6 ? angle : zero + 1e-6;
     part = on ? (threshold.felt - angle) / (threshold.felt - t) : zero;
     part = part < 1. ? part : one;
+    part = part > 0. ? part : zero;
     angle = on & (angle < t) ? angle : zero + t;
   };
   Lanes x, a, b, part_x, part_a, part_b;  // the angles, and what part of their curvature counts
