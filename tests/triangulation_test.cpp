@@ -206,7 +206,9 @@ TEST(Triangulation, CompactKeepsWhatHasNoFaces) {
   Triangulation t(make_connectivity(7, {{1, 2, 3}, {3, 2, 5}, {2, 4, 5}}));
   const int h = test::half_edge(t, 2, 5);
   ASSERT_FALSE(t.may_collapse(h));
-  EXPECT_EQ(t.compact(), (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
+  std::vector<int> kept = t.compact();
+  std::ranges::sort(kept);
+  EXPECT_EQ(kept, (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
 }
 
 TEST(Triangulation, AFlipJoinsTheCornersAcross) {

@@ -12,7 +12,7 @@
 namespace hooke {
 
 struct AdaptOptions {
-  int rounds = 10;          // of splits, collapses and flow
+  int rounds = 6;           // of splits, collapses and flow
   int flow_rounds = 5;      // after the splits and collapses of a round
   int count_rounds = 30;    // of count control and flow, at most
   int count_flow = 6;       // rounds of flow after a round of count control

@@ -1,6 +1,9 @@
 #include "hooke/edge_collapses.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "hooke/edge_queue.h"
 #include "hooke/guards.h"
@@ -11,8 +14,23 @@ namespace {
 
 /// The worst of what the guards look at about an edge.
 struct Worst {
-  double angle = 180, alignment = 1, fold = 1, sagitta = 0, length = 0;
+  double cotangent = 0;  // of the least angle
+  double alignment = 1, fold = 1, sagitta = 0, length = 0;
 };
+
+Worst limits_of(const CollapseOptions& o) {
+  return {1 / std::tan(o.angle * std::numbers::pi / 180), o.alignment, o.fold, o.sagitta, o.longest};
+}
+
+Worst worse_of(const Worst& a, const Worst& b) {
+  return {std::max(a.cotangent, b.cotangent), std::min(a.alignment, b.alignment), std::min(a.fold, b.fold),
+          std::max(a.sagitta, b.sagitta), std::max(a.length, b.length)};
+}
+
+bool is_within(const Worst& w, const Worst& limits) {
+  return w.cotangent <= limits.cotangent && w.alignment >= limits.alignment && w.fold >= limits.fold &&
+         w.sagitta <= limits.sagitta && w.length <= limits.length;
+}
 
 class Collapse {
  public:
@@ -30,17 +48,23 @@ class Collapse {
     const int curve = is_rim(t_, h_) ? curve_of(m_, h_).curve : -1;
     const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
     collect_ring(stays);
-    measure_before();
-    const VertexPlace before(m_.placement, stays);
-    const Vec3 way = m_.placement.points.col(goes) - before.point;
+    const VertexPlace here(m_.placement, stays);
+    const Vec3 way = m_.placement.points.col(goes) - here.point;
+    const Worst limits = limits_of(options_);
+    std::optional<Worst> looser;  // what is worse than it should be may stay as it is
     for (double part : parts(stays, goes)) {
-      if (part > 0) m_.retraction.moved(m_.placement, stays, part * way).write_to(m_.placement, stays);
-      if (obeys()) {
-        t_.collapse(h_, stays);
-        if (curve >= 0) --m_.curve_edges.present[static_cast<size_t>(curve)];
-        return stays;
+      const VertexPlace there = part > 0 ? m_.retraction.moved(m_.placement, stays, part * way) : here;
+      there.write_to(m_.placement, stays);
+      const Worst after = worst_after();
+      if (!is_within(after, limits)) {
+        here.write_to(m_.placement, stays);
+        if (!looser) looser = worse_of(limits, worst_before());
+        if (!is_within(after, *looser)) continue;
+        there.write_to(m_.placement, stays);
       }
-      before.write_to(m_.placement, stays);
+      t_.collapse(h_, stays);
+      if (curve >= 0) --m_.curve_edges.present[static_cast<size_t>(curve)];
+      return stays;
     }
     return -1;
   }
@@ -115,7 +139,7 @@ class Collapse {
   }
 
   void look_at_face(const Face& f, Worst& worst) const {
-    worst.angle = std::min(worst.angle, least_angle(m_.placement.points, {f.corners}));
+    worst.cotangent = std::max(worst.cotangent, greatest_cotangent(m_.placement.points, f.corners));
     worst.alignment = std::min(worst.alignment,
                                face_alignment(m_.placement.points, m_.placement.normals, f.corners, f.sides));
   }
@@ -139,36 +163,34 @@ class Collapse {
     worst.fold = std::min(worst.fold, cosine_between(m_.placement.points, corners, across));
   }
 
-  void measure_before() {
+  Worst worst_before() const {
+    Worst worst;
     for (int v : {a_, b_})
       for (int spoke : t_.outgoing(v)) {
         const Face f = face_at(spoke);
-        look_at_face(f, before_);
+        look_at_face(f, worst);
         for (int side : {spoke, f.across, Triangulation::previous(spoke)})
-          look_across(f.corners, side, before_);
-        for (size_t k : {0, 1, 2}) look_at_edge(f, k, before_);
+          look_across(f.corners, side, worst);
+        for (size_t k : {0, 1, 2}) look_at_edge(f, k, worst);
       }
+    return worst;
   }
 
-  bool obeys() const {
-    Worst after;
+  Worst worst_after() const {
+    Worst worst;
     for (const Face& f : ring_) {
-      look_at_face(f, after);
-      look_across(f.corners, f.across, after);
-      look_at_edge(f, 0, after);
-      look_at_edge(f, 2, after);
+      look_at_face(f, worst);
+      look_across(f.corners, f.across, worst);
+      look_at_edge(f, 0, worst);
+      look_at_edge(f, 2, worst);
       for (const Face& g : ring_) {
         const bool crease = t_.is_constrained(Triangulation::next(f.across)) ||
                             t_.is_constrained(Triangulation::previous(g.across));
         if (f.corners[2] == g.corners[1] && !crease)
-          after.fold = std::min(after.fold, cosine_between(m_.placement.points, f.corners, g.corners));
+          worst.fold = std::min(worst.fold, cosine_between(m_.placement.points, f.corners, g.corners));
       }
     }
-    return after.angle >= std::min(options_.angle, before_.angle) &&
-           after.alignment >= std::min(options_.alignment, before_.alignment) &&
-           after.fold >= std::min(options_.fold, before_.fold) &&
-           after.length <= std::max(options_.longest, before_.length) &&
-           after.sagitta <= std::max(options_.sagitta, before_.sagitta);
+    return worst;
   }
 
   AdaptingMesh& m_;
@@ -176,7 +198,6 @@ class Collapse {
   const CollapseOptions& options_;
   int h_, a_, b_;
   std::vector<Face> ring_;
-  Worst before_;
 };
 
 }  // namespace

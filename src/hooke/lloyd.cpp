@@ -1,7 +1,7 @@
 #include "hooke/lloyd.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "hooke/parallel.h"
 
@@ -21,61 +21,64 @@ struct Moments {
   }
 };
 
-double density(double length) {
-  return 1 / (length * length * length * length);
-}
-
-/// An angle by its sine and cosine, both times the same length.
-struct CornerAngle {
-  double sine = 0, cosine = 1;
-
-  double radians() const { return std::atan2(sine, cosine); }
-  double length() const { return sine + std::abs(cosine); }  // about
+/// What Voronoi cells take from a face: its circumcentre and how its angles stand.
+struct FaceCell {
+  Vec3 circumcentre = Vec3::Zero();               // seen from the first corner
+  Vec3 cotangent = Vec3::Constant(std::nan(""));  // of the angle across from each edge, NaN without area
 };
 
-/// The angle across edge k of the face.
-CornerAngle angle_across(const Mat3X& points, const Triangle& t, size_t k) {
-  const Vec3 p = points.col(t[(k + 2) % 3]);
-  const Vec3 u = points.col(t[k]) - p, v = points.col(t[(k + 1) % 3]) - p;
-  return {u.cross(v).norm(), u.dot(v)};
+FaceCell cell_of(const Mat3X& points, const Triangle& t) {
+  const Vec3 a = points.col(t[0]), u = points.col(t[1]) - a, v = points.col(t[2]) - a, w = v - u;
+  const double area = u.cross(v).norm();  // doubled
+  if (!(area > 0)) return {};
+  const double at_0 = u.dot(v), at_1 = -u.dot(w), at_2 = v.dot(w);
+  // The barycentric weights of the circumcentre are as a^2 (b^2 + c^2 - a^2), a^2 being across the corner.
+  const double scale = 1 / (2 * area * area);
+  return {scale * (v.squaredNorm() * at_1 * u + u.squaredNorm() * at_2 * v), Vec3(at_2, at_0, at_1) / area};
 }
 
-/// Is the sum of two angles less than pi beyond doubt? Its sine tells without an arctangent.
-bool clearly_less_than_pi(const CornerAngle& a, const CornerAngle& b) {
-  return a.sine * b.cosine + a.cosine * b.sine > 1e-9 * a.length() * b.length();
-}
-
-/// Edges across which Voronoi cells are not made of kites. A crease bounds the cells on either side.
-std::vector<char> crooked_edges(const Mat3X& points, const Connectivity& c) {
-  constexpr double limit = std::numbers::pi + 1e-9;
-  constexpr CornerAngle right_angle{1, 0};
+/// Edges across which Voronoi cells are not made of kites: the angles across from them make more than pi. A
+/// crease bounds the cells on either side.
+std::vector<char> crooked_edges(const std::vector<FaceCell>& cells, const Connectivity& c) {
+  constexpr double least = -1e-9;
   std::vector<char> crooked(c.edges.size());
   parallel_for(c.edges.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
-      std::array<CornerAngle, 2> angles;
+      std::array<double, 2> cotangent = {0, 0};  // of a right angle
       for (size_t side = 0; side < 2; ++side) {
         if (c.edge_faces[e][side] < 0) continue;
         const auto face = static_cast<size_t>(c.edge_faces[e][side]);
         const Triangle& edges = c.face_edges[face];
-        const size_t k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
-        angles[side] = angle_across(points, c.faces[face], k);
+        const Eigen::Index k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
+        cotangent[side] = cells[face].cotangent[k];
       }
-      const auto is_crooked = [&](const CornerAngle& a, const CornerAngle& b) {
-        return !clearly_less_than_pi(a, b) && a.radians() + b.radians() > limit;
-      };
-      crooked[e] = c.is_border(static_cast<int>(e))
-                       ? is_crooked(angles[0], right_angle) || is_crooked(angles[1], right_angle)
-                       : is_crooked(angles[0], angles[1]);
+      const bool straight = c.is_border(static_cast<int>(e)) ? std::min(cotangent[0], cotangent[1]) >= least
+                                                             : cotangent[0] + cotangent[1] >= least;
+      crooked[e] = !straight;
     }
   });
   return crooked;
+}
+
+std::vector<FaceCell> cells_of(const Mat3X& points, const Connectivity& c) {
+  std::vector<FaceCell> cells(c.faces.size());
+  parallel_for(cells.size(), 2048, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) cells[f] = cell_of(points, c.faces[f]);
+  });
+  return cells;
 }
 
 class Lloyd {
  public:
   Lloyd(const Placement& at, const Connectivity& c, const std::vector<double>& length,
         const LloydOptions& options)
-      : X_(at.points), c_(c), length_(length), options_(options), crooked_(crooked_edges(X_, c)) {}
+      : X_(at.points),
+        c_(c),
+        length_(length),
+        options_(options),
+        even_(std::ranges::adjacent_find(length, std::ranges::not_equal_to()) == length.end()),
+        cells_(cells_of(X_, c)),
+        crooked_(crooked_edges(cells_, c)) {}
 
   Vec3 step(int v) const {
     if (c_.vertex_faces[v].empty()) return Vec3::Zero();
@@ -114,19 +117,21 @@ class Lloyd {
     return true;
   }
 
+  /// The kite of a face has its corner, the midpoints of two edges and the circumcentre; half of it over an
+  /// edge of length l across from an angle is l^2 / 8 cot(angle) large.
   Moments voronoi_cell(int v) const {
     Moments cell;
     for (int f : c_.vertex_faces[v]) {
-      const auto [p, q] = others(f, v);
+      const size_t k = corner(f, v);
+      const auto [p, q] = others(f, k);
+      const FaceCell& face = cells_[static_cast<size_t>(f)];
       const Vec3 a = X_.col(p) - X_.col(v), b = X_.col(q) - X_.col(v);
-      const Vec3 n = a.cross(b);
-      const double n2 = n.squaredNorm();
-      if (!(n2 > 0)) return {};
-      const Vec3 o = (b.squaredNorm() * n.cross(a) + a.squaredNorm() * b.cross(n)) / (2 * n2);
-      const Vec3 unit = n / std::sqrt(n2);
+      const Vec3 o = X_.col(c_.faces[static_cast<size_t>(f)][0]) - X_.col(v) + face.circumcentre;
+      const double beside_a = .125 * a.squaredNorm() * face.cotangent[static_cast<Eigen::Index>(k)];
+      const double beside_b = .125 * b.squaredNorm() * face.cotangent[static_cast<Eigen::Index>((k + 2) % 3)];
       const double at_v = density(length(v)), at_o = density((length(v) + length(p) + length(q)) / 3);
-      cell.add(.25 * a.cross(o).dot(unit), .5 * a, o, at_v, density(.5 * (length(v) + length(p))), at_o);
-      cell.add(.25 * o.cross(b).dot(unit), o, .5 * b, at_v, at_o, density(.5 * (length(v) + length(q))));
+      cell.add(beside_a, .5 * a, o, at_v, density(.5 * (length(v) + length(p))), at_o);
+      cell.add(beside_b, o, .5 * b, at_v, at_o, density(.5 * (length(v) + length(q))));
     }
     return cell;
   }
@@ -134,19 +139,26 @@ class Lloyd {
   Moments faces_about(int v) const {
     Moments faces;
     for (int f : c_.vertex_faces[v]) {
-      const auto [p, q] = others(f, v);
+      const auto [p, q] = others(f, corner(f, v));
       const Vec3 a = X_.col(p) - X_.col(v), b = X_.col(q) - X_.col(v);
       faces.add(.5 * a.cross(b).norm(), a, b, density(length(v)), density(length(p)), density(length(q)));
     }
     return faces;
   }
 
-  /// The corners of the face that follow v.
-  Edge others(int face, int v) const {
+  /// Where the vertex stands in the face.
+  size_t corner(int face, int v) const {
     const Triangle& t = c_.faces[static_cast<size_t>(face)];
-    const size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
+  }
+
+  /// The vertices that follow corner k of the face.
+  Edge others(int face, size_t k) const {
+    const Triangle& t = c_.faces[static_cast<size_t>(face)];
     return {t[(k + 1) % 3], t[(k + 2) % 3]};
   }
+
+  double density(double length) const { return even_ ? 1 : 1 / (length * length * length * length); }
 
   double length(int v) const { return length_[static_cast<size_t>(v)]; }
 
@@ -154,6 +166,8 @@ class Lloyd {
   const Connectivity& c_;
   const std::vector<double>& length_;
   const LloydOptions& options_;
+  bool even_;  // the same target length everywhere
+  std::vector<FaceCell> cells_;
   std::vector<char> crooked_;
 };
 

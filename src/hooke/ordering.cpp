@@ -5,10 +5,12 @@
 #include <numeric>
 
 namespace hooke {
+namespace {
 
-std::vector<int> locality_order(const Connectivity& c) {
+template <class Neighbours, class Gone>
+std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbours, const Gone& gone) {
   constexpr size_t cluster_size = 256;  // vertices whose data stay in the first cache
-  const auto n = static_cast<size_t>(c.vertex_count);
+  const auto n = static_cast<size_t>(vertex_count);
   std::vector<int> order;
   order.reserve(n);
   std::vector<bool> taken(n, false), waiting(n, false);
@@ -19,7 +21,7 @@ std::vector<int> locality_order(const Connectivity& c) {
     taken[static_cast<size_t>(seed)] = true;
     order.push_back(seed);
     for (size_t i = begin; i < order.size(); ++i)
-      for (int w : c.vertex_neighbours[order[i]]) {
+      for (int w : neighbours(order[i])) {
         const auto u = static_cast<size_t>(w);
         if (taken[u]) continue;
         if (order.size() - begin < cluster_size) {
@@ -32,7 +34,7 @@ std::vector<int> locality_order(const Connectivity& c) {
       }
   };
   for (size_t start = 0; start < n; ++start) {
-    if (taken[start]) continue;
+    if (taken[start] || gone(static_cast<int>(start))) continue;
     seeds.push_back(static_cast<int>(start));
     while (!seeds.empty()) {
       const int seed = seeds.front();
@@ -41,6 +43,18 @@ std::vector<int> locality_order(const Connectivity& c) {
     }
   }
   return order;
+}
+
+}  // namespace
+
+std::vector<int> locality_order(const Connectivity& c) {
+  return order_by_clusters(
+      c.vertex_count, [&c](int v) { return c.vertex_neighbours[v]; }, [](int) { return false; });
+}
+
+std::vector<int> locality_order(int vertex_count, const std::function<std::vector<int>(int)>& neighbours,
+                                const std::function<bool(int)>& gone) {
+  return order_by_clusters(vertex_count, neighbours, gone);
 }
 
 std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {

@@ -1,6 +1,8 @@
 // Order in memory: neighbours on the mesh become neighbours in the arrays.
 #pragma once
 
+#include <functional>
+
 #include "hooke/connectivity.h"
 
 namespace hooke {
@@ -9,6 +11,11 @@ namespace hooke {
 /// one cluster. Depends on the connectivity only, never on coordinates: a moved or turned mesh has the same
 /// order.
 std::vector<int> locality_order(const Connectivity& connectivity);
+
+/// The same for any graph with vertices 0 to n - 1: those that `gone` tells are left out.
+std::vector<int> locality_order(int vertex_count,
+                                const std::function<std::vector<int>(int vertex)>& neighbours,
+                                const std::function<bool(int vertex)>& gone);
 
 /// A mesh in another order, and the way back.
 struct Reordered {

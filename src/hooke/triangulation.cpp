@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "hooke/ordering.h"
+
 namespace hooke {
 
 Triangulation::Triangulation(const Connectivity& c)
@@ -214,38 +216,48 @@ void Triangulation::collapse(int h, int stays) {
 }
 
 std::vector<int> Triangulation::compact() {
-  std::vector<int> kept, vertex_id(valences_.size(), -1), face_id(faces_.size(), -1);
-  for (int v = 0; v < id_count(); ++v)
-    if (valence(v) >= 0) {
-      vertex_id[static_cast<size_t>(v)] = static_cast<int>(kept.size());
-      kept.push_back(v);
-    }
-  int faces = 0;
-  for (size_t f = 0; f < faces_.size(); ++f)
-    if (!is_gone(static_cast<int>(f))) face_id[f] = faces++;
+  std::vector<int> kept = locality_order(
+      id_count(), [this](int v) { return neighbours(v); }, [this](int v) { return valence(v) < 0; });
+  std::vector<int> vertex_id(valences_.size(), -1);
+  for (size_t i = 0; i < kept.size(); ++i) vertex_id[static_cast<size_t>(kept[i])] = static_cast<int>(i);
+
+  const auto first_corner = [&](int f) {
+    const auto& [a, b, c] = faces_[static_cast<size_t>(f)];
+    return std::min({vertex_id[static_cast<size_t>(a)], vertex_id[static_cast<size_t>(b)],
+                     vertex_id[static_cast<size_t>(c)]});
+  };
+  std::vector<std::pair<int, int>> order;  // of the faces: by their first corners
+  for (int f = 0; f < static_cast<int>(faces_.size()); ++f)
+    if (!is_gone(f)) order.emplace_back(first_corner(f), f);
+  std::ranges::sort(order);
+  std::vector<int> face_id(faces_.size(), -1);
+  for (size_t g = 0; g < order.size(); ++g)
+    face_id[static_cast<size_t>(order[g].second)] = static_cast<int>(g);
+
   const auto renumber = [&](int h) { return h < 0 ? -1 : 3 * face_id[static_cast<size_t>(h / 3)] + h % 3; };
-  for (size_t f = 0; f < faces_.size(); ++f) {
-    if (face_id[f] < 0) continue;
-    const auto g = static_cast<size_t>(face_id[f]);
-    if (!sides_.empty()) sides_[g] = sides_[f];
+  const Triangulation old = std::move(*this);
+  faces_.resize(order.size());
+  sides_.resize(old.sides_.empty() ? 0 : order.size());
+  twins_.resize(3 * order.size());
+  constrained_.resize(3 * order.size());
+  for (size_t g = 0; g < order.size(); ++g) {
+    const auto f = static_cast<size_t>(order[g].second);
+    if (!sides_.empty()) sides_[g] = old.sides_[f];
     for (size_t k = 0; k < 3; ++k) {
-      faces_[g][k] = vertex_id[static_cast<size_t>(faces_[f][k])];
-      twins_[3 * g + k] = renumber(twins_[3 * f + k]);
-      constrained_[3 * g + k] = constrained_[3 * f + k];
+      faces_[g][k] = vertex_id[static_cast<size_t>(old.faces_[f][k])];
+      twins_[3 * g + k] = renumber(old.twins_[3 * f + k]);
+      constrained_[3 * g + k] = old.constrained_[3 * f + k];
     }
   }
+  leaving_.resize(kept.size());
+  valences_.resize(kept.size());
+  on_boundary_.resize(kept.size());
   for (size_t i = 0; i < kept.size(); ++i) {
     const auto v = static_cast<size_t>(kept[i]);
-    leaving_[i] = renumber(leaving_[v]);
-    valences_[i] = valences_[v];
-    on_boundary_[i] = on_boundary_[v];
+    leaving_[i] = renumber(old.leaving_[v]);
+    valences_[i] = old.valences_[v];
+    on_boundary_[i] = old.on_boundary_[v];
   }
-  faces_.resize(static_cast<size_t>(faces));
-  if (!sides_.empty()) sides_.resize(faces_.size());
-  twins_.resize(3 * faces_.size());
-  constrained_.resize(3 * faces_.size());
-  for (auto* per_vertex : {&leaving_, &valences_}) per_vertex->resize(kept.size());
-  on_boundary_.resize(kept.size());
   return kept;
 }
 

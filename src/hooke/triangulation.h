@@ -80,9 +80,9 @@ class Triangulation {
   /// together are constrained if one of them was. Pre-condition: may_collapse(h).
   void collapse(int h, int stays);
 
-  /// Gives up the unused ids of vertices and faces. Returns the old ids of the vertices that are left,
-  /// ascending; the faces keep their order too, and the sides their ids: set_sides() is to follow where there
-  /// are creases.
+  /// Gives up the unused ids of vertices and faces and puts those that are left in an order in which
+  /// neighbours are close together: see locality_order(). Returns the old ids of the vertices in the new
+  /// order. The sides keep their ids: set_sides() is to follow where there are creases.
   std::vector<int> compact();
 
   /// Numbers the sides anew, as the connectivity of the same faces does.
