@@ -33,7 +33,10 @@ class Adaptation {
         wanted_face_count(work.placement.points, work.connectivity->faces, work.vertex_length);
   }
 
-  AdaptResult run() {
+  /// `folded`: are there faces that lie against the surface? Flow would carry them along where splits and
+  /// collapses take them out.
+  AdaptResult run(bool folded) {
+    if (!folded) settle(options_.first_flow);
     for (int i = 0; i < options_.rounds && !result_.interrupted; ++i) change_lengths();
     for (int i = 0; i < options_.count_rounds && !result_.interrupted; ++i)
       if (!change_count()) break;
@@ -130,7 +133,7 @@ UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOpti
 
 AdaptOptions adapt_options(Effort effort) {
   AdaptOptions options;
-  if (effort == Effort::fast) options.rounds = 6;
+  if (effort == Effort::fast) options.rounds = 4;
   return options;
 }
 
@@ -142,7 +145,8 @@ AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardO
   if (unfolded.interrupted)
     result.interrupted = true;
   else
-    result = Adaptation(work, options, flip_guard, guards, corner_angle, observer).run();
+    result =
+        Adaptation(work, options, flip_guard, guards, corner_angle, observer).run(!unfolded.folded.empty());
   result.untangle = unfolded;
   return result;
 }
