@@ -37,7 +37,7 @@ VertexChannel* find_channel(VertexData& data, const std::string& name) {
   return found == data.end() ? nullptr : &*found;
 }
 
-ChannelList channels_named(const VertexData& data, std::span<const char* const> names) {
+ChannelList channels_named(const VertexData& data, ChannelNames names) {
   ChannelList channels;
   for (const char* name : names)
     if (const VertexChannel* channel = find_channel(data, name)) channels.push_back(channel);

@@ -1,6 +1,7 @@
 // Numbers that belong to the vertices besides their coordinates: colours, normals, any values of a file.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 
@@ -33,8 +34,9 @@ VertexChannel* find_channel(VertexData& data, const std::string& name);
 const VertexChannel* find_channel(const VertexData& data, const std::string& name);
 
 /// The channels of these names that there are, in the order of the names.
+using ChannelNames = std::span<const char* const>;
 using ChannelList = std::vector<const VertexChannel*>;
-ChannelList channels_named(const VertexData& data, std::span<const char* const> names);
+ChannelList channels_named(const VertexData& data, ChannelNames names);
 
 /// The values at the places of the map, linear in the faces there and never beyond the values of their
 /// corners; integers rounded. Vertices on no face keep the value of the vertex that they were.

@@ -49,7 +49,7 @@ size_t count_edges_that_differ(std::vector<Side> sides, const CornerData& data) 
 }
 
 void append_channels(VertexData& to, const Mat3X& values, const std::vector<int>& of_vertices,
-                     std::span<const char* const> names, NumberType type) {
+                     ChannelNames names, NumberType type) {
   for (size_t k = 0; k < names.size(); ++k) {
     std::vector<double>& channel = to.emplace_back(VertexChannel{names[k], type, {}}).values;
     channel.reserve(of_vertices.size());

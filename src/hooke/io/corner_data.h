@@ -1,7 +1,6 @@
 // What a file tells of the corners of faces, such as texture coordinates, as data of vertices.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "hooke/io/mesh_file.h"
@@ -28,12 +27,12 @@ Seams find_seams(const CornerData& data, const IntLists& polygons, const std::ve
 
 /// How channels and messages name a kind of corner data.
 struct CornerDataKind {
-  std::span<const char* const> channels;  // of its numbers
-  NumberType type;                        // of the channels
-  const char* what;                       // "texture coordinates"
-  const char* element;                    // "vt"
-  const char* seams;                      // what edges are along which they differ: "seams"
-  const char* code;                       // of the warning that names those
+  ChannelNames channels;  // of its numbers
+  NumberType type;        // of the channels
+  const char* what;       // "texture coordinates"
+  const char* element;    // "vt"
+  const char* seams;      // what edges are along which they differ: "seams"
+  const char* code;       // of the warning that names those
 };
 
 /// Adds the data to file.vertex_data where each vertex has the same values in all its corners, 0 where it has

@@ -28,14 +28,14 @@ VertexChannel scaled(const VertexChannel& channel, NumberType type) {
   return result;
 }
 
-bool has_all(const VertexData& data, std::span<const char* const> names) {
+bool has_all(const VertexData& data, ChannelNames names) {
   const ChannelList channels = channels_named(data, names);
   return channels.size() == names.size() && std::ranges::all_of(channels, [](const VertexChannel* channel) {
            return std::ranges::all_of(channel->values, [](double value) { return std::isfinite(value); });
          });
 }
 
-bool is_one_of(const std::string& name, std::span<const char* const> names) {
+bool is_one_of(const std::string& name, ChannelNames names) {
   return std::ranges::find(names, name) != names.end();
 }
 
@@ -51,7 +51,7 @@ VertexData with_common_names(VertexData data) {
 class CommonData {
  public:
   CommonData(const VertexData& data, const std::string& format) {
-    const std::span<const char*const> colours = colour_names, texture = texture_names;
+    const ChannelNames colours = colour_names, texture = texture_names;
     if (has_all(data, colours.first(3))) colours_ = colours.first(format == "obj" ? 3 : 4);
     if (has_all(data, normal_names)) normals_ = normal_names;
     if (has_all(data, texture.first(2))) texture_ = texture.first(format == "off" ? 2 : 3);
@@ -63,7 +63,7 @@ class CommonData {
   }
 
  private:
-  std::span<const char*const> colours_, normals_, texture_;
+  ChannelNames colours_, normals_, texture_;
 };
 
 }  // namespace

@@ -203,10 +203,18 @@ void keep_colours(const std::vector<ObjReader>& readers, MeshFile& file, std::ve
   }
 }
 
-constexpr CornerDataKind texture_kind = {texture_names, NumberType::float64, "texture coordinates", "vt",
-                                         "seams",       "texture_seams"};
-constexpr CornerDataKind normal_kind = {normal_names, NumberType::float32, "normals",
-                                        "vn",         "hard edges",        "hard_edges"};
+constexpr CornerDataKind texture_kind = {.channels = texture_names,
+                                         .type = NumberType::float64,
+                                         .what = "texture coordinates",
+                                         .element = "vt",
+                                         .seams = "seams",
+                                         .code = "texture_seams"};
+constexpr CornerDataKind normal_kind = {.channels = normal_names,
+                                        .type = NumberType::float32,  // made anew, and shorter
+                                        .what = "normals",
+                                        .element = "vn",
+                                        .seams = "hard edges",
+                                        .code = "hard_edges"};
 
 void append_passed_over(const std::vector<ObjReader>& readers, std::vector<std::string>& not_kept) {
   std::vector<NotKept> noted;

@@ -104,12 +104,12 @@ VertexData allocate_data(const OffHeader& header, int extra, size_t vertices) {
   const int colours = extra - (header.normals ? 3 : 0) - (header.texture ? 2 : 0);
   if (header.colours ? colours != 3 && colours != 4 : colours != 0) return {};
   VertexData data;
-  const auto add = [&](std::span<const char* const> names, NumberType type) {
+  const auto add = [&](ChannelNames names, NumberType type) {
     for (const char* name : names) data.push_back({name, type, std::vector<double>(vertices)});
   };
   if (header.normals) add(normal_names, NumberType::float32);
-  add(std::span(colour_names).first(static_cast<size_t>(colours)), NumberType::float64);
-  if (header.texture) add(std::span(texture_names).first(2), NumberType::float64);
+  add(ChannelNames(colour_names).first(static_cast<size_t>(colours)), NumberType::float64);
+  if (header.texture) add(ChannelNames(texture_names).first(2), NumberType::float64);
   return data;
 }
 
