@@ -43,11 +43,10 @@ std::string name_of_input(const Settings& s) {
 VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const MeasuredSurface& result,
                           RunRecord& run) {
   const bool same_places = s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
-  FormatData carried = data_for_format(
-      same_places ? loaded.vertex_data
-                  : carry_over(loaded.vertex_data, run.result->map, loaded.connectivity.faces),
-      loaded.format, s.format);
-  set_normals(carried.data, vertex_normals(result.points, result.connectivity));
+  VertexData data = same_places ? loaded.vertex_data
+                                : carry_over(loaded.vertex_data, run.result->map, loaded.connectivity.faces);
+  set_normals(data, vertex_normals(result.points, result.connectivity));
+  FormatData carried = data_for_format(data, loaded.format, s.format);
   if (!carried.left_out.empty())
     run.warnings.push_back({"attributes_not_kept",
                             fmt::format("{}: {} files cannot hold {}; use PLY", printable(s.output.string()),

@@ -1,5 +1,6 @@
 #include "hooke/io/obj.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "errors.h"
@@ -70,6 +71,77 @@ TEST(Obj, KeepsTheColoursOfVertices) {
   ASSERT_EQ(file.vertex_data.size(), 3u);
   EXPECT_EQ(file.vertex_data[0].values, (std::vector<double>{1, .25, 0}));
   EXPECT_EQ(write_obj(file.points, {{0, 1, 2}}, file.vertex_data), text);
+}
+
+const std::string texture = "vt 0 0.5\nvt 0.25 1\nvt 0.125 -2\n";
+
+TEST(Obj, WritesTheTextureCoordinatesAndNormalsOfVerticesAsItReadThem) {
+  const std::string normals = "vn 0 0 1\nvn 0 1 0\nvn 1 0 0\n", deep = "vt 1 2 3\nvt 0 0 1\nvt 3 2 1\n";
+  for (const std::string& text :
+       {three + texture + "f 1/1 2/2 3/3\n", three + normals + "f 1//1 2//2 3//3\n",
+        three + texture + normals + "f 1/1/1 2/2/2 3/3/3\n", three + deep + "f 1/1 2/2 3/3\n",
+        three + "vt 1\nvt 0\nvt 7\nf 1/1 2/2 3/3\n"}) {
+    const MeshFile file = read(text);
+    EXPECT_TRUE(file.warnings.empty()) << text;
+    EXPECT_EQ(write_obj(file.points, {{0, 1, 2}}, file.vertex_data), text);
+  }
+}
+
+TEST(Obj, TextureCoordinatesGoToTheVerticesThatReferToThem) {
+  const MeshFile file = read("vt 9 9\n" + three + "v 1 1 0\nvt 0.5 1\nvt 0.25 1 7\nf 1/-1 2/2 3/-3\n");
+  ASSERT_EQ(file.vertex_data.size(), 3u) << "as many numbers as the longest has";
+  EXPECT_EQ(file.vertex_data[0].values, (std::vector<double>{.25, .5, 9, 0})) << "0 for a vertex in no face";
+  EXPECT_EQ(file.vertex_data[2].values, (std::vector<double>{7, 0, 0, 0}));
+}
+
+TEST(Obj, EqualTextureCoordinatesAreNoSeam) {
+  const std::string text = "v 1 1 0\n" + texture + "vt 0.250 1e0\nvt 0 0\nf 1/1 2/2 3/3\nf 2/4 1/1 4/5\n";
+  EXPECT_TRUE(read(three + text).warnings.empty());
+}
+
+TEST(Obj, SeamsAndHardEdgesAreNamed) {
+  const std::string square = three + "v 1 1 0\n";
+  const Warnings seam = read(square + texture + "vt 7 7\nf 1/1 2/2 3/3\nf 4/1 3/3 2/4\n").warnings;
+  ASSERT_EQ(seam.size(), 1u);
+  EXPECT_EQ(seam[0].code, "texture_seams");
+  EXPECT_EQ(
+      seam[0].message,
+      "m.obj: not kept in the output: texture coordinates, because of seams (edges: 1; vertices with "
+      "several vt: 1, numbers 2); to keep them cut the mesh open there, so that each vertex has one vt");
+  const MeshFile hard = read(square + "vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 4//2 3//2 2//2\ng x\n");
+  EXPECT_TRUE(hard.vertex_data.empty());
+  ASSERT_EQ(hard.warnings.size(), 2u);
+  EXPECT_EQ(hard.warnings[0].code, "hard_edges");
+  EXPECT_EQ(
+      hard.warnings[0].message,
+      "m.obj: not kept in the output: normals, because of hard edges (edges: 1; vertices with several vn: "
+      "2, numbers 2 3); to keep them cut the mesh open there, so that each vertex has one vn");
+  EXPECT_EQ(hard.warnings[1].message, "m.obj: not kept in the output: groups");
+}
+
+TEST(Obj, OfManySeamVerticesSomeAreNamed) {
+  std::string text = "vt 0 0\nvt 1 1\nv 0 0 0\n";
+  for (int k = 0; k < 11; ++k) text += "v 0 0 1\n";
+  for (int k = 2; k < 12; ++k) text += fmt::format("f 1/1 {}/1 {}/2\n", k, k + 1);
+  const std::string warning = read(text).warnings.at(0).message;
+  EXPECT_TRUE(test::has(warning, "several vt: 9, numbers 3 4 5 6 7 8 9 10 11)")) << warning;
+  EXPECT_TRUE(test::has(read(text + "f 12/1 1/1 2/2\n").warnings.at(0).message,
+                        ": 11, numbers 2 3 4 5 6 7 8 9 10 11 ...)"));
+}
+
+TEST(Obj, TextureCoordinatesAndNormalsThatAreNotForAllOrBrokenAreNamed) {
+  const std::string start = "m.obj: not kept in the output: ";
+  EXPECT_EQ(not_kept(three + texture + "f 1/1 2/2 3"),
+            start + "texture coordinates (1 of 3 face corners have none)");
+  EXPECT_EQ(not_kept(three + texture + "f 1 2 3\nv 0 0 1\nf 1/1 2/2 4/3"),
+            start + "texture coordinates (3 of 6 face corners have none)");
+  for (const char* broken : {"vt", "vt 0 nan", "vt 1 2 3 4", "vt 0 1e999", "vt a"})
+    EXPECT_EQ(not_kept(three + texture + broken + "\nf 1/1 2/2 3/3"),
+              start + "texture coordinates (line 7; expected 1 to 3 finite numbers)");
+  for (const char* broken : {"vn 0 1", "vn -nan(ind) 0 0", "vn 0 0 0 1"})
+    EXPECT_EQ(not_kept(three + broken + "\nvn\nf 1//1 2//1 3//1"),
+              start + "normals (line 4; expected 3 finite numbers)");
+  EXPECT_EQ(not_kept("v 0 0 0 1 1 1\nv 1 0 0 1 1 1 1\nv 0 1 0\nf 1 2 3"), start + "vertex colours");
 }
 
 TEST(Obj, ErrorsNameTheLine) {

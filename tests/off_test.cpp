@@ -28,19 +28,46 @@ TEST(Off, DialectsOfTheHeaderAreTheSameMesh) {
     expect_the_triangle(header + body);
 }
 
-TEST(Off, AttributesAreNamedAndNotKept) {
+const std::vector<Triangle> triangle = {{0, 1, 2}};
+
+TEST(Off, WritesTheNumbersOfVerticesAsItReadThem) {
+  const std::string face = "3 0 1 2\n";
+  for (const std::string& text :
+       {"COFF\n3 1 0\n0 0 0 9 8 7 255\n1 0 0 0 1 2 3\n0 1 0 9 9 9 9\n" + face,
+        "COFF\n3 1 0\n0 0 0 0.5 1 0\n1 0 0 0 0.25 0.3\n0 1 0 0.1 0.2 0.3\n" + face,
+        "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0.6 0.8\n0 1 0 0 0 1\n" + face,
+        "STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 0 1e-20\n0 1 0 -0.3 1\n" + face,
+        "STCNOFF\n3 1 0\n0 0 0 0 0 1 9 9 9 5 6\n1 0 0 0 1 0 9 9 9 7 8\n0 1 0 1 0 0 9 9 9 9 10\n" + face}) {
+    const MeshFile file = read(text);
+    EXPECT_TRUE(file.warnings.empty()) << text;
+    EXPECT_EQ(write_off(file.points, triangle, file.vertex_data), text);
+  }
+}
+
+TEST(Off, WholeNumbersAreColoursUpTo255UnlessAllAreZeroOrOne) {
+  const auto type = [](const std::string& colour) {
+    return read("COFF\n3 1 0\n0 0 0 0 0 0 1\n1 0 0 " + colour + "\n0 1 0 0 0 0 1\n3 0 1 2\n")
+        .vertex_data.at(3)
+        .type;
+  };
+  EXPECT_EQ(type("0 255 0 1"), NumberType::uint8);
+  EXPECT_EQ(type("0 2.0 0 1"), NumberType::uint8);
+  for (const char* colour : {"1 1 0 1", "0 .5 200 1", "0 256 0 1", "0 200 0 -1"})
+    EXPECT_EQ(type(colour), NumberType::float64) << colour;
+}
+
+TEST(Off, WhatIsNotKeptIsNamed) {
   const auto warning = [](const std::string& text) {
     const Warnings warnings = read(text).warnings;
     return warnings.size() == 1 ? warnings[0].message : "";
   };
   const std::string start = "m.off: not kept in the output: ";
-  EXPECT_EQ(warning("COFF\n3 1 0\n0 0 0 9 9 9 9\n1 0 0 9 9 9 9\n0 1 0 9 9 9 9\n3 0 1 2\n"),
-            start + "vertex colours");
-  EXPECT_EQ(warning("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n"), start + "normals");
-  EXPECT_EQ(warning("STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 0 1\n0 1 0 0 1\n3 0 1 2\n"),
-            start + "texture coordinates");
   EXPECT_EQ(warning("OFF\n3 1 0\n0 0 0 7\n1 0 0 7\n0 1 0 7\n3 0 1 2\n"),
             start + "1 more numbers on each vertex line");
+  EXPECT_EQ(warning("STCOFF\n3 1 0\n0 0 0 7 1 1\n1 0 0 7 1 1\n0 1 0 7 1 1\n3 0 1 2\n"),
+            start + "vertex colours, texture coordinates");
+  EXPECT_EQ(warning("NOFF\n3 1 0\n0 0 0 0 0 1 7\n1 0 0 0 0 1 7\n0 1 0 0 0 1 7\n3 0 1 2\n"),
+            start + "normals");
   for (const char* colour : {"3", "255 0 0", ".1 .2 .3 1"})
     EXPECT_EQ(warning("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 " + std::string(colour)),
               start + "face colours");

@@ -1,5 +1,6 @@
 #include "hooke/io/text_pieces.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "errors.h"
@@ -83,6 +84,29 @@ TEST(TextPieces, ThreadsChangeNothing) {
   expect_large(read_off(text, "name"));
 }
 
+TEST(TextPieces, NumbersOfVerticesStayWithTheirVertices) {
+  const test::Triangles& t = large();
+  VertexData data;
+  for (const char* name : {"red", "green", "blue", "s", "t"}) data.push_back({.name = name});
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    for (size_t k = 0; k < 5; ++k)
+      data[k].values.push_back(static_cast<double>(v) + static_cast<double>(k) / 8);
+  for (const MeshFile& file : {read_obj(write_obj(t.points, t.faces, data), "name"),
+                               read_off(write_off(t.points, t.faces, data), "name")}) {
+    expect_large(file);
+    ASSERT_EQ(file.vertex_data.size(), 5u);
+    for (size_t k = 0; k < 5; ++k) EXPECT_EQ(file.vertex_data[k].values, data[k].values);
+  }
+}
+
+TEST(TextPieces, CornersWithoutATextureCoordinateAreCountedInAllPieces) {
+  const test::Triangles& t = large();
+  const std::string text = write_obj(t.points, t.faces) + "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3\n";
+  EXPECT_EQ(read_obj(text, "name").warnings.at(0).message,
+            fmt::format("name: not kept in the output: texture coordinates ({} of {} face corners have none)",
+                        3 * t.faces.size() + 2, 3 * t.faces.size() + 6));
+}
+
 TEST(TextPieces, LinesOfFacesAreThoseOfTheFile) {
   const test::Triangles& t = large();
   const int vertices = static_cast<int>(t.points.cols());
@@ -122,7 +146,9 @@ TEST(TextPieces, NegativeIndicesCountFromWhereTheyStand) {
   const MeshFile file = read_obj(text, "name");
   for (size_t k = 0; k < file.polygons.items.size(); ++k)
     ASSERT_EQ(file.polygons.items[k], static_cast<int>(k));
-  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_TRUE(file.warnings.empty());
+  ASSERT_EQ(file.vertex_data.size(), 3u);
+  for (double z : file.vertex_data[2].values) ASSERT_EQ(z, 1);
   EXPECT_ERROR(InputError, "name:300001: normal index", read_obj(text + "f 1//60001 2 3\n", "name"));
   EXPECT_ERROR(InputError, "name:1: vertex index", read_obj("f 1 2 180001\n" + text, "name"));
 }

@@ -80,6 +80,26 @@ TEST(VertexData, IsLinearInTheFaces) {
   EXPECT_EQ(carried[1].values, (std::vector<double>{0, 1, 1, 9}));
 }
 
+TEST(VertexData, AValueIsNeverBeyondThoseOfTheCorners) {
+  const std::vector<Triangle> faces = {{0, 1, 2}};
+  const VertexData data = {{"same", NumberType::float64, {.1, .1, .1}},
+                           {"infinite", NumberType::float64, {inf, 1, 1}},
+                           {"none", NumberType::float64, {1, nan, 1}},
+                           {"large", NumberType::float64, {1e308, 1.7e308, 1.7e308}}};
+  std::vector<MapEntry> map;
+  for (int k = 1; k < 100; ++k) {
+    const double a = k / 300., b = std::sqrt(k) / 20;
+    map.push_back({-1, {0, Vec3(a, b, 1 - a - b)}});
+  }
+  const VertexData carried = carry_over(data, map, faces);
+  for (size_t v = 0; v < map.size(); ++v) {
+    EXPECT_EQ(carried[0].values[v], .1);
+    EXPECT_EQ(carried[1].values[v], inf);
+    EXPECT_TRUE(std::isnan(carried[2].values[v]));
+    EXPECT_LE(carried[3].values[v], 1.7e308);
+  }
+}
+
 TEST(VertexData, ALinearFieldOnAPlaneGoesWithAnAdaptedMesh) {
   const test::Triangles t = test::grid(8, test::flat, .3);
   VertexData data = {{.name = "field"}};
@@ -123,8 +143,47 @@ TEST(FormatData, ColoursChangeTheirScaleBetweenFormats) {
     EXPECT_EQ(ply.data[c].type, NumberType::uint8);
     EXPECT_EQ(ply.data[c].values, bytes[c].values);
   }
-  EXPECT_EQ(data_for_format(bytes, "ply", "off").left_out.size(), 4u);
   EXPECT_EQ(data_for_format(bytes, "ply", "ply").data.size(), 4u);
+  const FormatData off = data_for_format(obj.data, "obj", "off");
+  ASSERT_EQ(off.data.size(), 4u) << "an alpha is added";
+  for (size_t c = 0; c < 3; ++c) EXPECT_EQ(off.data[c].values, bytes[c].values);
+  EXPECT_EQ(off.data[3].values, (std::vector<double>{255, 255}));
+  EXPECT_EQ(data_for_format(off.data, "off", "obj").left_out, std::vector<std::string>{"alpha"});
+}
+
+TEST(FormatData, ColoursWithoutANumberHaveNoPlaceInTextFormats) {
+  const VertexData data = {{"red", NumberType::float32, {nan, 2}},
+                           {"green", NumberType::float32, {.5, -1}},
+                           {"blue", NumberType::float32, {1, 1}}};
+  EXPECT_EQ(data_for_format(data, "ply", "off").left_out.size(), 3u);
+  EXPECT_EQ(data_for_format(data, "ply", "obj").left_out.size(), 3u);
+}
+
+TEST(FormatData, NormalsAndTextureCoordinatesGoBetweenFormatsWhereTheyAreWhole) {
+  const auto of = [](const std::vector<std::string>& names) {
+    VertexData data;
+    for (const std::string& name : names) data.push_back({name, NumberType::float32, {.25, .5}});
+    return data;
+  };
+  const auto left_out = [&](const std::vector<std::string>& names, const char* from, const char* to) {
+    return data_for_format(of(names), from, to).left_out;
+  };
+  const std::vector<std::string> none;
+  for (const char* to : {"obj", "off"}) {
+    EXPECT_EQ(left_out({"nx", "ny", "nz", "s", "t"}, "ply", to), none);
+    EXPECT_EQ(left_out({"nx", "nz", "t"}, "ply", to).size(), 3u);
+    const FormatData other = data_for_format(of({"texture_u", "q", "texture_v"}), "ply", to);
+    ASSERT_EQ(other.data.size(), 2u);
+    EXPECT_EQ(other.data[0].name, "s");
+    EXPECT_EQ(other.data[1].name, "t");
+    EXPECT_EQ(left_out({"s", "t", "texture_u", "texture_v"}, "ply", to).size(), 2u)
+        << "one pair has the place";
+  }
+  EXPECT_EQ(left_out({"s", "t", "p"}, "obj", "off"), std::vector<std::string>{"p"});
+  EXPECT_EQ(left_out({"s", "t", "p"}, "obj", "ply"), none);
+  VertexData endless = of({"s", "t"});
+  endless[1].values[0] = inf;
+  EXPECT_EQ(data_for_format(endless, "ply", "obj").left_out.size(), 2u);
 }
 
 }  // namespace

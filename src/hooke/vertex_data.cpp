@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hooke/parallel.h"
 
@@ -12,12 +13,16 @@ double value_at(const MapEntry& entry, const std::vector<double>& values,
                 const std::vector<Triangle>& faces) {
   if (entry.place.face < 0) return entry.vertex < 0 ? 0 : values[static_cast<size_t>(entry.vertex)];
   const Triangle& corners = faces[static_cast<size_t>(entry.place.face)];
-  double value = 0;
+  double value = 0, least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (size_t k = 0; k < 3; ++k) {  // a corner without weight may be without a number
     const double weight = entry.place.weights[static_cast<Eigen::Index>(k)];
-    if (weight > 0) value += weight * values[static_cast<size_t>(corners[k])];
+    if (!(weight > 0)) continue;
+    const double corner = values[static_cast<size_t>(corners[k])];
+    value += weight * corner;
+    least = std::min(least, corner);
+    greatest = std::max(greatest, corner);
   }
-  return value;
+  return std::isfinite(value) ? std::clamp(value, least, greatest) : value;  // what rounding adds
 }
 
 }  // namespace
@@ -30,6 +35,13 @@ const VertexChannel* find_channel(const VertexData& data, const std::string& nam
 VertexChannel* find_channel(VertexData& data, const std::string& name) {
   const auto found = std::ranges::find(data, name, &VertexChannel::name);
   return found == data.end() ? nullptr : &*found;
+}
+
+ChannelList channels_named(const VertexData& data, ChannelNames names) {
+  ChannelList channels;
+  for (const char* name : names)
+    if (const VertexChannel* channel = find_channel(data, name)) channels.push_back(channel);
+  return channels;
 }
 
 VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
@@ -49,12 +61,12 @@ VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
 }
 
 void set_normals(VertexData& data, const Mat3X& normals) {
-  VertexChannel* const channels[] = {find_channel(data, "nx"), find_channel(data, "ny"),
-                                     find_channel(data, "nz")};
-  if (std::ranges::count(channels, nullptr) > 0) return;
-  for (size_t k = 0; k < 3; ++k)
+  if (channels_named(data, normal_names).size() < 3) return;
+  for (size_t k = 0; k < 3; ++k) {
+    std::vector<double>& values = find_channel(data, normal_names[k])->values;
     for (Eigen::Index v = 0; v < normals.cols(); ++v)
-      channels[k]->values[static_cast<size_t>(v)] = normals(static_cast<Eigen::Index>(k), v);
+      values[static_cast<size_t>(v)] = normals(static_cast<Eigen::Index>(k), v);
+  }
 }
 
 }  // namespace hooke

@@ -1,6 +1,8 @@
 // Numbers that belong to the vertices besides their coordinates: colours, normals, any values of a file.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 
 #include "hooke/surface_point.h"
@@ -22,12 +24,22 @@ struct VertexChannel {
 };
 using VertexData = std::vector<VertexChannel>;
 
+/// Channels that all formats know, by the names that PLY files have for them.
+inline constexpr std::array colour_names = {"red", "green", "blue", "alpha"};
+inline constexpr std::array normal_names = {"nx", "ny", "nz"};
+inline constexpr std::array texture_names = {"s", "t", "p"};
+
 /// The channel of that name; null without.
 VertexChannel* find_channel(VertexData& data, const std::string& name);
 const VertexChannel* find_channel(const VertexData& data, const std::string& name);
 
-/// The values at the places of the map, linear in the faces there; integers rounded. Vertices on no face keep
-/// the value of the vertex that they were.
+/// The channels of these names that there are, in the order of the names.
+using ChannelNames = std::span<const char* const>;
+using ChannelList = std::vector<const VertexChannel*>;
+ChannelList channels_named(const VertexData& data, ChannelNames names);
+
+/// The values at the places of the map, linear in the faces there and never beyond the values of their
+/// corners; integers rounded. Vertices on no face keep the value of the vertex that they were.
 VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
                       const std::vector<Triangle>& faces);
 

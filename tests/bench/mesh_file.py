@@ -34,13 +34,12 @@ def _read_obj(data):
 
 
 def _read_off(data):
-    words = data.decode().split()
-    if words[0] != "OFF":
+    keyword, counts, *rows = [line.split() for line in data.decode().splitlines()]
+    if not keyword[0].endswith("OFF"):
         raise ValueError("not an OFF file")
-    nv, nf = int(words[1]), int(words[2])
-    numbers = iter(words[4:])
-    vertices = [tuple(float(next(numbers)) for _ in range(3)) for _ in range(nv)]
-    faces = [tuple(int(next(numbers)) for _ in range(int(next(numbers)))) for _ in range(nf)]
+    nv, nf = int(counts[0]), int(counts[1])
+    vertices = [tuple(map(float, row[:3])) for row in rows[:nv]]  # colours and the like may follow
+    faces = [tuple(map(int, row[1:1 + int(row[0])])) for row in rows[nv:nv + nf]]
     return vertices, faces
 
 

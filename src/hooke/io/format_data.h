@@ -10,8 +10,10 @@ struct FormatData {
   std::vector<std::string> left_out;  // names of channels
 };
 
-/// Data that was read from one format, as another holds it: PLY any, OBJ colours from 0 to 1, OFF none.
-/// Colours of integer types count up to the type's greatest value; from OBJ they become 8-bit ones in PLY.
+/// Data that was read from one format, as another holds it: PLY any; OBJ colours, normals and texture
+/// coordinates if finite; OFF these with an alpha, but no third texture coordinate. Colours of integer types
+/// count up to the type's greatest value, others to 1; they become 8-bit ones, but in OBJ numbers from 0
+/// to 1. The names texture_u and texture_v of PLY mean s and t.
 FormatData data_for_format(const VertexData& data, const std::string& from, const std::string& to);
 
 }  // namespace hooke

@@ -7,21 +7,13 @@
 #include <utility>
 
 #include "hooke/error.h"
+#include "hooke/io/obj_elements.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
 #include "hooke/io/text_pieces.h"
-#include "hooke/io/text_rows.h"
 
 namespace hooke {
 namespace {
-
-// Elements of one kind that faces refer to: vertices, texture coordinates or normals.
-struct Referred {
-  const char* kind;
-  int count = 0;      // so far in the text
-  int greatest = -1;  // 0-based index that a face asked for
-  int greatest_line = 0;
-};
 
 // A kind of content that is passed over.
 struct NotKept {
@@ -30,12 +22,22 @@ struct NotKept {
   bool operator==(const NotKept&) const = default;
 };
 
+// The numbers of all elements in the text.
+struct ObjNumbers {
+  Mat3X points, texture, normals;
+};
+
 // A piece of the text, and what was read from it.
 struct ObjReader {
+  ObjReader(const Scanner& text, ObjNumbers& all)
+      : scanner(text),
+        vertices{.kind = "vertex", .values = all.points},
+        texture{.kind = "texture coordinate", .values = all.texture, .least_numbers = 1},
+        normals{.kind = "normal", .values = all.normals} {}
+
   Scanner scanner;
-  Mat3X& points;  // of the whole text
   MeshFile part{};
-  Referred vertices{"vertex"}, texture{"texture coordinate"}, normals{"normal"};
+  ObjElements vertices, texture, normals;
   std::vector<NotKept> not_kept{};
   std::vector<Vec3> colours{};  // of the vertices that have one
 };
@@ -50,16 +52,10 @@ void note(ObjReader& obj, const std::string& kind) {
   note(obj.not_kept, {kind});
 }
 
-void count_one(const Scanner& scanner, Referred& elements) {
-  if (elements.count == std::numeric_limits<int>::max())
-    scanner.fail("too many elements; expected at most 2147483647 of a kind; split the mesh");
-  ++elements.count;
-}
-
 void read_vertex(ObjReader& obj) {
   Scanner& in = obj.scanner;
   count_one(in, obj.vertices);
-  double* coordinate = obj.points.col(obj.vertices.count - 1).data();
+  double* coordinate = obj.vertices.values.col(obj.vertices.count - 1).data();
   for (const char* what : {"x", "y", "z"}) *coordinate++ = in.number(what);
   int extra = 0;
   Vec3 more = Vec3::Ones();
@@ -74,36 +70,16 @@ void read_vertex(ObjReader& obj) {
   if (extra > 3) note(obj, "vertex colours");
 }
 
-// 0-based id of `text`, the index of one of `elements` in the face corner `corner`.
-int read_index(const Scanner& in, std::string_view text, std::string_view corner, Referred& elements) {
-  long long index = 0;
-  const NumberError error = parse_integer(text, index);
-  if (error == NumberError::malformed)
-    in.fail(fmt::format("face corner {}; expected v, v/vt, v//vn or v/vt/vn with integers; correct it",
-                        in_quotes(corner)));
-  if (error == NumberError::too_large || index > std::numeric_limits<int>::max() || index < -elements.count)
-    in.fail(fmt::format("{} index {} where {} were read so far; expected an existing one; correct the index",
-                        elements.kind, printable(text), elements.count));
-  if (index == 0)
-    in.fail(
-        fmt::format("{} index 0; expected 1 or more, or a negative one; OBJ counts from 1", elements.kind));
-  const int id = static_cast<int>(index > 0 ? index - 1 : elements.count + index);
-  if (id > elements.greatest) {
-    elements.greatest = id;
-    elements.greatest_line = in.line();
-  }
-  return id;
-}
-
 int read_corner(ObjReader& obj, std::string_view corner) {
-  const size_t first = corner.find('/');
-  const int vertex = read_index(obj.scanner, corner.substr(0, first), corner, obj.vertices);
+  const Scanner& in = obj.scanner;
+  const size_t number = obj.part.polygons.items.size(), first = corner.find('/');
+  const int vertex = read_index(in, corner.substr(0, first), corner, obj.vertices);
   if (first == corner.npos) return vertex;
   const std::string_view rest = corner.substr(first + 1);
   const size_t second = rest.find('/');
   const std::string_view texture = rest.substr(0, second);
-  if (second == rest.npos || !texture.empty()) read_index(obj.scanner, texture, corner, obj.texture);
-  if (second != rest.npos) read_index(obj.scanner, rest.substr(second + 1), corner, obj.normals);
+  if (second == rest.npos || !texture.empty()) read_corner_index(in, texture, corner, number, obj.texture);
+  if (second != rest.npos) read_corner_index(in, rest.substr(second + 1), corner, number, obj.normals);
   return vertex;
 }
 
@@ -145,14 +121,23 @@ void read_statement(ObjReader& obj, std::string_view keyword) {
   } else if (keyword == "f" || keyword == "fo") {
     read_face(obj);
   } else if (keyword == "vt") {
-    count_one(obj.scanner, obj.texture);
-    note(obj, "texture coordinates");
+    read_numbers(obj.scanner, obj.texture);
   } else if (keyword == "vn") {
-    count_one(obj.scanner, obj.normals);
-    note(obj, "normals");
+    read_numbers(obj.scanner, obj.normals);
   } else {
     read_other(obj, keyword);
   }
+}
+
+// Gives the corners of the piece that have none yet an id, where there are elements at all.
+void end_corners(const ObjReader& obj, ObjElements& elements) {
+  if (elements.values.cols() > 0) elements.of_corners.resize(obj.part.polygons.items.size(), -1);
+}
+
+void read_piece(ObjReader& obj) {
+  while (obj.scanner.next_line()) read_statement(obj, obj.scanner.token());
+  end_corners(obj, obj.texture);
+  end_corners(obj, obj.normals);
 }
 
 // How many elements faces can refer to.
@@ -171,9 +156,9 @@ Counts count_elements(Scanner in) {
   return counts;
 }
 
-// Readers of the pieces, each of which knows how much stands before it; makes room for the points.
+// Readers of the pieces, each of which knows how much stands before it; makes room for the numbers.
 std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const std::string& name,
-                                     Mat3X& points) {
+                                     ObjNumbers& all) {
   std::vector<Counts> counts(pieces.size());
   read_pieces(pieces, [&](const TextPiece& piece, size_t p) { counts[p] = count_elements(piece.scanner); });
   std::vector<ObjReader> readers;
@@ -182,7 +167,7 @@ std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const
     return static_cast<int>(std::min<long long>(count, std::numeric_limits<int>::max()));
   };
   for (size_t p = 0; p < pieces.size(); ++p) {
-    ObjReader& reader = readers.emplace_back(ObjReader{pieces[p].scanner, points});
+    ObjReader& reader = readers.emplace_back(pieces[p].scanner, all);
     reader.part.name = name;
     reader.vertices.count = limited(vertices);
     reader.texture.count = limited(texture);
@@ -191,48 +176,53 @@ std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const
     texture += counts[p].texture;
     normals += counts[p].normals;
   }
-  points.resize(3, limited(vertices));
+  all = {Mat3X::Zero(3, limited(vertices)), Mat3X::Zero(3, limited(texture)),
+         Mat3X::Zero(3, limited(normals))};
   return readers;
 }
 
-// Positive indices may point forward, so their upper bound is known only at the end.
-void check_greatest(const std::vector<ObjReader>& readers, const Referred ObjReader::*kind) {
-  const ObjReader* greatest = &readers.front();
-  for (const ObjReader& reader : readers)
-    if ((reader.*kind).greatest > (greatest->*kind).greatest) greatest = &reader;
-  const Referred& elements = greatest->*kind;
-  const int count = (readers.back().*kind).count;
-  if (elements.greatest >= count)
-    greatest->scanner.fail_at(
-        elements.greatest_line,
-        fmt::format("{} index {}; expected at most {}, the number in the file; correct the index",
-                    elements.kind, elements.greatest + 1LL, count));
+ObjElementPieces pieces_of(const std::vector<ObjReader>& readers, const ObjElements ObjReader::*kind) {
+  ObjElementPieces pieces;
+  for (const ObjReader& reader : readers) pieces.push_back(&(reader.*kind));
+  return pieces;
 }
 
-// The colours as channels where every vertex has one.
-VertexData collect_colours(std::vector<ObjReader>& readers, size_t vertices) {
+// The colours as vertex data of the file where every vertex has one.
+void keep_colours(const std::vector<ObjReader>& readers, MeshFile& file, std::vector<std::string>& not_kept) {
   size_t coloured = 0;
   for (const ObjReader& reader : readers) coloured += reader.colours.size();
-  if (coloured == 0) return {};
-  if (coloured < vertices) {
-    note(readers.front(), "vertex colours");
-    return {};
+  if (coloured == 0) return;
+  if (coloured < static_cast<size_t>(file.points.cols())) {
+    not_kept.emplace_back("vertex colours");
+    return;
   }
-  VertexData data = {{.name = "red"}, {.name = "green"}, {.name = "blue"}};
-  for (size_t k = 0; k < 3; ++k)
+  for (size_t k = 0; k < 3; ++k) {
+    std::vector<double>& values = file.vertex_data.emplace_back(VertexChannel{colour_names[k]}).values;
     for (const ObjReader& reader : readers)
-      for (const Vec3& colour : reader.colours)
-        data[k].values.push_back(colour[static_cast<Eigen::Index>(k)]);
-  return data;
+      for (const Vec3& colour : reader.colours) values.push_back(colour[static_cast<Eigen::Index>(k)]);
+  }
 }
 
-std::vector<std::string> kinds_not_kept(const std::vector<ObjReader>& readers) {
+constexpr CornerDataKind texture_kind = {.channels = texture_names,
+                                         .type = NumberType::float64,
+                                         .what = "texture coordinates",
+                                         .element = "vt",
+                                         .seams = "seams",
+                                         .code = "texture_seams"};
+constexpr CornerDataKind normal_kind = {.channels = normal_names,
+                                        .type = NumberType::float32,  // made anew, and shorter
+                                        .what = "normals",
+                                        .element = "vn",
+                                        .seams = "hard edges",
+                                        .code = "hard_edges"};
+
+void append_passed_over(const std::vector<ObjReader>& readers, std::vector<std::string>& not_kept) {
   std::vector<NotKept> noted;
   for (const ObjReader& reader : readers)
     for (const NotKept& content : reader.not_kept) note(noted, content);
-  std::vector<std::string> kinds;
-  for (NotKept& content : noted) kinds.push_back(std::move(content.kind));
-  return kinds;
+  for (NotKept& content : noted)
+    if (std::ranges::find(not_kept, content.kind) == not_kept.end())
+      not_kept.push_back(std::move(content.kind));
 }
 
 }  // namespace
@@ -243,30 +233,26 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   file.format = "obj";
   const std::vector<TextPiece> pieces =
       remaining_pieces(Scanner(text, name, {.comments = true, .continuations = true}));
-  std::vector<ObjReader> readers = start_readers(pieces, name, file.points);
-  read_pieces(pieces, [&](const TextPiece&, size_t p) {
-    Scanner& in = readers[p].scanner;
-    while (in.next_line()) read_statement(readers[p], in.token());
-  });
-  if (!readers.empty())
-    for (const auto kind : {&ObjReader::vertices, &ObjReader::texture, &ObjReader::normals})
-      check_greatest(readers, kind);
-  if (file.points.cols() == 0)
+  ObjNumbers numbers;
+  std::vector<ObjReader> readers = start_readers(pieces, name, numbers);
+  read_pieces(pieces, [&](const TextPiece&, size_t p) { read_piece(readers[p]); });
+  const ObjElementPieces texture = pieces_of(readers, &ObjReader::texture);
+  const ObjElementPieces normals = pieces_of(readers, &ObjReader::normals);
+  for (const ObjElementPieces& elements : {pieces_of(readers, &ObjReader::vertices), texture, normals})
+    check_greatest(name, elements);
+  if (numbers.points.cols() == 0)
     throw InputError(name + ": no vertices; expected v lines; is this an OBJ file?");
-  file.vertex_data = collect_colours(readers, static_cast<size_t>(file.points.cols()));
+  file.points = std::move(numbers.points);
   std::vector<MeshFile> parts;
   for (ObjReader& reader : readers) parts.push_back(std::move(reader.part));
   append_faces(file, parts);
-  warn_not_kept(file, kinds_not_kept(readers));
+  std::vector<std::string> not_kept;
+  keep_colours(readers, file, not_kept);
+  keep_elements(texture, texture_kind, file, not_kept);
+  keep_elements(normals, normal_kind, file, not_kept);
+  append_passed_over(readers, not_kept);
+  warn_not_kept(file, not_kept);
   return file;
-}
-
-std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                      const VertexData& data) {
-  std::string text;
-  append_vertex_rows(text, points, "v ", data);
-  append_face_rows(text, triangles, "f ", 1);
-  return text;
 }
 
 }  // namespace hooke

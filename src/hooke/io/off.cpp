@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -10,7 +11,6 @@
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
 #include "hooke/io/text_pieces.h"
-#include "hooke/io/text_rows.h"
 
 namespace hooke {
 namespace {
@@ -75,13 +75,15 @@ OffHeader read_header(Scanner& in) {
   return header;
 }
 
-// How many numbers follow the coordinates in this line.
-int read_vertex(Scanner& in, double* coordinates) {
+// How many numbers follow the coordinates in this line. They go to `data` as far as it has channels.
+int read_vertex(Scanner& in, double* coordinates, VertexData& data, size_t vertex) {
   for (const char* what : {"x", "y", "z"}) *coordinates++ = in.number(what);
-  int extra = 0;
-  for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra)
-    in.number(token, "vertex value");
-  return extra;
+  size_t extra = 0;
+  for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra) {
+    const double value = in.number(token, "vertex value");
+    if (extra < data.size()) data[extra].values[vertex] = value;
+  }
+  return static_cast<int>(extra);
 }
 
 // How many numbers follow the coordinates on the first vertex line, and so on all of them.
@@ -92,7 +94,36 @@ int numbers_after_coordinates(const std::vector<TextPiece>& pieces, const OffHea
   Scanner in = first->scanner;
   in.next_line();
   double coordinates[3];
-  return read_vertex(in, coordinates);
+  VertexData none;
+  return read_vertex(in, coordinates, none, 0);
+}
+
+// Room for what the keyword tells of that many more numbers of vertices, in their order; none where it tells
+// of another count.
+VertexData allocate_data(const OffHeader& header, int extra, size_t vertices) {
+  const int colours = extra - (header.normals ? 3 : 0) - (header.texture ? 2 : 0);
+  if (header.colours ? colours != 3 && colours != 4 : colours != 0) return {};
+  VertexData data;
+  const auto add = [&](ChannelNames names, NumberType type) {
+    for (const char* name : names) data.push_back({name, type, std::vector<double>(vertices)});
+  };
+  if (header.normals) add(normal_names, NumberType::float32);
+  add(ChannelNames(colour_names).first(static_cast<size_t>(colours)), NumberType::float64);
+  if (header.texture) add(ChannelNames(texture_names).first(2), NumberType::float64);
+  return data;
+}
+
+// Whole numbers up to 255 count to 255, unless all are 0 or 1.
+void find_type_of_colours(VertexData& data) {
+  double greatest = 0;
+  for (const VertexChannel* channel : channels_named(data, colour_names))
+    for (const double value : channel->values) {
+      if (value != std::round(value) || value < 0 || value > 255) return;
+      greatest = std::max(greatest, value);
+    }
+  if (greatest <= 1) return;
+  for (const char* name : colour_names)
+    if (VertexChannel* channel = find_channel(data, name)) channel->type = NumberType::uint8;
 }
 
 void check_vertex(const Scanner& in, const OffHeader& header, int vertex, int extra, int wanted_extra) {
@@ -130,12 +161,13 @@ bool read_face(Scanner& in, int face, int vertex_count, MeshFile& part) {
   return extra > 0;
 }
 
-std::vector<std::string> kinds_not_kept(const OffHeader& header, int vertex_extra, bool face_colours) {
+std::vector<std::string> kinds_not_kept(const OffHeader& header, int vertex_extra, bool kept,
+                                        bool face_colours) {
   std::vector<std::string> kinds;
-  if (header.normals) kinds.emplace_back("normals");
-  if (header.colours) kinds.emplace_back("vertex colours");
-  if (header.texture) kinds.emplace_back("texture coordinates");
-  if (kinds.empty() && vertex_extra > 0)
+  if (!kept && header.normals) kinds.emplace_back("normals");
+  if (!kept && header.colours) kinds.emplace_back("vertex colours");
+  if (!kept && header.texture) kinds.emplace_back("texture coordinates");
+  if (!kept && kinds.empty() && vertex_extra > 0)
     kinds.push_back(fmt::format("{} more numbers on each vertex line", vertex_extra));
   if (face_colours) kinds.emplace_back("face colours");
   return kinds;
@@ -164,6 +196,7 @@ MeshFile read_off(std::string_view text, const std::string& name) {
   file.name = name;
   file.format = "off";
   file.points.resize(3, std::min<long long>(rows, header.vertices));
+  file.vertex_data = allocate_data(header, extra, static_cast<size_t>(file.points.cols()));
   std::vector<MeshFile> parts(pieces.size());
   std::vector<char> face_colours(pieces.size(), 0);
   read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
@@ -171,7 +204,8 @@ MeshFile read_off(std::string_view text, const std::string& name) {
     parts[p].name = name;
     for (long long row = piece.first_row; rest.next_line(); ++row) {
       if (row < header.vertices) {
-        const int found = read_vertex(rest, file.points.col(row).data());
+        const int found =
+            read_vertex(rest, file.points.col(row).data(), file.vertex_data, static_cast<size_t>(row));
         check_vertex(rest, header, static_cast<int>(row), found, extra);
       } else if (row < elements) {
         const int face = static_cast<int>(row - header.vertices);
@@ -186,15 +220,9 @@ MeshFile read_off(std::string_view text, const std::string& name) {
   if (rows < elements) fail_at_end(pieces.empty() ? in : pieces.back().scanner, header, rows);
   append_faces(file, parts);
   const bool any_face_colour = std::ranges::find(face_colours, 1) != face_colours.end();
-  warn_not_kept(file, kinds_not_kept(header, extra, any_face_colour));
+  find_type_of_colours(file.vertex_data);
+  warn_not_kept(file, kinds_not_kept(header, extra, !file.vertex_data.empty(), any_face_colour));
   return file;
-}
-
-std::string write_off(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles) {
-  std::string text = fmt::format("OFF\n{} {} 0\n", points.cols(), triangles.size());
-  append_vertex_rows(text, points, "");
-  append_face_rows(text, triangles, "3 ", 0);
-  return text;
 }
 
 }  // namespace hooke

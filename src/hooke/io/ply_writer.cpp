@@ -95,8 +95,10 @@ std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
   const bool ascii = encoding == PlyEncoding::ascii;
   std::string bytes = header_text(points.cols(), triangles.size(), encoding, data);
   if (ascii) {
-    append_vertex_rows(bytes, points, "", data);
-    append_face_rows(bytes, triangles, "3 ", 0);
+    ChannelList channels;
+    for (const VertexChannel& channel : data) channels.push_back(&channel);
+    append_vertex_rows(bytes, points, "", channels);
+    append_face_rows(bytes, triangles, "3", 0);
   } else {
     const bool little = encoding == PlyEncoding::binary_little_endian;
     append_binary(bytes, points, triangles, data, little != (std::endian::native == std::endian::little));

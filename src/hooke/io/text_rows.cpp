@@ -30,27 +30,46 @@ void append_value(std::string& row, NumberType type, double value) {
     append_number(row, value);
 }
 
+void append_values(std::string& row, const ChannelList& channels, size_t vertex) {
+  for (const VertexChannel* channel : channels) {
+    row += ' ';
+    append_value(row, channel->type, channel->values[vertex]);
+  }
+}
+
 }  // namespace
 
 void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix,
-                        const VertexData& data) {
+                        const ChannelList& channels) {
   append_rows(text, static_cast<size_t>(points.cols()), [&](std::string& row, size_t v) {
     row += prefix;
     append_three(row, points.col(static_cast<Eigen::Index>(v)));
-    for (const VertexChannel& channel : data) {
-      row += ' ';
-      append_value(row, channel.type, channel.values[v]);
-    }
+    append_values(row, channels, v);
     row += '\n';
   });
 }
 
-void append_face_rows(std::string& text, const std::vector<Triangle>& faces, const char* prefix,
-                      int first_id) {
-  append_rows(text, faces.size(), [&](std::string& row, size_t f) {
-    const auto& [a, b, c] = faces[f];
+void append_value_rows(std::string& text, const char* prefix, const ChannelList& channels) {
+  if (channels.empty()) return;
+  append_rows(text, channels.front()->values.size(), [&](std::string& row, size_t v) {
     row += prefix;
-    append_three(row, Triangle{a + first_id, b + first_id, c + first_id});
+    append_values(row, channels, v);
+    row += '\n';
+  });
+}
+
+void append_face_rows(std::string& text, const std::vector<Triangle>& faces, const char* prefix, int first_id,
+                      const std::vector<const char*>& repeats) {
+  append_rows(text, faces.size(), [&](std::string& row, size_t f) {
+    row += prefix;
+    for (const int vertex : faces[f]) {
+      row += ' ';
+      append_number(row, vertex + first_id);
+      for (const char* separator : repeats) {
+        row += separator;
+        append_number(row, vertex + first_id);
+      }
+    }
     row += '\n';
   });
 }

@@ -17,7 +17,7 @@ std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncodi
   const std::vector<Triangle> triangles = triangles_of(mesh);
   if (format == "obj") return write_obj(points, triangles, data);
   if (format == "ply") return write_ply(points, triangles, encoding, data);
-  if (format == "off") return write_off(points, triangles);
+  if (format == "off") return write_off(points, triangles, data);
   throw Error(fmt::format("format {}; expected obj, ply or off; choose one of them", in_quotes(format)));
 }
 
