@@ -57,10 +57,10 @@ double cosine_between(const Mat3X& points, const Triangle& face, const Triangle&
 
 Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options)
     : connectivity_(connectivity), targets_(targets), options_(options) {
+  area_vector_.resize(3, static_cast<Eigen::Index>(connectivity.faces.size()));
   for (Measures* m : {&accepted_, &trial_}) {
     m->area.resize(connectivity.faces.size());
     m->alignment.resize(connectivity.faces.size());
-    m->area_vector.resize(3, static_cast<Eigen::Index>(connectivity.faces.size()));
     if (std::isfinite(options.cotangent)) m->cotangent.resize(connectivity.faces.size());
     m->sagitta.resize(connectivity.edges.size());
     m->fold.resize(connectivity.edges.size());
@@ -70,7 +70,7 @@ Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, c
 void Guards::measure_face(const Placement& p, size_t face) {
   const Triangle& t = connectivity_.faces[face];
   const Vec3 n = doubled_area_vector(p.points, t);
-  trial_.area_vector.col(static_cast<Eigen::Index>(face)) = n;
+  area_vector_.col(static_cast<Eigen::Index>(face)) = n;
   trial_.area[face] = .5 * n.norm();
   trial_.alignment[face] = cosine(n, sum_of_normals(p.normals, connectivity_.sides_of_faces()[face]), 0);
   if (!trial_.cotangent.empty()) trial_.cotangent[face] = greatest_cotangent(p.points, t);
@@ -80,7 +80,7 @@ void Guards::measure_face(const Placement& p, size_t face) {
 double Guards::fold_at(size_t edge) const {
   const auto [left, right] = connectivity_.edge_faces[edge];
   if (right < 0) return 1;
-  return cosine(trial_.area_vector.col(left), trial_.area_vector.col(right), 1);
+  return cosine(area_vector_.col(left), area_vector_.col(right), 1);
 }
 
 void Guards::measure_edge(const Placement& p, size_t edge) {

@@ -29,8 +29,7 @@ inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
 
 /// Judges steps against the last accepted placement. Each face and edge is measured on its own side of a
-/// crease. Keeps references to the connectivity
-/// and the targets.
+/// crease. Keeps references to the connectivity and the targets.
 class Guards {
  public:
   Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options);
@@ -74,11 +73,11 @@ class Guards {
   const TargetLengths& targets_;
   GuardOptions options_;
   struct Measures {
-    Mat3X area_vector;                               // doubled, per face
     std::vector<double> area, alignment, cotangent;  // per face; cotangents only where they are limited
     std::vector<double> sagitta, fold;               // per edge
   };
   Measures accepted_, trial_;
+  Mat3X area_vector_;  // doubled, per face, of what was measured last
 };
 
 }  // namespace hooke
