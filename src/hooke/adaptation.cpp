@@ -27,8 +27,7 @@ class Adaptation {
             corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)),
         origins_(all_vertices(work)),
         curve_finder_(work.constraints.curves),
-        graded_(std::ranges::adjacent_find(work.vertex_length, std::ranges::not_equal_to()) !=
-                work.vertex_length.end()) {
+        graded_(work.graded()) {
     result_.wanted_faces =
         wanted_face_count(work.placement.points, work.connectivity->faces, work.vertex_length);
   }

@@ -7,7 +7,7 @@ namespace hooke {
 
 struct LocalRelaxationOptions {
   int sweeps = 8;
-  double over_relaxation = 1;  // more is faster where vertices have far to go, and less the same every time
+  double over_relaxation = 1;  // more is faster where vertices have far to go, but magnifies rounding
   double rest = 3e-3;          // of a target length; what moves less in a sweep sits out the next
 };
 
