@@ -63,6 +63,24 @@ TEST(Features, AChainWithALooseEndIsLong) {
   EXPECT_TRUE(features_of(fading_sheet(), {.sharp_share = .7}).empty());
 }
 
+/// A sheet 40 x 40, curved with about this radius, with a crease of 60 degrees along x = 20 that fades at
+/// both ends.
+test::Triangles creased_sheet(double radius) {
+  test::Triangles t =
+      bent_sheet(40, [](double y) { return std::max(0., 60 - 4 * std::max(0., std::abs(y - 20) - 10)); });
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+    const double x = t.points(0, v) - 20, y = t.points(1, v) - 20;
+    t.points(2, v) -= (x * x + x * y + y * y) / (2 * radius);
+  }
+  return t;
+}
+
+TEST(Features, AChainInTheMidstOfTheSurfaceLiesBetweenFlatFaces) {
+  EXPECT_GE(features_of(creased_sheet(1000)).size(), 20u);
+  EXPECT_TRUE(features_of(creased_sheet(15)).empty());
+  EXPECT_FALSE(features_of(creased_sheet(15), {.flat_bend = .1}).empty());
+}
+
 TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
   EXPECT_TRUE(features_of(test::sphere(0)).empty());  // an icosahedron bends by 42 degrees everywhere
   for (unsigned seed = 1; seed <= 5; ++seed) {

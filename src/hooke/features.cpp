@@ -138,7 +138,20 @@ class FeatureSearch {
     return *middle;
   }
 
-  bool is_worth_keeping(const std::vector<int>& chain) const {
+  bool on_boundary(int vertex) const {
+    const auto edges = c_.vertex_edges[vertex];
+    return std::any_of(edges.begin(), edges.end(), [&](int e) { return c_.is_boundary_edge(e); });
+  }
+
+  /// Does the chain from this vertex begin and end in the midst of the surface?
+  bool is_lone(int vertex, const std::vector<int>& chain) const {
+    const auto is_loose = [&](int v) { return kept_edges(v).size() == 1 && !on_boundary(v); };
+    const Edge& last = c_.edges[idx(chain.back())];
+    return is_loose(vertex) &&
+           ((last[0] != vertex && is_loose(last[0])) || (last[1] != vertex && is_loose(last[1])));
+  }
+
+  bool is_worth_keeping(int from, const std::vector<int>& chain) const {
     double sum = 0;
     int sharp = 0;
     for (int e : chain) {
@@ -147,7 +160,7 @@ class FeatureSearch {
     }
     const auto edges = static_cast<int>(chain.size());
     return edges >= o_.least_edges && sum >= o_.least_length && sharp >= o_.sharp_share * edges &&
-           median_bend(chain) <= o_.chain_bend;
+           median_bend(chain) <= (is_lone(from, chain) ? o_.flat_bend : o_.chain_bend);
   }
 
   void drop_loose_chains() {
@@ -159,7 +172,7 @@ class FeatureSearch {
       const std::vector<int> here = kept_edges(v);
       if (here.size() != 1) continue;
       const std::vector<int> chain = chain_from(v, here[0]);
-      if (is_worth_keeping(chain)) continue;
+      if (is_worth_keeping(v, chain)) continue;
       for (int e : chain) kept_[idx(e)] = 0;
       ends.insert(ends.end(), c_.edges[idx(chain.back())].begin(), c_.edges[idx(chain.back())].end());
     }

@@ -16,7 +16,8 @@ struct FeatureOptions {
   int least_edges = 12;     // of a chain with a loose end
   double least_length = 8;  // of a chain with a loose end, in target lengths
   double least_curve = 5;   // mean number of edges from corner to corner in a network of chains, unless
-  double flat_bend = .02;   // the median of its bends is below this: flat faces may have short edges
+  double flat_bend = .02;  // the median of its bends is below this: flat faces may have short edges. The same
+                           // is asked of a chain that begins and ends in the midst of the surface
 };
 
 /// The crease edges, ascending. An edge counts when its faces meet at a sharp angle while each of them goes
