@@ -259,6 +259,61 @@ TEST(SurfaceField, ClosestIsThatOfAllFaces) {
   }
 }
 
+/// A sphere whose cap is cut off and closed by long triangles about one vertex.
+test::Triangles capped_sphere() {
+  test::Triangles t = test::sphere(3);
+  const int apex = 0;
+  const double height = .6;
+  const auto gone = [&](int v) { return t.points(2, v) > height; };
+  t.points.col(apex) = Vec3(0, 0, 1);
+  std::vector<Triangle> faces;
+  for (Triangle face : t.faces) {
+    const auto of_cap = std::ranges::count_if(face, gone);
+    if (of_cap > 1) continue;
+    for (int& v : face)
+      if (gone(v)) v = apex;
+    faces.push_back(face);
+  }
+  t.points.col(apex) = Vec3(0, 0, height);
+  return {t.points, faces};
+}
+
+TEST(SurfaceField, StaysWithinReachOfTheFaces) {
+  const auto t = capped_sphere();
+  const double h = mean_edge(t), reach = .3 * h;
+  const SurfaceField free = field_of(t), limited = field_of(t, {.reach = reach});
+  const SurfaceField faces = field_of(t, {.kind = FilterKind::closest});
+  const auto height = [&](const Foot& f) {
+    return (faces.project(f.point, f.anchor, 1e-9).point - f.point).norm();
+  };
+  int beyond = 0;
+  for (const Start& s : starts_near(t, .01 * h, 20)) {
+    const Foot as_fitted = free.project(s.point, s.anchor, 1e-9),
+               foot = limited.project(s.point, s.anchor, 1e-9);
+    EXPECT_LE(height(foot), (1 + 1e-6) * reach);
+    if (height(as_fitted) <= reach) {
+      EXPECT_EQ(foot.point, as_fitted.point);
+      continue;
+    }
+    ++beyond;
+    EXPECT_NEAR(height(foot), reach, 1e-6 * reach);
+    EXPECT_GT(foot.normal.dot(faces.project(foot.point, foot.anchor, 1e-9).normal), 0);
+    EXPECT_LT((limited.project(foot.point, foot.anchor, 1e-9).point - foot.point).norm(), 1e-6 * h);
+  }
+  EXPECT_GT(beyond, 50);
+}
+
+TEST(SurfaceField, ReachCountsInTheLengthsOfTheVertices) {
+  const auto t = capped_sphere();
+  const double h = mean_edge(t);
+  const std::vector<double> lengths(static_cast<std::size_t>(t.points.cols()), h);
+  const SurfaceField a = field_of(t, {.reach = .5 * h});
+  const SurfaceField b(t.points, connect(t), {.reach = .5}, {}, lengths);
+  for (const Start& s : starts_near(t, .01 * h))
+    EXPECT_LT((a.project(s.point, s.anchor, 1e-9).point - b.project(s.point, s.anchor, 1e-9).point).norm(),
+              1e-6 * h);
+}
+
 TEST(SurfaceField, NoneLeavesPointsAlone) {
   const SurfaceField field = field_of(test::sphere(1), {.kind = FilterKind::none});
   const Foot foot = field.project({0, 0, 1.5}, 0, 1e-9);

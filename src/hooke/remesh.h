@@ -39,7 +39,7 @@ struct RemeshOptions {
   PolishOptions polish;
   bool polish_angles = true;
   AngleSearchOptions search;  // after the polish
-  FilterOptions filter;
+  FilterOptions filter{.reach = .35};
   // Of the field: before each outer iteration, where the guards hindered the last; or once, which `adapt`
   // always does.
   Refit refit = Refit::each;

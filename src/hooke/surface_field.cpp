@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "hooke/closest_point.h"
 #include "hooke/error.h"
+#include "hooke/field_reach.h"
+#include "hooke/near_faces.h"
 #include "hooke/normals.h"
 #include "hooke/parallel.h"
 #include "hooke/partition_of_unity.h"
@@ -98,69 +99,15 @@ struct SurfaceField::State {
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
   std::vector<float> curvature;  // about the greatest within two rings
+  std::vector<float> reaches;    // see field_reach.h
   std::optional<PartitionOfUnity> partition;
   std::vector<int> pieces;               // per vertex; empty: one
   std::vector<ThinPlateSpline> splines;  // per piece
 
-  int nearest_vertex(const Vec3& x, int anchor) const;
-  Foot closest_point(const Vec3& x, int anchor) const;
-  Foot closest_point_of_ring(const Vec3& x, int anchor) const;
+  NearFaces faces() const { return {points, normals, *connectivity}; }
   FieldSample sample(const Vec3& x, int anchor) const;
   Foot project(const Vec3& x, int anchor, double tolerance) const;
 };
-
-/// Walks from vertex to vertex while that brings it closer to x: steepest descent of the distance.
-int SurfaceField::State::nearest_vertex(const Vec3& x, int anchor) const {
-  double least = (points.col(anchor) - x).squaredNorm();
-  for (int from = -1; from != anchor;) {
-    from = anchor;
-    for (int n : connectivity->vertex_neighbours[from]) {
-      const double distance2 = (points.col(n) - x).squaredNorm();
-      if (!(distance2 < least)) continue;  // ends the walk for NaN too
-      least = distance2;
-      anchor = n;
-    }
-  }
-  return anchor;
-}
-
-/// Closest point of the faces of the anchor and its neighbours; the new anchor is the nearest corner there.
-Foot SurfaceField::State::closest_point_of_ring(const Vec3& x, int anchor) const {
-  Foot foot{x, Vec3::Zero(), anchor, FootStatus::no_cover, 0};
-  double least = std::numeric_limits<double>::infinity();
-  const auto visit = [&](int v) {
-    for (int f : connectivity->vertex_faces[v]) {
-      const Triangle& face = connectivity->faces[static_cast<std::size_t>(f)];
-      const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
-      const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
-      if (near.squared_distance >= least) continue;
-      least = near.squared_distance;
-      foot.point = near.point;
-      foot.normal.setZero();
-      for (int k = 0; k < 3; ++k)
-        foot.normal += near.weights[k] * normals.col(face[static_cast<std::size_t>(k)]);
-      Eigen::Index corner;
-      near.weights.maxCoeff(&corner);
-      foot.anchor = face[static_cast<std::size_t>(corner)];
-      foot.status = FootStatus::converged;
-    }
-  };
-  visit(anchor);
-  for (int n : connectivity->vertex_neighbours[anchor]) visit(n);
-  foot.normal.normalize();
-  return foot;
-}
-
-Foot SurfaceField::State::closest_point(const Vec3& x, int anchor) const {
-  Foot foot = closest_point_of_ring(x, anchor);
-  while (foot.anchor != anchor) {
-    anchor = foot.anchor;
-    const Foot next = closest_point_of_ring(x, anchor);
-    if (!((next.point - x).squaredNorm() < (foot.point - x).squaredNorm())) break;
-    foot = next;
-  }
-  return foot;
-}
 
 FieldSample SurfaceField::State::sample(const Vec3& x, int anchor) const {
   switch (kind) {
@@ -170,7 +117,7 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int anchor) const {
       return splines[pieces.empty() ? 0 : static_cast<std::size_t>(pieces[static_cast<std::size_t>(anchor)])](
           x);
     case FilterKind::closest: {
-      const Foot foot = closest_point(x, anchor);
+      const Foot foot = faces().closest_point(x, anchor);
       const double distance = (x - foot.point).norm();
       return {(x - foot.point).dot(foot.normal) < 0 ? -distance : distance, foot.normal};
     }
@@ -181,9 +128,9 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int anchor) const {
 }
 
 Foot SurfaceField::State::project(const Vec3& x, int anchor, double tolerance) const {
-  anchor = nearest_vertex(x, anchor);
+  anchor = faces().nearest_vertex(x, anchor);
   if (kind == FilterKind::none) return {x, normals.col(anchor), anchor};
-  if (kind == FilterKind::closest) return closest_point(x, anchor);
+  if (kind == FilterKind::closest) return faces().closest_point(x, anchor);
 
   NewtonOptions newton;
   newton.tolerance = tolerance;
@@ -192,21 +139,23 @@ Foot SurfaceField::State::project(const Vec3& x, int anchor, double tolerance) c
   newton.convergence = convergence / edge_lengths[anchor];
   const Foot foot =
       project_by_newton([this](const Vec3& p, int a) { return sample(p, a); }, x, anchor, newton);
-  if (foot.status == FootStatus::converged) return foot;
+  if (foot.status == FootStatus::converged) return within_reach(faces(), reaches, x, foot);
 
-  Foot fallback = closest_point(x, anchor);
+  Foot fallback = faces().closest_point(x, anchor);
   fallback.status = foot.status;
   fallback.evaluations = foot.evaluations;
   return fallback;
 }
 
 SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> connectivity,
-                           const FilterOptions& options, std::vector<int> pieces) {
+                           const FilterOptions& options, std::vector<int> pieces,
+                           const std::vector<double>& lengths) {
   auto state = std::make_shared<State>();
   state->kind = options.kind;
   state->normals = vertex_normals(points, *connectivity);
   state->edge_lengths = mean_edge_lengths(points, *connectivity);
   state->curvature = greatest_curvatures(points, state->normals, *connectivity);
+  state->reaches = reaches_of({points, state->normals, *connectivity}, options.reach, lengths);
   if (options.kind == FilterKind::local)
     state->partition.emplace(points, *connectivity, state->normals, state->edge_lengths,
                              PartitionOptions{.kernel = options.kernel, .offset = options.offset});
@@ -250,7 +199,8 @@ const Mat3X& SurfaceField::normals() const {
 
 std::size_t SurfaceField::memory_bytes() const {
   const auto doubles = state_->points.size() + state_->normals.size() + state_->edge_lengths.size();
-  return sizeof(double) * static_cast<std::size_t>(doubles) + sizeof(float) * state_->curvature.capacity() +
+  return sizeof(double) * static_cast<std::size_t>(doubles) +
+         sizeof(float) * (state_->curvature.capacity() + state_->reaches.capacity()) +
          (state_->partition ? state_->partition->memory_bytes() : 0) +
          std::transform_reduce(state_->splines.begin(), state_->splines.end(), std::size_t{0}, std::plus<>(),
                                [](const ThinPlateSpline& s) { return s.memory_bytes(); });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 
 #include "hooke/connectivity.h"
@@ -25,6 +26,9 @@ struct FilterOptions {
   Kernel kernel = Kernel::r3;
   double offset = .3;  // rho of [13] over the mean edge length: at each vertex (local), of the mesh (global)
   std::size_t memory_limit_bytes = SIZE_MAX;  // of the dense fit (global)
+  /// Greatest distance of the surface from the faces, over the vertices' lengths: where long faces lie beside
+  /// short ones, splines may swing far out.
+  double reach = std::numeric_limits<double>::infinity();
 };
 
 /// The field of a mesh with vertices on the surface (the reference). It keeps what it needs, may outlive the
@@ -34,13 +38,15 @@ class SurfaceField {
   /// Throws LimitError when the global fit needs more than the memory limit, NumericalError when it has no
   /// solution (all vertices in one place, or two nearly so).
   /// `pieces` numbers the parts of the surface by vertex, for the global fit to give each a spline of its
-  /// own; empty: one spline.
+  /// own; empty: one spline. `lengths` of the vertices are what options.reach counts in; empty: 1.
   SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> connectivity,
-               const FilterOptions& options = {}, std::vector<int> pieces = {});
+               const FilterOptions& options = {}, std::vector<int> pieces = {},
+               const std::vector<double>& lengths = {});
 
   /// Puts x, tracked near the reference vertex `anchor`, back on the surface to within `tolerance` (a
   /// length). The anchor first walks over mesh edges to the nearest vertex it can reach downhill. Where
-  /// Newton fails, the foot is the closest point of the faces about the anchor and the status says why. On a
+  /// Newton fails, the foot is the closest point of the faces about the anchor and the status says why; where
+  /// it leads farther from the faces than options.reach, the foot is as far from them as that. On a
   /// vertex without faces: x itself, normal zero, no_cover.
   Foot project(const Vec3& x, int anchor, double tolerance) const;
 

@@ -99,9 +99,12 @@ void Workspace::keep_angles() {
 
 /// A field of which each side of a crease has its own.
 SurfaceField Workspace::fit(const Mat3X& points) const {
-  if (connectivity->creases.empty()) return SurfaceField(points, connectivity, filter_);
+  if (connectivity->creases.empty()) return SurfaceField(points, connectivity, filter_, {}, vertex_length);
   const auto cut = std::make_shared<const Connectivity>(cut_open(*connectivity));
-  return SurfaceField(side_points(points, *connectivity), cut, filter_, label_components(*cut));
+  std::vector<double> lengths;
+  for (int side = 0; side < cut->vertex_count; ++side)
+    lengths.push_back(vertex_length[static_cast<size_t>(connectivity->vertex_of_side(side))]);
+  return SurfaceField(side_points(points, *connectivity), cut, filter_, label_components(*cut), lengths);
 }
 
 int Workspace::chart_count() const {
