@@ -67,6 +67,32 @@ TEST(AngleSearch, MayPayMoreWhereItIsAllowedTo) {
   EXPECT_LE(better.error_after, 1.2 * better.error_before);
 }
 
+TEST(AngleSearch, SagittasMayGrowWhereThatIsWorthIt) {
+  double risen = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const auto with = [&](double sagitta) {
+      test::SceneOptions tight;
+      tight.guards.sagitta = .05;
+      test::Scene s(test::sphere(2, .4, seed), test::to_unit_sphere, tight);
+      const auto greatest_sagitta = [&] {
+        double greatest = 0;
+        for (const Edge& e : s.connectivity.edges)
+          greatest = std::max(greatest, edge_sagitta(s.placement.points, s.placement.normals, e) / s.L());
+        return greatest;
+      };
+      const double before = greatest_sagitta();
+      Relaxation r = s.relaxation();
+      search_angles(r, {.edge_error_limit = 1.1, .sagitta = sagitta});
+      EXPECT_LE(greatest_sagitta(), std::max(sagitta, before) + 1e-6);
+      return least_angle(s.placement.points, s.connectivity.faces);
+    };
+    const double within = with(0), beyond = with(.15);
+    EXPECT_GE(beyond, within);
+    risen += beyond - within;
+  }
+  EXPECT_GT(risen / 6, .2);
+}
+
 TEST(AngleSearch, LeavesAPerfectMeshAlone) {
   test::Triangles t = test::grid(6, test::flat);
   for (auto x : t.points.colwise()) x = Vec3(x[0] - .5 * x[1], std::sqrt(.75) * x[1], 0);

@@ -38,11 +38,16 @@ std::vector<int> worst_corners(const Relaxation& r, double goal, const AngleSear
   return corners;
 }
 
+double edge_error_of(const Relaxation& r) {
+  return relative_edge_deviation(r.placement.points, r.connectivity.edges, r.energy.targets());
+}
+
 class Search {
  public:
-  Search(Relaxation& r, const AngleSearchOptions& options)
+  Search(Relaxation& r, const AngleSearchOptions& options, const GuardOptions& guards)
       : r_(r),
         o_(options),
+        guards_(guards),
         sides_{Side(VertexRing(r.sweeps.spokes, r.energy.targets())),
                Side(VertexRing(r.sweeps.spokes, r.energy.targets()))} {}
 
@@ -96,8 +101,7 @@ class Search {
     for (int s = 0; s < count_; ++s) {
       Side& side = sides_[static_cast<size_t>(s)];
       side.ring.shape(place.point, s == 0 ? place.normal : place.other_normal, side.after);
-      if (!side.ring.obeys(side.before, side.after, r_.guards.options()))
-        return std::numeric_limits<double>::infinity();
+      if (!side.ring.obeys(side.before, side.after, guards_)) return std::numeric_limits<double>::infinity();
       worst = std::max(worst, worst_of(side, side.after));
     }
     return worst;
@@ -131,21 +135,16 @@ class Search {
 
   Relaxation& r_;
   const AngleSearchOptions& o_;
+  const GuardOptions guards_;
   std::array<Side, 2> sides_;
   int count_ = 1;
   double worst_ = 0;  // greatest cotangent about the vertex
 };
 
-}  // namespace
-
-AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
-  AngleSearchResult result;
-  if (r.connectivity.faces.empty()) return result;
-  const auto edge_error = [&] {
-    return relative_edge_deviation(r.placement.points, r.connectivity.edges, r.energy.targets());
-  };
-  const double greatest_edge_error = o.edge_error_limit * edge_error();
-  Search search(r, o);
+/// Goes on until no round raises the least angle any more.
+void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards,
+                   double greatest_edge_error, AngleSearchResult& result) {
+  Search search(r, o, guards);
   double least = least_angle(r.placement.points, r.connectivity.faces);
   double above = o.above_least;
   while (result.rounds < o.max_rounds && above > o.least_rise) {
@@ -156,7 +155,7 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
       moves += search.improve(v, cotangent_of(goal));
     ++result.rounds;
     const double now = least_angle(r.placement.points, r.connectivity.faces);
-    if (now < least + o.least_rise || edge_error() > greatest_edge_error) {
+    if (now < least + o.least_rise || edge_error_of(r) > greatest_edge_error) {
       r.placement = before;
       above /= 2;
       continue;
@@ -164,6 +163,18 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
     result.moves += moves;
     least = now;
   }
+}
+
+}  // namespace
+
+AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
+  AngleSearchResult result;
+  if (r.connectivity.faces.empty()) return result;
+  const double greatest_edge_error = o.edge_error_limit * edge_error_of(r);
+  GuardOptions guards = r.guards.options();
+  search_within(r, o, guards, greatest_edge_error, result);
+  guards.sagitta = std::max(guards.sagitta, o.sagitta);
+  search_within(r, o, guards, greatest_edge_error, result);
   r.retraction.count();
   positions(r.mesh) = r.placement.points;
   return result;

@@ -16,6 +16,7 @@ struct AngleSearchOptions {
   double last_step = .01;           // ... down to this
   double least_gain = 1e-3;         // of the cotangent; less is not worth a move
   double edge_error_limit = 1.005;  // of the standard deviation of l / L_e at the start
+  double sagitta = .3;              // over the target length, as guards have one: worth a better least angle
   int max_rounds = 40;              // each must raise the least angle by ...
   double least_rise = .02;          // ... this many degrees
 };
@@ -25,9 +26,9 @@ struct AngleSearchResult {
   int moves = 0;
 };
 
-/// Raises the least angle of all as far as edges may pay for it. No face
-/// about a vertex that moves has a smaller angle than the least of them had before; all moves obey the
-/// guards.
+/// Raises the least angle of all as far as edges may pay for it. No face about a vertex that moves has a
+/// smaller angle than the least of them had before; all moves obey the guards, but for a looser limit of
+/// sagittas once nothing else helps.
 AngleSearchResult search_angles(Relaxation& relaxation, const AngleSearchOptions& options);
 
 }  // namespace hooke
