@@ -54,8 +54,9 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Mea
   return std::move(carried.data);
 }
 
-MeasuredSurface surface_of(const Mat3X& points, const Connectivity& connectivity, Stopwatch& stopwatch) {
-  return timed(&stopwatch, "tree", [&] { return MeasuredSurface(points, connectivity); });
+MeasuredSurface surface_of(const Mat3X& points, const Connectivity& connectivity, Stopwatch& stopwatch,
+                           const std::vector<int>& tree_order = {}) {
+  return timed(&stopwatch, "tree", [&] { return MeasuredSurface(points, connectivity, tree_order); });
 }
 
 /// Against the target lengths that the vertices have now.
@@ -128,8 +129,9 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, Stopwatch& stopwatch) {
 }
 
 /// Optimizes the mesh, measures what has come of it, and prepares the files that hold it.
-void make_result(const Settings& s, LoadedMesh& loaded, const Mat3X& original, RunRecord& record,
-                 OutputFiles& files, Stopwatch& stopwatch) {
+void make_result(const Settings& s, LoadedMesh& loaded, const Mat3X& original,
+                 const std::vector<int>& tree_order, RunRecord& record, OutputFiles& files,
+                 Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
   record.result = timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, stopwatch); });
   const RemeshResult& done = *record.result;
@@ -141,11 +143,12 @@ void make_result(const Settings& s, LoadedMesh& loaded, const Mat3X& original, R
       faces_kept ? Connectivity{}
                  : make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
   const Connectivity& after = faces_kept ? loaded.connectivity : changed;
-  const MeasuredSurface result = surface_of(positions(mesh), after, stopwatch);
+  const MeasuredSurface result =
+      surface_of(positions(mesh), after, stopwatch, faces_kept ? tree_order : std::vector<int>());
   record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, stopwatch); });
   if (!done.holds.empty())
     for (WorstFace& face : record.after->worst_faces) face.reasons = hindrances(face, done.holds);
-  const MeasuredSurface reference = surface_of(original, loaded.connectivity, stopwatch);
+  const MeasuredSurface reference = surface_of(original, loaded.connectivity, stopwatch, tree_order);
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
   if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
@@ -194,13 +197,15 @@ int run(Settings s) {
   if (!s.check)
     warn_of_coincident_boundary(coincident_boundary_vertices(original, connectivity).size(), record);
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, loaded.mesh, connectivity, record); });
+  std::vector<int> tree_order;
   {  // memory for the work: the surface is made again when it is needed again
     const MeasuredSurface surface = surface_of(original, connectivity, stopwatch);
+    tree_order = surface.tree.order();
     record.before = timed(&stopwatch, "before", [&] { return measure(surface, loaded.mesh, stopwatch); });
   }
 
   OutputFiles files;
-  if (!s.check) make_result(s, loaded, original, record, files, stopwatch);
+  if (!s.check) make_result(s, loaded, original, tree_order, record, files, stopwatch);
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
   finish(s, record, files);

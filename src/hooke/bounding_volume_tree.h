@@ -1,8 +1,11 @@
 // Axis-parallel boxes around triangles, as a binary tree: closest points and candidates for intersections.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <span>
 
+#include "hooke/lanes.h"
 #include "hooke/types.h"
 
 namespace hooke {
@@ -12,6 +15,10 @@ struct ClosestPoint {
   double squared_distance = 0;
   int face = -1;  // the lowest id among equals that were visited; -1 when the tree is empty
 };
+
+/// Thinner triangles have no normal to speak of: their edges are as close as their inside. Doubled, over the
+/// fourth power of the longest edge.
+inline constexpr double least_triangle_squared_area = 1e-24;
 
 /// Closest point of one triangle. Exact in the cases: a triangle without area is taken as its edges.
 ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
@@ -36,94 +43,128 @@ class BoundingVolumeTree {
     }
   };
 
-  static constexpr int max_depth = 64;  // halving 2^31 faces needs 31
-  struct Node {
-    Box box;
-    int first_or_right = 0;  // leaf: place in faces(); else: right child, the left one follows its parent
-    int count = 0;           // faces of a leaf; 0 for an inner node
-  };
+  /// The faces are halved again and again down to the leaves. Node 1 is the root, and the children of node i
+  /// are 2 i and 2 i + 1: a level stands together.
+  static constexpr int max_depth = 32;
 
-  /// A triangle may repeat a vertex id: it then stands for a segment.
-  BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces);
+  /// A triangle may repeat a vertex id: it then stands for a segment. `order`, where given, becomes that of
+  /// faces(): what is close there should be close in space.
+  BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces,
+                     const std::vector<int>& order = {});
 
   bool empty() const { return faces_.empty(); }
 
-  /// All faces; those that stand close here are close in space.
+  /// All faces along a curve that fills space: those that stand close here are close in space.
   std::span<const Face> faces() const { return faces_; }
 
-  /// `hint` is a face that is likely close (-1: none): it saves time.
-  ClosestPoint closest(const Vec3& x, int hint = -1) const;
+  /// The ids of faces().
+  std::vector<int> order() const;
 
-  /// The same for many points with a hint each, fast where points that stand next to each other are close in
-  /// space. Of faces at the same distance up to rounding any may be told.
-  void closest(std::span<const Vec3> points, std::span<const int> hints,
-               std::span<ClosestPoint> results) const;
+  ClosestPoint closest(const Vec3& x) const;
 
-  /// The pairs of faces whose boxes meet come in parts, one per node: with parts [begin, end) visit(f, g) is
-  /// called for theirs. All parts together have each pair once.
-  size_t parts() const { return nodes_.size(); }
+  /// The boxes of all nodes, and the leaves among them.
+  std::span<const Box> boxes() const { return boxes_; }
+  size_t leaf_count() const { return boxes_.size() / 2; }
+  bool is_leaf(size_t node) const { return node >= leaf_count(); }
+
+  /// Place in faces() of the first face of a leaf, counted from 0. Those of leaf_count() follow the last.
+  size_t first_face(size_t leaf) const { return (leaf * faces_.size()) >> depth_; }
+  std::span<const Face> faces_of(size_t leaf) const {
+    return faces().subspan(first_face(leaf), first_face(leaf + 1) - first_face(leaf));
+  }
+
+  /// Calls visit(leaf) for the leaves from `first` on, ascending, for whose boxes and those of all nodes
+  /// above them reaches(box) is true.
+  template <typename Reaches, typename Visit>
+  void for_each_leaf(size_t first, const Reaches& reaches, const Visit& visit) const {
+    size_t stack[max_depth + 1];
+    int size = 0;
+    stack[size++] = 1;
+    while (size > 0) {
+      const size_t i = stack[--size];
+      const int level = static_cast<int>(std::bit_width(i)) - 1;
+      const size_t leaves_end = ((i + 1) << (depth_ - level)) - leaf_count();
+      if (leaves_end <= first || !reaches(boxes_[i])) continue;
+      if (is_leaf(i)) {
+        visit(i - leaf_count());
+        continue;
+      }
+      stack[size++] = 2 * i + 1;
+      stack[size++] = 2 * i;
+    }
+  }
+
+  /// The pairs of faces whose boxes meet come in parts: with parts [begin, end) visit(f, g) is called for
+  /// theirs. All parts together have each pair once.
+  size_t parts() const { return (faces_.size() + faces_of_part - 1) / faces_of_part; }
   template <typename Visit>
   void for_each_meeting_pair(size_t begin, size_t end, const Visit& visit) const {
-    for (size_t part = begin; part < end; ++part) {
-      const auto mine = faces_of(part);
-      if (mine.empty()) continue;
-      for_each_leaf_meeting(nodes_[part].box, part, [&](size_t leaf) {
-        const auto others = faces_of(leaf);
-        for (size_t i = 0; i < mine.size(); ++i) {
-          const Box box = mine[i].box();
-          for (size_t k = leaf == part ? i + 1 : 0; k < others.size(); ++k)
-            if (others[k].box().intersects(box)) visit(mine[i], others[k]);
-        }
-      });
-    }
+    for (size_t part = begin; part < end; ++part) visit_pairs(part * faces_of_part, visit);
   }
 
  private:
   static constexpr size_t leaf_size = 4;
+  static constexpr size_t faces_of_part = 16;
 
-  struct Centre {
-    Vec3 point;
-    int face;
-  };
-  struct Range {  // of centres that become the node and all below it
-    size_t begin, end, node;
-  };
+  /// The boxes of a part, coordinate by coordinate.
+  struct PartBoxes {
+    std::array<std::array<double, faces_of_part>, 3> low, high;
+    Box all;
 
-  /// Calls visit(node) for the leaves from node `first` on whose boxes meet `box`.
-  template <typename Visit>
-  void for_each_leaf_meeting(const Box& box, size_t first, const Visit& visit) const {
-    if (empty()) return;
-    int stack[max_depth];
-    int size = 0;
-    stack[size++] = 0;
-    while (size > 0) {
-      const int i = stack[--size];
-      const Node& node = nodes_[static_cast<size_t>(i)];
-      if (!node.box.intersects(box)) continue;
-      if (node.count > 0) {
-        if (static_cast<size_t>(i) >= first) visit(static_cast<size_t>(i));
-        continue;
+    explicit PartBoxes(std::span<const Face> faces) {
+      const Box nowhere;
+      for (size_t i = 0; i < faces_of_part; ++i) {
+        const Box box = i < faces.size() ? faces[i].box() : nowhere;
+        all.extend(box);
+        for (size_t d = 0; d < 3; ++d) {
+          low[d][i] = box.min()[static_cast<Eigen::Index>(d)];
+          high[d][i] = box.max()[static_cast<Eigen::Index>(d)];
+        }
       }
-      stack[size++] = node.first_or_right;
-      if (static_cast<size_t>(node.first_or_right) > first) stack[size++] = i + 1;
     }
+
+    /// Which of four boxes meet another one.
+    HOOKE_INLINE void find_meeting(size_t first, const Box& other, LaneMask& meet) const {
+      meet = ~LaneMask{};
+      for (size_t d = 0; d < 3; ++d) {
+        const auto axis = static_cast<Eigen::Index>(d);
+        Lanes lows, highs;
+        load(&low[d][first], lows);
+        load(&high[d][first], highs);
+        meet &= (lows <= other.max()[axis]) & (highs >= other.min()[axis]);
+      }
+    }
+  };
+
+  /// The pairs of the faces of the part that begins at place `first` with later ones.
+  template <typename Visit>
+  void visit_pairs(size_t first, const Visit& visit) const {
+    const auto mine = faces().subspan(first, std::min(faces_of_part, faces_.size() - first));
+    const PartBoxes boxes(mine);
+    const auto visit_with = [&](size_t place) {
+      const Box other = faces_[place].box();
+      if (!other.intersects(boxes.all)) return;
+      for (size_t k = 0; k < mine.size() && first + k < place; k += lane_count) {
+        LaneMask meet;
+        boxes.find_meeting(k, other, meet);
+        if (!any(meet)) continue;
+        for (size_t i = k; i < std::min(k + lane_count, place - first); ++i)
+          if (meet[i - k]) visit(mine[i], faces_[place]);
+      }
+    };
+    for_each_leaf(
+        (first << depth_) / faces_.size(), [&](const Box& box) { return box.intersects(boxes.all); },
+        [&](size_t leaf) {
+          for (size_t place = std::max(first_face(leaf), first + 1); place < first_face(leaf + 1); ++place)
+            visit_with(place);
+        });
   }
 
-  /// Empty for an inner node.
-  std::span<const Face> faces_of(size_t node) const {
-    return {faces_.data() + (nodes_[node].count > 0 ? nodes_[node].first_or_right : 0),
-            static_cast<size_t>(nodes_[node].count)};
-  }
+  void enclose(size_t node, int level);
 
-  bool divide(const Range& range, std::vector<Centre>& centres, Range& left, Range& right);
-  void build(const Range& range, std::vector<Centre>& centres);
-  void build_all(std::vector<Centre>& centres);
-  void enclose_nodes();
-  const Face& face(int id) const { return faces_[static_cast<size_t>(place_[static_cast<size_t>(id)])]; }
-
+  int depth_ = 0;            // levels below the root
   std::vector<Face> faces_;  // leaf by leaf
-  std::vector<int> place_;   // in faces_, by face id
-  std::vector<Node> nodes_;
+  std::vector<Box> boxes_;   // by node; that of node 0 is not used
 };
 
 }  // namespace hooke

@@ -177,14 +177,12 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
   if (reference.points.cols() == result.points.cols())
     d.displacement = measure_displacement(reference.points, result.points);
 
-  const DistanceSamples outward =
-      timed(stopwatch, "to_reference", [&] { return sample_distances(result, reference); });
-  d.to_reference = measure_distance(result, outward);
-  timed(stopwatch, "from_reference",
-        [&] { d.from_reference = measure_distance(reference, sample_distances(reference, result)); });
+  std::vector<ClosestPoint> closest;
+  timed(stopwatch, "to_reference", [&] { d.to_reference = measure_distance(result, reference, &closest); });
+  timed(stopwatch, "from_reference", [&] { d.from_reference = measure_distance(reference, result); });
   timed(stopwatch, "normals", [&] {
-    d.normal_deviation = measure_normal_deviation(reference, result, outward.centres);
-    find_opposing_faces(reference, result, outward.centres, d);
+    d.normal_deviation = measure_normal_deviation(reference, result, closest);
+    find_opposing_faces(reference, result, closest, d);
   });
   d.diagonal = reference.extent.diagonal;
   d.area_change = relative_change(reference.extent.area, result.extent.area);

@@ -1,5 +1,7 @@
 #include "hooke/extent.h"
 
+#include <algorithm>
+
 #include "hooke/parallel.h"
 
 namespace hooke {
@@ -7,15 +9,27 @@ namespace {
 
 constexpr size_t block = 4096;
 
-/// Sum over the faces of measure(a, b, c).
-template <typename Measure>
-double face_sum(const Mat3X& points, const std::vector<Triangle>& faces, const Measure& measure) {
-  return parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
-    double sum = 0;
-    for (size_t f = begin; f < end; ++f)
-      sum += measure(points.col(faces[f][0]), points.col(faces[f][1]), points.col(faces[f][2]));
-    return sum;
+/// Sums over the faces, block by block.
+struct Sums {
+  double area = 0;
+  double volume = 0;  // of the cones to the centre
+};
+
+Sums sum_up(const Mat3X& points, const std::vector<Triangle>& faces, const Vec3& centre) {
+  std::vector<Sums> blocks(faces.size() / block + 1);
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const Vec3 a = points.col(faces[f][0]), b = points.col(faces[f][1]), c = points.col(faces[f][2]);
+      blocks[f / block].area += .5 * (b - a).cross(c - a).norm();
+      blocks[f / block].volume += (a - centre).dot((b - centre).cross(c - centre)) / 6;
+    }
   });
+  Sums all;
+  for (const Sums& of_block : blocks) {
+    all.area += of_block.area;
+    all.volume += of_block.volume;
+  }
+  return all;
 }
 
 }  // namespace
@@ -29,16 +43,12 @@ Extent measure_extent(const Mat3X& points, const Connectivity& connectivity) {
   extent.lower = box.min();
   extent.upper = box.max();
   extent.diagonal = box.diagonal().norm();
-  extent.area = face_sum(points, connectivity.faces, [](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return .5 * (b - a).cross(c - a).norm();
-  });
-
-  for (const auto& sides : connectivity.edge_faces)
-    if (sides[1] < 0) return extent;
   const Vec3 centre = box.center();  // keeps the cones small, and the rounding with them
-  extent.volume = face_sum(points, connectivity.faces, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    return (a - centre).dot((b - centre).cross(c - centre)) / 6;
-  });
+  const Sums sums = sum_up(points, connectivity.faces, centre);
+  extent.area = sums.area;
+  const bool closed =
+      std::ranges::none_of(connectivity.edge_faces, [](const auto& sides) { return sides[1] < 0; });
+  if (closed) extent.volume = sums.volume;
   return extent;
 }
 

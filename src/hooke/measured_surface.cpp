@@ -4,11 +4,12 @@
 
 namespace hooke {
 
-MeasuredSurface::MeasuredSurface(Mat3X own_points, const Connectivity& its_connectivity)
+MeasuredSurface::MeasuredSurface(Mat3X own_points, const Connectivity& its_connectivity,
+                                 const std::vector<int>& tree_order)
     : points(std::move(own_points)),
       connectivity(its_connectivity),
       extent(measure_extent(points, connectivity)),
-      tree(points, connectivity.faces) {}
+      tree(points, connectivity.faces, tree_order) {}
 
 std::vector<int> vertices_in_tree_order(const MeasuredSurface& surface) {
   std::vector<int> order;

@@ -9,7 +9,9 @@ namespace hooke {
 
 /// Keeps a reference to the connectivity, which must outlive it, and its own copy of the points.
 struct MeasuredSurface {
-  MeasuredSurface(Mat3X points, const Connectivity& connectivity);
+  /// `tree_order`: tree.order() of a surface with the same connectivity, whose faces lie about the same,
+  /// saves the time to find one.
+  MeasuredSurface(Mat3X points, const Connectivity& connectivity, const std::vector<int>& tree_order = {});
 
   Mat3X points;
   const Connectivity& connectivity;

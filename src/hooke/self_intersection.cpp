@@ -1,6 +1,7 @@
 #include "hooke/self_intersection.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "hooke/parallel.h"
 #include "hooke/predicates.h"
@@ -64,9 +65,44 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Corners& t, int 
   return same_side(orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0]));
 }
 
+/// More than what rounding adds to a product of the differences of points with a vector, in parts of the
+/// sum of its terms' sizes.
+constexpr double rounding = 1e-14;
+constexpr double underflow = 1e-280;
+
+double size_of(const Vec3& v) {
+  return v.lpNorm<1>();
+}
+
+/// Whether a plane between the centres surely has one triangle on each side. Most pairs that are asked for
+/// are: their boxes meet as they are next to each other.
+bool surely_apart(const Corners& s, const Corners& t) {
+  const Vec3 across = (t[0] - s[0]) + (t[1] - s[1]) + (t[2] - s[2]);
+  double last_of_s = 0, first_of_t = std::numeric_limits<double>::infinity(), farthest = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3 to_s = s[k] - s[0], to_t = t[k] - s[0];
+    last_of_s = std::max(last_of_s, across.dot(to_s));
+    first_of_t = std::min(first_of_t, across.dot(to_t));
+    farthest = std::max({farthest, size_of(to_s), size_of(to_t)});
+  }
+  return first_of_t - last_of_s > rounding * farthest * size_of(across) + underflow;
+}
+
+/// The same for two triangles that share their corner 0, where the plane goes through it.
+bool surely_apart_but_for_corner(const Corners& s, const Corners& t) {
+  const Vec3 s1 = s[1] - s[0], s2 = s[2] - s[0], t1 = t[1] - t[0], t2 = t[2] - t[0];
+  const Vec3 across = (t1 + t2).normalized() - (s1 + s2).normalized();
+  const double last_of_s = std::max(across.dot(s1), across.dot(s2));
+  const double first_of_t = std::min(across.dot(t1), across.dot(t2));
+  const double farthest = std::max({size_of(s1), size_of(s2), size_of(t1), size_of(t2)});
+  const double margin = rounding * farthest * size_of(across) + underflow;
+  return last_of_s < -margin && first_of_t > margin;
+}
+
 /// Two triangles that share their corner 0. If they share any further point, then the ray from the corner to
 /// it leaves one of them, through the opposite edge, inside the other.
 bool fans_meet(const Corners& s, const Corners& t) {
+  if (surely_apart_but_for_corner(s, t)) return false;
   const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
   if (s1 * s2 > 0) return false;
   if (s1 == 0 && s2 == 0)
@@ -111,6 +147,7 @@ bool faces_meet(const Face& s, const Face& t) {
 }  // namespace
 
 bool triangles_meet(const Corners& s, const Corners& t) {
+  if (surely_apart(s, t)) return false;
   std::array<int, 3> side_s, side_t;
   for (size_t k = 0; k < 3; ++k) side_t[k] = orient3d(s[0], s[1], s[2], t[k]);
   if (side_t[0] != 0 && side_t[0] == side_t[1] && side_t[1] == side_t[2]) return false;

@@ -1,11 +1,11 @@
 #include "hooke/statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+
+#include "hooke/radix_sort.h"
 
 namespace hooke {
 namespace {
@@ -14,29 +14,6 @@ namespace {
 std::uint64_t to_key(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
-}
-
-double from_key(std::uint64_t key) {
-  return std::bit_cast<double>(key >> 63 ? key & ~(std::uint64_t{1} << 63) : ~key);
-}
-
-/// Ascending. By digits, from the lowest: three times as fast as comparing, for the millions of a large mesh.
-void sort_numbers(std::vector<double>& values) {
-  constexpr unsigned digit_bits = 11, digits = 6;
-  constexpr std::uint64_t mask = (1U << digit_bits) - 1;
-  std::vector<std::uint64_t> keys(values.size()), sorted(values.size());
-  std::array<std::array<size_t, mask + 1>, digits> first{};  // place of the first key with that digit
-  for (size_t i = 0; i < values.size(); ++i) {
-    keys[i] = to_key(values[i]);
-    for (unsigned d = 0; d < digits; ++d) ++first[d][keys[i] >> d * digit_bits & mask];
-  }
-  for (unsigned d = 0; d < digits; ++d) {
-    if (std::ranges::find(first[d], values.size()) != first[d].end()) continue;  // all alike
-    std::exclusive_scan(first[d].begin(), first[d].end(), first[d].begin(), size_t{0});
-    for (std::uint64_t key : keys) sorted[first[d][key >> d * digit_bits & mask]++] = key;
-    std::swap(keys, sorted);
-  }
-  std::ranges::transform(keys, values.begin(), from_key);
 }
 
 double percentile(const std::vector<double>& sorted, double share) {
@@ -73,7 +50,10 @@ Statistics describe(std::vector<double> values, const Bins& bins) {
   s.count = values.size();
   s.non_finite = given - values.size();
   if (values.empty()) return s;
-  sort_numbers(values);
+  {
+    std::vector<double> buffer(values.size());
+    radix_sort<double>(values, buffer, to_key);
+  }
 
   const auto n = static_cast<double>(values.size());
   double sum = 0;

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/nearest_faces.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
 namespace {
 
-constexpr size_t block = 256;  // faces whose samples are looked for together
+constexpr size_t block = 4096;
 
 using Face = BoundingVolumeTree::Face;
 
@@ -17,115 +18,119 @@ double area_of(const Face& face) {
   return .5 * (b - a).cross(c - a).norm();
 }
 
-/// The samples of one face: its centre first, the quarters, then the edges and vertices that no face with a
-/// lower id has.
-class FaceSamples {
+/// The samples of a few faces: those that faces have in common once, and those of a face in one group.
+class Samples {
  public:
-  FaceSamples(const MeasuredSurface& surface, const Face& face) {
-    const Connectivity& c = surface.connectivity;
-    const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
-    add(centre);
-    for (const Vec3& corner : face.corners) add(.5 * (corner + centre));
-    for (int e : c.face_edges[static_cast<size_t>(face.id)]) {
-      if (c.edge_faces[static_cast<size_t>(e)][0] != face.id) continue;
-      edges_[edge_count_++] = e;
-      const auto [a, b] = c.edges[static_cast<size_t>(e)];
-      add(.5 * (surface.points.col(a) + surface.points.col(b)));
+  static constexpr size_t most_faces = 16;
+
+  explicit Samples(std::span<const Face> faces) {
+    for (const Face& face : faces) {
+      const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
+      add(centre);
+      for (const Vec3& corner : face.corners) add(.5 * (corner + centre));
     }
-    for (int v : face.vertices) {
-      if (c.vertex_faces[v].front() != face.id) continue;
-      vertices_[vertex_count_++] = v;
-      add(surface.points.col(v));
+    first_vertex_ = count_;
+    for (const Face& face : faces) {
+      OfFace& of_face = faces_[face_count_++];
+      for (size_t k = 0; k < 3; ++k) of_face.corners[k] = add_vertex(face.vertices[k], face.corners[k]);
     }
+    for (size_t f = 0; f < faces.size(); ++f)
+      for (size_t k = 0; k < 3; ++k) add_midpoint(faces[f], k, faces_[f]);
   }
 
   std::span<const Vec3> points() const { return {points_.data(), count_}; }
+  static size_t centre_of(size_t face) { return 4 * face; }
 
-  void store(std::span<const ClosestPoint> closest, int face, DistanceSamples& samples) const {
-    const auto distance = [&](size_t i) { return closest[i].squared_distance; };
-    samples.centres[static_cast<size_t>(face)] = closest[0];
-    samples.quarters[static_cast<size_t>(face)] = {distance(1), distance(2), distance(3)};
-    for (size_t k = 0; k < edge_count_; ++k) samples.edges[static_cast<size_t>(edges_[k])] = distance(4 + k);
-    for (size_t k = 0; k < vertex_count_; ++k)
-      samples.vertices[static_cast<size_t>(vertices_[k])] = distance(4 + edge_count_ + k);
+  double greatest(std::span<const NearestFace> nearest, size_t face) const {
+    double most = 0;
+    for (size_t k = 0; k < 4; ++k) most = std::max(most, nearest[4 * face + k].squared_distance);
+    for (size_t k = 0; k < 3; ++k)
+      most = std::max({most, nearest[faces_[face].corners[k]].squared_distance,
+                       nearest[faces_[face].midpoints[k]].squared_distance});
+    return most;
+  }
+
+  /// Mean of the squares over the face: each of its four quarters by the rule that is exact for quadratics,
+  /// 1/12 at each corner and 3/4 at the centre.
+  double mean(std::span<const NearestFace> nearest, size_t face) const {
+    double corners = 0, midpoints = 0, centres = 0;
+    for (size_t k = 0; k < 4; ++k) centres += nearest[4 * face + k].squared_distance;
+    for (size_t k = 0; k < 3; ++k) {
+      corners += nearest[faces_[face].corners[k]].squared_distance;
+      midpoints += nearest[faces_[face].midpoints[k]].squared_distance;
+    }
+    return corners / 48 + midpoints / 16 + centres * 3 / 16;  // a midpoint is in three quarters
   }
 
  private:
-  static constexpr size_t most = 10;
+  struct OfFace {
+    std::array<size_t, 3> corners, midpoints;  // places among the points
+  };
+  static constexpr size_t most_points = 10 * most_faces;
 
-  void add(const Vec3& point) { points_[count_++] = point; }
+  size_t add(const Vec3& point) {
+    points_[count_] = point;
+    return count_++;
+  }
 
-  std::array<Vec3, most> points_;
-  std::array<int, 3> edges_, vertices_;
-  size_t count_ = 0, edge_count_ = 0, vertex_count_ = 0;
+  size_t add_vertex(int vertex, const Vec3& point) {
+    size_t k = 0;
+    while (k < vertex_count_ && vertices_[k] != vertex) ++k;
+    if (k < vertex_count_) return first_vertex_ + k;
+    vertices_[vertex_count_++] = vertex;
+    return add(point);
+  }
+
+  void add_midpoint(const Face& face, size_t k, OfFace& of_face) {
+    const auto [a, b] = std::minmax(of_face.corners[k], of_face.corners[(k + 1) % 3]);
+    unsigned char& known = midpoints_[a - first_vertex_][b - first_vertex_];
+    if (known == 0)
+      known = static_cast<unsigned char>(add(.5 * (face.corners[k] + face.corners[(k + 1) % 3])));
+    of_face.midpoints[k] = known;
+  }
+
+  std::array<Vec3, most_points> points_;
+  std::array<OfFace, most_faces> faces_;
+  std::array<int, 3 * most_faces> vertices_;
+  std::array<std::array<unsigned char, 3 * most_faces>, 3 * most_faces> midpoints_{};  // by ends; 0: none yet
+  size_t count_ = 0, face_count_ = 0, vertex_count_ = 0, first_vertex_ = 0;
 };
-
-/// The face with the same id, if there is one.
-int hint(const MeasuredSurface& surface, int face) {
-  return face < static_cast<int>(surface.connectivity.faces.size()) ? face : -1;
-}
 
 }  // namespace
 
-DistanceSamples sample_distances(const MeasuredSurface& from, const MeasuredSurface& to) {
-  const Connectivity& c = from.connectivity;
-  DistanceSamples samples;
-  samples.vertices.resize(static_cast<size_t>(c.vertex_count));
-  samples.edges.resize(c.edges.size());
-  samples.centres.resize(c.faces.size());
-  samples.quarters.resize(c.faces.size());
+MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
+                        std::vector<ClosestPoint>* centres) {
   const std::span<const Face> faces = from.tree.faces();
+  if (centres) centres->resize(faces.size());
+  std::vector<double> greatest(faces.size() / block + 1, 0);
+  std::vector<double> integrals(faces.size());  // by id
   const auto look = [&](size_t begin, size_t end) {
-    std::vector<FaceSamples> wanted;
-    std::vector<Vec3> points;
-    std::vector<int> hints;
-    for (const Face& face : faces.subspan(begin, end - begin)) {
-      wanted.emplace_back(from, face);
-      points.insert(points.end(), wanted.back().points().begin(), wanted.back().points().end());
-      hints.resize(points.size(), hint(to, face.id));
-    }
-    std::vector<ClosestPoint> closest(points.size());
-    to.tree.closest(points, hints, closest);
-    std::span<const ClosestPoint> found = closest;
-    for (size_t k = begin; k < end; ++k) {
-      const FaceSamples& of_face = wanted[k - begin];
-      of_face.store(found, faces[k].id, samples);
-      found = found.subspan(of_face.points().size());
+    NearestFaceSearch find(to.tree);
+    std::vector<NearestFace> nearest;
+    for (size_t first = begin; first < end; first += Samples::most_faces) {
+      const auto some = faces.subspan(first, std::min(Samples::most_faces, end - first));
+      const Samples samples(some);
+      nearest.resize(samples.points().size());
+      find(samples.points(), nearest);
+      for (size_t k = 0; k < some.size(); ++k) {
+        const auto id = static_cast<size_t>(some[k].id);
+        greatest[begin / block] = std::max(greatest[begin / block], samples.greatest(nearest, k));
+        integrals[id] = area_of(some[k]) * samples.mean(nearest, k);
+        const size_t centre = Samples::centre_of(k);
+        if (!centres || nearest[centre].place < 0) continue;
+        const Face& there = to.tree.faces()[static_cast<size_t>(nearest[centre].place)];
+        (*centres)[id] =
+            closest_point(samples.points()[centre], there.corners[0], there.corners[1], there.corners[2]);
+        (*centres)[id].face = there.id;
+      }
     }
   };
-  parallel_for((faces.size() + block - 1) / block, 1,
-               [&](size_t begin, size_t end) {  // one thread: all blocks
-                 for (size_t k = begin; k < end; ++k)
-                   look(k * block, std::min(faces.size(), (k + 1) * block));
-               });
-  return samples;
-}
-
-/// The rms takes each of the four quarters by the rule that is exact for quadratics: 1/12 at each corner, 3/4
-/// at the centre.
-MaxRms measure_distance(const MeasuredSurface& from, const DistanceSamples& samples) {
-  const Connectivity& c = from.connectivity;
-  const std::span<const Face> faces = from.tree.faces();
-  std::vector<double> greatest(faces.size() / block + 1, 0);
+  parallel_for(greatest.size(), 1, [&](size_t begin, size_t end) {  // one thread: all blocks
+    for (size_t k = begin; k < end; ++k) look(k * block, std::min(faces.size(), (k + 1) * block));
+  });
   const double integral = parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
     double sum = 0;
-    for (size_t i = begin; i < end; ++i) {
-      const auto f = static_cast<size_t>(faces[i].id);
-      double corners = 0, midpoints = 0, centres = samples.centres[f].squared_distance;
-      double& most = greatest[i / block];
-      most = std::max(most, centres);
-      for (size_t k = 0; k < 3; ++k) {
-        const double corner = samples.vertices[static_cast<size_t>(faces[i].vertices[k])];
-        const double midpoint = samples.edges[static_cast<size_t>(c.face_edges[f][k])];
-        const double quarter = samples.quarters[f][k];
-        most = std::max({most, corner, midpoint, quarter});
-        corners += corner;
-        midpoints += midpoint;
-        centres += quarter;
-      }
-      // A midpoint is in three quarters.
-      sum += area_of(faces[i]) * (corners / 48 + midpoints / 16 + centres * 3 / 16);
-    }
+    for (size_t f = begin; f < end; ++f) sum += integrals[f];
     return sum;
   });
   const double area = from.extent.area;

@@ -10,19 +10,11 @@ struct MaxRms {
   double rms = 0;
 };
 
-/// Squared distances to another surface, at the points that measure_distance() asks for: ten a face, many of
-/// them shared.
-struct DistanceSamples {
-  std::vector<double> vertices;  // 0 at isolated ones: they are no part of the surface
-  std::vector<double> edges;     // midpoints
-  std::vector<ClosestPoint> centres;
-  std::vector<std::array<double, 3>> quarters;  // centres of the quarters at the three corners
-};
-
-/// Quickest where faces with equal ids lie close to each other. Infinite when `to` has no faces.
-DistanceSamples sample_distances(const MeasuredSurface& from, const MeasuredSurface& to);
-
-/// Greatest sample, and the root of the mean square over the area of `from`.
-MaxRms measure_distance(const MeasuredSurface& from, const DistanceSamples& samples);
+/// Greatest distance to the surface `to` of ten samples a face, and the root of the mean square over the area
+/// of `from`. The samples are the corners, the edge midpoints and the centres of the four triangles between
+/// them. Infinite when `to` has no faces. `centres`, where given, gets the closest points of the faces'
+/// centres, by id.
+MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
+                        std::vector<ClosestPoint>* centres = nullptr);
 
 }  // namespace hooke
