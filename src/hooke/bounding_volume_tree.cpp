@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hooke/lanes.h"
 #include "hooke/parallel.h"
 #include "hooke/spatial_order.h"
 
@@ -118,6 +119,35 @@ void BoundingVolumeTree::enclose(size_t node, int level) {
   else
     enclose_children(0, 2);
   boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
+}
+
+BoundingVolumeTree::PartBoxes::PartBoxes(std::span<const Face> faces) {
+  const Box nowhere;
+  for (size_t i = 0; i < faces_of_part; ++i) {
+    const Box box = i < faces.size() ? faces[i].box() : nowhere;
+    all.extend(box);
+    for (size_t d = 0; d < 3; ++d) {
+      low[d][i] = box.min()[static_cast<Eigen::Index>(d)];
+      high[d][i] = box.max()[static_cast<Eigen::Index>(d)];
+    }
+  }
+}
+
+HOOKE_SIMD unsigned BoundingVolumeTree::PartBoxes::meeting(const Box& other) const {
+  constexpr LaneMask bits = {1, 2, 4, 8};
+  LaneMask found = {};
+  for (size_t k = 0; k < faces_of_part; k += lane_count) {
+    LaneMask meet = bits << static_cast<int>(k);
+    for (size_t d = 0; d < 3; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      Lanes lows, highs;
+      load(&low[d][k], lows);
+      load(&high[d][k], highs);
+      meet &= (lows <= other.max()[axis]) & (highs >= other.min()[axis]);
+    }
+    found |= meet;
+  }
+  return static_cast<unsigned>(found[0] | found[1] | found[2] | found[3]);
 }
 
 ClosestPoint BoundingVolumeTree::closest(const Vec3& x) const {

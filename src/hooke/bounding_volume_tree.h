@@ -5,7 +5,6 @@
 #include <bit>
 #include <span>
 
-#include "hooke/lanes.h"
 #include "hooke/types.h"
 
 namespace hooke {
@@ -111,52 +110,25 @@ class BoundingVolumeTree {
     std::array<std::array<double, faces_of_part>, 3> low, high;
     Box all;
 
-    explicit PartBoxes(std::span<const Face> faces) {
-      const Box nowhere;
-      for (size_t i = 0; i < faces_of_part; ++i) {
-        const Box box = i < faces.size() ? faces[i].box() : nowhere;
-        all.extend(box);
-        for (size_t d = 0; d < 3; ++d) {
-          low[d][i] = box.min()[static_cast<Eigen::Index>(d)];
-          high[d][i] = box.max()[static_cast<Eigen::Index>(d)];
-        }
-      }
-    }
+    explicit PartBoxes(std::span<const Face> faces);
 
-    /// Which of four boxes meet another one.
-    HOOKE_INLINE void find_meeting(size_t first, const Box& other, LaneMask& meet) const {
-      meet = ~LaneMask{};
-      for (size_t d = 0; d < 3; ++d) {
-        const auto axis = static_cast<Eigen::Index>(d);
-        Lanes lows, highs;
-        load(&low[d][first], lows);
-        load(&high[d][first], highs);
-        meet &= (lows <= other.max()[axis]) & (highs >= other.min()[axis]);
-      }
-    }
+    /// Which of them meet another box: bit by bit.
+    unsigned meeting(const Box& other) const;
   };
 
   /// The pairs of the faces of the part that begins at place `first` with later ones.
   template <typename Visit>
   void visit_pairs(size_t first, const Visit& visit) const {
-    const auto mine = faces().subspan(first, std::min(faces_of_part, faces_.size() - first));
-    const PartBoxes boxes(mine);
-    const auto visit_with = [&](size_t place) {
-      const Box other = faces_[place].box();
-      if (!other.intersects(boxes.all)) return;
-      for (size_t k = 0; k < mine.size() && first + k < place; k += lane_count) {
-        LaneMask meet;
-        boxes.find_meeting(k, other, meet);
-        if (!any(meet)) continue;
-        for (size_t i = k; i < std::min(k + lane_count, place - first); ++i)
-          if (meet[i - k]) visit(mine[i], faces_[place]);
-      }
-    };
+    const PartBoxes boxes(faces().subspan(first, std::min(faces_of_part, faces_.size() - first)));
     for_each_leaf(
         (first << depth_) / faces_.size(), [&](const Box& box) { return box.intersects(boxes.all); },
         [&](size_t leaf) {
-          for (size_t place = std::max(first_face(leaf), first + 1); place < first_face(leaf + 1); ++place)
-            visit_with(place);
+          for (size_t place = std::max(first_face(leaf), first + 1); place < first_face(leaf + 1); ++place) {
+            unsigned meeting = boxes.meeting(faces_[place].box());
+            if (place - first < faces_of_part) meeting &= (1U << (place - first)) - 1;
+            for (; meeting != 0; meeting &= meeting - 1)
+              visit(faces_[first + static_cast<size_t>(std::countr_zero(meeting))], faces_[place]);
+          }
         });
   }
 

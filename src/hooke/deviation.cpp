@@ -13,15 +13,25 @@ namespace {
 constexpr size_t block = 1024;
 
 /// Along the normal, twice the area long.
-Vec3 area_vector(const Mat3X& points, const Triangle& t) {
-  const Vec3 a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
+Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a);
+}
+Vec3 area_vector(const Mat3X& points, const Triangle& t) {
+  return area_vector(points.col(t[0]), points.col(t[1]), points.col(t[2]));
 }
 
 using Face = BoundingVolumeTree::Face;
 
-const Triangle& face_at(const MeasuredSurface& surface, const ClosestPoint& point) {
-  return surface.connectivity.faces[static_cast<size_t>(point.face)];
+Vec3 area_vector(const Face& face) {
+  return area_vector(face.corners[0], face.corners[1], face.corners[2]);
+}
+
+const Face& face_at(const MeasuredSurface& surface, const TreeFoot& foot) {
+  return surface.tree.faces()[static_cast<size_t>(foot.place)];
+}
+
+Vec3 weights_at(const Face& face, const TreeFoot& foot) {
+  return barycentric(foot.point, face.corners[0], face.corners[1], face.corners[2]);
 }
 
 MaxRms measure_displacement(const Mat3X& before, const Mat3X& after) {
@@ -45,13 +55,12 @@ double angle_between(const Vec3& n, const Vec3& m) {
 
 /// Does a face with this area vector oppose one of the reference's faces that fold at the closest point?
 /// Where that is on an edge or a vertex, it is the closest point of several faces.
-bool opposes_at_fold(const MeasuredSurface& reference, const ClosestPoint& at, const Vec3& n) {
+bool opposes_at_fold(const MeasuredSurface& reference, const TreeFoot& at, const Vec3& n) {
   constexpr double on_side = 1e-9;  // of a barycentric weight
   constexpr double fold = -.1;      // cosine; a crease of a right angle is none
-  const Triangle& t = face_at(reference, at);
-  const Vec3 weights = barycentric(at.point, reference.points.col(t[0]), reference.points.col(t[1]),
-                                   reference.points.col(t[2]));
-  const Vec3 own = area_vector(reference.points, t).normalized();
+  const Face& face = face_at(reference, at);
+  const Triangle& t = face.vertices;
+  const Vec3 weights = weights_at(face, at);
   const auto touches = [&](const Triangle& other) {
     for (size_t k = 0; k < 3; ++k)
       if (weights[static_cast<Eigen::Index>(k)] > on_side && std::ranges::find(other, t[k]) == other.end())
@@ -59,6 +68,7 @@ bool opposes_at_fold(const MeasuredSurface& reference, const ClosestPoint& at, c
     return true;
   };
   if (weights.minCoeff() > on_side) return false;
+  const Vec3 own = area_vector(face).normalized();
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
   for (int f : reference.connectivity.vertex_faces[t[static_cast<size_t>(corner)]]) {
@@ -69,17 +79,17 @@ bool opposes_at_fold(const MeasuredSurface& reference, const ClosestPoint& at, c
   return false;
 }
 
-/// `closest` belongs to the centres of the result's faces.
+/// `closest` belongs to the centres of the result's faces, in the order of its tree.
 MaxRms measure_normal_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
-                                const std::vector<ClosestPoint>& closest) {
+                                const std::vector<TreeFoot>& closest) {
   const std::span<const Face> faces = result.tree.faces();
   std::vector<double> angles(closest.size()), weights(closest.size());
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (const Face& face : faces.subspan(begin, end - begin)) {
-      const auto f = static_cast<size_t>(face.id);
-      if (closest[f].face < 0) continue;
-      const Vec3 n = area_vector(result.points, face.vertices);
-      angles[f] = angle_between(n, area_vector(reference.points, face_at(reference, closest[f])));
+    for (size_t k = begin; k < end; ++k) {
+      if (closest[k].place < 0) continue;
+      const auto f = static_cast<size_t>(faces[k].id);
+      const Vec3 n = area_vector(faces[k]);
+      angles[f] = angle_between(n, area_vector(face_at(reference, closest[k])));
       weights[f] = n.norm();
     }
   });
@@ -111,27 +121,26 @@ Mat3X vertex_normals(const MeasuredSurface& side) {
 }
 
 /// The reference's vertex normals, interpolated at a point of its surface.
-Vec3 normal_at(const MeasuredSurface& reference, const Mat3X& normals, const ClosestPoint& at) {
-  const Triangle& t = face_at(reference, at);
-  const Vec3 weights = barycentric(at.point, reference.points.col(t[0]), reference.points.col(t[1]),
-                                   reference.points.col(t[2]));
+Vec3 normal_at(const Mat3X& normals, const Face& face, const TreeFoot& at) {
+  const Triangle& t = face.vertices;
+  const Vec3 weights = weights_at(face, at);
   return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
 }
 
-/// `closest` belongs to the centres of the result's faces.
+/// `closest` belongs to the centres of the result's faces, in the order of its tree.
 void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
-                         const std::vector<ClosestPoint>& closest, Deviation& deviation) {
+                         const std::vector<TreeFoot>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
   std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
   const std::span<const Face> faces = result.tree.faces();
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (const Face& face : faces.subspan(begin, end - begin)) {
-      const auto f = static_cast<size_t>(face.id);
-      if (closest[f].face < 0) continue;
-      const Vec3 n = area_vector(result.points, face.vertices);
-      flipped[f] = n.dot(normal_at(reference, normals, closest[f])) < 0;
-      opposing[f] = flipped[f] || n.dot(area_vector(reference.points, face_at(reference, closest[f]))) < 0 ||
-                    opposes_at_fold(reference, closest[f], n);
+    for (size_t k = begin; k < end; ++k) {
+      if (closest[k].place < 0) continue;
+      const auto f = static_cast<size_t>(faces[k].id);
+      const Vec3 n = area_vector(faces[k]);
+      const Face& there = face_at(reference, closest[k]);
+      flipped[f] = n.dot(normal_at(normals, there, closest[k])) < 0;
+      opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
     }
   });
   deviation.flipped_faces = static_cast<size_t>(std::ranges::count(flipped, 1));
@@ -177,7 +186,7 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
   if (reference.points.cols() == result.points.cols())
     d.displacement = measure_displacement(reference.points, result.points);
 
-  std::vector<ClosestPoint> closest;
+  std::vector<TreeFoot> closest;
   timed(stopwatch, "to_reference", [&] { d.to_reference = measure_distance(result, reference, &closest); });
   timed(stopwatch, "from_reference", [&] { d.from_reference = measure_distance(reference, result); });
   timed(stopwatch, "normals", [&] {

@@ -205,6 +205,10 @@ HOOKE_INLINE void distances_between(const std::array<double, 3>& low, const std:
   }
 }
 
+HOOKE_INLINE double greatest_of(const Lanes& x) {
+  return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
+}
+
 /// First the faces whose boxes meet that of the four points, then those that may be closer still.
 HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
   std::array<double, Candidates::most> distances;
@@ -222,20 +226,23 @@ HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
       low[d] = std::min(std::min(t[0], t[1]), std::min(t[2], t[3]));
       high[d] = std::max(std::max(t[0], t[1]), std::max(t[2], t[3]));
     }
+    Lanes least = Lanes{} + std::numeric_limits<double>::infinity();  // of those that do not meet
     for (size_t k = 0; k < count; k += lane_count) {
       Lanes squared;
       distances_between(low, high, candidates, k, squared);
       squared *= rounding;
       store(squared, &distances[k]);
       const LaneMask meets = squared <= 0.;
+      least = meets | (squared > least) ? least : squared;
       if (!any(meets)) continue;
       for (size_t i = 0; i < lane_count; ++i)
         if (meets[i]) try_face(candidates.faces[k + i], x, best, places);
     }
-    for (size_t k = 0; k < count; k += lane_count) {
+    double farthest = greatest_of(best);
+    for (size_t k = 0; k < count && any(least <= farthest); k += lane_count) {
       Lanes squared;
       load(&distances[k], squared);
-      const double farthest = std::max(std::max(best[0], best[1]), std::max(best[2], best[3]));
+      farthest = greatest_of(best);
       const LaneMask near = (squared > 0.) & (squared <= farthest);
       if (!any(near)) continue;
       for (size_t i = 0; i < std::min(lane_count, count - k); ++i)

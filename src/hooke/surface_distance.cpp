@@ -99,7 +99,7 @@ class Samples {
 }  // namespace
 
 MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
-                        std::vector<ClosestPoint>* centres) {
+                        std::vector<TreeFoot>* centres) {
   const std::span<const Face> faces = from.tree.faces();
   if (centres) centres->resize(faces.size());
   std::vector<double> greatest(faces.size() / block + 1, 0);
@@ -118,10 +118,9 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
         integrals[id] = area_of(some[k]) * samples.mean(nearest, k);
         const size_t centre = Samples::centre_of(k);
         if (!centres || nearest[centre].place < 0) continue;
-        const Face& there = to.tree.faces()[static_cast<size_t>(nearest[centre].place)];
-        (*centres)[id] =
-            closest_point(samples.points()[centre], there.corners[0], there.corners[1], there.corners[2]);
-        (*centres)[id].face = there.id;
+        const auto& [a, b, c] = to.tree.faces()[static_cast<size_t>(nearest[centre].place)].corners;
+        (*centres)[first + k] = {closest_point(samples.points()[centre], a, b, c).point,
+                                 nearest[centre].place};
       }
     }
   };
