@@ -173,6 +173,15 @@ void find_lone_parts(const IntLists& vertex_faces, size_t faces, Findings& findi
   if (!shared && faces > 1) findings.add(ProblemKind::unconnected_triangles, {}, {});
 }
 
+// Quick, and false only where has_no_area() has to look.
+bool surely_has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+  const double longest2 = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
+  // The height over the longest side against the size, squared; far from where numbers under- or overflow.
+  return size > 1e-50 && size < 1e50 && u.cross(v).squaredNorm() > 1e-26 * longest2 * size * size;
+}
+
 // Zero up to the rounding of the coordinates. Lengths are taken relative to them, then heights to lengths: no
 // product underflows or overflows.
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -190,7 +199,8 @@ void find_zero_areas(const Mat3X& points, const std::vector<Triangle>& triangles
   parallel_for(triangles.size(), block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [a, b, c] = triangles[f];
-      flat[f] = has_no_area(points.col(a), points.col(b), points.col(c));
+      const Vec3 p = points.col(a), q = points.col(b), r = points.col(c);
+      flat[f] = !surely_has_area(p, q, r) && has_no_area(p, q, r);
     }
   });
   if (std::find(flat.begin(), flat.end(), 0) == flat.end()) return findings.add(ProblemKind::no_area, {}, {});
