@@ -71,13 +71,15 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
       relative_edge_deviation(r.placement.points, edges, targets);
 
   const EnergyTerms terms = r.energy.terms;
-  Placement kept = r.placement;
-  double best = result.least_angle_before;
   r.energy.terms.altitude = 0;
+  Placement kept = r.placement;
   int kept_stages = 0;
+  double best = result.least_angle_before, last_error = result.edge_error_before;
   double step = o.threshold_step;
+  double reached = best;  // the last threshold that was not too much
   double threshold = std::max(o.first_threshold, best + o.margin);
-  for (; threshold <= o.last_threshold && !result.interrupted; threshold += step) {
+  double too_high = o.last_threshold + .5 * o.least_step;
+  while (threshold < too_high && !result.interrupted) {
     r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
     raise(r, threshold, o, observer, result);
@@ -86,22 +88,31 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
     const double angle = least_angle(r.placement.points, faces);
     const double error = relative_edge_deviation(r.placement.points, edges, targets);
     if (kept_stages > 0 && angle < best - o.keep_within) break;  // what bounds it is not the threshold
-    const double limit = kept_stages > 0 ? o.edge_error_limit : 1;
-    if (error > limit * result.edge_error_before) {  // too far: half the way, from where it was not
+    const double limit = result.edge_error_before * (kept_stages > 0 ? o.edge_error_limit : 1);
+    if (error > limit) {  // too far: half the way, from where it was not
       r.placement = kept;
-      const double reached = kept_stages > 0 ? threshold - step : best;
-      step = std::min(step, threshold - reached) / 2;
-      if (kept_stages == 0) step = (threshold - reached) / 2;
+      too_high = threshold;
+      step = (threshold - reached) / 2;
       if (step < o.least_step) break;
-      threshold = reached;
+      threshold = reached + step;
       continue;
     }
-    if (angle < best - o.keep_within) continue;
-    best = std::max(best, angle);
-    kept = r.placement;
-    ++kept_stages;
-    result.least_angle_after = angle;
-    result.edge_error_after = error;
+    reached = threshold;
+    if (angle >= best - o.keep_within) {
+      best = std::max(best, angle);
+      kept = r.placement;
+      ++kept_stages;
+      result.least_angle_after = angle;
+      result.edge_error_after = error;
+      // Errors rise ever faster: what would be too much need not be tried.
+      const double next_error = error + 2 * std::max(0., error - last_error);
+      if (next_error > o.edge_error_limit * result.edge_error_before) {
+        step /= 2;
+        if (step < o.least_step) break;
+      }
+      last_error = error;
+    }
+    threshold += step;
   }
   r.placement = std::move(kept);
   positions(r.mesh) = r.placement.points;
