@@ -72,7 +72,7 @@ TEST_P(DampedEquilibrium, IsThatOfTheEnergyWithinFivePercentOfEdgeDeviation) {
   EXPECT_LT(result.steps, 2000);
   EXPECT_LT(damped.deviation(), .7 * start);
   EXPECT_NEAR(damped.deviation() / minimised.deviation(), 1, .05);
-  EXPECT_TRUE(damped.guards.folded_faces().empty());
+  EXPECT_TRUE(damped.guards.folded_faces(damped.work.placement).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, DampedEquilibrium,

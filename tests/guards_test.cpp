@@ -117,15 +117,19 @@ TEST(Guards, AStepOfZeroAndASmallStepAreTakenAsTheyAre) {
   }
 }
 
+std::vector<int> folded_faces_of(const test::Scene& s) {
+  return s.guards.folded_faces(s.placement);
+}
+
 TEST(Guards, NamesFoldedFaces) {
-  EXPECT_TRUE(test::ground_scene().guards.folded_faces().empty());
+  EXPECT_TRUE(folded_faces_of(test::ground_scene()).empty());
   const test::Scene s(folded_grid(1.5), test::to_ground);
   std::vector<int> folded;
   for (size_t f = 0; f < s.connectivity.faces.size(); ++f)
     if (test::area_vector(s.placement.points, s.connectivity.faces[f])[2] <= 0)
       folded.push_back(static_cast<int>(f));
   ASSERT_FALSE(folded.empty());
-  EXPECT_EQ(s.guards.folded_faces(), folded);
+  EXPECT_EQ(folded_faces_of(s), folded);
 }
 
 TEST(Guards, AFoldedFaceMayOnlyTurnTheRightWay) {
@@ -140,7 +144,7 @@ TEST(Guards, AFoldedFaceMayOnlyTurnTheRightWay) {
     options.constraints.boundary = BoundaryRule::free;
     options.guards.sagitta = 10;
     test::Scene s(t, leaning, options);
-    ASSERT_EQ(s.guards.folded_faces(), std::vector<int>{0});
+    ASSERT_EQ(folded_faces_of(s), std::vector<int>{0});
     Mat3X u = Mat3X::Zero(3, 3);
     u(1, 2) = lean;
     Placement to;
@@ -151,13 +155,12 @@ TEST(Guards, AFoldedFaceMayOnlyTurnTheRightWay) {
 
 TEST(Guards, AFoldedFaceMayPassThroughZeroArea) {
   test::Scene s(folded_grid(1.5), test::to_ground);
-  ASSERT_FALSE(s.guards.folded_faces().empty());
+  ASSERT_FALSE(folded_faces_of(s).empty());
   Mat3X u = Mat3X::Zero(3, 25);
   u(0, 12) = -1.5 / 4;
   Placement to;
   EXPECT_TRUE(s.guards.step(s.retraction, s.placement, u, to).empty());
-  s.guards.accept_step();
-  EXPECT_TRUE(s.guards.folded_faces().empty());
+  EXPECT_TRUE(s.guards.folded_faces(to).empty());
 }
 
 /// Moves each vertex alone by a random vector; returns how many the guards held back.

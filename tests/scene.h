@@ -50,7 +50,6 @@ struct Scene {
     std::vector<int> anchors(length.size());
     for (size_t v = 0; v < anchors.size(); ++v) anchors[v] = static_cast<int>(v);
     placement = retraction.place(t.points, std::move(anchors), constraints.segment);
-    guards.accept(placement);
   }
   Scene(const Scene&) = delete;
 

@@ -40,7 +40,7 @@ TEST(Untangle, UnfoldsOnASphere) {
   const int neighbour = test::connect(t).vertex_neighbours[60][0];
   t.points.col(60) = (2.2 * t.points.col(neighbour) - 1.2 * t.points.col(60)).normalized();
   test::Scene s(t, test::to_unit_sphere);
-  ASSERT_FALSE(s.guards.folded_faces().empty());
+  ASSERT_FALSE(s.guards.folded_faces(s.placement).empty());
   Relaxation r = s.relaxation();
   EXPECT_TRUE(untangle(r, {}, nullptr).folded.empty());
   for (const Triangle& face : t.faces)

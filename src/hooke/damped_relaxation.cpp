@@ -65,7 +65,6 @@ IntegrationResult relax_damped(Relaxation& r, const IntegrationOptions& options,
   Forces forces, trial_forces;
   Placement trial;
 
-  r.guards.accept(r.placement);
   compute(r, r.placement, damped, forces);
   if (!std::isfinite(forces.energy) || !forces.total.allFinite())
     throw NumericalError("the forces on the mesh are not finite; check its points and target lengths");
@@ -96,7 +95,6 @@ IntegrationResult relax_damped(Relaxation& r, const IntegrationOptions& options,
     slow_down(motion, wanted, granted);
     std::swap(r.placement, trial);
     std::swap(forces, trial_forces);
-    r.guards.accept_step();
     keep_in_tangent_space(r, motion);
     motion.points = r.placement.points;
     motion.forces = forces.total;

@@ -12,8 +12,7 @@ int move_vertices(FlippingMesh& m, const Connectivity& connectivity, const Lloyd
   Mat3X step = lloyd_step(m.placement, connectivity, m.vertex_length, options);
   m.retraction.constrain(m.placement, step);
   cap_displacement(m.vertex_length, options.max_move, step);
-  Guards guards(connectivity, targets, guard_options);
-  guards.accept(m.placement);
+  const Guards guards(connectivity, targets, guard_options);
   Placement moved;
   const auto held_back = guards.step(m.retraction, m.placement, step, moved).size();
   m.placement = std::move(moved);

@@ -38,6 +38,37 @@ Vec3 sum_of_normals(const Mat3X& normals, const Triangle& sides) {
   return normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2]);
 }
 
+// What most faces and edges pass without a root or a measure of what was before. They hold with a margin, so
+// that they never contradict the rules.
+constexpr double rounding = 1e-9;
+
+/// Cosine between two vectors of these squared lengths, not below a limit.
+bool cosine_exceeds(double limit, double product, double square, double other_square) {
+  return product > 0 && product * product > limit * limit * (1 + rounding) * square * other_square;
+}
+
+/// `n` is the face's doubled area vector.
+bool area_and_alignment_are_well(const GuardOptions& o, const Vec3& n_before, const Vec3& n,
+                                 const Vec3& normals) {
+  const double square = n.squaredNorm();
+  return square > o.area_ratio * o.area_ratio * (1 + rounding) * n_before.squaredNorm() &&
+         cosine_exceeds(o.alignment, n.dot(normals), square, normals.squaredNorm());
+}
+
+bool angles_are_well(const GuardOptions& o, const Mat3X& points, const Triangle& t, const Vec3& n) {
+  const Vec3 p = points.col(t[0]), q = points.col(t[1]), r = points.col(t[2]);
+  const double a2 = (r - q).squaredNorm(), b2 = (p - r).squaredNorm(), c2 = (q - p).squaredNorm();
+  const double cosine =
+      .5 * (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // of the least angle, times its sides
+  return cosine * cosine < o.cotangent * o.cotangent * (1 - rounding) * n.squaredNorm();
+}
+
+/// (l / 2) tan(theta / 4) is no more than (l / 2) sin(theta / 2).
+bool sagitta_is_well(const GuardOptions& o, double target, const Vec3& edge, double cosine) {
+  const double limit = o.sagitta * (1 - rounding) * target;
+  return .125 * edge.squaredNorm() * (1 - cosine) < limit * limit;
+}
+
 }  // namespace
 
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
@@ -55,129 +86,115 @@ double cosine_between(const Mat3X& points, const Triangle& face, const Triangle&
   return cosine(doubled_area_vector(points, face), doubled_area_vector(points, other), 1);
 }
 
-Guards::Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options)
-    : connectivity_(connectivity), targets_(targets), options_(options) {
-  area_vector_.resize(3, static_cast<Eigen::Index>(connectivity.faces.size()));
-  for (Measures* m : {&accepted_, &trial_}) {
-    m->area.resize(connectivity.faces.size());
-    m->alignment.resize(connectivity.faces.size());
-    if (std::isfinite(options.cotangent)) m->cotangent.resize(connectivity.faces.size());
-    m->sagitta.resize(connectivity.edges.size());
-    m->fold.resize(connectivity.edges.size());
-  }
+double Guards::alignment(const Placement& p, size_t face) const {
+  return face_alignment(p.points, p.normals, connectivity_.faces[face], connectivity_.sides_of_faces()[face]);
 }
 
-void Guards::measure_face(const Placement& p, size_t face) {
-  const Triangle& t = connectivity_.faces[face];
-  const Vec3 n = doubled_area_vector(p.points, t);
-  area_vector_.col(static_cast<Eigen::Index>(face)) = n;
-  trial_.area[face] = .5 * n.norm();
-  trial_.alignment[face] = cosine(n, sum_of_normals(p.normals, connectivity_.sides_of_faces()[face]), 0);
-  if (!trial_.cotangent.empty()) trial_.cotangent[face] = greatest_cotangent(p.points, t);
+double Guards::sagitta(const Placement& p, size_t edge) const {
+  return edge_sagitta(p.points, p.normals, connectivity_.edges[edge], connectivity_.sides_of_edges()[edge]);
 }
 
-/// Pre-condition: the faces have been measured.
-double Guards::fold_at(size_t edge) const {
+double Guards::fold(const Placement& p, size_t edge) const {
   const auto [left, right] = connectivity_.edge_faces[edge];
   if (right < 0) return 1;
-  return cosine(area_vector_.col(left), area_vector_.col(right), 1);
+  return cosine_between(p.points, connectivity_.faces[static_cast<size_t>(left)],
+                        connectivity_.faces[static_cast<size_t>(right)]);
 }
 
-void Guards::measure_edge(const Placement& p, size_t edge) {
-  trial_.sagitta[edge] =
-      edge_sagitta(p.points, p.normals, connectivity_.edges[edge], connectivity_.sides_of_edges()[edge]);
-  trial_.fold[edge] = fold_at(edge);
+bool Guards::face_breaks(const Placement& from, const Placement& to, size_t f) const {
+  const Triangle& t = connectivity_.faces[f];
+  const Vec3 n = doubled_area_vector(to.points, t), n_before = doubled_area_vector(from.points, t);
+  const Vec3 normals = sum_of_normals(to.normals, connectivity_.sides_of_faces()[f]);
+  const bool angles_are_free = !std::isfinite(options_.cotangent);
+  if (area_and_alignment_are_well(options_, n_before, n, normals) &&
+      (angles_are_free || angles_are_well(options_, to.points, t, n)))
+    return false;
+  const double before = alignment(from, f);
+  return hooke::face_breaks(options_, .5 * n_before.norm(), .5 * n.norm(), before, cosine(n, normals, 0)) ||
+         (!angles_are_free && angle_breaks(options_, before, greatest_cotangent(from.points, t),
+                                           greatest_cotangent(to.points, t)));
 }
 
-bool Guards::face_breaks(size_t f) const {
-  return hooke::face_breaks(options_, accepted_.area[f], trial_.area[f], accepted_.alignment[f],
-                            trial_.alignment[f]) ||
-         (!trial_.cotangent.empty() &&
-          angle_breaks(options_, accepted_.alignment[f], accepted_.cotangent[f], trial_.cotangent[f]));
-}
-
-bool Guards::fold_breaks(size_t e) const {
-  const double before = accepted_.fold[e], after = trial_.fold[e];
+bool Guards::fold_breaks(const Placement& from, const Placement& to, size_t e) const {
+  const auto [left, right] = connectivity_.edge_faces[e];
+  if (right < 0) return false;
+  const Vec3 n = doubled_area_vector(to.points, connectivity_.faces[static_cast<size_t>(left)]);
+  const Vec3 m = doubled_area_vector(to.points, connectivity_.faces[static_cast<size_t>(right)]);
+  if (cosine_exceeds(options_.fold, n.dot(m), n.squaredNorm(), m.squaredNorm())) return false;
+  const double before = fold(from, e), after = cosine(n, m, 1);
   return connectivity_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(options_, before, after)
                                                       : hooke::fold_breaks(options_, before, after);
 }
 
-bool Guards::edge_breaks(size_t e) const {
-  return sagitta_breaks(options_, targets_.edge[e], accepted_.sagitta[e], trial_.sagitta[e]) ||
-         fold_breaks(e);
-}
-
-void Guards::accept(const Placement& placement) {
-  offenders_among_all(placement);
-  accept_step();
+bool Guards::edge_breaks(const Placement& from, const Placement& to, size_t e) const {
+  const auto& [a, b] = connectivity_.edges[e];
+  const auto& [side, other_side] = connectivity_.sides_of_edges()[e];
+  const double target = targets_.edge[e];
+  return (!sagitta_is_well(options_, target, to.points.col(b) - to.points.col(a),
+                           to.normals.col(side).dot(to.normals.col(other_side))) &&
+          sagitta_breaks(options_, target, sagitta(from, e), sagitta(to, e))) ||
+         fold_breaks(from, to, e);
 }
 
 /// The vertices that can mend a broken edge: its ends, and for a fold all corners of the two faces.
-void Guards::add_offenders(size_t edge, std::vector<int>& vertices) const {
+void Guards::add_offenders(const Placement& from, const Placement& to, size_t edge,
+                           std::vector<int>& vertices) const {
   vertices.insert(vertices.end(), connectivity_.edges[edge].begin(), connectivity_.edges[edge].end());
-  if (!fold_breaks(edge)) return;
+  if (!fold_breaks(from, to, edge)) return;
   for (int f : connectivity_.edge_faces[edge]) {
     const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
     vertices.insert(vertices.end(), t.begin(), t.end());
   }
 }
 
-std::vector<int> Guards::offenders_among_all(const Placement& trial) {
+std::vector<int> Guards::offenders(const Placement& from, const Placement& to) const {
   const size_t faces = connectivity_.faces.size();
   const size_t edges = connectivity_.edges.size();
   std::vector<char> bad(faces + edges, 0);
   parallel_for(faces, block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      measure_face(trial, f);
-      bad[f] = face_breaks(f);
-    }
+    for (size_t f = begin; f < end; ++f) bad[f] = face_breaks(from, to, f);
   });
   parallel_for(edges, block, [&](size_t begin, size_t end) {
-    for (size_t e = begin; e < end; ++e) {
-      measure_edge(trial, e);
-      bad[faces + e] = edge_breaks(e);
-    }
+    for (size_t e = begin; e < end; ++e) bad[faces + e] = edge_breaks(from, to, e);
   });
   std::vector<int> vertices;
   for (size_t f = 0; f < faces; ++f)
     if (bad[f]) vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
   for (size_t e = 0; e < edges; ++e)
-    if (bad[faces + e]) add_offenders(e, vertices);
+    if (bad[faces + e]) add_offenders(from, to, e, vertices);
   sort_unique(vertices);
   return vertices;
 }
 
-std::vector<int> Guards::offenders_around(const Placement& trial, const std::vector<int>& moved) {
+std::vector<int> Guards::offenders_around(const Placement& from, const Placement& to,
+                                          const std::vector<int>& moved) const {
   std::vector<int> vertices;
   std::vector<int> edges;  // of the faces around: those across from a moved vertex fold too
   for (int f : around(connectivity_.vertex_faces, moved)) {
     const auto face = static_cast<size_t>(f);
     edges.insert(edges.end(), connectivity_.face_edges[face].begin(), connectivity_.face_edges[face].end());
-    measure_face(trial, face);
-    if (!face_breaks(face)) continue;
+    if (!face_breaks(from, to, face)) continue;
     vertices.insert(vertices.end(), connectivity_.faces[face].begin(), connectivity_.faces[face].end());
   }
   sort_unique(edges);
-  for (int e : edges) {
-    const auto edge = static_cast<size_t>(e);
-    measure_edge(trial, edge);
-    if (edge_breaks(edge)) add_offenders(edge, vertices);
-  }
+  for (int e : edges)
+    if (edge_breaks(from, to, static_cast<size_t>(e)))
+      add_offenders(from, to, static_cast<size_t>(e), vertices);
   sort_unique(vertices);
   return vertices;
 }
 
 std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacement,
-                              Placement& to, Stopwatch* stopwatch) {
+                              Placement& to, Stopwatch* stopwatch) const {
   timed(stopwatch, "projection", [&] { retraction.step(from, displacement, to); });
-  std::vector<int> offenders = offenders_among_all(to);
-  if (offenders.empty()) return {};
+  std::vector<int> offending = offenders(from, to);
+  if (offending.empty()) return {};
 
   std::vector<unsigned char> halvings(static_cast<size_t>(connectivity_.vertex_count), 0);
   std::vector<int> held;
-  while (!offenders.empty()) {
+  while (!offending.empty()) {
     std::vector<int> slowed;
-    for (int v : offenders) {
+    for (int v : offending) {
       auto u = displacement.col(v);
       if (u.isZero(0)) continue;
       auto& count = halvings[static_cast<size_t>(v)];
@@ -190,21 +207,21 @@ std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat
     }
     if (slowed.empty()) break;  // nothing there moves any more: it is as it was
     timed(stopwatch, "projection", [&] { retraction.step(from, displacement, slowed, to); });
-    offenders = offenders_around(to, slowed);
+    offending = offenders_around(from, to, slowed);
   }
   return held;
 }
 
-std::vector<int> Guards::vertices_at_limits() const {
+std::vector<int> Guards::vertices_at_limits(const Placement& p) const {
   constexpr double cosine_margin = .02, sagitta_part = .95;
   std::vector<int> vertices;
-  for (size_t f = 0; f < accepted_.alignment.size(); ++f)
-    if (accepted_.alignment[f] < options_.alignment + cosine_margin)
+  for (size_t f = 0; f < connectivity_.faces.size(); ++f)
+    if (alignment(p, f) < options_.alignment + cosine_margin)
       vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
-  for (size_t e = 0; e < accepted_.fold.size(); ++e) {
+  for (size_t e = 0; e < connectivity_.edges.size(); ++e) {
     const bool folds =
-        !connectivity_.is_crease(static_cast<int>(e)) && accepted_.fold[e] < options_.fold + cosine_margin;
-    if (!folds && accepted_.sagitta[e] < sagitta_part * options_.sagitta * targets_.edge[e]) continue;
+        !connectivity_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
+    if (!folds && sagitta(p, e) < sagitta_part * options_.sagitta * targets_.edge[e]) continue;
     vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
     if (!folds) continue;
     for (const int f : connectivity_.edge_faces[e]) {
@@ -216,10 +233,14 @@ std::vector<int> Guards::vertices_at_limits() const {
   return vertices;
 }
 
-std::vector<int> Guards::folded_faces() const {
+std::vector<int> Guards::folded_faces(const Placement& p) const {
+  std::vector<char> folded(connectivity_.faces.size());
+  parallel_for(folded.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) folded[f] = alignment(p, f) < options_.alignment;
+  });
   std::vector<int> faces;
-  for (size_t f = 0; f < accepted_.alignment.size(); ++f)
-    if (accepted_.alignment[f] < options_.alignment) faces.push_back(static_cast<int>(f));
+  for (size_t f = 0; f < folded.size(); ++f)
+    if (folded[f]) faces.push_back(static_cast<int>(f));
   return faces;
 }
 

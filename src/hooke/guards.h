@@ -28,56 +28,47 @@ inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge
 /// Cosine between the normals of two faces; 1 where one has no area.
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
 
-/// Judges steps against the last accepted placement. Each face and edge is measured on its own side of a
-/// crease. Keeps references to the connectivity and the targets.
+/// Judges steps by what they do to each face and edge, each on its own side of a crease. Measures what it
+/// needs when it needs it: most steps stay within the absolute limits, whatever was before. Keeps references
+/// to the connectivity and the targets.
 class Guards {
  public:
-  Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options);
-
-  /// Makes the placement the one that steps are judged against.
-  void accept(const Placement& placement);
+  Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options)
+      : connectivity_(connectivity), targets_(targets), options_(options) {}
 
   /// to = from + displacement, retracted and obeying the guards: offending vertices halve their steps, then
-  /// stand still; `displacement` becomes what was asked for in the end. `from` must be the accepted
-  /// placement. Returns the vertices that were held back.
+  /// stand still; `displacement` becomes what was asked for in the end. Returns the vertices that were held
+  /// back.
   std::vector<int> step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to,
-                        Stopwatch* stopwatch = nullptr);
+                        Stopwatch* stopwatch = nullptr) const;
 
-  /// The vertices of all faces and edges that break a guard in `trial`, ascending.
-  std::vector<int> offenders(const Placement& trial) { return offenders_among_all(trial); }
-
-  /// Makes the outcome of the last step() the accepted placement.
-  void accept_step() { std::swap(accepted_, trial_); }
+  /// The vertices of all faces and edges that break a guard on the way from one placement to the other,
+  /// ascending.
+  std::vector<int> offenders(const Placement& from, const Placement& to) const;
 
   const GuardOptions& options() const { return options_; }
 
-  /// Faces of the accepted placement that lie against the surface (alignment below the threshold).
-  std::vector<int> folded_faces() const;
+  /// Faces that lie against the surface (alignment below the threshold), ascending.
+  std::vector<int> folded_faces(const Placement& placement) const;
 
-  /// The vertices of faces and edges that are at a limit, in the accepted placement, or beyond it. Angles
-  /// have none here.
-  std::vector<int> vertices_at_limits() const;
+  /// The vertices of faces and edges that are at a limit or beyond it. Angles have none here.
+  std::vector<int> vertices_at_limits(const Placement& placement) const;
 
  private:
-  bool face_breaks(size_t face) const;
-  bool fold_breaks(size_t edge) const;
-  bool edge_breaks(size_t edge) const;
-  double fold_at(size_t edge) const;
-  void add_offenders(size_t edge, std::vector<int>& vertices) const;
-  void measure_face(const Placement& placement, size_t face);
-  void measure_edge(const Placement& placement, size_t edge);
-  std::vector<int> offenders_among_all(const Placement& trial);
-  std::vector<int> offenders_around(const Placement& trial, const std::vector<int>& moved);
+  double alignment(const Placement& placement, size_t face) const;
+  double sagitta(const Placement& placement, size_t edge) const;
+  double fold(const Placement& placement, size_t edge) const;
+  bool face_breaks(const Placement& from, const Placement& to, size_t face) const;
+  bool fold_breaks(const Placement& from, const Placement& to, size_t edge) const;
+  bool edge_breaks(const Placement& from, const Placement& to, size_t edge) const;
+  void add_offenders(const Placement& from, const Placement& to, size_t edge,
+                     std::vector<int>& vertices) const;
+  std::vector<int> offenders_around(const Placement& from, const Placement& to,
+                                    const std::vector<int>& moved) const;
 
   const Connectivity& connectivity_;
   const TargetLengths& targets_;
   GuardOptions options_;
-  struct Measures {
-    std::vector<double> area, alignment, cotangent;  // per face; cotangents only where they are limited
-    std::vector<double> sagitta, fold;               // per edge
-  };
-  Measures accepted_, trial_;
-  Mat3X area_vector_;  // doubled, per face, of what was measured last
 };
 
 }  // namespace hooke

@@ -17,8 +17,7 @@ enum Hold : unsigned char {
   held_by_guard = 16,    // next to a face or an edge that is at a limit of the guards
 };
 
-/// Per vertex of the result, where `asked` is what the constraints of the work were made from. Pre-condition:
-/// the placement of the work is the accepted one of the guards.
+/// Per vertex of the result, where `asked` is what the constraints of the work were made from.
 std::vector<unsigned char> holds_of_result(const Workspace& work, const Guards& guards,
                                            const ConstraintOptions& asked);
 

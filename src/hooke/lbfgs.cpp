@@ -184,7 +184,6 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   std::vector<int> held;     // by the guards, in the last trial
   std::vector<int> blocked;  // held in the last step: they sit out this one
 
-  r.guards.accept(r.placement);
   result.energy = r.energy(r.placement, &gradient);
   result.evaluations = 1;
   r.retraction.constrain(r.placement, gradient);
@@ -233,13 +232,10 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     memory.push(trial.points - r.placement.points, y, h0.apply(r, y));
     std::swap(r.placement, trial);
     std::swap(gradient, trial_gradient);
-    if (mended) {
-      r.guards.accept(r.placement);
+    if (mended)
       blocked.clear();
-    } else {
-      r.guards.accept_step();
+    else
       blocked = held;
-    }
     result.energy = trial_energy;
     ++result.steps;
     if (observer && !observer({"", 0, result.steps, result.energy})) {

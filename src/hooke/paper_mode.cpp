@@ -83,9 +83,8 @@ class PaperRun {
   std::vector<int> folded_faces() {
     Placement seen = to_input_.place(work_.placement.points, input_anchors(), work_.placement.segments);
     seen.points = work_.placement.points;
-    Guards guards(*work_.connectivity, work_.targets, {});
-    guards.accept(seen);
-    return faces_of_result(work_, guards.folded_faces());
+    const Guards guards(*work_.connectivity, work_.targets, {});
+    return faces_of_result(work_, guards.folded_faces(seen));
   }
 
   std::vector<int> input_anchors() const {

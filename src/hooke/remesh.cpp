@@ -125,8 +125,7 @@ class Remeshing {
   }
 
   void conclude() {
-    guards_.accept(work_.placement);
-    result_.folded_faces = faces_of_result(work_, guards_.folded_faces());
+    result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.placement));
     result_.holds = holds_of_result(work_, guards_, options_.constraints);
     result_.creases = count_creases();
     result_.projection = work_.projection_counts();

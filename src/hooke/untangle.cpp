@@ -16,8 +16,7 @@ std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces
 
 UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer& observer) {
   UntangleResult result;
-  r.guards.accept(r.placement);
-  result.folded = r.guards.folded_faces();
+  result.folded = r.guards.folded_faces(r.placement);
   result.folded_before = static_cast<int>(result.folded.size());
   if (result.folded.empty()) return result;
 
@@ -33,8 +32,7 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
                       {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation}, observer);
     result.sweeps += relaxed.sweeps;
     result.interrupted = relaxed.interrupted;
-    r.guards.accept(r.placement);
-    result.folded = r.guards.folded_faces();
+    result.folded = r.guards.folded_faces(r.placement);
     in_vain = result.folded.size() < least ? 0 : in_vain + 1;
     least = std::min(least, result.folded.size());
   }

@@ -132,12 +132,11 @@ int Workspace::land() {
   options.area_ratio = landing_area_ratio;
   options.sagitta = std::numeric_limits<double>::infinity();
   options.cotangent *= 1 + landing_cotangent;
-  Guards judge(*connectivity, targets, options);
-  judge.accept(placement);
+  const Guards judge(*connectivity, targets, options);
   std::vector<char> stays(landed.anchors.size(), 0);
   for (;;) {
     int more = 0;
-    for (int v : judge.offenders(landed))
+    for (int v : judge.offenders(placement, landed))
       if (!std::exchange(stays[static_cast<size_t>(v)], 1)) {
         landed.points.col(v) = placement.points.col(v);
         landed.normals.col(v) = placement.normals.col(v);
