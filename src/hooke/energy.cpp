@@ -1,7 +1,9 @@
 #include "hooke/energy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "hooke/face_springs.h"
 #include "hooke/guards.h"
@@ -10,6 +12,10 @@
 
 namespace hooke {
 namespace {
+
+constexpr size_t block = 1024;  // faces, a multiple of the lanes
+// Parts large enough for several threads, and so many that what is kept of one does not count.
+constexpr size_t most_parts = 16, least_part = 32 * block;
 
 constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
 
@@ -104,10 +110,19 @@ size_t corner_of(const Triangle& face, int vertex) {
 
 Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
                const EnergyTerms& energy_terms)
-    : terms(energy_terms),
-      connectivity_(connectivity),
-      targets_(targets),
-      corner_gradients_(9 * connectivity.faces.size()) {}
+    : terms(energy_terms), connectivity_(connectivity), targets_(targets) {
+  const auto& faces = connectivity.faces;
+  const size_t size = std::max(least_part, (faces.size() / most_parts / block + 1) * block);
+  for (size_t begin = 0; begin < faces.size(); begin += size) {
+    Part part{begin, std::min(begin + size, faces.size()), connectivity.vertex_count, 0};
+    for (size_t f = part.begin; f < part.end; ++f) {
+      part.first_vertex = std::min(part.first_vertex, std::ranges::min(faces[f]));
+      part.last_vertex = std::max(part.last_vertex, std::ranges::max(faces[f]));
+    }
+    parts_.push_back(part);
+  }
+  corner_gradients_.resize(9 * std::min(size, faces.size()));
+}
 
 double Energy::face_energy(const Placement& at, size_t face, double* corner_gradients) const {
   const Triangle& t = connectivity_.faces[face];
@@ -183,27 +198,37 @@ void Energy::gather_faces(const Placement& at, size_t face, size_t count, FaceSp
   }
 }
 
-double Energy::operator()(const Placement& at, Mat3X* gradient) {
-  const double energy = parallel_sum(connectivity_.faces.size(), 1024, [&](size_t begin, size_t end) {
-    double sum = 0;
-    for (size_t f = begin; f < end; f += lane_count)
-      sum += energy_of_four(at, f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
-    return sum;
-  });
-  if (!gradient) return energy;
-
-  gradient->resize(3, connectivity_.vertex_count);
-  parallel_for(static_cast<size_t>(connectivity_.vertex_count), 2048, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      Vec3 sum = Vec3::Zero();
-      for (int f : connectivity_.vertex_faces[static_cast<int>(v)]) {
-        const size_t k = corner_of(connectivity_.faces[static_cast<size_t>(f)], static_cast<int>(v));
-        sum += Eigen::Map<const Vec3>(corner_gradients_.data() + 9 * static_cast<size_t>(f) + 3 * k);
+/// Adds the gradients of the part's faces, in their order, to those of the vertices.
+void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
+  const auto first = static_cast<size_t>(part.first_vertex);
+  parallel_for(static_cast<size_t>(part.last_vertex) + 1 - first, 2048, [&](size_t begin, size_t end) {
+    for (size_t v = first + begin; v < first + end; ++v) {
+      Vec3 sum = gradient.col(static_cast<Eigen::Index>(v));
+      for (int face : connectivity_.vertex_faces[static_cast<int>(v)]) {
+        const auto f = static_cast<size_t>(face);
+        if (f < part.begin || f >= part.end) continue;
+        const size_t k = corner_of(connectivity_.faces[f], static_cast<int>(v));
+        sum += Eigen::Map<const Vec3>(corner_gradients_.data() + 9 * (f - part.begin) + 3 * k);
       }
-      gradient->col(static_cast<Eigen::Index>(v)) = sum;
+      gradient.col(static_cast<Eigen::Index>(v)) = sum;
     }
   });
-  return energy;
+}
+
+double Energy::operator()(const Placement& at, Mat3X* gradient) {
+  if (gradient) gradient->setZero(3, connectivity_.vertex_count);
+  std::vector<double> energies((connectivity_.faces.size() + block - 1) / block);
+  for (const Part& part : parts_) {
+    const size_t blocks = (part.end - part.begin + block - 1) / block;
+    parallel_for(blocks, 1, [&](size_t begin, size_t end) {
+      for (size_t b = begin; b < end; ++b)
+        for (size_t f = b * block; f < std::min((b + 1) * block, part.end - part.begin); f += lane_count)
+          energies[part.begin / block + b] +=
+              energy_of_four(at, part.begin + f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
+    });
+    if (gradient) add_corner_gradients(part, *gradient);
+  }
+  return std::accumulate(energies.begin(), energies.end(), 0.);
 }
 
 }  // namespace hooke

@@ -38,9 +38,17 @@ class Energy {
   void gather_faces(const Placement& at, size_t face, size_t count, FaceSprings& four) const;
   double face_energy(const Placement& at, size_t face, double* corner_gradients) const;
 
+  /// Faces whose gradients are added up together, and the vertices among which all their corners are.
+  struct Part {
+    size_t begin, end;
+    int first_vertex, last_vertex;
+  };
+  void add_corner_gradients(const Part& part, Mat3X& gradient) const;
+
   const Connectivity& connectivity_;
   const TargetLengths& targets_;
-  std::vector<double> corner_gradients_;  // 9 per face: gradient by each of its corners
+  std::vector<Part> parts_;
+  std::vector<double> corner_gradients_;  // 9 per face of a part: gradient by each of its corners
 };
 
 }  // namespace hooke

@@ -71,16 +71,17 @@ class Preconditioner {
     grid_weight_ = *middle > 0 ? options_.grid_weight / *middle : 0;
   }
 
-  Mat3X apply(const Relaxation& r, const Mat3X& vectors) const {
-    Mat3X result(3, vectors.cols());
+  /// vectors = H0 vectors
+  void apply(const Relaxation& r, Mat3X& vectors) const {
+    const GridHierarchy::Correction correction = grids_.solve(vectors);
     parallel_for(static_cast<size_t>(vectors.cols()), 4096, [&](size_t begin, size_t end) {
-      for (size_t v = begin; v < end; ++v)
-        result.col(static_cast<Eigen::Index>(v)) =
-            inverse_[v] * Vec3(vectors.col(static_cast<Eigen::Index>(v)));
+      for (size_t v = begin; v < end; ++v) {
+        auto u = vectors.col(static_cast<Eigen::Index>(v));
+        u = inverse_[v] * Vec3(u);
+      }
     });
-    grids_.add(vectors, grid_weight_, result);
-    r.retraction.constrain(r.placement, result);
-    return result;
+    grids_.add(correction, grid_weight_, vectors);
+    r.retraction.constrain(r.placement, vectors);
   }
 
  private:
@@ -103,30 +104,32 @@ class Memory {
     scale_ = options_.first_step;
   }
 
-  /// `preconditioned` is H0 y.
-  void push(const Mat3X& s, const Mat3X& y, const Mat3X& preconditioned) {
+  void push(const Relaxation& r, const Preconditioner& h0, const Mat3X& s, const Mat3X& y) {
     const double sy = dot(s, y);
     if (!(sy > 1e-12 * dot(y, y)))
       return;  // no curvature along this step: it would spoil the inverse Hessian
-    if (pushed_++ < options_.scaled_pairs) scale_ = sy / dot(y, preconditioned);
+    if (pushed_++ < options_.scaled_pairs) {
+      Mat3X preconditioned = y;
+      h0.apply(r, preconditioned);
+      scale_ = sy / dot(y, preconditioned);
+    }
+    if (pairs_.size() == static_cast<size_t>(options_.memory)) pairs_.pop_front();
     pairs_.push_back({s.cast<float>(), y.cast<float>(), 1 / sy});
-    if (pairs_.size() > static_cast<size_t>(options_.memory)) pairs_.pop_front();
   }
 
-  /// -H g
-  Mat3X direction(const Relaxation& r, const Preconditioner& h0, const Mat3X& gradient) const {
-    Mat3X q = -gradient;
+  /// q = H q
+  void apply(const Relaxation& r, const Preconditioner& h0, Mat3X& q) const {
     std::vector<double> alpha(pairs_.size());
     for (size_t i = pairs_.size(); i-- > 0;) {
       alpha[i] = pairs_[i].rho * dot(pairs_[i].s, q);
       add_scaled(-alpha[i], pairs_[i].y, q);
     }
-    q = scale_ * h0.apply(r, q);
+    h0.apply(r, q);
+    q *= scale_;
     for (size_t i = 0; i < pairs_.size(); ++i) {
       const double beta = pairs_[i].rho * dot(pairs_[i].y, q);
       add_scaled(alpha[i] - beta, pairs_[i].s, q);
     }
-    return q;
   }
 
  private:
@@ -146,11 +149,12 @@ void clear_columns(const std::vector<int>& columns, Mat3X& matrix) {
 
 /// A descent direction in the tangent space, no vertex longer than the cap; blocked vertices neither move nor
 /// pull at others. Falls back to the gradient.
-Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, Mat3X gradient,
+Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, const Mat3X& gradient,
                         const std::vector<int>& blocked, const Preconditioner& h0, Memory& memory) {
-  clear_columns(blocked, gradient);
   for (;;) {
-    Mat3X d = memory.direction(r, h0, gradient);
+    Mat3X d = -gradient;
+    clear_columns(blocked, d);
+    memory.apply(r, h0, d);
     clear_columns(blocked, d);
     r.retraction.constrain(r.placement, d);
     cap_displacement(r.vertex_length, options.max_move, d);
@@ -195,6 +199,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       timed(r.stopwatch, "preconditioner", [&] { h0.refresh(r); });
     Mat3X step = timed(r.stopwatch, "direction",
                        [&] { return descent_direction(r, options, gradient, blocked, h0, memory); });
+    Mat3X displacement;  // from the placement to the trial
     bool accepted = false;
     bool mended = false;
     double trial_energy = 0;
@@ -205,7 +210,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
         blocked.insert(blocked.end(), held.begin(), held.end());
         step = descent_direction(r, options, gradient, blocked, h0, memory);
       }
-      Mat3X displacement = step;
+      displacement = step;
       held = timed(r.stopwatch, "guards", [&] {
         return r.guards.step(r.retraction, r.placement, displacement, trial, r.stopwatch);
       });
@@ -228,8 +233,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       break;
     }
     r.retraction.constrain(trial, trial_gradient);
-    const Mat3X y = trial_gradient - gradient;
-    memory.push(trial.points - r.placement.points, y, h0.apply(r, y));
+    gradient = trial_gradient - gradient;
+    memory.push(r, h0, displacement, gradient);
     std::swap(r.placement, trial);
     std::swap(gradient, trial_gradient);
     if (mended)

@@ -131,26 +131,31 @@ Mat3X GridHierarchy::collect(const Mat3X& residual) const {
   return sum;
 }
 
-void GridHierarchy::add(const Mat3X& residual, double weight, Mat3X& vectors) const {
-  if (levels_.empty()) return;
+GridHierarchy::Correction GridHierarchy::solve(const Mat3X& residual) const {
+  if (levels_.empty()) return {};
   std::vector<Mat3X> values;
-  for (const Level& level : levels_) values.push_back(Mat3X::Zero(3, level.nodes));
-  values[0] = collect(residual);
-  for (size_t l = 0; l + 1 < levels_.size(); ++l)
+  values.push_back(collect(residual));
+  for (size_t l = 0; l + 1 < levels_.size(); ++l) {
+    values.push_back(Mat3X::Zero(3, levels_[l + 1].nodes));
     for (size_t i = 0; i < levels_[l].to_coarser.size(); ++i)
       for (size_t k = 0; k < 8; ++k)
         values[l + 1].col(levels_[l].to_coarser[i].node[k]) +=
             levels_[l].to_coarser[i].weight[k] * values[l].col(static_cast<Eigen::Index>(i));
+  }
   for (size_t l = levels_.size() - 1; l-- > 0;)
     for (size_t i = 0; i < levels_[l].to_coarser.size(); ++i)
       for (size_t k = 0; k < 8; ++k)
         values[l].col(static_cast<Eigen::Index>(i)) +=
             levels_[l].to_coarser[i].weight[k] * values[l + 1].col(levels_[l].to_coarser[i].node[k]);
+  return {std::move(values[0])};
+}
+
+void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vectors) const {
   parallel_for(finest_.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
       for (size_t k = 0; k < 8; ++k)
         vectors.col(static_cast<Eigen::Index>(v)) +=
-            weight * finest_[v].weight[k] * values[0].col(finest_[v].node[k]);
+            weight * finest_[v].weight[k] * correction.at_nodes.col(finest_[v].node[k]);
   });
 }
 

@@ -15,8 +15,17 @@ class GridHierarchy {
   /// has turned grids.
   GridHierarchy(const Mat3X& points, double cell);
 
-  /// vectors += weight * (sum over levels of P P^T) residual
-  void add(const Mat3X& residual, double weight, Mat3X& vectors) const;
+  /// A column per node of the finest grid.
+  struct Correction {
+    Mat3X at_nodes;
+  };
+
+  /// What all levels make of a residual, one column per vertex: the sum over levels of P^T, brought to the
+  /// finest grid.
+  Correction solve(const Mat3X& residual) const;
+
+  /// vectors += weight * P correction. With that of a residual they get (sum over levels of P P^T) residual.
+  void add(const Correction& correction, double weight, Mat3X& vectors) const;
 
   int level_count() const { return static_cast<int>(levels_.size()); }
 
