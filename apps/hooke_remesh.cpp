@@ -38,13 +38,23 @@ std::string name_of_input(const Settings& s) {
   return printable(s.input.string());
 }
 
+bool keeps_faces(const Settings& s) {
+  return s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
+}
+
+/// The mesh of the input, for the result to be measured against.
+struct Original {
+  Mat3X points;
+  std::vector<Triangle> faces;  // empty where the result keeps them
+  std::vector<int> tree_order;  // in which its tree holds the faces
+};
+
 /// What the input told of its vertices, for those of the result: the same while vertices stay what they were,
 /// else the values at their places. Normals are always those of the result.
-VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const MeasuredSurface& result,
-                          RunRecord& run) {
-  const bool same_places = s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
-  VertexData data = same_places ? loaded.vertex_data
-                                : carry_over(loaded.vertex_data, run.result->map, loaded.connectivity.faces);
+VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                          const MeasuredSurface& result, RunRecord& run) {
+  VertexData data =
+      keeps_faces(s) ? loaded.vertex_data : carry_over(loaded.vertex_data, run.result->map, original.faces);
   set_normals(data, vertex_normals(result.points, result.connectivity));
   FormatData carried = data_for_format(data, loaded.format, s.format);
   if (!carried.left_out.empty())
@@ -128,36 +138,57 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, Stopwatch& stopwatch) {
   });
 }
 
-/// Optimizes the mesh, measures what has come of it, and prepares the files that hold it.
-void make_result(const Settings& s, LoadedMesh& loaded, const Mat3X& original,
-                 const std::vector<int>& tree_order, RunRecord& record, OutputFiles& files,
+/// Gives the input its target lengths and measures it. What that takes is gone when the work begins; returns
+/// the order of its tree.
+std::vector<int> measure_input(const Settings& s, TriMesh& mesh, const Connectivity& connectivity,
+                               RunRecord& record, Stopwatch& stopwatch) {
+  record.input.connectivity_sha256 =
+      timed(&stopwatch, "sha256", [&] { return connectivity_sha256(connectivity.faces); });
+  if (!s.check)
+    warn_of_coincident_boundary(coincident_boundary_vertices(positions(mesh), connectivity).size(), record);
+  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, connectivity, record); });
+  const MeasuredSurface surface = surface_of(positions(mesh), connectivity, stopwatch);
+  record.before = timed(&stopwatch, "before", [&] { return measure(surface, mesh, stopwatch); });
+  return surface.tree.order();
+}
+
+void measure_way(const Original& original, const MeasuredSurface& result, RunRecord& record,
                  Stopwatch& stopwatch) {
+  const bool same_faces = original.faces.empty();
+  const Connectivity others =
+      same_faces ? Connectivity{}
+                 : make_connectivity(static_cast<int>(original.points.cols()), original.faces);
+  const MeasuredSurface reference =
+      surface_of(original.points, same_faces ? result.connectivity : others, stopwatch, original.tree_order);
+  record.deviation =
+      timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
+  if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
+}
+
+/// Optimizes the mesh, measures what has come of it, and prepares the files that hold it.
+void make_result(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record,
+                 OutputFiles& files, Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
   record.result = timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, stopwatch); });
   const RemeshResult& done = *record.result;
   if (!positions(mesh).allFinite())
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", record.input.path));
   record.status = status_of(done.reason);
-  const bool faces_kept = s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
-  const Connectivity changed =
-      faces_kept ? Connectivity{}
-                 : make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
-  const Connectivity& after = faces_kept ? loaded.connectivity : changed;
-  const MeasuredSurface result =
-      surface_of(positions(mesh), after, stopwatch, faces_kept ? tree_order : std::vector<int>());
+  const Connectivity after = timed(&stopwatch, "connectivity", [&] {
+    return make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
+  });
+  const MeasuredSurface result = surface_of(positions(mesh), after, stopwatch,
+                                            keeps_faces(s) ? original.tree_order : std::vector<int>());
   record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, stopwatch); });
   if (!done.holds.empty())
     for (WorstFace& face : record.after->worst_faces) face.reasons = hindrances(face, done.holds);
-  const MeasuredSurface reference = surface_of(original, loaded.connectivity, stopwatch, tree_order);
-  record.deviation =
-      timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
-  if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
-  const VertexData data = data_of_result(s, loaded, result, record);
+  measure_way(original, result, record, stopwatch);
+  const VertexData data = data_of_result(s, loaded, original, result, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
   });
   record.output = {printable(s.output.string()), written.sha256, s.format,
-                   faces_kept ? record.input.connectivity_sha256 : connectivity_sha256(after.faces)};
+                   keeps_faces(s) ? record.input.connectivity_sha256 : connectivity_sha256(after.faces)};
   files.add(std::move(written.file));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
   add_result_warnings(s, record);
@@ -180,29 +211,24 @@ int run(Settings s) {
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
   Stopwatch stopwatch;
   LoadedMesh loaded = timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch); });
-  const Connectivity& connectivity = loaded.connectivity;
   if (!s.fix.empty())
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
-        read_id_list(s.fix, connectivity.vertex_count);
-  const Mat3X original = positions(loaded.mesh);
+        read_id_list(s.fix, loaded.connectivity.vertex_count);
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
-  record.input = {name_of_input(s), loaded.sha256, loaded.format,
-                  timed(&stopwatch, "sha256", [&] { return connectivity_sha256(connectivity.faces); })};
+  record.input = {name_of_input(s), loaded.sha256, loaded.format, {}};
   record.warnings = loaded.warnings;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
-  if (!s.check)
-    warn_of_coincident_boundary(coincident_boundary_vertices(original, connectivity).size(), record);
-  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, loaded.mesh, connectivity, record); });
-  std::vector<int> tree_order;
-  {  // memory for the work: the surface is made again when it is needed again
-    const MeasuredSurface surface = surface_of(original, connectivity, stopwatch);
-    tree_order = surface.tree.order();
-    record.before = timed(&stopwatch, "before", [&] { return measure(surface, loaded.mesh, stopwatch); });
+  Original original;
+  {  // memory for the work: connectivity and surface are made again when they are needed again
+    Connectivity connectivity = std::move(loaded.connectivity);
+    original.tree_order = measure_input(s, loaded.mesh, connectivity, record, stopwatch);
+    if (!keeps_faces(s)) original.faces = std::move(connectivity.faces);
   }
+  original.points = positions(loaded.mesh);
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, tree_order, record, files, stopwatch);

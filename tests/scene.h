@@ -30,7 +30,6 @@ struct Scene {
   std::vector<double> length;
   TargetLengths targets;
   Constraints constraints;
-  TriMesh mesh;
   Energy energy;
   Retraction retraction;
   Guards guards;
@@ -43,7 +42,6 @@ struct Scene {
                natural_length(total_area(t.points, t.faces), t.faces.size())),
         targets(spread_target_lengths(connectivity, length)),
         constraints(find_constraints(t.points, connectivity, o.constraints)),
-        mesh(to_mesh(t)),
         energy(connectivity, targets, o.terms),
         retraction(std::move(surface), constraints, o.retraction),
         guards(connectivity, targets, o.guards) {
@@ -55,9 +53,7 @@ struct Scene {
 
   double L() const { return length[0]; }
 
-  Relaxation relaxation() {
-    return {mesh, connectivity, sweeps, length, energy, retraction, guards, placement};
-  }
+  Relaxation relaxation() { return {connectivity, sweeps, length, energy, retraction, guards, placement}; }
 
   /// Gradient of the energy in the directions that the vertices may move in.
   Mat3X tangent_gradient() {

@@ -61,7 +61,6 @@ TEST(Workspace, TheMeshIsTheInputInAnotherOrder) {
       const Vec3 x = w.normalisation.centre + w.normalisation.unit * w.start.col(fresh);
       EXPECT_LT((x - t.points.col(old)).norm(), 1e-14);
     }
-  EXPECT_EQ(triangles_of(w.mesh), w.connectivity->faces);
 }
 
 TEST(Workspace, APowerOfTwoChangesNoBit) {
@@ -113,7 +112,6 @@ TEST(Workspace, LandsOnTheFieldOfTheInput) {
     const int stay = w.land();
     EXPECT_EQ(stay, 0);
     EXPECT_LT(off_the_input(mesh, w.placement.points), 1e-5);
-    EXPECT_EQ(positions(w.mesh), w.placement.points);
   }
 }
 

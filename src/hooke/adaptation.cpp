@@ -123,8 +123,8 @@ UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOpti
                       const Observer& observer) {
   Energy energy(*work.connectivity, work.targets, terms);
   Guards guards(*work.connectivity, work.targets, guard_options);
-  Relaxation r{work.mesh, *work.connectivity, work.sweeps, work.vertex_length,
-               energy,    *work.retraction,   guards,      work.placement};
+  Relaxation r{*work.connectivity, work.sweeps, work.vertex_length, energy,
+               *work.retraction,   guards,      work.placement};
   return untangle(r, UntangleOptions{}, observer);
 }
 

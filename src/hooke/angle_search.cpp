@@ -176,7 +176,6 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
   guards.sagitta = std::max(guards.sagitta, o.sagitta);
   search_within(r, o, guards, greatest_edge_error, result);
   r.retraction.count();
-  positions(r.mesh) = r.placement.points;
   return result;
 }
 

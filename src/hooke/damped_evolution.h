@@ -6,6 +6,7 @@
 #include <span>
 
 #include "hooke/integrator.h"
+#include "hooke/mesh.h"
 #include "hooke/time_step.h"
 
 namespace hooke {

@@ -16,7 +16,7 @@ class FlipMode {
         guards_(guards),
         observer_(observer),
         corner_valences_(
-            corner_valences(positions(work.mesh), *work.connectivity, work.constraints, corner_angle)) {}
+            corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)) {}
 
   FlipResult run() {
     unfold();
@@ -33,8 +33,8 @@ class FlipMode {
   auto relax(const Relax& body) {
     Energy energy(*work_.connectivity, work_.targets, terms_);
     Guards guards(*work_.connectivity, work_.targets, guards_);
-    Relaxation r{work_.mesh, *work_.connectivity, work_.sweeps, work_.vertex_length,
-                 energy,     *work_.retraction,   guards,       work_.placement};
+    Relaxation r{*work_.connectivity, work_.sweeps, work_.vertex_length, energy,
+                 *work_.retraction,   guards,       work_.placement};
     return body(r);
   }
 

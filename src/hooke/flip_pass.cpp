@@ -150,7 +150,7 @@ bool worth_a_try(const FlippingMesh& m, int h) {
 
 /// Flips and settles the patch; returns how much its energy falls.
 double try_flip(Patch& patch, const FlippingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
-                const GuardOptions& guard_options, TriMesh& unused) {
+                const GuardOptions& guard_options) {
   const int n = static_cast<int>(patch.vertices.size());
   const Connectivity before = make_connectivity(n, patch.faces);
   const TargetLengths targets_before = spread_target_lengths(before, patch.vertex_length);
@@ -168,7 +168,7 @@ double try_flip(Patch& patch, const FlippingMesh& m, const EnergyTerms& terms, c
   Guards guards(after, targets, guard_options);
   Retraction retraction(m.retraction.surface(), patch.constraints, m.retraction.options());
   const SweepPlan sweeps = plan_sweeps(after);
-  Relaxation r{unused, after, sweeps, patch.vertex_length, energy, retraction, guards, patch.placement};
+  Relaxation r{after, sweeps, patch.vertex_length, energy, retraction, guards, patch.placement};
   std::vector<char> active(patch.vertices.size(), 0);
   std::fill_n(active.begin(), patch.movable, 1);
   for (int sweep = 0; sweep < options.sweeps; ++sweep) local_newton_sweep(r, active, {});
@@ -180,14 +180,13 @@ double try_flip(Patch& patch, const FlippingMesh& m, const EnergyTerms& terms, c
 int flip_irregular_edges(FlippingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
                          const FlipGuardOptions& flip_guard, const GuardOptions& guards) {
   PatchCutter cutter(m);
-  TriMesh unused;
   int flips = 0;
   for (int h = 0; h < m.triangulation.half_edge_count(); ++h) {
     if (m.triangulation.twin(h) < h || m.triangulation.is_constrained(h) || !worth_a_try(m, h) ||
         !may_flip(m, h, flip_guard))
       continue;
     Patch patch = cutter.cut(h, options.rings);
-    if (try_flip(patch, m, terms, options, guards, unused) < options.gain) continue;
+    if (try_flip(patch, m, terms, options, guards) < options.gain) continue;
     m.triangulation.flip(h);
     for (size_t i = 0; i < patch.movable; ++i)
       if (patch.constraints.freedom[i] != Freedom::fixed)

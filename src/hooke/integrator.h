@@ -4,7 +4,6 @@
 
 #include "hooke/energy.h"
 #include "hooke/guards.h"
-#include "hooke/mesh.h"
 #include "hooke/stopwatch.h"
 #include "hooke/sweep_plan.h"
 
@@ -31,7 +30,6 @@ using Observer = std::function<bool(const Progress&)>;
 
 /// The parts that a relaxation works on. All are references to objects that outlive it.
 struct Relaxation {
-  TriMesh& mesh;  // carries v:velocity and v:force; its points are those of `placement` between the calls
   const Connectivity& connectivity;
   const SweepPlan& sweeps;
   const std::vector<double>& vertex_length;  // target length per vertex

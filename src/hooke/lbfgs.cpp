@@ -253,10 +253,6 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     }
   }
   r.retraction.settle(r.placement);
-  positions(r.mesh) = r.placement.points;
-  VProp<Vec3> force(r.mesh, force_property), velocity(r.mesh, velocity_property);
-  as_matrix(r.mesh, force) = -gradient;
-  as_matrix(r.mesh, velocity).setZero();  // at rest
   return result;
 }
 

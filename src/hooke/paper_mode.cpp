@@ -15,7 +15,8 @@ class PaperRun {
         observer_(observer),
         work_(mesh, options.constraints, options.filter, options.retraction, {}),
         to_input_(*work_.retraction),
-        strings_(*work_.connectivity, work_.targets, {.altitude = 0}) {}
+        strings_(*work_.connectivity, work_.targets, {.altitude = 0}),
+        mesh_(build_mesh(work_.start, *work_.connectivity)) {}
 
   RemeshResult run(TriMesh& mesh) {
     result_.folded_before = static_cast<int>(folded_faces().size());
@@ -44,14 +45,14 @@ class PaperRun {
   }
 
   EvolutionResult optimize() {
-    return evolve_damped(work_.mesh, *work_.connectivity, work_.targets.edge, options_.evolution,
-                         boundary_rule(), watch());
+    return evolve_damped(mesh_, *work_.connectivity, work_.targets.edge, options_.evolution, boundary_rule(),
+                         watch());
   }
 
   void filter() {
     Placement& p = work_.placement;
-    p = work_.retraction->place(positions(work_.mesh), std::move(p.anchors), std::move(p.segments));
-    positions(work_.mesh) = p.points;
+    p = work_.retraction->place(positions(mesh_), std::move(p.anchors), std::move(p.segments));
+    positions(mesh_) = p.points;
   }
 
   /// What curve and fixed vertices may not do, where the user asked for more than the paper. All others stay
@@ -113,6 +114,7 @@ class PaperRun {
   Workspace work_;
   Retraction to_input_;  // to the field of the input, for the last look
   Energy strings_;
+  TriMesh mesh_;  // in motion
   RemeshResult result_;
   int outer_ = 0;
   bool done_ = false;

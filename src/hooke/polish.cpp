@@ -115,7 +115,6 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
     threshold += step;
   }
   r.placement = std::move(kept);
-  positions(r.mesh) = r.placement.points;
   r.energy.terms = terms;
   return result;
 }

@@ -34,8 +34,8 @@ class Remeshing {
 
  private:
   Relaxation relaxation() {
-    return {work_.mesh, *work_.connectivity, work_.sweeps,   work_.vertex_length, energy_, *work_.retraction,
-            guards_,    work_.placement,     work_.stopwatch};
+    return {*work_.connectivity, work_.sweeps, work_.vertex_length, energy_,
+            *work_.retraction,   guards_,      work_.placement,     work_.stopwatch};
   }
 
   Observer watch(const char* stage) const {
@@ -70,8 +70,10 @@ class Remeshing {
     switch (options_.integrator) {
       case IntegratorKind::lbfgs:
         return relax_lbfgs(r, options_.integration, lbfgs(), watch("relax"));
-      case IntegratorKind::damped:
-        return relax_damped(r, options_.integration, options_.damped, watch("relax"));
+      case IntegratorKind::damped: {
+        DampedState state;
+        return relax_damped(r, state, options_.integration, options_.damped, watch("relax"));
+      }
     }
     throw Error("unknown integrator");
   }

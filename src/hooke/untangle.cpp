@@ -36,7 +36,6 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
     in_vain = result.folded.size() < least ? 0 : in_vain + 1;
     least = std::min(least, result.folded.size());
   }
-  positions(r.mesh) = r.placement.points;
   r.energy.terms = terms;
   return result;
 }

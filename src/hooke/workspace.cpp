@@ -71,7 +71,6 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(start, *connectivity, reordered); });
-  mesh = build_mesh(start, *connectivity);
   origins = identity(n);
   input_order_ = order;
   input_connectivity_ = connectivity;
@@ -147,14 +146,11 @@ int Workspace::land() {
     if (more == 0) break;
   }
   placement = std::move(landed);
-  positions(mesh) = placement.points;
   return static_cast<int>(std::count(stays.begin(), stays.end(), 1));
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {
   connect(make_connectivity(connectivity->vertex_count, std::move(faces)), constraints.creases);
-  hooke::replace_faces(mesh, *connectivity);
-  positions(mesh) = placement.points;
   input_anchors_ = placement.anchors;  // vertices may be far from where they were
   faces_replaced_ = true;
 }
@@ -211,7 +207,6 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   for (int side : source) anchors.push_back(placement.anchors[static_cast<size_t>(side)]);
   placement.anchors = std::move(anchors);
   placement.other_side = other_sides(n, constraints.further_sides);
-  mesh = build_mesh(placement.points, *connectivity);
   input_anchors_ = placement.anchors;
   retraction->resize(n);
   to_input_->resize(n);

@@ -84,7 +84,6 @@ struct Workspace {
   std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
   TargetLengths targets;
   Constraints constraints;
-  TriMesh mesh;                            // normalised, in memory order; carries velocity and force
   Mat3X start;                             // the points of the input
   std::vector<int> origins;                // per vertex: which of `start` it was, -1 for a new one
   Placement placement;                     // of the vertices on the field fitted last

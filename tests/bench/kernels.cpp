@@ -17,21 +17,17 @@ struct Sphere {
         connectivity(std::make_shared<const Connectivity>(
             make_connectivity(static_cast<int>(start.points.cols()), start.faces))),
         length(start.points.cols(),
-               natural_length(total_area(start.points, start.faces), start.faces.size())),
-        mesh(test::to_mesh(start)) {
+               natural_length(total_area(start.points, start.faces), start.faces.size())) {
     std::vector<int> anchors(length.size());
     std::iota(anchors.begin(), anchors.end(), 0);
     placement = retraction.place(start.points, anchors, constraints.segment);
   }
 
-  Relaxation relaxation() {
-    return {mesh, *connectivity, sweeps, length, energy, retraction, guards, placement};
-  }
+  Relaxation relaxation() { return {*connectivity, sweeps, length, energy, retraction, guards, placement}; }
 
   test::Triangles start;
   std::shared_ptr<const Connectivity> connectivity;
   std::vector<double> length;
-  TriMesh mesh;
   SweepPlan sweeps = plan_sweeps(*connectivity);
   TargetLengths targets = spread_target_lengths(*connectivity, length);
   Constraints constraints = find_constraints(start.points, *connectivity, {});
