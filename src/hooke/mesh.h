@@ -14,7 +14,6 @@
 namespace hooke {
 
 struct MeshTraits : OpenMesh::DefaultTraitsDouble {
-  HalfedgeAttributes(OpenMesh::Attributes::None);  // not the previous one: in a triangle two steps lead there
   using Point = Vec3;
   using Normal = Vec3;
 };

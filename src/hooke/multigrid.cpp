@@ -58,6 +58,29 @@ Eigen::Matrix3d frame_of(const Mat3X& points) {
   return Eigen::Matrix3d::Identity();
 }
 
+/// The corner k of a cell is high in direction d where bit d of k is set.
+bool is_high(unsigned k, unsigned d) {
+  return (k >> d) & 1;
+}
+
+std::array<int, 8> corners_of(const Cell& cell, NodeNumbers& nodes) {
+  std::array<int, 8> ids;
+  for (unsigned k = 0; k < 8; ++k)
+    ids[k] = nodes[{cell[0] + is_high(k, 0), cell[1] + is_high(k, 1), cell[2] + is_high(k, 2)}];
+  return ids;
+}
+
+/// Of the corners of a cell, at a place within it.
+std::array<float, 8> hats(const Vec3& t) {
+  std::array<float, 8> weights;
+  for (unsigned k = 0; k < 8; ++k) {
+    double weight = 1;
+    for (unsigned d = 0; d < 3; ++d) weight *= is_high(k, d) ? t[d] : 1 - t[d];
+    weights[k] = static_cast<float>(weight);
+  }
+  return weights;
+}
+
 }  // namespace
 
 GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
@@ -65,23 +88,16 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
   const Eigen::Matrix3d frame = frame_of(points);
   const Vec3 origin = points.col(0);
   NodeNumbers nodes;
-  finest_.resize(static_cast<size_t>(points.cols()));
+  std::unordered_map<Cell, int, CellHash> cell_ids;
+  places_.resize(static_cast<size_t>(points.cols()));
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     // Half a cell off the origin: the first vertex would lie on a corner of four cells.
     const Vec3 x = frame * (points.col(v) - origin) / cell + Vec3::Constant(.5);
     const Vec3 low = x.array().floor();
-    const Vec3 t = x - low;
-    for (unsigned k = 0; k < 8; ++k) {
-      Cell corner;
-      double weight = 1;
-      for (unsigned d = 0; d < 3; ++d) {
-        const bool high = (k >> d) & 1;
-        corner[d] = static_cast<int>(low[d]) + high;
-        weight *= high ? t[d] : 1 - t[d];
-      }
-      finest_[static_cast<size_t>(v)].node[k] = nodes[corner];
-      finest_[static_cast<size_t>(v)].weight[k] = static_cast<float>(weight);
-    }
+    const Cell at{static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
+    const auto [it, fresh] = cell_ids.try_emplace(at, static_cast<int>(cells_.size()));
+    if (fresh) cells_.push_back(corners_of(at, nodes));
+    places_[static_cast<size_t>(v)] = {it->second, x - low};
   }
   for (;;) {
     Level level;
@@ -99,7 +115,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
         double weight = 1;
         for (unsigned d = 0; d < 3; ++d) {
           const bool odd = at[d] & 1;
-          const bool high = (k >> d) & 1;
+          const bool high = is_high(k, d);
           corner[d] = (at[d] >> 1) + (odd && high);
           weight *= odd ? .5 : (high ? 0 : 1);
         }
@@ -115,15 +131,17 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
 
 /// P^T residual on the finest grid. Parts of the vertices are summed on their own, then added in order.
 Mat3X GridHierarchy::collect(const Mat3X& residual) const {
-  const size_t count = std::clamp<size_t>(finest_.size() / least_part, 1, most_parts);
+  const size_t count = std::clamp<size_t>(places_.size() / least_part, 1, most_parts);
   std::vector<Mat3X> parts(count);
   parallel_for(count, 1, [&](size_t begin, size_t end) {
     for (size_t part = begin; part < end; ++part) {
       parts[part] = Mat3X::Zero(3, levels_[0].nodes);
-      for (size_t v = part * finest_.size() / count; v < (part + 1) * finest_.size() / count; ++v)
+      for (size_t v = part * places_.size() / count; v < (part + 1) * places_.size() / count; ++v) {
+        const auto& nodes = cells_[static_cast<size_t>(places_[v].cell)];
+        const auto weights = hats(places_[v].within);
         for (size_t k = 0; k < 8; ++k)
-          parts[part].col(finest_[v].node[k]) +=
-              finest_[v].weight[k] * residual.col(static_cast<Eigen::Index>(v));
+          parts[part].col(nodes[k]) += weights[k] * residual.col(static_cast<Eigen::Index>(v));
+      }
     }
   });
   Mat3X sum = std::move(parts[0]);
@@ -151,11 +169,13 @@ GridHierarchy::Correction GridHierarchy::solve(const Mat3X& residual) const {
 }
 
 void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vectors) const {
-  parallel_for(finest_.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v)
+  parallel_for(places_.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      const auto& nodes = cells_[static_cast<size_t>(places_[v].cell)];
+      const auto weights = hats(places_[v].within);
       for (size_t k = 0; k < 8; ++k)
-        vectors.col(static_cast<Eigen::Index>(v)) +=
-            weight * finest_[v].weight[k] * correction.at_nodes.col(finest_[v].node[k]);
+        vectors.col(static_cast<Eigen::Index>(v)) += weight * weights[k] * correction.at_nodes.col(nodes[k]);
+    }
   });
 }
 

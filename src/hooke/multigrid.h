@@ -40,7 +40,13 @@ class GridHierarchy {
     int nodes = 0;
     std::vector<Weighted> to_coarser;  // per node; empty on the coarsest level
   };
-  std::vector<Weighted> finest_;  // per vertex
+  /// Where a vertex lies on the finest grid.
+  struct Place {
+    int cell;
+    Vec3 within;  // from the cell's lowest node, in cells
+  };
+  std::vector<Place> places_;              // per vertex
+  std::vector<std::array<int, 8>> cells_;  // nodes of the cells of the finest grid that hold vertices
   std::vector<Level> levels_;
 };
 
