@@ -231,7 +231,7 @@ int run(Settings s) {
   original.points = positions(loaded.mesh);
 
   OutputFiles files;
-  if (!s.check) make_result(s, loaded, original, tree_order, record, files, stopwatch);
+  if (!s.check) make_result(s, loaded, original, record, files, stopwatch);
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
   finish(s, record, files);
