@@ -28,6 +28,7 @@
 #include "result_warnings.h"
 #include "signals.h"
 #include "standard_streams.h"
+#include "target_lengths.h"
 
 namespace hooke::app {
 namespace {
@@ -73,43 +74,6 @@ MeasuredSurface surface_of(const Mat3X& points, const Connectivity& connectivity
 Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, Stopwatch& stopwatch) {
   const std::vector<double> lengths = vertex_values(mesh, target_length_property);
   return measure_quality(surface, spread_target_lengths(surface.connectivity, lengths).edge, {}, &stopwatch);
-}
-
-/// Far from the natural length nothing sensible can come of it, and numbers overflow.
-void require_reasonable(const Settings& s, double least, double most, double natural) {
-  constexpr double limit = 1e6;
-  if (least >= natural / limit && most <= limit * natural) return;
-  const bool sized = s.sizing.kind != SizingSource::Kind::none;
-  throw Error(
-      fmt::format("{} '{}': target lengths from {:.3g} to {:.3g} for {}; expected {:.3g} to {:.3g}, {:.0e} "
-                  "times less and "
-                  "more than the natural length",
-                  sized ? "--sizing" : "--length", sized ? s.sizing_text : s.length_text, least, most,
-                  name_of_input(s), natural / limit, limit * natural, limit));
-}
-
-/// Gives the vertices their target lengths and tells what they are.
-void set_target_lengths(const Settings& s, TriMesh& mesh, const Connectivity& connectivity,
-                        RunRecord& record) {
-  const Mat3X points = positions(mesh);
-  const Sizing sizing{read_sizing(s.sizing, s.input, points, connectivity), s.gradation};
-  const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, connectivity);
-  const double natural = resolve_length({}, points, connectivity);
-  const auto [least, most] = std::ranges::minmax_element(lengths);
-  require_reasonable(s, *least, *most, natural);
-  set_vertex_values(mesh, target_length_property, lengths);
-
-  const TargetLengths targets = spread_target_lengths(connectivity, lengths);
-  record.parameters.update({{"L", mean_length(points, connectivity, targets)},
-                            {"L_min", *least},
-                            {"L_max", *most},
-                            {"L_spec", printable(s.length_text)},
-                            {"L_natural", natural},
-                            {"sizing", printable(s.sizing_text)}});
-  const bool limited = s.sizing.kind != SizingSource::Kind::none && std::isfinite(s.gradation);
-  record.parameters["gradation"] = limited ? nlohmann::ordered_json(s.gradation) : nlohmann::ordered_json();
-  if (!s.check && s.remesh.connectivity != ConnectivityMode::adapt)
-    warn_of_length(s, covering_length(points, connectivity, targets), natural, record);
 }
 
 /// What `work` returns; its errors get the name of the input.
