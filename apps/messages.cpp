@@ -90,7 +90,10 @@ void print_summary(const Settings& s, const RunRecord& run) {
   else if (f.flow.rounds > 0)
     say("{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n", f.flips,
         f.max_travel, f.rms_travel);
-  say("{} written in {:.2f} s\n", run.output->path, run.resources.wall_s);
+  std::string files = run.output->path;
+  for (const std::filesystem::path& further : {std::filesystem::path(s.report), s.map, s.trace})
+    if (!further.empty() && further != "-") files += ", " + printable(further.string());
+  say("{} written in {:.2f} s\n", files, run.resources.wall_s);
 }
 
 ProgressLine::ProgressLine(const Settings& s)

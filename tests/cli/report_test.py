@@ -216,6 +216,13 @@ class Report(CommandTest):
         for text in ("before", "after", "least angle", "flipped faces", "out.obj written"):
             self.assertIn(text, err)
 
+    def test_summary_names_every_file_that_was_written(self):
+        files = ("--report", "r.json", "--trace", "t.csv", "--map", "m.txt")
+        _, err = self.run_command(DATA / "patch.obj", "-o", "out.obj", *files)
+        self.assertIn("out.obj, r.json, m.txt, t.csv written", err)
+        _, err = self.run_command(DATA / "patch.obj", "-o", "out.obj", "--report", "-")
+        self.assertIn("out.obj written", err)
+
     def test_help_and_version(self):
         self.assertIn("--check", self.run_command("--help")[0])
         self.assertRegex(self.run_command("--version")[0], r"hooke-remesh \d+\.\d+\.\d+")
