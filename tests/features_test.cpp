@@ -31,6 +31,16 @@ TEST(Features, ACubeHasItsTwelveEdges) {
   EXPECT_EQ(features_of(test::moved(test::irregular_cube(5), .25)).size(), 60u);
 }
 
+TEST(Features, AnOpenBoxHasTheEdgesBetweenItsSidesToo) {
+  for (const int depth : {2, 5, 20}) {
+    test::Triangles box = test::cells(10, 10, depth, [](int, int, int) { return true; });
+    std::erase_if(box.faces, [&](const Triangle& f) {
+      return std::ranges::all_of(f, [&](int v) { return box.points(2, v) == depth; });
+    });
+    EXPECT_EQ(features_of(box).size(), static_cast<size_t>(4 * 10 + 4 * depth));
+  }
+}
+
 TEST(Features, OffMeansNone) {
   EXPECT_TRUE(features_of(test::cube(), {.angle = 180}).empty());
 }

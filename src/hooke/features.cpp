@@ -117,16 +117,21 @@ class FeatureSearch {
     return edges;
   }
 
-  /// From a loose end to where another chain meets it, it turns, or it ends.
-  std::vector<int> chain_from(int vertex, int edge) const {
-    std::vector<int> chain = {edge};
+  struct Chain {
+    std::vector<int> edges;
+    int first, last;  // vertices
+  };
+
+  /// From an end to where another chain meets it, it turns, or it ends.
+  Chain chain_from(int vertex, int edge) const {
+    Chain chain{{edge}, vertex, other_end(edge, vertex)};
     for (;;) {
-      vertex = other_end(edge, vertex);
-      const std::vector<int> here = kept_edges(vertex);
+      const std::vector<int> here = kept_edges(chain.last);
       if (here.size() != 2) return chain;
       const int next = here[0] == edge ? here[1] : here[0];
-      if (!goes_on(edge, next, vertex)) return chain;
-      chain.push_back(edge = next);
+      if (!goes_on(edge, next, chain.last)) return chain;
+      chain.edges.push_back(edge = next);
+      chain.last = other_end(edge, chain.last);
     }
   }
 
@@ -143,24 +148,24 @@ class FeatureSearch {
     return std::any_of(edges.begin(), edges.end(), [&](int e) { return c_.is_boundary_edge(e); });
   }
 
-  /// Does the chain from this vertex begin and end in the midst of the surface?
-  bool is_lone(int vertex, const std::vector<int>& chain) const {
-    const auto is_loose = [&](int v) { return kept_edges(v).size() == 1 && !on_boundary(v); };
-    const Edge& last = c_.edges[idx(chain.back())];
-    return is_loose(vertex) &&
-           ((last[0] != vertex && is_loose(last[0])) || (last[1] != vertex && is_loose(last[1])));
-  }
+  bool is_loose(int vertex) const { return kept_edges(vertex).size() == 1 && !on_boundary(vertex); }
 
-  bool is_worth_keeping(int from, const std::vector<int>& chain) const {
+  /// Noise makes chains that begin and end in the midst of the surface, and short ones. What leads from the
+  /// boundary to another crease, sharp between flat faces, may be short: the corner of an open box.
+  bool is_worth_keeping(const Chain& chain) const {
     double sum = 0;
     int sharp = 0;
-    for (int e : chain) {
+    for (int e : chain.edges) {
       sum += length(e);
       sharp += angle_[idx(e)] > o_.angle;
     }
-    const auto edges = static_cast<int>(chain.size());
+    const auto edges = static_cast<int>(chain.edges.size());
+    const double bend = median_bend(chain.edges);
+    const bool is_joined = on_boundary(chain.first) && kept_edges(chain.last).size() > 1;
+    if (is_joined && sharp == edges && bend <= o_.flat_bend) return true;
+    const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
     return edges >= o_.least_edges && sum >= o_.least_length && sharp >= o_.sharp_share * edges &&
-           median_bend(chain) <= (is_lone(from, chain) ? o_.flat_bend : o_.chain_bend);
+           bend <= (is_lone ? o_.flat_bend : o_.chain_bend);
   }
 
   void drop_loose_chains() {
@@ -171,10 +176,10 @@ class FeatureSearch {
       ends.pop_back();
       const std::vector<int> here = kept_edges(v);
       if (here.size() != 1) continue;
-      const std::vector<int> chain = chain_from(v, here[0]);
-      if (is_worth_keeping(v, chain)) continue;
-      for (int e : chain) kept_[idx(e)] = 0;
-      ends.insert(ends.end(), c_.edges[idx(chain.back())].begin(), c_.edges[idx(chain.back())].end());
+      const Chain chain = chain_from(v, here[0]);
+      if (is_worth_keeping(chain)) continue;
+      for (int e : chain.edges) kept_[idx(e)] = 0;
+      ends.push_back(chain.last);
     }
   }
 

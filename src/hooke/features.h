@@ -23,8 +23,8 @@ struct FeatureOptions {
 /// The crease edges, ascending. An edge counts when its faces meet at a sharp angle while each of them goes
 /// on nearly flat across one of its other edges: a coarse mesh of a round body bends everywhere. Chains end
 /// loosely where no other crease or chain goes on from their last vertex; such ones must be long, straight
-/// and clean, since noise makes short ones. What is left hangs together in networks; noise makes such of many
-/// corners between rough faces.
+/// and clean, since noise makes short ones, unless they lead from the boundary to a crease. What is left
+/// hangs together in networks; noise makes such of many corners between rough faces.
 std::vector<int> find_features(const Mat3X& points, const Connectivity& connectivity,
                                const std::vector<double>& vertex_length, const FeatureOptions& options);
 
