@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <new>
 
 #include "exit_codes.h"
@@ -151,8 +149,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, const Original& original
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
   });
-  record.output = {printable(s.output.string()), written.sha256, s.format,
-                   keeps_faces(s) ? record.input.connectivity_sha256 : connectivity_sha256(after.faces)};
+  record.output = {printable(s.output.string()), written.sha256, s.format, connectivity_sha256(after.faces)};
   files.add(std::move(written.file));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
   add_result_warnings(s, record);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/error.h"
+#include "hooke/remesh.h"
 #include "scene.h"
 
 namespace hooke {
@@ -112,6 +113,17 @@ TEST(Workspace, LandsOnTheFieldOfTheInput) {
     const int stay = w.land();
     EXPECT_EQ(stay, 0);
     EXPECT_LT(off_the_input(mesh, w.placement.points), 1e-5);
+  }
+}
+
+TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
+  const auto t = test::sphere(1);
+  const double natural = natural_length(total_area(t.points, t.faces), t.faces.size());
+  Workspace w = on(with_length(t, .1 * natural), RemeshOptions{}.filter);
+  for (const Triangle& f : w.connectivity->faces) {
+    const Vec3 centre = (w.start.col(f[0]) + w.start.col(f[1]) + w.start.col(f[2])) / 3;
+    const VertexPlace place = w.retraction->moved(w.placement, f[0], centre - w.start.col(f[0]));
+    EXPECT_NEAR((w.normalisation.centre + w.normalisation.unit * place.point).norm(), 1, .02);
   }
 }
 

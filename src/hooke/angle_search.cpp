@@ -173,8 +173,10 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
   const double greatest_edge_error = o.edge_error_limit * edge_error_of(r);
   GuardOptions guards = r.guards.options();
   search_within(r, o, guards, greatest_edge_error, result);
-  guards.sagitta = std::max(guards.sagitta, o.sagitta);
-  search_within(r, o, guards, greatest_edge_error, result);
+  if (o.sagitta > guards.sagitta) {
+    guards.sagitta = o.sagitta;
+    search_within(r, o, guards, greatest_edge_error, result);
+  }
   r.retraction.count();
   return result;
 }

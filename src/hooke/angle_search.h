@@ -17,7 +17,7 @@ struct AngleSearchOptions {
   double least_gain = 1e-3;         // of the cotangent; less is not worth a move
   double edge_error_limit = 1.005;  // of the standard deviation of l / L_e at the start
   double sagitta = .3;              // over the target length, as guards have one: worth a better least angle
-  int max_rounds = 40;              // each must raise the least angle by ...
+  int max_rounds = 40;              // of both; each must raise the least angle by ...
   double least_rise = .02;          // ... this many degrees
 };
 

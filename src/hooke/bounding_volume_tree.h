@@ -25,8 +25,8 @@ ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Ve
 /// Weights of the corners at a point of the triangle, not negative, with sum 1.
 Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Owns a copy of its triangles. Answers depend on nothing but the triangles and the question; const calls
-/// are safe from several threads.
+/// Owns a copy of its triangles. Of faces at the same distance the order of faces() decides which one
+/// is told; else answers depend on nothing but the triangles. Const calls are safe from several threads.
 class BoundingVolumeTree {
  public:
   using Box = Eigen::AlignedBox3d;

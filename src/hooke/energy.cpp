@@ -198,7 +198,7 @@ void Energy::gather_faces(const Placement& at, size_t face, size_t count, FaceSp
   }
 }
 
-/// Adds the gradients of the part's faces, in their order, to those of the vertices.
+/// Adds the gradients of the part's faces to those of the vertices, in the order of each one's fan.
 void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
   const auto first = static_cast<size_t>(part.first_vertex);
   parallel_for(static_cast<size_t>(part.last_vertex) + 1 - first, 2048, [&](size_t begin, size_t end) {

@@ -1,4 +1,4 @@
-// Distances of four points at a time to one face. To the last bit those of closest_point.h.
+// Distances of four points at a time to one face. To the last bit those of closest_point() of the tree.
 #pragma once
 
 #include <limits>

@@ -16,15 +16,16 @@ struct FeatureOptions {
   int least_edges = 12;     // of a chain with a loose end
   double least_length = 8;  // of a chain with a loose end, in target lengths
   double least_curve = 5;   // mean number of edges from corner to corner in a network of chains, unless
-  double flat_bend = .02;  // the median of its bends is below this: flat faces may have short edges. The same
-                           // is asked of a chain that begins and ends in the midst of the surface
+  double flat_bend = .02;   // the median of its bends is below this: flat faces may have short edges; asked
+                            // too of chains that may be short, or that lie in the midst of the surface
 };
 
 /// The crease edges, ascending. An edge counts when its faces meet at a sharp angle while each of them goes
 /// on nearly flat across one of its other edges: a coarse mesh of a round body bends everywhere. Chains end
 /// loosely where no other crease or chain goes on from their last vertex; such ones must be long, straight
-/// and clean, since noise makes short ones, unless they lead from the boundary to a crease. What is left
-/// hangs together in networks; noise makes such of many corners between rough faces.
+/// and clean, since noise makes short ones; so must those from the boundary, unless all their edges are sharp
+/// between flat faces and they lead to the boundary or a crease. What is left hangs together in networks;
+/// noise makes such of many corners between rough faces.
 std::vector<int> find_features(const Mat3X& points, const Connectivity& connectivity,
                                const std::vector<double>& vertex_length, const FeatureOptions& options);
 

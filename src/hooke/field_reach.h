@@ -13,8 +13,9 @@ namespace hooke {
 /// edges. Empty: no limit anywhere.
 std::vector<float> reaches_of(const NearFaces& faces, double reach, const std::vector<double>& lengths);
 
-/// The foot of x, unless it is beyond its anchor's reach: then the place at that distance from the faces
-/// about above x, on the side of the foot.
+/// The foot of x, unless it is beyond its anchor's reach: then a place on the same side at that distance from
+/// the faces, above their point next to x when x is more than half as far from them, else above that next to
+/// the foot.
 Foot within_reach(const NearFaces& faces, const std::vector<float>& reaches, const Vec3& x, const Foot& foot);
 
 }  // namespace hooke

@@ -38,7 +38,8 @@ std::vector<unsigned char> holds_of_result(const Workspace& work, const Guards& 
         (asked.boundary == BoundaryRule::fixed && (holds[v] & held_by_boundary));
     holds[v] |= requested ? held_by_request : held_at_corner;
   }
-  for (const int v : guards.vertices_at_limits(work.placement)) holds[static_cast<size_t>(v)] |= held_by_guard;
+  for (const int v : guards.vertices_at_limits(work.placement))
+    holds[static_cast<size_t>(v)] |= held_by_guard;
 
   std::vector<unsigned char> of_result(holds.size());
   for (size_t v = 0; v < holds.size(); ++v)

@@ -113,6 +113,7 @@ class Memory {
       h0.apply(r, preconditioned);
       scale_ = sy / dot(y, preconditioned);
     }
+    if (options_.memory == 0) return;
     if (pairs_.size() == static_cast<size_t>(options_.memory)) pairs_.pop_front();
     pairs_.push_back({s.cast<float>(), y.cast<float>(), 1 / sy});
   }

@@ -1,6 +1,8 @@
 #include "hooke/nearest_faces.h"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 
 #include "hooke/face_distance_lanes.h"

@@ -1,5 +1,7 @@
 #include "hooke/parameters_json.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace hooke {
@@ -73,6 +75,7 @@ void add_filter(Json& j, const FilterOptions& filter) {
   j["filter"] = name_of(filter.kind);
   j["kernel"] = where(splines, filter.kernel == Kernel::r3 ? "r3" : "r2logr");
   j["rho"] = where(splines, filter.offset);
+  j["reach"] = where(splines && std::isfinite(filter.reach), filter.reach);
 }
 
 void add_polish(Json& j, const RemeshOptions& o) {
@@ -127,6 +130,7 @@ Json parameters_json(const RemeshOptions& o, Effort effort) {
   j["guard_alignment"] = o.guards.alignment;
   j["guard_fold"] = o.guards.fold;
   j["guard_sagitta"] = o.guards.sagitta;
+  j["search_sagitta"] = where(o.polish_angles, o.search.sagitta);
   return j;
 }
 

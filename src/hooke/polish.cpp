@@ -78,7 +78,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   double step = o.threshold_step;
   double reached = best;  // the last threshold that was not too much
   double threshold = std::max(o.first_threshold, best + o.margin);
-  double too_high = o.last_threshold + .5 * o.least_step;
+  double too_high = o.last_threshold + 1e-9;  // the first that is
   while (threshold < too_high && !result.interrupted) {
     r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;

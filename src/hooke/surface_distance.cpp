@@ -101,7 +101,7 @@ class Samples {
 MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
                         std::vector<TreeFoot>* centres) {
   const std::span<const Face> faces = from.tree.faces();
-  if (centres) centres->resize(faces.size());
+  if (centres) centres->assign(faces.size(), {});
   std::vector<double> greatest(faces.size() / block + 1, 0);
   std::vector<double> integrals(faces.size());  // by id
   const auto look = [&](size_t begin, size_t end) {

@@ -155,7 +155,8 @@ SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> con
   state->normals = vertex_normals(points, *connectivity);
   state->edge_lengths = mean_edge_lengths(points, *connectivity);
   state->curvature = greatest_curvatures(points, state->normals, *connectivity);
-  state->reaches = reaches_of({points, state->normals, *connectivity}, options.reach, lengths);
+  if (options.kind == FilterKind::local || options.kind == FilterKind::global)
+    state->reaches = reaches_of({points, state->normals, *connectivity}, options.reach, lengths);
   if (options.kind == FilterKind::local)
     state->partition.emplace(points, *connectivity, state->normals, state->edge_lengths,
                              PartitionOptions{.kernel = options.kernel, .offset = options.offset});

@@ -26,8 +26,8 @@ struct FilterOptions {
   Kernel kernel = Kernel::r3;
   double offset = .3;  // rho of [13] over the mean edge length: at each vertex (local), of the mesh (global)
   std::size_t memory_limit_bytes = SIZE_MAX;  // of the dense fit (global)
-  /// Greatest distance of the surface from the faces, over the vertices' lengths: where long faces lie beside
-  /// short ones, splines may swing far out.
+  /// Greatest distance of the surface from the faces, over the vertices' lengths, where splines may swing far
+  /// out: about long edges along which the normals turn.
   double reach = std::numeric_limits<double>::infinity();
 };
 
@@ -46,7 +46,7 @@ class SurfaceField {
   /// Puts x, tracked near the reference vertex `anchor`, back on the surface to within `tolerance` (a
   /// length). The anchor first walks over mesh edges to the nearest vertex it can reach downhill. Where
   /// Newton fails, the foot is the closest point of the faces about the anchor and the status says why; where
-  /// it leads farther from the faces than options.reach, the foot is as far from them as that. On a
+  /// options.reach holds it back, as field_reach.h tells. On a
   /// vertex without faces: x itself, normal zero, no_cover.
   Foot project(const Vec3& x, int anchor, double tolerance) const;
 

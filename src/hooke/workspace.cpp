@@ -96,13 +96,17 @@ void Workspace::keep_angles() {
   guards.cotangent = greatest_cotangent(placement.points, connectivity->faces) / (1 + landing_cotangent);
 }
 
-/// A field of which each side of a crease has its own.
+/// A field of which each side of a crease has its own. What it may swing out is counted in target lengths, or
+/// in those that are natural for these faces where targets are shorter: a coarse mesh of a round body is no
+/// polyhedron.
 SurfaceField Workspace::fit(const Mat3X& points) const {
-  if (connectivity->creases.empty()) return SurfaceField(points, connectivity, filter_, {}, vertex_length);
+  const double natural = natural_length(total_area(points, connectivity->faces), connectivity->faces.size());
+  std::vector<double> lengths(static_cast<size_t>(connectivity->side_count()));
+  for (size_t side = 0; side < lengths.size(); ++side)
+    lengths[side] = std::max(
+        natural, vertex_length[static_cast<size_t>(connectivity->vertex_of_side(static_cast<int>(side)))]);
+  if (connectivity->creases.empty()) return SurfaceField(points, connectivity, filter_, {}, lengths);
   const auto cut = std::make_shared<const Connectivity>(cut_open(*connectivity));
-  std::vector<double> lengths;
-  for (int side = 0; side < cut->vertex_count; ++side)
-    lengths.push_back(vertex_length[static_cast<size_t>(connectivity->vertex_of_side(side))]);
   return SurfaceField(side_points(points, *connectivity), cut, filter_, label_components(*cut), lengths);
 }
 
