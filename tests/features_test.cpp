@@ -41,11 +41,6 @@ TEST(Features, AnOpenBoxHasTheEdgesBetweenItsSidesToo) {
   }
 }
 
-TEST(Features, AFoldedStripHasItsFold) {
-  for (int cells : {2, 6, 10})
-    EXPECT_EQ(features_of(bent_sheet(cells, [](double) { return 60.; })).size(), static_cast<size_t>(cells));
-}
-
 TEST(Features, OffMeansNone) {
   EXPECT_TRUE(features_of(test::cube(), {.angle = 180}).empty());
 }

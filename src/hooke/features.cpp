@@ -151,8 +151,8 @@ class FeatureSearch {
   bool is_loose(int vertex) const { return kept_edges(vertex).size() == 1 && !on_boundary(vertex); }
 
   /// Noise makes chains that begin and end in the midst of the surface, and short ones. What leads from the
-  /// boundary to the boundary or another crease, sharp between flat faces, may be short: a folded strip, the
-  /// corner of an open box. But one edge alone may be the side of a loose triangle.
+  /// boundary to another crease, sharp between flat faces, may be short: the corner of an open box. But one
+  /// edge alone may be the side of a loose triangle.
   bool is_worth_keeping(const Chain& chain) const {
     double sum = 0;
     int sharp = 0;
@@ -162,9 +162,8 @@ class FeatureSearch {
     }
     const auto edges = static_cast<int>(chain.edges.size());
     const double bend = median_bend(chain.edges);
-    const bool is_joined = on_boundary(chain.first) &&
-                           (kept_edges(chain.last).size() > 1 || (on_boundary(chain.last) && edges > 1));
-    if (is_joined && sharp == edges && bend <= o_.flat_bend) return true;
+    const bool is_joined = on_boundary(chain.first) && kept_edges(chain.last).size() > 1;
+    if (is_joined && edges > 1 && sharp == edges && bend <= o_.flat_bend) return true;
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
     return edges >= o_.least_edges && sum >= o_.least_length && sharp >= o_.sharp_share * edges &&
            bend <= (is_lone ? o_.flat_bend : o_.chain_bend);
