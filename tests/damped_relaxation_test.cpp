@@ -28,13 +28,14 @@ struct Bench {
   Workspace work;
   Energy energy;
   Guards guards;
-  DampedState state;
+  TriMesh mesh;
 
   explicit Bench(const Triangles& t, const GuardOptions& guard_options = {},
                  FilterKind filter = FilterKind::local)
       : work(with_natural_length(t), {}, {.kind = filter}, {}, guard_options),
         energy(*work.connectivity, work.targets, {}),
-        guards(*work.connectivity, work.targets, guard_options) {}
+        guards(*work.connectivity, work.targets, guard_options),
+        mesh(build_mesh(work.placement.points, *work.connectivity)) {}
 
   Relaxation relaxation() {
     return {*work.connectivity, work.sweeps, work.vertex_length, energy,
@@ -43,7 +44,11 @@ struct Bench {
   IntegrationResult damped(const IntegrationOptions& options = {}, const DampedOptions& constants = {},
                            const Observer& observer = nullptr) {
     Relaxation r = relaxation();
-    return relax_damped(r, state, options, constants, observer);
+    return relax_damped(r, mesh, options, constants, observer);
+  }
+  Mat3X property(const char* name) {
+    const VProp<Vec3> values(mesh, name);
+    return as_matrix(mesh, values);
   }
   double deviation() const {
     return relative_edge_deviation(work.placement.points, work.connectivity->edges, work.targets);
@@ -97,14 +102,14 @@ TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
   const double m = 1. / 81, dt = .5 * std::sqrt(m / 3), tau = 400;
   const Mat3X X0 = b.work.placement.points;
   b.damped({.max_steps = 1}, constants);  // one look at the forces, no step
-  const Mat3X F0 = b.state.forces;
+  const Mat3X F0 = b.property(force_property);
   ASSERT_GT(F0.norm(), .1);
-  EXPECT_EQ(b.work.placement.points, X0);
+  EXPECT_EQ(positions(b.mesh), X0);
 
   Mat3X X1, X2, U1, F1;
   const auto look = [&](const Progress& p) {
-    (p.step == 1 ? X1 : X2) = b.work.placement.points;
-    if (p.step == 1) U1 = b.state.velocities, F1 = b.state.forces;
+    (p.step == 1 ? X1 : X2) = positions(b.mesh);
+    if (p.step == 1) U1 = b.property(velocity_property), F1 = b.property(force_property);
     return true;
   };
   const IntegrationResult result = b.damped({.max_steps = 3}, constants, look);
@@ -116,7 +121,7 @@ TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
   EXPECT_TRUE((X2 - X1).isApprox(U1 * (1 - std::exp(-tau * dt2)) / tau + F1 * dt2 * dt2 / (2 * m), 1e-10));
 }
 
-TEST(DampedRelaxation, LeavesTheForcesOfTheFinalState) {
+TEST(DampedRelaxation, LeavesForcesOfTheFinalStateOnTheMesh) {
   Bench b(test::sphere(2, .4));
   b.damped({.max_steps = 40});
   Mat3X gradient, torque(3, b.work.placement.points.cols());
@@ -124,13 +129,14 @@ TEST(DampedRelaxation, LeavesTheForcesOfTheFinalState) {
   torque_forces(b.work.placement.points, *b.work.connectivity, torque);
   Mat3X expected = -2 * gradient + torque;
   b.work.retraction->constrain(b.work.placement, expected);
-  EXPECT_TRUE(b.state.forces.isApprox(expected, 1e-12));
+  EXPECT_TRUE(b.property(force_property).isApprox(expected, 1e-12));
+  EXPECT_EQ(positions(b.mesh), b.work.placement.points);
 }
 
 TEST(DampedRelaxation, VelocitiesLieInTheTangentSpace) {
   Bench b(test::sphere(2, .3));
   b.damped({.max_steps = 20}, {}, [&](const Progress&) {
-    const Mat3X velocities = b.state.velocities;
+    const Mat3X velocities = b.property(velocity_property);
     Mat3X tangential = velocities;
     b.work.retraction->constrain(b.work.placement, tangential);
     EXPECT_GT(velocities.norm(), 0);
@@ -141,7 +147,8 @@ TEST(DampedRelaxation, VelocitiesLieInTheTangentSpace) {
 
 TEST(DampedRelaxation, StartsFromRest) {
   Bench fresh(test::sphere(1, .3)), stale(test::sphere(1, .3));
-  stale.state.velocities = Mat3X::Constant(3, stale.work.placement.points.cols(), 9);
+  Motion motion = motion_of(stale.mesh);
+  motion.velocities.setConstant(9);
   fresh.damped({.max_steps = 20});
   stale.damped({.max_steps = 20});
   EXPECT_EQ(fresh.work.placement.points, stale.work.placement.points);
@@ -153,7 +160,7 @@ TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
   const IntegrationResult result = b.damped({.max_steps = 20});
   EXPECT_GT(result.held_back, 0);
   EXPECT_EQ(b.work.placement.points, before);
-  EXPECT_EQ(b.state.velocities, Mat3X::Zero(3, before.cols()));
+  EXPECT_EQ(b.property(velocity_property), Mat3X::Zero(3, before.cols()));
 }
 
 TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
@@ -167,7 +174,7 @@ TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
   const Mat3X before = b.work.placement.points;
   Relaxation r{*b.work.connectivity, b.work.sweeps, b.work.vertex_length, b.energy,
                retraction,           b.guards,      b.work.placement};
-  const IntegrationResult result = relax_damped(r, b.state, {}, {}, nullptr);
+  const IntegrationResult result = relax_damped(r, b.mesh, {}, {}, nullptr);
   EXPECT_EQ(result.reason, StopReason::jammed);
   EXPECT_EQ(result.steps, 0);
   EXPECT_EQ(b.work.placement.points, before);

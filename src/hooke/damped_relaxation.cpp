@@ -51,21 +51,14 @@ RestDetector rest_detector(IntegrationOptions options) {
   return RestDetector(options);
 }
 
-Motion at_rest(Mat3X& points, DampedState& state) {
-  const Eigen::Index n = points.cols();
-  state.velocities.setZero(3, n);
-  state.forces.setZero(3, n);
-  const auto view = [n](Mat3X& matrix) { return Eigen::Map<Mat3X>(matrix.data(), 3, n); };
-  return {view(points), view(state.velocities), view(state.forces), 1 / static_cast<double>(n)};
-}
-
 }  // namespace
 
-IntegrationResult relax_damped(Relaxation& r, DampedState& state, const IntegrationOptions& options,
+IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOptions& options,
                                const DampedOptions& damped, const Observer& observer) {
   require_valid(damped);
-  Mat3X points = r.placement.points;
-  Motion motion = at_rest(points, state);
+  Motion motion = motion_of(mesh);
+  come_to_rest(motion);
+  motion.points = r.placement.points;
   const double base = std::sqrt(motion.mass / damped.string);
   double factor = first_factor;  // epsilon
   IntegrationResult result;

@@ -7,16 +7,11 @@
 
 namespace hooke {
 
-/// What the evolution keeps of the vertices, 3 x |V|.
-struct DampedState {
-  Mat3X velocities;  // u of [17]
-  Mat3X forces;      // lambda F_string + mu F_torque
-};
-
 /// Moves relaxation.placement from rest toward an equilibrium on the surface. The forces are
 /// lambda * (minus the gradient of relaxation.energy) + mu * F_torque, less what the vertices may not do;
-/// they and the velocities stand in `state`, whatever it was before. A vertex that the cap (options.max_move)
-/// or the guards hold back keeps that part of its velocity.
+/// they, the velocities and the points stand on `mesh` (v:force, v:velocity), whatever was there before. A
+/// vertex that the cap (options.max_move) or the guards hold back keeps that part of its velocity.
+/// Pre-condition: the mesh has the vertices of the relaxation.
 ///
 /// Time step: dt = epsilon sqrt(m / lambda), in parts of the period of a string of rest length 1, instead of
 /// [24], which one short edge or one large force would drive to zero; the cap takes care of those vertices.
@@ -28,7 +23,7 @@ struct DampedState {
 /// which are shorter than those of L-BFGS), at that limit, or jammed when no time step is accepted. Throws
 /// Error if the string tension or the friction is not positive, NumericalError if the forces at the start are
 /// not finite.
-IntegrationResult relax_damped(Relaxation& relaxation, DampedState& state, const IntegrationOptions& options,
+IntegrationResult relax_damped(Relaxation& relaxation, TriMesh& mesh, const IntegrationOptions& options,
                                const DampedOptions& damped, const Observer& observer);
 
 }  // namespace hooke

@@ -71,8 +71,8 @@ class Remeshing {
       case IntegratorKind::lbfgs:
         return relax_lbfgs(r, options_.integration, lbfgs(), watch("relax"));
       case IntegratorKind::damped: {
-        DampedState state;
-        return relax_damped(r, state, options_.integration, options_.damped, watch("relax"));
+        TriMesh moving = build_mesh(work_.placement.points, *work_.connectivity);
+        return relax_damped(r, moving, options_.integration, options_.damped, watch("relax"));
       }
     }
     throw Error("unknown integrator");
