@@ -51,14 +51,14 @@ const test::Triangles& two_parts_and_loose_vertices() {
 
 TEST(Ordering, IsAPermutationOfAllVerticesAndFaces) {
   const Connectivity c = test::connect(two_parts_and_loose_vertices());
-  const Reordered r = reorder(c, locality_order(c));
+  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   EXPECT_EQ(sorted(r.old_vertex), numbers(static_cast<size_t>(c.vertex_count)));
   EXPECT_EQ(sorted(r.old_face), numbers(c.faces.size()));
 }
 
 TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
   const Connectivity c = test::connect(shuffled(two_parts_and_loose_vertices()));
-  const Reordered r = reorder(c, locality_order(c));
+  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   ASSERT_EQ(r.faces.size(), c.faces.size());
   for (size_t f = 0; f < r.faces.size(); ++f) {
     Triangle old;
@@ -69,7 +69,7 @@ TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
 
 TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
   const Connectivity c = test::connect(two_parts_and_loose_vertices());
-  const Reordered r = reorder(c, locality_order(c));
+  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   const std::vector<int> old = {7, 0, 100};
   const std::vector<int> fresh = r.new_vertices(old);
   ASSERT_EQ(fresh.size(), old.size());
@@ -79,20 +79,20 @@ TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
 
 TEST(Ordering, FacesFollowTheirSmallestVertex) {
   const Connectivity c = test::connect(shuffled(test::sphere(3)));
-  const Reordered r = reorder(c, locality_order(c));
+  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   EXPECT_TRUE(std::ranges::is_sorted(r.faces, {}, [](const Triangle& t) { return std::ranges::min(t); }));
 }
 
 TEST(Ordering, BringsNeighboursTogether) {
   const Connectivity c = test::connect(shuffled(test::grid(40, test::flat)));
-  const Connectivity ordered = make_connectivity(c.vertex_count, reorder(c, locality_order(c)).faces);
+  const Connectivity ordered =
+      make_connectivity(c.vertex_count, reorder(c.faces, locality_order(c.vertex_count, c.faces)).faces);
   EXPECT_LT(mean_edge_span(ordered), .2 * mean_edge_span(c));
 }
 
 TEST(Ordering, NothingComesOutOfNothing) {
-  const Connectivity c = make_connectivity(0, {});
-  EXPECT_TRUE(locality_order(c).empty());
-  EXPECT_TRUE(reorder(c, {}).faces.empty());
+  EXPECT_TRUE(locality_order(0, {}).empty());
+  EXPECT_TRUE(reorder({}, {}).faces.empty());
 }
 
 }  // namespace

@@ -56,16 +56,16 @@ IntLists neighbours(const IntLists& vertex_edges, const std::vector<Edge>& edges
 }  // namespace
 
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
-  VertexFans fans = examine_fans(vertex_count, faces);
-  return make_connectivity(std::move(faces), std::move(fans));
+  HalfEdges half_edges = pair_half_edges(vertex_count, faces);
+  return make_connectivity(std::move(faces), std::move(half_edges));
 }
 
-Connectivity make_connectivity(std::vector<Triangle> faces, VertexFans fans) {
+Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges) {
   Connectivity c;
-  c.vertex_count = static_cast<int>(fans.kinds.size());
+  c.vertex_count = static_cast<int>(half_edges.faces.first.size()) - 1;
   c.faces = std::move(faces);
-  c.vertex_faces = std::move(fans.faces);
-  number_edges(fans.twins, c);
+  c.vertex_faces = std::move(half_edges.faces);
+  number_edges(half_edges.twins, c);
   c.vertex_edges = invert(c.vertex_count, c.edges);
   c.vertex_neighbours = neighbours(c.vertex_edges, c.edges);
   return c;

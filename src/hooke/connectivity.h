@@ -40,7 +40,7 @@ struct Connectivity {
 /// Pre-condition: manifold, consistently oriented triangles on vertices [0, vertex_count).
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces);
 
-/// The same where their fans have been examined before. Pre-condition: none is broken.
-Connectivity make_connectivity(std::vector<Triangle> faces, VertexFans fans);
+/// The same where their half-edges have been paired before.
+Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges);
 
 }  // namespace hooke

@@ -47,9 +47,17 @@ std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbour
 
 }  // namespace
 
-std::vector<int> locality_order(const Connectivity& c) {
-  return order_by_clusters(
-      c.vertex_count, [&c](int v) { return c.vertex_neighbours[v]; }, [](int) { return false; });
+std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces) {
+  const IntLists vertex_faces = invert(vertex_count, faces);
+  std::vector<int> corners;  // of the faces about a vertex
+  const auto neighbours = [&](int v) -> const std::vector<int>& {
+    corners.clear();
+    for (int f : vertex_faces[v])
+      for (int w : faces[static_cast<size_t>(f)])
+        if (w != v) corners.push_back(w);
+    return corners;
+  };
+  return order_by_clusters(vertex_count, neighbours, [](int) { return false; });
 }
 
 std::vector<int> locality_order(int vertex_count, const std::function<std::vector<int>(int)>& neighbours,
@@ -67,21 +75,24 @@ std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
   return result;
 }
 
-Reordered reorder(const Connectivity& c, const std::vector<int>& order) {
+Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order) {
   std::vector<int> fresh(order.size());
   for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);
+  std::vector<int> next(order.size() + 1, 0);  // where the faces of each smallest vertex go
+  for (Triangle& t : faces) {
+    for (int& v : t) v = fresh[static_cast<size_t>(v)];
+    ++next[static_cast<size_t>(std::ranges::min(t)) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
   Reordered r;
   r.old_vertex = order;
-  std::vector<Triangle> faces = c.faces;
-  for (Triangle& t : faces)
-    for (int& v : t) v = fresh[static_cast<size_t>(v)];
   r.old_face.resize(faces.size());
-  std::iota(r.old_face.begin(), r.old_face.end(), 0);
-  std::stable_sort(r.old_face.begin(), r.old_face.end(), [&](int f, int g) {
-    return std::ranges::min(faces[static_cast<size_t>(f)]) < std::ranges::min(faces[static_cast<size_t>(g)]);
-  });
-  r.faces.reserve(faces.size());
-  for (int f : r.old_face) r.faces.push_back(faces[static_cast<size_t>(f)]);
+  r.faces.resize(faces.size());
+  for (size_t f = 0; f < faces.size(); ++f) {
+    const auto place = static_cast<size_t>(next[static_cast<size_t>(std::ranges::min(faces[f]))]++);
+    r.old_face[place] = static_cast<int>(f);
+    r.faces[place] = faces[f];
+  }
   return r;
 }
 

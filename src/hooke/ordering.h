@@ -3,14 +3,15 @@
 
 #include <functional>
 
-#include "hooke/connectivity.h"
+#include "hooke/int_lists.h"
+#include "hooke/types.h"
 
 namespace hooke {
 
 /// order[new] = old vertex id: clusters grown breadth-first over the mesh, so that a ring mostly lies within
 /// one cluster. Depends on the connectivity only, never on coordinates: a moved or turned mesh has the same
 /// order.
-std::vector<int> locality_order(const Connectivity& connectivity);
+std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces);
 
 /// The same for any graph with vertices 0 to n - 1: those that `gone` tells are left out.
 std::vector<int> locality_order(int vertex_count,
@@ -26,6 +27,6 @@ struct Reordered {
   /// The new ids of these old vertices.
   std::vector<int> new_vertices(const std::vector<int>& old) const;
 };
-Reordered reorder(const Connectivity& connectivity, const std::vector<int>& order);
+Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order);
 
 }  // namespace hooke

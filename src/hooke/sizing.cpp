@@ -15,6 +15,8 @@ namespace hooke {
 
 namespace {
 
+constexpr size_t block = 4096;
+
 double face_area(const Mat3X& points, const Triangle& t) {
   const Vec3 a = points.col(t[0]);
   return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
@@ -23,7 +25,7 @@ double face_area(const Mat3X& points, const Triangle& t) {
 }  // namespace
 
 double total_area(const Mat3X& points, const std::vector<Triangle>& faces) {
-  return parallel_sum(faces.size(), 4096, [&](size_t begin, size_t end) {
+  return parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
     double sum = 0;
     for (size_t f = begin; f < end; ++f) sum += face_area(points, faces[f]);
     return sum;
@@ -127,7 +129,7 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
 
 double covering_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
   const auto sum = [&](const auto& weight) {
-    return parallel_sum(c.faces.size(), 4096, [&](size_t begin, size_t end) {
+    return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
       double part = 0;
       for (size_t f = begin; f < end; ++f) part += weight(f) * face_area(points, c.faces[f]);
       return part;
@@ -139,16 +141,19 @@ double covering_length(const Mat3X& points, const Connectivity& c, const TargetL
 
 double mean_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
   const double first = targets.edge.front();
-  double edges = 0, sum = 0;
-  for (size_t f = 0; f < c.faces.size(); ++f) {
-    const double area = face_area(points, c.faces[f]);
-    for (int e : c.face_edges[f]) {
-      const double l = targets.edge[static_cast<size_t>(e)];
-      edges += area / (l * l);
-      sum += area / (l * l) * (l - first);
-    }
-  }
-  return first + sum / edges;
+  const auto sum = [&](const auto& value) {
+    return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
+      double part = 0;
+      for (size_t f = begin; f < end; ++f) {
+        double of_edges = 0;
+        for (int e : c.face_edges[f]) of_edges += value(targets.edge[static_cast<size_t>(e)]);
+        part += of_edges * face_area(points, c.faces[f]);
+      }
+      return part;
+    });
+  };
+  return first +
+         sum([&](double l) { return (l - first) / (l * l); }) / sum([](double l) { return 1 / (l * l); });
 }
 
 std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c, double chord_error,
@@ -162,17 +167,20 @@ std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c
 }
 
 TargetLengths spread_target_lengths(const Connectivity& c, const std::vector<double>& vertex_length) {
-  TargetLengths targets;
-  targets.edge.reserve(c.edges.size());
-  for (const auto& [a, b] : c.edges)
-    targets.edge.push_back(.5 *
-                           (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]));
-  targets.face.reserve(c.faces.size());
-  for (const auto& edges : c.face_edges) {
-    double sum = 0;
-    for (int e : edges) sum += targets.edge[static_cast<size_t>(e)];
-    targets.face.push_back(sum / 3);
-  }
+  TargetLengths targets{std::vector<double>(c.edges.size()), std::vector<double>(c.faces.size())};
+  parallel_for(c.edges.size(), block, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      const auto& [a, b] = c.edges[e];
+      targets.edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
+    }
+  });
+  parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      double sum = 0;
+      for (int e : c.face_edges[f]) sum += targets.edge[static_cast<size_t>(e)];
+      targets.face[f] = sum / 3;
+    }
+  });
   return targets;
 }
 

@@ -270,9 +270,7 @@ void Triangulation::set_sides(const Connectivity& c) {
 
 Connectivity connectivity_of(const Triangulation& t, int vertex_count) {
   const std::vector<Triangle>& faces = t.faces();
-  return make_connectivity(faces, {.faces = invert(vertex_count, faces),
-                                   .kinds = std::vector<Fan>(static_cast<size_t>(vertex_count), Fan::whole),
-                                   .twins = t.twins()});
+  return make_connectivity(faces, {.faces = invert(vertex_count, faces), .twins = t.twins()});
 }
 
 }  // namespace hooke

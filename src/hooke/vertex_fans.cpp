@@ -63,22 +63,38 @@ Fan classify(const std::vector<Spoke>& ring, std::vector<char>& followed) {
   return reached == ring.size() && !doubled ? Fan::whole : Fan::broken;
 }
 
-}  // namespace
-
-VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces) {
-  VertexFans fans{invert(vertex_count, faces), std::vector<Fan>(static_cast<size_t>(vertex_count)),
-                  std::vector<int>(3 * faces.size(), -1)};
-  parallel_for(fans.kinds.size(), block, [&](size_t begin, size_t end) {
+/// Finds the twins of all half-edges and calls look(vertex, ring, memory) for each vertex.
+template <typename Look>
+void look_at_rings(int vertex_count, const std::vector<Triangle>& faces, HalfEdges& half_edges,
+                   const Look& look) {
+  parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
     std::vector<Spoke> ring;
-    std::vector<char> followed;
+    std::vector<char> memory;
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-      collect(v, fans.faces[v], faces, ring);
-      fans.kinds[static_cast<size_t>(v)] = classify(ring, followed);
+      collect(v, half_edges.faces[v], faces, ring);
+      look(v, ring, memory);
       for (const Spoke& spoke : ring)
         if (const size_t other = follower(ring, spoke); other < ring.size())
-          fans.twins[static_cast<size_t>(spoke.out)] = ring[other].in;
+          half_edges.twins[static_cast<size_t>(spoke.out)] = ring[other].in;
     }
   });
+}
+
+}  // namespace
+
+HalfEdges pair_half_edges(int vertex_count, const std::vector<Triangle>& faces) {
+  HalfEdges half_edges{invert(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)};
+  look_at_rings(vertex_count, faces, half_edges, [](int, const std::vector<Spoke>&, std::vector<char>&) {});
+  return half_edges;
+}
+
+VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces) {
+  VertexFans fans{{invert(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)},
+                  std::vector<Fan>(static_cast<size_t>(vertex_count))};
+  look_at_rings(vertex_count, faces, fans,
+                [&](int v, const std::vector<Spoke>& ring, std::vector<char>& followed) {
+                  fans.kinds[static_cast<size_t>(v)] = classify(ring, followed);
+                });
   return fans;
 }
 

@@ -12,15 +12,19 @@ enum class Fan : char {
   broken,    // anything else: not a manifold there, or not oriented, or a face twice
 };
 
-struct VertexFans {
-  IntLists faces;          // of each vertex, ascending
-  std::vector<Fan> kinds;  // per vertex
+struct HalfEdges {
+  IntLists faces;  // of each vertex, ascending
   /// The half-edge across each half-edge. Half-edge 3 f + k runs from corner k of face f to the next corner;
   /// its twin runs back, or is -1 on the boundary. Says nothing at a broken ring.
   std::vector<int> twins;
 };
 
-/// Pre-condition: corners in [0, vertex_count), three different ones to a face.
+struct VertexFans : HalfEdges {
+  std::vector<Fan> kinds;  // per vertex
+};
+
+/// Pre-condition of both: corners in [0, vertex_count), three different ones to a face.
+HalfEdges pair_half_edges(int vertex_count, const std::vector<Triangle>& faces);
 VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces);
 
 /// The first vertex whose ring is broken; -1 for a manifold.
