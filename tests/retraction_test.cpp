@@ -133,7 +133,7 @@ TEST(Retraction, NoVertexGoesBeyondItsReach) {
   EXPECT_GT((at.points - s.placement.points).colwise().norm().maxCoeff(), .09 * s.L());
 }
 
-TEST(Retraction, LazyVerticesDriftInTheirPlaneUntilTheyHaveMovedEnough) {
+TEST(Retraction, LazyVerticesDriftUntilTheyHaveMovedEnough) {  // on a surface that tells of no bend
   test::SceneOptions options;
   options.retraction.lazy = .025;
   test::Scene s = test::sphere_scene(.3, options);
@@ -144,7 +144,6 @@ TEST(Retraction, LazyVerticesDriftInTheirPlaneUntilTheyHaveMovedEnough) {
   Placement one, two, three;
   s.retraction.step(s.placement, u, one);
   EXPECT_EQ(one.points, s.placement.points + u);
-  EXPECT_EQ(one.normals, s.placement.normals);
   s.retraction.step(one, u, two);
   EXPECT_NEAR(two.drift[7], .02, 1e-15);
   EXPECT_EQ(s.retraction.counts().calls, calls);
@@ -160,6 +159,30 @@ TEST(Retraction, LazyVerticesDriftInTheirPlaneUntilTheyHaveMovedEnough) {
   const Placement settled = two;
   s.retraction.settle(two);
   EXPECT_TRUE(test::same(two, settled));
+}
+
+TEST(Retraction, LazyVerticesFollowTheBendOfTheSurface) {
+  const auto bend = [](float change) {
+    return [change](int) { return SurfaceBend{SymmetricMatrix(Eigen::Matrix3d::Identity()), change}; };
+  };
+  test::SceneOptions options;
+  options.retraction = {.lazy = 1, .lazy_error = 1e-2};
+  test::Scene s(test::sphere(2, .3, 5), Surface(test::to_unit_sphere, bend(0)), options);
+  Mat3X u = test::random_vectors(s.placement.points.cols(), 1);
+  s.retraction.constrain(s.placement, u);
+  u = (.15 * u.colwise().normalized()).eval();
+  const long long calls = s.retraction.counts().calls;
+  Placement to;
+  s.retraction.step(s.placement, u, to);
+  EXPECT_EQ(s.retraction.counts().calls, calls);
+  // The parabola leaves the circle by the fourth order.
+  EXPECT_LT((to.points.colwise().norm().array() - 1).abs().maxCoeff(), std::pow(.15, 4));
+  for (Eigen::Index v = 0; v < u.cols(); ++v)
+    EXPECT_LT((to.normals.col(v) - to.points.col(v).normalized()).norm(), std::pow(.15, 2));
+
+  test::Scene rough(test::sphere(2, .3, 5), Surface(test::to_unit_sphere, bend(1)), options);
+  rough.retraction.step(rough.placement, u, to);  // where bends say little, vertices are projected
+  EXPECT_LT((to.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
 }
 
 TEST(Retraction, CountsEveryCallAndHowItEnded) {

@@ -2,162 +2,169 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
 
 #include "hooke/least_angle.h"
 #include "hooke/local_relaxation.h"
 #include "hooke/parallel.h"
-#include "hooke/polish.h"
 
 namespace hooke {
 namespace {
+
+constexpr size_t block = 4096;
 
 double cotangent_of(double degrees) {
   return 1 / std::tan(degrees * std::numbers::pi / 180);
 }
 
-/// The corners of the worst faces, worst first: those with an angle below `goal`.
-std::vector<int> worst_corners(const Relaxation& r, double goal, const AngleSearchOptions& o) {
-  const auto& faces = r.connectivity.faces;
-  std::vector<double> cotangent(faces.size());
-  parallel_for(faces.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) cotangent[f] = greatest_cotangent(r.placement.points, faces[f]);
+std::vector<int> around(const IntLists& lists, const std::vector<int>& vertices) {
+  std::vector<int> ids;
+  for (int v : vertices) ids.insert(ids.end(), lists[v].begin(), lists[v].end());
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// The sum and the sum of squares of l / L_e - 1.
+struct EdgeErrors {
+  double sum = 0, squares = 0;
+
+  void add(const Relaxation& r, size_t edge) {
+    const auto& [a, b] = r.connectivity.edges[edge];
+    const double l = (r.placement.points.col(b) - r.placement.points.col(a)).norm();
+    const double error = l / r.energy.targets().edge[edge] - 1;
+    sum += error;
+    squares += error * error;
+  }
+  EdgeErrors& operator+=(const EdgeErrors& other) {
+    sum += other.sum;
+    squares += other.squares;
+    return *this;
+  }
+  EdgeErrors& operator-=(const EdgeErrors& other) {
+    sum -= other.sum;
+    squares -= other.squares;
+    return *this;
+  }
+  double deviation(size_t edges) const {
+    const double count = static_cast<double>(edges), mean = sum / count;
+    return std::sqrt(std::max(0., squares / count - mean * mean));
+  }
+};
+
+EdgeErrors errors_of(const Relaxation& r, const std::vector<int>& edges) {
+  EdgeErrors errors;
+  for (int e : edges) errors.add(r, static_cast<size_t>(e));
+  return errors;
+}
+
+EdgeErrors errors_of_all(const Relaxation& r) {
+  const size_t count = r.connectivity.edges.size();
+  std::vector<EdgeErrors> parts((count + block - 1) / block);
+  parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t part = begin; part < end; ++part)
+      for (size_t e = part * block; e < std::min(count, (part + 1) * block); ++e) parts[part].add(r, e);
   });
-  const double limit = cotangent_of(goal);
-  std::vector<int> worst;
-  for (size_t f = 0; f < faces.size(); ++f)
-    if (cotangent[f] >= limit) worst.push_back(static_cast<int>(f));
-  std::ranges::stable_sort(worst, std::ranges::greater(),
-                           [&](int f) { return cotangent[static_cast<size_t>(f)]; });
-  if (std::ssize(worst) > o.max_faces) worst.resize(static_cast<size_t>(o.max_faces));
-  std::vector<int> corners;
-  for (int f : worst)
-    corners.insert(corners.end(), faces[static_cast<size_t>(f)].begin(), faces[static_cast<size_t>(f)].end());
-  return corners;
+  EdgeErrors errors;
+  for (const EdgeErrors& part : parts) errors += part;
+  return errors;
 }
 
-double edge_error_of(const Relaxation& r) {
-  return relative_edge_deviation(r.placement.points, r.connectivity.edges, r.energy.targets());
-}
-
-class Search {
+/// The faces and edges as they lie.
+class Measures {
  public:
-  Search(Relaxation& r, const AngleSearchOptions& options, const GuardOptions& guards)
-      : r_(r),
-        o_(options),
-        guards_(guards),
-        sides_{Side(VertexRing(r.sweeps.spokes, r.energy.targets())),
-               Side(VertexRing(r.sweeps.spokes, r.energy.targets()))} {}
+  explicit Measures(const Relaxation& r)
+      : r_(r), cotangents_(r.connectivity.faces.size()), errors_(errors_of_all(r)) {
+    parallel_for(cotangents_.size(), block, [&](size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) look(f);
+    });
+    start_deviation_ = deviation();
+  }
 
-  /// Moves the vertex until no cotangent about it is above the goal or it finds nothing better. Returns
-  /// whether it moved.
-  bool improve(int vertex, double goal) {
-    if (r_.sweeps.spokes[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
-    bool moved = false;
-    double step = o_.first_step;
-    look(vertex);
-    while (worst_ > goal && step >= o_.last_step) {
-      if (try_all(vertex, step)) {
-        moved = true;
-        look(vertex);
-      } else {
-        step /= 2;
-      }
+  double least_angle() const { return angle_with_cotangent(*std::ranges::max_element(cotangents_)); }
+
+  /// Of l / L_e, over that at the start.
+  double edge_error() const { return start_deviation_ > 0 ? deviation() / start_deviation_ : 1; }
+
+  /// The corners of the worst faces, worst first: those with an angle below `goal`.
+  std::vector<int> worst_corners(double goal, int max_faces) const {
+    const double limit = cotangent_of(goal);
+    std::vector<int> worst;
+    for (size_t f = 0; f < cotangents_.size(); ++f)
+      if (cotangents_[f] >= limit) worst.push_back(static_cast<int>(f));
+    std::ranges::stable_sort(worst, std::ranges::greater(),
+                             [&](int f) { return cotangents_[static_cast<size_t>(f)]; });
+    if (std::ssize(worst) > max_faces) worst.resize(static_cast<size_t>(max_faces));
+    std::vector<int> corners;
+    for (int f : worst) {
+      const Triangle& t = r_.connectivity.faces[static_cast<size_t>(f)];
+      corners.insert(corners.end(), t.begin(), t.end());
     }
-    return moved;
+    return corners;
+  }
+
+  /// Calls `move` and takes in what it does to these vertices.
+  template <typename Move>
+  void follow(const std::vector<int>& vertices, const Move& move) {
+    const std::vector<int> edges = around(r_.connectivity.vertex_edges, vertices);
+    errors_ -= errors_of(r_, edges);
+    move();
+    errors_ += errors_of(r_, edges);
+    for (int f : around(r_.connectivity.vertex_faces, vertices)) look(static_cast<size_t>(f));
   }
 
  private:
-  struct Side {
-    explicit Side(VertexRing r) : ring(std::move(r)) {}
-    VertexRing ring;
-    RingShape before, after;
-  };
+  void look(size_t f) { cotangents_[f] = greatest_cotangent(r_.placement.points, r_.connectivity.faces[f]); }
+  double deviation() const { return errors_.deviation(r_.connectivity.edges.size()); }
 
-  double worst_of(const Side& side, const RingShape& shape) const {
-    double worst = 0;
-    for (double c : side.ring.measures(shape).cotangent) worst = std::max(worst, c);
-    return worst;
-  }
-
-  void look(int vertex) {
-    const Placement& at = r_.placement;
-    count_ = 1 + (at.other_side_of(vertex) >= 0);
-    worst_ = 0;
-    for (int s = 0; s < count_; ++s) {
-      const int id = s == 0 ? vertex : at.other_side_of(vertex);
-      Side& side = sides_[static_cast<size_t>(s)];
-      side.ring.gather(at, id);
-      side.ring.shape(at.points.col(vertex), at.normals.col(id), side.before);
-      worst_ = std::max(worst_, worst_of(side, side.before));
-    }
-  }
-
-  /// The greatest cotangent about the vertex if it went there; infinite where it may not.
-  double outcome(const VertexPlace& place) {
-    double worst = 0;
-    for (int s = 0; s < count_; ++s) {
-      Side& side = sides_[static_cast<size_t>(s)];
-      side.ring.shape(place.point, s == 0 ? place.normal : place.other_normal, side.after);
-      if (!side.ring.obeys(side.before, side.after, guards_)) return std::numeric_limits<double>::infinity();
-      worst = std::max(worst, worst_of(side, side.after));
-    }
-    return worst;
-  }
-
-  bool try_all(int vertex, double step) {
-    Placement& at = r_.placement;
-    const Vec3 tangent = at.tangents.col(vertex), normal = at.normals.col(vertex);
-    const bool on_curve = !tangent.isZero(0);
-    const int neighbour = r_.sweeps.spokes[vertex][0].neighbour;
-    const Vec3 edge = at.points.col(neighbour) - at.points.col(vertex);
-    const Vec3 u = on_curve ? tangent : Vec3((edge - normal * normal.dot(edge)).normalized());
-    const Vec3 v = normal.cross(u);
-    const double length = step * r_.vertex_length[static_cast<size_t>(vertex)];
-    double best = worst_ - o_.least_gain * std::abs(worst_);
-    std::optional<VertexPlace> best_place;
-    const int count = on_curve ? 2 : o_.directions;
-    for (int k = 0; k < count; ++k) {
-      const double angle = 2 * std::numbers::pi * k / count;
-      const Vec3 way = on_curve ? Vec3((k == 0 ? length : -length) * u)
-                                : Vec3(length * (std::cos(angle) * u + std::sin(angle) * v));
-      const VertexPlace place = r_.retraction.moved(at, vertex, way);
-      const double worst = outcome(place);
-      if (worst >= best) continue;
-      best = worst;
-      best_place = place;
-    }
-    if (best_place) best_place->write_to(at, vertex);
-    return best_place.has_value();
-  }
-
-  Relaxation& r_;
-  const AngleSearchOptions& o_;
-  const GuardOptions guards_;
-  std::array<Side, 2> sides_;
-  int count_ = 1;
-  double worst_ = 0;  // greatest cotangent about the vertex
+  const Relaxation& r_;
+  std::vector<double> cotangents_;  // the greatest of each face
+  EdgeErrors errors_;
+  double start_deviation_ = 0;
 };
 
+/// Improves each of the vertices in turn; returns how many moved.
+int improve(Relaxation& r, const std::vector<int>& vertices, const VertexSearchOptions& options,
+            const GuardOptions& guards, double goal) {
+  std::vector<char> active(static_cast<size_t>(r.connectivity.vertex_count), 0);
+  std::vector<char> moved = active;
+  for (int v : vertices) active[static_cast<size_t>(v)] = 1;
+  for_each_block(r.sweeps, [&](int begin, int end) {
+    const auto first = active.begin() + begin, last = active.begin() + end;
+    if (std::find(first, last, 1) == last) return;
+    VertexSearch search(r, options, guards);
+    for (int v = begin; v < end; ++v)
+      if (active[static_cast<size_t>(v)]) moved[static_cast<size_t>(v)] = search.improve(v, goal);
+  });
+  return static_cast<int>(std::ranges::count(moved, 1));
+}
+
 /// Goes on until no round raises the least angle any more.
-void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards,
-                   double greatest_edge_error, AngleSearchResult& result) {
-  Search search(r, o, guards);
-  double least = least_angle(r.placement.points, r.connectivity.faces);
+void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards, Measures& measures,
+                   AngleSearchResult& result) {
+  double least = measures.least_angle();
   double above = o.above_least;
-  while (result.rounds < o.max_rounds && above > o.least_rise) {
-    const Placement before = r.placement;
+  VertexSearchOptions vertex = o.vertex;
+  while (result.rounds < o.max_rounds && above > o.least_rise && least + o.least_rise < 60) {
     const double goal = least + above;
+    const std::vector<int> vertices =
+        with_rings(r.connectivity, measures.worst_corners(goal, o.max_faces), o.rings);
+    std::vector<VertexPlace> before;
+    for (int v : vertices) before.emplace_back(r.placement, v);
     int moves = 0;
-    for (int v : with_rings(r.connectivity, worst_corners(r, goal, o), o.rings))
-      moves += search.improve(v, cotangent_of(goal));
+    measures.follow(vertices, [&] {
+      for (int sweep = 0, moved = 1; sweep < o.sweeps && moved > 0; ++sweep)
+        moves += moved = improve(r, vertices, vertex, guards, cotangent_of(goal));
+    });
     ++result.rounds;
-    const double now = least_angle(r.placement.points, r.connectivity.faces);
-    if (now < least + o.least_rise || edge_error_of(r) > greatest_edge_error) {
-      r.placement = before;
-      above /= 2;
+    if (moves == 0) return;  // nor will fewer of them
+    const double now = measures.least_angle();
+    if (now < least + o.least_rise || measures.edge_error() > o.edge_error_limit) {
+      measures.follow(vertices, [&] {
+        for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(r.placement, vertices[i]);
+      });
+      above /= 2;  // less, and with shorter steps, which cost less
+      vertex.first_step = std::max(vertex.last_step, vertex.first_step / 2);
       continue;
     }
     result.moves += moves;
@@ -170,12 +177,12 @@ void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOption
 AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
   AngleSearchResult result;
   if (r.connectivity.faces.empty()) return result;
-  const double greatest_edge_error = o.edge_error_limit * edge_error_of(r);
+  Measures measures(r);
   GuardOptions guards = r.guards.options();
-  search_within(r, o, guards, greatest_edge_error, result);
+  search_within(r, o, guards, measures, result);
   if (o.sagitta > guards.sagitta) {
     guards.sagitta = o.sagitta;
-    search_within(r, o, guards, greatest_edge_error, result);
+    search_within(r, o, guards, measures, result);
   }
   r.retraction.count();
   return result;

@@ -3,24 +3,21 @@
 // Every trial step is retracted through the filter and guarded per vertex before its energy counts.
 #pragma once
 
-#include "hooke/integrator.h"
+#include "hooke/lbfgs_memory.h"
 
 namespace hooke {
 
 struct LbfgsOptions {
-  int sweeps = 6;             // of Newton's method vertex by vertex, first: they remove the slivers
+  int sweeps = 4;             // of Newton's method vertex by vertex, first: they remove the slivers
   double sweep_factor = 1.5;  // over-relaxation of all sweeps but the first
-  int memory = 5;             // pairs of steps and gradient changes
-  double first_step = .5;     // of the preconditioned gradient, while there is no memory
-  int scaled_pairs = 3;       // the preconditioner is scaled to the last pair until this many are held
-  int curvature_every = 5;    // steps after which the curvature around the vertices is taken anew
-  double grid_cell = 4;       // width of the finest grid's cells, in mean target lengths
-  double grid_weight = .3;    // of each grid, over the median curvature
-  double armijo = 1e-4;       // part of the predicted decrease that a step must bring
-  int max_backtracks = 12;    // halvings of a step before it is given up
-  double mendable = .01;      // part of the vertices: no more than so many that guards hold back are mended
-  int mended_rings = 1;       // about them, within which vertices move ...
-  int mending_sweeps = 3;     // ... in so many sweeps
+  LbfgsMemoryOptions memory;
+  PreconditionerOptions preconditioner;
+  int curvature_every = 8;  // steps after which the curvature around the vertices is taken anew
+  double armijo = 1e-4;     // part of the predicted decrease that a step must bring
+  int max_backtracks = 12;  // halvings of a step before it is given up
+  double mendable = .01;    // part of the vertices: no more than so many that guards hold back are mended
+  int mended_rings = 1;     // about them, within which vertices move ...
+  int mending_sweeps = 3;   // ... in so many sweeps
 };
 
 /// Moves relaxation.placement to a minimum of relaxation.energy on the surface.

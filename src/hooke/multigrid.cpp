@@ -90,14 +90,20 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
   NodeNumbers nodes;
   std::unordered_map<Cell, int, CellHash> cell_ids;
   places_.resize(static_cast<size_t>(points.cols()));
+  Cell last{};
+  int id = -1;  // of that cell, in which the next vertex mostly lies too
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     // Half a cell off the origin: the first vertex would lie on a corner of four cells.
     const Vec3 x = frame * (points.col(v) - origin) / cell + Vec3::Constant(.5);
     const Vec3 low = x.array().floor();
     const Cell at{static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
-    const auto [it, fresh] = cell_ids.try_emplace(at, static_cast<int>(cells_.size()));
-    if (fresh) cells_.push_back(corners_of(at, nodes));
-    places_[static_cast<size_t>(v)] = {it->second, x - low};
+    if (id < 0 || at != last) {
+      const auto [it, fresh] = cell_ids.try_emplace(at, static_cast<int>(cells_.size()));
+      if (fresh) cells_.push_back(corners_of(at, nodes));
+      id = it->second;
+      last = at;
+    }
+    places_[static_cast<size_t>(v)] = {id, x - low};
   }
   for (;;) {
     Level level;

@@ -43,7 +43,7 @@ struct RemeshOptions {
   // Of the field: before each outer iteration, where the guards hindered the last; or once, which `adapt`
   // always does.
   Refit refit = Refit::each;
-  RetractionOptions retraction{.tolerance = 1e-5, .lazy = .5};
+  RetractionOptions retraction{.tolerance = 1e-5, .lazy = 2};
   ConstraintOptions constraints;
   double tolerance = 1e-3;   // of every edge, in parts of its target length
   int max_outer = 6;         // outer iterations

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t block = 256;
 
-constexpr double short_way = .1;  // in mean target lengths: whatever the curvature
+constexpr double short_way = .1;  // in mean target lengths: however the surface bends
 
 /// The sides of vertices that stand still are not written by a step.
 void copy_sides(const Placement& from, Placement& to) {
@@ -128,17 +128,27 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
   const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
   const double length = displacement.norm();
   if (length == 0 || freedom == Freedom::fixed) return place;
-  place.point = within_reach(place.point + displacement, vertex);
+  const Vec3 start = place.point;
+  place.point = within_reach(start + displacement, vertex);
   place.drift += length;
   if (freedom == Freedom::curve) place = on_curve(place, vertex);
-  return may_drift(place) ? place : on_surface(place, vertex);
+  const SurfaceBend bend = surface_.bend(place.anchor);
+  const double error = .5 * bend.change * place.drift * place.drift;  // off the surface
+  const bool may_drift = place.drift < short_way || error < options_.lazy_error;
+  if (!may_drift) return on_surface(place, vertex);
+  place = drifted(place, place.point - start, bend, freedom);
+  return place.drift < options_.lazy ? place : on_surface(place, vertex);
 }
 
-/// A tangent plane is half the curvature times the square of the way off the surface.
-bool Retraction::may_drift(const VertexPlace& place) const {
-  return place.drift < options_.lazy &&
-         (place.drift < short_way ||
-          .5 * surface_.curvature(place.anchor) * place.drift * place.drift < options_.lazy_error);
+/// `way` led to the place, in the tangent plane.
+VertexPlace Retraction::drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend,
+                                Freedom freedom) const {
+  const Vec3 turn = bend.shape * way;
+  if (freedom == Freedom::surface) place.point -= .5 * way.dot(turn) * place.normal;
+  place.normal = (place.normal + turn).normalized();
+  if (place.other_side >= 0)
+    place.other_normal = (place.other_normal + surface_.bend(place.other_anchor).shape * way).normalized();
+  return place;
 }
 
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {

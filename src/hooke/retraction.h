@@ -16,7 +16,7 @@ struct Placement {
   Mat3X tangents;               // unit, of the curve; zero for vertices without
   std::vector<int> anchors;     // where on the surface each side is tracked
   std::vector<int> segments;    // where on its curve
-  std::vector<double> drift;    // length moved in tangent planes since the last projection
+  std::vector<double> drift;    // length moved since the last projection
   std::vector<int> other_side;  // of a vertex on a crease, -1 without one; empty without creases
 
   int other_side_of(int vertex) const {
@@ -52,8 +52,9 @@ struct ProjectionCounts {
 
 struct RetractionOptions {
   double tolerance = 1e-6;  // of a projection, in mean target lengths
-  double lazy = 0;  // a vertex that moved less than this since its last projection stays in its tangent plane
-  double lazy_error = 1e-3;  // ... and after .1 the curvature takes it no farther than this off the surface
+  /// A vertex that moved less than this since its last projection follows the bend of the surface there ...
+  double lazy = 0;
+  double lazy_error = 3e-3;  // ... which after a way of .1 takes it no farther than this off the surface
 };
 
 /// Keeps references to the surface and the constraints: they must outlive it.
@@ -95,7 +96,7 @@ class Retraction {
   Vec3 within_reach(const Vec3& point, int vertex) const;
   VertexPlace on_curve(VertexPlace place, int vertex) const;
   VertexPlace on_surface(VertexPlace place, int vertex);
-  bool may_drift(const VertexPlace& place) const;
+  VertexPlace drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend, Freedom freedom) const;
   Foot foot(const Vec3& point, int anchor, int vertex);
 
   Surface surface_;

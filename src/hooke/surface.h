@@ -5,6 +5,7 @@
 #include <concepts>
 #include <utility>
 
+#include "hooke/surface_bend.h"
 #include "hooke/types.h"
 
 namespace hooke {
@@ -33,22 +34,22 @@ class Surface {
   /// Projects a point that is tracked near the vertex `anchor` to within `tolerance` (a length) of the
   /// surface.
   using Project = std::function<Foot(const Vec3& point, int anchor, double tolerance)>;
-  /// About the greatest curvature near the vertex `anchor`, 1 / length.
-  using Curvature = std::function<double(int anchor)>;
+  /// How it bends near the vertex `anchor`.
+  using Bend = std::function<SurfaceBend(int anchor)>;
 
   template <typename F>
   requires std::convertible_to<F, Project> &&(!std::same_as<std::remove_cvref_t<F>, Surface>)Surface(
-      F&& project, Curvature curvature = [](int) { return 0.; })
-      : project_(std::forward<F>(project)), curvature_(std::move(curvature)) {}
+      F&& project, Bend bend = [](int) { return SurfaceBend{}; })
+      : project_(std::forward<F>(project)), bend_(std::move(bend)) {}
 
   Foot operator()(const Vec3& point, int anchor, double tolerance) const {
     return project_(point, anchor, tolerance);
   }
-  double curvature(int anchor) const { return curvature_(anchor); }
+  SurfaceBend bend(int anchor) const { return bend_(anchor); }
 
  private:
   Project project_;
-  Curvature curvature_;
+  Bend bend_;
 };
 
 }  // namespace hooke

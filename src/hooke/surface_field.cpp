@@ -63,33 +63,6 @@ ThinPlateSpline fit_global_spline(const Mat3X& points, const std::vector<int>& v
   return *std::move(spline);
 }
 
-/// How much the normal turns on the way along each vertex's edges, the most within two rings.
-std::vector<float> greatest_curvatures(const Mat3X& points, const Mat3X& normals,
-                                       const Connectivity& connectivity) {
-  constexpr std::size_t block = 1024;
-  const auto n = static_cast<std::size_t>(connectivity.vertex_count);
-  std::vector<float> at_vertex(n, 0), nearby(n, 0);
-  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
-    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-      double most = 0;  // squared
-      for (int w : connectivity.vertex_neighbours[v]) {
-        const double turn = (normals.col(w) - normals.col(v)).squaredNorm();
-        const double way = (points.col(w) - points.col(v)).squaredNorm();
-        if (turn > most * way) most = turn / way;  // infinite where there is no way
-      }
-      at_vertex[static_cast<std::size_t>(v)] = static_cast<float>(std::sqrt(most));
-    }
-  });
-  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      nearby[v] = at_vertex[v];
-      for (int w : connectivity.vertex_neighbours[static_cast<int>(v)])
-        nearby[v] = std::max(nearby[v], at_vertex[static_cast<std::size_t>(w)]);
-    }
-  });
-  return nearby;
-}
-
 }  // namespace
 
 struct SurfaceField::State {
@@ -98,8 +71,8 @@ struct SurfaceField::State {
   Mat3X points;
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
-  std::vector<float> curvature;  // about the greatest within two rings
-  std::vector<float> reaches;    // see field_reach.h
+  std::vector<SurfaceBend> bends;
+  std::vector<float> reaches;  // see field_reach.h
   std::optional<PartitionOfUnity> partition;
   std::vector<int> pieces;               // per vertex; empty: one
   std::vector<ThinPlateSpline> splines;  // per piece
@@ -154,7 +127,7 @@ SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> con
   state->kind = options.kind;
   state->normals = vertex_normals(points, *connectivity);
   state->edge_lengths = mean_edge_lengths(points, *connectivity);
-  state->curvature = greatest_curvatures(points, state->normals, *connectivity);
+  state->bends = surface_bends(points, state->normals, *connectivity);
   if (options.kind == FilterKind::local || options.kind == FilterKind::global)
     state->reaches = reaches_of({points, state->normals, *connectivity}, options.reach, lengths);
   if (options.kind == FilterKind::local)
@@ -185,10 +158,8 @@ Surface SurfaceField::surface() const {
   const auto project = [state = state_](const Vec3& x, int anchor, double tolerance) {
     return state->project(x, anchor, tolerance);
   };
-  const auto curvature = [state = state_](int anchor) {
-    return static_cast<double>(state->curvature[static_cast<std::size_t>(anchor)]);
-  };
-  return {project, curvature};
+  const auto bend = [state = state_](int anchor) { return state->bends[static_cast<std::size_t>(anchor)]; };
+  return {project, bend};
 }
 
 const Mat3X& SurfaceField::points() const {
@@ -200,8 +171,8 @@ const Mat3X& SurfaceField::normals() const {
 
 std::size_t SurfaceField::memory_bytes() const {
   const auto doubles = state_->points.size() + state_->normals.size() + state_->edge_lengths.size();
-  return sizeof(double) * static_cast<std::size_t>(doubles) +
-         sizeof(float) * (state_->curvature.capacity() + state_->reaches.capacity()) +
+  return sizeof(double) * static_cast<std::size_t>(doubles) + sizeof(SurfaceBend) * state_->bends.capacity() +
+         sizeof(float) * state_->reaches.capacity() +
          (state_->partition ? state_->partition->memory_bytes() : 0) +
          std::transform_reduce(state_->splines.begin(), state_->splines.end(), std::size_t{0}, std::plus<>(),
                                [](const ThinPlateSpline& s) { return s.memory_bytes(); });

@@ -173,6 +173,14 @@ RingMeasures VertexRing::measures(const RingShape& shape) const {
   return m;
 }
 
+double VertexRing::greatest_cotangent(const RingShape& shape) const {
+  double greatest = 0;
+  for (std::size_t i = 0; i < spokes().size(); ++i)
+    if (spokes()[i].face >= 0)
+      greatest = std::max(greatest, cotangent_of_least_angle(shape.columns.data() + i, stride_));
+  return greatest;
+}
+
 int VertexRing::folded_faces(const RingShape& shape, double limit) const {
   return static_cast<int>(
       std::ranges::count_if(measures(shape).alignment, [limit](double a) { return a < limit; }));

@@ -49,6 +49,9 @@ class VertexRing {
 
   RingMeasures measures(const RingShape& shape) const;
 
+  /// The greatest cotangent of the faces' least angles; 0 if none is greater.
+  double greatest_cotangent(const RingShape& shape) const;
+
   /// The number of faces with an alignment below `limit`.
   int folded_faces(const RingShape& shape, double limit) const;
 

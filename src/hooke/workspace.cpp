@@ -28,7 +28,7 @@ constexpr double landing_area_ratio = .01;
 /// below it.
 constexpr double landing_cotangent = 3e-3;
 
-constexpr double landing_tolerance = 1e-7;  // in mean target lengths
+constexpr double landing_tolerance = 1e-9;  // in mean target lengths
 
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
@@ -50,8 +50,9 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
 
   const int n = static_cast<int>(source.n_vertices());
   Connectivity smooth = timed(stopwatch, "order", [&] {
-    const Connectivity given = make_connectivity(n, triangles_of(source));
-    order = reorder(given, locality_order(given));
+    std::vector<Triangle> faces = triangles_of(source);
+    const std::vector<int> local = locality_order(n, faces);
+    order = reorder(std::move(faces), local);
     return make_connectivity(n, std::move(order.faces));
   });
 
@@ -171,8 +172,8 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
   for (Triangle& t : faces)
     for (int& v : t) v = id[static_cast<size_t>(v)];
-  const Connectivity given = make_connectivity(static_cast<int>(n), std::move(faces));
-  order = reorder(given, locality_order(given));
+  const std::vector<int> local = locality_order(static_cast<int>(n), faces);
+  order = reorder(std::move(faces), local);
 
   std::vector<int> source(n), place(n);  // where each vertex comes from, and goes to
   for (size_t v = 0; v < n; ++v) {

@@ -1,0 +1,72 @@
+#include "hooke/surface_bend.h"
+
+#include <algorithm>
+
+#include "hooke/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::size_t block = 1024;
+
+constexpr double least_spread =
+    1e-3;  // of the edges across their main direction, over that along it, squared
+
+/// M with M d = turn in the sense of least squares, made symmetric.
+SymmetricMatrix shape_operator(const Mat3X& points, const Mat3X& normals, const Connectivity& c, int v) {
+  const auto neighbours = c.vertex_neighbours[v];
+  if (neighbours.empty() || normals.col(v).isZero(0)) return {};
+  const Vec3 n = normals.col(v);
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = n.unitOrthogonal();
+  basis.col(1) = n.cross(basis.col(0));
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero(), turned = Eigen::Matrix2d::Zero();
+  for (int w : neighbours) {
+    const Eigen::Vector2d way = basis.transpose() * (points.col(w) - points.col(v));
+    const Eigen::Vector2d turn = basis.transpose() * (normals.col(w) - normals.col(v));
+    spread += way * way.transpose();
+    turned += turn * way.transpose();
+  }
+  const double size = spread.trace();
+  if (!(spread.determinant() > least_spread * size * size)) return {};
+  const Eigen::Matrix2d shape = turned * spread.inverse();
+  const Eigen::Matrix2d symmetric = .5 * (shape + shape.transpose());
+  return SymmetricMatrix(basis * symmetric * basis.transpose());
+}
+
+}  // namespace
+
+std::vector<SurfaceBend> surface_bends(const Mat3X& points, const Mat3X& normals, const Connectivity& c) {
+  const auto n = static_cast<std::size_t>(c.vertex_count);
+  std::vector<SurfaceBend> bends(n);
+  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      bends[v].shape = shape_operator(points, normals, c, static_cast<int>(v));
+  });
+  std::vector<float> change(n, 0);
+  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      double squares = 0;
+      const auto neighbours = c.vertex_neighbours[static_cast<int>(v)];
+      for (int w : neighbours) {
+        const Vec3 way = points.col(w) - points.col(static_cast<Eigen::Index>(v));
+        const auto normal = normals.col(static_cast<Eigen::Index>(v));
+        Vec3 turn = bends[v].shape * way - bends[static_cast<std::size_t>(w)].shape * way;
+        turn -= normal.dot(turn) * normal;  // the tangent plane turns too
+        if (!way.isZero(0)) squares += turn.squaredNorm() / way.squaredNorm();
+      }
+      if (!neighbours.empty())
+        change[v] = static_cast<float>(std::sqrt(squares / static_cast<double>(neighbours.size())));
+    }
+  });
+  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      bends[v].change = change[v];
+      for (int w : c.vertex_neighbours[static_cast<int>(v)])
+        bends[v].change = std::max(bends[v].change, change[static_cast<std::size_t>(w)]);
+    }
+  });
+  return bends;
+}
+
+}  // namespace hooke
