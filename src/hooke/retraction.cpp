@@ -134,10 +134,13 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
   if (freedom == Freedom::curve) place = on_curve(place, vertex);
   const SurfaceBend bend = surface_.bend(place.anchor);
   const double error = .5 * bend.change * place.drift * place.drift;  // off the surface
-  const bool may_drift = place.drift < short_way || error < options_.lazy_error;
-  if (!may_drift) return on_surface(place, vertex);
-  place = drifted(place, place.point - start, bend, freedom);
-  return place.drift < options_.lazy ? place : on_surface(place, vertex);
+  if (error < options_.lazy_error) {
+    place = drifted(place, place.point - start, bend, freedom);
+    if (place.drift < options_.lazy) return place;
+  } else if (place.drift < std::min(short_way, options_.lazy)) {
+    return place;  // in the tangent plane: bends say little here
+  }
+  return on_surface(place, vertex);
 }
 
 /// `way` led to the place, in the tangent plane.

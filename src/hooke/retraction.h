@@ -52,9 +52,10 @@ struct ProjectionCounts {
 
 struct RetractionOptions {
   double tolerance = 1e-6;  // of a projection, in mean target lengths
-  /// A vertex that moved less than this since its last projection follows the bend of the surface there ...
+  /// A vertex that moved less than this since its last projection follows the bend of the surface, where that
+  /// takes it no farther off than `lazy_error`; elsewhere its tangent plane, for a way of .1.
   double lazy = 0;
-  double lazy_error = 3e-3;  // ... which after a way of .1 takes it no farther than this off the surface
+  double lazy_error = 1e-3;
 };
 
 /// Keeps references to the surface and the constraints: they must outlive it.
