@@ -19,8 +19,7 @@ void require_reasonable(const Settings& s, double least, double most, double nat
   const bool sized = s.sizing.kind != SizingSource::Kind::none;
   throw Error(
       fmt::format("{} '{}': target lengths from {:.3g} to {:.3g} for {}; expected {:.3g} to {:.3g}, {:.0e} "
-                  "times less and "
-                  "more than the natural length",
+                  "times less and more than the natural length",
                   sized ? "--sizing" : "--length", sized ? s.sizing_text : s.length_text, least, most,
                   printable(s.input.string()), natural / limit, limit * natural, limit));
 }

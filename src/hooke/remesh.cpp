@@ -120,7 +120,10 @@ class Remeshing {
     if (result_.polish.interrupted)
       result_.reason = StopReason::interrupted;
     else
-      timed(work_.stopwatch, "search", [&] { return search_angles(r, options_.search); });
+      timed(work_.stopwatch, "search", [&] {
+        work_.retraction->settle(work_.placement);  // the worst corners are those of the result
+        return search_angles(r, options_.search);
+      });
     result_.not_landed = work_.land();
     work_.resample_lengths();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});

@@ -6,8 +6,8 @@
 
 namespace hooke {
 
-/// To second order a step d along the surface turns the unit normal n by S d and leads to x + d - (d.S d / 2)
-/// n.
+/// A step d along the surface turns its unit normal n by S d and leads to x + d - (d . S d / 2) n, to second
+/// order.
 struct SurfaceBend {
   SymmetricMatrix shape;  // S: the shape operator for outward normals, 1 / length; 1 / R on a sphere
   float change = 0;       // of S from a vertex to the next along the way, rms; the greatest within a ring
