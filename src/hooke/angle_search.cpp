@@ -13,16 +13,10 @@ namespace {
 
 constexpr size_t block = 4096;
 
+constexpr double greatest_least_angle = 60;  // degrees; of an equilateral triangle
+
 double cotangent_of(double degrees) {
   return 1 / std::tan(degrees * std::numbers::pi / 180);
-}
-
-std::vector<int> around(const IntLists& lists, const std::vector<int>& vertices) {
-  std::vector<int> ids;
-  for (int v : vertices) ids.insert(ids.end(), lists[v].begin(), lists[v].end());
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
 }
 
 /// The sum and the sum of squares of l / L_e - 1.
@@ -106,11 +100,11 @@ class Measures {
   /// Calls `move` and takes in what it does to these vertices.
   template <typename Move>
   void follow(const std::vector<int>& vertices, const Move& move) {
-    const std::vector<int> edges = around(r_.connectivity.vertex_edges, vertices);
+    const std::vector<int> edges = united(r_.connectivity.vertex_edges, vertices);
     errors_ -= errors_of(r_, edges);
     move();
     errors_ += errors_of(r_, edges);
-    for (int f : around(r_.connectivity.vertex_faces, vertices)) look(static_cast<size_t>(f));
+    for (int f : united(r_.connectivity.vertex_faces, vertices)) look(static_cast<size_t>(f));
   }
 
  private:
@@ -145,7 +139,8 @@ void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOption
   double least = measures.least_angle();
   double above = o.above_least;
   VertexSearchOptions vertex = o.vertex;
-  while (result.rounds < o.max_rounds && above > o.least_rise && least + o.least_rise < 60) {
+  while (result.rounds < o.max_rounds && above > o.least_rise &&
+         least + o.least_rise < greatest_least_angle) {
     const double goal = least + above;
     const std::vector<int> vertices =
         with_rings(r.connectivity, measures.worst_corners(goal, o.max_faces), o.rings);

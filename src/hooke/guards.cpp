@@ -16,14 +16,6 @@ void sort_unique(std::vector<int>& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/// Faces or edges (`lists`) around the vertices, each once.
-std::vector<int> around(const IntLists& lists, const std::vector<int>& vertices) {
-  std::vector<int> ids;
-  for (int v : vertices) ids.insert(ids.end(), lists[v].begin(), lists[v].end());
-  sort_unique(ids);
-  return ids;
-}
-
 Vec3 doubled_area_vector(const Mat3X& points, const Triangle& t) {
   const Vec3 a = points.col(t[0]);
   return (points.col(t[1]) - a).cross(points.col(t[2]) - a);
@@ -170,7 +162,7 @@ std::vector<int> Guards::offenders_around(const Placement& from, const Placement
                                           const std::vector<int>& moved) const {
   std::vector<int> vertices;
   std::vector<int> edges;  // of the faces around: those across from a moved vertex fold too
-  for (int f : around(connectivity_.vertex_faces, moved)) {
+  for (int f : united(connectivity_.vertex_faces, moved)) {
     const auto face = static_cast<size_t>(f);
     edges.insert(edges.end(), connectivity_.face_edges[face].begin(), connectivity_.face_edges[face].end());
     if (!face_breaks(from, to, face)) continue;

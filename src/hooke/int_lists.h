@@ -1,6 +1,7 @@
 // Lists of ints in one array.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,15 @@ struct IntLists {
     return {items.data() + first[static_cast<size_t>(i)], items.data() + first[static_cast<size_t>(i) + 1]};
   }
 };
+
+/// What the lists of these indices hold, each once, ascending.
+inline std::vector<int> united(const IntLists& lists, const std::vector<int>& indices) {
+  std::vector<int> all;
+  for (int i : indices) all.insert(all.end(), lists[i].begin(), lists[i].end());
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
 
 /// For each index in [0, count) the places of the rows that name it, ascending. A row is a range of indices.
 template <typename Rows>

@@ -7,11 +7,10 @@
 namespace hooke {
 
 struct PolishOptions {
-  double first_threshold = 20;  // degrees; at least least angle + margin
-  double margin = 2;            // degrees
-  double threshold_step = 2;    // degrees per stage
-  double least_step =
-      1;  // degrees; steps halve down to it where a stage costs too much, or the next one would
+  double first_threshold = 20;     // degrees; at least least angle + margin
+  double margin = 2;               // degrees
+  double threshold_step = 2;       // degrees per stage
+  double least_step = 1;           // degrees; to which steps halve where a stage or the next costs too much
   double last_threshold = 32;      // degrees
   double first_weight = 30;        // w of the first stage
   double weight = 100;             // w of the others
