@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "hooke/effort.h"
 #include "hooke/error.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/printable.h"

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "flipping_scene.h"
+#include "adapting_scene.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/quality.h"
@@ -248,14 +248,8 @@ std::vector<Edge> middle_row() {
   return row;
 }
 
-struct CreasedScene : test::FlippingScene {
-  CreasedScene() : FlippingScene(test::grid(cells, test::flat), test::plane(), middle_row()) {}
-
-  CurveFinder finder{constraints.curves};
-  CurveEdges curve_edges;
-  std::vector<int> origins = std::vector<int>(vertex_length.size(), 0);
-  AdaptingMesh adapting{triangulation,   placement, retraction, constraints, vertex_length,
-                        corner_valences, origins,   finder,     curve_edges};
+struct CreasedScene : test::AdaptingScene {
+  CreasedScene() : AdaptingScene(test::grid(cells, test::flat), test::plane(), middle_row()) {}
 };
 
 TEST(AdaptingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "crease_solids.h"
+#include "hooke/creases.h"
 #include "scene.h"
 
 namespace hooke {
@@ -180,6 +182,31 @@ TEST(ProjectToCurve, StaysWithinAnOpenCurve) {
     EXPECT_EQ(project_to_curve(curve, last + 2 * (last - first), 1).point, last);
     EXPECT_EQ(project_to_curve(curve, first - 2 * (last - first), 4).point, first);
   }
+}
+
+Constraints creased(const test::Triangles& t) {
+  Connectivity c = test::connect(t);
+  part_at_creases(c, test::bent_edges(t.points, t.faces));
+  return find_constraints(t.points, c, {});
+}
+
+TEST(Constraints, AnEvenCreaseKeepsItsVerticesAtBends) {
+  const Constraints even = creased(test::cylinder(40, .05));
+  EXPECT_EQ(count_of(even, Freedom::fixed), 80);
+  for (int v = 0; v < static_cast<int>(even.freedom.size()); ++v)
+    EXPECT_EQ(even.at_bend(v), even.freedom[static_cast<size_t>(v)] == Freedom::fixed);
+  ASSERT_EQ(even.curves.size(), 2u);
+  for (const Curve& curve : even.curves) EXPECT_TRUE(curve.closed);  // they break no curve
+
+  const Constraints uneven = creased(test::cylinder(40, .2));
+  EXPECT_EQ(count_of(uneven, Freedom::fixed), 0);
+  EXPECT_EQ(count_of(uneven, Freedom::curve), 80);
+}
+
+TEST(Constraints, OnStraightCreasesVerticesSlide) {
+  const Constraints c = creased(test::step_block(3));
+  EXPECT_EQ(count_of(c, Freedom::fixed), 12);
+  for (size_t v = 0; v < c.freedom.size(); ++v) EXPECT_FALSE(c.at_bend(static_cast<int>(v)));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "crease_outcome.h"
+#include "hooke/closest_point.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/quality.h"
@@ -89,6 +90,25 @@ TEST(CreaseAdapt, ACylinderStaysRoundUpToItsRims) {
       }
       EXPECT_LE(std::hypot(x[0], x[1]), 1 + 3e-3 * L);
     }
+  }
+}
+
+TEST(CreaseAdapt, AnEvenRimStaysAsItIsUnlessItIsToHaveOtherEdges) {
+  const test::Triangles t = test::cylinder(40, .1);
+  for (double factor : {.5, 1., 2.}) {
+    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    EXPECT_NEAR(o.result.creases.edges, 80 / factor, .1 * 80 / factor);
+    double farthest = 0;  // of the input's rim from the nearest point of the result's
+    const auto rims = test::bent_edges(o.points, o.faces);
+    for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+      const Vec3 x = t.points.col(v);
+      if ((x[2] != 0 && x[2] != 2) || std::hypot(x[0], x[1]) < 1 - 1e-9) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& [a, b] : rims)
+        nearest = std::min(nearest, distance_to_segment(x, o.points.col(a), o.points.col(b)));
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_LT(farthest, factor == 1 ? 1e-12 : .1 * natural(t) * factor);
   }
 }
 

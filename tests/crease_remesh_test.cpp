@@ -91,6 +91,17 @@ TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
   }
 }
 
+TEST(CreaseRemesh, AnEvenRimStaysAsItIs) {
+  const test::Triangles t = test::cylinder(40, .1);
+  const auto rims = test::bent_edges(t.points, t.faces);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    EXPECT_EQ(test::bent_edges(o.points, o.faces), rims);
+    for (const Edge& edge : rims)
+      for (int v : edge) EXPECT_EQ(o.points.col(v), t.points.col(v));
+  }
+}
+
 TEST(CreaseRemesh, WithoutCreasesACubeIsRounded) {
   const test::Triangles t = test::irregular_cube(7);
   RemeshOptions options;

@@ -1,6 +1,7 @@
 // Meshes that optimizers like to break: what must hold for them in every mode.
 #include <gtest/gtest.h>
 
+#include "hooke/effort.h"
 #include "hooke/least_angle.h"
 #include "hooke/quality.h"
 #include "remeshed.h"

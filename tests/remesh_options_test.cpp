@@ -1,6 +1,7 @@
 // What sizing and effort do to a remeshing.
 #include <gtest/gtest.h>
 
+#include "hooke/effort.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "remeshed.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "hooke/least_angle.h"
+
 namespace hooke {
 namespace {
 
@@ -35,20 +37,49 @@ class Adaptation {
   /// `folded`: are there faces that lie against the surface? Flow would carry them along where splits and
   /// collapses take them out.
   AdaptResult run(bool folded) {
+    release_bends();
     if (!folded) settle(options_.first_flow);
     for (int i = 0; i < options_.rounds && !result_.interrupted; ++i) change_lengths();
     for (int i = 0; i < options_.count_rounds && !result_.interrupted; ++i)
       if (!change_count()) break;
-    work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_);
+    replace_mesh();
     return result_;
   }
 
+  int remove_slivers() {
+    count_curve_edges(m_, options_.chord_error);
+    const int collapses = collapse_slivers(m_, options_.bad_faces);
+    if (collapses == 0) return 0;
+    compact(m_);
+    replace_mesh();
+    return collapses;
+  }
+
  private:
+  /// Vertices at bends may move and go where a curve is to have other edges.
+  void release_bends() {
+    count_curve_edges(m_, options_.chord_error);
+    Constraints& constraints = work_.constraints;
+    int released = 0;
+    for (size_t v = 0; v < constraints.freedom.size(); ++v) {
+      if (!constraints.at_bend(static_cast<int>(v))) continue;
+      const auto curve = static_cast<size_t>(constraints.curve[v]);
+      const double ratio = static_cast<double>(curve_edges_.wanted[curve]) / curve_edges_.present[curve];
+      if (std::max(ratio, 1 / ratio) <= options_.keep_bends) continue;
+      constraints.freedom[v] = Freedom::curve;
+      ++released;
+    }
+    if (released > 0)
+      work_.placement =
+          work_.retraction->place(work_.placement.points, work_.placement.anchors, constraints.segment);
+  }
+
   void change_lengths() {
     count_curve_edges(m_, options_.chord_error);
     result_.splits += split_long_edges(m_, options_.split);
     flip();
     result_.collapses += collapse_short_edges(m_, options_.collapse);
+    result_.collapses += collapse_folded_faces(m_, options_.bad_faces);
     add(settle_curves(m_, options_.count));
     compact(m_);
     ++result_.rounds;
@@ -70,6 +101,8 @@ class Adaptation {
     settle(options_.count_flow);
     return true;
   }
+
+  void replace_mesh() { work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_); }
 
   void flip() {
     FlippingMesh flipping = m_.flipping();
@@ -148,6 +181,13 @@ AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardO
         Adaptation(work, options, flip_guard, guards, corner_angle, observer).run(!unfolded.folded.empty());
   result.untangle = unfolded;
   return result;
+}
+
+int remove_slivers(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
+                   const GuardOptions& guards, double corner_angle) {
+  if (least_angle(work.placement.points, work.connectivity->faces) >= options.bad_faces.sliver_angle)
+    return 0;
+  return Adaptation(work, options, flip_guard, guards, corner_angle, nullptr).remove_slivers();
 }
 
 }  // namespace hooke

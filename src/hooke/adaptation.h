@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hooke/count_control.h"
+#include "hooke/face_collapses.h"
 #include "hooke/flip_connectivity.h"
 #include "hooke/flow.h"
 #include "hooke/untangle.h"
@@ -19,9 +20,14 @@ struct AdaptOptions {
   int count_flow = 6;       // rounds of flow after a round of count control
   double count_slack = 2;   // faces by which the count may miss what is wanted
   double chord_error = .1;  // greatest distance of a curve from its edges, in target lengths
+  double keep_bends =
+      1.3;  // greatest ratio, either way, of a curve's edges to those it wants, to keep its bends
   SplitOptions split;
   CollapseOptions collapse;
   CountOptions count;
+  FaceCollapseOptions bad_faces;
+  int sliver_rounds = 3;       // of collapses and springs at the very end, while there are slivers
+  double sliver_sagitta = .5;  // then, over the target length: see AngleSearchOptions
 };
 
 /// The options that an effort stands for.
@@ -41,5 +47,10 @@ struct AdaptResult {
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
                   const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
                   const Observer& observer);
+
+/// Collapses slivers that are left, for the springs to even out what that leaves. Returns the number of
+/// collapses; without any, the work stays as it is. Pre-condition: as above.
+int remove_slivers(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
+                   const GuardOptions& guards, double corner_angle);
 
 }  // namespace hooke

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/closest_point.h"
 #include "hooke/creases.h"
 
 namespace hooke {
@@ -44,13 +45,6 @@ std::vector<double> arc_lengths(const Curve& curve) {
   for (int s = 0; s < curve.segment_count(); ++s)
     lengths.push_back(lengths.back() + (curve.points.col((s + 1) % n) - curve.points.col(s)).norm());
   return lengths;
-}
-
-double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double squared = ab.squaredNorm();
-  const double t = squared > 0 ? std::clamp((x - a).dot(ab) / squared, 0., 1.) : 0;
-  return (x - a - t * ab).norm();
 }
 
 /// Greatest distance of the curve from `count` chords of equal arcs.

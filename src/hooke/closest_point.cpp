@@ -46,4 +46,8 @@ TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3
   return best;
 }
 
+double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
+  return (x - a - closest_parameter(a, b, x) * (b - a)).norm();
+}
+
 }  // namespace hooke

@@ -14,4 +14,7 @@ struct TrianglePoint {
 /// The point of the triangle a b c that is closest to x. The triangle may be degenerate.
 TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
 
+/// Distance of x to the segment a b, which may have no length.
+double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b);
+
 }  // namespace hooke

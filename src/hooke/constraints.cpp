@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "hooke/closest_point.h"
 #include "hooke/coincident_boundary.h"
 #include "hooke/creases.h"
 
@@ -87,9 +89,11 @@ void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corn
 /// The crease edges, traced from corner to corner.
 class CreaseTracer {
  public:
-  CreaseTracer(const Mat3X& points, const Connectivity& c, double cos_corner, Constraints& result)
+  CreaseTracer(const Mat3X& points, const Connectivity& c, double cos_corner,
+               const ConstraintOptions& options, Constraints& result)
       : points_(points),
         c_(c),
+        options_(options),
         result_(result),
         breaks_(crease_breaks(points, c, cos_corner)),
         traced_(c.edges.size(), 0) {}
@@ -130,16 +134,35 @@ class CreaseTracer {
       traced_[static_cast<size_t>(edge)] = 1;
       const Edge& ends = c_.edges[static_cast<size_t>(edge)];
       const int v = ends[0] == vertices.back() ? ends[1] : ends[0];
-      if (v == start && !breaks_[static_cast<size_t>(v)]) {
-        add_curve(points_, vertices, true, result_);
-        ++result_.crease_curves;
-        return;
-      }
+      if (v == start && !breaks_[static_cast<size_t>(v)]) return add_crease(vertices, true);
       vertices.push_back(v);
       edge = breaks_[static_cast<size_t>(v)] ? -1 : next_at(v);
     }
-    add_curve(points_, vertices, false, result_);
+    add_crease(vertices, false);
+  }
+
+  void add_crease(const std::vector<int>& vertices, bool closed) {
+    add_curve(points_, vertices, closed, result_);
     ++result_.crease_curves;
+    hold_bends(vertices, closed);
+  }
+
+  /// To slide past a bend cuts it off, and gains nothing where the edges are even already.
+  void hold_bends(const std::vector<int>& vertices, bool closed) {
+    const size_t n = vertices.size(), segments = closed ? n : n - 1;
+    const auto point = [&](size_t i) { return points_.col(vertices[i % n]); };
+    double sum = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (size_t i = 0; i < segments; ++i) {
+      const double length = (point(i + 1) - point(i)).norm();
+      sum += length;
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
+    if (longest > options_.even_crease * shortest) return;
+    const double limit = options_.crease_bend * sum / static_cast<double>(segments);
+    for (size_t i = closed ? n : 1; i < segments + (closed ? n : 0); ++i)
+      if (distance_to_segment(point(i), point(i - 1), point(i + 1)) > limit)
+        result_.freedom[static_cast<size_t>(vertices[i % n])] = Freedom::fixed;
   }
 
   int next_at(int v) const {
@@ -150,6 +173,7 @@ class CreaseTracer {
 
   const Mat3X& points_;
   const Connectivity& c_;
+  const ConstraintOptions& options_;
   Constraints& result_;
   std::vector<char> breaks_;
   std::vector<char> traced_;
@@ -214,7 +238,7 @@ Constraints find_constraints(const Mat3X& points, const Connectivity& c, const C
 
   const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);
   if (options.boundary != BoundaryRule::free) add_boundary(points, c, options.boundary, cos_corner, result);
-  if (!c.creases.empty()) CreaseTracer(points, c, cos_corner, result).run();
+  if (!c.creases.empty()) CreaseTracer(points, c, cos_corner, options, result).run();
   result.creases = crease_edges(c);
   result.further_sides = c.further_sides;
   return result;

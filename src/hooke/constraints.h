@@ -13,6 +13,10 @@ struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
   std::vector<int> fixed_vertices = {};  // ids of vertices that stay where they are
   double corner_angle = 35;  // degrees; a curve that turns by more in 3-D has a corner, which stands still
+  // A crease whose longest edge is no longer than this over its shortest keeps its vertices at bends: where
+  // they stand farther off the chord past them than this part of a mean edge.
+  double even_crease = 1.5;
+  double crease_bend = .01;
   FeatureOptions features = {};
 };
 
@@ -43,14 +47,22 @@ struct Constraints {
   std::vector<Edge> creases;       // edges, by their vertices, that no change of the connectivity may lose
   std::vector<int> further_sides;  // of vertices on creases, see connectivity.h; each has a normal of its own
   int crease_curves = 0;           // of the curves: the last ones
+
   // How far each vertex may go from its home; both are empty where there is no limit.
   Mat3X home;
   std::vector<double> reach;
+
+  /// Does the vertex stand still at a bend of the curve that it is on?
+  bool at_bend(int vertex) const {
+    const auto v = static_cast<size_t>(vertex);
+    return freedom[v] == Freedom::fixed && curve[v] >= 0;
+  }
 };
 
 /// Boundary loops and the creases of the connectivity become curves. They end at corners, where three or more
-/// of them meet or one ends, and where a crease meets the boundary: such vertices stand still. So do vertices
-/// without faces and those of coincident_boundary_vertices(), between which a gap would open.
+/// of them meet or one ends, and where a crease meets the boundary: such vertices stand still. So do those at
+/// the bends of creases, which edges past them would cut off, though the curve goes on there; vertices
+/// without faces; and those of coincident_boundary_vertices(), between which a gap would open.
 Constraints find_constraints(const Mat3X& points, const Connectivity& connectivity,
                              const ConstraintOptions& options);
 

@@ -51,14 +51,14 @@ class Collapse {
     const VertexPlace here(m_.placement, stays);
     const Vec3 way = m_.placement.points.col(goes) - here.point;
     const Worst limits = limits_of(options_);
-    std::optional<Worst> looser;  // what is worse than it should be may stay as it is
+    std::optional<Worst> looser;
     for (double part : parts(stays, goes)) {
       const VertexPlace there = part > 0 ? m_.retraction.moved(m_.placement, stays, part * way) : here;
       there.write_to(m_.placement, stays);
       const Worst after = worst_after();
       if (!is_within(after, limits)) {
         here.write_to(m_.placement, stays);
-        if (!looser) looser = worse_of(limits, worst_before());
+        if (!looser) looser = loosened(limits);
         if (!is_within(after, *looser)) continue;
         there.write_to(m_.placement, stays);
       }
@@ -174,6 +174,22 @@ class Collapse {
         for (size_t k : {0, 1, 2}) look_at_edge(f, k, worst);
       }
     return worst;
+  }
+
+  /// What is worse than it should be may stay as it is, but for what the options insist on.
+  Worst loosened(const Worst& limits) const {
+    Worst loose = worse_of(limits, worst_before());
+    switch (options_.insist) {
+      case Insist::on_nothing:
+        break;
+      case Insist::on_angle:
+        loose.cotangent = limits.cotangent;
+        break;
+      case Insist::on_alignment:
+        loose.alignment = limits.alignment;
+        break;
+    }
+    return loose;
   }
 
   Worst worst_after() const {

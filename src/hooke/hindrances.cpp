@@ -32,7 +32,8 @@ std::vector<unsigned char> holds_of_result(const Workspace& work, const Guards& 
       if (c.is_crease(static_cast<int>(e))) hold |= held_by_crease;
     }
   for (size_t v = 0; v < holds.size(); ++v) {
-    if (work.constraints.freedom[v] != Freedom::fixed) continue;
+    if (work.constraints.freedom[v] != Freedom::fixed || work.constraints.at_bend(static_cast<int>(v)))
+      continue;
     const bool requested =
         std::ranges::binary_search(fixed_vertices, work.vertex_of_input(static_cast<int>(v))) ||
         (asked.boundary == BoundaryRule::fixed && (holds[v] & held_by_boundary));

@@ -26,13 +26,33 @@ class Remeshing {
       stop(StopReason::interrupted);
     else
       unfold();
-    for (outer_ = 1; !done_ && outer_ <= options_.max_outer; ++outer_) iterate();
+    iterate(options_.max_outer);
+    return finish();
+  }
+
+  /// After collapses: the rest of a run, so far recorded in `result`, on the faces that there are now.
+  RemeshResult go_on(RemeshResult result) {
+    result_ = std::move(result);
+    for (const IterationRecord& record : result_.iterations) outer_ = std::max(outer_, record.outer);
+    seconds_before_ = result_.iterations.back().seconds;
+    iterate(1);
+    return finish();
+  }
+
+ private:
+  void iterate(int rounds) {
+    for (int i = 0; !done_ && i < rounds; ++i) {
+      ++outer_;
+      iterate();
+    }
+  }
+
+  RemeshResult finish() {
     if (options_.polish_angles && !interrupted()) raise_angles();
     conclude();
     return std::move(result_);
   }
 
- private:
   Relaxation relaxation() {
     return {*work_.connectivity, work_.sweeps, work_.vertex_length, energy_,
             *work_.retraction,   guards_,      work_.placement,     work_.stopwatch};
@@ -61,7 +81,7 @@ class Remeshing {
   /// The sweeps take out slivers, of which hardly any are left after an iteration that no guard held back.
   LbfgsOptions lbfgs() const {
     LbfgsOptions lbfgs = options_.lbfgs;
-    if (outer_ > 1 && !held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
+    if (!held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
     return lbfgs;
   }
 
@@ -132,26 +152,8 @@ class Remeshing {
   void conclude() {
     result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.placement));
     result_.holds = holds_of_result(work_, guards_, options_.constraints);
-    result_.creases = count_creases();
+    result_.creases = count_creases(work_);
     result_.projection = work_.projection_counts();
-  }
-
-  CreaseCounts count_creases() const {
-    const Constraints& constraints = work_.constraints;
-    CreaseCounts counts;
-    if (constraints.creases.empty()) return counts;
-    counts.curves = constraints.crease_curves;
-    counts.edges = static_cast<int>(constraints.creases.size());
-    counts.kept = static_cast<int>(crease_edges(*work_.connectivity).size());
-    counts.charts = work_.chart_count();
-    std::vector<int> ends;
-    for (const Edge& e : constraints.creases) ends.insert(ends.end(), e.begin(), e.end());
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    for (int v : ends)
-      ++(constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed ? counts.corners
-                                                                       : counts.curve_vertices);
-    return counts;
   }
 
   void stop(StopReason reason) {
@@ -162,7 +164,8 @@ class Remeshing {
   void record(const char* stage, const IntegrationResult& done, int outer = 0) {
     IterationRecord record = iteration_record(work_, stage, done);
     record.outer = outer;
-    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    record.seconds =
+        seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     result_.iterations.push_back(record);
     result_.held_back += done.held_back;
   }
@@ -174,58 +177,30 @@ class Remeshing {
   Energy energy_;
   Guards guards_;
   RemeshResult result_;
+  double seconds_before_ = 0;
   int outer_ = 0;
-  bool held_back_ = false;  // by the guards, in the last relaxation
+  bool held_back_ = true;  // by the guards, in the last relaxation
   bool unhindered_ = false;
   bool done_ = false;
 };
 
+/// Mode `adapt`: slivers that are left give way, as long as that finds any to take.
+void give_way(Workspace& work, const RemeshOptions& options, const Observer& observer, RemeshResult& result) {
+  RemeshOptions rest = options;
+  rest.search.sagitta = options.adaptation.sliver_sagitta;
+  for (int round = 0; round < options.adaptation.sliver_rounds; ++round) {
+    if (result.reason == StopReason::interrupted) return;
+    const int collapses = timed(work.stopwatch, "adapt", [&] {
+      return remove_slivers(work, options.adaptation, options.flips.guard, options.guards,
+                            options.constraints.corner_angle);
+    });
+    if (collapses == 0) return;
+    result = Remeshing(work, rest, observer).go_on(std::move(result));
+    result.adaptation.collapses += collapses;
+  }
+}
+
 }  // namespace
-
-void set_effort(RemeshOptions& options, Effort effort) {
-  options.flips = flip_options(effort);
-  options.adaptation = adapt_options(effort);
-  if (options.connectivity == ConnectivityMode::adapt && effort == Effort::fast)
-    options.flips.flow.rounds = 24;  // where others make edges that are more even
-  if (options.connectivity != ConnectivityMode::fixed) return;
-  switch (effort) {
-    case Effort::fast:  // one round, and angle springs once, not in rising stages
-      options.max_outer = 1;
-      options.polish.first_threshold = options.polish.last_threshold = 24;
-      options.polish.sweeps = 8;
-      break;
-    case Effort::standard:
-      break;
-    case Effort::thorough:  // smaller stages, and edges pay a little for the angles
-      options.max_outer = 12;
-      options.outer_drop = 1e-3;
-      options.polish.sweeps = 24;
-      options.polish.threshold_step = 1;
-      options.polish.least_step = .5;
-      options.polish.last_threshold = 40;
-      options.polish.edge_error_limit = 1.05;
-      options.polish.keep_within = 0;
-      break;
-  }
-}
-
-IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done) {
-  IterationRecord record{
-      .stage = stage, .steps = done.steps, .evaluations = done.evaluations, .energy = done.energy};
-  const Mat3X& points = work.placement.points;
-  const auto& edges = work.connectivity->edges;
-  double sum2 = 0;
-  for (size_t e = 0; e < edges.size(); ++e) {
-    const double l = (points.col(edges[e][1]) - points.col(edges[e][0])).norm();
-    const double error = std::abs(l / work.targets.edge[e] - 1);
-    record.max_length_error = std::max(record.max_length_error, error);
-    sum2 += error * error;
-  }
-  record.rms_length_error = std::sqrt(sum2 / static_cast<double>(edges.size()));
-  record.least_angle = least_angle(points, work.connectivity->faces);
-  record.field_evaluations = work.projection_counts().evaluations;
-  return record;
-}
 
 std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces) {
   std::vector<int> ids;
@@ -264,6 +239,7 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
       break;
     case ConnectivityMode::adapt:
       result.folded_before = adapted.untangle.folded_before;
+      give_way(work, options, observer, result);
       break;
   }
   if (options.map) result.map = work.map();

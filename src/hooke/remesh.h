@@ -4,10 +4,12 @@
 
 #include "hooke/adaptation.h"
 #include "hooke/angle_search.h"
+#include "hooke/crease_counts.h"
 #include "hooke/damped_relaxation.h"
 #include "hooke/do_no_harm.h"
 #include "hooke/flip_connectivity.h"
 #include "hooke/hindrances.h"
+#include "hooke/iteration_record.h"
 #include "hooke/lbfgs.h"
 #include "hooke/polish.h"
 #include "hooke/untangle.h"
@@ -51,35 +53,6 @@ struct RemeshOptions {
   double hindered = 2e-3;  // ... or comes to rest with no more steps held back than this part of the vertices
 };
 
-/// Sets the counts and limits that an effort stands for, in the connectivity mode of the options. `standard`
-/// is what the options are by default.
-void set_effort(RemeshOptions& options, Effort effort);
-
-/// One outer iteration.
-struct IterationRecord {
-  const char* stage = "";
-  int outer = 0;  // outer iteration, from 1; 0 before and after all of them
-  int steps = 0;
-  int evaluations = 0;  // of the energy
-  long long field_evaluations = 0;
-  double energy = 0;
-  double max_length_error = 0;  // max |l - L_e| / L_e
-  double rms_length_error = 0;
-  double least_angle = 0;  // degrees
-  double seconds = 0;      // since the start
-};
-
-/// What was found of creases, and what of it is left. Mode `adapt` gives creases other edges: then the edges
-/// are those of the result.
-struct CreaseCounts {
-  int curves = 0;  // from corner to corner, or closed
-  int edges = 0;
-  int kept = 0;            // of them, still there
-  int corners = 0;         // vertices on creases that stand still
-  int curve_vertices = 0;  // that slide along a crease
-  int charts = 1;          // smooth pieces between creases
-};
-
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
@@ -98,9 +71,6 @@ struct RemeshResult {
   BoundCounts bound;        // time steps by the test that set them (paper_remesh only)
   FailedTests jam;          // what no time step passed, when jammed there
 };
-
-/// The state of the work after `done`; all but the seconds.
-IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done);
 
 /// The ids that these faces of the work have in the result, ascending.
 std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces);
