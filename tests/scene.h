@@ -82,8 +82,8 @@ inline Mat3X random_vectors(Eigen::Index count, double size, unsigned seed = 1) 
 
 /// Every entry is the same to the last bit.
 inline bool same(const Placement& a, const Placement& b) {
-  return a.points == b.points && a.normals == b.normals && a.tangents == b.tangents &&
-         a.anchors == b.anchors && a.segments == b.segments && a.drift == b.drift;
+  return a.points == b.points && a.normals == b.normals && a.anchors == b.anchors &&
+         a.segments == b.segments && a.drift == b.drift;
 }
 
 /// Twice the area times the unit normal.

@@ -60,18 +60,12 @@ class Adaptation {
   void release_bends() {
     count_curve_edges(m_, options_.chord_error);
     Constraints& constraints = work_.constraints;
-    int released = 0;
     for (size_t v = 0; v < constraints.freedom.size(); ++v) {
       if (!constraints.at_bend(static_cast<int>(v))) continue;
       const auto curve = static_cast<size_t>(constraints.curve[v]);
       const double ratio = static_cast<double>(curve_edges_.wanted[curve]) / curve_edges_.present[curve];
-      if (std::max(ratio, 1 / ratio) <= options_.keep_bends) continue;
-      constraints.freedom[v] = Freedom::curve;
-      ++released;
+      if (std::max(ratio, 1 / ratio) > options_.keep_bends) constraints.freedom[v] = Freedom::curve;
     }
-    if (released > 0)
-      work_.placement =
-          work_.retraction->place(work_.placement.points, work_.placement.anchors, constraints.segment);
   }
 
   void change_lengths() {

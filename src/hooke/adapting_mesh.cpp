@@ -18,7 +18,7 @@ void make_room(AdaptingMesh& m, size_t ids) {
   Placement& p = m.placement;
   if (p.drift.size() >= ids) return;
   const size_t room = std::max<size_t>(16, 2 * p.anchors.size());
-  for (Mat3X* matrix : {&p.points, &p.normals, &p.tangents})
+  for (Mat3X* matrix : {&p.points, &p.normals})
     matrix->conservativeResize(3, static_cast<Eigen::Index>(room));
   p.anchors.resize(room, 0);
   p.segments.resize(room, 0);
@@ -166,7 +166,6 @@ int add_vertex(AdaptingMesh& m, int h) {
   Placement& p = m.placement;
   VertexPlace start(p, a);
   start.segment = on.segment;
-  start.tangent.setZero();
   start.drift = 0;
   start.anchor = p.anchors[static_cast<size_t>(t.side(h))];
   start.other_side = other_side;
@@ -205,7 +204,7 @@ void compact(AdaptingMesh& m) {
   keep_only(m.corner_valences, sides);
   keep_only(m.origins, kept);
   Placement& p = m.placement;
-  for (Mat3X* matrix : {&p.points, &p.tangents}) *matrix = (*matrix)(Eigen::all, kept).eval();
+  p.points = p.points(Eigen::all, kept).eval();
   p.normals = p.normals(Eigen::all, sides).eval();
   keep_only(p.anchors, sides);
   keep_only(p.segments, kept);

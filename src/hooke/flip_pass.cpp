@@ -83,7 +83,8 @@ class PatchCutter {
   void copy_vertices(Patch& patch) const {
     const size_t n = patch.vertices.size();
     Placement& p = patch.placement;
-    for (Mat3X* m : {&p.points, &p.normals, &p.tangents}) m->resize(3, static_cast<Eigen::Index>(n));
+    p.points.resize(3, static_cast<Eigen::Index>(n));
+    p.normals.resize(3, static_cast<Eigen::Index>(n));
     p.anchors.resize(n);
     p.segments.resize(n);
     p.drift.resize(n);

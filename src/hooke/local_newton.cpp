@@ -54,7 +54,7 @@ LocalNewton::LocalNewton(Relaxation& relaxation)
 Mat32 LocalNewton::directions(int vertex) const {
   const Placement& at = r_.placement;
   Mat32 curve = Mat32::Zero();
-  curve.col(0) = at.tangents.col(vertex);
+  curve.col(0) = r_.retraction.tangent(at, vertex);
   if (!curve.col(0).isZero(0)) return curve;
   const int neighbour = r_.sweeps.spokes[vertex][0].neighbour;
   return tangent_basis(at.normals.col(vertex), at.points.col(neighbour) - at.points.col(vertex));

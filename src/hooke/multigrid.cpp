@@ -71,12 +71,12 @@ std::array<int, 8> corners_of(const Cell& cell, NodeNumbers& nodes) {
 }
 
 /// Of the corners of a cell, at a place within it.
-std::array<float, 8> hats(const Vec3& t) {
+std::array<float, 8> hats(const Eigen::Vector3f& t) {
   std::array<float, 8> weights;
   for (unsigned k = 0; k < 8; ++k) {
-    double weight = 1;
+    float weight = 1;
     for (unsigned d = 0; d < 3; ++d) weight *= is_high(k, d) ? t[d] : 1 - t[d];
-    weights[k] = static_cast<float>(weight);
+    weights[k] = weight;
   }
   return weights;
 }
@@ -103,7 +103,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
       id = it->second;
       last = at;
     }
-    places_[static_cast<size_t>(v)] = {id, x - low};
+    places_[static_cast<size_t>(v)] = {id, (x - low).cast<float>()};
   }
   for (;;) {
     Level level;
@@ -167,10 +167,12 @@ GridHierarchy::Correction GridHierarchy::solve(const Mat3X& residual) const {
             levels_[l].to_coarser[i].weight[k] * values[l].col(static_cast<Eigen::Index>(i));
   }
   for (size_t l = levels_.size() - 1; l-- > 0;)
-    for (size_t i = 0; i < levels_[l].to_coarser.size(); ++i)
-      for (size_t k = 0; k < 8; ++k)
-        values[l].col(static_cast<Eigen::Index>(i)) +=
-            levels_[l].to_coarser[i].weight[k] * values[l + 1].col(levels_[l].to_coarser[i].node[k]);
+    parallel_for(levels_[l].to_coarser.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i)
+        for (size_t k = 0; k < 8; ++k)
+          values[l].col(static_cast<Eigen::Index>(i)) +=
+              levels_[l].to_coarser[i].weight[k] * values[l + 1].col(levels_[l].to_coarser[i].node[k]);
+    });
   return {std::move(values[0])};
 }
 

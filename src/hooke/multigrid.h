@@ -43,7 +43,7 @@ class GridHierarchy {
   /// Where a vertex lies on the finest grid.
   struct Place {
     int cell;
-    Vec3 within;  // from the cell's lowest node, in cells
+    Eigen::Vector3f within;  // from the cell's lowest node, in cells
   };
   std::vector<Place> places_;              // per vertex
   std::vector<std::array<int, 8>> cells_;  // nodes of the cells of the finest grid that hold vertices

@@ -64,9 +64,10 @@ class PaperRun {
     return [this](Mat3X& forces) {
       for (Eigen::Index v = 0; v < forces.cols(); ++v) {
         const Freedom freedom = work_.constraints.freedom[static_cast<size_t>(v)];
-        const Vec3 tangent = work_.placement.tangents.col(v);
-        if (freedom == Freedom::fixed) forces.col(v).setZero();
-        if (freedom == Freedom::curve) forces.col(v) = (tangent * tangent.dot(forces.col(v))).eval();
+        if (freedom == Freedom::surface) continue;
+        const Vec3 tangent =
+            work_.retraction->tangent(work_.placement, static_cast<int>(v));  // zero if fixed
+        forces.col(v) = (tangent * tangent.dot(forces.col(v))).eval();
       }
     };
   }

@@ -57,7 +57,6 @@ Retraction::Retraction(Surface surface, const Constraints& constraints, const Re
 VertexPlace::VertexPlace(const Placement& p, int vertex)
     : point(p.points.col(vertex)),
       normal(p.normals.col(vertex)),
-      tangent(p.tangents.col(vertex)),
       anchor(p.anchors[static_cast<size_t>(vertex)]),
       segment(p.segments[static_cast<size_t>(vertex)]),
       drift(p.drift[static_cast<size_t>(vertex)]),
@@ -70,7 +69,6 @@ VertexPlace::VertexPlace(const Placement& p, int vertex)
 void VertexPlace::write_to(Placement& p, int vertex) const {
   p.points.col(vertex) = point;
   p.normals.col(vertex) = normal;
-  p.tangents.col(vertex) = tangent;
   p.anchors[static_cast<size_t>(vertex)] = anchor;
   p.segments[static_cast<size_t>(vertex)] = segment;
   p.drift[static_cast<size_t>(vertex)] = drift;
@@ -86,12 +84,20 @@ Vec3 Retraction::within_reach(const Vec3& point, int vertex) const {
   return length > reach ? Vec3(home + way * (reach / length)) : point;
 }
 
+CurveFoot Retraction::foot_on_curve(const Vec3& point, int segment, int vertex) const {
+  const auto curve = static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)]);
+  return project_to_curve(constraints_.curves[curve], point, segment);
+}
+
+Vec3 Retraction::tangent(const Placement& at, int vertex) const {
+  const auto v = static_cast<size_t>(vertex);
+  if (constraints_.freedom[v] != Freedom::curve) return Vec3::Zero();
+  return foot_on_curve(at.points.col(vertex), at.segments[v], vertex).tangent;
+}
+
 VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
-  const Curve& curve =
-      constraints_.curves[static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)])];
-  const CurveFoot foot = project_to_curve(curve, place.point, place.segment);
+  const CurveFoot foot = foot_on_curve(place.point, place.segment, vertex);
   place.point = foot.point;
-  place.tangent = foot.tangent;
   place.segment = foot.segment;
   return place;
 }
@@ -159,7 +165,6 @@ Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::
   p.points = points;
   const auto& further = constraints_.further_sides;
   p.normals = Mat3X::Zero(3, points.cols() + std::ssize(further));
-  p.tangents = Mat3X::Zero(3, points.cols());
   p.anchors = std::move(anchors);
   p.segments = std::move(segments);
   p.drift.assign(static_cast<size_t>(points.cols()), 0);
@@ -195,7 +200,6 @@ void Retraction::step(const Placement& from, const Mat3X& displacement, std::spa
 
 void Retraction::step(const Placement& from, const Mat3X& displacement, Placement& to) {
   to.points.resize(3, from.points.cols());
-  to.tangents.resize(3, from.points.cols());
   copy_sides(from, to);
   to.segments.resize(from.segments.size());
   to.drift.resize(from.drift.size());
@@ -227,9 +231,11 @@ void Retraction::constrain(const Placement& at, Mat3X& vectors) const {
         case Freedom::surface:
           u -= at.normals.col(v) * at.normals.col(v).dot(u);
           break;
-        case Freedom::curve:
-          u = (at.tangents.col(v) * at.tangents.col(v).dot(u)).eval();
+        case Freedom::curve: {
+          const Vec3 along = tangent(at, static_cast<int>(i));
+          u = (along * along.dot(u)).eval();
           break;
+        }
         case Freedom::fixed:
           u.setZero();
           break;

@@ -13,7 +13,6 @@ namespace hooke {
 struct Placement {
   Mat3X points;
   Mat3X normals;                // unit, outward, of the surface; per side
-  Mat3X tangents;               // unit, of the curve; zero for vertices without
   std::vector<int> anchors;     // where on the surface each side is tracked
   std::vector<int> segments;    // where on its curve
   std::vector<double> drift;    // length moved since the last projection
@@ -29,7 +28,6 @@ struct Placement {
 struct VertexPlace {
   Vec3 point;
   Vec3 normal;
-  Vec3 tangent;
   int anchor;
   int segment;
   double drift;
@@ -81,6 +79,9 @@ class Retraction {
   /// Projects the vertices that have drifted.
   void settle(Placement& placement);
 
+  /// Unit, of the curve along which the vertex slides; zero for all others.
+  Vec3 tangent(const Placement& at, int vertex) const;
+
   /// Removes what a vertex may not do: the normal part, all but the part along its curve, or everything.
   void constrain(const Placement& at, Mat3X& vectors) const;
 
@@ -95,6 +96,7 @@ class Retraction {
 
  private:
   Vec3 within_reach(const Vec3& point, int vertex) const;
+  CurveFoot foot_on_curve(const Vec3& point, int segment, int vertex) const;
   VertexPlace on_curve(VertexPlace place, int vertex) const;
   VertexPlace on_surface(VertexPlace place, int vertex);
   VertexPlace drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend, Freedom freedom) const;

@@ -65,7 +65,7 @@ double VertexSearch::outcome(const VertexPlace& place) {
 /// Goes to the best of the places at this distance, if one is better than where the vertex is.
 bool VertexSearch::try_all(int vertex, double step) {
   Placement& at = r_.placement;
-  const Vec3 tangent = at.tangents.col(vertex), normal = at.normals.col(vertex);
+  const Vec3 tangent = r_.retraction.tangent(at, vertex), normal = at.normals.col(vertex);
   const bool on_curve = !tangent.isZero(0);
   const int neighbour = r_.sweeps.spokes[vertex][0].neighbour;
   const Vec3 edge = at.points.col(neighbour) - at.points.col(vertex);

@@ -184,8 +184,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
     const auto old = values;
     for (size_t v = 0; v < n; ++v) values[v] = old[static_cast<size_t>(source[v])];
   };
-  for (Mat3X* matrix : {&placement.points, &placement.tangents})
-    *matrix = (*matrix)(Eigen::all, source).eval();
+  placement.points = placement.points(Eigen::all, source).eval();
   arrange(placement.segments);
   arrange(placement.drift);
   arrange(vertex_length);
