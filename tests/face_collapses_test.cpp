@@ -60,15 +60,20 @@ TEST(FaceCollapses, TakeOutFoldedFaces) {
 TEST(FaceCollapses, TakeOutSlivers) {
   test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
   ASSERT_LT(look_at(s.adapting).least_angle, 20);
-  EXPECT_GE(collapse_slivers(s.adapting, {}), 1);
+  EXPECT_GE(collapse_slivers(s.adapting, {}, 0), 1);
   EXPECT_GT(look_at(s.adapting).least_angle, 25);
   expect_a_disk(s);
+}
+
+TEST(FaceCollapses, LeaveAsManyFacesAsAskedFor) {
+  test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
+  EXPECT_EQ(collapse_slivers(s.adapting, {}, 2 * cells * cells - 1), 0);
 }
 
 TEST(FaceCollapses, LeaveGoodFacesAlone) {
   test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
   EXPECT_EQ(collapse_folded_faces(s.adapting, {}), 0);
-  EXPECT_EQ(collapse_slivers(s.adapting, {}), 0);
+  EXPECT_EQ(collapse_slivers(s.adapting, {}, 0), 0);
   EXPECT_EQ(look_at(s.adapting).faces, 2 * cells * cells);
 }
 
@@ -76,7 +81,7 @@ TEST(FaceCollapses, NeverLowerTheLeastAngle) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     test::AdaptingScene s(test::grid(cells, test::flat, .45, seed), test::plane());
     const Look before = look_at(s.adapting);
-    const int collapses = collapse_slivers(s.adapting, {});
+    const int collapses = collapse_slivers(s.adapting, {}, 0);
     const Look after = look_at(s.adapting);
     EXPECT_GE(after.least_angle, before.least_angle) << seed;
     EXPECT_GE(after.faces, 2 * cells * cells - 2 * collapses) << seed;

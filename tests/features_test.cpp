@@ -85,6 +85,29 @@ test::Triangles creased_sheet(double radius) {
   return t;
 }
 
+/// `wide` x `n` cells, bent by 90 degrees half way along.
+test::Triangles bent_strip(int wide, int n) {
+  test::Triangles t = bent_sheet(n, [](double) { return 90; });
+  std::erase_if(t.faces, [&](const Triangle& f) {
+    return std::ranges::any_of(f, [&](int v) { return t.points(1, v) > wide; });
+  });
+  return t;
+}
+
+TEST(Features, AShortFoldFromBoundaryToBoundaryIsOneBetweenFlatSides) {
+  for (const int wide : {2, 3, 8})
+    EXPECT_EQ(features_of(bent_strip(wide, 12)).size(), static_cast<size_t>(wide));
+  // Ears that are folded up by chance, of a piece that is rough elsewhere too, are none.
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    test::Triangles t = test::grid(12, test::paraboloid, .4, seed);
+    const Connectivity c = test::connect(t);
+    for (int v = 0; v < c.vertex_count;
+         ++v)  // corners of faces that have two boundary edges, and their neighbours
+      if (c.vertex_faces[v].size() <= 2) t.points(2, v) += .3;
+    EXPECT_TRUE(features_of(t).empty()) << seed;
+  }
+}
+
 TEST(Features, AChainInTheMidstOfTheSurfaceLiesBetweenFlatFaces) {
   EXPECT_GE(features_of(creased_sheet(1000)).size(), 20u);
   EXPECT_TRUE(features_of(creased_sheet(15)).empty());

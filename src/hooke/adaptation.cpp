@@ -48,7 +48,8 @@ class Adaptation {
 
   int remove_slivers() {
     count_curve_edges(m_, options_.chord_error);
-    const int collapses = collapse_slivers(m_, options_.bad_faces);
+    const int collapses =
+        collapse_slivers(m_, options_.bad_faces, (1 - options_.sliver_share) * result_.wanted_faces);
     if (collapses == 0) return 0;
     compact(m_);
     replace_mesh();

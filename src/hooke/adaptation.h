@@ -20,13 +20,13 @@ struct AdaptOptions {
   int count_flow = 6;       // rounds of flow after a round of count control
   double count_slack = 2;   // faces by which the count may miss what is wanted
   double chord_error = .1;  // greatest distance of a curve from its edges, in target lengths
-  double keep_bends =
-      1.3;  // greatest ratio, either way, of a curve's edges to those it wants, to keep its bends
+  double keep_bends = 1.3;  // a curve keeps its bends if its edges and those it wants differ by less
   SplitOptions split;
   CollapseOptions collapse;
   CountOptions count;
   FaceCollapseOptions bad_faces;
-  int sliver_rounds = 3;       // of collapses and springs at the very end, while there are slivers
+  int sliver_rounds = 3;       // of collapses and springs at the very end, while there are slivers ...
+  double sliver_share = .02;   // ... and no more of the wanted faces are missing than this part
   double sliver_sagitta = .5;  // then, over the target length: see AngleSearchOptions
 };
 

@@ -40,17 +40,23 @@ int collapse_folded_faces(AdaptingMesh& m, const FaceCollapseOptions& options) {
   });
 }
 
-int collapse_slivers(AdaptingMesh& m, const FaceCollapseOptions& options) {
+int collapse_slivers(AdaptingMesh& m, const FaceCollapseOptions& options, double least_faces) {
   CollapseOptions collapse = options.sliver;
   collapse.insist = Insist::on_angle;
+  const auto& faces = m.triangulation.faces();
+  double left = static_cast<double>(faces.size());
+  const auto give_way = [&](int f) {
+    const double cotangent = greatest_cotangent(m.placement.points, faces[static_cast<size_t>(f)]);
+    collapse.angle = angle_with_cotangent(cotangent) + options.angle_gain;
+    if (left - 2 < least_faces || angle_with_cotangent(cotangent) >= options.sliver_angle ||
+        !collapse_about(m, f, collapse))
+      return false;
+    left -= 2;
+    return true;
+  };
   int collapses = 0;
   for (int round = 0, last = 1; round < options.rounds && last > 0; ++round)
-    collapses += last = for_each_face(m, [&](int f) {
-      const double angle = angle_with_cotangent(
-          greatest_cotangent(m.placement.points, m.triangulation.faces()[static_cast<size_t>(f)]));
-      collapse.angle = angle + options.angle_gain;
-      return angle < options.sliver_angle && collapse_about(m, f, collapse);
-    });
+    collapses += last = for_each_face(m, give_way);
   return collapses;
 }
 

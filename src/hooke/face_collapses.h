@@ -18,7 +18,7 @@ struct FaceCollapseOptions {
 /// corners, if that leaves no such face there. Returns the number of collapses.
 int collapse_folded_faces(AdaptingMesh& mesh, const FaceCollapseOptions& options);
 
-/// The same for slivers, if it leaves only greater angles there.
-int collapse_slivers(AdaptingMesh& mesh, const FaceCollapseOptions& options);
+/// The same for slivers, if it leaves only greater angles there, and no fewer than `least_faces` in all.
+int collapse_slivers(AdaptingMesh& mesh, const FaceCollapseOptions& options, double least_faces);
 
 }  // namespace hooke

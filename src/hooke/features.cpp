@@ -54,13 +54,14 @@ class FeatureSearch {
   }
 
  private:
-  /// How the flatter of its two other edges bends each face of the edge, over the edge's own angle.
-  double bend(int edge) const {
+  /// How the flatter of its two other edges bends each face of the edge, over the edge's own angle. Boundary
+  /// edges are flat or, where it is to be seen that the surface goes on, none.
+  double bend(int edge, bool goes_on = false) const {
     double worst = 0;
     for (int f : c_.edge_faces[idx(edge)]) {
       double least = 180;
       for (int e : c_.face_edges[idx(f)])
-        if (e != edge) least = std::min(least, angle_[idx(e)]);
+        if (e != edge && !(goes_on && c_.is_boundary_edge(e))) least = std::min(least, angle_[idx(e)]);
       worst = std::max(worst, least);
     }
     return worst / angle_[idx(edge)];
@@ -135,9 +136,9 @@ class FeatureSearch {
     }
   }
 
-  double median_bend(const std::vector<int>& edges) const {
+  double median_bend(const std::vector<int>& edges, bool goes_on = false) const {
     std::vector<double> bends;
-    for (int e : edges) bends.push_back(bend(e));
+    for (int e : edges) bends.push_back(bend(e, goes_on));
     const auto middle = bends.begin() + std::ssize(bends) / 2;
     std::nth_element(bends.begin(), middle, bends.end());
     return *middle;
@@ -151,8 +152,8 @@ class FeatureSearch {
   bool is_loose(int vertex) const { return kept_edges(vertex).size() == 1 && !on_boundary(vertex); }
 
   /// Noise makes chains that begin and end in the midst of the surface, and short ones. What leads from the
-  /// boundary to another crease, sharp between flat faces, may be short: the corner of an open box. But one
-  /// edge alone may be the side of a loose triangle.
+  /// boundary to another crease or to the boundary, sharp between flat faces, may be short: the corner of an
+  /// open box, the fold of a strip. But one edge alone may be the side of a loose triangle.
   bool is_worth_keeping(const Chain& chain) const {
     double sum = 0;
     int sharp = 0;
@@ -162,8 +163,10 @@ class FeatureSearch {
     }
     const auto edges = static_cast<int>(chain.edges.size());
     const double bend = median_bend(chain.edges);
-    const bool is_joined = on_boundary(chain.first) && kept_edges(chain.last).size() > 1;
-    if (is_joined && edges > 1 && sharp == edges && bend <= o_.flat_bend) return true;
+    if (on_boundary(chain.first) && edges > 1 && sharp == edges) {
+      if (kept_edges(chain.last).size() > 1 && bend <= o_.flat_bend) return true;
+      if (on_boundary(chain.last) && median_bend(chain.edges, true) <= o_.flat_bend) return true;
+    }
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
     return edges >= o_.least_edges && sum >= o_.least_length && sharp >= o_.sharp_share * edges &&
            bend <= (is_lone ? o_.flat_bend : o_.chain_bend);

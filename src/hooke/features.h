@@ -24,7 +24,7 @@ struct FeatureOptions {
 /// on nearly flat across one of its other edges: a coarse mesh of a round body bends everywhere. Chains end
 /// loosely where no other crease or chain goes on from their last vertex; such ones must be long, straight
 /// and clean, since noise makes short ones; so must those from the boundary, unless all their edges are sharp
-/// between flat faces and they lead to a crease. What is left hangs together in networks;
+/// between flat faces and they lead to a crease or to the boundary. What is left hangs together in networks;
 /// noise makes such of many corners between rough faces.
 std::vector<int> find_features(const Mat3X& points, const Connectivity& connectivity,
                                const std::vector<double>& vertex_length, const FeatureOptions& options);

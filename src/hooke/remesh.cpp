@@ -26,7 +26,7 @@ class Remeshing {
       stop(StopReason::interrupted);
     else
       unfold();
-    iterate(options_.max_outer);
+    iterate_up_to(options_.max_outer);
     return finish();
   }
 
@@ -35,12 +35,12 @@ class Remeshing {
     result_ = std::move(result);
     for (const IterationRecord& record : result_.iterations) outer_ = std::max(outer_, record.outer);
     seconds_before_ = result_.iterations.back().seconds;
-    iterate(1);
+    iterate_up_to(1);
     return finish();
   }
 
  private:
-  void iterate(int rounds) {
+  void iterate_up_to(int rounds) {
     for (int i = 0; !done_ && i < rounds; ++i) {
       ++outer_;
       iterate();
