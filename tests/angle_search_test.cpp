@@ -6,6 +6,7 @@
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/polish.h"
+#include "remeshed.h"
 #include "scene.h"
 
 namespace hooke {
@@ -42,6 +43,16 @@ Outcome search(const test::Triangles& t, const AngleSearchOptions& options = {})
   for (const Triangle& f : t.faces) o.upside_down += test::area_vector(s.placement.points, f)[2] <= 0;
   o.points = s.placement.points;
   return o;
+}
+
+TEST(AngleSearch, EndsWhereAFaceHasNoArea) {
+  test::Triangles t = test::grid(6, test::flat);
+  const int on_edge = static_cast<int>(t.points.cols());
+  t.points.conservativeResize(3, on_edge + 1);
+  t.points.col(on_edge) = .5 * (t.points.col(2) + t.points.col(3));
+  t.faces.push_back({3, 2, on_edge});
+  const test::Outcome o = test::remeshed(t, RemeshOptions{});
+  EXPECT_TRUE(o.points.allFinite());
 }
 
 TEST(AngleSearch, RaisesTheLeastAngleForLittleOfTheEdges) {

@@ -45,10 +45,19 @@ TEST(SurfaceBend, APlaneDoesNotBendAndALoneVertexSaysNothing) {
   test::Triangles t = test::moved(test::grid(6, test::flat, .4));
   t.points.conservativeResize(3, t.points.cols() + 1);
   t.points.rightCols(1).setConstant(7);
-  for (const SurfaceBend& b : bends_of(t)) {
+  std::vector<SurfaceBend> bends = bends_of(t);
+  EXPECT_TRUE(std::isinf(bends.back().change));
+  bends.pop_back();
+  for (const SurfaceBend& b : bends) {
     EXPECT_LT((b.shape * Vec3(1, 2, 3)).norm(), 1e-12);
     EXPECT_LT(b.change, 1e-12);
   }
+}
+
+TEST(SurfaceBend, SaysNothingWhereEdgesDoNotSpanAPlane) {
+  test::Triangles t = test::grid(6, test::paraboloid);
+  t.points.row(0) *= 100;
+  for (const SurfaceBend& b : bends_of(t)) EXPECT_TRUE(std::isinf(b.change));
 }
 
 TEST(SurfaceBend, IsOneOverTheLength) {

@@ -18,9 +18,11 @@ CreaseCounts count_creases(const Workspace& work) {
   for (const Edge& e : constraints.creases) ends.insert(ends.end(), e.begin(), e.end());
   std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  for (int v : ends)
-    ++(constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed ? counts.corners
-                                                                     : counts.curve_vertices);
+  for (int v : ends) {
+    const bool inner =
+        constraints.freedom[static_cast<size_t>(v)] == Freedom::curve || constraints.at_bend(v);
+    ++(inner ? counts.curve_vertices : counts.corners);
+  }
   return counts;
 }
 

@@ -11,8 +11,8 @@ struct CreaseCounts {
   int curves = 0;  // from corner to corner, or closed
   int edges = 0;
   int kept = 0;            // of them, still there
-  int corners = 0;         // vertices on creases that stand still
-  int curve_vertices = 0;  // that slide along a crease
+  int corners = 0;         // vertices where curves end; they stand still
+  int curve_vertices = 0;  // between them: they slide along the crease, or stay at its bends
   int charts = 1;          // smooth pieces between creases
 };
 

@@ -37,8 +37,8 @@ inline bool sagitta_breaks(const GuardOptions& o, double target, double before, 
 /// A crease may be as sharp as it is, but one that is blunter than a right angle stays so, and one of about a
 /// right angle does not become an acute one.
 inline bool crease_fold_breaks(const GuardOptions& o, double before, double after) {
-  const auto falls_below = [&](double limit) { return before >= limit && after < limit; };
-  return before - after > o.slack && (falls_below(o.fold) || falls_below(-o.fold));
+  const auto falls_below = [&](double limit) { return before >= limit - o.slack && after < limit - o.slack; };
+  return falls_below(o.fold) || falls_below(-o.fold);
 }
 
 inline bool fold_breaks(const GuardOptions& o, double before, double after) {

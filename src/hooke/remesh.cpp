@@ -34,7 +34,7 @@ class Remeshing {
   RemeshResult go_on(RemeshResult result) {
     result_ = std::move(result);
     for (const IterationRecord& record : result_.iterations) outer_ = std::max(outer_, record.outer);
-    seconds_before_ = result_.iterations.back().seconds;
+    if (!result_.iterations.empty()) seconds_before_ = result_.iterations.back().seconds;
     iterate_up_to(1);
     return finish();
   }
@@ -195,7 +195,9 @@ void give_way(Workspace& work, const RemeshOptions& options, const Observer& obs
                             options.constraints.corner_angle);
     });
     if (collapses == 0) return;
+    const StopReason reason = result.reason;  // why the springs stopped that all vertices had
     result = Remeshing(work, rest, observer).go_on(std::move(result));
+    if (result.reason != StopReason::interrupted) result.reason = reason;
     result.adaptation.collapses += collapses;
   }
 }

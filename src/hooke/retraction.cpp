@@ -149,11 +149,11 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
   return on_surface(place, vertex);
 }
 
-/// `way` led to the place, in the tangent plane.
+/// `way` led to the place, in the tangent plane or along a chord.
 VertexPlace Retraction::drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend,
                                 Freedom freedom) const {
   const Vec3 turn = bend.shape * way;
-  if (freedom == Freedom::surface) place.point -= .5 * way.dot(turn) * place.normal;
+  if (freedom == Freedom::surface) place.point -= (way.dot(place.normal) + .5 * way.dot(turn)) * place.normal;
   place.normal = (place.normal + turn).normalized();
   if (place.other_side >= 0)
     place.other_normal = (place.other_normal + surface_.bend(place.other_anchor).shape * way).normalized();

@@ -1,6 +1,8 @@
 #include "hooke/surface_bend.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "hooke/parallel.h"
 
@@ -13,9 +15,9 @@ constexpr double least_spread =
     1e-3;  // of the edges across their main direction, over that along it, squared
 
 /// M with M d = turn in the sense of least squares, made symmetric.
-SymmetricMatrix shape_operator(const Mat3X& points, const Mat3X& normals, const Connectivity& c, int v) {
+SurfaceBend bend_at(const Mat3X& points, const Mat3X& normals, const Connectivity& c, int v) {
   const auto neighbours = c.vertex_neighbours[v];
-  if (neighbours.empty() || normals.col(v).isZero(0)) return {};
+  if (neighbours.empty() || normals.col(v).isZero(0)) return unknown_bend();
   const Vec3 n = normals.col(v);
   Eigen::Matrix<double, 3, 2> basis;
   basis.col(0) = n.unitOrthogonal();
@@ -28,24 +30,29 @@ SymmetricMatrix shape_operator(const Mat3X& points, const Mat3X& normals, const 
     turned += turn * way.transpose();
   }
   const double size = spread.trace();
-  if (!(spread.determinant() > least_spread * size * size)) return {};
+  if (!(spread.determinant() > least_spread * size * size)) return unknown_bend();
   const Eigen::Matrix2d shape = turned * spread.inverse();
   const Eigen::Matrix2d symmetric = .5 * (shape + shape.transpose());
-  return SymmetricMatrix(basis * symmetric * basis.transpose());
+  return {.shape = SymmetricMatrix(basis * symmetric * basis.transpose())};
 }
 
 }  // namespace
+
+SurfaceBend unknown_bend() {
+  return {.change = std::numeric_limits<float>::infinity()};
+}
 
 std::vector<SurfaceBend> surface_bends(const Mat3X& points, const Mat3X& normals, const Connectivity& c) {
   const auto n = static_cast<std::size_t>(c.vertex_count);
   std::vector<SurfaceBend> bends(n);
   parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v)
-      bends[v].shape = shape_operator(points, normals, c, static_cast<int>(v));
+    for (std::size_t v = begin; v < end; ++v) bends[v] = bend_at(points, normals, c, static_cast<int>(v));
   });
-  std::vector<float> change(n, 0);
+  std::vector<float> change(n);
   parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
+      change[v] = bends[v].change;  // so far infinite or none
+      if (std::isinf(change[v])) continue;
       double squares = 0;
       const auto neighbours = c.vertex_neighbours[static_cast<int>(v)];
       for (int w : neighbours) {

@@ -9,11 +9,14 @@ namespace hooke {
 /// A step d along the surface turns its unit normal n by S d and leads to x + d - (d . S d / 2) n, to second
 /// order.
 struct SurfaceBend {
-  SymmetricMatrix shape;  // S: the shape operator for outward normals, 1 / length; 1 / R on a sphere
-  float change = 0;       // of S from a vertex to the next along the way, rms; the greatest within a ring
+  SymmetricMatrix shape = {};  // S: the shape operator for outward normals, 1 / length; 1 / R on a sphere
+  float change = 0;  // of S from a vertex to the next along the way, rms; the greatest within a ring
 };
 
-/// S in the sense of least squares over the edges about each vertex; 0 where they do not span a plane.
+/// It may bend in any way: its change is infinite.
+SurfaceBend unknown_bend();
+
+/// S in the sense of least squares over the edges about each vertex; unknown where they do not span a plane.
 std::vector<SurfaceBend> surface_bends(const Mat3X& points, const Mat3X& normals,
                                        const Connectivity& connectivity);
 

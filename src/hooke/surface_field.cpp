@@ -127,9 +127,10 @@ SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> con
   state->kind = options.kind;
   state->normals = vertex_normals(points, *connectivity);
   state->edge_lengths = mean_edge_lengths(points, *connectivity);
-  state->bends = surface_bends(points, state->normals, *connectivity);
-  if (options.kind == FilterKind::local || options.kind == FilterKind::global)
+  if (options.kind == FilterKind::local || options.kind == FilterKind::global) {
+    state->bends = surface_bends(points, state->normals, *connectivity);
     state->reaches = reaches_of({points, state->normals, *connectivity}, options.reach, lengths);
+  }
   if (options.kind == FilterKind::local)
     state->partition.emplace(points, *connectivity, state->normals, state->edge_lengths,
                              PartitionOptions{.kernel = options.kernel, .offset = options.offset});
@@ -158,7 +159,10 @@ Surface SurfaceField::surface() const {
   const auto project = [state = state_](const Vec3& x, int anchor, double tolerance) {
     return state->project(x, anchor, tolerance);
   };
-  const auto bend = [state = state_](int anchor) { return state->bends[static_cast<std::size_t>(anchor)]; };
+  const auto bend = [state = state_](int anchor) {
+    if (state->bends.empty()) return unknown_bend();
+    return state->bends[static_cast<std::size_t>(anchor)];
+  };
   return {project, bend};
 }
 

@@ -72,7 +72,9 @@ bool VertexSearch::try_all(int vertex, double step) {
   const Vec3 u = on_curve ? tangent : Vec3((edge - normal * normal.dot(edge)).normalized());
   const Vec3 v = normal.cross(u);
   const double length = step * r_.vertex_length[static_cast<size_t>(vertex)];
-  double best = worst_ - o_.least_gain * std::abs(worst_);
+  // A face without area: any finite angle is better.
+  double best =
+      std::isfinite(worst_) ? worst_ - o_.least_gain * std::abs(worst_) : std::numeric_limits<double>::max();
   std::optional<VertexPlace> best_place;
   const auto look_at = [&](const Vec3& way) {
     const VertexPlace place = r_.retraction.moved(at, vertex, way);

@@ -30,6 +30,11 @@ constexpr double landing_cotangent = 3e-3;
 
 constexpr double landing_tolerance = 1e-9;  // in mean target lengths
 
+bool is_graded(const std::vector<double>& lengths) {
+  const auto [least, most] = std::ranges::minmax_element(lengths);
+  return least != lengths.end() && *least != *most;
+}
+
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
   std::iota(ids.begin(), ids.end(), 0);
@@ -70,6 +75,7 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   connect(std::move(smooth), creases);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
+  if (is_graded(vertex_length)) reordered.even_crease = 0;  // even edges are not what is asked for
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(start, *connectivity, reordered); });
   origins = identity(n);
@@ -230,8 +236,7 @@ void Workspace::resample_lengths() {
 }
 
 bool Workspace::graded() const {
-  const auto [least, most] = std::ranges::minmax_element(start_length_);
-  return least != start_length_.end() && *least != *most;
+  return is_graded(start_length_);
 }
 
 std::vector<double> Workspace::input_lengths() const {
