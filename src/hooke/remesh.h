@@ -50,7 +50,7 @@ struct RemeshOptions {
   double tolerance = 1e-3;   // of every edge, in parts of its target length
   int max_outer = 6;         // outer iterations
   double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part ...
-  double hindered = 2e-3;  // ... or comes to rest with no more steps held back than this part of the vertices
+  double hindered = 4e-3;  // ... or comes to rest with no more steps held back than this part of the vertices
 };
 
 struct RemeshResult {
