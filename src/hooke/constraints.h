@@ -62,8 +62,8 @@ struct Constraints {
 
 /// Boundary loops and the creases of the connectivity become curves. They end at corners, where three or more
 /// of them meet or one ends, and where a crease meets the boundary: such vertices stand still. So do those at
-/// the bends of creases, which edges past them would cut off, though the curve goes on there; vertices
-/// without faces; and those of coincident_boundary_vertices(), between which a gap would open.
+/// the bends of even creases (see the options), though the curve goes on there; vertices without faces; and
+/// those of coincident_boundary_vertices(), between which a gap would open.
 Constraints find_constraints(const Mat3X& points, const Connectivity& connectivity,
                              const ConstraintOptions& options);
 

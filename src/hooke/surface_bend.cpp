@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::size_t block = 1024;
 
-constexpr double least_spread =
-    1e-3;  // of the edges across their main direction, over that along it, squared
+/// Of the edges across their main direction, over that along it, squared.
+constexpr double least_spread = 1e-3;
 
-/// M with M d = turn in the sense of least squares, made symmetric.
+/// Its shape operator: M with M d = turn in the sense of least squares, made symmetric.
 SurfaceBend bend_at(const Mat3X& points, const Mat3X& normals, const Connectivity& c, int v) {
   const auto neighbours = c.vertex_neighbours[v];
   if (neighbours.empty() || normals.col(v).isZero(0)) return unknown_bend();
