@@ -201,7 +201,7 @@ TEST(Adaptation, APowerOfTwoScalesTheResultExactly) {
 
 TEST(Adaptation, StopsWithAValidMeshWheneverTheObserverSaysSo) {
   const test::Triangles t = with_holes(wave);
-  for (int calls : {1, 2, 17, 40, 75}) {
+  for (int calls : {1, 2, 17, 40, 55}) {
     int left = calls;
     const Outcome o = adapted(t, .6 * natural(t), adapting(), [&](const Progress&) { return --left > 0; });
     EXPECT_EQ(o.result.reason, StopReason::interrupted);

@@ -160,7 +160,11 @@ UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOpti
 
 AdaptOptions adapt_options(Effort effort) {
   AdaptOptions options;
-  if (effort == Effort::fast) options.rounds = 4;
+  if (effort == Effort::fast) {
+    options.rounds = 2;
+    options.first_flow = options.count_flow = 2;
+    options.flow_rounds = 4;
+  }
   return options;
 }
 

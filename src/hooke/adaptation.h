@@ -13,9 +13,9 @@
 namespace hooke {
 
 struct AdaptOptions {
-  int rounds = 7;           // of splits, collapses and flow
+  int rounds = 5;           // of splits, collapses and flow
   int first_flow = 6;       // rounds of flow before: what can stay where it spreads out need not go
-  int flow_rounds = 8;      // after the splits and collapses of a round
+  int flow_rounds = 6;      // after the splits and collapses of a round
   int count_rounds = 30;    // of count control and flow, at most
   int count_flow = 6;       // rounds of flow after a round of count control
   double count_slack = 2;   // faces by which the count may miss what is wanted

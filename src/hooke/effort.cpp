@@ -2,12 +2,34 @@
 
 namespace hooke {
 
+namespace {
+
+/// Adaptation has spread the vertices out.
+void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
+  switch (effort) {
+    case Effort::fast:
+      flips.flow.rounds = 8;
+      flips.passes.passes = 1;
+      flips.passes.rounds = 3;
+      break;
+    case Effort::standard:
+      flips.flow.rounds = 20;
+      break;
+    case Effort::thorough:
+      break;
+  }
+}
+
+}  // namespace
+
 void set_effort(RemeshOptions& options, Effort effort) {
   options.flips = flip_options(effort);
   options.adaptation = adapt_options(effort);
-  if (options.connectivity == ConnectivityMode::adapt && effort == Effort::fast)
-    options.flips.flow.rounds = 24;  // where others make edges that are more even
-  if (options.connectivity != ConnectivityMode::fixed) return;
+  if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
+  if (options.connectivity != ConnectivityMode::fixed) {
+    if (effort == Effort::fast) options.integration.energy_drop = 1e-2;
+    return;
+  }
   switch (effort) {
     case Effort::fast:  // one round, and angle springs once, not in rising stages
       options.max_outer = 1;

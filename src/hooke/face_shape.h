@@ -15,6 +15,12 @@ struct FaceShape {
   bool degenerate() const { return normal.isZero(0); }
 };
 
+/// Its length is twice the area.
+inline Vec3 doubled_area_vector(const Mat3X& points, const Triangle& face) {
+  const Vec3 a = points.col(face[0]);
+  return (points.col(face[1]) - a).cross(points.col(face[2]) - a);
+}
+
 /// A face is degenerate when its double area is below 1e-12 of its longest edge squared: then rounding of the
 /// coordinates decides where its normal points.
 inline FaceShape face_shape(const Eigen::Ref<const Mat3X>& points, const Triangle& face) {

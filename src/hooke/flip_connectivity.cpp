@@ -34,7 +34,7 @@ class FlipMode {
     Energy energy(*work_.connectivity, work_.targets, terms_);
     Guards guards(*work_.connectivity, work_.targets, guards_);
     Relaxation r{*work_.connectivity, work_.sweeps, work_.vertex_length, energy,
-                 *work_.retraction,   guards,       work_.placement};
+                 *work_.retraction,   guards,       work_.placement,     work_.stopwatch};
     return body(r);
   }
 
@@ -70,6 +70,7 @@ class FlipMode {
   }
 
   void flow_vertices() {
+    const Stage stage(work_.stopwatch, "flow");
     flip([&](FlippingMesh& m) {
       result_.flow = flow(m, options_.flow, options_.guard, guards_, observer_);
       return result_.flow.flips;
@@ -77,11 +78,15 @@ class FlipMode {
     result_.interrupted = result_.flow.interrupted;
   }
 
+  /// Flow has left no slivers for sweeps to take out.
   void settle_springs() {
+    const Stage stage(work_.stopwatch, "springs");
     IntegrationOptions integration;
     integration.max_steps = options_.spring_steps;
+    LbfgsOptions lbfgs;
+    lbfgs.sweeps = 0;
     const IntegrationResult relaxed =
-        relax([&](Relaxation& r) { return relax_lbfgs(r, integration, LbfgsOptions{}, watch("springs")); });
+        relax([&](Relaxation& r) { return relax_lbfgs(r, integration, lbfgs, watch("springs")); });
     work_.resample_lengths();
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
@@ -91,15 +96,27 @@ class FlipMode {
     for (int round = 0; round < options_.spring_rounds && !result_.interrupted; ++round) {
       settle_springs();
       ++result_.spring_rounds;
-      if (flip([&](FlippingMesh& m) { return flip_to_delaunay(m, options_.guard); }) == 0) break;
+      if (flip([&](FlippingMesh& m) { return flip_to_delaunay(m, options_.guard); }) <= few_flips()) break;
     }
+  }
+
+  long long few_flips() const {
+    return static_cast<long long>(options_.few_flips * static_cast<double>(work_.connectivity->edges.size()));
   }
 
   bool improve_flips() {
     settle_springs();
+    if (result_.interrupted) return false;
     ++result_.passes;
+    const Stage stage(work_.stopwatch, "irregular");
+    const Observer watching = [this](Progress p) {
+      p.stage = "flips";
+      result_.interrupted = observer_ && !observer_(p);
+      return !result_.interrupted;
+    };
     return flip([&](FlippingMesh& m) {
-             return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_);
+             return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_, changed_,
+                                         watching);
            }) > 0;
   }
 
@@ -109,6 +126,7 @@ class FlipMode {
   const GuardOptions& guards_;
   const Observer& observer_;
   std::vector<int> corner_valences_;
+  std::vector<char> changed_;  // vertices, lately by flips of irregular edges
   FlipResult result_;
 };
 
@@ -116,20 +134,22 @@ class FlipMode {
 
 FlipOptions flip_options(Effort effort) {
   FlipOptions options;
-  options.passes.passes = 0;
   switch (effort) {
     case Effort::fast:
-      options.flow.rounds = 14;
+      options.flow.rounds = 9;
       options.spring_rounds = 1;
+      options.spring_steps = 8;
+      options.passes.passes = 0;
       options.polish.last_threshold = 36;
       options.polish.sweeps = 4;
       break;
     case Effort::standard:
-      options.flow.rounds = 60;
       break;
     case Effort::thorough:
       options.flow.rounds = 200;
+      options.few_flips = 0;
       options.passes.passes = 8;
+      options.passes.rings = 3;
       options.passes.sweeps = 6;
       break;
   }

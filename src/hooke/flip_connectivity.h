@@ -23,8 +23,9 @@ enum class Effort { fast, standard, thorough };
 
 struct FlipOptions {
   FlowOptions flow;
-  int spring_rounds = 8;  // of springs and flips after the flow, at most
-  int spring_steps = 15;  // evaluations of the springs' energy per round
+  int spring_rounds = 8;    // of springs and Delaunay flips after the flow, at most ...
+  double few_flips = 1e-3;  // ... while more than this part of the edges flips
+  int spring_steps = 15;    // evaluations of the springs' energy per round
   FlipPassOptions passes;
   FlipGuardOptions guard;
   /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.

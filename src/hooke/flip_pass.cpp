@@ -1,125 +1,19 @@
 #include "hooke/flip_pass.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
+#include "hooke/flip_patch.h"
 #include "hooke/local_newton.h"
+#include "hooke/parallel.h"
 
 namespace hooke {
 namespace {
 
-/// The neighbourhood of an edge as a small mesh of its own, in which a flip is tried.
-struct Patch {
-  std::vector<int> vertices;    // sides of the whole mesh; those that may move come first
-  size_t movable = 0;           // vertices on creases among them, which do not
-  std::vector<Triangle> faces;  // all faces about the movable vertices, in patch ids
-  Placement placement;
-  std::vector<double> vertex_length;
-  Constraints constraints;
-};
-
-/// Cuts patches out of a mesh, each within the creases around it.
-class PatchCutter {
- public:
-  explicit PatchCutter(const FlippingMesh& mesh)
-      : m_(mesh), local_(mesh.corner_valences.size(), -1), seen_(mesh.triangulation.faces().size(), 0) {}
-
-  Patch cut(int half_edge, int rings) {
-    Patch patch;
-    add(patch, m_.triangulation.side(half_edge));
-    add(patch, m_.triangulation.side(Triangulation::next(half_edge)));
-    for (size_t begin = 0; rings > 0; --rings) {
-      const size_t end = patch.vertices.size();
-      for (; begin < end; ++begin) add_neighbours(patch, patch.vertices[begin]);
-    }
-    patch.movable = patch.vertices.size();
-    std::vector<int> faces;
-    for (size_t i = 0; i < patch.movable; ++i)
-      for (int h : outgoing(patch.vertices[i])) {
-        char& seen = seen_[static_cast<size_t>(h / 3)];
-        if (!seen) faces.push_back(h / 3);
-        seen = 1;
-      }
-    for (int f : faces) {
-      seen_[static_cast<size_t>(f)] = 0;
-      Triangle t = m_.triangulation.sides()[static_cast<size_t>(f)];
-      for (int& v : t) v = add(patch, v);
-      patch.faces.push_back(t);
-    }
-    copy_vertices(patch);
-    for (int v : patch.vertices) local_[static_cast<size_t>(v)] = -1;
-    return patch;
-  }
-
- private:
-  /// The vertex that a side is of.
-  int vertex_of(int side) const {
-    const auto vertices = static_cast<int>(m_.vertex_length.size());
-    return side < vertices ? side : m_.constraints.further_sides[static_cast<size_t>(side - vertices)];
-  }
-
-  std::vector<int> outgoing(int side) const {
-    std::vector<int> spokes = m_.triangulation.outgoing(vertex_of(side));
-    std::erase_if(spokes, [&](int h) { return m_.triangulation.side(h) != side; });
-    return spokes;
-  }
-
-  int add(Patch& patch, int v) {
-    int& id = local_[static_cast<size_t>(v)];
-    if (id < 0) {
-      id = static_cast<int>(patch.vertices.size());
-      patch.vertices.push_back(v);
-    }
-    return id;
-  }
-
-  void add_neighbours(Patch& patch, int v) {
-    for (int h : outgoing(v)) {
-      add(patch, m_.triangulation.side(Triangulation::next(h)));
-      add(patch, m_.triangulation.side(Triangulation::previous(h)));
-    }
-  }
-
-  void copy_vertices(Patch& patch) const {
-    const size_t n = patch.vertices.size();
-    Placement& p = patch.placement;
-    p.points.resize(3, static_cast<Eigen::Index>(n));
-    p.normals.resize(3, static_cast<Eigen::Index>(n));
-    p.anchors.resize(n);
-    p.segments.resize(n);
-    p.drift.resize(n);
-    for (size_t i = 0; i < n; ++i) {
-      const int side = patch.vertices[i], vertex = vertex_of(side);
-      const auto v = static_cast<size_t>(vertex);
-      VertexPlace place(m_.placement, vertex);
-      place.normal = m_.placement.normals.col(side);
-      place.anchor = m_.placement.anchors[static_cast<size_t>(side)];
-      place.other_side = -1;
-      place.write_to(p, static_cast<int>(i));
-      const bool on_crease = !m_.constraints.creases.empty() && m_.triangulation.on_crease(vertex);
-      patch.vertex_length.push_back(m_.vertex_length[v]);
-      patch.constraints.freedom.push_back(on_crease ? Freedom::fixed : m_.constraints.freedom[v]);
-      patch.constraints.segment.push_back(m_.constraints.segment[v]);
-      patch.constraints.curve.push_back(local_curve(patch, m_.constraints.curve[v]));
-    }
-  }
-
-  /// Index of the curve in the patch, which gets a copy of it.
-  int local_curve(Patch& patch, int curve) const {
-    if (curve < 0) return -1;
-    for (size_t i = 0; i < patch_curves_.size() && i < patch.constraints.curves.size(); ++i)
-      if (patch_curves_[i] == curve) return static_cast<int>(i);
-    patch_curves_.resize(patch.constraints.curves.size());
-    patch_curves_.push_back(curve);
-    patch.constraints.curves.push_back(m_.constraints.curves[static_cast<size_t>(curve)]);
-    return static_cast<int>(patch_curves_.size()) - 1;
-  }
-
-  const FlippingMesh& m_;
-  std::vector<int> local_;
-  std::vector<char> seen_;
-  mutable std::vector<int> patch_curves_;
-};
+// Edges of a batch are tried at the same time, against the mesh as it was before. They lie far apart: a batch
+// takes every so many-th of the candidates, which follow the mesh.
+constexpr size_t edges_of_batch = 512;
+constexpr size_t least_batches = 16;
 
 /// Of the corner where h leaves.
 int irregularity(const FlippingMesh& m, int h) {
@@ -130,71 +24,172 @@ int irregularity(const FlippingMesh& m, int h) {
 
 /// Two or more irregular vertices about the edge, and no more irregularity after the flip.
 bool worth_a_try(const FlippingMesh& m, int h) {
-  const Triangulation& t = m.triangulation;
-  const int g = t.twin(h);
-  const int ends[] = {irregularity(m, h), irregularity(m, g)};
-  const int apexes[] = {irregularity(m, Triangulation::previous(h)),
-                        irregularity(m, Triangulation::previous(g))};
+  const int g = m.triangulation.twin(h);
   int irregular = 0, before = 0, after = 0;
-  for (int i : ends) {
+  const auto look = [&](int corner, int change) {
+    const int i = irregularity(m, corner);
     irregular += i != 0;
     before += i * i;
-    after += (i - 1) * (i - 1);
-  }
-  for (int i : apexes) {
-    irregular += i != 0;
-    before += i * i;
-    after += (i + 1) * (i + 1);
-  }
+    after += (i + change) * (i + change);
+  };
+  look(h, -1);
+  look(g, -1);
+  look(Triangulation::previous(h), 1);
+  look(Triangulation::previous(g), 1);
   return irregular >= 2 && after <= before;
 }
 
-/// Flips and settles the patch; returns how much its energy falls.
-double try_flip(Patch& patch, const FlippingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
-                const GuardOptions& guard_options) {
-  const int n = static_cast<int>(patch.vertices.size());
-  const Connectivity before = make_connectivity(n, patch.faces);
-  const TargetLengths targets_before = spread_target_lengths(before, patch.vertex_length);
-  const double energy_before = Energy(before, targets_before, terms)(patch.placement, nullptr);
-
-  Triangulation t(before);
-  for (int h : t.outgoing(0))  // the ends of the edge are the first vertices of the patch
-    if (t.to(h) == 1) {
-      t.flip(h);
-      break;
-    }
-  const Connectivity after = make_connectivity(n, t.faces());
-  const TargetLengths targets = spread_target_lengths(after, patch.vertex_length);
-  Energy energy(after, targets, terms);
-  Guards guards(after, targets, guard_options);
-  Retraction retraction(m.retraction.surface(), patch.constraints, m.retraction.options());
-  const SweepPlan sweeps = plan_sweeps(after);
-  Relaxation r{after, sweeps, patch.vertex_length, energy, retraction, guards, patch.placement};
-  std::vector<char> active(patch.vertices.size(), 0);
-  std::fill_n(active.begin(), patch.movable, 1);
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) local_newton_sweep(r, active, {});
-  return energy_before - energy(patch.placement, nullptr);
+/// Of the patch with these faces.
+double energy_of(const FlipPatch& patch, const std::vector<Triangle>& faces, const EnergyTerms& terms) {
+  const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), faces);
+  const TargetLengths targets = spread_target_lengths(c, patch.vertex_length);
+  return Energy(c, targets, terms)(patch.placement, nullptr);
 }
+
+class FlipPass {
+ public:
+  FlipPass(FlippingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
+           const FlipGuardOptions& flip_guard, const GuardOptions& guards, std::vector<char>& near)
+      : m_(mesh),
+        t_(mesh.triangulation),
+        terms_(terms),
+        options_(options),
+        flip_guard_(flip_guard),
+        guards_(guards),
+        near_(near),
+        batch_of_(mesh.vertex_length.size(), 0) {}
+
+  int run(const Observer& observer) {
+    for (int round = 0; round < options_.rounds; ++round) {
+      const std::vector<int> edges = candidates();
+      if (edges.empty()) break;
+      near_.assign(batch_of_.size(), 0);
+      const size_t batches = std::max(least_batches, (edges.size() + edges_of_batch - 1) / edges_of_batch);
+      for (size_t i = 0; i < batches; ++i) {
+        std::vector<int> batch;
+        for (size_t k = i; k < edges.size(); k += batches) batch.push_back(edges[k]);
+        keep_gains(batch, try_all(batch));
+        if (observer && !observer({.step = batch_})) return flips_;
+      }
+    }
+    return flips_;
+  }
+
+ private:
+  bool is_candidate(int h) const {
+    return t_.twin(h) >= 0 && !t_.is_constrained(h) && worth_a_try(m_, h) && may_flip(m_, h, flip_guard_);
+  }
+
+  bool is_near(int h) const {
+    const auto near = [this](int v) { return near_[static_cast<size_t>(v)] != 0; };
+    return near_.empty() || near(t_.from(h)) || near(t_.to(h)) || near(t_.apex(h)) ||
+           near(t_.apex(t_.twin(h)));
+  }
+
+  std::vector<int> candidates() const {
+    std::vector<char> found(static_cast<size_t>(t_.half_edge_count()), 0);
+    parallel_for(found.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        const int h = static_cast<int>(i);
+        found[i] = t_.twin(h) > h && is_near(h) && is_candidate(h);
+      }
+    });
+    std::vector<int> edges;
+    for (size_t h = 0; h < found.size(); ++h)
+      if (found[h]) edges.push_back(static_cast<int>(h));
+    return edges;
+  }
+
+  /// Flips the edge in its patch and settles that, while there is hope.
+  std::optional<FlipPatch> try_flip(int h) const {
+    if (!is_candidate(h)) return std::nullopt;
+    const double loss = loss_before_settling(h);
+    if (loss > options_.hope) return std::nullopt;
+    std::optional<FlipPatch> patch = cut_patch(m_, h, options_.rings, options_.most);
+    if (!patch) return std::nullopt;
+    const Connectivity c = make_connectivity(static_cast<int>(patch->sides.size()), flipped_faces(*patch));
+    const TargetLengths targets = spread_target_lengths(c, patch->vertex_length);
+    Energy energy(c, targets, terms_);
+    Guards guards(c, targets, guards_);
+    Retraction retraction(m_.retraction.surface(), patch->constraints, m_.retraction.options());
+    const SweepPlan sweeps = plan_one_block(c);
+    Relaxation r{c, sweeps, patch->vertex_length, energy, retraction, guards, patch->placement};
+    LocalNewton newton(r);
+    const double before = energy(patch->placement, nullptr) - loss;
+    for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
+      if (sweep > 0 && energy(patch->placement, nullptr) - before > options_.swept_hope) return std::nullopt;
+      for (size_t v = 0; v < patch->movable; ++v) newton.improve(static_cast<int>(v), {});
+    }
+    if (before - energy(patch->placement, nullptr) < options_.gain) return std::nullopt;
+    return patch;
+  }
+
+  double loss_before_settling(int h) const {
+    const FlipPatch patch = cut_pair(m_, h);
+    return energy_of(patch, flipped_faces(patch), terms_) - energy_of(patch, patch.faces, terms_);
+  }
+
+  std::vector<std::optional<FlipPatch>> try_all(const std::vector<int>& edges) const {
+    std::vector<std::optional<FlipPatch>> trials(edges.size());
+    parallel_for(edges.size(), 4, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) trials[i] = try_flip(edges[i]);
+    });
+    return trials;
+  }
+
+  /// Those that meet with others of their batch are to be tried again.
+  void keep_gains(const std::vector<int>& edges, const std::vector<std::optional<FlipPatch>>& trials) {
+    ++batch_;
+    for (size_t i = 0; i < edges.size(); ++i) {
+      if (!trials[i]) continue;
+      const FlipPatch& patch = *trials[i];
+      if (meets_another(patch))
+        look_again_near(patch, 2);  // the ends of the edge
+      else if (!folds_at_rim(patch, m_, guards_))
+        keep(edges[i], patch);
+    }
+  }
+
+  size_t vertex_of(const FlipPatch& patch, size_t id) const {
+    return static_cast<size_t>(vertex_of_side(m_, patch.sides[id]));
+  }
+
+  bool meets_another(const FlipPatch& patch) const {
+    for (size_t id = 0; id < patch.sides.size(); ++id)
+      if (batch_of_[vertex_of(patch, id)] == batch_) return true;
+    return false;
+  }
+
+  void look_again_near(const FlipPatch& patch, size_t vertices) {
+    for (size_t id = 0; id < vertices; ++id) near_[vertex_of(patch, id)] = 1;
+  }
+
+  void keep(int edge, const FlipPatch& patch) {
+    t_.flip(edge);
+    move_vertices(patch, m_);
+    for (size_t id = 0; id < patch.movable; ++id) batch_of_[vertex_of(patch, id)] = batch_;
+    look_again_near(patch, patch.movable);
+    ++flips_;
+  }
+
+  FlippingMesh& m_;
+  Triangulation& t_;
+  const EnergyTerms& terms_;
+  const FlipPassOptions& options_;
+  const FlipGuardOptions& flip_guard_;
+  const GuardOptions& guards_;
+  std::vector<char>& near_;    // per vertex: edges of which are to be tried; all if empty
+  std::vector<int> batch_of_;  // per vertex: the last batch in which it moved, from 1
+  int batch_ = 0;
+  int flips_ = 0;
+};
 
 }  // namespace
 
 int flip_irregular_edges(FlippingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
-                         const FlipGuardOptions& flip_guard, const GuardOptions& guards) {
-  PatchCutter cutter(m);
-  int flips = 0;
-  for (int h = 0; h < m.triangulation.half_edge_count(); ++h) {
-    if (m.triangulation.twin(h) < h || m.triangulation.is_constrained(h) || !worth_a_try(m, h) ||
-        !may_flip(m, h, flip_guard))
-      continue;
-    Patch patch = cutter.cut(h, options.rings);
-    if (try_flip(patch, m, terms, options, guards) < options.gain) continue;
-    m.triangulation.flip(h);
-    for (size_t i = 0; i < patch.movable; ++i)
-      if (patch.constraints.freedom[i] != Freedom::fixed)
-        VertexPlace(patch.placement, static_cast<int>(i)).write_to(m.placement, patch.vertices[i]);
-    ++flips;
-  }
-  return flips;
+                         const FlipGuardOptions& flip_guard, const GuardOptions& guards,
+                         std::vector<char>& near, const Observer& observer) {
+  return FlipPass(m, terms, options, flip_guard, guards, near).run(observer);
 }
 
 }  // namespace hooke

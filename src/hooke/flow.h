@@ -10,7 +10,7 @@
 namespace hooke {
 
 struct FlowOptions {
-  int rounds = 60;       // of flips and one step
+  int rounds = 32;       // of flips and one step
   int corner_every = 5;  // rounds between two looks at the corners, after the first quarter of the rounds
   LloydOptions lloyd{};
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/face_shape.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 
@@ -14,11 +15,6 @@ constexpr size_t block = 2048;
 void sort_unique(std::vector<int>& ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
-Vec3 doubled_area_vector(const Mat3X& points, const Triangle& t) {
-  const Vec3 a = points.col(t[0]);
-  return (points.col(t[1]) - a).cross(points.col(t[2]) - a);
 }
 
 double cosine(const Vec3& a, const Vec3& b, double otherwise) {
@@ -75,7 +71,11 @@ double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge,
 }
 
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other) {
-  return cosine(doubled_area_vector(points, face), doubled_area_vector(points, other), 1);
+  return cosine_between(doubled_area_vector(points, face), doubled_area_vector(points, other));
+}
+
+double cosine_between(const Vec3& area_vector, const Vec3& other) {
+  return cosine(area_vector, other, 1);
 }
 
 double Guards::alignment(const Placement& p, size_t face) const {

@@ -28,6 +28,9 @@ inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge
 /// Cosine between the normals of two faces; 1 where one has no area.
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
 
+/// The same from the vectors of their areas.
+double cosine_between(const Vec3& area_vector, const Vec3& other);
+
 /// Judges steps by what they do to each face and edge, each on its own side of a crease. Measures what it
 /// needs when it needs it: most steps stay within the absolute limits, whatever was before. Keeps references
 /// to the connectivity and the targets.

@@ -78,10 +78,12 @@ class Remeshing {
     if (unfolded.sweeps > 0) record("untangle", {.steps = unfolded.sweeps});
   }
 
-  /// The sweeps take out slivers, of which hardly any are left after an iteration that no guard held back.
+  /// The sweeps take out slivers, of which hardly any are left after flow, or after an iteration that no
+  /// guard held back.
   LbfgsOptions lbfgs() const {
     LbfgsOptions lbfgs = options_.lbfgs;
-    if (!held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
+    const bool flowed = options_.connectivity != ConnectivityMode::fixed;
+    if (flowed || !held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
     return lbfgs;
   }
 

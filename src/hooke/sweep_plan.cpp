@@ -159,14 +159,26 @@ std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighb
   return waves;
 }
 
-}  // namespace
-
-SweepPlan plan_sweeps(const Connectivity& connectivity) {
+SweepPlan without_waves(const Connectivity& connectivity) {
   SweepPlan plan;
   plan.spokes = connectivity.creases.empty() ? make_spokes(connectivity) : make_parted_spokes(connectivity);
   plan.vertices = connectivity.vertex_count;
+  return plan;
+}
+
+}  // namespace
+
+SweepPlan plan_sweeps(const Connectivity& connectivity) {
+  SweepPlan plan = without_waves(connectivity);
   plan.block = block_size(connectivity.vertex_count);
   plan.waves = colour(blocks_seen(plan.spokes, connectivity, plan.block));
+  return plan;
+}
+
+SweepPlan plan_one_block(const Connectivity& connectivity) {
+  SweepPlan plan = without_waves(connectivity);
+  plan.block = std::max(1, plan.vertices);
+  plan.waves = {{0}};
   return plan;
 }
 

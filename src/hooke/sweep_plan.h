@@ -42,6 +42,9 @@ struct SweepPlan {
 };
 SweepPlan plan_sweeps(const Connectivity& connectivity);
 
+/// A plan of one block, for small meshes that one thread works on.
+SweepPlan plan_one_block(const Connectivity& connectivity);
+
 /// Calls body(begin, end) on each block of vertices, wave by wave.
 void for_each_block(const SweepPlan& plan, const std::function<void(int begin, int end)>& body);
 

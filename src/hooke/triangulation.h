@@ -54,6 +54,8 @@ class Triangulation {
 
   /// Is the edge of h part of a crease?
   bool is_constrained(int h) const { return constrained_[static_cast<size_t>(h)] != 0; }
+  /// Or does it have no face on its other side?
+  bool is_border(int h) const { return twin(h) < 0 || is_constrained(h); }
 
   /// The edge of h comes to join the two corners across it.
   /// Pre-condition: h has a twin, is not constrained, and no edge joins those corners.
@@ -90,7 +92,6 @@ class Triangulation {
 
  private:
   void link(int h, int twin);
-  bool is_border(int h) const { return twin(h) < 0 || is_constrained(h); }
   void halve(int h, int vertex, int side);
   void close(int h);
 
