@@ -76,17 +76,23 @@ class FlipMode {
       return result_.flow.flips;
     });
     result_.interrupted = result_.flow.interrupted;
+    note_hindrance(result_.flow.held_back);
   }
 
-  /// Flow has left no slivers for sweeps to take out.
+  void note_hindrance(long long held_back) {
+    hindered_ = static_cast<double>(held_back) > options_.hindered * work_.connectivity->vertex_count;
+  }
+
+  /// Sweeps loosen what guards hold; elsewhere flow has left no slivers for them.
   void settle_springs() {
     const Stage stage(work_.stopwatch, "springs");
     IntegrationOptions integration;
     integration.max_steps = options_.spring_steps;
     LbfgsOptions lbfgs;
-    lbfgs.sweeps = 0;
+    if (!hindered_) lbfgs.sweeps = 0;
     const IntegrationResult relaxed =
         relax([&](Relaxation& r) { return relax_lbfgs(r, integration, lbfgs, watch("springs")); });
+    note_hindrance(relaxed.held_back);
     work_.resample_lengths();
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
@@ -127,6 +133,7 @@ class FlipMode {
   const Observer& observer_;
   std::vector<int> corner_valences_;
   std::vector<char> changed_;  // vertices, lately by flips of irregular edges
+  bool hindered_ = true;       // by guards, in the flow or the last springs
   FlipResult result_;
 };
 
