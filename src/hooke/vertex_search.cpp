@@ -7,6 +7,11 @@
 #include <optional>
 
 namespace hooke {
+namespace {
+
+constexpr double far_off = 1.1;  // times the greatest cotangent: what the surface's bend may make of a place
+
+}  // namespace
 
 VertexSearch::VertexSearch(Relaxation& r, const VertexSearchOptions& options, const GuardOptions& guards)
     : r_(r),
@@ -50,16 +55,21 @@ void VertexSearch::look(int vertex) {
   }
 }
 
-/// The greatest cotangent about the vertex if it went there; infinite where it may not.
+/// The greatest cotangent about the vertex if it went there, whether it may or not.
 double VertexSearch::outcome(const VertexPlace& place) {
   double worst = 0;
   for (int s = 0; s < count_; ++s) {
     auto& [ring, before, after] = sides_[static_cast<size_t>(s)];
     ring.shape(place.point, s == 0 ? place.normal : place.other_normal, after);
-    if (!ring.obeys(before, after, guards_)) return std::numeric_limits<double>::infinity();
     worst = std::max(worst, ring.greatest_cotangent(after));
   }
   return worst;
+}
+
+/// May the vertex go where outcome() looked last?
+bool VertexSearch::may_go() const {
+  return std::all_of(sides_.begin(), sides_.begin() + count_,
+                     [&](const Side& s) { return s.ring.obeys(s.before, s.after, guards_); });
 }
 
 /// Goes to the best of the places at this distance, if one is better than where the vertex is.
@@ -77,9 +87,12 @@ bool VertexSearch::try_all(int vertex, double step) {
       std::isfinite(worst_) ? worst_ - o_.least_gain * std::abs(worst_) : std::numeric_limits<double>::max();
   std::optional<VertexPlace> best_place;
   const auto look_at = [&](const Vec3& way) {
-    const VertexPlace place = r_.retraction.moved(at, vertex, way);
+    VertexPlace place(at, vertex);
+    place.point += way;
+    if (outcome(place) > far_off * best) return;  // nor will it be better once it is on the surface
+    place = r_.retraction.moved(at, vertex, way);
     const double worst = outcome(place);
-    if (worst >= best) return;
+    if (worst >= best || !may_go()) return;
     best = worst;
     best_place = place;
   };

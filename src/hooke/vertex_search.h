@@ -32,6 +32,7 @@ class VertexSearch {
 
   void look(int vertex);
   double outcome(const VertexPlace& place);
+  bool may_go() const;
   bool try_all(int vertex, double step);
 
   Relaxation& r_;
