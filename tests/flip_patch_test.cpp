@@ -84,6 +84,83 @@ TEST(FlipPatch, FoldsAtItsRimAreSeen) {
   EXPECT_TRUE(folds_at_rim(patch, s.mesh, {}));
 }
 
+/// A fan of so many spokes about vertex 0, and a ring of faces around it.
+test::Triangles wheel(int spokes) {
+  test::Triangles t;
+  t.points.resize(3, 1 + 2 * spokes);
+  t.points.col(0).setZero();
+  for (int i = 0; i < spokes; ++i) {
+    const double phi = 2 * std::numbers::pi * i / spokes;
+    t.points.col(1 + i) = Vec3(std::cos(phi), std::sin(phi), 0);
+    t.points.col(1 + spokes + i) = 2 * Vec3(std::cos(phi), std::sin(phi), 0);
+    const int a = 1 + i, b = 1 + (i + 1) % spokes;
+    t.faces.push_back({0, a, b});
+    t.faces.push_back({a, a + spokes, b + spokes});
+    t.faces.push_back({a, b + spokes, b});
+  }
+  return t;
+}
+
+TEST(FlipPatch, IsNotCutWhereAVertexThatWouldMoveHasTooManyEdges) {
+  test::FlippingScene s(wheel(60), test::plane());
+  const int h = test::half_edge(s.triangulation, 1, 61);  // the hub is a neighbour of its first end
+  EXPECT_TRUE(cut_patch(s.mesh, h, 1, 60).has_value());
+  EXPECT_FALSE(cut_patch(s.mesh, h, 1, 59).has_value());
+}
+
+TEST(FlipPatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
+  // Two sheets that meet at 84 degrees; the one with the patch is rough.
+  constexpr int n = 10;
+  const int middle = n / 2 * (n + 1);
+  std::vector<Edge> creases;
+  for (int i = 0; i < n; ++i) creases.push_back({middle + i, middle + i + 1});
+  const Surface rough = [](const Vec3& x, int anchor, double) {
+    const Vec3 up = x[1] < .5 ? Vec3(Vec3::UnitZ()) : Vec3(0, -.9945, .1045);
+    return Foot{x, up, anchor, FootStatus::converged, 1};
+  };
+  int breaks = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    test::Triangles t = test::grid(n, test::flat);
+    unsigned state = seed;
+    for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+      state = state * 1664525u + 1013904223u;
+      const double y = t.points(1, v), noise = .02 * (state / 4294967296. - .5);
+      if (y > .5 + 1e-9)
+        t.points.col(v) = Vec3(t.points(0, v), .5 + (y - .5) * .1045, (y - .5) * .9945);
+      else if (y < .5 - 1e-9)
+        t.points(2, v) = noise;
+    }
+    test::FlippingScene s(t, rough, creases);
+    const GuardOptions guards{.fold = .12};
+    for (int h = 0; h < s.triangulation.half_edge_count(); ++h) {
+      if (s.triangulation.twin(h) < h || s.triangulation.is_constrained(h) || !may_flip(s.mesh, h, {}))
+        continue;
+      const auto patch = cut_patch(s.mesh, h, 1, 200);
+      bool broken = false;
+      const auto folds = [&] {
+        std::vector<double> cosines;
+        for (const Edge& e : creases) {
+          const int side = test::half_edge(s.triangulation, e[0], e[1]);
+          cosines.push_back(
+              cosine_between(s.placement.points, s.triangulation.faces()[static_cast<size_t>(side / 3)],
+                             s.triangulation.faces()[static_cast<size_t>(s.triangulation.twin(side) / 3)]));
+        }
+        return cosines;
+      };
+      const bool seen = folds_at_rim(*patch, s.mesh, guards);
+      Triangulation before = s.triangulation;
+      const std::vector<double> old = folds();
+      s.triangulation.flip(h);
+      const std::vector<double> now = folds();
+      s.triangulation = before;
+      for (size_t i = 0; i < now.size(); ++i) broken |= crease_fold_breaks(guards, old[i], now[i]);
+      breaks += broken;
+      EXPECT_EQ(seen, broken);
+    }
+  }
+  EXPECT_GT(breaks, 0);
+}
+
 TEST(FlipPatch, IsNotCutWhereTooManyVerticesWouldMove) {
   test::FlippingScene s(test::sphere(3, .3, 2), test::unit_sphere());
   const size_t movable = cut_patch(s.mesh, 0, 2, 200)->movable;

@@ -160,10 +160,18 @@ UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOpti
 
 AdaptOptions adapt_options(Effort effort) {
   AdaptOptions options;
-  if (effort == Effort::fast) {
-    options.rounds = 2;
-    options.first_flow = options.count_flow = 2;
-    options.flow_rounds = 4;
+  switch (effort) {
+    case Effort::fast:
+      options.rounds = 2;
+      options.first_flow = options.count_flow = 2;
+      options.flow_rounds = 4;
+      break;
+    case Effort::standard:
+      break;
+    case Effort::thorough:
+      options.rounds = 7;
+      options.flow_rounds = 8;
+      break;
   }
   return options;
 }

@@ -76,11 +76,12 @@ class FlipMode {
       return result_.flow.flips;
     });
     result_.interrupted = result_.flow.interrupted;
-    note_hindrance(result_.flow.held_back);
+    note_hindrance(result_.flow.held_back, result_.flow.rounds);
   }
 
-  void note_hindrance(long long held_back) {
-    hindered_ = static_cast<double>(held_back) > options_.hindered * work_.connectivity->vertex_count;
+  void note_hindrance(long long held_back, int steps) {
+    const double share = options_.hindered * work_.connectivity->vertex_count;
+    hindered_ = static_cast<double>(held_back) > share * steps;
   }
 
   /// Sweeps loosen what guards hold; elsewhere flow has left no slivers for them.
@@ -92,7 +93,7 @@ class FlipMode {
     if (!hindered_) lbfgs.sweeps = 0;
     const IntegrationResult relaxed =
         relax([&](Relaxation& r) { return relax_lbfgs(r, integration, lbfgs, watch("springs")); });
-    note_hindrance(relaxed.held_back);
+    note_hindrance(relaxed.held_back, relaxed.evaluations);
     work_.resample_lengths();
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
@@ -158,6 +159,8 @@ FlipOptions flip_options(Effort effort) {
       options.passes.passes = 8;
       options.passes.rings = 3;
       options.passes.sweeps = 6;
+      options.passes.hope = .6;
+      options.passes.swept_hope = .2;
       break;
   }
   return options;

@@ -26,7 +26,7 @@ struct FlipOptions {
   int spring_rounds = 8;    // of springs and Delaunay flips after the flow, at most ...
   double few_flips = 1e-3;  // ... while more than this part of the edges flips
   int spring_steps = 15;    // evaluations of the springs' energy per round
-  double hindered = 4e-3;   // part of the vertices; if guards hold back more, sweeps precede the springs
+  double hindered = 2e-3;   // part of the vertices; if guards hold back more in a step, sweeps go first
   FlipPassOptions passes;
   FlipGuardOptions guard;
   /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.

@@ -56,6 +56,7 @@ class FlipPass {
         options_(options),
         flip_guard_(flip_guard),
         guards_(guards),
+        unit_(std::max(terms.string, terms.altitude)),
         near_(near),
         batch_of_(mesh.vertex_length.size(), 0) {}
 
@@ -71,6 +72,7 @@ class FlipPass {
         keep_gains(batch, try_all(batch));
         if (observer && !observer({.step = batch_})) return flips_;
       }
+      if (m_.after_move) m_.after_move();
     }
     return flips_;
   }
@@ -104,7 +106,7 @@ class FlipPass {
   std::optional<FlipPatch> try_flip(int h) const {
     if (!is_candidate(h)) return std::nullopt;
     const double loss = loss_before_settling(h);
-    if (loss > options_.hope) return std::nullopt;
+    if (loss > options_.hope * unit_) return std::nullopt;
     std::optional<FlipPatch> patch = cut_patch(m_, h, options_.rings, options_.most);
     if (!patch) return std::nullopt;
     const Connectivity c = make_connectivity(static_cast<int>(patch->sides.size()), flipped_faces(*patch));
@@ -117,7 +119,8 @@ class FlipPass {
     LocalNewton newton(r);
     const double before = energy(patch->placement, nullptr) - loss;
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
-      if (sweep > 0 && energy(patch->placement, nullptr) - before > options_.swept_hope) return std::nullopt;
+      if (sweep > 0 && energy(patch->placement, nullptr) - before > options_.swept_hope * unit_)
+        return std::nullopt;
       for (size_t v = 0; v < patch->movable; ++v) newton.improve(static_cast<int>(v), {});
     }
     if (before - energy(patch->placement, nullptr) < options_.gain) return std::nullopt;
@@ -178,6 +181,7 @@ class FlipPass {
   const FlipPassOptions& options_;
   const FlipGuardOptions& flip_guard_;
   const GuardOptions& guards_;
+  double unit_;                // of what a flip may cost at first
   std::vector<char>& near_;    // per vertex: edges of which are to be tried; all if empty
   std::vector<int> batch_of_;  // per vertex: the last batch in which it moved, from 1
   int batch_ = 0;

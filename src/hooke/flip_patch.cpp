@@ -27,12 +27,12 @@ class PatchCutter {
     add(m_.triangulation.side(Triangulation::next(half_edge)));
     for (size_t begin = 0; rings > 0; --rings)
       for (const size_t end = patch_.sides.size(); begin < end; ++begin) {
-        const int vertex = vertex_of_side(m_, patch_.sides[begin]);
-        if (m_.triangulation.valence(vertex) > static_cast<int>(most)) return false;
+        if (has_more_edges(patch_.sides[begin], most)) return false;
         add_neighbours(patch_.sides[begin]);
         if (patch_.sides.size() > most) return false;
       }
     patch_.movable = patch_.sides.size();
+    if (std::ranges::any_of(patch_.sides, [&](int side) { return has_more_edges(side, most); })) return false;
     const std::vector<int> faces = add_faces();
     copy_vertices();
     add_rim(faces);
@@ -40,6 +40,10 @@ class PatchCutter {
   }
 
  private:
+  bool has_more_edges(int side, size_t most) const {
+    return m_.triangulation.valence(vertex_of_side(m_, side)) > static_cast<int>(most);
+  }
+
   /// Half-edges that leave the vertex within the sector of its side.
   std::vector<int> outgoing(int side) const {
     std::vector<int> spokes = m_.triangulation.outgoing(vertex_of_side(m_, side));
@@ -79,10 +83,22 @@ class PatchCutter {
 
   void add_rim(const std::vector<int>& faces) {
     const Triangulation& t = m_.triangulation;
+    const std::vector<Triangle> flipped = flipped_faces(patch_);
     for (size_t f = 0; f < faces.size(); ++f)
-      for (int h = 3 * faces[f]; h < 3 * faces[f] + 3; ++h)
-        if (t.twin(h) >= 0 && std::ranges::find(faces, t.twin(h) / 3) == faces.end())
-          patch_.rim.push_back({h, patch_.faces[f]});
+      for (size_t k = 0; k < 3; ++k) {
+        const int h = 3 * faces[f] + static_cast<int>(k);
+        if (t.twin(h) < 0 || std::ranges::find(faces, t.twin(h) / 3) != faces.end()) continue;
+        const Triangle& old = patch_.faces[f];
+        const bool stays = flipped[f] == old;
+        patch_.rim.push_back({h, stays ? old : face_with(flipped, old[k], old[(k + 1) % 3])});
+      }
+  }
+
+  /// The one that runs from a to b.
+  static Triangle face_with(const std::vector<Triangle>& faces, int a, int b) {
+    return *std::ranges::find_if(faces, [&](const Triangle& t) {
+      return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
+    });
   }
 
   void copy_vertices() {
@@ -104,27 +120,16 @@ class PatchCutter {
     place.anchor = m_.placement.anchors[static_cast<size_t>(side)];
     place.other_side = -1;
     place.write_to(patch_.placement, static_cast<int>(id));
-    const bool on_crease = !m_.constraints.creases.empty() && m_.triangulation.on_crease(vertex);
+    const bool free = m_.constraints.freedom[v] == Freedom::surface &&
+                      (m_.constraints.creases.empty() || !m_.triangulation.on_crease(vertex));
     patch_.vertex_length.push_back(m_.vertex_length[v]);
-    patch_.constraints.freedom.push_back(on_crease ? Freedom::fixed : m_.constraints.freedom[v]);
-    patch_.constraints.segment.push_back(m_.constraints.segment[v]);
-    patch_.constraints.curve.push_back(curve_of_patch(m_.constraints.curve[v]));
-  }
-
-  /// Index of the curve in the patch, which gets a copy of it.
-  int curve_of_patch(int curve) {
-    if (curve < 0) return -1;
-    const auto found = std::ranges::find(curves_, curve);
-    const auto id = static_cast<int>(found - curves_.begin());
-    if (found != curves_.end()) return id;
-    curves_.push_back(curve);
-    patch_.constraints.curves.push_back(m_.constraints.curves[static_cast<size_t>(curve)]);
-    return id;
+    patch_.constraints.freedom.push_back(free ? Freedom::surface : Freedom::fixed);
+    patch_.constraints.segment.push_back(0);
+    patch_.constraints.curve.push_back(-1);
   }
 
   const FlippingMesh& m_;
   FlipPatch& patch_;
-  std::vector<int> curves_;  // of the whole mesh
 };
 
 }  // namespace

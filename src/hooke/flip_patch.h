@@ -11,7 +11,7 @@ namespace hooke {
 /// An edge with which a patch ends though the mesh goes on.
 struct PatchRim {
   int half_edge;  // of the mesh, on the patch's side
-  Triangle face;  // there, in ids of the patch
+  Triangle face;  // there once the patch's edge is flipped, in ids of the patch
 };
 
 struct FlipPatch {
@@ -26,7 +26,7 @@ struct FlipPatch {
 };
 
 /// The vertices within so many rings about an inner edge, as far as creases. Nothing where more than `most`
-/// vertices would move.
+/// vertices would move, or one of them has more edges.
 std::optional<FlipPatch> cut_patch(const FlippingMesh& mesh, int half_edge, int rings, size_t most);
 
 /// Only the two faces of the edge, of which no vertex may move.
@@ -35,7 +35,8 @@ FlipPatch cut_pair(const FlippingMesh& mesh, int half_edge);
 /// The faces of the patch after the flip of its edge.
 std::vector<Triangle> flipped_faces(const FlipPatch& patch);
 
-/// Would faces of the patch, as they lie now, break the rule of folds with those beyond its rim?
+/// Would faces of the patch, its edge flipped and its vertices where they are now, break the rule of folds
+/// with those beyond its rim?
 bool folds_at_rim(const FlipPatch& patch, const FlippingMesh& mesh, const GuardOptions& guards);
 
 /// The vertex of the whole mesh that a side is of.
