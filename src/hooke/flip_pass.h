@@ -14,16 +14,17 @@ struct FlipPassOptions {
   size_t most = 200;   // vertices that settle: no edge is tried about which there are more
   int sweeps = 3;      // of Newton's method vertex by vertex, for them to settle
   double gain = 1e-4;  // least fall of the energy for a flip to be kept
-  double hope =
-      .35;  // greatest rise of the energy by the flip alone, in the greater of the weights of its terms ...
-  double swept_hope = .07;  // ... and after the first sweep, for the trial to go on
+  /// Greatest rise of the energy by the flip alone, and after the first sweep, for a trial to go on; in parts
+  /// of the greater of the weights of strings and altitudes.
+  double hope = .35, swept_hope = .07;
 };
 
 /// One pass over the edges with two or more irregular vertices among the four about them. An inner vertex is
 /// regular with 6 edges, one on the boundary with 4, a corner with those it wants. Vertices on creases and
 /// boundaries stand still meanwhile. `near` tells, per vertex, where there is something new: only edges are
 /// tried of which one of the four is there. Empty: all are. It comes back with what the last round has
-/// changed. The observer is called after every few hundred edges or less. Returns the number of flips kept.
+/// changed. The observer is called after every few hundred edges or less. Projections of trials are not
+/// counted. Returns the number of flips kept.
 int flip_irregular_edges(FlippingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
                          const FlipGuardOptions& flip_guard, const GuardOptions& guards,
                          std::vector<char>& near, const Observer& observer);
