@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <mutex>
+#include <numeric>
 #include <set>
 
 #include "solids.h"
@@ -77,6 +78,20 @@ TEST(SweepPlan, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
           }
       }
     }
+  }
+}
+
+TEST(SweepPlan, OneBlockSweepsAllVerticesInOrderOverTheSameSpokes) {
+  for (const Connectivity& c : meshes()) {
+    const SweepPlan one = plan_one_block(c), many = plan_sweeps(c);
+    std::vector<int> swept, all(static_cast<size_t>(c.vertex_count));
+    std::iota(all.begin(), all.end(), 0);
+    for_each_block(one, [&](int begin, int end) {
+      for (int v = begin; v < end; ++v) swept.push_back(v);
+    });
+    EXPECT_EQ(swept, all);
+    for (int v = 0; v < c.vertex_count; ++v)
+      EXPECT_TRUE(std::ranges::equal(one.spokes[v], many.spokes[v], {}, &Spoke::edge, &Spoke::edge));
   }
 }
 

@@ -13,9 +13,8 @@ struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
   std::vector<int> fixed_vertices = {};  // ids of vertices that stay where they are
   double corner_angle = 35;  // degrees; a curve that turns by more in 3-D has a corner, which stands still
-  // A crease whose longest edge is no longer than this over its shortest keeps its vertices at bends (none
-  // does when this is below 1): where
-  // they stand farther off the chord past them than this part of a mean edge.
+  // A crease whose longest edge is no longer than this over its shortest (below 1: none) keeps its vertices
+  // at bends: where they stand farther off the chord past them than this part of a mean edge.
   double even_crease = 1.5;
   double crease_bend = .01;
   FeatureOptions features = {};

@@ -1,7 +1,6 @@
 #include "hooke/effort.h"
 
 namespace hooke {
-
 namespace {
 
 /// Adaptation has spread the vertices out.

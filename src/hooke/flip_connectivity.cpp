@@ -116,13 +116,12 @@ class FlipMode {
     if (result_.interrupted) return false;
     ++result_.passes;
     const Stage stage(work_.stopwatch, "irregular");
-    const Observer watching = [this](Progress p) {
-      p.stage = "flips";
-      result_.interrupted = observer_ && !observer_(p);
+    const Observer watching = [this, watched = watch("flips")](const Progress& p) {
+      result_.interrupted = watched && !watched(p);
       return !result_.interrupted;
     };
     return flip([&](FlippingMesh& m) {
-             return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_, changed_,
+             return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_, lately_changed_,
                                          watching);
            }) > 0;
   }
@@ -133,8 +132,8 @@ class FlipMode {
   const GuardOptions& guards_;
   const Observer& observer_;
   std::vector<int> corner_valences_;
-  std::vector<char> changed_;  // vertices, lately by flips of irregular edges
-  bool hindered_ = true;       // by guards, in the flow or the last springs
+  std::vector<char> lately_changed_;  // vertices, by flips of irregular edges
+  bool hindered_ = true;              // by guards, in the flow or the last springs
   FlipResult result_;
 };
 

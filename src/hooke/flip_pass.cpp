@@ -1,7 +1,6 @@
 #include "hooke/flip_pass.h"
 
 #include <algorithm>
-#include <array>
 
 #include "hooke/flip_patch.h"
 #include "hooke/local_newton.h"

@@ -67,7 +67,7 @@ class PatchCutter {
     }
   }
 
-  /// Returns their ids in the mesh.
+  /// Returns the ids that they have in the mesh.
   std::vector<int> add_faces() {
     std::vector<int> faces;
     for (size_t i = 0; i < patch_.movable; ++i)
@@ -83,22 +83,13 @@ class PatchCutter {
 
   void add_rim(const std::vector<int>& faces) {
     const Triangulation& t = m_.triangulation;
-    const std::vector<Triangle> flipped = flipped_faces(patch_);
     for (size_t f = 0; f < faces.size(); ++f)
       for (size_t k = 0; k < 3; ++k) {
         const int h = 3 * faces[f] + static_cast<int>(k);
         if (t.twin(h) < 0 || std::ranges::find(faces, t.twin(h) / 3) != faces.end()) continue;
-        const Triangle& old = patch_.faces[f];
-        const bool stays = flipped[f] == old;
-        patch_.rim.push_back({h, stays ? old : face_with(flipped, old[k], old[(k + 1) % 3])});
+        const Triangle& face = patch_.faces[f];
+        patch_.rim.push_back({h, face[k], face[(k + 1) % 3]});
       }
-  }
-
-  /// The one that runs from a to b.
-  static Triangle face_with(const std::vector<Triangle>& faces, int a, int b) {
-    return *std::ranges::find_if(faces, [&](const Triangle& t) {
-      return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
-    });
   }
 
   void copy_vertices() {
@@ -132,6 +123,12 @@ class PatchCutter {
   FlipPatch& patch_;
 };
 
+const Triangle& face_along(const std::vector<Triangle>& faces, int from, int to) {
+  return *std::ranges::find_if(faces, [&](const Triangle& t) {
+    return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
+  });
+}
+
 }  // namespace
 
 std::optional<FlipPatch> cut_patch(const FlippingMesh& mesh, int half_edge, int rings, size_t most) {
@@ -164,12 +161,14 @@ std::vector<Triangle> flipped_faces(const FlipPatch& patch) {
 bool folds_at_rim(const FlipPatch& patch, const FlippingMesh& m, const GuardOptions& guards) {
   const Triangulation& t = m.triangulation;
   const Mat3X& X = m.placement.points;
+  const std::vector<Triangle> flipped = flipped_faces(patch);
   return std::ranges::any_of(patch.rim, [&](const PatchRim& rim) {
     const Triangle& face = t.faces()[static_cast<size_t>(rim.half_edge / 3)];
     const Triangle& beyond = t.faces()[static_cast<size_t>(t.twin(rim.half_edge) / 3)];
     const double before = cosine_between(X, face, beyond);
+    const Triangle& changed = face_along(flipped, rim.from, rim.to);
     const double after =
-        cosine_between(doubled_area_vector(patch.placement.points, rim.face), doubled_area_vector(X, beyond));
+        cosine_between(doubled_area_vector(patch.placement.points, changed), doubled_area_vector(X, beyond));
     return t.is_constrained(rim.half_edge) ? crease_fold_breaks(guards, before, after)
                                            : fold_breaks(guards, before, after);
   });

@@ -11,13 +11,13 @@ namespace hooke {
 /// An edge with which a patch ends though the mesh goes on.
 struct PatchRim {
   int half_edge;  // of the mesh, on the patch's side
-  Triangle face;  // there once the patch's edge is flipped, in ids of the patch
+  int from, to;   // its ends, in ids of the patch
 };
 
 struct FlipPatch {
   /// Of the whole mesh's vertices: the edge's ends first, then the others that may move, then those around.
   std::vector<int> sides;
-  size_t movable = 0;           // so many may move, but for those on creases
+  size_t movable = 0;           // so many may move, but for those on creases and boundaries
   std::vector<Triangle> faces;  // all that the movable ones have, in ids of the patch
   std::vector<PatchRim> rim;
   Placement placement;
