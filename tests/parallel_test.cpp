@@ -54,6 +54,31 @@ TEST(Parallel, AnExceptionOfTheBodyArrives) {
                                 return 0.;
                               }),
                  std::runtime_error);
+    std::vector<int> pieces(1000);
+    size_t made = 0;
+    const auto make = [&] { return made < pieces.size() ? &pieces[made++] : nullptr; };
+    EXPECT_THROW(parallel_pipeline<int>(make, [](int&) { throw std::runtime_error("use"); }),
+                 std::runtime_error);
+    EXPECT_THROW(parallel_pipeline<int>([]() -> int* { throw std::runtime_error("make"); }, [](int&) {}),
+                 std::runtime_error);
+  }
+}
+
+TEST(Parallel, APipelineUsesEveryPieceOnceAndMakesThemOneByOne) {
+  for (int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    std::atomic<int> makers = 0;
+    int made = 0;
+    std::vector<std::atomic<int>> used(1000);
+    parallel_pipeline<std::atomic<int>>(
+        [&]() -> std::atomic<int>* {
+          EXPECT_EQ(++makers, 1);
+          std::atomic<int>* piece = made < 1000 ? &used[static_cast<size_t>(made++)] : nullptr;
+          --makers;
+          return piece;
+        },
+        [](std::atomic<int>& piece) { ++piece; });
+    for (const auto& u : used) EXPECT_EQ(u, 1);
   }
 }
 

@@ -58,10 +58,10 @@ TEST(RelativeEdgeDeviation, IsTheStandardDeviationInPartsOfTheTargets) {
   const double mean = (12 + 6 * std::sqrt(2)) / 18;
   const double variance = (12 * (1 - mean) * (1 - mean) + 6 * std::pow(std::sqrt(2) - mean, 2)) / 18;
   EXPECT_NEAR(relative_edge_deviation(c.points, connectivity.edges, targets), std::sqrt(variance) / 2, 1e-14);
-  for (size_t e = 0; e < targets.edge.size(); ++e) {
-    const auto [a, b] = connectivity.edges[e];
-    targets.edge[e] = 3 * (c.points.col(a) - c.points.col(b)).norm();
-  }
+  std::vector<double> lengths;
+  for (const auto& [a, b] : connectivity.edges)
+    lengths.push_back(3 * (c.points.col(a) - c.points.col(b)).norm());
+  targets.edge = lengths;
   EXPECT_NEAR(relative_edge_deviation(c.points, connectivity.edges, targets), 0, 1e-15);
 }
 

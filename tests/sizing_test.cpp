@@ -32,7 +32,7 @@ TEST(Sizing, AnEdgeIsTheMeanOfItsEndsAndAFaceOfItsEdges) {
   const Connectivity c = make_connectivity(3, {{0, 1, 2}});
   const TargetLengths targets = spread_target_lengths(c, {1, 2, 6});
   const std::vector<double> expected = {1.5, 4, 3.5};
-  EXPECT_EQ(targets.edge, expected);
+  EXPECT_EQ(targets.edge.values(), expected);
   EXPECT_DOUBLE_EQ(targets.face[0], 3);
 }
 

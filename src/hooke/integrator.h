@@ -42,7 +42,7 @@ struct Relaxation {
 
 struct IntegrationOptions {
   int max_steps = 2000;       // evaluations of the energy (lbfgs) or time steps (damped)
-  double energy_drop = 1e-3;  // at rest when the energy falls by less than this part of itself ...
+  double energy_drop = 2e-3;  // at rest when the energy falls by less than this part of itself ...
   int window = 3;             // ... over this many steps
   double max_move = 2;        // of a vertex in a step, in its target lengths
 };

@@ -9,7 +9,7 @@
 namespace hooke {
 
 struct LbfgsMemoryOptions {
-  int pairs = 5;           // of steps and gradient changes
+  int pairs = 3;           // of steps and gradient changes
   double first_step = .5;  // of the preconditioned gradient, while there is no memory
   int scaled_pairs = 3;    // the preconditioner is scaled to the last pair until this many are held
 };

@@ -87,23 +87,28 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
   if (points.cols() == 0) return;
   const Eigen::Matrix3d frame = frame_of(points);
   const Vec3 origin = points.col(0);
+  const auto n = static_cast<size_t>(points.cols());
+  places_.resize(n);
+  std::vector<Cell> cells(n);
+  parallel_for(n, 4096, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      // Half a cell off the origin: the first vertex would lie on a corner of four cells.
+      const Vec3 x = frame * (points.col(static_cast<Eigen::Index>(v)) - origin) / cell + Vec3::Constant(.5);
+      const Vec3 low = x.array().floor();
+      cells[v] = {static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
+      places_[v].within = (x - low).cast<float>();
+    }
+  });
   NodeNumbers nodes;
   std::unordered_map<Cell, int, CellHash> cell_ids;
-  places_.resize(static_cast<size_t>(points.cols()));
-  Cell last{};
-  int id = -1;  // of that cell, in which the next vertex mostly lies too
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    // Half a cell off the origin: the first vertex would lie on a corner of four cells.
-    const Vec3 x = frame * (points.col(v) - origin) / cell + Vec3::Constant(.5);
-    const Vec3 low = x.array().floor();
-    const Cell at{static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
-    if (id < 0 || at != last) {
-      const auto [it, fresh] = cell_ids.try_emplace(at, static_cast<int>(cells_.size()));
-      if (fresh) cells_.push_back(corners_of(at, nodes));
+  int id = -1;  // of the cell in which the next vertex mostly lies too
+  for (size_t v = 0; v < n; ++v) {
+    if (v == 0 || cells[v] != cells[v - 1]) {
+      const auto [it, fresh] = cell_ids.try_emplace(cells[v], static_cast<int>(cells_.size()));
+      if (fresh) cells_.push_back(corners_of(cells[v], nodes));
       id = it->second;
-      last = at;
     }
-    places_[static_cast<size_t>(v)] = {id, (x - low).cast<float>()};
+    places_[v].cell = id;
   }
   for (;;) {
     Level level;

@@ -37,7 +37,7 @@ class PaperRun {
     evolved.energy = strings_(work_.placement, nullptr);
     record(evolved);
     const double worst =
-        max_length_error(work_.placement.points, *work_.connectivity, work_.targets.edge);  // D
+        max_length_error(work_.placement.points, *work_.connectivity, work_.targets.edge.values());  // D
     if (worst < options_.evolution.tolerance) return stop(StopReason::converged);
     if (evolved.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (before - evolved.energy > options_.outer_drop * before) return;
@@ -45,7 +45,7 @@ class PaperRun {
   }
 
   EvolutionResult optimize() {
-    return evolve_damped(mesh_, *work_.connectivity, work_.targets.edge, options_.evolution, boundary_rule(),
+    return evolve_damped(mesh_, *work_.connectivity, work_.targets.edge.values(), options_.evolution, boundary_rule(),
                          watch());
   }
 

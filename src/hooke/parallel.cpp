@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -37,6 +38,22 @@ void parallel_for(std::size_t count, std::size_t block,
   }
   tbb::parallel_for(std::size_t{0}, blocks,
                     [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
+}
+
+void parallel_pipeline(const std::function<void*()>& make, const std::function<void(void*)>& use) {
+  const auto threads = static_cast<std::size_t>(thread_count());
+  if (threads == 1) {
+    while (void* piece = make()) use(piece);
+    return;
+  }
+  const auto source = [&](tbb::flow_control& control) {
+    void* piece = make();
+    if (!piece) control.stop();
+    return piece;
+  };
+  tbb::parallel_pipeline(4 * threads,
+                         tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order, source) &
+                             tbb::make_filter<void*, void>(tbb::filter_mode::parallel, use));
 }
 
 double parallel_sum(std::size_t count, std::size_t block,

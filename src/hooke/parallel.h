@@ -29,6 +29,14 @@ int thread_count();
 void parallel_for(std::size_t count, std::size_t block,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Calls make() again and again, one call at a time, until it returns no piece of work, and meanwhile
+/// use(piece) on those that it has returned, in any order. An exception of either is rethrown here.
+void parallel_pipeline(const std::function<void*()>& make, const std::function<void(void*)>& use);
+template <typename Piece>
+void parallel_pipeline(const std::function<Piece*()>& make, const std::function<void(Piece&)>& use) {
+  parallel_pipeline(std::function<void*()>(make), [&use](void* piece) { use(*static_cast<Piece*>(piece)); });
+}
+
 /// Sum of body(begin, end) over the blocks, added in the order of the blocks.
 double parallel_sum(std::size_t count, std::size_t block,
                     const std::function<double(std::size_t begin, std::size_t end)>& body);

@@ -4,17 +4,15 @@
 
 #include "hooke/normals.h"
 #include "hooke/parallel.h"
-#include "hooke/patch_grower.h"
 #include "hooke/spline_group.h"
 
 namespace hooke {
 namespace {
 
 constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
-constexpr double reach = .9;                 // radius over the distance of the farthest vertex
 constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
 constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
-constexpr std::size_t patches_per_task = 32;
+constexpr std::size_t patches_of_batch = 32;
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
@@ -49,6 +47,23 @@ std::size_t most_centres(std::size_t vertices) {
   return vertices + (vertices + offset_stride - 1) / offset_stride;
 }
 
+/// What the spline of a patch is fitted to, in radii about its centre.
+template <typename Samples>
+void gather(const Samples& samples, const PatchList& list, std::size_t patch, SplineData& data) {
+  const auto& [points, normals, edge_lengths, unfolded, offset] = samples;
+  const auto vertices = list.members[static_cast<int>(patch)];
+  const Vec3 centre = points.col(list.centres[patch]);
+  const double radius = list.radii[patch];
+  data.clear(most_centres(vertices.size()));
+  for (int v : vertices) data.add((points.col(v) - centre) / radius, 0);
+  for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {  // [11] [13]
+    const int v = vertices[i];
+    if (!unfolded[idx(v)]) continue;
+    const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * offset * edge_lengths[v];
+    data.add((points.col(v) + rho * normals.col(v) - centre) / radius, rho / radius);
+  }
+}
+
 /// The way for patches that the group has no spline for.
 PatchFit fit_patch(SplineData& data, Kernel kernel, std::size_t vertices, SplineWorkspace& workspace,
                    double* storage) {
@@ -70,87 +85,64 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
                                    const PartitionOptions& options)
     : kernel_(options.kernel) {
   const std::vector<char> unfolded = unfolded_vertices(points, connectivity, normals);
-  const IntLists members = cover(points, connectivity, normals, edge_lengths, unfolded, options);
-  fit(points, normals, edge_lengths, unfolded, members, options);
-  index_patches(connectivity.vertex_count, members);
-}
-
-IntLists PartitionOfUnity::cover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
-                                 const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
-                                 const std::vector<char>& unfolded, const PartitionOptions& options) {
-  IntLists members;
-  members.first.push_back(0);
-  std::vector<char> covered(idx(connectivity.vertex_count), 0);
-  PatchGrower grower(points, connectivity, normals, unfolded);
-  std::size_t storage = 0;
-  const auto add_patch = [&](int v) {
-    grower.grow(v, options.patch_size);
-    const auto& grown = grower.members();
-    const double radius = grower.farthest() > 0 ? reach * grower.farthest() : 2 * edge_lengths[v];
-    patches_.push_back({points.col(v), radius, storage, 0, PatchFit::as_wanted});
-    storage += spline_storage_size(most_centres(grown.size()));
-    for (std::size_t i = 0; i < grown.size(); ++i)
-      if (i == 0 || (grower.distances()[i] <= options.coverage * radius && grower.is_inside(grown[i])))
-        covered[idx(grown[i])] = 1;
-    members.items.insert(members.items.end(), grown.begin(), grown.end());
-    members.first.push_back(static_cast<int>(members.items.size()));
+  const Samples samples{points, normals, edge_lengths, unfolded, options.offset};
+  PatchCover cover(points, connectivity, normals, edge_lengths, unfolded, options.cover);
+  std::deque<Batch> batches;
+  const auto place = [&]() -> Batch* {
+    PatchList list = cover.next(patches_of_batch);
+    if (list.size() == 0) return nullptr;
+    batches.push_back({std::move(list), {}, {}});
+    return &batches.back();
   };
-  for (const bool wanted :
-       {true, false})  // a folded vertex is a poor centre: only where nothing else covers it
-    for (int v = 0; v < connectivity.vertex_count; ++v)
-      if (!covered[idx(v)] && bool(unfolded[idx(v)]) == wanted && !connectivity.vertex_faces[v].empty())
-        add_patch(v);
-  storage_.resize(storage);
-  return members;
+  parallel_pipeline<Batch>(place, [&](Batch& batch) { fit(samples, batch); });
+  index_patches(connectivity.vertex_count, batches);
+  for (Batch& batch : batches) {
+    patches_.insert(patches_.end(), batch.patches.begin(), batch.patches.end());
+    storage_.push_back(std::move(batch.storage));
+  }
 }
 
-void PartitionOfUnity::fit(const Eigen::Ref<const Mat3X>& points, const Mat3X& normals,
-                           const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
-                           const IntLists& members, const PartitionOptions& options) {
-  const auto gather = [&](std::size_t p, SplineData& data) {
-    const Patch& patch = patches_[p];
-    const auto vertices = members[static_cast<int>(p)];
-    data.clear(most_centres(vertices.size()));
-    for (int v : vertices) data.add((points.col(v) - patch.centre) / patch.radius, 0);
-    for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {  // [11] [13]
-      const int v = vertices[i];
-      if (!unfolded[idx(v)]) continue;
-      const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * options.offset * edge_lengths[v];
-      data.add((points.col(v) + rho * normals.col(v) - patch.centre) / patch.radius, rho / patch.radius);
+void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
+  const PatchList& list = batch.list;
+  std::size_t size = 0;
+  for (std::size_t p = 0; p < list.size(); ++p)
+    size += spline_storage_size(most_centres(list.members[static_cast<int>(p)].size()));
+  batch.storage.resize(size);
+  SplineWorkspace workspace;
+  SplineGroup group;
+  SplineGroup::Data data;
+  double* storage = batch.storage.data();
+  for (std::size_t first = 0; first < list.size(); first += lane_count) {
+    SplineGroup::Flags wanted{};
+    const std::size_t count = std::min(lane_count, list.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto vertices = list.members[static_cast<int>(first + k)];
+      gather(samples, list, first + k, data[k]);
+      wanted[k] =
+          vertices.size() >= least_quadratic_size && idx(static_cast<int>(data[k].count)) > vertices.size();
     }
-  };
-  parallel_for(patches_.size(), patches_per_task, [&](std::size_t begin, std::size_t end) {
-    SplineWorkspace workspace;
-    SplineGroup group;
-    SplineGroup::Data data;
-    for (std::size_t first = begin; first < end; first += lane_count) {
-      SplineGroup::Flags wanted{};
-      const std::size_t count = std::min(lane_count, end - first);
-      for (std::size_t k = 0; k < count; ++k) {
-        gather(first + k, data[k]);
-        const std::size_t vertices = members[static_cast<int>(first + k)].size();
-        wanted[k] = vertices >= least_quadratic_size && idx(static_cast<int>(data[k].count)) > vertices;
-      }
-      const SplineGroup::Flags fitted = group.fit(data, wanted, kernel_, coincidence);
-      for (std::size_t k = 0; k < count; ++k) {
-        Patch& patch = patches_[first + k];
-        double* const storage = &storage_[patch.storage];
-        if (fitted[k])
-          group.store(data, k, storage);
-        else
-          patch.fit =
-              fit_patch(data[k], kernel_, members[static_cast<int>(first + k)].size(), workspace, storage);
-        patch.centres = static_cast<int>(data[k].count);
-      }
+    const SplineGroup::Flags fitted = group.fit(data, wanted, kernel_, coincidence);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t vertices = list.members[static_cast<int>(first + k)].size();
+      Patch patch{samples.points.col(list.centres[first + k]), list.radii[first + k], storage};
+      if (fitted[k])
+        group.store(data, k, storage);
+      else
+        patch.fit = fit_patch(data[k], kernel_, vertices, workspace, storage);
+      patch.centres = static_cast<int>(data[k].count);
+      batch.patches.push_back(patch);
+      storage += spline_storage_size(most_centres(vertices));
     }
-  });
+  }
 }
 
-void PartitionOfUnity::index_patches(int vertex_count, const IntLists& members) {
+void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& batches) {
   const auto for_each_pair = [&](const auto& visit) {
-    for (int p = 0; p < static_cast<int>(patches_.size()); ++p)
-      if (patches_[idx(p)].fit != PatchFit::failed)
-        for (int v : members[p]) visit(idx(v), p);
+    int id = 0;
+    for (const Batch& batch : batches)
+      for (std::size_t p = 0; p < batch.patches.size(); ++p, ++id)
+        if (batch.patches[p].fit != PatchFit::failed)
+          for (int v : batch.list.members[static_cast<int>(p)]) visit(idx(v), id);
   };
   auto& [first, items] = vertex_patches_;
   first.assign(idx(vertex_count) + 1, 0);
@@ -170,7 +162,7 @@ FieldSample PartitionOfUnity::operator()(const Vec3& x, int anchor) const {
     const double r2 = local.squaredNorm();
     if (!(r2 < 1)) continue;
     const double w = weight(r2);
-    const FieldSample s = evaluate_spline(&storage_[patch.storage], idx(patch.centres), kernel_, local);
+    const FieldSample s = evaluate_spline(patch.spline, idx(patch.centres), kernel_, local);
     sum.value += w * patch.radius * s.value;
     sum.gradient += w * s.gradient;
     total += w;
@@ -187,7 +179,9 @@ std::size_t PartitionOfUnity::count(PatchFit fit) const {
 }
 
 std::size_t PartitionOfUnity::memory_bytes() const {
-  return sizeof(Patch) * patches_.capacity() + sizeof(double) * storage_.capacity() +
+  std::size_t doubles = 0;
+  for (const std::vector<double>& storage : storage_) doubles += storage.capacity();
+  return sizeof(Patch) * patches_.capacity() + sizeof(double) * doubles +
          sizeof(int) * (vertex_patches_.first.capacity() + vertex_patches_.items.capacity());
 }
 

@@ -4,17 +4,17 @@
 // (the weights); Y. Ohtake et al., "Multi-level partition of unity implicits", 2003.
 #pragma once
 
-#include "hooke/connectivity.h"
+#include <deque>
+
+#include "hooke/patch_cover.h"
 #include "hooke/thin_plate_spline.h"
-#include "hooke/types.h"
 
 namespace hooke {
 
 struct PartitionOptions {
   Kernel kernel = Kernel::r3;
-  int patch_size = 30;    // vertices of a patch
-  double coverage = .75;  // every vertex is closer to some centre than this share of the patch's radius
-  double offset = .3;     // rho of [13], in mean edge lengths at the vertex
+  PatchCoverOptions cover = {};
+  double offset = .3;  // rho of [13], in mean edge lengths at the vertex
 };
 
 /// Which polynomial part a patch's spline got.
@@ -35,6 +35,8 @@ class PartitionOfUnity {
   PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
                    const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
                    const PartitionOptions& options = {});
+  PartitionOfUnity(const PartitionOfUnity&) = delete;
+  PartitionOfUnity& operator=(const PartitionOfUnity&) = delete;
 
   /// Value and gradient at x, blended from the patches that hold the vertex `anchor`. The gradient is that of
   /// the splines; it leaves out the slope of the weights, which vanishes on the surface. All zero when no
@@ -49,23 +51,31 @@ class PartitionOfUnity {
   struct Patch {
     Vec3 centre;
     double radius = 0;
-    std::size_t storage = 0;  // where its spline begins
-    int centres = 0;          // of its spline
+    const double* spline = nullptr;  // as fit_spline stores it
+    int centres = 0;                 // of its spline
     PatchFit fit = PatchFit::as_wanted;
   };
+  /// Patches that are fitted by one thread.
+  struct Batch {
+    PatchList list;
+    std::vector<Patch> patches;
+    std::vector<double> storage;  // of their splines
+  };
+  /// What all fits look at.
+  struct Samples {
+    const Eigen::Ref<const Mat3X>& points;
+    const Mat3X& normals;
+    const Eigen::VectorXd& edge_lengths;
+    const std::vector<char>& unfolded;
+    double offset;
+  };
 
-  /// Places the patches, one by one at the first vertex that is not yet well inside one; returns their
-  /// vertices.
-  IntLists cover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
-                 const Mat3X& normals, const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
-                 const PartitionOptions& options);
-  void fit(const Eigen::Ref<const Mat3X>& points, const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
-           const std::vector<char>& unfolded, const IntLists& members, const PartitionOptions& options);
-  void index_patches(int vertex_count, const IntLists& members);
+  void fit(const Samples& samples, Batch& batch) const;
+  void index_patches(int vertex_count, const std::deque<Batch>& batches);
 
   Kernel kernel_;
+  std::vector<std::vector<double>> storage_;
   std::vector<Patch> patches_;
-  std::vector<double> storage_;
   IntLists vertex_patches_;
 };
 

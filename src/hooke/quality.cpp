@@ -106,7 +106,7 @@ Range range_of(std::vector<double> values) {
 }
 
 void describe_all(const std::vector<TriangleShape>& shapes, const std::vector<double>& lengths,
-                  const std::vector<double>& targets, Quality& q) {
+                  const Lengths& targets, Quality& q) {
   const auto column = [&](double TriangleShape::*measure) {
     std::vector<double> values(shapes.size());
     for (size_t f = 0; f < shapes.size(); ++f) values[f] = shapes[f].*measure;
@@ -140,7 +140,7 @@ void describe_all(const std::vector<TriangleShape>& shapes, const std::vector<do
 
 }  // namespace
 
-Quality measure_quality(const MeasuredSurface& surface, const std::vector<double>& edge_target_length,
+Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_target_length,
                         const QualityOptions& options, Stopwatch* stopwatch) {
   const Connectivity& connectivity = surface.connectivity;
   const Mat3X& points = surface.points;
@@ -173,7 +173,7 @@ Quality measure_quality(const MeasuredSurface& surface, const std::vector<double
 }
 
 Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
-                        const std::vector<double>& edge_target_length, const QualityOptions& options) {
+                        const Lengths& edge_target_length, const QualityOptions& options) {
   return measure_quality(MeasuredSurface(points, connectivity), edge_target_length, options);
 }
 

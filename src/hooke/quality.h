@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hooke/angle_bound.h"
+#include "hooke/lengths.h"
 #include "hooke/measured_surface.h"
 #include "hooke/statistics.h"
 #include "hooke/stopwatch.h"
@@ -58,9 +59,9 @@ struct QualityOptions {
 };
 
 /// `edge_target_length` holds L_e for every edge of the connectivity, or nothing.
-Quality measure_quality(const MeasuredSurface& surface, const std::vector<double>& edge_target_length,
+Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_target_length,
                         const QualityOptions& options = {}, Stopwatch* stopwatch = nullptr);
 Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
-                        const std::vector<double>& edge_target_length, const QualityOptions& options = {});
+                        const Lengths& edge_target_length, const QualityOptions& options = {});
 
 }  // namespace hooke

@@ -140,7 +140,7 @@ double covering_length(const Mat3X& points, const Connectivity& c, const TargetL
 }
 
 double mean_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
-  const double first = targets.edge.front();
+  const double first = targets.edge[0];
   const auto sum = [&](const auto& value) {
     return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
       double part = 0;
@@ -167,21 +167,25 @@ std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c
 }
 
 TargetLengths spread_target_lengths(const Connectivity& c, const std::vector<double>& vertex_length) {
-  TargetLengths targets{std::vector<double>(c.edges.size()), std::vector<double>(c.faces.size())};
+  const auto mean_of_three = [](double a, double b, double d) { return (a + b + d) / 3; };
+  if (const Lengths length(vertex_length); !length.vary() && !length.empty())
+    return {Lengths(c.edges.size(), length[0]),
+            Lengths(c.faces.size(), mean_of_three(length[0], length[0], length[0]))};
+  std::vector<double> edge(c.edges.size()), face(c.faces.size());
   parallel_for(c.edges.size(), block, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       const auto& [a, b] = c.edges[e];
-      targets.edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
+      edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
     }
   });
   parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
-      double sum = 0;
-      for (int e : c.face_edges[f]) sum += targets.edge[static_cast<size_t>(e)];
-      targets.face[f] = sum / 3;
+      const auto& [a, b, d] = c.face_edges[f];
+      face[f] = mean_of_three(edge[static_cast<size_t>(a)], edge[static_cast<size_t>(b)],
+                              edge[static_cast<size_t>(d)]);
     }
   });
-  return targets;
+  return {std::move(edge), std::move(face)};
 }
 
 }  // namespace hooke

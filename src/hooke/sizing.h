@@ -2,13 +2,14 @@
 #pragma once
 
 #include "hooke/connectivity.h"
+#include "hooke/lengths.h"
 
 namespace hooke {
 
 /// Target lengths of the springs, in the unit of the points.
 struct TargetLengths {
-  std::vector<double> edge;  // mean of the ends: the rule that always keeps the triangle inequality
-  std::vector<double> face;  // mean of the three edges
+  Lengths edge;  // mean of the ends: the rule that always keeps the triangle inequality
+  Lengths face;  // mean of the three edges
 };
 
 /// Sum of the areas of the faces.

@@ -30,11 +30,6 @@ constexpr double landing_cotangent = 3e-3;
 
 constexpr double landing_tolerance = 1e-9;  // in mean target lengths
 
-bool is_graded(const std::vector<double>& lengths) {
-  const auto [least, most] = std::ranges::minmax_element(lengths);
-  return least != lengths.end() && *least != *most;
-}
-
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
   std::iota(ids.begin(), ids.end(), 0);
@@ -73,15 +68,15 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   for (int e : find_features(start, smooth, vertex_length, constraint_options.features))
     creases.push_back(smooth.edges[static_cast<size_t>(e)]);
   connect(std::move(smooth), creases);
+  start_length_ = vertex_length;
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  if (is_graded(vertex_length)) reordered.even_crease = 0;  // even edges are not what is asked for
+  if (graded()) reordered.even_crease = 0;  // even edges are not what is asked for
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(start, *connectivity, reordered); });
   origins = identity(n);
   input_order_ = order;
   input_connectivity_ = connectivity;
-  start_length_ = vertex_length;
 
   const Stage stage(stopwatch, "fit");
   const SurfaceField field = fit(start);
@@ -236,7 +231,7 @@ void Workspace::resample_lengths() {
 }
 
 bool Workspace::graded() const {
-  return is_graded(start_length_);
+  return start_length_.vary();
 }
 
 std::vector<double> Workspace::input_lengths() const {

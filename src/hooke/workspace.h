@@ -100,7 +100,7 @@ struct Workspace {
   bool vertices_replaced_ = false;
   Reordered input_order_;                                   // the ids in the input
   std::shared_ptr<const Connectivity> input_connectivity_;  // on `start`
-  std::vector<double> start_length_;                        // target lengths there
+  Lengths start_length_;                                    // target lengths there
   bool refitted_ = false;                                   // until then both fields are the same
   std::vector<int> input_anchors_;                          // where each vertex is tracked on the input
   std::unique_ptr<Retraction> to_input_;                    // to the field of the input

@@ -1,0 +1,28 @@
+#include "hooke/lengths.h"
+
+#include <gtest/gtest.h>
+
+namespace hooke {
+namespace {
+
+TEST(Lengths, AreThoseThatWereGivenWhetherTheyVaryOrNot) {
+  for (const std::vector<double>& given :
+       {std::vector<double>{}, {2}, {2, 2, 2}, {2, 2, 3}, {3, 2, 2}, std::vector<double>(100, .1)}) {
+    const Lengths lengths(given);
+    EXPECT_EQ(lengths.size(), given.size());
+    EXPECT_EQ(lengths.empty(), given.empty());
+    EXPECT_EQ(lengths.values(), given);
+    for (size_t i = 0; i < given.size(); ++i) EXPECT_EQ(lengths[i], given[i]);
+  }
+}
+
+TEST(Lengths, VaryWhereTwoDiffer) {
+  EXPECT_FALSE(Lengths().vary());
+  EXPECT_FALSE(Lengths(std::vector<double>{2}).vary());
+  EXPECT_FALSE(Lengths(std::vector<double>{2, 2}).vary());
+  EXPECT_TRUE(Lengths(std::vector<double>{2, 2, 2.0000000001}).vary());
+  EXPECT_EQ(Lengths(3, 2.), Lengths(std::vector<double>(3, 2.)));
+}
+
+}  // namespace
+}  // namespace hooke
