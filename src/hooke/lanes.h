@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 // Compiled twice, and the processor picks when the program starts. Without fused multiply-add, so that both
@@ -31,6 +32,12 @@ constexpr std::size_t padded_to_lanes(std::size_t count) {
 
 HOOKE_INLINE void load(const double* from, Lanes& x) {
   std::memcpy(&x, from, sizeof(Lanes));
+}
+HOOKE_INLINE void load(const std::int32_t* from, Lanes& x) {
+  using Ints = std::int32_t __attribute__((vector_size(16)));
+  Ints ints;
+  std::memcpy(&ints, from, sizeof(Ints));
+  x = __builtin_convertvector(ints, Lanes);
 }
 HOOKE_INLINE void store(const Lanes& x, double* to) {
   std::memcpy(to, &x, sizeof(Lanes));

@@ -12,6 +12,7 @@ namespace {
 constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
 constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
 constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
+constexpr double least_height = 1e-8;             // in radii: less is no offset
 constexpr std::size_t patches_of_batch = 32;
 
 std::size_t idx(int i) {
@@ -47,7 +48,8 @@ std::size_t most_centres(std::size_t vertices) {
   return vertices + (vertices + offset_stride - 1) / offset_stride;
 }
 
-/// What the spline of a patch is fitted to, in radii about its centre.
+/// What the spline of a patch is fitted to, in radii about its centre: zero at the vertices [11], a distance
+/// near them [13]. Centres are snapped; along the way to where they are the field grows as it should.
 template <typename Samples>
 void gather(const Samples& samples, const PatchList& list, std::size_t patch, SplineData& data) {
   const auto& [points, normals, edge_lengths, unfolded, offset] = samples;
@@ -55,27 +57,38 @@ void gather(const Samples& samples, const PatchList& list, std::size_t patch, Sp
   const Vec3 centre = points.col(list.centres[patch]);
   const double radius = list.radii[patch];
   data.clear(most_centres(vertices.size()));
-  for (int v : vertices) data.add((points.col(v) - centre) / radius, 0);
-  for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {  // [11] [13]
+  if (!(radius > 0)) return;
+  const auto add = [&](const Vec3& place, int v, double height) {
+    const Vec3 local = (place - centre) / radius, snap = snapped(local);
+    data.add(snap, height / radius + normals.col(v).dot(snap - local));
+  };
+  for (int v : vertices) add(points.col(v), v, 0);
+  for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {
     const int v = vertices[i];
     if (!unfolded[idx(v)]) continue;
     const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * offset * edge_lengths[v];
-    data.add((points.col(v) + rho * normals.col(v) - centre) / radius, rho / radius);
+    add(points.col(v) + rho * normals.col(v), v, rho);
   }
 }
 
-/// The way for patches that the group has no spline for.
-PatchFit fit_patch(SplineData& data, Kernel kernel, std::size_t vertices, SplineWorkspace& workspace,
-                   double* storage) {
+/// The way for patches that the group has no spline for. Nothing where there is none.
+std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std::size_t vertices,
+                                            SplineWorkspace& workspace, PatchFit& fit) {
   data.drop_repeated(coincidence);
   const auto centres = data.centres.leftCols(data.count);
   const auto values = data.values.head(data.count);
-  if (values.isZero(0)) return PatchFit::failed;  // no offset says where outside is
   const bool quadratic = vertices >= least_quadratic_size;
-  if (quadratic && fit_spline(centres, values, kernel, 2, workspace, storage)) return PatchFit::as_wanted;
-  if (fit_spline(centres, values, kernel, 1, workspace, storage))
-    return quadratic ? PatchFit::affine : PatchFit::as_wanted;
-  return PatchFit::failed;
+  std::optional<SplineCoefficients> spline;
+  fit = PatchFit::failed;
+  if (data.count == 0 || values.isZero(least_height)) return spline;  // no offset says where outside is
+  if (quadratic) spline = fit_spline(centres, values, kernel, 2, workspace);
+  if (spline) {
+    fit = PatchFit::as_wanted;
+    return spline;
+  }
+  spline = fit_spline(centres, values, kernel, 1, workspace);
+  if (spline) fit = quadratic ? PatchFit::affine : PatchFit::as_wanted;
+  return spline;
 }
 
 }  // namespace
@@ -103,35 +116,44 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
 }
 
 void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
+  using Stored = StoredSpline<SnappedCoordinate>;
   const PatchList& list = batch.list;
-  std::size_t size = 0;
-  for (std::size_t p = 0; p < list.size(); ++p)
-    size += spline_storage_size(most_centres(list.members[static_cast<int>(p)].size()));
-  batch.storage.resize(size);
+  const auto vertices = [&](std::size_t p) { return list.members[static_cast<int>(p)].size(); };
+  std::size_t coordinates = 0, coefficients = 0;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    coordinates += Stored::coordinates_size(most_centres(vertices(p)));
+    coefficients += Stored::coefficients_size(most_centres(vertices(p)));
+  }
+  batch.storage.coordinates.resize(coordinates);
+  batch.storage.coefficients.resize(coefficients);
+  SnappedCoordinate* coordinate = batch.storage.coordinates.data();
+  double* coefficient = batch.storage.coefficients.data();
+  const auto store = [&](const SplineData& data, const SplineCoefficients& spline) {
+    const Stored stored = store_spline(data.centres.leftCols(data.count), spline, coordinate, coefficient);
+    coordinate += Stored::coordinates_size(stored.centres);
+    coefficient += Stored::coefficients_size(stored.centres);
+    return stored;
+  };
+
   SplineWorkspace workspace;
   SplineGroup group;
   SplineGroup::Data data;
-  double* storage = batch.storage.data();
   for (std::size_t first = 0; first < list.size(); first += lane_count) {
     SplineGroup::Flags wanted{};
     const std::size_t count = std::min(lane_count, list.size() - first);
     for (std::size_t k = 0; k < count; ++k) {
-      const auto vertices = list.members[static_cast<int>(first + k)];
       gather(samples, list, first + k, data[k]);
-      wanted[k] =
-          vertices.size() >= least_quadratic_size && idx(static_cast<int>(data[k].count)) > vertices.size();
+      wanted[k] = vertices(first + k) >= least_quadratic_size &&
+                  static_cast<std::size_t>(data[k].count) > vertices(first + k);
     }
     const SplineGroup::Flags fitted = group.fit(data, wanted, kernel_, coincidence);
     for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t vertices = list.members[static_cast<int>(first + k)].size();
-      Patch patch{samples.points.col(list.centres[first + k]), list.radii[first + k], storage};
+      Patch patch{samples.points.col(list.centres[first + k]), list.radii[first + k]};
       if (fitted[k])
-        group.store(data, k, storage);
-      else
-        patch.fit = fit_patch(data[k], kernel_, vertices, workspace, storage);
-      patch.centres = static_cast<int>(data[k].count);
+        patch.spline = store(data[k], group.solution(k, static_cast<std::size_t>(data[k].count)));
+      else if (const auto spline = fit_alone(data[k], kernel_, vertices(first + k), workspace, patch.fit))
+        patch.spline = store(data[k], *spline);
       batch.patches.push_back(patch);
-      storage += spline_storage_size(most_centres(vertices));
     }
   }
 }
@@ -162,7 +184,7 @@ FieldSample PartitionOfUnity::operator()(const Vec3& x, int anchor) const {
     const double r2 = local.squaredNorm();
     if (!(r2 < 1)) continue;
     const double w = weight(r2);
-    const FieldSample s = evaluate_spline(patch.spline, idx(patch.centres), kernel_, local);
+    const FieldSample s = patch.spline(kernel_, local);
     sum.value += w * patch.radius * s.value;
     sum.gradient += w * s.gradient;
     total += w;
@@ -179,9 +201,11 @@ std::size_t PartitionOfUnity::count(PatchFit fit) const {
 }
 
 std::size_t PartitionOfUnity::memory_bytes() const {
-  std::size_t doubles = 0;
-  for (const std::vector<double>& storage : storage_) doubles += storage.capacity();
-  return sizeof(Patch) * patches_.capacity() + sizeof(double) * doubles +
+  std::size_t splines = 0;
+  for (const Storage& s : storage_)
+    splines +=
+        sizeof(SnappedCoordinate) * s.coordinates.capacity() + sizeof(double) * s.coefficients.capacity();
+  return sizeof(Patch) * patches_.capacity() + splines +
          sizeof(int) * (vertex_patches_.first.capacity() + vertex_patches_.items.capacity());
 }
 

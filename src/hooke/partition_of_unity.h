@@ -7,7 +7,7 @@
 #include <deque>
 
 #include "hooke/patch_cover.h"
-#include "hooke/thin_plate_spline.h"
+#include "hooke/stored_spline.h"
 
 namespace hooke {
 
@@ -51,15 +51,19 @@ class PartitionOfUnity {
   struct Patch {
     Vec3 centre;
     double radius = 0;
-    const double* spline = nullptr;  // as fit_spline stores it
-    int centres = 0;                 // of its spline
+    StoredSpline<SnappedCoordinate> spline = {};
     PatchFit fit = PatchFit::as_wanted;
+  };
+  /// Memory of the splines of some patches.
+  struct Storage {
+    std::vector<SnappedCoordinate> coordinates;
+    std::vector<double> coefficients;
   };
   /// Patches that are fitted by one thread.
   struct Batch {
     PatchList list;
     std::vector<Patch> patches;
-    std::vector<double> storage;  // of their splines
+    Storage storage;
   };
   /// What all fits look at.
   struct Samples {
@@ -74,7 +78,7 @@ class PartitionOfUnity {
   void index_patches(int vertex_count, const std::deque<Batch>& batches);
 
   Kernel kernel_;
-  std::vector<std::vector<double>> storage_;
+  std::vector<Storage> storage_;
   std::vector<Patch> patches_;
   IntLists vertex_patches_;
 };

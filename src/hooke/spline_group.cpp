@@ -85,13 +85,11 @@ SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kerne
   return solved;
 }
 
-void SplineGroup::store(const Data& data, std::size_t lane, double* storage) const {
-  const auto n = static_cast<std::size_t>(data[lane].count);
-  std::vector<double> a(n);
-  for (std::size_t i = 0; i < n; ++i) a[i] = solution_[i * lane_count + lane];
-  std::array<double, monomials> c;
-  for (std::size_t k = 0; k < monomials; ++k) c[k] = right_side_[k * lane_count + lane];
-  store_spline(data[lane].centres.leftCols(data[lane].count), a, c, storage);
+SplineCoefficients SplineGroup::solution(std::size_t lane, std::size_t centres) const {
+  SplineCoefficients spline;
+  for (std::size_t i = 0; i < centres; ++i) spline.radial.push_back(solution_[i * lane_count + lane]);
+  for (std::size_t k = 0; k < monomials; ++k) spline.polynomial[k] = right_side_[k * lane_count + lane];
+  return spline;
 }
 
 }  // namespace hooke

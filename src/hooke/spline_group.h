@@ -30,8 +30,8 @@ class SplineGroup {
   /// do not determine it, or where two are closer than `least_distance`.
   Flags fit(const Data& data, const Flags& wanted, Kernel kernel, double least_distance);
 
-  /// Writes the spline of a lane where fit_spline would. Pre-condition: fit() found one.
-  void store(const Data& data, std::size_t lane, double* storage) const;
+  /// The spline of a lane. Pre-condition: fit() found one to so many centres.
+  SplineCoefficients solution(std::size_t lane, std::size_t centres) const;
 
  private:
   void gather(const Data& data, const Flags& wanted);

@@ -4,9 +4,10 @@
 // "Scattered Data Approximation", 2005, chapter 8).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "hooke/types.h"
 
@@ -31,23 +32,19 @@ struct SplineWorkspace {
   Eigen::VectorXd right_side;
 };
 
-/// Number of doubles in which fit_spline stores a spline of so many centres.
-std::size_t spline_storage_size(std::size_t centres);
+/// What a spline is made of: the kernel's coefficient at each centre, and those of the monomials 1, x, y, z,
+/// x x, y y, z z, x y, y z, z x.
+struct SplineCoefficients {
+  std::vector<double> radial;
+  std::array<double, monomial_count(2)> polynomial{};
+};
 
-/// Fits a spline to values at centres [31] and writes it to `storage`. The centres should be of size 1 about
-/// the origin, for conditioning. Returns false, with `storage` undefined, when the centres do not determine
-/// it: too few for the polynomials, on a surface of that degree, or (nearly) coincident. Pre-condition:
-/// storage holds spline_storage_size(centres.cols()) doubles.
-bool fit_spline(const Eigen::Ref<const Mat3X>& centres, const Eigen::Ref<const Eigen::VectorXd>& values,
-                Kernel kernel, SplineDegree degree, SplineWorkspace& workspace, double* storage);
-
-/// Writes a spline with these coefficients of the kernel at the centres and of the monomials, which are 1, x,
-/// y, z, x x, y y, z z, x y, y z, z x. Pre-condition as for fit_spline.
-void store_spline(const Eigen::Ref<const Mat3X>& centres, std::span<const double> radial,
-                  std::span<const double> polynomial, double* storage);
-
-/// Value [30] and gradient [35] at x of a spline stored for so many centres.
-FieldSample evaluate_spline(const double* storage, std::size_t centres, Kernel kernel, const Vec3& x);
+/// Fits a spline to values at centres [31]. The centres should be of size 1 about the origin, for
+/// conditioning. Nothing when the centres do not determine it: too few for the polynomials, on a surface of
+/// that degree, or (nearly) coincident.
+std::optional<SplineCoefficients> fit_spline(const Eigen::Ref<const Mat3X>& centres,
+                                             const Eigen::Ref<const Eigen::VectorXd>& values, Kernel kernel,
+                                             SplineDegree degree, SplineWorkspace& workspace);
 
 /// Bytes needed while a spline of so many centres is fitted: the kernel matrix, worked on in place.
 std::size_t spline_fit_bytes(std::size_t centres);
@@ -63,14 +60,16 @@ class ThinPlateSpline {
 
   FieldSample operator()(const Vec3& x) const;
 
-  std::size_t memory_bytes() const { return sizeof(double) * storage_.capacity(); }
+  std::size_t memory_bytes() const {
+    return sizeof(double) * (coordinates_.capacity() + coefficients_.capacity());
+  }
 
  private:
   Kernel kernel_ = Kernel::r3;
-  std::size_t centres_ = 0;
   Vec3 origin_ = Vec3::Zero();
   double scale_ = 1;
-  std::vector<double> storage_;
+  std::size_t centres_ = 0;
+  std::vector<double> coordinates_, coefficients_;
 };
 
 }  // namespace hooke
