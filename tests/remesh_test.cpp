@@ -32,7 +32,9 @@ test::Triangles equilateral_grid(int n) {
 /// The outward normals must not be hidden by the surface: here the input's own say where outside is.
 int flipped_faces(const test::Triangles& before, const Mat3X& after) {
   const Connectivity c = test::connect(before);
-  const auto surface = SurfaceField(before.points, std::make_shared<const Connectivity>(c)).surface();
+  const auto surface =
+      SurfaceField(std::make_shared<const Mat3X>(before.points), std::make_shared<const Connectivity>(c))
+          .surface();
   int count = 0;
   for (const Triangle& t : before.faces) {
     Vec3 normal = Vec3::Zero();

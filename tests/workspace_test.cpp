@@ -30,7 +30,7 @@ Workspace on(const TriMesh& mesh, const FilterOptions& filter = {}) {
 
 /// Moves the vertices by a quarter of a target length.
 void shake(Workspace& w) {
-  Mat3X u = test::random_vectors(w.start.cols(), .05);
+  Mat3X u = test::random_vectors(w.start->cols(), .05);
   w.retraction->constrain(w.placement, u);
   Placement to;
   w.retraction->step(w.placement, u, to);
@@ -59,7 +59,7 @@ TEST(Workspace, TheMeshIsTheInputInAnotherOrder) {
       const int fresh = w.connectivity->faces[f][k],
                 old = t.faces[static_cast<size_t>(w.order.old_face[f])][k];
       EXPECT_EQ(w.order.old_vertex[static_cast<size_t>(fresh)], old);
-      const Vec3 x = w.normalisation.centre + w.normalisation.unit * w.start.col(fresh);
+      const Vec3 x = w.normalisation.centre + w.normalisation.unit * w.start->col(fresh);
       EXPECT_LT((x - t.points.col(old)).norm(), 1e-14);
     }
 }
@@ -121,8 +121,8 @@ TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
   const double natural = natural_length(total_area(t.points, t.faces), t.faces.size());
   Workspace w = on(with_length(t, .1 * natural), RemeshOptions{}.filter);
   for (const Triangle& f : w.connectivity->faces) {
-    const Vec3 centre = (w.start.col(f[0]) + w.start.col(f[1]) + w.start.col(f[2])) / 3;
-    const VertexPlace place = w.retraction->moved(w.placement, f[0], centre - w.start.col(f[0]));
+    const Vec3 centre = (w.start->col(f[0]) + w.start->col(f[1]) + w.start->col(f[2])) / 3;
+    const VertexPlace place = w.retraction->moved(w.placement, f[0], centre - w.start->col(f[0]));
     EXPECT_NEAR((w.normalisation.centre + w.normalisation.unit * place.point).norm(), 1, .02);
   }
 }

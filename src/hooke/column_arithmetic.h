@@ -26,6 +26,16 @@ double dot(const A& a, const B& b) {
   });
 }
 
+/// dot(a, b - c)
+inline double dot_with_difference(const Mat3X& a, const Mat3X& b, const Mat3X& c) {
+  return parallel_sum(static_cast<std::size_t>(a.cols()), 4096, [&](std::size_t begin, std::size_t end) {
+    const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+    return a.middleCols(first, count)
+        .cwiseProduct(b.middleCols(first, count) - c.middleCols(first, count))
+        .sum();
+  });
+}
+
 /// a += factor * b
 template <typename B>
 void add_scaled(double factor, const B& b, Mat3X& a) {

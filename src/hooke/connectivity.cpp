@@ -40,19 +40,6 @@ void number_edges(const std::vector<int>& twins, Connectivity& c) {
   });
 }
 
-/// The other end of every edge in `vertex_edges`.
-IntLists neighbours(const IntLists& vertex_edges, const std::vector<Edge>& edges) {
-  IntLists lists = vertex_edges;
-  parallel_for(vertex_edges.first.size() - 1, block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v)
-      for (auto i = static_cast<size_t>(lists.first[v]); i < static_cast<size_t>(lists.first[v + 1]); ++i) {
-        const Edge& e = edges[static_cast<size_t>(lists.items[i])];
-        lists.items[i] = e[0] == static_cast<int>(v) ? e[1] : e[0];
-      }
-  });
-  return lists;
-}
-
 }  // namespace
 
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
@@ -67,7 +54,6 @@ Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges
   c.vertex_faces = std::move(half_edges.faces);
   number_edges(half_edges.twins, c);
   c.vertex_edges = invert(c.vertex_count, c.edges);
-  c.vertex_neighbours = neighbours(c.vertex_edges, c.edges);
   return c;
 }
 

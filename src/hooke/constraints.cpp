@@ -115,10 +115,9 @@ class CreaseTracer {
     for (int v = 0; v < c.vertex_count; ++v) {
       std::vector<int> ends;
       bool boundary = false;
-      const auto edges = c.vertex_edges[v], neighbours = c.vertex_neighbours[v];
-      for (size_t i = 0; i < edges.size(); ++i) {
-        if (c.is_crease(edges[i])) ends.push_back(neighbours[i]);
-        boundary |= c.is_boundary_edge(edges[i]);
+      for (int e : c.vertex_edges[v]) {
+        if (c.is_crease(e)) ends.push_back(c.other_end(e, v));
+        boundary |= c.is_boundary_edge(e);
       }
       if (ends.empty()) continue;
       breaks[static_cast<size_t>(v)] =

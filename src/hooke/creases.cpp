@@ -52,10 +52,9 @@ class Sectors {
 void mark(Connectivity& c, const std::vector<Edge>& creases) {
   c.creases.assign(c.edges.size(), 0);
   for (const auto& [a, b] : creases) {
-    const auto neighbours = c.vertex_neighbours[a];
-    const auto at = std::ranges::find(neighbours, b) - neighbours.begin();
-    if (at < std::ssize(neighbours))
-      c.creases[static_cast<size_t>(c.vertex_edges[a][static_cast<size_t>(at)])] = 1;
+    const auto edges = c.vertex_edges[a];
+    const auto edge = std::ranges::find_if(edges, [&](int e) { return c.other_end(e, a) == b; });
+    if (edge != edges.end()) c.creases[static_cast<size_t>(*edge)] = 1;
   }
 }
 
@@ -134,7 +133,7 @@ std::vector<int> label_components(const Connectivity& c) {
     while (!front.empty()) {
       const int v = front.back();
       front.pop_back();
-      for (int w : c.vertex_neighbours[v])
+      for (int w : c.neighbours(v))
         if (int& l = label[static_cast<size_t>(w)]; l < 0) {
           l = count;
           front.push_back(w);

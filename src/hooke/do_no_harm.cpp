@@ -11,7 +11,7 @@ double spread_of_edges(const Workspace& work) {
   double sum = 0, squares = 0;
   for (size_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e];
-    const double l = (work.start.col(a) - work.start.col(b)).norm() / work.targets.edge[e];
+    const double l = (work.start->col(a) - work.start->col(b)).norm() / work.targets.edge[e];
     sum += l;
     squares += l * l;
   }
@@ -22,11 +22,11 @@ double spread_of_edges(const Workspace& work) {
 }  // namespace
 
 bool do_no_harm(Workspace& work, const HarmOptions& options) {
-  const bool near_regular = least_angle(work.start, work.connectivity->faces) >= options.angle &&
+  const bool near_regular = least_angle(*work.start, work.connectivity->faces) >= options.angle &&
                             spread_of_edges(work) <= options.deviation;
   if (near_regular || !work.graded()) work.keep_angles();
   if (near_regular) {
-    work.constraints.home = work.start;
+    work.constraints.home = *work.start;
     for (double length : work.vertex_length) work.constraints.reach.push_back(options.reach * length);
   }
   return near_regular;

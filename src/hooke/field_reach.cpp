@@ -22,7 +22,7 @@ std::vector<float> reaches_of(const NearFaces& faces, double reach, const std::v
     reaches.resize(static_cast<std::size_t>(connectivity.vertex_count), no_limit);
     for (int end : {a, b}) {
       reaches[static_cast<std::size_t>(end)] = static_cast<float>(most(end));
-      for (int v : connectivity.vertex_neighbours[end])
+      for (int v : connectivity.neighbours(end))
         reaches[static_cast<std::size_t>(v)] = static_cast<float>(most(v));
     }
   }

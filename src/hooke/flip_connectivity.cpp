@@ -172,13 +172,13 @@ FlipResult flip_connectivity(Workspace& work, const FlipOptions& options, const 
 
 void measure_travel(const Workspace& work, FlipResult& result) {
   double sum2 = 0;
-  for (Eigen::Index v = 0; v < work.start.cols(); ++v) {
-    const double travel = (work.placement.points.col(v) - work.start.col(v)).norm() /
+  for (Eigen::Index v = 0; v < work.start->cols(); ++v) {
+    const double travel = (work.placement.points.col(v) - work.start->col(v)).norm() /
                           work.vertex_length[static_cast<size_t>(v)];
     result.max_travel = std::max(result.max_travel, travel);
     sum2 += travel * travel;
   }
-  result.rms_travel = std::sqrt(sum2 / static_cast<double>(std::max<Eigen::Index>(work.start.cols(), 1)));
+  result.rms_travel = std::sqrt(sum2 / static_cast<double>(std::max<Eigen::Index>(work.start->cols(), 1)));
 }
 
 }  // namespace hooke

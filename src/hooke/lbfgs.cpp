@@ -12,19 +12,18 @@ void clear_columns(const std::vector<int>& columns, Mat3X& matrix) {
   for (int v : columns) matrix.col(v).setZero();
 }
 
-/// A descent direction in the tangent space, no vertex longer than the cap; blocked vertices neither move nor
-/// pull at others. Falls back to the gradient.
-Mat3X descent_direction(const Relaxation& r, const IntegrationOptions& options, const Mat3X& gradient,
-                        const std::vector<int>& blocked, const Preconditioner& h0, LbfgsMemory& memory) {
+/// Makes d a descent direction in the tangent space, no vertex longer than the cap; blocked vertices neither
+/// move nor pull at others. Falls back to the gradient.
+void find_descent(const Relaxation& r, const IntegrationOptions& options, const Mat3X& gradient,
+                  const std::vector<int>& blocked, const Preconditioner& h0, LbfgsMemory& memory, Mat3X& d) {
   for (;;) {
-    Mat3X d;
     assign_scaled(-1, gradient, d);
     clear_columns(blocked, d);
     memory.apply(r, h0, d);
     clear_columns(blocked, d);
     r.retraction.constrain(r.placement, d);
     cap_displacement(r.vertex_length, options.max_move, d);
-    if (memory.empty() || dot(d, gradient) < 0) return d;
+    if (memory.empty() || dot(d, gradient) < 0) return;
     memory.clear();
   }
 }
@@ -49,8 +48,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   LbfgsMemory memory(lbfgs.memory);
   Preconditioner h0(r, lbfgs.preconditioner);
   RestDetector rest(options);
-  Mat3X gradient, trial_gradient;
-  Mat3X displacement;  // from the placement to the trial
+  Mat3X gradient, step;
+  Mat3X trial_gradient;  // before there is one: what is left of the step, vertex by vertex
   Placement trial;
   std::vector<int> held;     // by the guards, in the last trial
   std::vector<int> blocked;  // held in the last step: they sit out this one
@@ -64,8 +63,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   while (result.evaluations < options.max_steps) {
     if (result.steps % lbfgs.curvature_every == 0)
       timed(r.stopwatch, "preconditioner", [&] { h0.refresh(r); });
-    Mat3X step = timed(r.stopwatch, "direction",
-                       [&] { return descent_direction(r, options, gradient, blocked, h0, memory); });
+    const auto find_step = [&] { find_descent(r, options, gradient, blocked, h0, memory, step); };
+    timed(r.stopwatch, "direction", find_step);
     bool accepted = false;
     bool mended = false;
     double trial_energy = 0;
@@ -74,11 +73,11 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
         assign_scaled(.5, step, step);
       } else if (tries > 0) {  // what the guards hold back spoils the step of the others: without it
         blocked.insert(blocked.end(), held.begin(), held.end());
-        step = descent_direction(r, options, gradient, blocked, h0, memory);
+        find_step();
       }
-      assign_scaled(1, step, displacement);
+      assign_scaled(1, step, trial_gradient);
       held = timed(r.stopwatch, "guards", [&] {
-        return r.guards.step(r.retraction, r.placement, displacement, trial, r.stopwatch);
+        return r.guards.step(r.retraction, r.placement, trial_gradient, trial, r.stopwatch);
       });
       result.held_back += static_cast<long long>(held.size());
       mended =
@@ -86,8 +85,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       if (mended) timed(r.stopwatch, "mending", [&] { mend(r, held, lbfgs, trial); });
       trial_energy = timed(r.stopwatch, "energy", [&] { return r.energy(trial, &trial_gradient); });
       ++result.evaluations;
-      subtract(trial.points, r.placement.points, displacement);
-      accepted = trial_energy <= result.energy + lbfgs.armijo * std::min(0., dot(gradient, displacement));
+      const double slope = dot_with_difference(gradient, trial.points, r.placement.points);
+      accepted = trial_energy <= result.energy + lbfgs.armijo * std::min(0., slope);
     }
     if (!accepted) {
       if (!memory.empty()) {
@@ -100,7 +99,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     }
     r.retraction.constrain(trial, trial_gradient);
     subtract(trial_gradient, gradient, gradient);
-    memory.push(r, h0, displacement, gradient);
+    subtract(trial.points, r.placement.points, step);
+    memory.push(r, h0, step, gradient);
     std::swap(r.placement, trial);
     std::swap(gradient, trial_gradient);
     if (mended)

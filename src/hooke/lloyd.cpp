@@ -94,10 +94,9 @@ class Lloyd {
   /// -1 for an inner vertex.
   std::array<int, 2> border_neighbours(int v) const {
     std::array<int, 2> sides = {-1, -1};
-    const auto edges = c_.vertex_edges[v], neighbours = c_.vertex_neighbours[v];
     size_t count = 0;
-    for (size_t i = 0; i < edges.size() && count < 2; ++i)
-      if (c_.is_border(edges[i])) sides[count++] = neighbours[i];
+    for (int e : c_.vertex_edges[v])
+      if (count < 2 && c_.is_border(e)) sides[count++] = c_.other_end(e, v);
     return sides;
   }
 

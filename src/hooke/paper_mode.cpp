@@ -16,7 +16,7 @@ class PaperRun {
         work_(mesh, options.constraints, options.filter, options.retraction, {}),
         to_input_(*work_.retraction),
         strings_(*work_.connectivity, work_.targets, {.altitude = 0}),
-        mesh_(build_mesh(work_.start, *work_.connectivity)) {}
+        mesh_(build_mesh(*work_.start, *work_.connectivity)) {}
 
   RemeshResult run(TriMesh& mesh) {
     result_.folded_before = static_cast<int>(folded_faces().size());
@@ -45,8 +45,8 @@ class PaperRun {
   }
 
   EvolutionResult optimize() {
-    return evolve_damped(mesh_, *work_.connectivity, work_.targets.edge.values(), options_.evolution, boundary_rule(),
-                         watch());
+    return evolve_damped(mesh_, *work_.connectivity, work_.targets.edge.values(), options_.evolution,
+                         boundary_rule(), watch());
   }
 
   void filter() {

@@ -68,7 +68,7 @@ ThinPlateSpline fit_global_spline(const Mat3X& points, const std::vector<int>& v
 struct SurfaceField::State {
   FilterKind kind;
   std::shared_ptr<const Connectivity> connectivity;
-  Mat3X points;
+  std::shared_ptr<const Mat3X> points;
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
   std::vector<SurfaceBend> bends;
@@ -77,7 +77,7 @@ struct SurfaceField::State {
   std::vector<int> pieces;               // per vertex; empty: one
   std::vector<ThinPlateSpline> splines;  // per piece
 
-  NearFaces faces() const { return {points, normals, *connectivity}; }
+  NearFaces faces() const { return {*points, normals, *connectivity}; }
   FieldSample sample(const Vec3& x, int anchor) const;
   Foot project(const Vec3& x, int anchor, double tolerance) const;
 };
@@ -120,9 +120,10 @@ Foot SurfaceField::State::project(const Vec3& x, int anchor, double tolerance) c
   return fallback;
 }
 
-SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> connectivity,
-                           const FilterOptions& options, std::vector<int> pieces,
-                           const std::vector<double>& lengths) {
+SurfaceField::SurfaceField(std::shared_ptr<const Mat3X> shared_points,
+                           std::shared_ptr<const Connectivity> connectivity, const FilterOptions& options,
+                           std::vector<int> pieces, const std::vector<double>& lengths) {
+  const Mat3X& points = *shared_points;
   auto state = std::make_shared<State>();
   state->kind = options.kind;
   state->normals = vertex_normals(points, *connectivity);
@@ -142,7 +143,7 @@ SurfaceField::SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> con
           points, distinct_vertices(points, *connectivity, pieces, piece), state->normals, rho, options));
     state->pieces = std::move(pieces);
   }
-  state->points = std::move(points);
+  state->points = std::move(shared_points);
   state->connectivity = std::move(connectivity);
   state_ = std::move(state);
 }
@@ -167,14 +168,14 @@ Surface SurfaceField::surface() const {
 }
 
 const Mat3X& SurfaceField::points() const {
-  return state_->points;
+  return *state_->points;
 }
 const Mat3X& SurfaceField::normals() const {
   return state_->normals;
 }
 
 std::size_t SurfaceField::memory_bytes() const {
-  const auto doubles = state_->points.size() + state_->normals.size() + state_->edge_lengths.size();
+  const auto doubles = state_->points->size() + state_->normals.size() + state_->edge_lengths.size();
   return sizeof(double) * static_cast<std::size_t>(doubles) + sizeof(SurfaceBend) * state_->bends.capacity() +
          sizeof(float) * state_->reaches.capacity() +
          (state_->partition ? state_->partition->memory_bytes() : 0) +

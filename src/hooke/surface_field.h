@@ -39,7 +39,7 @@ class SurfaceField {
   /// solution (all vertices in one place, or two nearly so).
   /// `pieces` numbers the parts of the surface by vertex, for the global fit to give each a spline of its
   /// own; empty: one spline. `lengths` of the vertices are what options.reach counts in; empty: 1.
-  SurfaceField(Mat3X points, std::shared_ptr<const Connectivity> connectivity,
+  SurfaceField(std::shared_ptr<const Mat3X> points, std::shared_ptr<const Connectivity> connectivity,
                const FilterOptions& options = {}, std::vector<int> pieces = {},
                const std::vector<double>& lengths = {});
 

@@ -56,16 +56,17 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
     return make_connectivity(n, std::move(order.faces));
   });
 
-  start.resize(3, n);
+  Mat3X points(3, n);
   vertex_length.resize(length.size());
   const auto input = positions(source);
   for (int v = 0; v < n; ++v) {
     const int old = order.old_vertex[static_cast<size_t>(v)];
-    start.col(v) = (input.col(old) - normalisation.centre) / normalisation.unit;
+    points.col(v) = (input.col(old) - normalisation.centre) / normalisation.unit;
     vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
   }
+  start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
-  for (int e : find_features(start, smooth, vertex_length, constraint_options.features))
+  for (int e : find_features(*start, smooth, vertex_length, constraint_options.features))
     creases.push_back(smooth.edges[static_cast<size_t>(e)]);
   connect(std::move(smooth), creases);
   start_length_ = vertex_length;
@@ -73,7 +74,7 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   if (graded()) reordered.even_crease = 0;  // even edges are not what is asked for
   constraints =
-      timed(stopwatch, "constraints", [&] { return find_constraints(start, *connectivity, reordered); });
+      timed(stopwatch, "constraints", [&] { return find_constraints(*start, *connectivity, reordered); });
   origins = identity(n);
   input_order_ = order;
   input_connectivity_ = connectivity;
@@ -84,7 +85,7 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
                                            RetractionOptions{.tolerance = landing_tolerance});
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  placement = retraction->place(start, input_anchors_, constraints.segment);
+  placement = retraction->place(*start, input_anchors_, constraints.segment);
 }
 
 void Workspace::connect(Connectivity c, const std::vector<Edge>& creases) {
@@ -101,15 +102,18 @@ void Workspace::keep_angles() {
 /// A field of which each side of a crease has its own. What it may swing out is counted in target lengths, or
 /// in those that are natural for these faces where targets are shorter: a coarse mesh of a round body is no
 /// polyhedron.
-SurfaceField Workspace::fit(const Mat3X& points) const {
+SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> shared_points) const {
+  const Mat3X& points = *shared_points;
   const double natural = natural_length(total_area(points, connectivity->faces), connectivity->faces.size());
   std::vector<double> lengths(static_cast<size_t>(connectivity->side_count()));
   for (size_t side = 0; side < lengths.size(); ++side)
     lengths[side] = std::max(
         natural, vertex_length[static_cast<size_t>(connectivity->vertex_of_side(static_cast<int>(side)))]);
-  if (connectivity->creases.empty()) return SurfaceField(points, connectivity, filter_, {}, lengths);
+  if (connectivity->creases.empty())
+    return SurfaceField(std::move(shared_points), connectivity, filter_, {}, lengths);
   const auto cut = std::make_shared<const Connectivity>(cut_open(*connectivity));
-  return SurfaceField(side_points(points, *connectivity), cut, filter_, label_components(*cut), lengths);
+  return SurfaceField(std::make_shared<const Mat3X>(side_points(points, *connectivity)), cut, filter_,
+                      label_components(*cut), lengths);
 }
 
 int Workspace::chart_count() const {
@@ -120,7 +124,7 @@ int Workspace::chart_count() const {
 void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;
-  const SurfaceField field = fit(placement.points);
+  const SurfaceField field = fit(std::make_shared<const Mat3X>(placement.points));
   finished_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   placement = retraction->place(placement.points, identity(connectivity->side_count()), placement.segments);
@@ -220,7 +224,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
 
 SurfacePoint Workspace::place_on_input(int v) const {
   const std::vector<int>& anchors = refitted_ ? input_anchors_ : placement.anchors;
-  return locate(start, *input_connectivity_, placement.points.col(v),
+  return locate(*start, *input_connectivity_, placement.points.col(v),
                 input_connectivity_->vertex_of_side(anchors[static_cast<size_t>(v)]));
 }
 
@@ -276,7 +280,7 @@ void Workspace::copy_back(TriMesh& target) const {
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     const auto place = static_cast<size_t>(order.old_vertex[static_cast<size_t>(v)]);
     const int origin = origins[static_cast<size_t>(v)];
-    const bool stayed = origin >= 0 && placement.points.col(v) == start.col(origin);
+    const bool stayed = origin >= 0 && placement.points.col(v) == start->col(origin);
     points.col(static_cast<Eigen::Index>(place)) =
         stayed ? Vec3(input.col(input_order_.old_vertex[static_cast<size_t>(origin)]))
                : Vec3(normalisation.centre + normalisation.unit * placement.points.col(v));

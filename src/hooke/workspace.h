@@ -84,7 +84,7 @@ struct Workspace {
   std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
   TargetLengths targets;
   Constraints constraints;
-  Mat3X start;                             // the points of the input
+  std::shared_ptr<const Mat3X> start;      // the points of the input
   std::vector<int> origins;                // per vertex: which of `start` it was, -1 for a new one
   Placement placement;                     // of the vertices on the field fitted last
   std::unique_ptr<Retraction> retraction;  // to that field
@@ -92,7 +92,7 @@ struct Workspace {
  private:
   SurfacePoint place_on_input(int vertex) const;
   void connect(Connectivity c, const std::vector<Edge>& creases);
-  SurfaceField fit(const Mat3X& points) const;
+  SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
 
   FilterOptions filter_;
   RetractionOptions retraction_options_;

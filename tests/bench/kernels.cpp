@@ -85,7 +85,8 @@ void projection(benchmark::State& state) {
 
 void field_fit(benchmark::State& state) {
   const Sphere s(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(SurfaceField(s.start.points, s.connectivity));
+  const auto points = std::make_shared<const Mat3X>(s.start.points);
+  for (auto _ : state) benchmark::DoNotOptimize(SurfaceField(points, s.connectivity));
   per_item(state, s.length.size());
 }
 
