@@ -115,7 +115,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
     level.nodes = static_cast<int>(nodes.cells().size());
     if (level.nodes < coarsest_nodes || level_count() + 1 == most_levels) {
       levels_.push_back(std::move(level));
-      return;
+      break;
     }
     NodeNumbers coarser;
     for (const Cell& at : nodes.cells()) {
@@ -138,25 +138,40 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
     levels_.push_back(std::move(level));
     nodes = std::move(coarser);
   }
+  parts_ = part_vertices();
+}
+
+std::vector<GridHierarchy::Part> GridHierarchy::part_vertices() const {
+  std::vector<Part> parts(std::clamp<size_t>(places_.size() / least_part, 1, most_parts));
+  for (size_t i = 0; i < parts.size(); ++i) {
+    Part& part = parts[i];
+    part = {i * places_.size() / parts.size(), (i + 1) * places_.size() / parts.size(), levels_[0].nodes, 0};
+    for (size_t v = part.first_vertex; v < part.last_vertex; ++v)
+      for (int node : cells_[static_cast<size_t>(places_[v].cell)]) {
+        part.first_node = std::min(part.first_node, node);
+        part.last_node = std::max(part.last_node, node + 1);
+      }
+  }
+  return parts;
 }
 
 /// P^T residual on the finest grid. Parts of the vertices are summed on their own, then added in order.
 Mat3X GridHierarchy::collect(const Mat3X& residual) const {
-  const size_t count = std::clamp<size_t>(places_.size() / least_part, 1, most_parts);
-  std::vector<Mat3X> parts(count);
-  parallel_for(count, 1, [&](size_t begin, size_t end) {
-    for (size_t part = begin; part < end; ++part) {
-      parts[part] = Mat3X::Zero(3, levels_[0].nodes);
-      for (size_t v = part * places_.size() / count; v < (part + 1) * places_.size() / count; ++v) {
+  std::vector<Mat3X> sums(parts_.size());
+  parallel_for(parts_.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const Part& part = parts_[i];
+      sums[i] = Mat3X::Zero(3, part.last_node - part.first_node);
+      for (size_t v = part.first_vertex; v < part.last_vertex; ++v) {
         const auto& nodes = cells_[static_cast<size_t>(places_[v].cell)];
         const auto weights = hats(places_[v].within);
         for (size_t k = 0; k < 8; ++k)
-          parts[part].col(nodes[k]) += weights[k] * residual.col(static_cast<Eigen::Index>(v));
+          sums[i].col(nodes[k] - part.first_node) += weights[k] * residual.col(static_cast<Eigen::Index>(v));
       }
     }
   });
-  Mat3X sum = std::move(parts[0]);
-  for (size_t part = 1; part < count; ++part) sum += parts[part];
+  Mat3X sum = Mat3X::Zero(3, levels_[0].nodes);
+  for (size_t i = 0; i < parts_.size(); ++i) sum.middleCols(parts_[i].first_node, sums[i].cols()) += sums[i];
   return sum;
 }
 

@@ -30,6 +30,8 @@ class GridHierarchy {
   int level_count() const { return static_cast<int>(levels_.size()); }
 
  private:
+  struct Part;
+  std::vector<Part> part_vertices() const;
   Mat3X collect(const Mat3X& residual) const;
 
   struct Weighted {
@@ -45,7 +47,13 @@ class GridHierarchy {
     int cell;
     Eigen::Vector3f within;  // from the cell's lowest node, in cells
   };
+  /// Vertices whose residuals are summed on their own, and the range of the nodes they have.
+  struct Part {
+    size_t first_vertex = 0, last_vertex = 0;
+    int first_node = 0, last_node = 0;  // the last ones excluded
+  };
   std::vector<Place> places_;              // per vertex
+  std::vector<Part> parts_;                // of the vertices
   std::vector<std::array<int, 8>> cells_;  // nodes of the cells of the finest grid that hold vertices
   std::vector<Level> levels_;
 };

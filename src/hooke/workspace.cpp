@@ -76,7 +76,6 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *connectivity, reordered); });
   origins = identity(n);
-  input_order_ = order;
   input_connectivity_ = connectivity;
 
   const Stage stage(stopwatch, "fit");
@@ -173,6 +172,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
     const int old = before[static_cast<size_t>(v)];
     return old < 0 ? std::numeric_limits<int>::max() : order.old_vertex[static_cast<size_t>(old)];
   });
+  if (!input_order_) input_order_ = order;
   std::vector<int> id(n);
   for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
   for (Triangle& t : faces)
@@ -256,7 +256,7 @@ std::vector<double> Workspace::input_lengths() const {
 
 int Workspace::vertex_of_input(int vertex) const {
   const int origin = origins[static_cast<size_t>(vertex)];
-  return origin < 0 ? -1 : input_order_.old_vertex[static_cast<size_t>(origin)];
+  return origin < 0 ? -1 : input_order().old_vertex[static_cast<size_t>(origin)];
 }
 
 std::vector<MapEntry> Workspace::map() const {
@@ -266,7 +266,7 @@ std::vector<MapEntry> Workspace::map() const {
       MapEntry& entry = entries[static_cast<size_t>(order.old_vertex[v])];
       entry.place = place_on_input(static_cast<int>(v));
       if (entry.place.face >= 0)
-        entry.place.face = input_order_.old_face[static_cast<size_t>(entry.place.face)];
+        entry.place.face = input_order().old_face[static_cast<size_t>(entry.place.face)];
       entry.vertex = vertex_of_input(static_cast<int>(v));
     }
   });
@@ -282,7 +282,7 @@ void Workspace::copy_back(TriMesh& target) const {
     const int origin = origins[static_cast<size_t>(v)];
     const bool stayed = origin >= 0 && placement.points.col(v) == start->col(origin);
     points.col(static_cast<Eigen::Index>(place)) =
-        stayed ? Vec3(input.col(input_order_.old_vertex[static_cast<size_t>(origin)]))
+        stayed ? Vec3(input.col(input_order().old_vertex[static_cast<size_t>(origin)]))
                : Vec3(normalisation.centre + normalisation.unit * placement.points.col(v));
     lengths[place] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "hooke/constraints.h"
 #include "hooke/guards.h"
@@ -91,6 +92,7 @@ struct Workspace {
 
  private:
   SurfacePoint place_on_input(int vertex) const;
+  const Reordered& input_order() const { return input_order_ ? *input_order_ : order; }
   void connect(Connectivity c, const std::vector<Edge>& creases);
   SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
 
@@ -98,7 +100,7 @@ struct Workspace {
   RetractionOptions retraction_options_;
   bool faces_replaced_ = false;
   bool vertices_replaced_ = false;
-  Reordered input_order_;                                   // the ids in the input
+  std::optional<Reordered> input_order_;                    // the ids in the input, once `order` has others
   std::shared_ptr<const Connectivity> input_connectivity_;  // on `start`
   Lengths start_length_;                                    // target lengths there
   bool refitted_ = false;                                   // until then both fields are the same
