@@ -128,11 +128,12 @@ void measure_way(const Original& original, const MeasuredSurface& result, RunRec
 }
 
 /// Optimizes the mesh, measures what has come of it, and prepares the files that hold it.
-void make_result(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record,
+void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
                  OutputFiles& files, Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
   record.result = timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, stopwatch); });
   const RemeshResult& done = *record.result;
+  original.points = std::move(record.result->input_points);
   if (!positions(mesh).allFinite())
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", record.input.path));
   record.status = status_of(done.reason);
@@ -189,7 +190,6 @@ int run(Settings s) {
     original.tree_order = measure_input(s, loaded.mesh, connectivity, record, stopwatch);
     if (!keeps_faces(s)) original.faces = std::move(connectivity.faces);
   }
-  original.points = positions(loaded.mesh);
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, record, files, stopwatch);

@@ -48,7 +48,7 @@ TEST(Gradation, LowersAsLittleAsItMust) {
     EXPECT_LE(length, given);
     if (length == given) continue;
     ++lowered;
-    const auto neighbours = l.c.neighbours(v);
+    const auto neighbours = l.c.vertex_neighbours[v];
     EXPECT_TRUE(std::ranges::any_of(neighbours, [&](int w) { return l.most(w, v) == length; })) << v;
   }
   EXPECT_GT(lowered, l.c.vertex_count / 2);

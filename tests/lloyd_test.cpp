@@ -47,7 +47,7 @@ Vec3 centroid_of_voronoi_cell(const test::FlippingScene& s, int v) {
 /// Is the vertex, and all about it, away from the boundary?
 bool deep_inside(const test::FlippingScene& s, int v) {
   const std::vector<char> boundary = boundary_vertices(s.connectivity);
-  for (int w : s.connectivity.neighbours(v))
+  for (int w : s.connectivity.vertex_neighbours[v])
     if (boundary[static_cast<size_t>(w)]) return false;
   return !boundary[static_cast<size_t>(v)];
 }

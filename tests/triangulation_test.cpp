@@ -44,7 +44,7 @@ void expect_sound(const Triangulation& t, int vertices) {
       faces.insert(h / 3);
     }
     EXPECT_EQ(faces, std::set<int>(c.vertex_faces[v].begin(), c.vertex_faces[v].end()));
-    for (int w : c.neighbours(v)) EXPECT_TRUE(t.adjacent(v, w));
+    for (int w : c.vertex_neighbours[v]) EXPECT_TRUE(t.adjacent(v, w));
   }
 }
 

@@ -36,7 +36,7 @@ TEST(Untangle, UnfoldsAVertexThatWasPulledAcrossAnEdge) {
 
 TEST(Untangle, UnfoldsOnASphere) {
   test::Triangles t = test::sphere(2);
-  const int neighbour = test::connect(t).neighbours(60)[0];
+  const int neighbour = test::connect(t).vertex_neighbours[60][0];
   t.points.col(60) = (2.2 * t.points.col(neighbour) - 1.2 * t.points.col(60)).normalized();
   test::Scene s(t, test::to_unit_sphere);
   ASSERT_FALSE(s.guards.folded_faces(s.placement).empty());

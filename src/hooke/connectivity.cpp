@@ -40,6 +40,17 @@ void number_edges(const std::vector<int>& twins, Connectivity& c) {
   });
 }
 
+/// The other end of every edge in c.vertex_edges.
+IntLists other_ends(const Connectivity& c) {
+  IntLists lists = c.vertex_edges;
+  parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      for (auto i = static_cast<size_t>(lists.first[v]); i < static_cast<size_t>(lists.first[v + 1]); ++i)
+        lists.items[i] = c.other_end(lists.items[i], static_cast<int>(v));
+  });
+  return lists;
+}
+
 }  // namespace
 
 Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
@@ -54,6 +65,7 @@ Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges
   c.vertex_faces = std::move(half_edges.faces);
   number_edges(half_edges.twins, c);
   c.vertex_edges = invert(c.vertex_count, c.edges);
+  c.vertex_neighbours = other_ends(c);
   return c;
 }
 

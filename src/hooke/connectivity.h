@@ -1,8 +1,6 @@
 // Flat connectivity: who touches whom, in plain arrays for the hot loops.
 #pragma once
 
-#include <ranges>
-
 #include "hooke/vertex_fans.h"
 
 namespace hooke {
@@ -17,6 +15,7 @@ struct Connectivity {
   std::vector<Triangle> face_edges;            // edge k joins corners k and k + 1
   IntLists vertex_faces;                       // ascending
   IntLists vertex_edges;                       // ascending
+  IntLists vertex_neighbours;                  // in the order of vertex_edges
 
   // Creases part the faces about a vertex; each part sees a side of its own of it. Sides [0, vertex_count)
   // are the first ones of the vertices. All empty without creases; set by part_at_creases().
@@ -31,11 +30,6 @@ struct Connectivity {
   int other_end(int edge, int vertex) const {
     const auto& [a, b] = edges[static_cast<size_t>(edge)];
     return a == vertex ? b : a;
-  }
-  /// In the order of vertex_edges.
-  auto neighbours(int vertex) const {
-    return vertex_edges[vertex] |
-           std::views::transform([this, vertex](int edge) { return other_end(edge, vertex); });
   }
   int side_count() const { return vertex_count + static_cast<int>(further_sides.size()); }
   int vertex_of_side(int side) const {

@@ -133,7 +133,7 @@ std::vector<int> label_components(const Connectivity& c) {
     while (!front.empty()) {
       const int v = front.back();
       front.pop_back();
-      for (int w : c.neighbours(v))
+      for (int w : c.vertex_neighbours[v])
         if (int& l = label[static_cast<size_t>(w)]; l < 0) {
           l = count;
           front.push_back(w);

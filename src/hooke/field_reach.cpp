@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "hooke/parallel.h"
+
 namespace hooke {
 
 constexpr float no_limit = std::numeric_limits<float>::infinity();
@@ -15,14 +17,21 @@ std::vector<float> reaches_of(const NearFaces& faces, double reach, const std::v
   const auto most = [&](int v) {
     return lengths.empty() ? reach : reach * lengths[static_cast<std::size_t>(v)];
   };
-  for (const auto& [a, b] : connectivity.edges) {
-    const double sagitta =
-        (normals.col(a) - normals.col(b)).norm() * (points.col(a) - points.col(b)).norm() / 8;
-    if (!(bending * sagitta > std::min(most(a), most(b)))) continue;
+  std::vector<char> bends(connectivity.edges.size());
+  parallel_for(bends.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto& [a, b] = connectivity.edges[e];
+      const double sagitta =
+          (normals.col(a) - normals.col(b)).norm() * (points.col(a) - points.col(b)).norm() / 8;
+      bends[e] = bending * sagitta > std::min(most(a), most(b));
+    }
+  });
+  for (std::size_t e = 0; e < bends.size(); ++e) {
+    if (!bends[e]) continue;
     reaches.resize(static_cast<std::size_t>(connectivity.vertex_count), no_limit);
-    for (int end : {a, b}) {
+    for (int end : connectivity.edges[e]) {
       reaches[static_cast<std::size_t>(end)] = static_cast<float>(most(end));
-      for (int v : connectivity.neighbours(end))
+      for (int v : connectivity.vertex_neighbours[end])
         reaches[static_cast<std::size_t>(v)] = static_cast<float>(most(v));
     }
   }

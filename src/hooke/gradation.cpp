@@ -22,7 +22,7 @@ void limit_gradation(const Mat3X& points, const Connectivity& c, double slope, s
     const auto [l, v] = queue.top();
     queue.pop();
     if (l > at(v)) continue;
-    for (int w : c.neighbours(v))
+    for (int w : c.vertex_neighbours[v])
       if (const double most = limit(v, w); at(w) > most) {
         at(w) = most;
         queue.emplace(most, w);

@@ -18,7 +18,7 @@ bool mark_restless(const Connectivity& c, const std::vector<int>& vertices, cons
   parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
       active[static_cast<size_t>(vertices[i])] =
-          moved(vertices[i]) || std::ranges::any_of(c.neighbours(vertices[i]), moved);
+          moved(vertices[i]) || std::ranges::any_of(c.vertex_neighbours[vertices[i]], moved);
   });
   return std::ranges::any_of(vertices, [&](int v) { return active[static_cast<size_t>(v)] != 0; });
 }
@@ -33,7 +33,8 @@ std::vector<int> with_rings(const Connectivity& c, const std::vector<int>& verti
   };
   std::ranges::for_each(vertices, add);
   for (int ring = 0; ring < rings; ++ring)
-    for (size_t i = 0, count = all.size(); i < count; ++i) std::ranges::for_each(c.neighbours(all[i]), add);
+    for (size_t i = 0, count = all.size(); i < count; ++i)
+      std::ranges::for_each(c.vertex_neighbours[all[i]], add);
   return all;
 }
 

@@ -10,7 +10,7 @@ int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   double least = (points.col(vertex) - x).squaredNorm();
   for (int from = -1; from != vertex;) {
     from = vertex;
-    for (int n : connectivity.neighbours(from)) {
+    for (int n : connectivity.vertex_neighbours[from]) {
       const double distance2 = (points.col(n) - x).squaredNorm();
       if (!(distance2 < least)) continue;  // ends the walk for NaN too
       least = distance2;
@@ -41,7 +41,7 @@ Foot NearFaces::closest_point_of_ring(const Vec3& x, int anchor) const {
     }
   };
   visit(anchor);
-  for (int n : connectivity.neighbours(anchor)) visit(n);
+  for (int n : connectivity.vertex_neighbours[anchor]) visit(n);
   foot.normal.normalize();
   return foot;
 }

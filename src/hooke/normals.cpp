@@ -52,7 +52,7 @@ Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const C
   Eigen::VectorXd lengths(points.cols());
   parallel_for(static_cast<std::size_t>(points.cols()), block, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-      const auto neighbours = connectivity.neighbours(v);
+      const auto neighbours = connectivity.vertex_neighbours[v];
       double sum = 0;
       for (int n : neighbours) sum += (points.col(n) - points.col(v)).norm();
       lengths[v] = neighbours.empty() ? 0 : sum / static_cast<double>(neighbours.size());

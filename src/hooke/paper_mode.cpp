@@ -24,7 +24,7 @@ class PaperRun {
     for (outer_ = 1; !done_ && outer_ <= options_.max_outer; ++outer_) iterate();
     result_.projection = work_.projection_counts();
     result_.folded_faces = folded_faces();
-    work_.copy_back(mesh);
+    result_.input_points = work_.copy_back(mesh);
     return std::move(result_);
   }
 

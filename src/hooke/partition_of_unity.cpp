@@ -13,10 +13,14 @@ constexpr double least_fold_agreement = .3;  // of a vertex normal with its face
 constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
 constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
 constexpr double least_height = 1e-8;             // in radii: less is no offset
-constexpr std::size_t patches_of_batch = 32;
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
+}
+
+/// Many in a large mesh: small pieces of memory that come and go between those that stay leave holes.
+std::size_t patches_of_batch(int vertices) {
+  return std::clamp<std::size_t>(idx(vertices) / 1000, 32, 512);
 }
 
 /// Wendland's C2 function of the squared distance over the squared radius, for r2 < 1.
@@ -102,7 +106,7 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
   PatchCover cover(points, connectivity, normals, edge_lengths, unfolded, options.cover);
   std::deque<Batch> batches;
   const auto place = [&]() -> Batch* {
-    PatchList list = cover.next(patches_of_batch);
+    PatchList list = cover.next(patches_of_batch(connectivity.vertex_count));
     if (list.size() == 0) return nullptr;
     batches.push_back({std::move(list), {}, {}});
     return &batches.back();

@@ -45,7 +45,7 @@ void PatchGrower::grow(int centre, int size) {
 }
 
 bool PatchGrower::is_inside(int vertex) const {
-  return std::ranges::all_of(connectivity_.neighbours(vertex),
+  return std::ranges::all_of(connectivity_.vertex_neighbours[vertex],
                              [&](int n) { return held_by_[idx(n)] == round_ || !is_admitted(n); });
 }
 
@@ -58,7 +58,7 @@ bool PatchGrower::is_admitted(int vertex) const {
 Vec3 PatchGrower::axis_at(int centre) const {
   Vec3 sum = Vec3::Zero();
   if (!unfolded_[idx(centre)])
-    for (int n : connectivity_.neighbours(centre))
+    for (int n : connectivity_.vertex_neighbours[centre])
       if (unfolded_[idx(n)]) sum += normals_.col(n);
   return sum.isZero(0) ? Vec3(normals_.col(centre)) : sum.normalized();
 }
@@ -68,7 +68,7 @@ void PatchGrower::search(int centre, std::size_t most) {
   members_.assign(1, centre);
   met_by_[idx(centre)] = round_;
   for (std::size_t i = 0; i < members_.size(); ++i)
-    for (int n : connectivity_.neighbours(members_[i])) {
+    for (int n : connectivity_.vertex_neighbours[members_[i]]) {
       if (members_.size() >= most) return;
       if (met_by_[idx(n)] == round_) continue;
       met_by_[idx(n)] = round_;

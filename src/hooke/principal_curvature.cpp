@@ -17,7 +17,7 @@ constexpr double same_sheet = .2;  // least cosine of a normal with the axis
 /// Mean normal of the vertex and its neighbours: their majority stands where one ring is folded.
 Vec3 axis_at(const Connectivity& c, const Mat3X& normals, int vertex) {
   Vec3 sum = normals.col(vertex);
-  for (int w : c.neighbours(vertex)) sum += normals.col(w);
+  for (int w : c.vertex_neighbours[vertex]) sum += normals.col(w);
   return sum.normalized();
 }
 
@@ -30,7 +30,7 @@ std::vector<int> neighbourhood(const Connectivity& c, const Mat3X& normals, int 
   for (int ring = 1; ring <= 2 || (ring == 3 && found.size() <= enough); ++ring) {
     const size_t ring_end = found.size();
     for (; ring_begin < ring_end; ++ring_begin)
-      for (int w : c.neighbours(found[ring_begin]))
+      for (int w : c.vertex_neighbours[found[ring_begin]])
         if (normals.col(w).dot(axis) >= least_cosine && std::ranges::find(found, w) == found.end())
           found.push_back(w);
   }

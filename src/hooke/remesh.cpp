@@ -247,7 +247,7 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
       break;
   }
   if (options.map) result.map = work.map();
-  work.copy_back(mesh);
+  result.input_points = work.copy_back(mesh);
   return result;
 }
 

@@ -56,6 +56,7 @@ struct RemeshOptions {
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
+  Mat3X input_points;         // of the mesh as it was, to measure the result against
   bool near_regular = false;  // in mode `fixed`: see do_no_harm.h
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the result

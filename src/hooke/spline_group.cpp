@@ -86,8 +86,8 @@ SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kerne
 }
 
 SplineCoefficients SplineGroup::solution(std::size_t lane, std::size_t centres) const {
-  SplineCoefficients spline;
-  for (std::size_t i = 0; i < centres; ++i) spline.radial.push_back(solution_[i * lane_count + lane]);
+  SplineCoefficients spline{.radial = std::vector<double>(centres)};
+  for (std::size_t i = 0; i < centres; ++i) spline.radial[i] = solution_[i * lane_count + lane];
   for (std::size_t k = 0; k < monomials; ++k) spline.polynomial[k] = right_side_[k * lane_count + lane];
   return spline;
 }

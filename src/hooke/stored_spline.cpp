@@ -30,6 +30,8 @@ FieldSample evaluate_polynomial(const double* c, const Vec3& p) {
 template <typename Coordinate>
 HOOKE_INLINE void sum_radial_part(const Coordinate* centres, const double* a, std::size_t n, Kernel kernel,
                                   const Vec3& p, FieldSample& sample) {
+  constexpr double one = unit<Coordinate>;
+  const double px = p[0] / one, py = p[1] / one, pz = p[2] / one;
   Lanes value = {}, gx = {}, gy = {}, gz = {};
   for (std::size_t i = 0; i < n; i += lane_count) {
     Lanes x, y, z, weight;
@@ -37,10 +39,9 @@ HOOKE_INLINE void sum_radial_part(const Coordinate* centres, const double* a, st
     load(centres + n + i, y);
     load(centres + 2 * n + i, z);
     load(a + i, weight);
-    const Lanes dx = p[0] - unit<Coordinate> * x, dy = p[1] - unit<Coordinate> * y,
-                dz = p[2] - unit<Coordinate> * z;
+    const Lanes dx = px - x, dy = py - y, dz = pz - z;
     KernelSample phi;
-    sample_kernel(kernel, dx * dx + dy * dy + dz * dz, phi);
+    sample_kernel(kernel, one * one * (dx * dx + dy * dy + dz * dz), phi);
     const Lanes slope = weight * phi.slope_over_r;
     value += weight * phi.value;
     gx += slope * dx;
@@ -48,7 +49,7 @@ HOOKE_INLINE void sum_radial_part(const Coordinate* centres, const double* a, st
     gz += slope * dz;
   }
   sample.value += sum_of(value);
-  sample.gradient += Vec3(sum_of(gx), sum_of(gy), sum_of(gz));
+  sample.gradient += one * Vec3(sum_of(gx), sum_of(gy), sum_of(gz));
 }
 
 HOOKE_SIMD void add_radial_part(const double* centres, const double* a, std::size_t n, Kernel kernel,
@@ -63,9 +64,9 @@ HOOKE_SIMD void add_radial_part(const SnappedCoordinate* centres, const double* 
 }  // namespace
 
 Vec3 snapped(const Vec3& point) {
-  static constexpr double most = 0x7fffffff;
-  static constexpr double one = unit<SnappedCoordinate>;
-  return point.unaryExpr([](double x) { return one * std::clamp(std::nearbyint(x / one), -most, most); });
+  constexpr double one = unit<SnappedCoordinate>, most = 0x7fffffff * one;
+  constexpr double shift = 0x1.8p52 * one;  // doubles of this size have no digits below the unit
+  return ((point.array() + shift) - shift).max(-most).min(most);
 }
 
 template <typename Coordinate>

@@ -16,7 +16,7 @@ constexpr double least_spread = 1e-3;
 
 /// Its shape operator: M with M d = turn in the sense of least squares, made symmetric.
 SurfaceBend bend_at(const Mat3X& points, const Mat3X& normals, const Connectivity& c, int v) {
-  const auto neighbours = c.neighbours(v);
+  const auto neighbours = c.vertex_neighbours[v];
   if (neighbours.empty() || normals.col(v).isZero(0)) return unknown_bend();
   const Vec3 n = normals.col(v);
   Eigen::Matrix<double, 3, 2> basis;
@@ -54,7 +54,7 @@ std::vector<SurfaceBend> surface_bends(const Mat3X& points, const Mat3X& normals
       change[v] = bends[v].change;  // so far infinite or none
       if (std::isinf(change[v])) continue;
       double squares = 0;
-      const auto neighbours = c.neighbours(static_cast<int>(v));
+      const auto neighbours = c.vertex_neighbours[static_cast<int>(v)];
       for (int w : neighbours) {
         const Vec3 way = points.col(w) - points.col(static_cast<Eigen::Index>(v));
         const auto normal = normals.col(static_cast<Eigen::Index>(v));
@@ -69,7 +69,7 @@ std::vector<SurfaceBend> surface_bends(const Mat3X& points, const Mat3X& normals
   parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       bends[v].change = change[v];
-      for (int w : c.neighbours(static_cast<int>(v)))
+      for (int w : c.vertex_neighbours[static_cast<int>(v)])
         bends[v].change = std::max(bends[v].change, change[static_cast<std::size_t>(w)]);
     }
   });

@@ -30,7 +30,7 @@ SurfacePoint locate(const Mat3X& points, const Connectivity& c, const Vec3& x, i
   for (;;) {
     const double before = nearest.squared_distance;
     nearest.look_at(points, c, x, anchor);
-    for (int v : c.neighbours(anchor)) nearest.look_at(points, c, x, v);
+    for (int v : c.vertex_neighbours[anchor]) nearest.look_at(points, c, x, v);
     if (!(nearest.squared_distance < before)) return nearest.point;
     Eigen::Index corner;
     nearest.point.weights.maxCoeff(&corner);

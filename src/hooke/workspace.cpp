@@ -273,8 +273,8 @@ std::vector<MapEntry> Workspace::map() const {
   return entries;
 }
 
-void Workspace::copy_back(TriMesh& target) const {
-  const Mat3X input = positions(target);
+Mat3X Workspace::copy_back(TriMesh& target) const {
+  Mat3X input = positions(target);
   Mat3X points(3, placement.points.cols());
   std::vector<double> lengths(vertex_length.size());
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
@@ -300,6 +300,7 @@ void Workspace::copy_back(TriMesh& target) const {
   }
   positions(target) = points;
   if (graded() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
+  return input;
 }
 
 ProjectionCounts Workspace::projection_counts() const {

@@ -62,8 +62,9 @@ struct Workspace {
   void resample_lengths();
 
   /// Writes the points of all vertices that moved back to the mesh it was made from, and v:target_length
-  /// where it varies; where they were replaced, the faces, or a new mesh.
-  void copy_back(TriMesh& target) const;
+  /// where it varies; where they were replaced, the faces, or a new mesh. Returns the points that the mesh
+  /// had.
+  Mat3X copy_back(TriMesh& target) const;
 
   /// The id that a vertex of the work had in the mesh the work was made from; -1 for a new one.
   int vertex_of_input(int vertex) const;
