@@ -308,7 +308,7 @@ TEST(SurfaceField, ReachCountsInTheLengthsOfTheVertices) {
   const double h = mean_edge(t);
   const std::vector<double> lengths(static_cast<std::size_t>(t.points.cols()), h);
   const SurfaceField a = field_of(t, {.reach = .5 * h});
-  const SurfaceField b(t.points, connect(t), {.reach = .5}, {}, lengths);
+  const SurfaceField b(std::make_shared<const Mat3X>(t.points), connect(t), {.reach = .5}, {}, lengths);
   for (const Start& s : starts_near(t, .01 * h))
     EXPECT_LT((a.project(s.point, s.anchor, 1e-9).point - b.project(s.point, s.anchor, 1e-9).point).norm(),
               1e-6 * h);
