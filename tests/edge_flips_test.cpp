@@ -69,6 +69,41 @@ TEST(EdgeFlips, NoFaceFoldsAndNoVertexLosesItsThirdEdgeOnASphere) {
   for (int v = 0; v < t.points.cols(); ++v) EXPECT_GE(s.triangulation.valence(v), 3);
 }
 
+TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
+  test::Triangles t = test::sphere(2, .35, 2);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    t.points.col(v) *= 1 + .35 * std::sin(static_cast<double>(7 * v));
+  const Surface rough = [](const Vec3& x, int anchor, double) {
+    return Foot{x, x.normalized(), anchor, FootStatus::converged, 1};
+  };
+  test::FlippingScene s(t, rough);
+  const FlipGuardOptions folds_only{.area_share = 0, .alignment = -2, .fold = .1, .sagitta = 99};
+  const auto cosine = [&](int a, int b) {
+    const int h = test::half_edge(s.triangulation, a, b);
+    return cosine_between(s.placement.points, s.triangulation.faces()[static_cast<size_t>(h / 3)],
+                          s.triangulation.faces()[static_cast<size_t>(s.triangulation.twin(h) / 3)]);
+  };
+  int allowed = 0, beside_folds = 0;
+  for (int h = 0; h < s.triangulation.half_edge_count(); ++h) {
+    const int a = s.triangulation.from(h), b = s.triangulation.to(h), c = s.triangulation.apex(h),
+              d = s.triangulation.apex(s.triangulation.twin(h));
+    if (!may_flip(s.mesh, h, folds_only)) continue;
+    const std::array<Edge, 4> rim = {Edge{b, c}, Edge{c, a}, Edge{a, d}, Edge{d, b}};
+    std::vector<double> before = {cosine(a, b)};
+    for (const auto& [from, to] : rim) before.push_back(cosine(from, to));
+    const Triangulation kept = s.triangulation;
+    s.triangulation.flip(h);
+    std::vector<double> after = {cosine(c, d)};
+    for (const auto& [from, to] : rim) after.push_back(cosine(from, to));
+    s.triangulation = kept;
+    for (size_t i = 0; i < before.size(); ++i) EXPECT_GE(after[i], std::min(folds_only.fold, before[i]));
+    ++allowed;
+    beside_folds += *std::ranges::min_element(before) < folds_only.fold;
+  }
+  EXPECT_GT(allowed, 0);
+  EXPECT_GT(beside_folds, 0);
+}
+
 TEST(EdgeFlips, AConvexQuadMayFlipAndADentedOneMayNot) {
   test::FlippingScene convex(quad(Vec3(1, 1, 0)), test::plane());
   convex.corner_valences = {2, 2, 3, 3};  // vertices 0 and 2 have three edges

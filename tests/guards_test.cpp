@@ -68,6 +68,33 @@ TEST(Guards, SagittaIsThatOfACircle) {
   EXPECT_EQ(edge_sagitta(Mat3X::Random(3, 2), Mat3X::Ones(3, 2) / std::sqrt(3), {0, 1}), 0);
 }
 
+TEST(Guards, VerticesThatDriftedSettleButWhereThatWouldFoldAFace) {
+  constexpr int wild = 40;  // the middle of a grid of eight cells a side; its foot lies three cells away
+  const Surface surface = [](const Vec3& x, int anchor, double) {
+    const double jump = anchor == wild ? 3. / 8 : 0;
+    return Foot{Vec3(x[0] + jump, x[1], 0), Vec3::UnitZ(), anchor, FootStatus::converged, 1};
+  };
+  test::Scene s(test::grid(8, test::flat), test::to_ground);
+  Retraction retraction(surface, s.constraints, {});
+  Placement drifted = s.placement, settled;
+  for (size_t v = 0; v < drifted.drift.size(); ++v)
+    if (s.constraints.freedom[v] == Freedom::surface) {
+      drifted.points(2, static_cast<Eigen::Index>(v)) = 1e-3;
+      drifted.drift[v] = .01;
+    }
+  s.guards.settle(retraction, drifted, settled);
+  EXPECT_EQ(settled.points.col(wild), drifted.points.col(wild));
+  EXPECT_EQ(settled.drift[wild], .01);
+  int landed = 0;
+  for (size_t v = 0; v < drifted.drift.size(); ++v) {
+    const auto i = static_cast<Eigen::Index>(v);
+    EXPECT_EQ(settled.points(2, i), settled.drift[v] == 0 ? 0 : drifted.points(2, i));
+    landed += settled.drift[v] == 0;
+    EXPECT_EQ(settled.points.col(i).head(2), drifted.points.col(i).head(2));
+  }
+  EXPECT_GE(landed, 81 - 19);  // all but the vertex and its two rings at most
+}
+
 TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
   const GuardOptions tight{.area_ratio = .8, .alignment = .9, .sagitta = .04, .cotangent = 1.5};
   for (const GuardOptions& guards : {GuardOptions{}, tight})

@@ -110,7 +110,9 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
       break;
     }
   }
-  r.retraction.settle(r.placement);
+  Placement settled;
+  r.guards.settle(r.retraction, r.placement, settled);
+  r.placement = std::move(settled);
   compute(r, r.placement, damped, forces);
   motion.points = r.placement.points;
   motion.forces = forces.total;

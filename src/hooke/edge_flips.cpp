@@ -67,29 +67,26 @@ std::deque<int> improvable_edges(const Triangulation& t, const Mat3X& points) {
   return queue;
 }
 
-/// Least cosine between the two faces, and between each of them and the face across its side.
-double least_fold(const FlippingMesh& m, const Triangle& left, const Triangle& right,
-                  const std::array<int, 2>& left_sides, const std::array<int, 2>& right_sides) {
-  const Mat3X& X = m.placement.points;
-  double least = cosine_between(X, left, right);
-  const auto look_across = [&](const Triangle& face, int side) {
-    if (const int twin = m.triangulation.twin(side); twin >= 0 && !m.triangulation.is_constrained(side))
-      least =
-          std::min(least, cosine_between(X, face, m.triangulation.faces()[static_cast<size_t>(twin / 3)]));
-  };
-  for (int side : left_sides) look_across(left, side);
-  for (int side : right_sides) look_across(right, side);
-  return least;
-}
-
-/// Does the flip of h fold the faces about it?
+/// Does the flip of h fold the faces about it? A fold that is there is no leave for another: each edge is
+/// judged by what it was, the new one by the one it takes the place of.
 bool folds(const FlippingMesh& m, int h, double limit) {
   const Triangulation& t = m.triangulation;
+  const Mat3X& X = m.placement.points;
   const int a = t.from(h), b = t.to(h), c = t.apex(h), g = t.twin(h), d = t.apex(g);
-  const int bc = Triangulation::next(h), ca = Triangulation::previous(h);
-  const int ad = Triangulation::next(g), db = Triangulation::previous(g);
-  const double after = least_fold(m, {c, a, d}, {d, b, c}, {ca, ad}, {db, bc});
-  return after < limit && after < least_fold(m, {a, b, c}, {b, a, d}, {bc, ca}, {ad, db});
+  const Triangle left = {c, a, d}, right = {d, b, c};
+  const auto breaks = [&](double before, double after) { return after < std::min(limit, before); };
+  const auto breaks_across = [&](int side, const Triangle& before, const Triangle& after) {
+    const int twin = t.twin(side);
+    if (twin < 0 || t.is_constrained(side)) return false;
+    const Triangle& beyond = t.faces()[static_cast<size_t>(twin / 3)];
+    return breaks(cosine_between(X, before, beyond), cosine_between(X, after, beyond));
+  };
+  const Triangle of_h = {a, b, c}, of_g = {b, a, d};
+  return breaks(cosine_between(X, of_h, of_g), cosine_between(X, left, right)) ||
+         breaks_across(Triangulation::previous(h), of_h, left) ||
+         breaks_across(Triangulation::next(g), of_g, left) ||
+         breaks_across(Triangulation::next(h), of_h, right) ||
+         breaks_across(Triangulation::previous(g), of_g, right);
 }
 
 }  // namespace

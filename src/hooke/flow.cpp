@@ -41,7 +41,10 @@ FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOpti
     ++result.rounds;
     result.interrupted = observer && !observer({.stage = "flow", .step = result.rounds});
   }
-  m.retraction.settle(m.placement);
+  const TargetLengths targets = spread_target_lengths(connectivity, m.vertex_length);
+  Placement settled;
+  Guards(connectivity, targets, guards).settle(m.retraction, m.placement, settled);
+  m.placement = std::move(settled);
   result.flips += flip_to_delaunay(m, flip_guard);
   return result;
 }

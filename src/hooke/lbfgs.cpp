@@ -118,7 +118,8 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       break;
     }
   }
-  r.retraction.settle(r.placement);
+  r.guards.settle(r.retraction, r.placement, trial);
+  std::swap(r.placement, trial);
   return result;
 }
 

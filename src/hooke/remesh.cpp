@@ -143,7 +143,9 @@ class Remeshing {
       result_.reason = StopReason::interrupted;
     else
       timed(work_.stopwatch, "search", [&] {
-        work_.retraction->settle(work_.placement);  // the worst corners are those of the result
+        Placement settled;  // the worst corners are those of the result
+        guards_.settle(*work_.retraction, work_.placement, settled);
+        work_.placement = std::move(settled);
         return search_angles(r, options_.search);
       });
     result_.not_landed = work_.land();

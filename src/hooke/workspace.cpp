@@ -20,10 +20,6 @@ Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& l
   return n;
 }
 
-constexpr double landing_slack = .05;  // two fields of one surface differ a little, and that is no fold
-
-constexpr double landing_area_ratio = .01;
-
 /// Steps keep this much from the least angle, in parts of its cotangent, so that the landing need not fall
 /// below it.
 constexpr double landing_cotangent = 3e-3;
@@ -135,27 +131,12 @@ int Workspace::land() {
   Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
   input_anchors_ = landed.anchors;
 
-  GuardOptions options = guards;
-  options.slack = landing_slack;
-  options.area_ratio = landing_area_ratio;
-  options.sagitta = std::numeric_limits<double>::infinity();
+  GuardOptions options = landing_guards(guards);
   options.cotangent *= 1 + landing_cotangent;
   const Guards judge(*connectivity, targets, options);
-  std::vector<char> stays(landed.anchors.size(), 0);
-  for (;;) {
-    int more = 0;
-    for (int v : judge.offenders(placement, landed))
-      if (!std::exchange(stays[static_cast<size_t>(v)], 1)) {
-        landed.points.col(v) = placement.points.col(v);
-        landed.normals.col(v) = placement.normals.col(v);
-        if (const int other = landed.other_side_of(v); other >= 0)
-          landed.normals.col(other) = placement.normals.col(other);
-        ++more;
-      }
-    if (more == 0) break;
-  }
+  const auto stay = judge.put_back_offenders(placement, landed).size();
   placement = std::move(landed);
-  return static_cast<int>(std::count(stays.begin(), stays.end(), 1));
+  return static_cast<int>(stay);
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {
