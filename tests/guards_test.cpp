@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/landing.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/vertex_ring.h"
@@ -82,7 +83,7 @@ TEST(Guards, VerticesThatDriftedSettleButWhereThatWouldFoldAFace) {
       drifted.points(2, static_cast<Eigen::Index>(v)) = 1e-3;
       drifted.drift[v] = .01;
     }
-  s.guards.settle(retraction, drifted, settled);
+  settle(s.guards, retraction, drifted, settled);
   EXPECT_EQ(settled.points.col(wild), drifted.points.col(wild));
   EXPECT_EQ(settled.drift[wild], .01);
   int landed = 0;

@@ -253,6 +253,21 @@ TEST(Remesh, PerfectMeshesHardlyMove) {
   }
 }
 
+TEST(Remesh, HandsBackThePointsOfTheInput) {
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    const test::Triangles t = test::sphere(2, .3, 2);
+    TriMesh mesh = build_mesh(t.points, test::connect(t));
+    set_vertex_values(mesh, target_length_property,
+                      std::vector<double>(static_cast<size_t>(t.points.cols()), natural(t)));
+    RemeshOptions options;
+    options.connectivity = mode;
+    const RemeshResult result = remesh(mesh, options);
+    EXPECT_EQ(result.input_points, t.points);
+    EXPECT_NE(positions(mesh).leftCols(20), t.points.leftCols(20));
+  }
+}
+
 TEST(Remesh, SmallMeshesWork) {
   const test::Triangles sliver = test::triangles({{0, 0, 0}, {3, 0, 0}, {.1, .2, 0}}, {{0, 1, 2}});
   for (const test::Triangles& t : {sliver, test::shaken(test::tetrahedron(), .3), test::cube()})

@@ -104,7 +104,7 @@ class Adaptation {
     result_.flips += flip_to_delaunay(flipping, flip_guard_);
   }
 
-  /// Flow, after which the mesh is Delaunay and its vertices lie on the surface.
+  /// Flow, after which the mesh is Delaunay and its vertices lie on the surface, as far as guards let them.
   void settle(int rounds) {
     FlippingMesh flipping = m_.flipping();
     result_.flips += flip_to_delaunay(flipping, flip_guard_) + force_corners(flipping, flip_guard_);

@@ -4,6 +4,7 @@
 
 #include "hooke/error.h"
 #include "hooke/forces.h"
+#include "hooke/landing.h"
 
 namespace hooke {
 namespace {
@@ -111,7 +112,7 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
     }
   }
   Placement settled;
-  r.guards.settle(r.retraction, r.placement, settled);
+  settle(r.guards, r.retraction, r.placement, settled);
   r.placement = std::move(settled);
   compute(r, r.placement, damped, forces);
   motion.points = r.placement.points;

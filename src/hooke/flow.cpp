@@ -1,6 +1,7 @@
 #include "hooke/flow.h"
 
 #include "hooke/creases.h"
+#include "hooke/landing.h"
 
 namespace hooke {
 namespace {
@@ -43,7 +44,7 @@ FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOpti
   }
   const TargetLengths targets = spread_target_lengths(connectivity, m.vertex_length);
   Placement settled;
-  Guards(connectivity, targets, guards).settle(m.retraction, m.placement, settled);
+  settle(Guards(connectivity, targets, guards), m.retraction, m.placement, settled);
   m.placement = std::move(settled);
   result.flips += flip_to_delaunay(m, flip_guard);
   return result;

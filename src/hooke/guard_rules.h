@@ -17,15 +17,6 @@ struct GuardOptions {
   int max_halvings = 8;  // of a vertex's step, before it stands still for this step
 };
 
-/// For the way from one projection to another: two fields of one surface differ a little, and that is no
-/// fold.
-inline GuardOptions landing_guards(GuardOptions options) {
-  options.slack = .05;
-  options.area_ratio = .01;
-  options.sagitta = std::numeric_limits<double>::infinity();
-  return options;
-}
-
 inline bool face_breaks(const GuardOptions& o, double area_before, double area, double alignment_before,
                         double alignment) {
   const bool shrinks = area < o.area_ratio * area_before;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "hooke/face_shape.h"
 #include "hooke/least_angle.h"
@@ -203,31 +202,6 @@ std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat
     offending = offenders_around(from, to, slowed);
   }
   return held;
-}
-
-std::vector<int> Guards::put_back_offenders(const Placement& from, Placement& to) const {
-  std::vector<char> is_back(to.anchors.size(), 0);
-  std::vector<int> back;
-  for (bool more = true; more;) {
-    more = false;
-    for (int v : offenders(from, to)) {
-      if (std::exchange(is_back[static_cast<size_t>(v)], 1)) continue;
-      more = true;
-      back.push_back(v);
-      to.points.col(v) = from.points.col(v);
-      to.normals.col(v) = from.normals.col(v);
-      if (const int other = to.other_side_of(v); other >= 0) to.normals.col(other) = from.normals.col(other);
-    }
-  }
-  return back;
-}
-
-void Guards::settle(Retraction& retraction, const Placement& from, Placement& to) const {
-  to = from;
-  retraction.settle(to);
-  const Guards judge(connectivity_, targets_, landing_guards(options_));
-  for (int v : judge.put_back_offenders(from, to))
-    to.drift[static_cast<size_t>(v)] = from.drift[static_cast<size_t>(v)];
 }
 
 std::vector<int> Guards::vertices_at_limits(const Placement& p) const {

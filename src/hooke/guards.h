@@ -49,13 +49,6 @@ class Guards {
   /// ascending.
   std::vector<int> offenders(const Placement& from, const Placement& to) const;
 
-  /// Puts vertices back from `to` to where they were in `from`, point and normal, until no guard breaks on
-  /// the way. Returns these.
-  std::vector<int> put_back_offenders(const Placement& from, Placement& to) const;
-
-  /// to = from with the vertices projected that have drifted, but for those where that would fold a face.
-  void settle(Retraction& retraction, const Placement& from, Placement& to) const;
-
   const GuardOptions& options() const { return options_; }
 
   /// Faces that lie against the surface (alignment below the threshold), ascending.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hooke/column_arithmetic.h"
+#include "hooke/landing.h"
 #include "hooke/local_relaxation.h"
 
 namespace hooke {
@@ -49,7 +50,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   Preconditioner h0(r, lbfgs.preconditioner);
   RestDetector rest(options);
   Mat3X gradient, step;
-  Mat3X trial_gradient;  // before there is one: what is left of the step, vertex by vertex
+  Mat3X trial_gradient;  // until the energy is known it holds the step, which the guards shorten
   Placement trial;
   std::vector<int> held;     // by the guards, in the last trial
   std::vector<int> blocked;  // held in the last step: they sit out this one
@@ -118,7 +119,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       break;
     }
   }
-  r.guards.settle(r.retraction, r.placement, trial);
+  settle(r.guards, r.retraction, r.placement, trial);
   std::swap(r.placement, trial);
   return result;
 }

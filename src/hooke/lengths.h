@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace hooke {
@@ -12,10 +14,14 @@ class Lengths {
  public:
   Lengths() = default;
   Lengths(std::vector<double> values) : values_(std::move(values)), size_(values_.size()) {
-    if (size_ > 0 && std::ranges::count(values_, values_[0]) == std::ssize(values_))
-      *this = Lengths(size_, values_[0]);
+    if (size_ > 0 && are_equal(values_)) *this = Lengths(size_, values_[0]);
   }
+  /// Pre-condition: size > 0.
   Lengths(std::size_t size, double value) : values_(1, value), size_(size), mask_(0) {}
+
+  static bool are_equal(const std::vector<double>& values) {
+    return std::ranges::adjacent_find(values, std::ranges::not_equal_to()) == values.end();
+  }
 
   double operator[](std::size_t item) const { return values_[item & mask_]; }
   std::size_t size() const { return size_; }

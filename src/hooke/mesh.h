@@ -16,7 +16,6 @@ namespace hooke {
 struct MeshTraits : OpenMesh::DefaultTraitsDouble {
   using Point = Vec3;
   using Normal = Vec3;
-  HalfedgeAttributes(OpenMesh::Attributes::None);  // without the previous half-edge: in a triangle it is near
 };
 using TriMesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
 

@@ -1,5 +1,5 @@
 // Threads, for the whole library: no other file knows them. Results never depend on their number: each index
-// writes its own slot, and sums run over fixed blocks that are added in order.
+// or piece writes its own slot, and sums run over fixed blocks that are added in order.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,8 @@ void parallel_for(std::size_t count, std::size_t block,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
 /// Calls make() again and again, one call at a time, until it returns no piece of work, and meanwhile
-/// use(piece) on those that it has returned, in any order. An exception of either is rethrown here.
+/// use(piece) on those that it has returned, several at once and in any order. Pieces must stay where they
+/// are until this returns. An exception of either is rethrown here.
 void parallel_pipeline(const std::function<void*()>& make, const std::function<void(void*)>& use);
 template <typename Piece>
 void parallel_pipeline(const std::function<Piece*()>& make, const std::function<void(Piece&)>& use) {

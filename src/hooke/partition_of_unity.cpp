@@ -53,7 +53,8 @@ std::size_t most_centres(std::size_t vertices) {
 }
 
 /// What the spline of a patch is fitted to, in radii about its centre: zero at the vertices [11], a distance
-/// near them [13]. Centres are snapped; along the way to where they are the field grows as it should.
+/// near them [13]. A snapped centre's value
+/// changes by its way along the normal.
 template <typename Samples>
 void gather(const Samples& samples, const PatchList& list, std::size_t patch, SplineData& data) {
   const auto& [points, normals, edge_lengths, unfolded, offset] = samples;
@@ -113,6 +114,10 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
   };
   parallel_pipeline<Batch>(place, [&](Batch& batch) { fit(samples, batch); });
   index_patches(connectivity.vertex_count, batches);
+  std::size_t count = 0;
+  for (const Batch& batch : batches) count += batch.patches.size();
+  patches_.reserve(count);
+  storage_.reserve(batches.size());
   for (Batch& batch : batches) {
     patches_.insert(patches_.end(), batch.patches.begin(), batch.patches.end());
     storage_.push_back(std::move(batch.storage));
@@ -128,6 +133,7 @@ void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
     coordinates += Stored::coordinates_size(most_centres(vertices(p)));
     coefficients += Stored::coefficients_size(most_centres(vertices(p)));
   }
+  batch.patches.reserve(list.size());
   batch.storage.coordinates.resize(coordinates);
   batch.storage.coefficients.resize(coefficients);
   SnappedCoordinate* coordinate = batch.storage.coordinates.data();

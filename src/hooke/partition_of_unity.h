@@ -24,10 +24,10 @@ enum class PatchFit : unsigned char {
   failed,     // no spline: the patch holds no vertices
 };
 
-/// The field is zero at every vertex, a distance near them, and grows along the normals. Patches are grown
-/// over the edges of the mesh, never through space, so two sheets of a thin body do not see each other. Which
-/// patches there are depends on vertex order, topology and shape only: moving, turning or scaling the mesh
-/// takes the field along.
+/// The field is zero at every vertex, to 2^-30 of a patch's radius, a distance near them, and grows along the
+/// normals. Patches are grown over the edges of the mesh, never through space, so two sheets of a thin body
+/// do not see each other. Which patches there are depends on vertex order, topology and shape only: moving,
+/// turning or scaling the mesh takes the field along.
 class PartitionOfUnity {
  public:
   /// `normals` are the unit vertex normals, `edge_lengths` the mean edge length at each vertex (see

@@ -23,7 +23,7 @@ struct PatchCoverOptions {
 class PatchCover {
  public:
   /// `normals`, `edge_lengths`: at the vertices (see normals.h); for `unfolded` see patch_grower.h. All
-  /// arguments must outlive the cover.
+  /// but the options must outlive the cover.
   PatchCover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals,
              const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
              const PatchCoverOptions& options);

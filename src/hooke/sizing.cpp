@@ -168,9 +168,10 @@ std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c
 
 TargetLengths spread_target_lengths(const Connectivity& c, const std::vector<double>& vertex_length) {
   const auto mean_of_three = [](double a, double b, double d) { return (a + b + d) / 3; };
-  if (const Lengths length(vertex_length); !length.vary() && !length.empty())
-    return {Lengths(c.edges.size(), length[0]),
-            Lengths(c.faces.size(), mean_of_three(length[0], length[0], length[0]))};
+  if (!c.faces.empty() && Lengths::are_equal(vertex_length)) {
+    const double length = vertex_length[0];
+    return {Lengths(c.edges.size(), length), Lengths(c.faces.size(), mean_of_three(length, length, length))};
+  }
   std::vector<double> edge(c.edges.size()), face(c.faces.size());
   parallel_for(c.edges.size(), block, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {

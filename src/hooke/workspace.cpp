@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hooke/creases.h"
+#include "hooke/landing.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/topology.h"
@@ -19,6 +20,10 @@ Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& l
   n.unit = std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
   return n;
 }
+
+constexpr double landing_slack = .05;  // two fields of one surface differ a little, and that is no fold
+
+constexpr double landing_area_ratio = .01;
 
 /// Steps keep this much from the least angle, in parts of its cotangent, so that the landing need not fall
 /// below it.
@@ -131,10 +136,13 @@ int Workspace::land() {
   Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
   input_anchors_ = landed.anchors;
 
-  GuardOptions options = landing_guards(guards);
+  GuardOptions options = guards;
+  options.slack = landing_slack;
+  options.area_ratio = landing_area_ratio;
+  options.sagitta = std::numeric_limits<double>::infinity();
   options.cotangent *= 1 + landing_cotangent;
   const Guards judge(*connectivity, targets, options);
-  const auto stay = judge.put_back_offenders(placement, landed).size();
+  const auto stay = put_back_offenders(judge, placement, landed).size();
   placement = std::move(landed);
   return static_cast<int>(stay);
 }

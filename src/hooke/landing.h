@@ -1,0 +1,16 @@
+// Ways that end on the surface, taken back where a guard breaks on them.
+#pragma once
+
+#include "hooke/guards.h"
+
+namespace hooke {
+
+/// Puts vertices back from `to` to where they were in `from`, point and normal, until no guard breaks on the
+/// way. Returns these.
+std::vector<int> put_back_offenders(const Guards& guards, const Placement& from, Placement& to);
+
+/// to = from with the vertices projected that have drifted, but for those where that would break a guard:
+/// they stay drifted.
+void settle(const Guards& guards, Retraction& retraction, const Placement& from, Placement& to);
+
+}  // namespace hooke
