@@ -132,6 +132,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
                  OutputFiles& files, Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
   record.result = timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, stopwatch); });
+  return_free_memory();
   const RemeshResult& done = *record.result;
   original.points = std::move(record.result->input_points);
   if (!positions(mesh).allFinite())

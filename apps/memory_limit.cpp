@@ -1,5 +1,8 @@
 #include "memory_limit.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -38,6 +41,12 @@ std::size_t granted_bytes() {
 std::size_t memory_limit() {
   const std::size_t available = available_bytes();
   return std::min(available > 0 ? available : physical_bytes(), granted_bytes()) / 5 * 4;
+}
+
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 }  // namespace hooke::app

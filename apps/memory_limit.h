@@ -9,4 +9,7 @@ namespace hooke::app {
 /// no more than the process may take (ulimit -v).
 std::size_t memory_limit();
 
+/// Gives memory that is free back to the system, where its library can: before work that takes large pieces.
+void return_free_memory();
+
 }  // namespace hooke::app
