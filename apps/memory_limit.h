@@ -1,4 +1,4 @@
-// How much memory the work may take.
+// How much memory the work may take, and its way back.
 #pragma once
 
 #include <cstddef>

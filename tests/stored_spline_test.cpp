@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "scene.h"
 
 namespace hooke {
 namespace {
 
 Mat3X random_points(int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> coordinate(-1.9, 1.9);
-  return Mat3X::NullaryExpr(3, count, [&] { return coordinate(random); });
+  return test::random_vectors(count, 1.9, seed);
 }
 
 /// A spline with its memory.

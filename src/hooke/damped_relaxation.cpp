@@ -111,9 +111,7 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
       break;
     }
   }
-  Placement settled;
-  settle(r.guards, r.retraction, r.placement, settled);
-  r.placement = std::move(settled);
+  settle(r.guards, r.retraction, r.placement);
   compute(r, r.placement, damped, forces);
   motion.points = r.placement.points;
   motion.forces = forces.total;

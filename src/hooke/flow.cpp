@@ -43,9 +43,7 @@ FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOpti
     result.interrupted = observer && !observer({.stage = "flow", .step = result.rounds});
   }
   const TargetLengths targets = spread_target_lengths(connectivity, m.vertex_length);
-  Placement settled;
-  settle(Guards(connectivity, targets, guards), m.retraction, m.placement, settled);
-  m.placement = std::move(settled);
+  settle(Guards(connectivity, targets, guards), m.retraction, m.placement);
   result.flips += flip_to_delaunay(m, flip_guard);
   return result;
 }

@@ -27,4 +27,10 @@ void settle(const Guards& guards, Retraction& retraction, const Placement& from,
   for (int v : put_back_offenders(guards, from, to)) VertexPlace(from, v).write_to(to, v);
 }
 
+void settle(const Guards& guards, Retraction& retraction, Placement& placement) {
+  Placement settled;
+  settle(guards, retraction, placement, settled);
+  placement = std::move(settled);
+}
+
 }  // namespace hooke

@@ -13,4 +13,7 @@ std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
 /// they stay drifted.
 void settle(const Guards& guards, Retraction& retraction, const Placement& from, Placement& to);
 
+/// The same in place.
+void settle(const Guards& guards, Retraction& retraction, Placement& placement);
+
 }  // namespace hooke

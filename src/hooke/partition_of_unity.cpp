@@ -4,7 +4,6 @@
 
 #include "hooke/normals.h"
 #include "hooke/parallel.h"
-#include "hooke/spline_group.h"
 
 namespace hooke {
 namespace {
@@ -52,30 +51,6 @@ std::size_t most_centres(std::size_t vertices) {
   return vertices + (vertices + offset_stride - 1) / offset_stride;
 }
 
-/// What the spline of a patch is fitted to, in radii about its centre: zero at the vertices [11], a distance
-/// near them [13]. A snapped centre's value
-/// changes by its way along the normal.
-template <typename Samples>
-void gather(const Samples& samples, const PatchList& list, std::size_t patch, SplineData& data) {
-  const auto& [points, normals, edge_lengths, unfolded, offset] = samples;
-  const auto vertices = list.members[static_cast<int>(patch)];
-  const Vec3 centre = points.col(list.centres[patch]);
-  const double radius = list.radii[patch];
-  data.clear(most_centres(vertices.size()));
-  if (!(radius > 0)) return;
-  const auto add = [&](const Vec3& place, int v, double height) {
-    const Vec3 local = (place - centre) / radius, snap = snapped(local);
-    data.add(snap, height / radius + normals.col(v).dot(snap - local));
-  };
-  for (int v : vertices) add(points.col(v), v, 0);
-  for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {
-    const int v = vertices[i];
-    if (!unfolded[idx(v)]) continue;
-    const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * offset * edge_lengths[v];
-    add(points.col(v) + rho * normals.col(v), v, rho);
-  }
-}
-
 /// The way for patches that the group has no spline for. Nothing where there is none.
 std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std::size_t vertices,
                                             SplineWorkspace& workspace, PatchFit& fit) {
@@ -83,16 +58,13 @@ std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std
   const auto centres = data.centres.leftCols(data.count);
   const auto values = data.values.head(data.count);
   const bool quadratic = vertices >= least_quadratic_size;
-  std::optional<SplineCoefficients> spline;
   fit = PatchFit::failed;
-  if (data.count == 0 || values.isZero(least_height)) return spline;  // no offset says where outside is
-  if (quadratic) spline = fit_spline(centres, values, kernel, 2, workspace);
-  if (spline) {
+  if (data.count == 0 || values.isZero(least_height)) return std::nullopt;  // no offset says where outside is
+  std::optional<SplineCoefficients> spline;
+  if (quadratic && (spline = fit_spline(centres, values, kernel, 2, workspace)))
     fit = PatchFit::as_wanted;
-    return spline;
-  }
-  spline = fit_spline(centres, values, kernel, 1, workspace);
-  if (spline) fit = quadratic ? PatchFit::affine : PatchFit::as_wanted;
+  else if ((spline = fit_spline(centres, values, kernel, 1, workspace)))
+    fit = quadratic ? PatchFit::affine : PatchFit::as_wanted;
   return spline;
 }
 
@@ -121,6 +93,29 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
   for (Batch& batch : batches) {
     patches_.insert(patches_.end(), batch.patches.begin(), batch.patches.end());
     storage_.push_back(std::move(batch.storage));
+  }
+}
+
+/// In radii about the centre: zero at the vertices [11], a distance near them [13]. The value of a snapped
+/// centre changes by its way along the normal.
+void PartitionOfUnity::gather(const Samples& samples, const PatchList& list, std::size_t patch,
+                              SplineData& data) {
+  const auto& [points, normals, edge_lengths, unfolded, offset] = samples;
+  const auto vertices = list.members[static_cast<int>(patch)];
+  const Vec3 centre = points.col(list.centres[patch]);
+  const double radius = list.radii[patch];
+  data.clear(most_centres(vertices.size()));
+  if (!(radius > 0)) return;
+  const auto add = [&](const Vec3& place, int v, double height) {
+    const Vec3 local = (place - centre) / radius, snap = snapped(local);
+    data.add(snap, height / radius + normals.col(v).dot(snap - local));
+  };
+  for (int v : vertices) add(points.col(v), v, 0);
+  for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {
+    const int v = vertices[i];
+    if (!unfolded[idx(v)]) continue;
+    const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * offset * edge_lengths[v];
+    add(points.col(v) + rho * normals.col(v), v, rho);
   }
 }
 

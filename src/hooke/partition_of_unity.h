@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "hooke/patch_cover.h"
+#include "hooke/spline_group.h"
 #include "hooke/stored_spline.h"
 
 namespace hooke {
@@ -74,6 +75,8 @@ class PartitionOfUnity {
     double offset;
   };
 
+  /// What the spline of a patch is fitted to.
+  static void gather(const Samples& samples, const PatchList& list, std::size_t patch, SplineData& data);
   void fit(const Samples& samples, Batch& batch) const;
   void index_patches(int vertex_count, const std::deque<Batch>& batches);
 

@@ -144,18 +144,12 @@ class Remeshing {
       result_.reason = StopReason::interrupted;
     else
       timed(work_.stopwatch, "search", [&] {
-        settle_vertices();  // the worst corners are those of the result
+        settle(guards_, *work_.retraction, work_.placement);  // the worst corners are those of the result
         return search_angles(r, options_.search);
       });
     result_.not_landed = work_.land();
     work_.resample_lengths();
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
-  }
-
-  void settle_vertices() {
-    Placement settled;
-    settle(guards_, *work_.retraction, work_.placement, settled);
-    work_.placement = std::move(settled);
   }
 
   void conclude() {
