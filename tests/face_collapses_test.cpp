@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "adapting_scene.h"
-#include "hooke/least_angle.h"
 #include "hooke/topology.h"
 
 namespace hooke {
@@ -22,7 +21,7 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
 /// Of the faces that are left.
 struct Look {
   int faces = 0;
-  double least_angle = 60, least_alignment = 1;
+  double least_alignment = 1;
 };
 
 Look look_at(const AdaptingMesh& m) {
@@ -31,8 +30,6 @@ Look look_at(const AdaptingMesh& m) {
     if (m.triangulation.is_gone(static_cast<int>(f))) continue;
     const Triangle& t = m.triangulation.faces()[f];
     ++look.faces;
-    look.least_angle =
-        std::min(look.least_angle, angle_with_cotangent(greatest_cotangent(m.placement.points, t)));
     look.least_alignment =
         std::min(look.least_alignment, face_alignment(m.placement.points, m.placement.normals, t));
   }
@@ -50,43 +47,17 @@ void expect_a_disk(test::AdaptingScene& s) {
 TEST(FaceCollapses, TakeOutFoldedFaces) {
   test::AdaptingScene s(with_moved_middle(1.4, 0), test::plane());
   ASSERT_LT(look_at(s.adapting).least_alignment, 0);
-  EXPECT_GE(collapse_folded_faces(s.adapting, {}), 1);
+  EXPECT_GE(collapse_folded_faces(s.adapting, folded_face_options()), 1);
   const Look after = look_at(s.adapting);
   EXPECT_GT(after.least_alignment, .99);
   EXPECT_GE(after.faces, 2 * cells * cells - 4);
   expect_a_disk(s);
 }
 
-TEST(FaceCollapses, TakeOutSlivers) {
-  test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
-  ASSERT_LT(look_at(s.adapting).least_angle, 20);
-  EXPECT_GE(collapse_slivers(s.adapting, {}, 0), 1);
-  EXPECT_GT(look_at(s.adapting).least_angle, 25);
-  expect_a_disk(s);
-}
-
-TEST(FaceCollapses, LeaveAsManyFacesAsAskedFor) {
-  test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
-  EXPECT_EQ(collapse_slivers(s.adapting, {}, 2 * cells * cells - 1), 0);
-}
-
 TEST(FaceCollapses, LeaveGoodFacesAlone) {
   test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
-  EXPECT_EQ(collapse_folded_faces(s.adapting, {}), 0);
-  EXPECT_EQ(collapse_slivers(s.adapting, {}, 0), 0);
+  EXPECT_EQ(collapse_folded_faces(s.adapting, folded_face_options()), 0);
   EXPECT_EQ(look_at(s.adapting).faces, 2 * cells * cells);
-}
-
-TEST(FaceCollapses, NeverLowerTheLeastAngle) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    test::AdaptingScene s(test::grid(cells, test::flat, .45, seed), test::plane());
-    const Look before = look_at(s.adapting);
-    const int collapses = collapse_slivers(s.adapting, {}, 0);
-    const Look after = look_at(s.adapting);
-    EXPECT_GE(after.least_angle, before.least_angle) << seed;
-    EXPECT_GE(after.faces, 2 * cells * cells - 2 * collapses) << seed;
-    EXPECT_GE(after.least_alignment, before.least_alignment - 1e-12) << seed;
-  }
 }
 
 }  // namespace

@@ -122,6 +122,30 @@ TEST_P(HardPlaces, GetBetterAndLoseNothing) {
   EXPECT_NEAR(after.extent.area, before.extent.area, .05 * before.extent.area);
 }
 
+/// Coarse lenses turn about along their rims, where springs leave slivers.
+TEST(HardPlaces, OtherEdgesMendTheSliversThatSpringsLeave) {
+  for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    double gain = 0;
+    for (unsigned seed : {1, 2}) {
+      const test::Triangles lens = stretched(test::sphere(2, .4, seed), {1, 1, .15});
+      RemeshOptions options;
+      options.connectivity = mode;
+      set_effort(options, Effort::standard);
+      const Quality mended = quality_of(test::remeshed(lens, options).mesh);
+      options.mend.rounds = 0;
+      const Quality left = quality_of(test::remeshed(lens, options).mesh);
+      EXPECT_GE(mended.min_angle.min, left.min_angle.min - 1e-9) << seed;
+      EXPECT_LE(mended.folded_edges, left.folded_edges) << seed;
+      EXPECT_EQ(mended.topology.euler, left.topology.euler) << seed;
+      if (mode == ConnectivityMode::flip) {
+        EXPECT_EQ(mended.topology.faces, left.topology.faces) << seed;
+      }
+      gain += mended.min_angle.min - left.min_angle.min;
+    }
+    EXPECT_GT(gain, 4);
+  }
+}
+
 std::string name_of(const testing::TestParamInfo<HardPlaces::ParamType>& info) {
   const ConnectivityMode mode = std::get<ConnectivityMode>(info.param);
   return std::string(std::get<Place>(info.param).name) + (mode == ConnectivityMode::fixed  ? "_fixed"

@@ -135,6 +135,20 @@ TEST(Workspace, RefittingMovesNothing) {
   EXPECT_LT((w.placement.points - before).colwise().norm().maxCoeff(), 1e-6);
 }
 
+TEST(Workspace, ReturnsToTheFieldOfTheInput) {
+  const TriMesh mesh = with_natural_length(wavy());
+  Workspace w = on(mesh);
+  shake(w);
+  w.refit();
+  shake(w);
+  w.land();
+  const long long calls = w.projection_counts().calls;
+  w.return_to_input();
+  EXPECT_EQ(w.projection_counts().calls, calls);
+  shake(w);
+  EXPECT_LT(off_the_input(mesh, w.placement.points), 1e-5);
+}
+
 TEST(Workspace, CountsTheProjectionsOfAllFields) {
   Workspace w = on(with_natural_length(wavy()));
   long long calls = w.projection_counts().calls;

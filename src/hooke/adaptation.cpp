@@ -2,18 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "hooke/least_angle.h"
+#include "hooke/adapting_work.h"
 
 namespace hooke {
 namespace {
-
-std::vector<int> all_vertices(const Workspace& work) {
-  std::vector<int> ids(work.vertex_length.size());
-  std::iota(ids.begin(), ids.end(), 0);
-  return ids;
-}
 
 class Adaptation {
  public:
@@ -24,11 +17,7 @@ class Adaptation {
         flip_guard_(flip_guard),
         guards_(guards),
         observer_(observer),
-        triangulation_(*work.connectivity),
-        corner_valences_(
-            corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)),
-        origins_(all_vertices(work)),
-        curve_finder_(work.constraints.curves),
+        adapting_(work, corner_angle),
         graded_(work.graded()) {
     result_.wanted_faces =
         wanted_face_count(work.placement.points, work.connectivity->faces, work.vertex_length);
@@ -42,18 +31,8 @@ class Adaptation {
     for (int i = 0; i < options_.rounds && !result_.interrupted; ++i) change_lengths();
     for (int i = 0; i < options_.count_rounds && !result_.interrupted; ++i)
       if (!change_count()) break;
-    replace_mesh();
+    adapting_.replace_mesh();
     return result_;
-  }
-
-  int remove_slivers() {
-    count_curve_edges(m_, options_.chord_error);
-    const int collapses =
-        collapse_slivers(m_, options_.bad_faces, (1 - options_.sliver_share) * result_.wanted_faces);
-    if (collapses == 0) return 0;
-    compact(m_);
-    replace_mesh();
-    return collapses;
   }
 
  private:
@@ -64,7 +43,7 @@ class Adaptation {
     for (size_t v = 0; v < constraints.freedom.size(); ++v) {
       if (!constraints.at_bend(static_cast<int>(v))) continue;
       const auto curve = static_cast<size_t>(constraints.curve[v]);
-      const double ratio = static_cast<double>(curve_edges_.wanted[curve]) / curve_edges_.present[curve];
+      const double wanted = m_.curve_edges.wanted[curve], ratio = wanted / m_.curve_edges.present[curve];
       if (std::max(ratio, 1 / ratio) > options_.keep_bends) constraints.freedom[v] = Freedom::curve;
     }
   }
@@ -74,7 +53,7 @@ class Adaptation {
     result_.splits += split_long_edges(m_, options_.split);
     flip();
     result_.collapses += collapse_short_edges(m_, options_.collapse);
-    result_.collapses += collapse_folded_faces(m_, options_.bad_faces);
+    result_.collapses += collapse_folded_faces(m_, options_.folded);
     add(settle_curves(m_, options_.count));
     compact(m_);
     ++result_.rounds;
@@ -82,9 +61,8 @@ class Adaptation {
   }
 
   bool change_count() {
-    if (std::abs(static_cast<double>(triangulation_.faces().size()) - result_.wanted_faces) <=
-        options_.count_slack)
-      return false;
+    const auto faces = static_cast<double>(m_.triangulation.faces().size());
+    if (std::abs(faces - result_.wanted_faces) <= options_.count_slack) return false;
     count_curve_edges(m_, options_.chord_error);
     const CountChanges curves = settle_curves(m_, options_.count);
     const CountChanges inner = approach_count(m_, result_.wanted_faces, options_.count);
@@ -96,8 +74,6 @@ class Adaptation {
     settle(options_.count_flow);
     return true;
   }
-
-  void replace_mesh() { work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_); }
 
   void flip() {
     FlippingMesh flipping = m_.flipping();
@@ -135,15 +111,9 @@ class Adaptation {
   const FlipGuardOptions& flip_guard_;
   const GuardOptions& guards_;
   const Observer& observer_;
-  Triangulation triangulation_;
-  std::vector<int> corner_valences_;
-  std::vector<int> origins_;
-  const CurveFinder curve_finder_;
-  CurveEdges curve_edges_;
+  AdaptingWork adapting_;
+  AdaptingMesh& m_ = adapting_.mesh();
   const bool graded_;
-  AdaptingMesh m_{triangulation_,    work_.placement,     *work_.retraction,
-                  work_.constraints, work_.vertex_length, corner_valences_,
-                  origins_,          curve_finder_,       curve_edges_};
   AdaptResult result_;
 };
 
@@ -188,13 +158,6 @@ AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardO
         Adaptation(work, options, flip_guard, guards, corner_angle, observer).run(!unfolded.folded.empty());
   result.untangle = unfolded;
   return result;
-}
-
-int remove_slivers(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
-                   const GuardOptions& guards, double corner_angle) {
-  if (least_angle(work.placement.points, work.connectivity->faces) >= options.bad_faces.sliver_angle)
-    return 0;
-  return Adaptation(work, options, flip_guard, guards, corner_angle, nullptr).remove_slivers();
 }
 
 }  // namespace hooke

@@ -24,10 +24,7 @@ struct AdaptOptions {
   SplitOptions split;
   CollapseOptions collapse;
   CountOptions count;
-  FaceCollapseOptions bad_faces;
-  int sliver_rounds = 3;       // of collapses and springs at the very end, while there are slivers ...
-  double sliver_share = .02;   // ... and no more of the wanted faces are missing than this part
-  double sliver_sagitta = .5;  // then, over the target length: see AngleSearchOptions
+  CollapseOptions folded = folded_face_options();
 };
 
 /// The options that an effort stands for.
@@ -47,10 +44,5 @@ struct AdaptResult {
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
                   const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
                   const Observer& observer);
-
-/// Collapses slivers that are left, for the springs to even out what that leaves. Returns the number of
-/// collapses; without any, the work stays as it is. Pre-condition: as above.
-int remove_slivers(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
-                   const GuardOptions& guards, double corner_angle);
 
 }  // namespace hooke

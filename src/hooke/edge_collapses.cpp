@@ -176,19 +176,10 @@ class Collapse {
     return worst;
   }
 
-  /// What is worse than it should be may stay as it is, but for what the options insist on.
+  /// What is worse than it should be may stay as it is, unless the options insist.
   Worst loosened(const Worst& limits) const {
     Worst loose = worse_of(limits, worst_before());
-    switch (options_.insist) {
-      case Insist::on_nothing:
-        break;
-      case Insist::on_angle:
-        loose.cotangent = limits.cotangent;
-        break;
-      case Insist::on_alignment:
-        loose.alignment = limits.alignment;
-        break;
-    }
+    if (options_.insist_on_alignment) loose.alignment = limits.alignment;
     return loose;
   }
 

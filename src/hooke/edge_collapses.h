@@ -5,9 +5,6 @@
 
 namespace hooke {
 
-/// Of the limits of a collapse: which one holds even where it was worse before.
-enum class Insist { on_nothing, on_angle, on_alignment };
-
 struct CollapseOptions {
   double shortest = .8;  // of an edge over its target length; shorter ones collapse
   double longest =
@@ -17,7 +14,7 @@ struct CollapseOptions {
   double alignment = .3;  // least cosine between a new face and the surface, unless an old one had less
   double fold = .1;       // least cosine between neighbouring faces, unless two old ones had less
   double sagitta = .2;    // greatest sagitta of an edge over its target length, unless an old one had more
-  Insist insist = Insist::on_nothing;
+  bool insist_on_alignment = false;  // even where an old face had less
 };
 
 /// Merges the ends of one edge and returns the vertex that stays, -1 where that is not allowed: where it

@@ -26,7 +26,10 @@ void set_effort(RemeshOptions& options, Effort effort) {
   options.adaptation = adapt_options(effort);
   if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
   if (options.connectivity != ConnectivityMode::fixed) {
-    if (effort == Effort::fast) options.integration.energy_drop = 1e-2;
+    if (effort == Effort::fast) {
+      options.integration.energy_drop = 1e-2;
+      options.mend.rounds = 1;
+    }
     return;
   }
   switch (effort) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hooke/flip_patch.h"
+#include "hooke/edge_patch.h"
 #include "hooke/local_newton.h"
 #include "hooke/parallel.h"
 
@@ -39,7 +39,7 @@ bool worth_a_try(const FlippingMesh& m, int h) {
 }
 
 /// Of the patch with these faces.
-double energy_of(const FlipPatch& patch, const std::vector<Triangle>& faces, const EnergyTerms& terms) {
+double energy_of(const EdgePatch& patch, const std::vector<Triangle>& faces, const EnergyTerms& terms) {
   const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), faces);
   const TargetLengths targets = spread_target_lengths(c, patch.vertex_length);
   return Energy(c, targets, terms)(patch.placement, nullptr);
@@ -102,11 +102,11 @@ class FlipPass {
   }
 
   /// Flips the edge in its patch and settles that, while there is hope.
-  std::optional<FlipPatch> try_flip(int h) const {
+  std::optional<EdgePatch> try_flip(int h) const {
     if (!is_candidate(h)) return std::nullopt;
     const double loss = loss_before_settling(h);
     if (loss > options_.hope * unit_) return std::nullopt;
-    std::optional<FlipPatch> patch = cut_patch(m_, h, options_.rings, options_.most);
+    std::optional<EdgePatch> patch = cut_patch(m_, h, options_.rings, options_.most);
     if (!patch) return std::nullopt;
     const Connectivity c = make_connectivity(static_cast<int>(patch->sides.size()), flipped_faces(*patch));
     const TargetLengths targets = spread_target_lengths(c, patch->vertex_length);
@@ -127,12 +127,12 @@ class FlipPass {
   }
 
   double loss_before_settling(int h) const {
-    const FlipPatch patch = cut_pair(m_, h);
+    const EdgePatch patch = cut_pair(m_, h);
     return energy_of(patch, flipped_faces(patch), terms_) - energy_of(patch, patch.faces, terms_);
   }
 
-  std::vector<std::optional<FlipPatch>> try_all(const std::vector<int>& edges) const {
-    std::vector<std::optional<FlipPatch>> trials(edges.size());
+  std::vector<std::optional<EdgePatch>> try_all(const std::vector<int>& edges) const {
+    std::vector<std::optional<EdgePatch>> trials(edges.size());
     parallel_for(edges.size(), 4, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) trials[i] = try_flip(edges[i]);
     });
@@ -140,36 +140,31 @@ class FlipPass {
   }
 
   /// Those that meet with others of their batch are to be tried again.
-  void keep_gains(const std::vector<int>& edges, const std::vector<std::optional<FlipPatch>>& trials) {
+  void keep_gains(const std::vector<int>& edges, const std::vector<std::optional<EdgePatch>>& trials) {
     ++batch_;
     for (size_t i = 0; i < edges.size(); ++i) {
       if (!trials[i]) continue;
-      const FlipPatch& patch = *trials[i];
+      const EdgePatch& patch = *trials[i];
       if (meets_another(patch))
         look_again_near(patch, 2);  // the ends of the edge
-      else if (!folds_at_rim(patch, m_, guards_))
+      else if (!folds_at_rim(patch, flipped_faces(patch), m_, guards_))
         keep(edges[i], patch);
     }
   }
 
-  size_t vertex_of(const FlipPatch& patch, size_t id) const {
-    return static_cast<size_t>(vertex_of_side(m_, patch.sides[id]));
+  bool meets_another(const EdgePatch& patch) const {
+    return std::ranges::any_of(patch.vertices,
+                               [this](int v) { return batch_of_[static_cast<size_t>(v)] == batch_; });
   }
 
-  bool meets_another(const FlipPatch& patch) const {
-    for (size_t id = 0; id < patch.sides.size(); ++id)
-      if (batch_of_[vertex_of(patch, id)] == batch_) return true;
-    return false;
+  void look_again_near(const EdgePatch& patch, size_t vertices) {
+    for (size_t id = 0; id < vertices; ++id) near_[static_cast<size_t>(patch.vertices[id])] = 1;
   }
 
-  void look_again_near(const FlipPatch& patch, size_t vertices) {
-    for (size_t id = 0; id < vertices; ++id) near_[vertex_of(patch, id)] = 1;
-  }
-
-  void keep(int edge, const FlipPatch& patch) {
+  void keep(int edge, const EdgePatch& patch) {
     t_.flip(edge);
-    move_vertices(patch, m_);
-    for (size_t id = 0; id < patch.movable; ++id) batch_of_[vertex_of(patch, id)] = batch_;
+    move_vertices(patch, m_.placement);
+    for (size_t id = 0; id < patch.movable; ++id) batch_of_[static_cast<size_t>(patch.vertices[id])] = batch_;
     look_again_near(patch, patch.movable);
     ++flips_;
   }

@@ -6,7 +6,6 @@
 #include "hooke/creases.h"
 #include "hooke/error.h"
 #include "hooke/landing.h"
-#include "hooke/least_angle.h"
 
 namespace hooke {
 namespace {
@@ -27,33 +26,27 @@ class Remeshing {
       stop(StopReason::interrupted);
     else
       unfold();
-    iterate_up_to(options_.max_outer);
-    return finish();
-  }
-
-  /// After collapses: the rest of a run, so far recorded in `result`, on the faces that there are now.
-  RemeshResult go_on(RemeshResult result) {
-    result_ = std::move(result);
-    for (const IterationRecord& record : result_.iterations) outer_ = std::max(outer_, record.outer);
-    if (!result_.iterations.empty()) seconds_before_ = result_.iterations.back().seconds;
-    iterate_up_to(1);
-    return finish();
-  }
-
- private:
-  void iterate_up_to(int rounds) {
-    for (int i = 0; !done_ && i < rounds; ++i) {
+    for (int i = 0; !done_ && i < options_.max_outer; ++i) {
       ++outer_;
       iterate();
     }
-  }
-
-  RemeshResult finish() {
     if (options_.polish_angles && !interrupted()) raise_angles();
     conclude();
     return std::move(result_);
   }
 
+  /// Other faces about the worst corners: these are searched again, for the `result` of a run so far.
+  RemeshResult search_again(RemeshResult result) {
+    result_ = std::move(result);
+    if (!result_.iterations.empty()) seconds_before_ = result_.iterations.back().seconds;
+    search();
+    settle_down();
+    record("mend", {.energy = energy_(work_.placement, nullptr)});
+    conclude();
+    return std::move(result_);
+  }
+
+ private:
   Relaxation relaxation() {
     return {*work_.connectivity, work_.sweeps, work_.vertex_length, energy_,
             *work_.retraction,   guards_,      work_.placement,     work_.stopwatch};
@@ -121,8 +114,7 @@ class Remeshing {
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
     held_back_ = relaxed.held_back > 0;
-    result_.not_landed = work_.land();
-    work_.resample_lengths();
+    settle_down();
     record("relax", relaxed, outer_);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
@@ -143,13 +135,22 @@ class Remeshing {
     if (result_.polish.interrupted)
       result_.reason = StopReason::interrupted;
     else
-      timed(work_.stopwatch, "search", [&] {
-        settle(guards_, *work_.retraction, work_.placement);  // the worst corners are those of the result
-        return search_angles(r, options_.search);
-      });
+      search();
+    settle_down();
+    record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
+  }
+
+  void search() {
+    timed(work_.stopwatch, "search", [&] {
+      settle(guards_, *work_.retraction, work_.placement);  // the worst corners are those of the result
+      Relaxation r = relaxation();
+      return search_angles(r, options_.search);
+    });
+  }
+
+  void settle_down() {
     result_.not_landed = work_.land();
     work_.resample_lengths();
-    record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
   void conclude() {
@@ -187,21 +188,27 @@ class Remeshing {
   bool done_ = false;
 };
 
-/// Mode `adapt`: slivers that are left give way, as long as that finds any to take.
-void give_way(Workspace& work, const RemeshOptions& options, const Observer& observer, RemeshResult& result) {
+/// Slivers that are left get other edges, as long as that finds any to change.
+void mend(Workspace& work, const RemeshOptions& options, const Observer& observer, RemeshResult& result) {
   RemeshOptions rest = options;
-  rest.search.sagitta = options.adaptation.sliver_sagitta;
-  for (int round = 0; round < options.adaptation.sliver_rounds; ++round) {
+  rest.search.sagitta = options.mend.trials.sagitta;
+  const Observer watch = [&](Progress p) {
+    p.stage = "mend";
+    if (observer && !observer(p)) result.reason = StopReason::interrupted;
+    return result.reason != StopReason::interrupted;
+  };
+  for (int round = 0; round < options.mend.rounds; ++round) {
     if (result.reason == StopReason::interrupted) return;
-    const int collapses = timed(work.stopwatch, "adapt", [&] {
-      return remove_slivers(work, options.adaptation, options.flips.guard, options.guards,
-                            options.constraints.corner_angle);
+    const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
+      work.return_to_input();
+      return mend_slivers(work, options.connectivity, {.altitude = options.altitude}, options.mend,
+                          options.guards, options.constraints.corner_angle, watch);
     });
-    if (collapses == 0) return;
-    const StopReason reason = result.reason;  // why the springs stopped that all vertices had
-    result = Remeshing(work, rest, observer).go_on(std::move(result));
-    if (result.reason != StopReason::interrupted) result.reason = reason;
-    result.adaptation.collapses += collapses;
+    if (changes.count() == 0) return;
+    result = Remeshing(work, rest, observer).search_again(std::move(result));
+    result.flips.flips += changes.flips;
+    result.adaptation.splits += changes.splits;
+    result.adaptation.collapses += changes.merges;
   }
 }
 
@@ -240,11 +247,12 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
       break;
     case ConnectivityMode::flip:
       result.folded_before = flips.untangle.folded_before;
+      if (options.polish_angles) mend(work, options, observer, result);
       measure_travel(work, result.flips);
       break;
     case ConnectivityMode::adapt:
       result.folded_before = adapted.untangle.folded_before;
-      give_way(work, options, observer, result);
+      if (options.polish_angles) mend(work, options, observer, result);
       break;
   }
   if (options.map) result.map = work.map();

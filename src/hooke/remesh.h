@@ -11,6 +11,7 @@
 #include "hooke/hindrances.h"
 #include "hooke/iteration_record.h"
 #include "hooke/lbfgs.h"
+#include "hooke/mending.h"
 #include "hooke/polish.h"
 #include "hooke/untangle.h"
 #include "hooke/workspace.h"
@@ -41,6 +42,7 @@ struct RemeshOptions {
   PolishOptions polish;
   bool polish_angles = true;
   AngleSearchOptions search;  // after the polish
+  MendOptions mend;           // after that, in the modes `flip` and `adapt`
   FilterOptions filter{.reach = .35};
   // Of the field: before each outer iteration, where the guards hindered the last; or once, which `adapt`
   // always does.

@@ -147,6 +147,13 @@ int Workspace::land() {
   return static_cast<int>(stay);
 }
 
+void Workspace::return_to_input() {
+  if (!refitted_) return;
+  refitted_ = false;
+  finished_ += retraction->counts();
+  retraction = std::make_unique<Retraction>(to_input_->surface(), constraints, retraction_options_);
+}
+
 void Workspace::replace_faces(std::vector<Triangle> faces) {
   connect(make_connectivity(connectivity->vertex_count, std::move(faces)), constraints.creases);
   input_anchors_ = placement.anchors;  // vertices may be far from where they were

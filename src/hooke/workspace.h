@@ -39,6 +39,9 @@ struct Workspace {
   /// whose landing would break a guard stays where it is; returns their number.
   int land();
 
+  /// Takes back refit(): the vertices, which have landed, are tracked on the field of the input again.
+  void return_to_input();
+
   /// Gives the work other faces on the same vertices, whose ids go on to count as those of the input's faces.
   /// The vertices must still be on the field of the input: before the first refit().
   void replace_faces(std::vector<Triangle> faces);

@@ -1,4 +1,4 @@
-#include "hooke/flip_patch.h"
+#include "hooke/edge_patch.h"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +14,16 @@ std::vector<Triangle> sorted(std::vector<Triangle> faces) {
   return faces;
 }
 
-std::vector<Triangle> in_mesh(const FlipPatch& patch, std::vector<Triangle> faces) {
+std::vector<Triangle> in_mesh(const EdgePatch& patch, std::vector<Triangle> faces) {
   for (Triangle& f : faces)
     for (int& v : f) v = patch.sides[static_cast<size_t>(v)];
   return sorted(faces);
 }
 
-TEST(FlipPatch, HoldsAllFacesOfItsMovableVertices) {
+TEST(EdgePatch, HoldsAllFacesOfItsMovableVertices) {
   test::FlippingScene s(test::sphere(3, .3, 2), test::unit_sphere());
   const int h = 3 * 100;
-  const FlipPatch patch = *cut_patch(s.mesh, h, 2, 200);
+  const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
   EXPECT_EQ(patch.sides[0], s.triangulation.from(h));
   EXPECT_EQ(patch.sides[1], s.triangulation.to(h));
   std::vector<Triangle> faces;
@@ -39,11 +39,11 @@ TEST(FlipPatch, HoldsAllFacesOfItsMovableVertices) {
               s.placement.points.col(patch.sides[i]));
 }
 
-TEST(FlipPatch, FlippedFacesAreThoseOfTheFlippedMesh) {
+TEST(EdgePatch, FlippedFacesAreThoseOfTheFlippedMesh) {
   for (int rings : {-1, 1, 2}) {
     test::FlippingScene s(test::sphere(2, .3, 2), test::unit_sphere());
     const int h = 3 * 17 + 1, twin = s.triangulation.twin(h);
-    const FlipPatch patch = rings < 0 ? cut_pair(s.mesh, h) : *cut_patch(s.mesh, h, rings, 200);
+    const EdgePatch patch = rings < 0 ? cut_pair(s.mesh, h) : *cut_patch(s.mesh, h, rings, 200);
     s.triangulation.flip(h);
     std::vector<Triangle> pair = {s.triangulation.faces()[static_cast<size_t>(h / 3)],
                                   s.triangulation.faces()[static_cast<size_t>(twin / 3)]};
@@ -55,7 +55,45 @@ TEST(FlipPatch, FlippedFacesAreThoseOfTheFlippedMesh) {
   }
 }
 
-TEST(FlipPatch, EndsAtCreases) {
+/// Without those that are gone.
+std::vector<Triangle> faces_of(const Triangulation& t) {
+  std::vector<Triangle> faces = t.faces();
+  std::erase_if(faces, [](const Triangle& f) { return f[0] < 0; });
+  return sorted(faces);
+}
+
+TEST(EdgePatch, HalvedFacesAreThoseOfTheSplitMesh) {
+  test::FlippingScene s(test::sphere(2, .3, 2), test::unit_sphere());
+  const int h = 3 * 17 + 1;
+  EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
+  const int middle = append_vertex(patch, 0);
+  EXPECT_EQ(middle, static_cast<int>(patch.sides.size()) - 1);
+  EXPECT_EQ(patch.placement.points.col(middle), patch.placement.points.col(0));
+  const std::vector<Triangle> old = sorted(s.triangulation.faces());
+  patch.sides.back() = s.triangulation.split(h);
+  const std::vector<Triangle> halved = in_mesh(patch, halved_faces(patch, middle));
+  EXPECT_EQ(halved.size(), patch.faces.size() + 2);
+  const std::vector<Triangle> all = faces_of(s.triangulation);
+  EXPECT_TRUE(std::ranges::includes(all, halved));
+  std::vector<Triangle> rest = in_mesh(patch, patch.faces), both;
+  std::ranges::set_difference(old, rest, std::back_inserter(both));
+  both.insert(both.end(), halved.begin(), halved.end());
+  EXPECT_EQ(sorted(both), all);
+}
+
+TEST(EdgePatch, MergedFacesAreThoseOfTheCollapsedMesh) {
+  for (int stays : {0, 1}) {
+    test::FlippingScene s(test::sphere(2, .3, 2), test::unit_sphere());
+    const int h = 3 * 17 + 1;
+    const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
+    s.triangulation.collapse(h, stays == 0 ? s.triangulation.from(h) : s.triangulation.to(h));
+    const std::vector<Triangle> merged = in_mesh(patch, merged_faces(patch, stays));
+    EXPECT_EQ(merged.size(), patch.faces.size() - 2);
+    EXPECT_TRUE(std::ranges::includes(faces_of(s.triangulation), merged));
+  }
+}
+
+TEST(EdgePatch, EndsAtCreases) {
   // The middle line of a grid is a crease: what lies beyond is not seen, and its vertices stand still.
   const int n = 6, middle = 3 * (n + 1);
   std::vector<Edge> creases;
@@ -63,7 +101,7 @@ TEST(FlipPatch, EndsAtCreases) {
   test::FlippingScene s(test::grid(n, test::flat), test::plane(), creases);
   const int h = test::half_edge(s.triangulation, 2 * (n + 1) + 3, 2 * (n + 1) + 4);
   ASSERT_GE(h, 0);
-  const FlipPatch patch = *cut_patch(s.mesh, h, 2, 200);
+  const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
   for (size_t i = 0; i < patch.sides.size(); ++i) {
     const double y = patch.placement.points(1, static_cast<Eigen::Index>(i));
     EXPECT_LE(y, .5 + 1e-12);
@@ -73,15 +111,15 @@ TEST(FlipPatch, EndsAtCreases) {
   }
 }
 
-TEST(FlipPatch, FoldsAtItsRimAreSeen) {
+TEST(EdgePatch, FoldsAtItsRimAreSeen) {
   test::FlippingScene s(test::grid(8, test::flat), test::plane());
   const int h = test::half_edge(s.triangulation, 4 * 9 + 3, 4 * 9 + 4);
-  FlipPatch patch = *cut_patch(s.mesh, h, 1, 200);
+  EdgePatch patch = *cut_patch(s.mesh, h, 1, 200);
   EXPECT_FALSE(patch.rim.empty());
-  EXPECT_FALSE(folds_at_rim(patch, s.mesh, {}));
+  EXPECT_FALSE(folds_at_rim(patch, flipped_faces(patch), s.mesh, {}));
   for (size_t i = 0; i < patch.movable; ++i)  // turned over, beyond the rim
     patch.placement.points.col(static_cast<Eigen::Index>(i)) += Vec3(2, 0, .1);
-  EXPECT_TRUE(folds_at_rim(patch, s.mesh, {}));
+  EXPECT_TRUE(folds_at_rim(patch, flipped_faces(patch), s.mesh, {}));
 }
 
 /// A fan of so many spokes about vertex 0, and a ring of faces around it.
@@ -101,14 +139,14 @@ test::Triangles wheel(int spokes) {
   return t;
 }
 
-TEST(FlipPatch, IsNotCutWhereAVertexThatWouldMoveHasTooManyEdges) {
+TEST(EdgePatch, IsNotCutWhereAVertexThatWouldMoveHasTooManyEdges) {
   test::FlippingScene s(wheel(60), test::plane());
   const int h = test::half_edge(s.triangulation, 1, 61);  // the hub is a neighbour of its first end
   EXPECT_TRUE(cut_patch(s.mesh, h, 1, 60).has_value());
   EXPECT_FALSE(cut_patch(s.mesh, h, 1, 59).has_value());
 }
 
-TEST(FlipPatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
+TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
   // Two sheets that meet at 84 degrees; the one with the patch is rough.
   constexpr int n = 10;
   const int middle = n / 2 * (n + 1);
@@ -147,7 +185,7 @@ TEST(FlipPatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
         }
         return cosines;
       };
-      const bool seen = folds_at_rim(*patch, s.mesh, guards);
+      const bool seen = folds_at_rim(*patch, flipped_faces(*patch), s.mesh, guards);
       Triangulation before = s.triangulation;
       const std::vector<double> old = folds();
       s.triangulation.flip(h);
@@ -161,7 +199,7 @@ TEST(FlipPatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
   EXPECT_GT(breaks, 0);
 }
 
-TEST(FlipPatch, IsNotCutWhereTooManyVerticesWouldMove) {
+TEST(EdgePatch, IsNotCutWhereTooManyVerticesWouldMove) {
   test::FlippingScene s(test::sphere(3, .3, 2), test::unit_sphere());
   const size_t movable = cut_patch(s.mesh, 0, 2, 200)->movable;
   EXPECT_TRUE(cut_patch(s.mesh, 0, 2, movable).has_value());

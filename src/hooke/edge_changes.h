@@ -1,0 +1,40 @@
+// What can become of an edge: which changes are allowed, and each of them in a patch and in the whole mesh.
+#pragma once
+
+#include "hooke/adapting_mesh.h"
+#include "hooke/edge_patch.h"
+
+namespace hooke {
+
+enum class ChangeKind {
+  flip,   // the edge comes to join the corners across it
+  split,  // a new vertex halves it
+  merge,  // its ends become one vertex
+};
+
+struct EdgeChange {
+  int half_edge;
+  ChangeKind kind;
+  int stays = 0;  // of a merge: the end where the half-edge begins (0) or ends (1)
+};
+
+/// The changes to choose from.
+struct ChangeRules {
+  int valence = 9;  // greatest of a vertex that gains edges
+  bool splits = true, merges = true;
+};
+
+/// The changes of the inner edges of all faces about the corners of this one that leave a mesh of the same
+/// topology, creases and corners included, whatever becomes of angles and folds: that is for a trial to tell.
+/// Vertices on curves neither come nor go.
+std::vector<EdgeChange> changes_about(const AdaptingMesh& mesh, int face, const ChangeRules& rules);
+
+/// Puts the vertices of the patch of the edge where the change takes them, on the surface; a split adds one.
+/// Returns the faces it has then.
+std::vector<Triangle> change_patch(EdgePatch& patch, const EdgeChange& change, const Surface& surface,
+                                   const RetractionOptions& options);
+
+/// Changes the mesh as its patch was changed, and moves its vertices to where those of the patch are.
+void change_mesh(AdaptingMesh& mesh, const EdgeChange& change, EdgePatch& patch);
+
+}  // namespace hooke

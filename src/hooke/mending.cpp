@@ -1,0 +1,38 @@
+#include "hooke/mending.h"
+
+#include "hooke/adapting_work.h"
+#include "hooke/count_control.h"
+#include "hooke/least_angle.h"
+
+namespace hooke {
+namespace {
+
+/// In mode `flip` their number stays.
+FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double share) {
+  const auto& faces = work.connectivity->faces;
+  const auto count = static_cast<double>(faces.size());
+  if (mode == ConnectivityMode::flip) return {count, count};
+  const double wanted = wanted_face_count(work.placement.points, faces, work.vertex_length);
+  return {(1 - share) * wanted, (1 + share) * wanted};
+}
+
+}  // namespace
+
+SliverChanges mend_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
+                           const MendOptions& options, const GuardOptions& guards, double corner_angle,
+                           const Observer& observer) {
+  if (least_angle(work.placement.points, work.connectivity->faces) >= options.trials.sliver_angle) return {};
+  AdaptingWork adapting(work, corner_angle);
+  const SliverChanges changes = change_slivers(adapting.mesh(), terms, options.trials, guards,
+                                               limits_of(work, mode, options.count_share), observer);
+  if (changes.count() == 0) return changes;
+  if (mode == ConnectivityMode::flip) {
+    adapting.replace_faces();
+  } else {
+    compact(adapting.mesh());
+    adapting.replace_mesh();
+  }
+  return changes;
+}
+
+}  // namespace hooke

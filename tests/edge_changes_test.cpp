@@ -1,0 +1,123 @@
+#include "hooke/edge_changes.h"
+
+#include <gtest/gtest.h>
+
+#include "adapting_scene.h"
+#include "hooke/topology.h"
+
+namespace hooke {
+namespace {
+
+constexpr int cells = 8, across = cells + 1;
+
+int face_at(int column, int row) {
+  return 2 * (row * cells + column);
+}
+
+/// Of the mesh without what is gone.
+Topology topology_of(test::AdaptingScene& s) {
+  compact(s.adapting);
+  return measure_topology(
+      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces()));
+}
+
+EdgePatch cut(const test::AdaptingScene& s, const EdgeChange& change) {
+  return *cut_patch(s.adapting.flipping(), change.half_edge, 2, 200);
+}
+
+TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
+  const test::Triangles grid = test::grid(cells, test::flat, .3, 5);
+  const test::AdaptingScene first(grid, test::plane());
+  const std::vector<EdgeChange> changes = changes_about(first.adapting, face_at(4, 4), {});
+  std::array<int, 3> kinds = {};
+  for (const EdgeChange& change : changes) {
+    ++kinds[static_cast<size_t>(change.kind)];
+    test::AdaptingScene s(grid, test::plane());
+    const Topology before = measure_topology(s.connectivity);
+    EdgePatch patch = cut(s, change);
+    const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
+    change_mesh(s.adapting, change, patch);
+    for (const Triangle& face : faces) {
+      const auto in_mesh = [&](int k) {
+        return patch.vertices[static_cast<size_t>(face[static_cast<size_t>(k)])];
+      };
+      const int h = test::half_edge(s.triangulation, in_mesh(0), in_mesh(1));
+      ASSERT_GE(h, 0);
+      EXPECT_EQ(s.triangulation.apex(h), in_mesh(2));
+      for (int k : {0, 1, 2})
+        EXPECT_EQ(s.placement.points.col(in_mesh(k)),
+                  patch.placement.points.col(face[static_cast<size_t>(k)]));
+    }
+    const Topology after = topology_of(s);
+    EXPECT_EQ(after.euler, before.euler);
+    EXPECT_EQ(after.boundary_loops, before.boundary_loops);
+    const int more = change.kind == ChangeKind::flip ? 0 : change.kind == ChangeKind::split ? 2 : -2;
+    EXPECT_EQ(after.faces, before.faces + more);
+  }
+  for (int count : kinds) EXPECT_GT(count, 5);
+}
+
+TEST(EdgeChanges, OnlyThoseThatAreAskedFor) {
+  const test::AdaptingScene s(test::grid(cells, test::flat, .3, 5), test::plane());
+  const auto all = changes_about(s.adapting, face_at(4, 4), {});
+  const auto flips = changes_about(s.adapting, face_at(4, 4), {.splits = false, .merges = false});
+  EXPECT_FALSE(flips.empty());
+  EXPECT_LT(flips.size(), all.size());
+  for (const EdgeChange& change : flips) EXPECT_EQ(change.kind, ChangeKind::flip);
+}
+
+TEST(EdgeChanges, LeaveTheBoundaryAlone) {
+  const test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  const Triangulation& t = s.triangulation;
+  int merges = 0;
+  for (int row : {0, 1}) {
+    for (const EdgeChange& change : changes_about(s.adapting, face_at(3, row), {})) {
+      EXPECT_GE(t.twin(change.half_edge), 0);
+      if (change.kind != ChangeKind::merge) continue;
+      ++merges;
+      EXPECT_FALSE(t.on_boundary(change.stays == 0 ? t.to(change.half_edge) : t.from(change.half_edge)));
+    }
+  }
+  EXPECT_GT(merges, 0);
+}
+
+TEST(EdgeChanges, LeaveCreasesAlone) {
+  std::vector<Edge> creases;
+  for (int i = 0; i < cells; ++i) creases.push_back({4 * across + i, 4 * across + i + 1});
+  const test::AdaptingScene s(test::grid(cells, test::flat), test::plane(), creases);
+  const Triangulation& t = s.triangulation;
+  int beside = 0;
+  for (const EdgeChange& change : changes_about(s.adapting, face_at(3, 3), {})) {
+    EXPECT_FALSE(t.is_constrained(change.half_edge));
+    if (change.kind != ChangeKind::merge) continue;
+    const int a = t.from(change.half_edge), b = t.to(change.half_edge);
+    EXPECT_FALSE(t.on_crease(change.stays == 0 ? b : a));
+    beside += t.on_crease(a) || t.on_crease(b);
+  }
+  EXPECT_GT(beside, 0);
+}
+
+TEST(EdgeChanges, GiveNoVertexTooManyEdges) {
+  const test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  EXPECT_TRUE(changes_about(s.adapting, face_at(4, 4), {.valence = 6, .merges = false}).empty());
+}
+
+TEST(EdgeChanges, APatchCutAfterASplitOfACreasedMeshKnowsItsVertices) {
+  std::vector<Edge> creases;
+  for (int i = 0; i < cells; ++i) creases.push_back({4 * across + i, 4 * across + i + 1});
+  test::AdaptingScene s(test::grid(cells, test::flat), test::plane(), creases);
+  const EdgeChange split{test::half_edge(s.triangulation, 2 * across + 3, 2 * across + 4), ChangeKind::split};
+  EdgePatch patch = cut(s, split);
+  change_patch(patch, split, test::plane(), {});
+  change_mesh(s.adapting, split, patch);
+  const int beyond = test::half_edge(s.triangulation, 5 * across + 3, 5 * across + 4);
+  const EdgePatch other = *cut_patch(s.adapting.flipping(), beyond, 2, 200);
+  for (size_t i = 0; i < other.vertices.size(); ++i) {
+    EXPECT_GE(s.triangulation.valence(other.vertices[i]), 0);  // no further side
+    EXPECT_EQ(other.placement.points.col(static_cast<Eigen::Index>(i)),
+              s.placement.points.col(other.vertices[i]));
+  }
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,156 @@
+#include "hooke/sliver_trials.h"
+
+#include <gtest/gtest.h>
+
+#include "adapting_scene.h"
+#include "hooke/least_angle.h"
+#include "hooke/parallel.h"
+#include "hooke/topology.h"
+
+namespace hooke {
+namespace {
+
+constexpr int cells = 8, faces = 2 * cells * cells;
+constexpr FaceCountLimits any_count = {0, 1e9}, same_count = {faces, faces};
+
+/// A grid whose middle vertex has been moved by so many cells.
+test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
+  test::Triangles t = test::grid(cells, test::flat);
+  t.points.col(cells / 2 * (cells + 2)) += Vec3(cells_in_x, cells_in_y, 0) / cells;
+  return t;
+}
+
+SliverChanges change(test::AdaptingScene& s, const FaceCountLimits& limits = any_count,
+                     const SliverTrialOptions& options = {}, const Observer& observer = nullptr) {
+  return change_slivers(s.adapting, {}, options, {}, limits, observer);
+}
+
+std::vector<Triangle> faces_of(const test::AdaptingScene& s) {
+  std::vector<Triangle> left = s.triangulation.faces();
+  std::erase_if(left, [](const Triangle& t) { return t[0] < 0; });
+  return left;
+}
+
+double least_angle_of(const test::AdaptingScene& s) {
+  return least_angle(s.placement.points, faces_of(s));
+}
+
+auto folded_faces_of(const test::AdaptingScene& s) {
+  return std::ranges::count_if(faces_of(s), [&](const Triangle& t) {
+    return face_alignment(s.placement.points, s.placement.normals, t) < 0;
+  });
+}
+
+void expect_a_disk(test::AdaptingScene& s) {
+  compact(s.adapting);
+  const Topology t = measure_topology(
+      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces()));
+  EXPECT_EQ(t.euler, 1);
+  EXPECT_EQ(t.boundary_loops, 1);
+}
+
+/// A grid with a vertex of 12 edges, which no motion mends.
+test::AdaptingScene& crowd(test::AdaptingScene& s) {
+  const int hub = cells / 2 * (cells + 2);
+  for (int extra = 0; extra < 6; ++extra)
+    for (int spoke : s.triangulation.outgoing(hub)) {
+      const int h = Triangulation::next(spoke), g = s.triangulation.twin(h);
+      if (g < 0 || s.triangulation.adjacent(hub, s.triangulation.apex(g)) ||
+          s.triangulation.valence(s.triangulation.from(h)) <= 4 ||
+          s.triangulation.valence(s.triangulation.to(h)) <= 4)
+        continue;
+      s.triangulation.flip(h);
+      break;
+    }
+  return s;
+}
+
+TEST(SliverTrials, MendWhatAMovedVertexLeaves) {
+  test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
+  ASSERT_LT(least_angle_of(s), 20);
+  EXPECT_GE(change(s).count(), 1);
+  EXPECT_GT(least_angle_of(s), 30);
+  expect_a_disk(s);
+}
+
+TEST(SliverTrials, MendCrowdedVertices) {
+  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  crowd(s);
+  ASSERT_GE(s.triangulation.valence(cells / 2 * (cells + 2)), 11);
+  ASSERT_LT(least_angle_of(s), 20);
+  EXPECT_GE(change(s).count(), 1);
+  EXPECT_GT(least_angle_of(s), 30);
+  expect_a_disk(s);
+}
+
+TEST(SliverTrials, WhereTheCountIsToStayThereAreOnlyFlips) {
+  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  crowd(s);
+  const double before = least_angle_of(s);
+  const SliverChanges changes = change(s, same_count);
+  EXPECT_GE(changes.flips, 1);
+  EXPECT_EQ(changes.count(), changes.flips);
+  EXPECT_GT(least_angle_of(s), before);
+  EXPECT_EQ(s.triangulation.id_count(), (cells + 1) * (cells + 1));
+  EXPECT_EQ(std::ssize(faces_of(s)), faces);
+}
+
+TEST(SliverTrials, KeepTheCountWithinItsLimits) {
+  for (const FaceCountLimits& limits :
+       {FaceCountLimits{faces - 2, faces}, FaceCountLimits{faces, faces + 2}}) {
+    test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
+    change(s, limits, {.sliver_angle = 40});
+    const auto count = static_cast<double>(faces_of(s).size());
+    EXPECT_GE(count, limits.least);
+    EXPECT_LE(count, limits.most);
+  }
+}
+
+TEST(SliverTrials, NeverLowerTheLeastAngleNorFoldAFace) {
+  SliverChanges all;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    test::AdaptingScene s(test::grid(cells, test::flat, .45, seed), test::plane());
+    const double before = least_angle_of(s);
+    const auto folded_before = folded_faces_of(s);
+    const SliverChanges changes = change(s);
+    all.flips += changes.flips;
+    all.splits += changes.splits;
+    all.merges += changes.merges;
+    EXPECT_GE(least_angle_of(s), before - 1e-12) << seed;
+    EXPECT_EQ(std::ssize(faces_of(s)), faces + 2 * (changes.splits - changes.merges)) << seed;
+    EXPECT_LE(folded_faces_of(s), folded_before) << seed;
+    expect_a_disk(s);
+  }
+  EXPECT_GT(all.flips, 0);
+  EXPECT_GT(all.merges, 0);
+}
+
+TEST(SliverTrials, LeaveGoodFacesAlone) {
+  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  const Mat3X before = s.placement.points;
+  EXPECT_EQ(change(s).count(), 0);
+  EXPECT_EQ(s.placement.points, before);
+}
+
+TEST(SliverTrials, ThreadsChangeNothing) {
+  const auto result = [](int threads) {
+    const ThreadLimit limit(threads);
+    test::AdaptingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
+    EXPECT_GT(change(s).count(), 0);
+    compact(s.adapting);
+    return std::pair(s.triangulation.faces(), s.placement.points);
+  };
+  EXPECT_EQ(result(1), result(2));
+}
+
+TEST(SliverTrials, StopWhenTheObserverSaysSo) {
+  test::AdaptingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
+  int calls = 0;
+  const SliverChanges changes = change(s, any_count, {}, [&](const Progress&) { return ++calls < 2; });
+  EXPECT_EQ(calls, 2);
+  EXPECT_LE(changes.count(), 1);
+  expect_a_disk(s);
+}
+
+}  // namespace
+}  // namespace hooke
