@@ -21,6 +21,13 @@ Topology topology_of(test::AdaptingScene& s) {
       make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces()));
 }
 
+std::vector<EdgeChange> changes_about(const AdaptingMesh& m, int face, const ChangeRules& rules) {
+  std::vector<EdgeChange> all;
+  for (int h : inner_edges_about(m.triangulation, face))
+    for (const EdgeChange& change : allowed_changes(m, h, rules)) all.push_back(change);
+  return all;
+}
+
 EdgePatch cut(const test::AdaptingScene& s, const EdgeChange& change) {
   return *cut_patch(s.adapting.flipping(), change.half_edge, 2, 200);
 }
@@ -95,6 +102,42 @@ TEST(EdgeChanges, LeaveCreasesAlone) {
     beside += t.on_crease(a) || t.on_crease(b);
   }
   EXPECT_GT(beside, 0);
+}
+
+TEST(EdgeChanges, AFreeBoundaryStaysWhereItIs) {
+  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  for (Freedom& freedom : s.constraints.freedom) freedom = Freedom::surface;
+  int merges = 0;
+  for (const EdgeChange& change : changes_about(s.adapting, face_at(3, 0), {})) {
+    if (change.kind != ChangeKind::merge) continue;
+    EdgePatch patch = cut(s, change);
+    const Mat3X before = patch.placement.points;
+    change_patch(patch, change, test::plane(), {});
+    for (size_t i = 0; i < patch.vertices.size(); ++i) {
+      if (!s.triangulation.on_boundary(patch.vertices[i])) continue;
+      merges += static_cast<int>(i) == change.stays;
+      EXPECT_EQ(patch.placement.points.col(static_cast<Eigen::Index>(i)),
+                before.col(static_cast<Eigen::Index>(i)));
+    }
+  }
+  EXPECT_GT(merges, 0);
+}
+
+TEST(EdgeChanges, CornersKeepToTheEdgesTheyWant) {
+  // The tip of a wedge has the four edges it wants: none may be flipped away from it, and nothing may merge
+  // into it that brings more.
+  test::AdaptingScene s(test::wedge(90, 4), test::plane());
+  s.corner_valences[0] = 4;
+  for (const EdgeChange& change : changes_about(s.adapting, 0, {})) {
+    EdgePatch patch = cut(s, change);
+    const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
+    const auto tip = std::ranges::find(patch.vertices, 0);
+    if (tip == patch.vertices.end()) continue;
+    const auto id = static_cast<int>(tip - patch.vertices.begin());
+    const auto at_tip =
+        std::ranges::count_if(faces, [&](const Triangle& t) { return std::ranges::count(t, id) > 0; });
+    EXPECT_EQ(at_tip, 3);
+  }
 }
 
 TEST(EdgeChanges, GiveNoVertexTooManyEdges) {

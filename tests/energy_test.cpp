@@ -54,6 +54,24 @@ TEST_P(EnergyLaws, ForcesOfAPotentialSumToZero) {
   EXPECT_LT(gradient.rowwise().sum().norm(), 1e-9 * gradient.colwise().norm().sum());
 }
 
+/// A mesh so large that its faces are summed up in several parts, which end elsewhere in reverse order.
+TEST_P(EnergyLaws, TheOrderOfTheFacesDoesNotMatter) {
+  const test::Triangles t = test::grid(150, test::paraboloid, .3, 3);
+  std::vector<Triangle> reversed(t.faces.rbegin(), t.faces.rend());
+  const int n = static_cast<int>(t.points.cols());
+  const Connectivity forwards = make_connectivity(n, t.faces), back = make_connectivity(n, reversed);
+  const std::vector<double> lengths(static_cast<size_t>(n), 1. / 150);
+  const TargetLengths targets = spread_target_lengths(forwards, lengths),
+                      targets_back = spread_target_lengths(back, lengths);
+  Placement p;
+  p.points = t.points;
+  p.normals = Vec3::UnitZ().replicate(1, n);
+  Mat3X gradient, gradient_back;
+  const double energy = Energy(forwards, targets, GetParam().terms)(p, &gradient);
+  EXPECT_NEAR(Energy(back, targets_back, GetParam().terms)(p, &gradient_back), energy, 1e-10 * energy);
+  EXPECT_LT((gradient - gradient_back).cwiseAbs().maxCoeff(), 1e-10 * gradient.cwiseAbs().maxCoeff());
+}
+
 TEST_P(EnergyLaws, OneThreadAndTwoGiveTheSameBits) {
   Mat3X one, two;
   double e1, e2;

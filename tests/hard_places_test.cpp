@@ -3,6 +3,7 @@
 
 #include "hooke/effort.h"
 #include "hooke/least_angle.h"
+#include "hooke/parallel.h"
 #include "hooke/quality.h"
 #include "remeshed.h"
 #include "solids.h"
@@ -132,7 +133,7 @@ TEST(HardPlaces, OtherEdgesMendTheSliversThatSpringsLeave) {
       options.connectivity = mode;
       set_effort(options, Effort::standard);
       const Quality mended = quality_of(test::remeshed(lens, options).mesh);
-      options.mend.rounds = 0;
+      options.mend.trials.rounds = 0;
       const Quality left = quality_of(test::remeshed(lens, options).mesh);
       EXPECT_GE(mended.min_angle.min, left.min_angle.min - 1e-9) << seed;
       EXPECT_LE(mended.folded_edges, left.folded_edges) << seed;
@@ -143,6 +144,33 @@ TEST(HardPlaces, OtherEdgesMendTheSliversThatSpringsLeave) {
       gain += mended.min_angle.min - left.min_angle.min;
     }
     EXPECT_GT(gain, 4);
+  }
+}
+
+TEST(HardPlaces, MendingIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
+  const test::Triangles lens = stretched(test::sphere(2, .4, 1), {1, 1, .15});
+  for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    RemeshOptions options;
+    options.connectivity = mode;
+    set_effort(options, Effort::standard);
+    options.mend.trials.sliver_angle = 33;
+    int slivers = 0;
+    const auto run = [&](int threads, int stop_at) {
+      const ThreadLimit limit(threads);
+      slivers = 0;
+      return test::remeshed(lens, test::natural(lens), options, [&](const Progress& p) {
+        slivers += std::string_view(p.stage) == "mend";
+        return slivers < stop_at;
+      });
+    };
+    const test::Outcome one = run(1, 1000), two = run(2, 1000);
+    ASSERT_GT(slivers, 2);
+    EXPECT_EQ(one.points, two.points);
+    EXPECT_EQ(one.faces, two.faces);
+    const test::Outcome stopped = run(2, 2);
+    EXPECT_EQ(slivers, 2);
+    EXPECT_EQ(stopped.result.reason, StopReason::interrupted);
+    EXPECT_EQ(quality_of(stopped.mesh).topology.euler, 2);
   }
 }
 

@@ -99,7 +99,7 @@ TEST(SliverTrials, KeepTheCountWithinItsLimits) {
   for (const FaceCountLimits& limits :
        {FaceCountLimits{faces - 2, faces}, FaceCountLimits{faces, faces + 2}}) {
     test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
-    change(s, limits, {.sliver_angle = 40});
+    EXPECT_GT(change(s, limits, {.sliver_angle = 40}).count(), 0);
     const auto count = static_cast<double>(faces_of(s).size());
     EXPECT_GE(count, limits.least);
     EXPECT_LE(count, limits.most);
@@ -123,6 +123,65 @@ TEST(SliverTrials, NeverLowerTheLeastAngleNorFoldAFace) {
   }
   EXPECT_GT(all.flips, 0);
   EXPECT_GT(all.merges, 0);
+}
+
+TEST(SliverTrials, AddNothingBeyondTheLimits) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    test::AdaptingScene s(test::sphere(2, .4, seed), test::unit_sphere());
+    const SliverTrialOptions options;
+    const auto worst = [&](const auto& measure) {
+      double most = 0;
+      for (const Triangle& t : faces_of(s))
+        for (size_t k : {0, 1, 2}) most = std::max(most, measure(Edge{t[k], t[(k + 1) % 3]}));
+      return most;
+    };
+    const auto length = [&](const Edge& e) {
+      return (s.placement.points.col(e[0]) - s.placement.points.col(e[1])).norm() / s.vertex_length[0];
+    };
+    const auto sagitta = [&](const Edge& e) {
+      return edge_sagitta(s.placement.points, s.placement.normals, e) / s.vertex_length[0];
+    };
+    const double longest = std::max(options.longest, worst(length));
+    const double deepest = std::max(options.sagitta, worst(sagitta));
+    EXPECT_GT(change(s, any_count, {.sliver_angle = 40}).count(), 0);
+    EXPECT_LE(worst(length), longest + 1e-9) << seed;
+    EXPECT_LE(worst(sagitta), deepest + 1e-9) << seed;
+  }
+}
+
+TEST(SliverTrials, LeaveCreasesWhereTheyAre) {
+  std::vector<Edge> creases;
+  const int middle = cells / 2 * (cells + 1);
+  for (int i = 0; i < cells; ++i) creases.push_back({middle + i, middle + i + 1});
+  SliverChanges all;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    test::AdaptingScene s(test::grid(cells, test::flat, .4, seed), test::plane(), creases);
+    const Mat3X before = s.placement.points;
+    const SliverChanges changes = change(s);
+    all.splits += changes.splits;
+    all.merges += changes.merges;
+    for (int i = 0; i <= cells; ++i)
+      EXPECT_EQ(s.placement.points.col(middle + i), before.col(middle + i)) << seed;
+    compact(s.adapting);
+    EXPECT_EQ(s.constraints.creases.size(), creases.size()) << seed;
+    expect_a_disk(s);
+  }
+  EXPECT_GT(all.splits + all.merges, 0);
+}
+
+TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
+  // A sliver at a corner of the boundary, where no change gains as much as is asked for: it is tried once.
+  test::Triangles t = test::grid(cells, test::flat);
+  const auto tip = t.points.cols();
+  t.points.conservativeResize(3, tip + 1);
+  t.points.col(tip) = Vec3(4.5 / cells, -3. / cells, 0);
+  t.faces.push_back({5, 4, static_cast<int>(tip)});
+  test::AdaptingScene s(t, test::plane());
+  int calls = 0;
+  const auto count = [&](const Progress&) { return ++calls > 0; };
+  const SliverTrialOptions options{.gain = 1e9};
+  EXPECT_EQ(change(s, same_count, options, count).count(), 0);
+  EXPECT_EQ(calls, 1);
 }
 
 TEST(SliverTrials, LeaveGoodFacesAlone) {

@@ -11,24 +11,12 @@ class Choice {
   Choice(const AdaptingMesh& mesh, const ChangeRules& rules)
       : m_(mesh), flipping_(mesh.flipping()), t_(mesh.triangulation), rules_(rules) {}
 
-  void add_changes(int h, std::vector<EdgeChange>& changes) const {
+  std::vector<EdgeChange> changes(int h) const {
+    std::vector<EdgeChange> changes;
     if (may_flip(h)) changes.push_back({h, ChangeKind::flip});
     if (rules_.splits && may_split(h)) changes.push_back({h, ChangeKind::split});
-    if (!rules_.merges) return;
-    if (const int stays = staying_end(h); stays >= 0) changes.push_back({h, ChangeKind::merge, stays});
-  }
-
-  /// One half-edge of each inner edge, ascending.
-  std::vector<int> edges_about(int face) const {
-    std::vector<int> edges;
-    for (int corner : t_.faces()[static_cast<size_t>(face)])
-      for (int spoke : t_.outgoing(corner))
-        for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)})
-          if (!t_.is_border(h)) edges.push_back(std::min(h, t_.twin(h)));
-    std::ranges::sort(edges);
-    const auto rest = std::ranges::unique(edges);
-    edges.erase(rest.begin(), rest.end());
-    return edges;
+    if (rules_.merges && may_merge(h)) changes.push_back(merge(h));
+    return changes;
   }
 
  private:
@@ -63,17 +51,29 @@ class Choice {
            !t_.on_crease(v);
   }
 
-  /// Of two alike that which has been there longer; -1 where the ends may not become one.
-  int staying_end(int h) const {
+  /// Does a corner that stays keep to the edges it wants?
+  bool may_take_up(int stays, int goes) const {
+    const CornerValence corner = corner_valence(flipping_, stays);
+    return corner.wanted == 0 || corner.has + t_.valence(t_.from(goes)) - 4 <= corner.wanted;
+  }
+
+  bool may_merge(int h) const {
+    const int g = t_.twin(h), a = t_.from(h), b = t_.to(h);
+    if (!may_go(a) && !may_go(b)) return false;
+    if (!may_go(a) && !may_take_up(h, g)) return false;
+    if (!may_go(b) && !may_take_up(g, h)) return false;
+    return t_.valence(a) + t_.valence(b) - 4 <= rules_.valence && t_.may_collapse(h) &&
+           at_both_apexes(h, [this](int corner) { return may_lose_an_edge(corner); });
+  }
+
+  /// Of two alike that one stays which has been there longer, and goes to the middle.
+  EdgeChange merge(int h) const {
     const int a = t_.from(h), b = t_.to(h);
-    if (!may_go(a) && !may_go(b)) return -1;
-    if (t_.valence(a) + t_.valence(b) - 4 > rules_.valence || !t_.may_collapse(h)) return -1;
-    if (!at_both_apexes(h, [this](int corner) { return may_lose_an_edge(corner); })) return -1;
     const auto rank = [this](int v) {
       const int origin = m_.origins[static_cast<size_t>(v)];
       return std::tuple(may_go(v), origin < 0, origin < 0 ? v : origin);
     };
-    return rank(a) < rank(b) ? 0 : 1;
+    return {h, ChangeKind::merge, rank(a) < rank(b) ? 0 : 1, may_go(a) && may_go(b)};
   }
 
   const AdaptingMesh& m_;
@@ -81,10 +81,6 @@ class Choice {
   const Triangulation& t_;
   const ChangeRules& rules_;
 };
-
-bool is_free(const EdgePatch& patch, int v) {
-  return patch.constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed;
-}
 
 /// Appends the vertex in the middle of the edge. Returns its id.
 int add_middle(EdgePatch& patch, const Surface& surface, const RetractionOptions& options) {
@@ -95,10 +91,10 @@ int add_middle(EdgePatch& patch, const Surface& surface, const RetractionOptions
   return v;
 }
 
-/// Two ends that are as free meet in the middle.
-void merge_ends(EdgePatch& patch, int stays, const Surface& surface, const RetractionOptions& options) {
-  const int goes = 1 - stays;
-  if (is_free(patch, stays)) {
+void merge_ends(EdgePatch& patch, const EdgeChange& merge, const Surface& surface,
+                const RetractionOptions& options) {
+  const int stays = merge.stays, goes = 1 - stays;
+  if (merge.half_way) {
     const Vec3 way = .5 * (patch.placement.points.col(goes) - patch.placement.points.col(stays));
     Retraction retraction(surface, patch.constraints, options);
     retraction.moved(patch.placement, stays, way).write_to(patch.placement, stays);
@@ -108,11 +104,20 @@ void merge_ends(EdgePatch& patch, int stays, const Surface& surface, const Retra
 
 }  // namespace
 
-std::vector<EdgeChange> changes_about(const AdaptingMesh& m, int face, const ChangeRules& rules) {
-  const Choice choice(m, rules);
-  std::vector<EdgeChange> changes;
-  for (int h : choice.edges_about(face)) choice.add_changes(h, changes);
-  return changes;
+std::vector<int> inner_edges_about(const Triangulation& t, int face) {
+  std::vector<int> edges;
+  for (int corner : t.faces()[static_cast<size_t>(face)])
+    for (int spoke : t.outgoing(corner))
+      for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)})
+        if (!t.is_border(h)) edges.push_back(std::min(h, t.twin(h)));
+  std::ranges::sort(edges);
+  const auto rest = std::ranges::unique(edges);
+  edges.erase(rest.begin(), rest.end());
+  return edges;
+}
+
+std::vector<EdgeChange> allowed_changes(const AdaptingMesh& m, int half_edge, const ChangeRules& rules) {
+  return Choice(m, rules).changes(half_edge);
 }
 
 std::vector<Triangle> change_patch(EdgePatch& patch, const EdgeChange& change, const Surface& surface,
@@ -123,7 +128,7 @@ std::vector<Triangle> change_patch(EdgePatch& patch, const EdgeChange& change, c
     case ChangeKind::split:
       return halved_faces(patch, add_middle(patch, surface, options));
     case ChangeKind::merge:
-      merge_ends(patch, change.stays, surface, options);
+      merge_ends(patch, change, surface, options);
       return merged_faces(patch, change.stays);
   }
   return flipped_faces(patch);

@@ -15,7 +15,8 @@ enum class ChangeKind {
 struct EdgeChange {
   int half_edge;
   ChangeKind kind;
-  int stays = 0;  // of a merge: the end where the half-edge begins (0) or ends (1)
+  int stays = 0;          // of a merge: the end where the half-edge begins (0) or ends (1)
+  bool half_way = false;  // that end comes to the middle
 };
 
 /// The changes to choose from.
@@ -24,10 +25,12 @@ struct ChangeRules {
   bool splits = true, merges = true;
 };
 
-/// The changes of the inner edges of all faces about the corners of this one that leave a mesh of the same
-/// topology, creases and corners included, whatever becomes of angles and folds: that is for a trial to tell.
-/// Vertices on curves neither come nor go.
-std::vector<EdgeChange> changes_about(const AdaptingMesh& mesh, int face, const ChangeRules& rules);
+/// One half-edge of each inner edge of the faces about the corners of this one, ascending.
+std::vector<int> inner_edges_about(const Triangulation& triangulation, int face);
+
+/// The changes of an inner edge that leave a mesh of the same topology, creases and corners included,
+/// whatever becomes of angles and folds: that is for a trial to tell. Vertices on curves neither come nor go.
+std::vector<EdgeChange> allowed_changes(const AdaptingMesh& mesh, int half_edge, const ChangeRules& rules);
 
 /// Puts the vertices of the patch of the edge where the change takes them, on the surface; a split adds one.
 /// Returns the faces it has then.

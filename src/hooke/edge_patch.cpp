@@ -90,9 +90,18 @@ class PatchCutter {
     for (size_t f = 0; f < faces.size(); ++f)
       for (size_t k = 0; k < 3; ++k) {
         const int h = 3 * faces[f] + static_cast<int>(k);
-        if (t.twin(h) < 0 || std::ranges::find(faces, t.twin(h) / 3) != faces.end()) continue;
+        if (t.twin(h) < 0) continue;
+        const auto across = std::ranges::find(faces, t.twin(h) / 3);
+        const bool inside = across != faces.end();
+        if (inside && !t.is_constrained(h)) continue;
         const Triangle& face = patch_.faces[f];
-        patch_.rim.push_back({h, face[k], face[(k + 1) % 3]});
+        PatchRim rim = {h, face[k], face[(k + 1) % 3], {-1, -1}};
+        if (inside) {
+          const Triangle& other = patch_.faces[static_cast<size_t>(across - faces.begin())];
+          const auto i = static_cast<size_t>(t.twin(h) % 3);
+          rim.beyond = {other[i], other[(i + 1) % 3]};
+        }
+        patch_.rim.push_back(rim);
       }
   }
 
@@ -220,8 +229,11 @@ bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, co
     const Triangle& beyond = t.faces()[static_cast<size_t>(t.twin(rim.half_edge) / 3)];
     const double before = cosine_between(X, face, beyond);
     const Triangle& changed = face_along(faces, rim.from, rim.to);
-    const double after =
-        cosine_between(doubled_area_vector(patch.placement.points, changed), doubled_area_vector(X, beyond));
+    const Vec3 across =
+        rim.beyond[0] < 0
+            ? doubled_area_vector(X, beyond)
+            : doubled_area_vector(patch.placement.points, face_along(faces, rim.beyond[0], rim.beyond[1]));
+    const double after = cosine_between(doubled_area_vector(patch.placement.points, changed), across);
     return t.is_constrained(rim.half_edge) ? crease_fold_breaks(guards, before, after)
                                            : fold_breaks(guards, before, after);
   });

@@ -8,10 +8,11 @@
 
 namespace hooke {
 
-/// An edge with which a patch ends though the mesh goes on.
+/// An edge with which a patch ends though the mesh goes on, or a crease that ends within it.
 struct PatchRim {
   int half_edge;  // of the mesh, on the patch's side
   int from, to;   // its ends, in ids of the patch
+  Edge beyond;    // those of the half-edge across, if its face is in the patch too; else -1
 };
 
 struct EdgePatch {
@@ -46,7 +47,7 @@ std::vector<Triangle> merged_faces(const EdgePatch& patch, int stays);
 int append_vertex(EdgePatch& patch, int like);
 
 /// Would the patch, with these faces and its vertices where they are now, break the rule of folds with the
-/// faces beyond its rim?
+/// faces across its rim?
 bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippingMesh& mesh,
                   const GuardOptions& guards);
 

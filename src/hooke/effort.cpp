@@ -28,7 +28,7 @@ void set_effort(RemeshOptions& options, Effort effort) {
   if (options.connectivity != ConnectivityMode::fixed) {
     if (effort == Effort::fast) {
       options.integration.energy_drop = 1e-2;
-      options.mend.rounds = 1;
+      options.mend.trials.rounds = 2;
     }
     return;
   }

@@ -19,7 +19,8 @@ enum class StopReason {
 
 /// Where the work stands.
 struct Progress {
-  const char* stage = "";  // "untangle", "flow", "springs", "flips", "relax", "polish", "paper"
+  const char* stage =
+      "";  // "untangle", "adapt", "flow", "springs", "flips", "relax", "polish", "mend", "paper"
   int outer = 0;
   int step = 0;
   double energy = 0;

@@ -9,7 +9,6 @@ namespace hooke {
 struct MendOptions {
   SliverTrialOptions trials;
   double count_share = .02;  // of the wanted faces, by which their number may miss it in mode `adapt`
-  int rounds = 3;            // of trials and a search for better places, while there is something to change
 };
 
 /// Changes the connectivity of the work about its slivers: in mode `flip` by flips only. Their neighbourhoods

@@ -131,6 +131,9 @@ Json parameters_json(const RemeshOptions& o, Effort effort) {
   j["guard_fold"] = o.guards.fold;
   j["guard_sagitta"] = o.guards.sagitta;
   j["search_sagitta"] = where(o.polish_angles, o.search.sagitta);
+  const bool mends = o.polish_angles && o.connectivity != ConnectivityMode::fixed;
+  j["sliver_angle"] = where(mends, o.mend.trials.sliver_angle);
+  j["sliver_sagitta"] = where(mends, o.mend.trials.sagitta);
   return j;
 }
 

@@ -35,11 +35,12 @@ class Remeshing {
     return std::move(result_);
   }
 
-  /// Other faces about the worst corners: these are searched again, for the `result` of a run so far.
-  RemeshResult search_again(RemeshResult result) {
+  /// Other faces about the worst corners: these are searched again, for the `result` of a run so far, which
+  /// has taken so long.
+  RemeshResult search_again(RemeshResult result, double seconds) {
     result_ = std::move(result);
-    if (!result_.iterations.empty()) seconds_before_ = result_.iterations.back().seconds;
-    search();
+    seconds_before_ = seconds;
+    if (!interrupted()) search();
     settle_down();
     record("mend", {.energy = energy_(work_.placement, nullptr)});
     conclude();
@@ -188,28 +189,29 @@ class Remeshing {
   bool done_ = false;
 };
 
-/// Slivers that are left get other edges, as long as that finds any to change.
+/// Slivers that are left get other edges.
 void mend(Workspace& work, const RemeshOptions& options, const Observer& observer, RemeshResult& result) {
-  RemeshOptions rest = options;
-  rest.search.sagitta = options.mend.trials.sagitta;
+  if (result.reason == StopReason::interrupted) return;
+  const auto start = std::chrono::steady_clock::now();
   const Observer watch = [&](Progress p) {
     p.stage = "mend";
     if (observer && !observer(p)) result.reason = StopReason::interrupted;
     return result.reason != StopReason::interrupted;
   };
-  for (int round = 0; round < options.mend.rounds; ++round) {
-    if (result.reason == StopReason::interrupted) return;
-    const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
-      work.return_to_input();
-      return mend_slivers(work, options.connectivity, {.altitude = options.altitude}, options.mend,
-                          options.guards, options.constraints.corner_angle, watch);
-    });
-    if (changes.count() == 0) return;
-    result = Remeshing(work, rest, observer).search_again(std::move(result));
-    result.flips.flips += changes.flips;
-    result.adaptation.splits += changes.splits;
-    result.adaptation.collapses += changes.merges;
-  }
+  work.return_to_input();
+  const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
+    return mend_slivers(work, options.connectivity, {.altitude = options.altitude}, options.mend,
+                        options.guards, options.constraints.corner_angle, watch);
+  });
+  if (changes.count() == 0) return;
+  RemeshOptions rest = options;
+  rest.search.sagitta = options.mend.trials.sagitta;
+  const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
+  const std::chrono::duration<double> trials = std::chrono::steady_clock::now() - start;
+  result = Remeshing(work, rest, observer).search_again(std::move(result), before + trials.count());
+  result.flips.flips += changes.flips;
+  result.adaptation.splits += changes.splits;
+  result.adaptation.collapses += changes.merges;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "hooke/sliver_trials.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "hooke/guards.h"
@@ -11,89 +13,72 @@
 namespace hooke {
 namespace {
 
-/// The worst of what is to stay within limits in a patch, and what is beyond those of folds.
-struct Worst {
-  double alignment = 1, fold = 1, sagitta = 0, length = 0;
-  int folded_faces = 0, folded_edges = 0;
+/// What lies beyond the limits in a patch.
+struct Excess {
+  double alignment = 0, fold = 0, sagitta = 0;  // sums over faces and edges
+  double length = 0;                            // of the longest edge
+  int folds = 0;
 };
 
-bool is_within(const Worst& w, const Worst& limits) {
-  return w.alignment >= limits.alignment && w.fold >= limits.fold && w.sagitta <= limits.sagitta &&
-         w.length <= limits.length && w.folded_faces <= limits.folded_faces &&
-         w.folded_edges <= limits.folded_edges;
+bool is_no_worse(const Excess& now, const Excess& before) {
+  return now.alignment <= before.alignment && now.fold <= before.fold && now.sagitta <= before.sagitta &&
+         now.length <= before.length && now.folds <= before.folds;
 }
 
-/// A patch with the faces of one moment, and what it takes to move its vertices.
-struct SettlingPatch {
-  SettlingPatch(EdgePatch& p, std::vector<Triangle> faces, const EnergyTerms& terms,
-                const GuardOptions& guard_options, const Retraction& of_mesh)
-      : patch(p),
-        connectivity(make_connectivity(static_cast<int>(p.sides.size()), std::move(faces))),
-        targets(spread_target_lengths(connectivity, p.vertex_length)),
-        energy(connectivity, targets, terms),
-        guards(connectivity, targets, guard_options),
-        retraction(of_mesh.surface(), p.constraints, of_mesh.options()),
-        sweeps(plan_one_block(connectivity)) {}
+/// How good a patch is.
+struct Look {
+  double angle_cost = 0;     // degrees squared
+  double length_errors = 0;  // sum of the squares of l / L_e - 1
+  size_t edges = 0;
+  double cotangent = 0;  // of the least angle
+  Excess excess;
+};
 
-  void sweep() {
-    LocalNewton newton(relaxation);
-    for (int v = 0; v < connectivity.vertex_count; ++v)
-      if (patch.constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed) newton.improve(v, {});
+class Looker {
+ public:
+  Looker(const EdgePatch& patch, const Connectivity& c, const TargetLengths& targets,
+         const SliverTrialOptions& options, const GuardOptions& guards)
+      : p_(patch.placement), c_(c), targets_(targets), o_(options), guards_(guards) {
+    look_.edges = c.edges.size();
+    for (const Triangle& t : c.faces) add_face(t);
+    for (size_t e = 0; e < c.edges.size(); ++e) add_edge(e);
   }
 
-  double greatest_cotangent() const {
-    return hooke::greatest_cotangent(patch.placement.points, connectivity.faces);
+  const Look& look() const { return look_; }
+
+ private:
+  void add_face(const Triangle& t) {
+    const double cotangent = greatest_cotangent(p_.points, t);
+    const double lacks = std::max(0., o_.fair_angle - angle_with_cotangent(cotangent));
+    const double misses = guards_.alignment - face_alignment(p_.points, p_.normals, t);
+    look_.cotangent = std::max(look_.cotangent, cotangent);
+    look_.angle_cost += lacks * lacks;
+    look_.excess.alignment += std::max(0., misses);
+    look_.excess.folds += misses > 0;
   }
 
-  double cost(const SliverTrialOptions& o) const {
-    const Mat3X& points = patch.placement.points;
-    double cost = 0;
-    for (const Triangle& t : connectivity.faces) {
-      const double angle = angle_with_cotangent(hooke::greatest_cotangent(points, t));
-      const double lacks = std::max(0., o.fair_angle - angle);
-      cost += lacks * lacks;
-    }
-    for (size_t e = 0; e < connectivity.edges.size(); ++e) {
-      const auto& [a, b] = connectivity.edges[e];
-      const double error = (points.col(b) - points.col(a)).norm() / targets.edge[e] - 1;
-      cost += o.length_weight * error * error;
-    }
-    return cost;
+  void add_edge(size_t e) {
+    const auto& [a, b] = c_.edges[e];
+    const auto [f, g] = c_.edge_faces[e];
+    const double target = targets_.edge[e];
+    const double length = (p_.points.col(b) - p_.points.col(a)).norm() / target;
+    const double sagitta = edge_sagitta(p_.points, p_.normals, {a, b}) / target;
+    look_.length_errors += (length - 1) * (length - 1);
+    look_.excess.length = std::max(look_.excess.length, length - o_.longest);
+    look_.excess.sagitta += std::max(0., sagitta - guards_.sagitta);
+    if (g < 0) return;
+    const double misses = guards_.fold - cosine_between(p_.points, c_.faces[static_cast<size_t>(f)],
+                                                        c_.faces[static_cast<size_t>(g)]);
+    look_.excess.fold += std::max(0., misses);
+    look_.excess.folds += misses > 0;
   }
 
-  Worst worst() const {
-    const Placement& p = patch.placement;
-    const auto& faces = connectivity.faces;
-    Worst worst;
-    for (const Triangle& t : faces) {
-      const double alignment = face_alignment(p.points, p.normals, t);
-      worst.alignment = std::min(worst.alignment, alignment);
-      worst.folded_faces += alignment < guards.options().alignment;
-    }
-    for (size_t e = 0; e < connectivity.edges.size(); ++e) {
-      const auto& [a, b] = connectivity.edges[e];
-      const auto [f, g] = connectivity.edge_faces[e];
-      const double length = (p.points.col(b) - p.points.col(a)).norm(), target = targets.edge[e];
-      worst.length = std::max(worst.length, length / target);
-      worst.sagitta = std::max(worst.sagitta, edge_sagitta(p.points, p.normals, {a, b}) / target);
-      if (g < 0) continue;
-      const double fold =
-          cosine_between(p.points, faces[static_cast<size_t>(f)], faces[static_cast<size_t>(g)]);
-      worst.fold = std::min(worst.fold, fold);
-      worst.folded_edges += fold < guards.options().fold;
-    }
-    return worst;
-  }
-
-  EdgePatch& patch;
-  Connectivity connectivity;
-  TargetLengths targets;
-  Energy energy;
-  Guards guards;
-  Retraction retraction;
-  SweepPlan sweeps;
-  Relaxation relaxation{connectivity, sweeps, patch.vertex_length, energy,
-                        retraction,   guards, patch.placement};
+  const Placement& p_;
+  const Connectivity& c_;
+  const TargetLengths& targets_;
+  const SliverTrialOptions& o_;
+  const GuardOptions& guards_;
+  Look look_;
 };
 
 struct Trial {
@@ -113,20 +98,25 @@ class SliverTrials {
         guards_(guards),
         limits_(limits),
         faces_(static_cast<double>(t_.faces().size())),
-        fresh_(static_cast<size_t>(t_.id_count()), 1) {
+        sliver_cotangent_(1 / std::tan(options.sliver_angle * std::numbers::pi / 180)) {
     guards_.sagitta = options.sagitta;
   }
 
   SliverChanges run(const Observer& observer) {
+    const int tries =
+        std::clamp(static_cast<int>(options_.share * faces_), options_.least_tries, options_.most_tries);
     for (int round = 0; round < options_.rounds; ++round) {
-      const std::vector<int> faces = slivers();
-      if (faces.empty()) break;
-      fresh_.assign(static_cast<size_t>(t_.id_count()), 0);
-      for (int f : faces) {
-        if (observer && !observer({.step = changes_.count()})) return changes_;
+      int tried = 0;
+      for (int f : slivers()) {
+        if (tried == tries) break;
         if (!is_sliver(f)) continue;
-        if (std::optional<Trial> best = best_trial(f)) keep(*best);
+        const std::vector<int> edges = untried_edges_about(f);
+        if (edges.empty()) continue;
+        if (observer && !observer({.step = changes_.count()})) return changes_;
+        ++tried;
+        if (std::optional<Trial> best = best_trial(edges)) keep(*best);
       }
+      if (tried == 0) break;
     }
     m_.retraction.count();
     return changes_;
@@ -137,62 +127,88 @@ class SliverTrials {
     return greatest_cotangent(m_.placement.points, t_.faces()[static_cast<size_t>(f)]);
   }
 
-  bool is_sliver(int f) const {
-    return !t_.is_gone(f) && angle_with_cotangent(cotangent(f)) < options_.sliver_angle;
-  }
-
-  bool is_fresh(int f) const {
-    return std::ranges::any_of(t_.faces()[static_cast<size_t>(f)],
-                               [this](int v) { return fresh_[static_cast<size_t>(v)] != 0; });
-  }
+  bool is_sliver(int f) const { return !t_.is_gone(f) && cotangent(f) > sliver_cotangent_; }
 
   /// The worst of them first.
   std::vector<int> slivers() const {
     std::vector<int> faces;
     for (int f = 0; f < t_.half_edge_count() / 3; ++f)
-      if (is_sliver(f) && is_fresh(f)) faces.push_back(f);
+      if (is_sliver(f)) faces.push_back(f);
     std::ranges::stable_sort(faces, std::ranges::greater(), [this](int f) { return cotangent(f); });
-    const auto tries = static_cast<size_t>(
-        std::clamp(static_cast<int>(options_.share * faces_), options_.least_tries, options_.most_tries));
-    if (faces.size() > tries) faces.resize(tries);
     return faces;
   }
 
-  /// What the guards allow, or what is there already: but no more folds than there are.
-  Worst loosened(Worst now) const {
-    now.alignment = std::min(now.alignment, guards_.alignment);
-    now.fold = std::min(now.fold, guards_.fold);
-    now.sagitta = std::max(now.sagitta, guards_.sagitta);
-    now.length = std::max(now.length, options_.longest);
-    return now;
+  /// Those about which something has changed since they were tried last.
+  std::vector<int> untried_edges_about(int face) {
+    tried_at_.resize(static_cast<size_t>(t_.half_edge_count()), -1);
+    changed_at_.resize(static_cast<size_t>(t_.id_count()), 0);
+    std::vector<int> edges = inner_edges_about(t_, face);
+    std::erase_if(edges, [this](int h) {
+      const int changed =
+          std::max(changed_at_[static_cast<size_t>(t_.from(h))], changed_at_[static_cast<size_t>(t_.to(h))]);
+      return tried_at_[static_cast<size_t>(h)] >= changed;
+    });
+    return edges;
   }
 
+  Look look(const EdgePatch& patch, const Connectivity& c, const TargetLengths& targets) const {
+    return Looker(patch, c, targets, options_, guards_).look();
+  }
+
+  Look look_before(const EdgePatch& patch) const {
+    const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), patch.faces);
+    return look(patch, c, spread_target_lengths(c, patch.vertex_length));
+  }
+
+  /// A vertex that comes or goes takes no credit for the number of its edges.
+  double gain(const Look& before, const Look& now) const {
+    const double errors_before = before.length_errors,
+                 errors_now =
+                     now.length_errors * static_cast<double>(before.edges) / static_cast<double>(now.edges);
+    return before.angle_cost - now.angle_cost + options_.length_weight * (errors_before - errors_now);
+  }
+
+  /// Nothing where the change is not worth it.
   std::optional<Trial> try_change(const EdgeChange& change) const {
     std::optional<EdgePatch> cut = cut_patch(m_.flipping(), change.half_edge, options_.rings, options_.most);
     if (!cut) return std::nullopt;
     Trial trial{change, std::move(*cut), 0};
     EdgePatch& patch = trial.patch;
-    const SettlingPatch before(patch, patch.faces, terms_, guards_, m_.retraction);
-    const double cost = before.cost(options_), cotangent = before.greatest_cotangent();
-    const Worst limits = loosened(before.worst());
-    SettlingPatch after(patch, change_patch(patch, change, m_.retraction.surface(), m_.retraction.options()),
-                        terms_, guards_, m_.retraction);
-    for (int sweep = 0; sweep < options_.sweeps; ++sweep) after.sweep();
-    if (after.cost(options_) > cost + options_.hope) return std::nullopt;
-    search_angles(after.relaxation, options_.search);
-    trial.gain = cost - after.cost(options_);
-    if (trial.gain < options_.gain || after.greatest_cotangent() > cotangent) return std::nullopt;
-    if (!is_within(after.worst(), limits)) return std::nullopt;
-    if (folds_at_rim(patch, after.connectivity.faces, m_.flipping(), guards_)) return std::nullopt;
+    const Look before = look_before(patch);
+    std::vector<Triangle> faces =
+        change_patch(patch, change, m_.retraction.surface(), m_.retraction.options());
+    const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), std::move(faces));
+    const TargetLengths targets = spread_target_lengths(c, patch.vertex_length);
+    Energy energy(c, targets, terms_);
+    Guards guards(c, targets, guards_);
+    Retraction retraction(m_.retraction.surface(), patch.constraints, m_.retraction.options());
+    const SweepPlan sweeps = plan_one_block(c);
+    Relaxation r{c, sweeps, patch.vertex_length, energy, retraction, guards, patch.placement};
+    LocalNewton newton(r);
+    for (int sweep = 0; sweep < options_.sweeps; ++sweep)
+      for (int v = 0; v < c.vertex_count; ++v)
+        if (patch.constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed) newton.improve(v, {});
+    if (gain(before, look(patch, c, targets)) < -options_.hope) return std::nullopt;
+    search_angles(r, options_.search);
+    const Look after = look(patch, c, targets);
+    trial.gain = gain(before, after);
+    if (trial.gain < options_.gain || after.cotangent > before.cotangent) return std::nullopt;
+    if (!is_no_worse(after.excess, before.excess)) return std::nullopt;
+    if (folds_at_rim(patch, c.faces, m_.flipping(), guards_)) return std::nullopt;
     return trial;
   }
 
   /// Of equal ones the first.
-  std::optional<Trial> best_trial(int face) const {
+  std::optional<Trial> best_trial(const std::vector<int>& edges) {
     const ChangeRules rules{.valence = options_.valence,
                             .splits = faces_ + 2 <= limits_.most,
                             .merges = faces_ - 2 >= limits_.least};
-    const std::vector<EdgeChange> changes = changes_about(m_, face, rules);
+    std::vector<EdgeChange> changes;
+    for (int h : edges) {
+      const std::vector<EdgeChange> allowed = allowed_changes(m_, h, rules);
+      changes.insert(changes.end(), allowed.begin(), allowed.end());
+      tried_at_[static_cast<size_t>(h)] = changes_.count();
+    }
     std::vector<std::optional<Trial>> trials(changes.size());
     parallel_for(changes.size(), 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) trials[i] = try_change(changes[i]);
@@ -205,8 +221,6 @@ class SliverTrials {
 
   void keep(Trial& trial) {
     change_mesh(m_, trial.change, trial.patch);
-    fresh_.resize(static_cast<size_t>(t_.id_count()), 0);
-    for (int v : trial.patch.vertices) fresh_[static_cast<size_t>(v)] = 1;
     switch (trial.change.kind) {
       case ChangeKind::flip:
         ++changes_.flips;
@@ -220,6 +234,8 @@ class SliverTrials {
         faces_ -= 2;
         break;
     }
+    changed_at_.resize(static_cast<size_t>(t_.id_count()), 0);
+    for (int v : trial.patch.vertices) changed_at_[static_cast<size_t>(v)] = changes_.count();
   }
 
   AdaptingMesh& m_;
@@ -229,7 +245,9 @@ class SliverTrials {
   GuardOptions guards_;
   FaceCountLimits limits_;
   double faces_;
-  std::vector<char> fresh_;  // per id: what is near it is to be looked at
+  double sliver_cotangent_;
+  std::vector<int> tried_at_;    // per half-edge that stands for its edge: changes so far; -1 for never
+  std::vector<int> changed_at_;  // per id: changes so far, when the last one moved it
   SliverChanges changes_;
 };
 
