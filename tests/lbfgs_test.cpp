@@ -108,6 +108,28 @@ TEST(RelaxLbfgs, TheEnergyFallsFromStepToStep) {
   EXPECT_GT(result.evaluations, result.steps);
 }
 
+/// A grid that is dense on one side, in which all have far to go past vertices that stand still.
+TEST(RelaxLbfgs, LongWavesDoNotBreakOnVerticesThatStand) {
+  const int n = 60;
+  test::Triangles t = test::grid(n, test::flat, .2, 3);
+  for (auto p : t.points.colwise()) p[0] = p[0] * (.4 + .6 * p[0]);
+  const auto relaxed = [&](double carried) {
+    test::SceneOptions options;
+    for (int i = 1; i < 6; ++i)
+      for (int j = 1; j < 6; ++j) options.constraints.fixed_vertices.push_back(10 * i * (n + 1) + 10 * j);
+    test::Scene s(t, test::to_ground, options);
+    Relaxation r = s.relaxation();
+    IntegrationOptions integration = until_rest();
+    integration.max_steps = 60;
+    LbfgsOptions lbfgs;
+    lbfgs.carried = carried;
+    return relax_lbfgs(r, integration, lbfgs, nullptr);
+  };
+  const IntegrationResult breaking = relaxed(2), whole = relaxed(LbfgsOptions{}.carried);
+  EXPECT_LT(whole.energy, .9 * breaking.energy);
+  EXPECT_LT(whole.held_back, breaking.held_back);
+}
+
 TEST(RelaxLbfgs, SaysWhyItStops) {
   test::Scene stopped = test::sphere_scene(.4), limited = test::sphere_scene(.4);
   const IntegrationResult interrupted =

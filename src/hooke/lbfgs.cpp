@@ -13,9 +13,18 @@ void clear_columns(const std::vector<int>& columns, Mat3X& matrix) {
   for (int v : columns) matrix.col(v).setZero();
 }
 
+/// Part of the vertices that go as far as they may.
+double carried_share(const Relaxation& r, double max_move, const Mat3X& d) {
+  constexpr double almost = 1 - 1e-6;
+  Eigen::Index carried = 0;
+  for (Eigen::Index v = 0; v < d.cols(); ++v)
+    carried += d.col(v).norm() >= almost * max_move * r.vertex_length[static_cast<size_t>(v)];
+  return static_cast<double>(carried) / static_cast<double>(d.cols());
+}
+
 /// Makes d a descent direction in the tangent space, no vertex longer than the cap; blocked vertices neither
 /// move nor pull at others. Falls back to the gradient.
-void find_descent(const Relaxation& r, const IntegrationOptions& options, const Mat3X& gradient,
+void find_descent(const Relaxation& r, double max_move, const Mat3X& gradient,
                   const std::vector<int>& blocked, const Preconditioner& h0, LbfgsMemory& memory, Mat3X& d) {
   for (;;) {
     assign_scaled(-1, gradient, d);
@@ -23,7 +32,7 @@ void find_descent(const Relaxation& r, const IntegrationOptions& options, const 
     memory.apply(r, h0, d);
     clear_columns(blocked, d);
     r.retraction.constrain(r.placement, d);
-    cap_displacement(r.vertex_length, options.max_move, d);
+    cap_displacement(r.vertex_length, max_move, d);
     if (memory.empty() || dot(d, gradient) < 0) return;
     memory.clear();
   }
@@ -54,6 +63,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   Placement trial;
   std::vector<int> held;     // by the guards, in the last trial
   std::vector<int> blocked;  // held in the last step: they sit out this one
+  double max_move = options.max_move;
 
   result.energy = r.energy(r.placement, &gradient);
   result.evaluations = 1;
@@ -64,7 +74,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   while (result.evaluations < options.max_steps) {
     if (result.steps % lbfgs.curvature_every == 0)
       timed(r.stopwatch, "preconditioner", [&] { h0.refresh(r); });
-    const auto find_step = [&] { find_descent(r, options, gradient, blocked, h0, memory, step); };
+    const auto find_step = [&] { find_descent(r, max_move, gradient, blocked, h0, memory, step); };
     timed(r.stopwatch, "direction", find_step);
     bool accepted = false;
     bool mended = false;
@@ -72,8 +82,13 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
     for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
       if (tries > 0 && (held.empty() || mended)) {
         assign_scaled(.5, step, step);
-      } else if (tries > 0) {  // what the guards hold back spoils the step of the others: without it
-        blocked.insert(blocked.end(), held.begin(), held.end());
+      } else if (tries > 0) {  // what the guards hold back spoils the step of the others
+        if (max_move > lbfgs.least_cap && carried_share(r, max_move, step) > lbfgs.carried) {
+          max_move /= 2;
+          result.held_back -= static_cast<long long>(held.size());  // but by what ran over them
+        } else {
+          blocked.insert(blocked.end(), held.begin(), held.end());
+        }
         find_step();
       }
       assign_scaled(1, step, trial_gradient);

@@ -15,9 +15,13 @@ struct LbfgsOptions {
   int curvature_every = 8;  // steps after which the curvature around the vertices is taken anew
   double armijo = 1e-4;     // part of the predicted decrease that a step must bring
   int max_backtracks = 12;  // halvings of a step before it is given up
-  double mendable = .01;    // part of the vertices: no more than so many that guards hold back are mended
-  int mended_rings = 1;     // about them, within which vertices move ...
-  int mending_sweeps = 3;   // ... in so many sweeps
+  /// Where guards hold too many back to mend, and more than this part of the vertices go as far as they may,
+  /// long waves run over the places that stand: from then on all may go half as far.
+  double carried = .25;
+  double least_cap = .25;  // but no less than this, in target lengths
+  double mendable = .01;   // part of the vertices: no more than so many that guards hold back are mended
+  int mended_rings = 1;    // about them, within which vertices move ...
+  int mending_sweeps = 3;  // ... in so many sweeps
 };
 
 /// Moves relaxation.placement to a minimum of relaxation.energy on the surface.
