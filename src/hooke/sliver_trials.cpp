@@ -9,77 +9,10 @@
 #include "hooke/least_angle.h"
 #include "hooke/local_newton.h"
 #include "hooke/parallel.h"
+#include "hooke/patch_look.h"
 
 namespace hooke {
 namespace {
-
-/// What lies beyond the limits in a patch.
-struct Excess {
-  double alignment = 0, fold = 0, sagitta = 0;  // sums over faces and edges
-  double length = 0;                            // of the longest edge
-  int folds = 0;
-};
-
-bool is_no_worse(const Excess& now, const Excess& before) {
-  return now.alignment <= before.alignment && now.fold <= before.fold && now.sagitta <= before.sagitta &&
-         now.length <= before.length && now.folds <= before.folds;
-}
-
-/// How good a patch is.
-struct Look {
-  double angle_cost = 0;     // degrees squared
-  double length_errors = 0;  // sum of the squares of l / L_e - 1
-  size_t edges = 0;
-  double cotangent = 0;  // of the least angle
-  Excess excess;
-};
-
-class Looker {
- public:
-  Looker(const EdgePatch& patch, const Connectivity& c, const TargetLengths& targets,
-         const SliverTrialOptions& options, const GuardOptions& guards)
-      : p_(patch.placement), c_(c), targets_(targets), o_(options), guards_(guards) {
-    look_.edges = c.edges.size();
-    for (const Triangle& t : c.faces) add_face(t);
-    for (size_t e = 0; e < c.edges.size(); ++e) add_edge(e);
-  }
-
-  const Look& look() const { return look_; }
-
- private:
-  void add_face(const Triangle& t) {
-    const double cotangent = greatest_cotangent(p_.points, t);
-    const double lacks = std::max(0., o_.fair_angle - angle_with_cotangent(cotangent));
-    const double misses = guards_.alignment - face_alignment(p_.points, p_.normals, t);
-    look_.cotangent = std::max(look_.cotangent, cotangent);
-    look_.angle_cost += lacks * lacks;
-    look_.excess.alignment += std::max(0., misses);
-    look_.excess.folds += misses > 0;
-  }
-
-  void add_edge(size_t e) {
-    const auto& [a, b] = c_.edges[e];
-    const auto [f, g] = c_.edge_faces[e];
-    const double target = targets_.edge[e];
-    const double length = (p_.points.col(b) - p_.points.col(a)).norm() / target;
-    const double sagitta = edge_sagitta(p_.points, p_.normals, {a, b}) / target;
-    look_.length_errors += (length - 1) * (length - 1);
-    look_.excess.length = std::max(look_.excess.length, length - o_.longest);
-    look_.excess.sagitta += std::max(0., sagitta - guards_.sagitta);
-    if (g < 0) return;
-    const double misses = guards_.fold - cosine_between(p_.points, c_.faces[static_cast<size_t>(f)],
-                                                        c_.faces[static_cast<size_t>(g)]);
-    look_.excess.fold += std::max(0., misses);
-    look_.excess.folds += misses > 0;
-  }
-
-  const Placement& p_;
-  const Connectivity& c_;
-  const TargetLengths& targets_;
-  const SliverTrialOptions& o_;
-  const GuardOptions& guards_;
-  Look look_;
-};
 
 struct Trial {
   EdgeChange change;
@@ -100,6 +33,7 @@ class SliverTrials {
         faces_(static_cast<double>(t_.faces().size())),
         sliver_cotangent_(1 / std::tan(options.sliver_angle * std::numbers::pi / 180)) {
     guards_.sagitta = options.sagitta;
+    limits_of_patch_ = {options.fair_angle, guards.alignment, guards.fold, options.sagitta, options.longest};
   }
 
   SliverChanges run(const Observer& observer) {
@@ -151,17 +85,13 @@ class SliverTrials {
     return edges;
   }
 
-  Look look(const EdgePatch& patch, const Connectivity& c, const TargetLengths& targets) const {
-    return Looker(patch, c, targets, options_, guards_).look();
-  }
-
-  Look look_before(const EdgePatch& patch) const {
+  PatchLook look_before(const EdgePatch& patch) const {
     const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), patch.faces);
-    return look(patch, c, spread_target_lengths(c, patch.vertex_length));
+    return look_at(patch.placement, c, spread_target_lengths(c, patch.vertex_length), limits_of_patch_);
   }
 
   /// A vertex that comes or goes takes no credit for the number of its edges.
-  double gain(const Look& before, const Look& now) const {
+  double gain(const PatchLook& before, const PatchLook& now) const {
     const double errors_before = before.length_errors,
                  errors_now =
                      now.length_errors * static_cast<double>(before.edges) / static_cast<double>(now.edges);
@@ -174,7 +104,7 @@ class SliverTrials {
     if (!cut) return std::nullopt;
     Trial trial{change, std::move(*cut), 0};
     EdgePatch& patch = trial.patch;
-    const Look before = look_before(patch);
+    const PatchLook before = look_before(patch);
     std::vector<Triangle> faces =
         change_patch(patch, change, m_.retraction.surface(), m_.retraction.options());
     const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), std::move(faces));
@@ -188,9 +118,10 @@ class SliverTrials {
     for (int sweep = 0; sweep < options_.sweeps; ++sweep)
       for (int v = 0; v < c.vertex_count; ++v)
         if (patch.constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed) newton.improve(v, {});
-    if (gain(before, look(patch, c, targets)) < -options_.hope) return std::nullopt;
+    if (gain(before, look_at(patch.placement, c, targets, limits_of_patch_)) < -options_.hope)
+      return std::nullopt;
     search_angles(r, options_.search);
-    const Look after = look(patch, c, targets);
+    const PatchLook after = look_at(patch.placement, c, targets, limits_of_patch_);
     trial.gain = gain(before, after);
     if (trial.gain < options_.gain || after.cotangent > before.cotangent) return std::nullopt;
     if (!is_no_worse(after.excess, before.excess)) return std::nullopt;
@@ -244,6 +175,7 @@ class SliverTrials {
   const SliverTrialOptions& options_;
   GuardOptions guards_;
   FaceCountLimits limits_;
+  PatchLimits limits_of_patch_;
   double faces_;
   double sliver_cotangent_;
   std::vector<int> tried_at_;    // per half-edge that stands for its edge: changes so far; -1 for never
