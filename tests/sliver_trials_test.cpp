@@ -50,7 +50,7 @@ void expect_a_disk(test::AdaptingScene& s) {
 }
 
 /// A grid with a vertex of 12 edges, which no motion mends.
-test::AdaptingScene& crowd(test::AdaptingScene& s) {
+void crowd(test::AdaptingScene& s) {
   const int hub = cells / 2 * (cells + 2);
   for (int extra = 0; extra < 6; ++extra)
     for (int spoke : s.triangulation.outgoing(hub)) {
@@ -62,25 +62,25 @@ test::AdaptingScene& crowd(test::AdaptingScene& s) {
       s.triangulation.flip(h);
       break;
     }
-  return s;
 }
 
-TEST(SliverTrials, MendWhatAMovedVertexLeaves) {
-  test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
+void expect_mended(test::AdaptingScene& s) {
   ASSERT_LT(least_angle_of(s), 20);
   EXPECT_GE(change(s).count(), 1);
   EXPECT_GT(least_angle_of(s), 30);
   expect_a_disk(s);
+}
+
+TEST(SliverTrials, MendWhatAMovedVertexLeaves) {
+  test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
+  expect_mended(s);
 }
 
 TEST(SliverTrials, MendCrowdedVertices) {
   test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
   crowd(s);
   ASSERT_GE(s.triangulation.valence(cells / 2 * (cells + 2)), 11);
-  ASSERT_LT(least_angle_of(s), 20);
-  EXPECT_GE(change(s).count(), 1);
-  EXPECT_GT(least_angle_of(s), 30);
-  expect_a_disk(s);
+  expect_mended(s);
 }
 
 TEST(SliverTrials, WhereTheCountIsToStayThereAreOnlyFlips) {

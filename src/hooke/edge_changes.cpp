@@ -36,9 +36,10 @@ class Choice {
     return may_change(Triangulation::previous(h)) && may_change(Triangulation::previous(t_.twin(h)));
   }
 
+  /// A flip brings the corners across one more edge, too.
   bool may_flip(int h) const {
     constexpr double any = std::numeric_limits<double>::infinity();
-    return at_both_apexes(h, [this](int corner) { return may_gain_an_edge(corner); }) &&
+    return may_split(h) &&
            hooke::may_flip(flipping_, h, {.area_share = 0, .alignment = -1, .fold = -any, .sagitta = any});
   }
 
@@ -82,23 +83,25 @@ class Choice {
   const ChangeRules& rules_;
 };
 
+/// A vertex that is at one end of the edge goes half the way to the other.
+void move_half_way(EdgePatch& patch, int vertex, int to, const Surface& surface,
+                   const RetractionOptions& options) {
+  const Vec3 way = .5 * (patch.placement.points.col(to) - patch.placement.points.col(vertex));
+  Retraction retraction(surface, patch.constraints, options);
+  retraction.moved(patch.placement, vertex, way).write_to(patch.placement, vertex);
+}
+
 /// Appends the vertex in the middle of the edge. Returns its id.
 int add_middle(EdgePatch& patch, const Surface& surface, const RetractionOptions& options) {
-  const Vec3 way = .5 * (patch.placement.points.col(1) - patch.placement.points.col(0));
   const int v = append_vertex(patch, 0);
-  Retraction retraction(surface, patch.constraints, options);
-  retraction.moved(patch.placement, v, way).write_to(patch.placement, v);
+  move_half_way(patch, v, 1, surface, options);
   return v;
 }
 
 void merge_ends(EdgePatch& patch, const EdgeChange& merge, const Surface& surface,
                 const RetractionOptions& options) {
-  const int stays = merge.stays, goes = 1 - stays;
-  if (merge.half_way) {
-    const Vec3 way = .5 * (patch.placement.points.col(goes) - patch.placement.points.col(stays));
-    Retraction retraction(surface, patch.constraints, options);
-    retraction.moved(patch.placement, stays, way).write_to(patch.placement, stays);
-  }
+  const int goes = 1 - merge.stays;
+  if (merge.half_way) move_half_way(patch, merge.stays, goes, surface, options);
   patch.constraints.freedom[static_cast<size_t>(goes)] = Freedom::fixed;
 }
 

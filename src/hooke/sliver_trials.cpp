@@ -114,10 +114,7 @@ class SliverTrials {
     Retraction retraction(m_.retraction.surface(), patch.constraints, m_.retraction.options());
     const SweepPlan sweeps = plan_one_block(c);
     Relaxation r{c, sweeps, patch.vertex_length, energy, retraction, guards, patch.placement};
-    LocalNewton newton(r);
-    for (int sweep = 0; sweep < options_.sweeps; ++sweep)
-      for (int v = 0; v < c.vertex_count; ++v)
-        if (patch.constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed) newton.improve(v, {});
+    for (int sweep = 0; sweep < options_.sweeps; ++sweep) local_newton_sweep(r, {}, {});
     if (gain(before, look_at(patch.placement, c, targets, limits_of_patch_)) < -options_.hope)
       return std::nullopt;
     search_angles(r, options_.search);
