@@ -104,9 +104,10 @@ class Remeshing {
   /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same, unless the
   /// vertices have come to places with other target lengths.
   bool is_unhindered(const IntegrationResult& relaxed) const {
+    const double vertex_steps = static_cast<double>(relaxed.steps) * work_.connectivity->vertex_count;
     return options_.integrator == IntegratorKind::lbfgs && !work_.graded() &&
            relaxed.reason == StopReason::stalled &&
-           static_cast<double>(relaxed.held_back) <= options_.hindered * work_.connectivity->vertex_count;
+           static_cast<double>(relaxed.held_back) <= options_.hindered * vertex_steps;
   }
 
   void iterate() {

@@ -1,42 +1,110 @@
 #include "hooke/statistics.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-
-#include "hooke/radix_sort.h"
+#include <span>
 
 namespace hooke {
 namespace {
 
-/// As an unsigned integer of the same order: a negative number has its bits turned, others their sign.
-std::uint64_t to_key(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
+/// Even bins between two numbers. Of two numbers the lesser is in no later bin.
+class EvenBins {
+ public:
+  EvenBins(double least, double greatest, size_t count)
+      : least_(least), scale_(static_cast<double>(count) / (greatest - least)), last_(count - 1) {}
+
+  size_t operator()(double x) const {
+    return std::min(last_, static_cast<size_t>(std::max(0., (x - least_) * scale_)));
+  }
+
+ private:
+  double least_, scale_;
+  size_t last_;
+};
+
+/// Writes the numbers that would stand at the given places, ascending, if all were sorted. Only those are
+/// sorted that share a bin with one of them.
+void find_at(const std::vector<double>& values, std::span<const size_t> places, double* found) {
+  constexpr size_t few = 256, most_bins = 4096;
+  const auto [least, greatest] = std::ranges::minmax(values);
+  if (values.size() <= few || !std::isfinite(most_bins / (greatest - least))) {
+    std::vector<double> sorted = values;
+    std::ranges::sort(sorted);
+    for (size_t i = 0; i < places.size(); ++i) found[i] = sorted[places[i]];
+    return;
+  }
+  const EvenBins bin_of(least, greatest, most_bins);
+  std::vector<size_t> counts(most_bins, 0);
+  for (double x : values) ++counts[bin_of(x)];
+
+  struct Wanted {
+    size_t begin, first, count;  // of its numbers, of the places in it
+    std::vector<double> values;
+  };
+  std::vector<Wanted> wanted;
+  std::vector<int> wanted_of(most_bins, -1);
+  size_t begin = 0, place = 0;
+  for (size_t b = 0; b < most_bins; begin += counts[b++]) {
+    const size_t first = place;
+    while (place < places.size() && places[place] < begin + counts[b]) ++place;
+    if (place == first) continue;
+    wanted_of[b] = static_cast<int>(wanted.size());
+    wanted.push_back({begin, first, place - first, {}});
+    wanted.back().values.reserve(counts[b]);
+  }
+  for (double x : values)
+    if (const int w = wanted_of[bin_of(x)]; w >= 0) wanted[static_cast<size_t>(w)].values.push_back(x);
+  for (const Wanted& w : wanted) {
+    std::vector<size_t> inside;
+    for (size_t p : places.subspan(w.first, w.count)) inside.push_back(p - w.begin);
+    find_at(w.values, inside, found + w.first);
+  }
 }
 
-double percentile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<size_t>(place);
-  if (below + 1 >= sorted.size()) return sorted.back();
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+struct Percentile {
+  double share;
+  double Statistics::*figure;
+};
+constexpr Percentile percentiles[] = {
+    {.01, &Statistics::p01}, {.05, &Statistics::p05}, {.5, &Statistics::median}, {.95, &Statistics::p95}};
+
+/// By linear interpolation between the sorted numbers.
+void take_percentiles(const std::vector<double>& values, Statistics& s) {
+  const size_t last = values.size() - 1;
+  std::vector<size_t> places;
+  for (const Percentile& p : percentiles) {
+    const auto below = static_cast<size_t>(p.share * static_cast<double>(last));
+    places.insert(places.end(), {below, std::min(below + 1, last)});
+  }
+  std::vector<double> found(places.size());
+  find_at(values, places, found.data());
+  for (size_t i = 0; i < std::size(percentiles); ++i) {
+    const double place = percentiles[i].share * static_cast<double>(last);
+    s.*percentiles[i].figure =
+        found[2 * i] + (place - static_cast<double>(places[2 * i])) * (found[2 * i + 1] - found[2 * i]);
+  }
 }
 
-Histogram make_histogram(const std::vector<double>& sorted, const Bins& bins) {
+Histogram make_histogram(const std::vector<double>& values, const Statistics& s, const Bins& bins) {
   const bool given = bins.lower < bins.upper;
-  const double lower = given ? bins.lower : sorted.front();
-  const double upper = given ? bins.upper : sorted.back();
-  const int n = lower < upper ? bins.count : 1;
+  const double lower = given ? bins.lower : s.min;
+  const double upper = given ? bins.upper : s.max;
+  const size_t n = lower < upper ? static_cast<size_t>(bins.count) : 1;
   Histogram h;
-  for (int k = 0; k < n; ++k) h.edges.push_back(lower + (upper - lower) * k / n);
+  for (size_t k = 0; k < n; ++k)
+    h.edges.push_back(lower + (upper - lower) * static_cast<double>(k) / static_cast<double>(n));
   h.edges.push_back(upper);
-  auto begin = sorted.begin();
-  for (size_t k = 0; k < static_cast<size_t>(n); ++k) {
-    const bool last = k + 1 == static_cast<size_t>(n);
-    const auto end = last ? sorted.end() : std::lower_bound(begin, sorted.end(), h.edges[k + 1]);
-    h.counts.push_back(static_cast<size_t>(end - begin));
-    begin = end;
+  h.counts.assign(n, 0);
+  if (n == 1) {
+    h.counts[0] = values.size();
+    return h;
+  }
+  const EvenBins near(lower, upper, n);
+  for (double x : values) {
+    size_t k = near(x);  // but for rounding
+    while (k > 0 && x < h.edges[k]) --k;
+    while (k + 1 < n && x >= h.edges[k + 1]) ++k;
+    ++h.counts[k];
   }
   return h;
 }
@@ -50,10 +118,6 @@ Statistics describe(std::vector<double> values, const Bins& bins) {
   s.count = values.size();
   s.non_finite = given - values.size();
   if (values.empty()) return s;
-  {
-    std::vector<double> buffer(values.size());
-    radix_sort<double>(values, buffer, to_key);
-  }
 
   const auto n = static_cast<double>(values.size());
   double sum = 0;
@@ -63,13 +127,11 @@ Statistics describe(std::vector<double> values, const Bins& bins) {
   for (double x : values) squares += (x - s.mean) * (x - s.mean);
   s.std = std::sqrt(squares / n);
 
-  s.min = values.front();
-  s.p01 = percentile(values, .01);
-  s.p05 = percentile(values, .05);
-  s.median = percentile(values, .5);
-  s.p95 = percentile(values, .95);
-  s.max = values.back();
-  s.histogram = make_histogram(values, bins);
+  const auto [least, greatest] = std::ranges::minmax(values);
+  s.min = least;
+  s.max = greatest;
+  take_percentiles(values, s);
+  s.histogram = make_histogram(values, s, bins);
   return s;
 }
 
