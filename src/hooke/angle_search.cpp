@@ -163,6 +163,7 @@ void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOption
       continue;
     }
     result.moves += moves;
+    result.vertices.insert(result.vertices.end(), vertices.begin(), vertices.end());
     least = now;
   }
 }
@@ -180,6 +181,8 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
     search_within(r, o, guards, measures, result);
   }
   r.retraction.count();
+  std::ranges::sort(result.vertices);
+  result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
   return result;
 }
 

@@ -23,6 +23,7 @@ struct AngleSearchOptions {
 struct AngleSearchResult {
   int rounds = 0;
   int moves = 0;
+  std::vector<int> vertices;  // that may have moved, ascending
 };
 
 /// Raises the least angle of all as far as edges may pay for it. No face about a vertex that moves has a

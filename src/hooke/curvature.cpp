@@ -15,10 +15,32 @@ double cotangent_at(const Vec3& apex, const Vec3& next, const Vec3& last, double
   return (next - apex).dot(last - apex) / twice_area;
 }
 
+/// Angles between 0 and pi, added as complex numbers are multiplied: with one arc tangent for all.
+class AngleSum {
+ public:
+  /// The angle of (x, y), y > 0.
+  void add(double x, double y) {
+    const double size = std::abs(x) + y;
+    const double u = (x_ * x - y_ * y) / size, v = (x_ * y + y_ * x) / size;
+    turns_ += y_ < 0 && v >= 0;
+    x_ = u;
+    y_ = v;
+  }
+
+  double value() const {
+    const double angle = std::atan2(y_, x_);
+    return 2 * std::numbers::pi * (turns_ + (angle < 0)) + angle;
+  }
+
+ private:
+  double x_ = 1, y_ = 0;
+  int turns_ = 0;
+};
+
 /// What the faces around one vertex add up to.
 struct RingSums {
   Vec3 normal = Vec3::Zero();  // sum of (cot a + cot b) (x - x_j), Meyer et al. [8]
-  double angle = 0;
+  AngleSum angle;
   double mixed_area = 0;  // Meyer et al., figure 4
   bool defined = true;
 };
@@ -33,7 +55,7 @@ void add_face(const Vec3& p, const Vec3& q, const Vec3& r, RingSums& sums) {
   const double cot_q = cotangent_at(q, r, p, twice_area);
   const double cot_r = cotangent_at(r, p, q, twice_area);
   sums.normal += cot_r * (p - q) + cot_q * (p - r);
-  sums.angle += std::atan2(twice_area, (q - p).dot(r - p));
+  sums.angle.add((q - p).dot(r - p), twice_area);
   if (cot_p < 0) {
     sums.mixed_area += twice_area / 4;
   } else if (cot_q < 0 || cot_r < 0) {
@@ -64,7 +86,7 @@ VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& conne
       }
       if (!sums.defined || !(sums.mixed_area > 0)) continue;
       curvature.mean[v] = sums.normal.norm() / (4 * sums.mixed_area);
-      curvature.gaussian[v] = (2 * std::numbers::pi - sums.angle) / sums.mixed_area;
+      curvature.gaussian[v] = (2 * std::numbers::pi - sums.angle.value()) / sums.mixed_area;
     }
   });
   return curvature;

@@ -49,6 +49,10 @@ class Guards {
   /// ascending.
   std::vector<int> offenders(const Placement& from, const Placement& to) const;
 
+  /// Those about vertices that moved, where no others did.
+  std::vector<int> offenders_around(const Placement& from, const Placement& to,
+                                    const std::vector<int>& moved) const;
+
   const GuardOptions& options() const { return options_; }
 
   /// Faces that lie against the surface (alignment below the threshold), ascending.
@@ -66,8 +70,6 @@ class Guards {
   bool edge_breaks(const Placement& from, const Placement& to, size_t edge) const;
   void add_offenders(const Placement& from, const Placement& to, size_t edge,
                      std::vector<int>& vertices) const;
-  std::vector<int> offenders_around(const Placement& from, const Placement& to,
-                                    const std::vector<int>& moved) const;
 
   const Connectivity& connectivity_;
   const TargetLengths& targets_;

@@ -9,6 +9,10 @@ namespace hooke {
 /// way. Returns these.
 std::vector<int> put_back_offenders(const Guards& guards, const Placement& from, Placement& to);
 
+/// The same where no vertices moved but these.
+std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
+                                    const std::vector<int>& moved, Placement& to);
+
 /// to = from with the vertices projected that have drifted, but for those where that would break a guard:
 /// they stay drifted.
 void settle(const Guards& guards, Retraction& retraction, const Placement& from, Placement& to);

@@ -40,8 +40,10 @@ class Remeshing {
   RemeshResult search_again(RemeshResult result, double seconds) {
     result_ = std::move(result);
     seconds_before_ = seconds;
-    if (!interrupted()) search();
-    settle_down();
+    if (interrupted())
+      settle_down();
+    else
+      search();
     record("mend", {.energy = energy_(work_.placement, nullptr)});
     conclude();
     return std::move(result_);
@@ -116,12 +118,12 @@ class Remeshing {
     const double before = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
     held_back_ = relaxed.held_back > 0;
-    settle_down();
+    unhindered_ = is_unhindered(relaxed);
+    if (!unhindered_ || !options_.polish_angles) settle_down();  // else the polish goes on from here
     record("relax", relaxed, outer_);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
-    unhindered_ = is_unhindered(relaxed);
     if (unhindered_ || before - relaxed.energy <= options_.outer_drop * before)
       return stop(StopReason::stalled);
     result_.reason = StopReason::step_limit;
@@ -134,20 +136,24 @@ class Remeshing {
     const PolishOptions& options =
         options_.connectivity == ConnectivityMode::fixed ? options_.polish : options_.flips.polish;
     result_.polish = polish(r, work_.targets, options, watch("polish"));
-    if (result_.polish.interrupted)
+    if (result_.polish.interrupted) {
       result_.reason = StopReason::interrupted;
-    else
+      settle_down();
+    } else {
       search();
-    settle_down();
+    }
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
+  /// On the field of the input: the worst corners are those of the result.
   void search() {
+    settle_down();
     timed(work_.stopwatch, "search", [&] {
-      settle(guards_, *work_.retraction, work_.placement);  // the worst corners are those of the result
+      work_.return_to_input();
       Relaxation r = relaxation();
-      return search_angles(r, options_.search);
+      work_.land(search_angles(r, options_.search).vertices);
     });
+    work_.resample_lengths();
   }
 
   void settle_down() {

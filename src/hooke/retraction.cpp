@@ -160,6 +160,11 @@ VertexPlace Retraction::drifted(VertexPlace place, const Vec3& way, const Surfac
   return place;
 }
 
+VertexPlace Retraction::projected(VertexPlace place, int vertex) {
+  const bool on_its_curve = constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::curve;
+  return on_surface(on_its_curve ? on_curve(place, vertex) : place, vertex);
+}
+
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
   Placement p;
   p.points = points;
@@ -172,9 +177,7 @@ Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::
   parallel_for(static_cast<size_t>(points.cols()), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
-      VertexPlace place(p, v);
-      if (constraints_.freedom[i] == Freedom::curve) place = on_curve(place, v);
-      on_surface(place, v).write_to(p, v);
+      projected(VertexPlace(p, v), v).write_to(p, v);
     }
   });
   for (size_t s = 0; s < further.size(); ++s) {  // third and further sides of corners
@@ -218,6 +221,14 @@ void Retraction::settle(Placement& placement) {
       const int v = static_cast<int>(i);
       if (placement.drift[i] > 0) on_surface(VertexPlace(placement, v), v).write_to(placement, v);
     }
+  });
+  count();
+}
+
+void Retraction::settle(std::span<const int> vertices, Placement& placement) {
+  parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
+    for (int v : vertices.subspan(begin, end - begin))
+      projected(VertexPlace(placement, v), v).write_to(placement, v);
   });
   count();
 }

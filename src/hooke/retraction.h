@@ -79,6 +79,9 @@ class Retraction {
   /// Projects the vertices that have drifted.
   void settle(Placement& placement);
 
+  /// Projects these vertices.
+  void settle(std::span<const int> vertices, Placement& placement);
+
   /// Unit, of the curve along which the vertex slides; zero for all others.
   Vec3 tangent(const Placement& at, int vertex) const;
 
@@ -99,6 +102,7 @@ class Retraction {
   CurveFoot foot_on_curve(const Vec3& point, int segment, int vertex) const;
   VertexPlace on_curve(VertexPlace place, int vertex) const;
   VertexPlace on_surface(VertexPlace place, int vertex);
+  VertexPlace projected(VertexPlace place, int vertex);
   VertexPlace drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend, Freedom freedom) const;
   Foot foot(const Vec3& point, int anchor, int vertex);
 

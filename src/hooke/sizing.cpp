@@ -128,6 +128,7 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
 }
 
 double covering_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
+  if (!targets.face.vary()) return targets.face[0];
   const auto sum = [&](const auto& weight) {
     return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
       double part = 0;
@@ -141,6 +142,7 @@ double covering_length(const Mat3X& points, const Connectivity& c, const TargetL
 
 double mean_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
   const double first = targets.edge[0];
+  if (!targets.edge.vary()) return first;
   const auto sum = [&](const auto& value) {
     return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
       double part = 0;

@@ -135,16 +135,25 @@ int Workspace::land() {
   if (!refitted_) input_anchors_ = placement.anchors;
   Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
   input_anchors_ = landed.anchors;
+  const auto stay = put_back_offenders(landing_guards(), placement, landed).size();
+  placement = std::move(landed);
+  return static_cast<int>(stay);
+}
 
+void Workspace::land(const std::vector<int>& vertices) {
+  const Stage stage(stopwatch, "land");
+  const Placement before = placement;
+  to_input_->settle(vertices, placement);
+  put_back_offenders(landing_guards(), before, vertices, placement);
+}
+
+Guards Workspace::landing_guards() const {
   GuardOptions options = guards;
   options.slack = landing_slack;
   options.area_ratio = landing_area_ratio;
   options.sagitta = std::numeric_limits<double>::infinity();
   options.cotangent *= 1 + landing_cotangent;
-  const Guards judge(*connectivity, targets, options);
-  const auto stay = put_back_offenders(judge, placement, landed).size();
-  placement = std::move(landed);
-  return static_cast<int>(stay);
+  return {*connectivity, targets, options};
 }
 
 void Workspace::return_to_input() {

@@ -39,6 +39,9 @@ struct Workspace {
   /// whose landing would break a guard stays where it is; returns their number.
   int land();
 
+  /// The same for vertices that have moved on the field of the input since, after return_to_input().
+  void land(const std::vector<int>& vertices);
+
   /// Takes back refit(): the vertices, which have landed, are tracked on the field of the input again.
   void return_to_input();
 
@@ -99,6 +102,7 @@ struct Workspace {
   const Reordered& input_order() const { return input_order_ ? *input_order_ : order; }
   void connect(Connectivity c, const std::vector<Edge>& creases);
   SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
+  Guards landing_guards() const;
 
   FilterOptions filter_;
   RetractionOptions retraction_options_;
