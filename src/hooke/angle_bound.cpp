@@ -140,7 +140,7 @@ Verdict share_out(const Patch& p, double t, bool faces_send) {
   }
   for (size_t v = 0; v < vertices; ++v) {
     const double room = p.angle_sum[v] - p.face_count[v] * t;
-    if (room < 0) return {false, {p.vertices[v]}};
+    if (room < -.5 / units_per_degree) return {false, {p.vertices[v]}};
     if (faces_send) {
       network.connect(vertex_node(v), 1, amount(room));
     } else if (p.enclosed[v]) {
@@ -161,6 +161,19 @@ Verdict share_out(const Patch& p, double t) {
   return sent.possible ? share_out(p, t, false) : sent;
 }
 
+/// Of its angle sum, for each face.
+double share_of(const Patch& p, size_t vertex) {
+  return p.angle_sum[vertex] / p.face_count[vertex];
+}
+
+/// The vertex that leaves each of its faces the least.
+size_t tightest_vertex(const Patch& p) {
+  size_t tightest = 0;
+  for (size_t v = 1; v < p.vertices.size(); ++v)
+    if (share_of(p, v) < share_of(p, tightest)) tightest = v;
+  return tightest;
+}
+
 }  // namespace
 
 AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivity, int face, int rings) {
@@ -169,7 +182,15 @@ AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivi
   const auto unknown = [](double sum) { return !std::isfinite(sum); };
   if (std::ranges::any_of(patch.angle_sum, unknown)) return bound;
   double possible = 0, impossible = 60;
-  if (share_out(patch, impossible).possible) return bound;
+  const size_t tightest = tightest_vertex(patch);
+  if (const double share = share_of(patch, tightest); share < impossible) {
+    impossible = share;
+    bound.vertices = {patch.vertices[tightest]};
+  }
+  if (share_out(patch, impossible).possible) {  // most often
+    bound.degrees = impossible;
+    return bound;
+  }
   while (impossible - possible > 1e-3) {
     const double t = .5 * (possible + impossible);
     Verdict verdict = share_out(patch, t);

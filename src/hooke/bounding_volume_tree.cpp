@@ -11,7 +11,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t block = 1024;
 
 Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;

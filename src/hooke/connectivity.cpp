@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t block = 1024;
 
 /// Whether the face of half-edge h is the first that names its edge.
 bool names_edge(const std::vector<int>& twins, size_t h) {

@@ -10,7 +10,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t block = 1024;
 
 // Collects the problems, each kind once.
 class Findings {

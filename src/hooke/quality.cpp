@@ -14,7 +14,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t block = 1024;
 
 using Face = BoundingVolumeTree::Face;
 
@@ -91,12 +91,15 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface,
     const double a = shapes[i].min_angle, b = shapes[k].min_angle;
     return a < b || (a == b && faces[i].id < faces[k].id);
   });
-  std::vector<WorstFace> worst;
-  for (auto it = order.begin(); it != order.begin() + count; ++it) {
-    const auto& [a, b, c] = faces[*it].corners;
-    worst.push_back({faces[*it].id, shapes[*it].min_angle, faces[*it].vertices, (a + b + c) / 3,
-                     bound_least_angle(surface.points, surface.connectivity, faces[*it].id)});
-  }
+  std::vector<WorstFace> worst(static_cast<size_t>(count));
+  parallel_for(worst.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const Face& face = faces[order[i]];
+      const auto& [a, b, c] = face.corners;
+      worst[i] = {face.id, shapes[order[i]].min_angle, face.vertices, (a + b + c) / 3,
+                  bound_least_angle(surface.points, surface.connectivity, face.id)};
+    }
+  });
   return worst;
 }
 

@@ -162,7 +162,7 @@ bool triangles_meet(const Corners& s, const Corners& t) {
 }
 
 std::vector<std::array<int, 2>> find_self_intersections(const BoundingVolumeTree& tree) {
-  constexpr size_t block = 1024;
+  constexpr size_t block = 1024, parts_of_block = 64;
   const std::span<const Face> faces = tree.faces();
   std::vector<char> has_area(faces.size());  // by id
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
@@ -171,12 +171,13 @@ std::vector<std::array<int, 2>> find_self_intersections(const BoundingVolumeTree
           !is_collinear(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
   });
 
-  std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / block + 1);
-  parallel_for(tree.parts(), block, [&](size_t begin, size_t end) {
+  std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / parts_of_block + 1);
+  parallel_for(tree.parts(), parts_of_block, [&](size_t begin, size_t end) {
     tree.for_each_meeting_pair(begin, end, [&](const Face& f, const Face& g) {
       const auto [low, high] = std::minmax(f.id, g.id);
       if (!has_area[static_cast<size_t>(low)] || !has_area[static_cast<size_t>(high)]) return;
-      if (f.id < g.id ? faces_meet(f, g) : faces_meet(g, f)) found[begin / block].push_back({low, high});
+      if (f.id < g.id ? faces_meet(f, g) : faces_meet(g, f))
+        found[begin / parts_of_block].push_back({low, high});
     });
   });
   std::vector<std::array<int, 2>> pairs;

@@ -9,7 +9,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t block = 1024;
 
 using Face = BoundingVolumeTree::Face;
 

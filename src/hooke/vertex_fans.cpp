@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t block = 1024;
 
 /// A face as one of its corners sees it.
 struct Spoke {

@@ -3,7 +3,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t piece_size = size_t{1} << 20;  // bytes
+constexpr size_t piece_size = size_t{1} << 17;  // bytes
 
 /// The place after the first line end from `from` on at which the text can be cut.
 size_t cut_after(std::string_view text, size_t from) {

@@ -9,7 +9,7 @@ namespace {
 /// Appends what append(text, i) appends for i in [0, count), made in parallel piece by piece.
 template <typename Append>
 void append_rows(std::string& text, size_t count, const Append& append) {
-  constexpr size_t block = 16384;
+  constexpr size_t block = 4096;
   std::vector<std::string> pieces(count / block + 1);
   parallel_for(pieces.size(), 1, [&](size_t begin, size_t end) {
     for (size_t p = begin; p < end; ++p)
