@@ -18,12 +18,14 @@ constexpr size_t block = 1024;
 
 using Face = BoundingVolumeTree::Face;
 
-/// In the order of `faces`.
+/// By id.
 std::vector<TriangleShape> measure_faces(std::span<const Face> faces) {
   std::vector<TriangleShape> shapes(faces.size());
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k)
-      shapes[k] = measure_triangle(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
+    for (size_t k = begin; k < end; ++k) {
+      const auto& [a, b, c] = faces[k].corners;
+      shapes[static_cast<size_t>(faces[k].id)] = measure_triangle(a, b, c);
+    }
   });
   return shapes;
 }
@@ -80,24 +82,23 @@ size_t count_degenerate_faces(const Mat3X& area_vector, double least_area) {
   });
 }
 
-/// `shapes` in the order of the tree.
 std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface,
                                         const std::vector<TriangleShape>& shapes, size_t wanted) {
-  const std::span<const Face> faces = surface.tree.faces();
-  std::vector<size_t> order(faces.size());
+  const Mat3X& X = surface.points;
+  std::vector<int> order(shapes.size());
   std::iota(order.begin(), order.end(), 0);
   const auto count = static_cast<std::ptrdiff_t>(std::min(wanted, order.size()));
-  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](size_t i, size_t k) {
-    const double a = shapes[i].min_angle, b = shapes[k].min_angle;
-    return a < b || (a == b && faces[i].id < faces[k].id);
+  const auto least_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
+  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int f, int g) {
+    return std::pair(least_angle(f), f) < std::pair(least_angle(g), g);
   });
   std::vector<WorstFace> worst(static_cast<size_t>(count));
   parallel_for(worst.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const Face& face = faces[order[i]];
-      const auto& [a, b, c] = face.corners;
-      worst[i] = {face.id, shapes[order[i]].min_angle, face.vertices, (a + b + c) / 3,
-                  bound_least_angle(surface.points, surface.connectivity, face.id)};
+      const int f = order[i];
+      const Triangle& t = surface.connectivity.faces[static_cast<size_t>(f)];
+      worst[i] = {f, least_angle(f), t, (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3,
+                  bound_least_angle(X, surface.connectivity, f)};
     }
   });
   return worst;
