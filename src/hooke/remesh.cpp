@@ -145,15 +145,25 @@ class Remeshing {
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
-  /// On the field of the input: the worst corners are those of the result.
+  /// On the field fitted last, where vertices can move that will not land; then, where landing has changed
+  /// what is worst, on that of the input.
   void search() {
+    if (work_.refitted()) {
+      settle(guards_, *work_.retraction, work_.placement);
+      search_here();
+    }
     settle_down();
-    timed(work_.stopwatch, "search", [&] {
-      work_.return_to_input();
-      Relaxation r = relaxation();
-      work_.land(search_angles(r, options_.search).vertices);
-    });
+    work_.return_to_input();
+    work_.land(search_here());
     work_.resample_lengths();
+  }
+
+  /// Returns the vertices that may have moved.
+  std::vector<int> search_here() {
+    return timed(work_.stopwatch, "search", [&] {
+      Relaxation r = relaxation();
+      return search_angles(r, options_.search).vertices;
+    });
   }
 
   void settle_down() {

@@ -42,6 +42,9 @@ struct Workspace {
   /// The same for vertices that have moved on the field of the input since, after return_to_input().
   void land(const std::vector<int>& vertices);
 
+  /// Is the field fitted last another one than that of the input?
+  bool refitted() const { return refitted_; }
+
   /// Takes back refit(): the vertices, which have landed, are tracked on the field of the input again.
   void return_to_input();
 
