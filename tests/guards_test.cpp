@@ -96,6 +96,29 @@ TEST(Guards, VerticesThatDriftedSettleButWhereThatWouldFoldAFace) {
   EXPECT_GE(landed, 81 - 19);  // all but the vertex and its two rings at most
 }
 
+TEST(Guards, WhatIsKnownToHaveMovedIsPutBackLikeAll) {
+  test::Scene s = test::sphere_scene(.4);
+  const std::vector<int> some = {3, 4, 20, 35, 36};
+  size_t put_back = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    Mat3X u = test::random_vectors(s.placement.points.cols(), .8 * s.L(), seed);
+    s.retraction.constrain(s.placement, u);
+    Placement to = s.placement;
+    s.retraction.step(s.placement, u, some, to);
+    Placement again = to;
+    std::vector<int> back = put_back_offenders(s.guards, s.placement, to);
+    std::vector<int> known = put_back_offenders(s.guards, s.placement, some, again);
+    put_back += back.size();
+    EXPECT_EQ(to.points, again.points);
+    EXPECT_EQ(to.normals, again.normals);
+    std::ranges::sort(back);
+    std::ranges::sort(known);
+    EXPECT_EQ(back, known);
+    EXPECT_TRUE(s.guards.offenders(s.placement, to).empty());
+  }
+  EXPECT_GT(put_back, 0u);
+}
+
 TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
   const GuardOptions tight{.area_ratio = .8, .alignment = .9, .sagitta = .04, .cotangent = 1.5};
   for (const GuardOptions& guards : {GuardOptions{}, tight})

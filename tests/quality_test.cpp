@@ -184,18 +184,42 @@ double angle_defect(const test::Triangles& t, const Connectivity& c, int v) {
   return defect;
 }
 
-TEST(Curvature, MixedAreasCoverTheSurfaceOnce) {  // with obtuse triangles too
-  const test::Triangles t = test::sphere(3, .35);
-  const Connectivity c = test::connect(t);
-  const VertexCurvature k = measure_curvature(t.points, c);
-  double area = 0, total = 0;
-  for (int v = 0; v < c.vertex_count; ++v) {
-    const double defect = angle_defect(t, c, v);
-    total += defect;
-    area += defect / k.gaussian[static_cast<size_t>(v)];
+/// Two hubs with many faces about a ring that goes up and down: their angles add up to several turns.
+test::Triangles ruffle() {
+  constexpr int rim = 16;
+  test::Triangles t;
+  t.points.resize(3, rim + 2);
+  for (int i = 0; i < rim; ++i) {
+    const double angle = 2 * std::numbers::pi * i / rim;
+    t.points.col(i) = Vec3(std::cos(angle), std::sin(angle), i % 2 == 0 ? 3 : -2.5);
+    t.faces.push_back({i, (i + 1) % rim, rim});
+    t.faces.push_back({(i + 1) % rim, i, rim + 1});
   }
-  EXPECT_NEAR(total, 4 * std::numbers::pi, 1e-9);  // Gauss and Bonnet
-  EXPECT_NEAR(area, measure_extent(t.points, c).area, 1e-9);
+  t.points.col(rim) = Vec3(.1, 0, .5);
+  t.points.col(rim + 1) = Vec3(0, .1, -.5);
+  return t;
+}
+
+TEST(Curvature, MixedAreasCoverTheSurfaceOnce) {
+  for (const test::Triangles& t : {test::sphere(3, .35), ruffle()}) {  // with obtuse triangles too
+    const Connectivity c = test::connect(t);
+    const VertexCurvature k = measure_curvature(t.points, c);
+    double area = 0, total = 0;
+    for (int v = 0; v < c.vertex_count; ++v) {
+      const double defect = angle_defect(t, c, v);
+      total += defect;
+      area += defect / k.gaussian[static_cast<size_t>(v)];
+    }
+    EXPECT_NEAR(total, 4 * std::numbers::pi, 1e-9);  // Gauss and Bonnet
+    EXPECT_NEAR(area, measure_extent(t.points, c).area, 1e-9);
+  }
+}
+
+TEST(Curvature, AnglesBeyondAFullTurnAreAllCounted) {
+  const test::Triangles t = ruffle();
+  const Connectivity c = test::connect(t);
+  EXPECT_LT(angle_defect(t, c, 16), -4 * std::numbers::pi);
+  EXPECT_LT(measure_curvature(t.points, c).gaussian[16], 0);
 }
 
 TEST(Curvature, IsNotDefinedOnTheBoundaryNorBesideFacesWithoutArea) {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <random>
 
 namespace hooke {
 namespace {
@@ -35,6 +38,37 @@ TEST(Statistics, OfNothingAreNothing) {
   const Statistics s = describe({});
   EXPECT_TRUE(std::isnan(s.min) && std::isnan(s.mean) && std::isnan(s.std) && std::isnan(s.p95));
   EXPECT_TRUE(s.histogram.counts.empty());
+}
+
+TEST(Statistics, PercentilesAreThoseOfTheSortedList) {
+  std::mt19937 random(1);
+  const auto interpolated = [](const std::vector<double>& sorted, double share) {
+    const double place = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<size_t>(place);
+    const double next = sorted[std::min(below + 1, sorted.size() - 1)];
+    return sorted[below] + (place - static_cast<double>(below)) * (next - sorted[below]);
+  };
+  std::normal_distribution<double> normal;
+  const std::function<double()> laws[] = {
+      [&] { return normal(random); },
+      [&] { return std::exp(20 * normal(random)); },   // nearly all in the first bin
+      [&] { return std::exp(300 * normal(random)); },  // down to denormal numbers, up to infinity
+      [&] { return std::floor(3 * normal(random)); },  // few numbers, often
+      [&] { return 1.7e308 * std::clamp(normal(random), -1., 1.); },  // a range beyond the largest number
+      [&] { return 7.; },
+  };
+  for (const auto& law : laws)
+    for (int count : {1, 2, 100, 5000}) {
+      std::vector<double> values;
+      for (int i = 0; i < count; ++i) values.push_back(law());
+      const Statistics s = describe(values, {0, 60});
+      std::erase_if(values, [](double x) { return !std::isfinite(x); });
+      std::ranges::sort(values);
+      EXPECT_EQ(s.p01, interpolated(values, .01));
+      EXPECT_EQ(s.p05, interpolated(values, .05));
+      EXPECT_EQ(s.median, interpolated(values, .5));
+      EXPECT_EQ(s.p95, interpolated(values, .95));
+    }
 }
 
 TEST(Statistics, HistogramHoldsEveryNumberOnce) {

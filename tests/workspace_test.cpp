@@ -116,6 +116,30 @@ TEST(Workspace, LandsOnTheFieldOfTheInput) {
   }
 }
 
+TEST(Workspace, LandsWhatMovedSince) {
+  const TriMesh mesh = with_natural_length(wavy());
+  Workspace w = on(mesh);
+  shake(w);
+  w.refit();
+  EXPECT_TRUE(w.refitted());
+  w.land();
+  w.return_to_input();
+  EXPECT_FALSE(w.refitted());
+  const Placement landed = w.placement;
+  const std::vector<int> some = {30, 31, 40};  // of the inside
+  w.retraction->step(landed, test::random_vectors(w.start->cols(), .05), some, w.placement);
+  const Placement moved = w.placement;
+  w.land(some);
+  for (int v = 0; v < w.connectivity->vertex_count; ++v) {
+    const bool is_one = std::ranges::count(some, v) > 0;
+    EXPECT_EQ(w.placement.points.col(v) == landed.points.col(v), !is_one) << v;
+    EXPECT_LT((w.placement.points.col(v) - moved.points.col(v)).norm(), 1e-4);
+  }
+  const Mat3X points = w.placement.points;
+  w.land();  // is there already
+  EXPECT_LT((w.placement.points - points).colwise().norm().maxCoeff(), 1e-9);
+}
+
 TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
   const auto t = test::sphere(1);
   const double natural = natural_length(total_area(t.points, t.faces), t.faces.size());

@@ -11,15 +11,19 @@ namespace {
 class EvenBins {
  public:
   EvenBins(double least, double greatest, size_t count)
-      : least_(least), scale_(static_cast<double>(count) / (greatest - least)), last_(count - 1) {}
+      : least_(least),
+        scale_(static_cast<double>(count) / (greatest - least)),
+        last_(static_cast<double>(count - 1)) {}
+
+  /// Is the range one that numbers can divide?
+  bool are_distinct() const { return scale_ > 0 && std::isfinite(scale_); }
 
   size_t operator()(double x) const {
-    return std::min(last_, static_cast<size_t>(std::max(0., (x - least_) * scale_)));
+    return static_cast<size_t>(std::min(last_, std::max(0., (x - least_) * scale_)));
   }
 
  private:
-  double least_, scale_;
-  size_t last_;
+  double least_, scale_, last_;
 };
 
 /// Writes the numbers that would stand at the given places, ascending, if all were sorted. Only those are
@@ -27,13 +31,13 @@ class EvenBins {
 void find_at(const std::vector<double>& values, std::span<const size_t> places, double* found) {
   constexpr size_t few = 256, most_bins = 4096;
   const auto [least, greatest] = std::ranges::minmax(values);
-  if (values.size() <= few || !std::isfinite(most_bins / (greatest - least))) {
+  const EvenBins bin_of(least, greatest, most_bins);
+  if (values.size() <= few || !bin_of.are_distinct()) {
     std::vector<double> sorted = values;
     std::ranges::sort(sorted);
     for (size_t i = 0; i < places.size(); ++i) found[i] = sorted[places[i]];
     return;
   }
-  const EvenBins bin_of(least, greatest, most_bins);
   std::vector<size_t> counts(most_bins, 0);
   for (double x : values) ++counts[bin_of(x)];
 

@@ -1,0 +1,37 @@
+#include "hooke/int_lists.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hooke/types.h"
+
+namespace hooke {
+namespace {
+
+TEST(IntLists, AreInvertedAlikeByAnyNumberOfThreads) {
+  constexpr int count = 100000;  // enough for several threads
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> id(0, count - 1);
+  std::vector<Triangle> rows(2 * count);
+  for (Triangle& row : rows) row = {id(random), id(random), id(random)};
+  std::vector<std::vector<int>> expected(count);
+  for (size_t r = 0; r < rows.size(); ++r)
+    for (int i : rows[r]) expected[static_cast<size_t>(i)].push_back(static_cast<int>(r));
+  for (int threads : {1, 0}) {
+    const ThreadLimit limit(threads);
+    const IntLists lists = invert(count, rows);
+    for (int i = 0; i < count; ++i)
+      ASSERT_TRUE(std::ranges::equal(lists[i], expected[static_cast<size_t>(i)])) << i;
+  }
+}
+
+TEST(IntLists, IndicesThatNoRowNamesHaveEmptyLists) {
+  const IntLists lists = invert(3, std::vector<Edge>{{2, 0}, {0, 2}});
+  EXPECT_EQ(lists.first, (std::vector<int>{0, 2, 2, 4}));
+  EXPECT_EQ(lists.items, (std::vector<int>{0, 1, 0, 1}));
+  EXPECT_EQ(invert(0, std::vector<Edge>()).first, std::vector<int>{0});
+}
+
+}  // namespace
+}  // namespace hooke
