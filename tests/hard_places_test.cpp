@@ -148,7 +148,7 @@ TEST(HardPlaces, OtherEdgesMendTheSliversThatSpringsLeave) {
 }
 
 TEST(HardPlaces, MendingIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
-  const test::Triangles lens = stretched(test::sphere(2, .4, 1), {1, 1, .15});
+  const test::Triangles lens = stretched(test::sphere(2, .4, 1), {1, 1, .12});
   for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt}) {
     RemeshOptions options;
     options.connectivity = mode;
