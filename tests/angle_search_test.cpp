@@ -23,7 +23,7 @@ struct Outcome {
   double angle_before = 0, angle_after = 0, error_before = 0, error_after = 0;
   int upside_down = 0;
   AngleSearchResult result = {};
-  Mat3X points = {};
+  Mat3X points = {}, points_before = {};
 };
 
 Outcome search(const test::Triangles& t, const AngleSearchOptions& options = {}) {
@@ -37,6 +37,7 @@ Outcome search(const test::Triangles& t, const AngleSearchOptions& options = {})
   Outcome o;
   o.angle_before = angle();
   o.error_before = error();
+  o.points_before = s.placement.points;
   o.result = search_angles(r, options);
   o.angle_after = angle();
   o.error_after = error();
@@ -67,6 +68,20 @@ TEST(AngleSearch, RaisesTheLeastAngleForLittleOfTheEdges) {
     risen += o.angle_after - o.angle_before;
   }
   EXPECT_GT(risen / 6, .2);
+}
+
+TEST(AngleSearch, NamesTheVerticesThatMoved) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Outcome o = search(irregular(seed));
+    const std::vector<int>& named = o.result.vertices;
+    EXPECT_GT(o.result.moves, 0);
+    EXPECT_TRUE(std::ranges::is_sorted(named));
+    EXPECT_EQ(std::ranges::adjacent_find(named), named.end());
+    for (Eigen::Index v = 0; v < o.points.cols(); ++v)
+      EXPECT_TRUE(o.points.col(v) == o.points_before.col(v) ||
+                  std::ranges::binary_search(named, static_cast<int>(v)))
+          << v;
+  }
 }
 
 TEST(AngleSearch, MayPayMoreWhereItIsAllowedTo) {

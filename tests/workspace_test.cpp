@@ -129,7 +129,7 @@ TEST(Workspace, LandsWhatMovedSince) {
   const std::vector<int> some = {30, 31, 40};  // of the inside
   w.retraction->step(landed, test::random_vectors(w.start->cols(), .05), some, w.placement);
   const Placement moved = w.placement;
-  w.land(some);
+  EXPECT_EQ(w.land(some), 0);
   for (int v = 0; v < w.connectivity->vertex_count; ++v) {
     const bool is_one = std::ranges::count(some, v) > 0;
     EXPECT_EQ(w.placement.points.col(v) == landed.points.col(v), !is_one) << v;

@@ -187,9 +187,11 @@ AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivi
     impossible = share;
     bound.vertices = {patch.vertices[tightest]};
   }
-  if (share_out(patch, impossible).possible) {  // most often
+  if (Verdict verdict = share_out(patch, impossible); verdict.possible) {  // most often
     bound.degrees = impossible;
     return bound;
+  } else {
+    bound.vertices = std::move(verdict.vertices);
   }
   while (impossible - possible > 1e-3) {
     const double t = .5 * (possible + impossible);

@@ -14,7 +14,7 @@ struct AngleSearchOptions {
   int max_faces = 500;              // the worst of them
   int rings = 1;                    // about their corners, within which vertices move
   int sweeps = 3;                   // over these in a round
-  double edge_error_limit = 1.005;  // of the standard deviation of l / L_e at the start
+  double edge_error_limit = 1.005;  // of the standard deviation of l / L_e at its start
   double sagitta = .3;              // over the target length, as guards have one: worth a better least angle
   int max_rounds = 40;              // of both; each must raise the least angle by ...
   double least_rise = .02;          // ... this many degrees

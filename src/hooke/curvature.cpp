@@ -20,11 +20,11 @@ class AngleSum {
  public:
   /// The angle of (x, y), y > 0.
   void add(double x, double y) {
-    const double size = std::abs(x) + y;
-    const double u = (x_ * x - y_ * y) / size, v = (x_ * y + y_ * x) / size;
+    const double u = x_ * x - y_ * y, v = x_ * y + y_ * x;
+    const double size = std::abs(u) + std::abs(v);
     turns_ += y_ < 0 && v >= 0;
-    x_ = u;
-    y_ = v;
+    x_ = u / size;
+    y_ = v / size;
   }
 
   double value() const {

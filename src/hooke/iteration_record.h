@@ -6,7 +6,7 @@
 
 namespace hooke {
 
-/// One outer iteration.
+/// One outer iteration. Where the polish goes on from there on the same field, vertices have not landed yet.
 struct IterationRecord {
   const char* stage = "";
   int outer = 0;  // outer iteration, from 1; 0 before and after all of them

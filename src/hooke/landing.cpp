@@ -3,7 +3,6 @@
 #include <utility>
 
 namespace hooke {
-
 namespace {
 
 std::vector<int> put_back(const Guards& guards, const Placement& from, std::vector<int> offending,

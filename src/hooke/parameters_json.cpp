@@ -121,6 +121,7 @@ Json parameters_json(const RemeshOptions& o, Effort effort) {
   j["tolerance"] = o.tolerance;
   j["max_outer"] = o.max_outer;
   j["outer_drop"] = o.outer_drop;
+  j["hindered"] = where(!damped, o.hindered);
   j["max_steps"] = o.integration.max_steps;
   j["boundary"] = name_of(o.constraints.boundary);
   j["corner_angle"] = o.constraints.corner_angle;

@@ -106,7 +106,7 @@ class Remeshing {
   /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same, unless the
   /// vertices have come to places with other target lengths.
   bool is_unhindered(const IntegrationResult& relaxed) const {
-    const double vertex_steps = static_cast<double>(relaxed.steps) * work_.connectivity->vertex_count;
+    const double vertex_steps = static_cast<double>(relaxed.evaluations) * work_.connectivity->vertex_count;
     return options_.integrator == IntegratorKind::lbfgs && !work_.graded() &&
            relaxed.reason == StopReason::stalled &&
            static_cast<double>(relaxed.held_back) <= options_.hindered * vertex_steps;
@@ -132,10 +132,12 @@ class Remeshing {
   void raise_angles() {
     const Stage stage(work_.stopwatch, "polish");
     if (refits()) work_.refit();
-    Relaxation r = relaxation();
-    const PolishOptions& options =
-        options_.connectivity == ConnectivityMode::fixed ? options_.polish : options_.flips.polish;
-    result_.polish = polish(r, work_.targets, options, watch("polish"));
+    {
+      Relaxation r = relaxation();
+      const PolishOptions& options =
+          options_.connectivity == ConnectivityMode::fixed ? options_.polish : options_.flips.polish;
+      result_.polish = polish(r, work_.targets, options, watch("polish"));
+    }
     if (result_.polish.interrupted) {
       result_.reason = StopReason::interrupted;
       settle_down();
@@ -154,7 +156,7 @@ class Remeshing {
     }
     settle_down();
     work_.return_to_input();
-    work_.land(search_here());
+    result_.not_landed = work_.land(search_here());
     work_.resample_lengths();
   }
 
@@ -215,7 +217,6 @@ void mend(Workspace& work, const RemeshOptions& options, const Observer& observe
     if (observer && !observer(p)) result.reason = StopReason::interrupted;
     return result.reason != StopReason::interrupted;
   };
-  work.return_to_input();
   const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
     return mend_slivers(work, options.connectivity, {.altitude = options.altitude}, options.mend,
                         options.guards, options.constraints.corner_angle, watch);

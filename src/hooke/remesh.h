@@ -52,8 +52,9 @@ struct RemeshOptions {
   double tolerance = 1e-3;   // of every edge, in parts of its target length
   int max_outer = 6;         // outer iterations
   double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part ...
-  double hindered =
-      2.5e-4;  // ... or comes to rest where guards held back no more of the vertex steps than this
+  /// ... or comes to rest where guards held back no more of the vertices' steps than this part, all trials
+  /// counted.
+  double hindered = 2.5e-4;
 };
 
 struct RemeshResult {

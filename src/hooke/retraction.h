@@ -79,7 +79,7 @@ class Retraction {
   /// Projects the vertices that have drifted.
   void settle(Placement& placement);
 
-  /// Projects these vertices.
+  /// Projects these vertices, each named once.
   void settle(std::span<const int> vertices, Placement& placement);
 
   /// Unit, of the curve along which the vertex slides; zero for all others.

@@ -47,11 +47,12 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
                                            const Connectivity& connectivity);
 
 /// The edge length at which equilateral triangles that are all alike would be as many on the mesh as those
-/// that have the target length at every place: L^-2 is the mean over the area of L_f^-2.
+/// that have the target length at every place: L^-2 is the mean over the area of L_f^-2. Pre-condition: there
+/// are faces.
 double covering_length(const Mat3X& points, const Connectivity& connectivity, const TargetLengths& targets);
 
 /// Mean of the target lengths over the edges that a mesh which has them would have: many where they are
-/// small. Exact when all are the same.
+/// small. Exact when all are the same. Pre-condition: there are edges.
 double mean_length(const Mat3X& points, const Connectivity& connectivity, const TargetLengths& targets);
 
 /// Lengths from curvature: l = sqrt(8 R t - 4 t^2) per vertex, the chord of a circle of radius R with the

@@ -26,8 +26,8 @@ class EvenBins {
   double least_, scale_, last_;
 };
 
-/// Writes the numbers that would stand at the given places, ascending, if all were sorted. Only those are
-/// sorted that share a bin with one of them.
+/// Writes the numbers that would stand at the given places if all were sorted. Only those are sorted that
+/// share a bin with one of them. Places ascend where there are more than a few numbers.
 void find_at(const std::vector<double>& values, std::span<const size_t> places, double* found) {
   constexpr size_t few = 256, most_bins = 4096;
   const auto [least, greatest] = std::ranges::minmax(values);

@@ -135,16 +135,19 @@ int Workspace::land() {
   if (!refitted_) input_anchors_ = placement.anchors;
   Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
   input_anchors_ = landed.anchors;
-  const auto stay = put_back_offenders(landing_guards(), placement, landed).size();
+  not_landed_ = put_back_offenders(landing_guards(), placement, landed);
   placement = std::move(landed);
-  return static_cast<int>(stay);
+  return static_cast<int>(not_landed_.size());
 }
 
-void Workspace::land(const std::vector<int>& vertices) {
+int Workspace::land(const std::vector<int>& vertices) {
   const Stage stage(stopwatch, "land");
   const Placement before = placement;
   to_input_->settle(vertices, placement);
-  put_back_offenders(landing_guards(), before, vertices, placement);
+  std::erase_if(not_landed_, [&](int v) { return std::ranges::binary_search(vertices, v); });
+  const std::vector<int> stay = put_back_offenders(landing_guards(), before, vertices, placement);
+  not_landed_.insert(not_landed_.end(), stay.begin(), stay.end());
+  return static_cast<int>(not_landed_.size());
 }
 
 Guards Workspace::landing_guards() const {

@@ -39,8 +39,9 @@ struct Workspace {
   /// whose landing would break a guard stays where it is; returns their number.
   int land();
 
-  /// The same for vertices that have moved on the field of the input since, after return_to_input().
-  void land(const std::vector<int>& vertices);
+  /// Lands vertices, ascending, each named once, that have moved on the field of the input since, after
+  /// return_to_input(); returns how many of all stay where they are.
+  int land(const std::vector<int>& vertices);
 
   /// Is the field fitted last another one than that of the input?
   bool refitted() const { return refitted_; }
@@ -49,7 +50,8 @@ struct Workspace {
   void return_to_input();
 
   /// Gives the work other faces on the same vertices, whose ids go on to count as those of the input's faces.
-  /// The vertices must still be on the field of the input: before the first refit().
+  /// The vertices must still be on the field of the input: before the first refit(), or after
+  /// return_to_input().
   void replace_faces(std::vector<Triangle> faces);
 
   /// Gives the work other vertices and faces. The caller has changed what the work holds per vertex and side
@@ -117,6 +119,7 @@ struct Workspace {
   bool refitted_ = false;                                   // until then both fields are the same
   std::vector<int> input_anchors_;                          // where each vertex is tracked on the input
   std::unique_ptr<Retraction> to_input_;                    // to the field of the input
+  std::vector<int> not_landed_;                             // vertices that stayed where they were
   ProjectionCounts finished_;                               // of the retractions that are gone
 };
 
