@@ -187,12 +187,12 @@ AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivi
     impossible = share;
     bound.vertices = {patch.vertices[tightest]};
   }
-  if (Verdict verdict = share_out(patch, impossible); verdict.possible) {  // most often
+  Verdict at_most = share_out(patch, impossible);
+  if (at_most.possible) {  // most often
     bound.degrees = impossible;
     return bound;
-  } else {
-    bound.vertices = std::move(verdict.vertices);
   }
+  bound.vertices = std::move(at_most.vertices);
   while (impossible - possible > 1e-3) {
     const double t = .5 * (possible + impossible);
     Verdict verdict = share_out(patch, t);

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace hooke {
 namespace {
 
-/// Even bins between two numbers. Of two numbers the lesser is in no later bin.
+/// Even bins between two numbers, up to rounding.
 class EvenBins {
  public:
   EvenBins(double least, double greatest, size_t count)
       : least_(least),
         scale_(static_cast<double>(count) / (greatest - least)),
         last_(static_cast<double>(count - 1)) {}
-
-  /// Is the range one that numbers can divide?
-  bool are_distinct() const { return scale_ > 0 && std::isfinite(scale_); }
 
   size_t operator()(double x) const {
     return static_cast<size_t>(std::min(last_, std::max(0., (x - least_) * scale_)));
@@ -26,45 +22,6 @@ class EvenBins {
   double least_, scale_, last_;
 };
 
-/// Writes the numbers that would stand at the given places if all were sorted. Only those are sorted that
-/// share a bin with one of them. Places ascend where there are more than a few numbers.
-void find_at(const std::vector<double>& values, std::span<const size_t> places, double* found) {
-  constexpr size_t few = 256, most_bins = 4096;
-  const auto [least, greatest] = std::ranges::minmax(values);
-  const EvenBins bin_of(least, greatest, most_bins);
-  if (values.size() <= few || !bin_of.are_distinct()) {
-    std::vector<double> sorted = values;
-    std::ranges::sort(sorted);
-    for (size_t i = 0; i < places.size(); ++i) found[i] = sorted[places[i]];
-    return;
-  }
-  std::vector<size_t> counts(most_bins, 0);
-  for (double x : values) ++counts[bin_of(x)];
-
-  struct Wanted {
-    size_t begin, first, count;  // of its numbers, of the places in it
-    std::vector<double> values;
-  };
-  std::vector<Wanted> wanted;
-  std::vector<int> wanted_of(most_bins, -1);
-  size_t begin = 0, place = 0;
-  for (size_t b = 0; b < most_bins; begin += counts[b++]) {
-    const size_t first = place;
-    while (place < places.size() && places[place] < begin + counts[b]) ++place;
-    if (place == first) continue;
-    wanted_of[b] = static_cast<int>(wanted.size());
-    wanted.push_back({begin, first, place - first, {}});
-    wanted.back().values.reserve(counts[b]);
-  }
-  for (double x : values)
-    if (const int w = wanted_of[bin_of(x)]; w >= 0) wanted[static_cast<size_t>(w)].values.push_back(x);
-  for (const Wanted& w : wanted) {
-    std::vector<size_t> inside;
-    for (size_t p : places.subspan(w.first, w.count)) inside.push_back(p - w.begin);
-    find_at(w.values, inside, found + w.first);
-  }
-}
-
 struct Percentile {
   double share;
   double Statistics::*figure;
@@ -72,20 +29,16 @@ struct Percentile {
 constexpr Percentile percentiles[] = {
     {.01, &Statistics::p01}, {.05, &Statistics::p05}, {.5, &Statistics::median}, {.95, &Statistics::p95}};
 
-/// By linear interpolation between the sorted numbers.
-void take_percentiles(const std::vector<double>& values, Statistics& s) {
-  const size_t last = values.size() - 1;
-  std::vector<size_t> places;
+/// By linear interpolation between the numbers as they would stand sorted; changes their order.
+void take_percentiles(std::vector<double>& values, Statistics& s) {
+  auto begin = values.begin();  // what is before is less: shares ascend
   for (const Percentile& p : percentiles) {
-    const auto below = static_cast<size_t>(p.share * static_cast<double>(last));
-    places.insert(places.end(), {below, std::min(below + 1, last)});
-  }
-  std::vector<double> found(places.size());
-  find_at(values, places, found.data());
-  for (size_t i = 0; i < std::size(percentiles); ++i) {
-    const double place = percentiles[i].share * static_cast<double>(last);
-    s.*percentiles[i].figure =
-        found[2 * i] + (place - static_cast<double>(places[2 * i])) * (found[2 * i + 1] - found[2 * i]);
+    const double place = p.share * static_cast<double>(values.size() - 1);
+    const auto below = values.begin() + static_cast<std::ptrdiff_t>(place);
+    std::nth_element(begin, below, values.end());
+    const double next = below + 1 == values.end() ? *below : *std::min_element(below + 1, values.end());
+    s.*p.figure = *below + (place - std::floor(place)) * (next - *below);
+    begin = below;
   }
 }
 
