@@ -50,12 +50,11 @@ class Adaptation {
 
   void change_lengths() {
     count_curve_edges(m_, options_.chord_error);
-    result_.splits += split_long_edges(m_, options_.split);
+    split();
     flip();
-    result_.collapses += collapse_short_edges(m_, options_.collapse);
-    result_.collapses += collapse_folded_faces(m_, options_.folded);
+    collapse();
     add(settle_curves(m_, options_.count));
-    compact(m_);
+    give_up_unused_ids();
     ++result_.rounds;
     settle(options_.flow_rounds);
   }
@@ -66,13 +65,29 @@ class Adaptation {
     count_curve_edges(m_, options_.chord_error);
     const CountChanges curves = settle_curves(m_, options_.count);
     const CountChanges inner = approach_count(m_, result_.wanted_faces, options_.count);
-    compact(m_);
+    give_up_unused_ids();
     add(curves);
     add(inner);
     if (inner.splits + inner.collapses == 0) return false;
     ++result_.count_rounds;
     settle(options_.count_flow);
     return true;
+  }
+
+  void split() {
+    const Stage stage(work_.stopwatch, "splits");
+    result_.splits += split_long_edges(m_, options_.split);
+  }
+
+  void collapse() {
+    const Stage stage(work_.stopwatch, "collapses");
+    result_.collapses += collapse_short_edges(m_, options_.collapse);
+    result_.collapses += collapse_folded_faces(m_, options_.folded);
+  }
+
+  void give_up_unused_ids() {
+    const Stage stage(work_.stopwatch, "compact");
+    compact(m_);
   }
 
   void flip() {
@@ -82,6 +97,7 @@ class Adaptation {
 
   /// Flow, after which the mesh is Delaunay and its vertices lie on the surface, as far as guards let them.
   void settle(int rounds) {
+    const Stage stage(work_.stopwatch, "flow");
     FlippingMesh flipping = m_.flipping();
     result_.flips += flip_to_delaunay(flipping, flip_guard_) + force_corners(flipping, flip_guard_);
     FlowOptions options;

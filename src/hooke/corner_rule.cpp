@@ -30,7 +30,7 @@ class Corner {
   }
 
  private:
-  std::vector<int> spokes() const {
+  ShortList spokes() const {
     for (int h : t_.outgoing(vertex_))
       if (t_.side(h) == side_) return t_.sector(h);
     return {};
@@ -38,20 +38,21 @@ class Corner {
 
   int valence() const { return static_cast<int>(spokes().size()) + 1; }
 
-  std::vector<int> inner_spokes() const {
-    std::vector<int> inner = spokes();
-    std::erase_if(inner, [&](int h) { return t_.twin(h) < 0 || t_.is_constrained(h); });
+  ShortList inner_spokes() const {
+    ShortList inner;
+    for (int h : spokes())
+      if (!t_.is_border(h)) inner.push_back(h);
     return inner;
   }
 
-  std::vector<int> sides_across() const {
-    std::vector<int> sides;
+  ShortList sides_across() const {
+    ShortList sides;
     for (int h : spokes()) sides.push_back(Triangulation::next(h));
     return sides;
   }
 
   /// Flips the edge whose new faces have the largest least angle.
-  bool flip_best(const std::vector<int>& half_edges) {
+  bool flip_best(const ShortList& half_edges) {
     int best = -1;
     double best_angle = -1;
     for (int h : half_edges) {
@@ -93,7 +94,7 @@ class Corner {
   }
 
   bool pull_sides() {
-    const std::vector<int> all = spokes();
+    const ShortList all = spokes();
     return shift({t_.to(all.front()), t_.apex(all.back())}, -push);
   }
 

@@ -45,9 +45,10 @@ class PatchCutter {
   }
 
   /// Half-edges that leave the vertex within the sector of its side.
-  std::vector<int> outgoing(size_t id) const {
-    std::vector<int> spokes = m_.triangulation.outgoing(patch_.vertices[id]);
-    std::erase_if(spokes, [&](int h) { return m_.triangulation.side(h) != patch_.sides[id]; });
+  ShortList outgoing(size_t id) const {
+    ShortList spokes;
+    for (int h : m_.triangulation.outgoing(patch_.vertices[id]))
+      if (m_.triangulation.side(h) == patch_.sides[id]) spokes.push_back(h);
     return spokes;
   }
 
@@ -72,30 +73,36 @@ class PatchCutter {
     }
   }
 
-  /// Returns the ids that they have in the mesh.
+  /// Those of the movable vertices, each at the first of them. Returns their ids in the mesh.
   std::vector<int> add_faces() {
     std::vector<int> faces;
-    for (size_t i = 0; i < patch_.movable; ++i)
-      for (int h : outgoing(i)) {
-        const int face = h / 3;
-        if (std::ranges::find(faces, face) != faces.end()) continue;
-        faces.push_back(face);
-        patch_.faces.push_back({add(3 * face), add(3 * face + 1), add(3 * face + 2)});
+    const int movable = static_cast<int>(patch_.movable);
+    for (int id = 0; id < movable; ++id)
+      for (int h : outgoing(static_cast<size_t>(id))) {
+        const int second = add(Triangulation::next(h)), third = add(Triangulation::previous(h));
+        if (second < id || third < id) continue;
+        Triangle face = {id, second, third};
+        std::ranges::rotate(face, face.begin() + (3 - h % 3) % 3);
+        patch_.faces.push_back(face);
+        faces.push_back(h / 3);
       }
     return faces;
   }
 
+  /// Only an edge between two vertices that stay may be the last of the patch.
   void add_rim(const std::vector<int>& faces) {
     const Triangulation& t = m_.triangulation;
+    const int movable = static_cast<int>(patch_.movable);
     for (size_t f = 0; f < faces.size(); ++f)
       for (size_t k = 0; k < 3; ++k) {
         const int h = 3 * faces[f] + static_cast<int>(k);
-        if (t.twin(h) < 0) continue;
+        const Triangle& face = patch_.faces[f];
+        const int from = face[k], to = face[(k + 1) % 3];
+        if (t.twin(h) < 0 || (std::min(from, to) < movable && !t.is_constrained(h))) continue;
         const auto across = std::ranges::find(faces, t.twin(h) / 3);
         const bool inside = across != faces.end();
         if (inside && !t.is_constrained(h)) continue;
-        const Triangle& face = patch_.faces[f];
-        PatchRim rim = {h, face[k], face[(k + 1) % 3], {-1, -1}};
+        PatchRim rim = {h, from, to, {-1, -1}};
         if (inside) {
           const Triangle& other = patch_.faces[static_cast<size_t>(across - faces.begin())];
           const auto i = static_cast<size_t>(t.twin(h) % 3);

@@ -38,11 +38,15 @@ bool worth_a_try(const FlippingMesh& m, int h) {
   return irregular >= 2 && after <= before;
 }
 
-/// Of the patch with these faces.
-double energy_of(const EdgePatch& patch, const std::vector<Triangle>& faces, const EnergyTerms& terms) {
-  const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), faces);
-  const TargetLengths targets = spread_target_lengths(c, patch.vertex_length);
-  return Energy(c, targets, terms)(patch.placement, nullptr);
+/// Of a patch of an edge's two faces, before and after its flip.
+struct Pair {
+  Connectivity before = make_connectivity(4, {{0, 1, 2}, {1, 0, 3}});
+  Connectivity after = make_connectivity(4, {{2, 0, 3}, {3, 1, 2}});
+};
+
+double energy_of(const EdgePatch& patch, const Connectivity& connectivity, const EnergyTerms& terms) {
+  const TargetLengths targets = spread_target_lengths(connectivity, patch.vertex_length);
+  return Energy(connectivity, targets, terms)(patch.placement, nullptr);
 }
 
 class FlipPass {
@@ -127,8 +131,9 @@ class FlipPass {
   }
 
   double loss_before_settling(int h) const {
+    static const Pair pair;
     const EdgePatch patch = cut_pair(m_, h);
-    return energy_of(patch, flipped_faces(patch), terms_) - energy_of(patch, patch.faces, terms_);
+    return energy_of(patch, pair.after, terms_) - energy_of(patch, pair.before, terms_);
   }
 
   std::vector<std::optional<EdgePatch>> try_all(const std::vector<int>& edges) const {

@@ -60,7 +60,7 @@ std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& f
   return order_by_clusters(vertex_count, neighbours, [](int) { return false; });
 }
 
-std::vector<int> locality_order(int vertex_count, const std::function<std::vector<int>(int)>& neighbours,
+std::vector<int> locality_order(int vertex_count, const std::function<ShortList(int)>& neighbours,
                                 const std::function<bool(int)>& gone) {
   return order_by_clusters(vertex_count, neighbours, gone);
 }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "hooke/int_lists.h"
+#include "hooke/short_list.h"
 #include "hooke/types.h"
 
 namespace hooke {
@@ -14,8 +15,7 @@ namespace hooke {
 std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces);
 
 /// The same for any graph with vertices 0 to n - 1: those that `gone` tells are left out.
-std::vector<int> locality_order(int vertex_count,
-                                const std::function<std::vector<int>(int vertex)>& neighbours,
+std::vector<int> locality_order(int vertex_count, const std::function<ShortList(int vertex)>& neighbours,
                                 const std::function<bool(int vertex)>& gone);
 
 /// A mesh in another order, and the way back.

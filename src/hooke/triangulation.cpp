@@ -36,8 +36,8 @@ Triangulation::Triangulation(const Connectivity& c)
     if (c.is_crease(c.face_edges[h / 3][h % 3])) constrained_[h] = 1;
 }
 
-std::vector<int> Triangulation::outgoing(int vertex) const {
-  std::vector<int> spokes;
+ShortList Triangulation::outgoing(int vertex) const {
+  ShortList spokes;
   const int any = leaving_[static_cast<size_t>(vertex)];
   if (any < 0) return spokes;
   int start = any;  // as far clockwise as there are faces
@@ -51,18 +51,18 @@ std::vector<int> Triangulation::outgoing(int vertex) const {
   return spokes;
 }
 
-std::vector<int> Triangulation::neighbours(int vertex) const {
-  const std::vector<int> spokes = outgoing(vertex);
-  std::vector<int> ring;
+ShortList Triangulation::neighbours(int vertex) const {
+  const ShortList spokes = outgoing(vertex);
+  ShortList ring;
   for (int h : spokes) ring.push_back(to(h));
   if (!spokes.empty() && twin(previous(spokes.back())) < 0) ring.push_back(apex(spokes.back()));
   return ring;
 }
 
-std::vector<int> Triangulation::sector(int h) const {
+ShortList Triangulation::sector(int h) const {
   const int any = h;
   while (!is_border(h) && next(twin(h)) != any) h = next(twin(h));
-  std::vector<int> spokes = {h};
+  ShortList spokes = {h};
   for (int side = previous(h); !is_border(side) && twin(side) != spokes.front(); side = previous(twin(side)))
     spokes.push_back(twin(side));
   return spokes;
@@ -163,7 +163,7 @@ bool Triangulation::may_collapse(int h) const {
   for (int side : {h, t})
     if (side >= 0 && (!may_lose(apex(side)) || (is_border(next(side)) && is_border(previous(side)))))
       return false;
-  const std::vector<int> ring = neighbours(a);
+  const ShortList ring = neighbours(a);
   int common = 0;
   for (int v : neighbours(b)) common += std::ranges::count(ring, v) > 0;
   return common == (t < 0 ? 1 : 2);
@@ -198,8 +198,8 @@ int Triangulation::side_after_collapse(int h, int stays, int spoke) const {
 void Triangulation::collapse(int h, int stays) {
   assert(may_collapse(h));
   const int goes = from(h) == stays ? to(h) : from(h), t = twin(h);
-  const std::vector<int> spokes = outgoing(goes);
-  std::vector<int> sides;
+  const ShortList spokes = outgoing(goes);
+  ShortList sides;
   for (int spoke : spokes) sides.push_back(side_after_collapse(h, stays, spoke));
   for (size_t i = 0; i < spokes.size(); ++i) {
     const auto f = static_cast<size_t>(spokes[i] / 3), k = static_cast<size_t>(spokes[i] % 3);

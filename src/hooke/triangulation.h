@@ -5,6 +5,7 @@
 #pragma once
 
 #include "hooke/connectivity.h"
+#include "hooke/short_list.h"
 
 namespace hooke {
 
@@ -38,13 +39,13 @@ class Triangulation {
 
   /// The half-edges that leave the vertex, counter-clockwise; the first is the boundary one where there is
   /// one.
-  std::vector<int> outgoing(int vertex) const;
+  ShortList outgoing(int vertex) const;
 
   /// The vertices that share an edge with this one, counter-clockwise.
-  std::vector<int> neighbours(int vertex) const;
+  ShortList neighbours(int vertex) const;
   /// Those of them that leave from(h) between the same two creases or boundary edges as h; of those two the
   /// first is among them.
-  std::vector<int> sector(int h) const;
+  ShortList sector(int h) const;
 
   /// Does a crease run through the vertex or end there?
   bool on_crease(int vertex) const;

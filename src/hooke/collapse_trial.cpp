@@ -1,0 +1,142 @@
+#include "hooke/collapse_trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <tuple>
+
+#include "hooke/merged_ring.h"
+
+namespace hooke {
+namespace {
+
+WorstShape limits_of(const CollapseOptions& o) {
+  return {1 / std::tan(o.angle * std::numbers::pi / 180), o.alignment, o.fold, o.sagitta};
+}
+
+class Trial {
+ public:
+  Trial(const AdaptingMesh& mesh, int half_edge, const CollapseOptions& options)
+      : m_(mesh),
+        t_(mesh.triangulation),
+        options_(options),
+        h_(half_edge),
+        a_(t_.from(half_edge)),
+        b_(t_.to(half_edge)) {}
+
+  std::optional<Collapse> run() const {
+    if (!may_vanish(a_) && !may_vanish(b_)) return std::nullopt;
+    if (!is_welcome() || !t_.may_collapse(h_)) return std::nullopt;
+    const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
+    const VertexPlace here(m_.placement, stays);
+    const Vec3 way = m_.placement.points.col(goes) - here.point;
+    std::optional<MergedRing> ring;
+    std::optional<WorstShape> looser;
+    for (double part : parts(stays, goes)) {
+      if (leaves_long_edges(stays, here.point + part * way)) continue;
+      if (!ring) ring.emplace(m_, h_, stays);
+      const VertexPlace there = part > 0 ? m_.retraction.moved(m_.placement, stays, part * way) : here;
+      ring->put(there);
+      const WorstShape after = ring->worst(), limits = limits_of(options_);
+      if (is_within(after, limits)) return Collapse{h_, stays, there};
+      if (!looser) looser = loosened(limits);
+      if (is_within(after, *looser)) return Collapse{h_, stays, there};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Freedom freedom(int v) const { return m_.constraints.freedom[static_cast<size_t>(v)]; }
+
+  bool may_vanish(int v) const {
+    if (freedom(v) == Freedom::fixed) return false;
+    if (freedom(v) == Freedom::surface && !t_.on_boundary(v)) return true;
+    return is_rim(t_, h_);
+  }
+
+  /// Does the valence stay fair, and do curve and corners keep what they want?
+  bool is_welcome() const {
+    const int twin = t_.twin(h_);
+    if (t_.valence(a_) + t_.valence(b_) - (twin < 0 ? 3 : 4) > options_.valence) return false;
+    for (int side : {h_, twin}) {
+      if (side < 0) continue;
+      const CornerValence apex = corner_valence(m_.flipping(), Triangulation::previous(side));
+      if (apex.has <= apex.wanted) return false;
+    }
+    return curve_may_lose(m_, h_);
+  }
+
+  /// Which vertex is less free, or older.
+  int staying_end() const {
+    const auto rank = [&](int v) {
+      const int origin = m_.origins[static_cast<size_t>(v)];
+      return std::tuple(may_vanish(v), freedom(v) == Freedom::surface && !t_.on_boundary(v), origin < 0,
+                        origin < 0 ? v : origin);
+    };
+    return rank(a_) < rank(b_) ? a_ : b_;
+  }
+
+  /// Where the vertex that stays may go, as parts of the way to the other.
+  std::span<const double> parts(int stays, int goes) const {
+    static constexpr double anywhere[] = {.5, 0, 1}, nowhere[] = {0};
+    const bool alike =
+        may_vanish(stays) && freedom(stays) == freedom(goes) && t_.on_boundary(stays) == t_.on_boundary(goes);
+    return alike ? std::span<const double>(anywhere) : std::span<const double>(nowhere);
+  }
+
+  /// The longest edge over its target length, if the vertex that stays were at the point.
+  double longest_edge(int stays, const Vec3& point) const {
+    double longest = 0;
+    for (int end : {a_, b_})
+      for (int v : t_.neighbours(end))
+        if (v != a_ && v != b_)
+          longest = std::max(longest, (m_.placement.points.col(v) - point).norm() / target_length(stays, v));
+    return longest;
+  }
+
+  double target_length(int v, int w) const {
+    return .5 * (m_.vertex_length[static_cast<size_t>(v)] + m_.vertex_length[static_cast<size_t>(w)]);
+  }
+
+  /// Longer than those that are there.
+  bool leaves_long_edges(int stays, const Vec3& point) const {
+    const double longest = longest_edge(stays, point);
+    if (longest <= options_.longest) return false;
+    const auto length = [this](int v, int w) {
+      return (m_.placement.points.col(v) - m_.placement.points.col(w)).norm() / target_length(v, w);
+    };
+    for (int end : {a_, b_})
+      for (int v : t_.neighbours(end))
+        if (length(end, v) >= longest) return false;
+    return true;
+  }
+
+  /// What is worse than it should be may stay as it is, unless the options insist.
+  WorstShape loosened(const WorstShape& limits) const {
+    WorstShape loose = worse_of(limits, worst_about(m_, h_));
+    if (options_.insist_on_alignment) loose.alignment = limits.alignment;
+    return loose;
+  }
+
+  const AdaptingMesh& m_;
+  const Triangulation& t_;
+  const CollapseOptions& options_;
+  int h_, a_, b_;
+};
+
+}  // namespace
+
+std::optional<Collapse> try_collapse(const AdaptingMesh& m, int half_edge, const CollapseOptions& options) {
+  return Trial(m, half_edge, options).run();
+}
+
+bool curve_may_lose(const AdaptingMesh& m, int half_edge) {
+  if (!is_rim(m.triangulation, half_edge)) return true;
+  const int curve = curve_of(m, half_edge).curve;
+  if (curve < 0) return true;
+  const auto c = static_cast<size_t>(curve);
+  return m.curve_edges.present[c] > m.curve_edges.wanted[c];
+}
+
+}  // namespace hooke
