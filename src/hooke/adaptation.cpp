@@ -148,9 +148,9 @@ AdaptOptions adapt_options(Effort effort) {
   AdaptOptions options;
   switch (effort) {
     case Effort::fast:
-      options.rounds = 2;
-      options.first_flow = options.count_flow = 2;
-      options.flow_rounds = 4;
+      options.rounds = 1;
+      options.first_flow = 4;
+      options.count_flow = 0;
       break;
     case Effort::standard:
       break;

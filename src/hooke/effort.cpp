@@ -7,9 +7,13 @@ namespace {
 void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
   switch (effort) {
     case Effort::fast:
-      flips.flow.rounds = 8;
+      flips.flow.rounds = 12;
+      flips.spring_rounds = 0;  // those before the pass do
       flips.passes.passes = 1;
       flips.passes.rounds = 3;
+      flips.passes.sweeps = 2;
+      flips.passes.hope = .3;
+      flips.passes.swept_hope = .04;
       break;
     case Effort::standard:
       flips.flow.rounds = 20;
