@@ -38,6 +38,21 @@ void find_descent(const Relaxation& r, double max_move, const Mat3X& gradient,
   }
 }
 
+/// The retraction is content with less while this lives.
+class LooseRetraction {
+ public:
+  LooseRetraction(Retraction& retraction, double lazy_error)
+      : retraction_(retraction),
+        before_(retraction.set_lazy_error(std::max(lazy_error, retraction.options().lazy_error))) {}
+  ~LooseRetraction() { retraction_.set_lazy_error(before_); }
+  LooseRetraction(const LooseRetraction&) = delete;
+  LooseRetraction& operator=(const LooseRetraction&) = delete;
+
+ private:
+  Retraction& retraction_;
+  double before_;
+};
+
 /// What the guards hold back is out of step with what is around it: lets these places find their own way.
 void mend(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs, Placement& trial) {
   std::swap(r.placement, trial);
@@ -46,10 +61,10 @@ void mend(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs
   std::swap(r.placement, trial);
 }
 
-}  // namespace
-
-IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
-                              const Observer& observer) {
+/// Leaves the vertices where they have drifted, with the trial for its memory.
+IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
+                          const Observer& observer, Placement& trial) {
+  const LooseRetraction loose(r.retraction, lbfgs.lazy_error);
   IntegrationResult result;
   for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep) {
     const Stage stage(r.stopwatch, "sweeps");
@@ -59,8 +74,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   Preconditioner h0(r, lbfgs.preconditioner);
   RestDetector rest(options);
   Mat3X gradient, step;
-  Mat3X trial_gradient;  // until the energy is known it holds the step, which the guards shorten
-  Placement trial;
+  Mat3X trial_gradient;      // until the energy is known it holds the step, which the guards shorten
   std::vector<int> held;     // by the guards, in the last trial
   std::vector<int> blocked;  // held in the last step: they sit out this one
   double max_move = options.max_move;
@@ -134,6 +148,15 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
       break;
     }
   }
+  return result;
+}
+
+}  // namespace
+
+IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
+                              const Observer& observer) {
+  Placement trial;
+  const IntegrationResult result = descend(r, options, lbfgs, observer, trial);
   settle(r.guards, r.retraction, r.placement, trial);
   std::swap(r.placement, trial);
   return result;

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <deque>
-#include <numeric>
 
 namespace hooke {
 namespace {
+
+constexpr size_t block = 8192;
 
 template <class Neighbours, class Gone>
 std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbours, const Gone& gone) {
@@ -45,19 +46,30 @@ std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbour
   return order;
 }
 
+/// Of the faces about each vertex. Looked up beforehand on all cores, not one after the other on the way.
+IntLists other_corners(int vertex_count, const std::vector<Triangle>& faces) {
+  const IntLists vertex_faces = invert(vertex_count, faces);
+  IntLists corners;
+  corners.first.resize(vertex_faces.first.size());
+  corners.items.resize(2 * vertex_faces.items.size());
+  parallel_for(corners.first.size(), block, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      int next = corners.first[v] = 2 * vertex_faces.first[v];
+      if (v + 1 == corners.first.size()) break;
+      for (int f : vertex_faces[static_cast<int>(v)])
+        for (int w : faces[static_cast<size_t>(f)])
+          if (w != static_cast<int>(v)) corners.items[static_cast<size_t>(next++)] = w;
+    }
+  });
+  return corners;
+}
+
 }  // namespace
 
 std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces) {
-  const IntLists vertex_faces = invert(vertex_count, faces);
-  std::vector<int> corners;  // of the faces about a vertex
-  const auto neighbours = [&](int v) -> const std::vector<int>& {
-    corners.clear();
-    for (int f : vertex_faces[v])
-      for (int w : faces[static_cast<size_t>(f)])
-        if (w != v) corners.push_back(w);
-    return corners;
-  };
-  return order_by_clusters(vertex_count, neighbours, [](int) { return false; });
+  const IntLists corners = other_corners(vertex_count, faces);
+  return order_by_clusters(
+      vertex_count, [&](int v) { return corners[v]; }, [](int) { return false; });
 }
 
 std::vector<int> locality_order(int vertex_count, const std::function<ShortList(int)>& neighbours,
@@ -78,21 +90,20 @@ std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
 Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order) {
   std::vector<int> fresh(order.size());
   for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);
-  std::vector<int> next(order.size() + 1, 0);  // where the faces of each smallest vertex go
-  for (Triangle& t : faces) {
-    for (int& v : t) v = fresh[static_cast<size_t>(v)];
-    ++next[static_cast<size_t>(std::ranges::min(t)) + 1];
-  }
-  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::array<int, 1>> smallest(faces.size());  // vertex of each face
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      for (int& v : faces[f]) v = fresh[static_cast<size_t>(v)];
+      smallest[f][0] = std::ranges::min(faces[f]);
+    }
+  });
   Reordered r;
   r.old_vertex = order;
-  r.old_face.resize(faces.size());
+  r.old_face = invert(static_cast<int>(order.size()), smallest).items;
   r.faces.resize(faces.size());
-  for (size_t f = 0; f < faces.size(); ++f) {
-    const auto place = static_cast<size_t>(next[static_cast<size_t>(std::ranges::min(faces[f]))]++);
-    r.old_face[place] = static_cast<int>(f);
-    r.faces[place] = faces[f];
-  }
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) r.faces[f] = faces[static_cast<size_t>(r.old_face[f])];
+  });
   return r;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "hooke/constraints.h"
 #include "hooke/surface.h"
@@ -94,6 +95,9 @@ class Retraction {
 
   const ProjectionCounts& counts() const { return counts_; }
   bool stands_still(int vertex) const;
+  /// From now on; returns what it was before.
+  double set_lazy_error(double error) { return std::exchange(options_.lazy_error, error); }
+
   const Surface& surface() const { return surface_; }
   const RetractionOptions& options() const { return options_; }
 
