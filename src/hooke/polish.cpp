@@ -74,7 +74,8 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   r.energy.terms.altitude = 0;
   Placement kept = r.placement;
   int kept_stages = 0;
-  double best = result.least_angle_before, last_error = result.edge_error_before;
+  double best = result.least_angle_before;
+  double last_error = result.edge_error_before, last_threshold = 0;  // of the last state kept
   double step = o.threshold_step;
   double reached = best;  // the last threshold that was not too much
   double threshold = std::max(o.first_threshold, best + o.margin);
@@ -105,12 +106,14 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
       result.least_angle_after = angle;
       result.edge_error_after = error;
       // Errors rise ever faster: what would be too much need not be tried.
-      const double next_error = error + 2 * std::max(0., error - last_error);
-      if (next_error > o.edge_error_limit * result.edge_error_before) {
+      const double rise = 2 * std::max(0., error - last_error) / (threshold - last_threshold);
+      const double left = o.edge_error_limit * result.edge_error_before - error;
+      if (rise * step > left) {
         step /= 2;
-        if (step < o.least_step) break;
+        if (step < o.least_step || (rise > 0 && rise * step > left)) break;
       }
       last_error = error;
+      last_threshold = threshold;
     }
     threshold += step;
   }
