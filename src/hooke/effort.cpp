@@ -30,6 +30,7 @@ void set_effort(RemeshOptions& options, Effort effort) {
   options.adaptation = adapt_options(effort);
   if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
   if (options.connectivity != ConnectivityMode::fixed) {
+    options.integration.energy_drop = 2e-3;
     if (effort == Effort::fast) {
       options.integration.energy_drop = 1e-2;
       options.mend.trials.rounds = 2;
@@ -46,6 +47,7 @@ void set_effort(RemeshOptions& options, Effort effort) {
       break;
     case Effort::thorough:  // smaller stages, and edges pay a little for the angles
       options.max_outer = 12;
+      options.integration.energy_drop = 2e-3;
       options.outer_drop = 1e-3;
       options.polish.sweeps = 24;
       options.polish.threshold_step = 1;
