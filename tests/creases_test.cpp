@@ -77,7 +77,7 @@ TEST(Creases, FlipsOfOtherEdgesKeepTheSides) {
 TEST(Creases, ASectorRunsFromCreaseToCrease) {
   const Triangulation t(parted(test::irregular_cube(4)));
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    const std::vector<int> sector = t.sector(h);
+    const ShortList sector = t.sector(h);
     EXPECT_NE(std::ranges::find(sector, h), sector.end());
     for (int s : sector) {
       EXPECT_EQ(t.from(s), t.from(h));

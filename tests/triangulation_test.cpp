@@ -225,7 +225,7 @@ TEST(Triangulation, SpokesRunFromOneBoundaryEdgeToTheOther) {
   const test::Triangles grid = test::grid(2, test::flat);
   const Triangulation t = triangulate(grid);
   for (int v = 0; v < 9; ++v) {
-    const std::vector<int> spokes = t.outgoing(v);
+    const ShortList spokes = t.outgoing(v);
     for (size_t i = 0; i + 1 < spokes.size(); ++i) EXPECT_EQ(t.apex(spokes[i]), t.to(spokes[i + 1]));
     if (!t.on_boundary(v)) continue;
     EXPECT_EQ(t.twin(spokes.front()), -1);

@@ -1,0 +1,133 @@
+#include "hooke/edge_collapses.h"
+
+#include <gtest/gtest.h>
+
+#include "adapting_scene.h"
+#include "hooke/least_angle.h"
+#include "hooke/merged_ring.h"
+#include "hooke/parallel.h"
+#include "hooke/topology.h"
+
+namespace hooke {
+namespace {
+
+constexpr int cells = 12;
+
+test::Triangles rough() {
+  return test::grid(cells, test::flat, .35);
+}
+
+/// Half-edges of edges with both ends inside.
+std::vector<int> inner_edges(const Triangulation& t) {
+  std::vector<int> edges;
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.twin(h) > h && !t.on_boundary(t.from(h)) && !t.on_boundary(t.to(h))) edges.push_back(h);
+  return edges;
+}
+
+/// Of the edges at the vertex.
+double longest_at(const AdaptingMesh& m, int v) {
+  double longest = 0;
+  for (int h : m.triangulation.outgoing(v)) longest = std::max(longest, relative_length(m, h));
+  return longest;
+}
+
+TEST(CollapseTrial, LeavesTheMeshAlone) {
+  test::AdaptingScene s(rough(), test::plane());
+  const Mat3X points = s.placement.points, normals = s.placement.normals;
+  const std::vector<Triangle> faces = s.triangulation.faces();
+  int allowed = 0;
+  for (int h : inner_edges(s.triangulation)) allowed += try_collapse(s.adapting, h, {}).has_value();
+  EXPECT_GT(allowed, 0);
+  EXPECT_EQ(s.placement.points, points);
+  EXPECT_EQ(s.placement.normals, normals);
+  EXPECT_EQ(s.triangulation.faces(), faces);
+}
+
+TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
+  for (int k = 0; k < 200; k += 7) {
+    test::AdaptingScene s(rough(), test::plane());
+    const int h = inner_edges(s.triangulation)[static_cast<size_t>(k)];
+    const std::optional<Collapse> trial = try_collapse(s.adapting, h, {});
+    EXPECT_EQ(collapse_edge(s.adapting, h, {}), trial ? trial->stays : -1);
+    if (trial) {
+      EXPECT_EQ(Vec3(s.placement.points.col(trial->stays)), trial->place.point);
+      EXPECT_TRUE(s.triangulation.is_gone(h / 3));
+    }
+  }
+}
+
+TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
+  constexpr double longest = 1.1;
+  int allowed = 0, refused = 0;
+  for (size_t k = 0; k < inner_edges(test::AdaptingScene(rough(), test::plane()).triangulation).size(); ++k) {
+    test::AdaptingScene s(rough(), test::plane());
+    const int h = inner_edges(s.triangulation)[k];
+    const double before = std::max(longest_at(s.adapting, s.triangulation.from(h)),
+                                   longest_at(s.adapting, s.triangulation.to(h)));
+    const int v = collapse_edge(s.adapting, h, {.longest = longest});
+    (v < 0 ? refused : allowed)++;
+    if (v >= 0) {
+      EXPECT_LE(longest_at(s.adapting, v), std::max(longest, before) + 1e-9);
+    }
+  }
+  EXPECT_GT(allowed, 0);
+  EXPECT_GT(refused, 0);
+}
+
+TEST(MergedRing, ShowsWhatIsThereAfterwards) {
+  for (int k = 0; k < 200; k += 11) {
+    test::AdaptingScene s(rough(), test::plane());
+    const int h = inner_edges(s.triangulation)[static_cast<size_t>(k)];
+    const std::optional<Collapse> trial = try_collapse(s.adapting, h, {});
+    if (!trial) continue;
+    MergedRing ring(s.adapting, h, trial->stays);
+    ring.put(trial->place);
+    const WorstShape foreseen = ring.worst();
+    ASSERT_EQ(collapse_edge(s.adapting, h, {}), trial->stays);
+    const WorstShape seen = worst_about(s.adapting, s.triangulation.outgoing(trial->stays).front());
+    // The latter looks farther: at the faces about the neighbour, too.
+    EXPECT_LE(foreseen.cotangent, seen.cotangent);
+    EXPECT_GE(foreseen.alignment, seen.alignment);
+    EXPECT_GE(foreseen.fold, seen.fold);
+    double cotangent = 0;
+    for (int spoke : s.triangulation.outgoing(trial->stays))
+      cotangent = std::max(
+          cotangent,
+          greatest_cotangent(s.placement.points, s.triangulation.faces()[static_cast<size_t>(spoke / 3)]));
+    EXPECT_NEAR(foreseen.cotangent, cotangent, 1e-12);
+  }
+}
+
+TEST(EdgeCollapses, DoNotDependOnThreads) {
+  std::vector<Mat3X> points;
+  std::vector<std::vector<Triangle>> faces;
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    test::AdaptingScene s(rough(), test::plane());
+    for (double& length : s.vertex_length) length *= 1.5;
+    count_curve_edges(s.adapting, .1);
+    EXPECT_GT(collapse_short_edges(s.adapting, {}), cells);
+    compact(s.adapting);
+    points.push_back(s.placement.points);
+    faces.push_back(s.triangulation.faces());
+    const Connectivity c = make_connectivity(static_cast<int>(s.placement.points.cols()), faces.back());
+    EXPECT_EQ(measure_topology(c).euler, 1);
+  }
+  EXPECT_EQ(points[0], points[1]);
+  EXPECT_EQ(faces[0], faces[1]);
+}
+
+/// No curve may come to have fewer edges than it wants, however many of its edges are tried at once.
+TEST(EdgeCollapses, LeaveCurvesTheEdgesTheyWant) {
+  test::AdaptingScene s(test::grid(40, test::flat), test::plane());
+  for (double& length : s.vertex_length) length *= 1.4;
+  count_curve_edges(s.adapting, .1);
+  collapse_short_edges(s.adapting, {.shortest = 2, .longest = 10, .valence = 30, .angle = 0});
+  ASSERT_FALSE(s.curve_edges.wanted.empty());
+  for (size_t c = 0; c < s.curve_edges.wanted.size(); ++c)
+    EXPECT_GE(s.curve_edges.present[c], s.curve_edges.wanted[c]);
+}
+
+}  // namespace
+}  // namespace hooke

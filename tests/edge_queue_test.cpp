@@ -1,0 +1,102 @@
+#include "hooke/edge_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "meshes.h"
+
+namespace hooke {
+namespace {
+
+constexpr int cells = 12;
+
+Triangulation grid() {
+  const test::Triangles t = test::grid(cells, test::flat);
+  return Triangulation(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+}
+
+/// Of an edge, by either of its half-edges: a number between -.2 and .8 without a pattern.
+double urgency(const Triangulation& t, int h) {
+  const int a = std::min(t.from(h), t.to(h)), b = std::max(t.from(h), t.to(h));
+  return static_cast<double>((a * 7919 + b * 104729) % 1009) / 1009 - .2;
+}
+
+std::set<int> vertices_about(const Triangulation& t, int h) {
+  std::set<int> about;
+  for (int end : {t.from(h), t.to(h)}) {
+    about.insert(end);
+    for (int v : t.neighbours(end)) about.insert(v);
+  }
+  return about;
+}
+
+bool meet(const std::set<int>& a, const std::set<int>& b) {
+  return std::ranges::any_of(a, [&](int v) { return b.contains(v); });
+}
+
+/// All edges with their batch, in the order in which they come.
+std::vector<std::pair<int, int>> batches_of(const Triangulation& t, size_t most) {
+  EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
+  std::vector<std::pair<int, int>> edges;
+  int batch = 0;
+  for (std::vector<int> apart = queue.pop_apart(most); !apart.empty(); apart = queue.pop_apart(most), ++batch)
+    for (int h : apart) edges.push_back({h, batch});
+  return edges;
+}
+
+TEST(EdgeQueue, ComesOutByUrgencyWithoutThoseThatAreNotUrgent) {
+  const Triangulation t = grid();
+  EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
+  double last = 1;
+  int count = 0, urgent = 0;
+  for (int h = queue.pop(); h >= 0; h = queue.pop(), ++count) {
+    EXPECT_LE(urgency(t, h), last);
+    last = urgency(t, h);
+  }
+  EXPECT_GT(last, 0);
+  for (int h = 0; h < t.half_edge_count(); ++h) urgent += t.twin(h) < h && urgency(t, h) > 0;
+  EXPECT_EQ(count, urgent);
+}
+
+TEST(EdgeQueue, BatchesHaveEveryUrgentEdgeOnce) {
+  const Triangulation t = grid();
+  std::set<int> urgent, found;
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.twin(h) < h && urgency(t, h) > 0) urgent.insert(h);
+  for (const auto& [h, batch] : batches_of(t, 50)) EXPECT_TRUE(found.insert(h).second) << h;
+  EXPECT_EQ(found, urgent);
+}
+
+TEST(EdgeQueue, EdgesOfABatchHaveNoNeighbourInCommon) {
+  const Triangulation t = grid();
+  std::map<int, std::vector<std::set<int>>> about;  // by batch
+  for (const auto& [h, batch] : batches_of(t, 50)) {
+    const std::set<int> vertices = vertices_about(t, h);
+    for (const std::set<int>& others : about[batch]) EXPECT_FALSE(meet(vertices, others)) << h;
+    about[batch].push_back(vertices);
+  }
+  EXPECT_GT(about.size(), 1u);
+  EXPECT_GT(about[0].size(), 1u);
+}
+
+TEST(EdgeQueue, AnEdgeNeverComesBeforeAMoreUrgentOneThatItMeets) {
+  const Triangulation t = grid();
+  const auto edges = batches_of(t, 50);
+  for (size_t i = 0; i < edges.size(); ++i)
+    for (size_t j = i + 1; j < edges.size(); ++j)
+      if (meet(vertices_about(t, edges[i].first), vertices_about(t, edges[j].first))) {
+        EXPECT_GE(urgency(t, edges[i].first), urgency(t, edges[j].first));
+      }
+}
+
+TEST(EdgeQueue, ABatchOfOneIsTheNextEdge) {
+  const Triangulation t = grid();
+  EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
+  for (const auto& [h, batch] : batches_of(t, 1)) EXPECT_EQ(h, queue.pop());
+  EXPECT_EQ(queue.pop(), -1);
+}
+
+}  // namespace
+}  // namespace hooke
