@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "adapting_scene.h"
 #include "hooke/least_angle.h"
 #include "hooke/merged_ring.h"
@@ -75,28 +77,63 @@ TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
   EXPECT_GT(refused, 0);
 }
 
-TEST(MergedRing, ShowsWhatIsThereAfterwards) {
-  for (int k = 0; k < 200; k += 11) {
-    test::AdaptingScene s(rough(), test::plane());
-    const int h = inner_edges(s.triangulation)[static_cast<size_t>(k)];
-    const std::optional<Collapse> trial = try_collapse(s.adapting, h, {});
-    if (!trial) continue;
-    MergedRing ring(s.adapting, h, trial->stays);
-    ring.put(trial->place);
-    const WorstShape foreseen = ring.worst();
-    ASSERT_EQ(collapse_edge(s.adapting, h, {}), trial->stays);
-    const WorstShape seen = worst_about(s.adapting, s.triangulation.outgoing(trial->stays).front());
-    // The latter looks farther: at the faces about the neighbour, too.
-    EXPECT_LE(foreseen.cotangent, seen.cotangent);
-    EXPECT_GE(foreseen.alignment, seen.alignment);
-    EXPECT_GE(foreseen.fold, seen.fold);
-    double cotangent = 0;
-    for (int spoke : s.triangulation.outgoing(trial->stays))
-      cotangent = std::max(
-          cotangent,
-          greatest_cotangent(s.placement.points, s.triangulation.faces()[static_cast<size_t>(spoke / 3)]));
-    EXPECT_NEAR(foreseen.cotangent, cotangent, 1e-12);
+/// Of the faces at the vertex, their edges there and what is across their sides.
+WorstShape worst_at(const AdaptingMesh& m, int v) {
+  const Triangulation& t = m.triangulation;
+  const Mat3X &X = m.placement.points, &N = m.placement.normals;
+  WorstShape worst;
+  for (int spoke : t.outgoing(v)) {
+    const auto f = static_cast<size_t>(spoke / 3);
+    worst.cotangent = std::max(worst.cotangent, greatest_cotangent(X, t.faces()[f]));
+    worst.alignment = std::min(worst.alignment, face_alignment(X, N, t.faces()[f], t.sides()[f]));
+    for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)}) {
+      const Edge edge = {t.from(h), t.to(h)}, sides = {t.side(h), t.side(Triangulation::next(h))};
+      if (edge[0] == v || edge[1] == v)
+        worst.sagitta =
+            std::max(worst.sagitta, edge_sagitta(X, N, edge, sides) / target_length(m, edge[0], edge[1]));
+      if (!t.is_border(h))
+        worst.fold = std::min(worst.fold,
+                              cosine_between(X, t.faces()[f], t.faces()[static_cast<size_t>(t.twin(h) / 3)]));
+    }
   }
+  return worst;
+}
+
+/// Every so many-th edge that may collapse, in a mesh of its own: what the ring foresees is there afterwards.
+template <typename MakeScene>
+void expect_rings_to_foresee(const MakeScene& make_scene, int every) {
+  int collapses = 0;
+  for (int h = 0; h < make_scene()->triangulation.half_edge_count(); h += every) {
+    const auto s = make_scene();
+    const std::optional<Collapse> trial = try_collapse(s->adapting, h, {.longest = 3});
+    if (!trial) continue;
+    const WorstShape foreseen = MergedRing(s->adapting, h, trial->stays).worst(trial->place);
+    ASSERT_EQ(collapse_edge(s->adapting, h, {.longest = 3}), trial->stays);
+    const WorstShape seen = worst_at(s->adapting, trial->stays);
+    EXPECT_NEAR(foreseen.cotangent, seen.cotangent, 1e-12);
+    EXPECT_NEAR(foreseen.alignment, seen.alignment, 1e-12);
+    EXPECT_NEAR(foreseen.fold, seen.fold, 1e-12);
+    EXPECT_NEAR(foreseen.sagitta, seen.sagitta, 1e-12);
+    ++collapses;
+  }
+  EXPECT_GT(collapses, 5);
+}
+
+TEST(MergedRing, ForeseesWhatIsThereAfterwards) {
+  expect_rings_to_foresee([] { return std::make_unique<test::AdaptingScene>(rough(), test::plane()); }, 11);
+  expect_rings_to_foresee(
+      [] { return std::make_unique<test::AdaptingScene>(test::sphere(2, .2), test::unit_sphere()); }, 11);
+}
+
+TEST(MergedRing, ForeseesItOnBothSidesOfACrease) {
+  std::vector<Edge> row;
+  for (int v = cells / 2 * (cells + 1); row.size() < cells; ++v) row.push_back({v, v + 1});
+  const auto creased = [&] {
+    auto s = std::make_unique<test::AdaptingScene>(test::grid(cells, test::flat), test::plane(), row);
+    for (int& wanted : s->curve_edges.wanted) wanted = 1;
+    return s;
+  };
+  expect_rings_to_foresee(creased, 1);
 }
 
 TEST(EdgeCollapses, DoNotDependOnThreads) {

@@ -36,12 +36,14 @@ bool meet(const std::set<int>& a, const std::set<int>& b) {
   return std::ranges::any_of(a, [&](int v) { return b.contains(v); });
 }
 
+constexpr auto any = [](int) { return true; };
+
 /// All edges with their batch, in the order in which they come.
 std::vector<std::pair<int, int>> batches_of(const Triangulation& t, size_t most) {
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   std::vector<std::pair<int, int>> edges;
   int batch = 0;
-  for (std::vector<int> apart = queue.pop_apart(most); !apart.empty(); apart = queue.pop_apart(most), ++batch)
+  for (std::vector<int> apart; !(apart = queue.pop_apart(most, any)).empty(); ++batch)
     for (int h : apart) edges.push_back({h, batch});
   return edges;
 }
@@ -95,6 +97,18 @@ TEST(EdgeQueue, ABatchOfOneIsTheNextEdge) {
   const Triangulation t = grid();
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   for (const auto& [h, batch] : batches_of(t, 1)) EXPECT_EQ(h, queue.pop());
+  EXPECT_EQ(queue.pop(), -1);
+}
+
+TEST(EdgeQueue, DropsWhatIsNotWanted) {
+  const Triangulation t = grid();
+  EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
+  const auto inside = [&](int h) { return !t.on_boundary(t.from(h)) && !t.on_boundary(t.to(h)); };
+  int count = 0, wanted = 0;
+  for (std::vector<int> apart; !(apart = queue.pop_apart(50, inside)).empty();)
+    for (int h : apart) count += inside(h);
+  for (int h = 0; h < t.half_edge_count(); ++h) wanted += t.twin(h) < h && urgency(t, h) > 0 && inside(h);
+  EXPECT_EQ(count, wanted);
   EXPECT_EQ(queue.pop(), -1);
 }
 

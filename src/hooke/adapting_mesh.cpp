@@ -123,9 +123,7 @@ CurveFinder::Place curve_of(const AdaptingMesh& m, int h) {
 
 double relative_length(const AdaptingMesh& m, int h) {
   const int a = m.triangulation.from(h), b = m.triangulation.to(h);
-  const double target =
-      .5 * (m.vertex_length[static_cast<size_t>(a)] + m.vertex_length[static_cast<size_t>(b)]);
-  return (m.placement.points.col(b) - m.placement.points.col(a)).norm() / target;
+  return (m.placement.points.col(b) - m.placement.points.col(a)).norm() / target_length(m, a, b);
 }
 
 void count_curve_edges(AdaptingMesh& m, double chord_error) {
@@ -138,8 +136,7 @@ void count_curve_edges(AdaptingMesh& m, double chord_error) {
     if (t.is_gone(h / 3) || !is_rim(t, h) || t.twin(h) > h) continue;
     const int curve = curve_of(m, h).curve;
     if (curve < 0) continue;
-    const auto a = static_cast<size_t>(t.from(h)), b = static_cast<size_t>(t.to(h));
-    lengths[static_cast<size_t>(curve)] += .5 * (m.vertex_length[a] + m.vertex_length[b]);
+    lengths[static_cast<size_t>(curve)] += target_length(m, t.from(h), t.to(h));
     ++m.curve_edges.present[static_cast<size_t>(curve)];
   }
   for (size_t c = 0; c < curves; ++c)
@@ -160,8 +157,7 @@ int add_vertex(AdaptingMesh& m, int h) {
   m.constraints.freedom[i] = on.curve >= 0 ? Freedom::curve : Freedom::surface;
   m.constraints.curve[i] = on.curve;
   m.constraints.segment[i] = on.segment;
-  m.vertex_length[i] =
-      .5 * (m.vertex_length[static_cast<size_t>(a)] + m.vertex_length[static_cast<size_t>(b)]);
+  m.vertex_length[i] = target_length(m, a, b);
 
   Placement& p = m.placement;
   VertexPlace start(p, a);

@@ -59,6 +59,11 @@ inline bool is_rim(const Triangulation& t, int h) {
 /// The curve along which the edge of a rim runs; curve -1 where none is known.
 CurveFinder::Place curve_of(const AdaptingMesh& mesh, int half_edge);
 
+/// Of an edge between the vertices.
+inline double target_length(const AdaptingMesh& m, int v, int w) {
+  return .5 * (m.vertex_length[static_cast<size_t>(v)] + m.vertex_length[static_cast<size_t>(w)]);
+}
+
 /// Length of the edge over its target length.
 double relative_length(const AdaptingMesh& mesh, int half_edge);
 

@@ -37,8 +37,7 @@ class Trial {
       if (leaves_long_edges(stays, here.point + part * way)) continue;
       if (!ring) ring.emplace(m_, h_, stays);
       const VertexPlace there = part > 0 ? m_.retraction.moved(m_.placement, stays, part * way) : here;
-      ring->put(there);
-      const WorstShape after = ring->worst(), limits = limits_of(options_);
+      const WorstShape after = ring->worst(there), limits = limits_of(options_);
       if (is_within(after, limits)) return Collapse{h_, stays, there};
       if (!looser) looser = loosened(limits);
       if (is_within(after, *looser)) return Collapse{h_, stays, there};
@@ -57,9 +56,8 @@ class Trial {
 
   /// Does the valence stay fair, and do curve and corners keep what they want?
   bool is_welcome() const {
-    const int twin = t_.twin(h_);
-    if (t_.valence(a_) + t_.valence(b_) - (twin < 0 ? 3 : 4) > options_.valence) return false;
-    for (int side : {h_, twin}) {
+    if (valence_after(m_, h_) > options_.valence) return false;
+    for (int side : {h_, t_.twin(h_)}) {
       if (side < 0) continue;
       const CornerValence apex = corner_valence(m_.flipping(), Triangulation::previous(side));
       if (apex.has <= apex.wanted) return false;
@@ -90,25 +88,19 @@ class Trial {
     double longest = 0;
     for (int end : {a_, b_})
       for (int v : t_.neighbours(end))
-        if (v != a_ && v != b_)
-          longest = std::max(longest, (m_.placement.points.col(v) - point).norm() / target_length(stays, v));
+        if (v != a_ && v != b_) longest = std::max(longest, length(point, v) / target_length(m_, stays, v));
     return longest;
   }
 
-  double target_length(int v, int w) const {
-    return .5 * (m_.vertex_length[static_cast<size_t>(v)] + m_.vertex_length[static_cast<size_t>(w)]);
-  }
+  double length(const Vec3& point, int v) const { return (m_.placement.points.col(v) - point).norm(); }
 
-  /// Longer than those that are there.
+  /// Would an edge come to be longer than allowed, and than every edge at the ends is now?
   bool leaves_long_edges(int stays, const Vec3& point) const {
     const double longest = longest_edge(stays, point);
     if (longest <= options_.longest) return false;
-    const auto length = [this](int v, int w) {
-      return (m_.placement.points.col(v) - m_.placement.points.col(w)).norm() / target_length(v, w);
-    };
     for (int end : {a_, b_})
       for (int v : t_.neighbours(end))
-        if (length(end, v) >= longest) return false;
+        if (length(m_.placement.points.col(end), v) / target_length(m_, end, v) >= longest) return false;
     return true;
   }
 
@@ -126,6 +118,11 @@ class Trial {
 };
 
 }  // namespace
+
+int valence_after(const AdaptingMesh& m, int half_edge) {
+  const Triangulation& t = m.triangulation;
+  return t.valence(t.from(half_edge)) + t.valence(t.to(half_edge)) - (t.twin(half_edge) < 0 ? 3 : 4);
+}
 
 std::optional<Collapse> try_collapse(const AdaptingMesh& m, int half_edge, const CollapseOptions& options) {
   return Trial(m, half_edge, options).run();

@@ -9,8 +9,9 @@ namespace hooke {
 
 struct CollapseOptions {
   double shortest = .8;  // of an edge over its target length; shorter ones collapse
-  double longest =
-      4. / 3;             // of an edge over its target length that a collapse may leave, unless one was there
+  /// Of an edge over its target length that a collapse may leave, unless there was one as long at its ends;
+  /// before the vertex that stays goes back to the surface.
+  double longest = 4. / 3;
   int valence = 9;        // greatest valence of the vertex that stays
   double angle = 10;      // degrees; least angle about the vertex that stays, unless there was a smaller one
   double alignment = .3;  // least cosine between a new face and the surface, unless an old one had less
@@ -25,12 +26,16 @@ struct Collapse {
   VertexPlace place;  // where
 };
 
+/// Of the vertex that stays.
+int valence_after(const AdaptingMesh& mesh, int half_edge);
+
 /// Nothing where the edge may not collapse: where that changes the topology, where a guard forbids it, where
 /// it takes a vertex off its curve or an edge from a curve that has no more than it wants. A vertex that is
 /// less free stays where it is; of two alike that of the input stays, in the middle of the edge if the guards
 /// allow it, else at one of its ends.
-/// The mesh is only looked at, as far as the faces across from those of the ends: edges of which no
-/// neighbours are common may be tried at the same time. Projections are not counted.
+/// The mesh is only looked at: edges may be tried at the same time, and of those without a vertex or
+/// neighbour in common all may be made that pass, but for what their curves want. Projections are not
+/// counted.
 /// Pre-condition: the edges of the curves are counted.
 std::optional<Collapse> try_collapse(const AdaptingMesh& mesh, int half_edge, const CollapseOptions& options);
 

@@ -37,7 +37,10 @@ int collapse_edge(AdaptingMesh& m, int h, const CollapseOptions& options) {
 int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
   EdgeQueue queue(m.triangulation, [&](int h) { return options.shortest - relative_length(m, h); });
   int collapses = 0;
-  for (auto edges = queue.pop_apart(most_edges); !edges.empty(); edges = queue.pop_apart(most_edges))
+  const auto next_edges = [&] {
+    return queue.pop_apart(most_edges, [&](int h) { return valence_after(m, h) <= options.valence; });
+  };
+  for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
     for (const std::optional<Collapse>& trial : try_all(m, edges, options)) {
       if (!trial || !curve_may_lose(m, trial->half_edge)) continue;  // others of its curve may have gone
       collapse(m, *trial);

@@ -9,8 +9,8 @@ namespace hooke {
 /// try_collapse().
 int collapse_edge(AdaptingMesh& mesh, int half_edge, const CollapseOptions& options);
 
-/// Collapses edges, the shortest first, until none is too short or no more may be. Returns the number of
-/// collapses.
+/// Collapses edges until none is too short or no more may be: many at a time, the shortest first but for
+/// those that come to be shorter meanwhile. Returns the number of collapses.
 int collapse_short_edges(AdaptingMesh& mesh, const CollapseOptions& options);
 
 }  // namespace hooke

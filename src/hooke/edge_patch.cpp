@@ -73,7 +73,7 @@ class PatchCutter {
     }
   }
 
-  /// Those of the movable vertices, each at the first of them. Returns their ids in the mesh.
+  /// Those of the movable vertices, each once: at its corner of the least id. Returns their ids in the mesh.
   std::vector<int> add_faces() {
     std::vector<int> faces;
     const int movable = static_cast<int>(patch_.movable);
@@ -89,7 +89,7 @@ class PatchCutter {
     return faces;
   }
 
-  /// Only an edge between two vertices that stay may be the last of the patch.
+  /// All faces about a movable vertex are in the patch, as far as creases: it ends with other edges.
   void add_rim(const std::vector<int>& faces) {
     const Triangulation& t = m_.triangulation;
     const int movable = static_cast<int>(patch_.movable);

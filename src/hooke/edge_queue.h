@@ -42,16 +42,17 @@ class EdgeQueue {
   }
 
   /// Those of the next edges, in order and from so many at most, that have no vertex or neighbour in common
-  /// with one before them: whatever the first ones become, the others stay what they are. None when there is
-  /// none.
-  std::vector<int> pop_apart(size_t most) {
+  /// with one before them: whatever the first ones become, the others stay what they are. Fewer where edges
+  /// mostly meet, none when there is none. Edges for which `wanted` is false are dropped.
+  template <typename Wanted>
+  std::vector<int> pop_apart(size_t most, const Wanted& wanted) {
     std::vector<int> apart, later;
-    first_of_batch_ = popped_ + 1;
+    first_of_batch_ = claims_ + 1;
     claimed_by_.resize(static_cast<size_t>(t_.id_count()), 0);
-    while (apart.size() + later.size() < most) {
+    while (apart.size() + later.size() < most && later.size() < 64 + 4 * apart.size()) {
       const int h = pop();
       if (h < 0) break;
-      (claim_about(h) ? apart : later).push_back(h);
+      if (wanted(h)) (claim_about(h) ? apart : later).push_back(h);
     }
     for (int h : later) push(h);
     return apart;
@@ -60,14 +61,14 @@ class EdgeQueue {
  private:
   /// Has no other edge of the batch claimed a vertex about this one?
   bool claim_about(int h) {
-    ++popped_;
+    ++claims_;
     bool free = true;
     for (int end : {t_.from(h), t_.to(h)})
       for (int spoke : t_.outgoing(end))
         for (int v : t_.faces()[static_cast<size_t>(spoke / 3)]) {
           int& by = claimed_by_[static_cast<size_t>(v)];
-          free = free && (by < first_of_batch_ || by == popped_);
-          by = popped_;
+          free = free && (by < first_of_batch_ || by == claims_);
+          by = claims_;
         }
     return free;
   }
@@ -75,8 +76,8 @@ class EdgeQueue {
   const Triangulation& t_;
   std::function<double(int)> urgency_;
   std::priority_queue<std::pair<double, int>> entries_;
-  std::vector<int> claimed_by_;  // per vertex: the last edge about it of all that were popped, from 1
-  int popped_ = 0, first_of_batch_ = 1;
+  std::vector<int> claimed_by_;  // per vertex: the number of the last claim, from 1
+  int claims_ = 0, first_of_batch_ = 1;
 };
 
 }  // namespace hooke

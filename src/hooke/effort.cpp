@@ -30,11 +30,7 @@ void set_effort(RemeshOptions& options, Effort effort) {
   options.adaptation = adapt_options(effort);
   if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
   if (options.connectivity != ConnectivityMode::fixed) {
-    options.integration.energy_drop = 2e-3;
-    if (effort == Effort::fast) {
-      options.integration.energy_drop = 1e-2;
-      options.mend.trials.rounds = 2;
-    }
+    if (effort == Effort::fast) options.mend.trials.rounds = 2;
     return;
   }
   switch (effort) {

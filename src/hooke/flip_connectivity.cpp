@@ -147,6 +147,7 @@ FlipOptions flip_options(Effort effort) {
       options.spring_rounds = 1;
       options.spring_steps = 8;
       options.passes.passes = 0;
+      options.energy_drop = 1e-2;
       options.polish.last_threshold = 36;
       options.polish.sweeps = 4;
       break;

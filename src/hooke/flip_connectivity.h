@@ -28,6 +28,7 @@ struct FlipOptions {
   int spring_steps = 15;    // evaluations of the springs' energy per round
   double hindered = 2e-3;   // part of the vertices; if guards hold back more in a step, sweeps go first
   FlipPassOptions passes;
+  double energy_drop = 2e-3;  // see IntegrationOptions; of the relaxation that follows
   FlipGuardOptions guard;
   /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.
   PolishOptions polish{.first_threshold = 0, .margin = 3, .last_threshold = 60, .edge_error_limit = 1.05};

@@ -131,9 +131,8 @@ class FlipPass {
   }
 
   double loss_before_settling(int h) const {
-    static const Pair pair;
     const EdgePatch patch = cut_pair(m_, h);
-    return energy_of(patch, pair.after, terms_) - energy_of(patch, pair.before, terms_);
+    return energy_of(patch, pair_.after, terms_) - energy_of(patch, pair_.before, terms_);
   }
 
   std::vector<std::optional<EdgePatch>> try_all(const std::vector<int>& edges) const {
@@ -180,6 +179,7 @@ class FlipPass {
   const FlipPassOptions& options_;
   const FlipGuardOptions& flip_guard_;
   const GuardOptions& guards_;
+  const Pair pair_;
   double unit_;                // of what a flip may cost at first
   std::vector<char>& near_;    // per vertex: edges of which are to be tried; all if empty
   std::vector<int> batch_of_;  // per vertex: the last batch in which it moved, from 1

@@ -61,7 +61,7 @@ void mend(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs
   std::swap(r.placement, trial);
 }
 
-/// Leaves the vertices where they have drifted, with the trial for its memory.
+/// Leaves the vertices where they have drifted to. The trial is for its memory: its values mean nothing.
 IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
                           const Observer& observer, Placement& trial) {
   const LooseRetraction loose(r.retraction, lbfgs.lazy_error);
@@ -156,9 +156,10 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
 IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
                               const Observer& observer) {
   Placement trial;
-  const IntegrationResult result = descend(r, options, lbfgs, observer, trial);
+  IntegrationResult result = descend(r, options, lbfgs, observer, trial);
   settle(r.guards, r.retraction, r.placement, trial);
   std::swap(r.placement, trial);
+  result.energy = r.energy(r.placement, nullptr);
   return result;
 }
 

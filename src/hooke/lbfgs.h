@@ -20,7 +20,7 @@ struct LbfgsOptions {
   double carried = .25;
   double least_cap = .25;    // but no less than this, in target lengths
   double mendable = .01;     // part of the vertices: no more than so many that guards hold back are mended
-  double lazy_error = 1e-2;  // of the retraction, until the vertices settle at the end
+  double lazy_error = 1e-2;  // of the retraction, in mean target lengths, until all settle at the end
   int mended_rings = 1;      // about them, within which vertices move ...
   int mending_sweeps = 3;    // ... in so many sweeps
 };

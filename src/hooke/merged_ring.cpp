@@ -15,45 +15,25 @@ Triangle corners_of(size_t face) {
   return {first, first + 1, first + 2};
 }
 
-class Surroundings {
- public:
-  explicit Surroundings(const AdaptingMesh& mesh) : m_(mesh), t_(mesh.triangulation) {}
+void look_at_face(const AdaptingMesh& m, size_t face, WorstShape& worst) {
+  const Mat3X& X = m.placement.points;
+  const Triangle& corners = m.triangulation.faces()[face];
+  const Triangle& sides = m.triangulation.sides()[face];
+  worst.cotangent = std::max(worst.cotangent, greatest_cotangent(X, corners));
+  worst.alignment = std::min(worst.alignment, face_alignment(X, m.placement.normals, corners, sides));
+}
 
-  WorstShape worst_about(int half_edge) const {
-    WorstShape worst;
-    for (int v : {t_.from(half_edge), t_.to(half_edge)})
-      for (int spoke : t_.outgoing(v)) {
-        look_at_face(static_cast<size_t>(spoke / 3), worst);
-        for (int side : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)})
-          look_at_side(side, worst);
-      }
-    return worst;
-  }
-
- private:
-  void look_at_face(size_t face, WorstShape& worst) const {
-    const Mat3X& X = m_.placement.points;
-    const Triangle& corners = t_.faces()[face];
-    worst.cotangent = std::max(worst.cotangent, greatest_cotangent(X, corners));
-    worst.alignment =
-        std::min(worst.alignment, face_alignment(X, m_.placement.normals, corners, t_.sides()[face]));
-  }
-
-  /// Creases are folds that shall be.
-  void look_at_side(int h, WorstShape& worst) const {
-    const Mat3X& X = m_.placement.points;
-    const Edge edge = {t_.from(h), t_.to(h)}, sides = {t_.side(h), t_.side(Triangulation::next(h))};
-    const double target = .5 * (m_.vertex_length[static_cast<size_t>(edge[0])] +
-                                m_.vertex_length[static_cast<size_t>(edge[1])]);
-    worst.sagitta = std::max(worst.sagitta, edge_sagitta(X, m_.placement.normals, edge, sides) / target);
-    if (t_.is_border(h)) return;
-    const auto face = static_cast<size_t>(h / 3), across = static_cast<size_t>(t_.twin(h) / 3);
-    worst.fold = std::min(worst.fold, cosine_between(X, t_.faces()[face], t_.faces()[across]));
-  }
-
-  const AdaptingMesh& m_;
-  const Triangulation& t_;
-};
+/// The edge of h, and the fold there. Creases are folds that shall be.
+void look_at_edge(const AdaptingMesh& m, int h, WorstShape& worst) {
+  const Triangulation& t = m.triangulation;
+  const Mat3X& X = m.placement.points;
+  const Edge edge = {t.from(h), t.to(h)}, sides = {t.side(h), t.side(Triangulation::next(h))};
+  const double sagitta = edge_sagitta(X, m.placement.normals, edge, sides);
+  worst.sagitta = std::max(worst.sagitta, sagitta / target_length(m, edge[0], edge[1]));
+  if (t.is_border(h)) return;
+  const auto face = static_cast<size_t>(h / 3), across = static_cast<size_t>(t.twin(h) / 3);
+  worst.fold = std::min(worst.fold, cosine_between(X, t.faces()[face], t.faces()[across]));
+}
 
 }  // namespace
 
@@ -68,7 +48,15 @@ bool is_within(const WorstShape& w, const WorstShape& limits) {
 }
 
 WorstShape worst_about(const AdaptingMesh& m, int half_edge) {
-  return Surroundings(m).worst_about(half_edge);
+  const Triangulation& t = m.triangulation;
+  WorstShape worst;
+  for (int end : {t.from(half_edge), t.to(half_edge)})
+    for (int spoke : t.outgoing(end)) {
+      look_at_face(m, static_cast<size_t>(spoke / 3), worst);
+      for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)})
+        look_at_edge(m, h, worst);
+    }
+  return worst;
 }
 
 MergedRing::MergedRing(const AdaptingMesh& mesh, int half_edge, int stays)
@@ -85,13 +73,10 @@ MergedRing::MergedRing(const AdaptingMesh& mesh, int half_edge, int stays)
 
 void MergedRing::add_face(int spoke, int side) {
   const int next = Triangulation::next(spoke), previous = Triangulation::previous(spoke);
-  const auto target = [this](int v) {
-    return .5 * (m_.vertex_length[static_cast<size_t>(stays_)] + m_.vertex_length[static_cast<size_t>(v)]);
-  };
   Face face{.spoke = spoke,
             .side = side,
-            .first_target = target(t_.from(next)),
-            .last_target = target(t_.from(previous)),
+            .first_target = target_length(m_, stays_, t_.from(next)),
+            .last_target = target_length(m_, stays_, t_.from(previous)),
             .has_beyond = !t_.is_border(next),
             .beyond = Vec3::Zero(),
             .next = -1};
@@ -102,7 +87,7 @@ void MergedRing::add_face(int spoke, int side) {
   faces_.push_back(face);
 }
 
-/// Where edges fall together, too.
+/// The face after it about the vertex that stays, also where two edges have become one.
 int MergedRing::face_after(const Face& face) const {
   const int last = Triangulation::previous(face.spoke);
   const auto found =
@@ -122,7 +107,7 @@ void MergedRing::copy_corners() {
     const auto [first, second, third] = corners_of(f);
     points_.col(second) = m_.placement.points.col(t_.from(next));
     points_.col(third) = m_.placement.points.col(t_.from(previous));
-    normals_.col(first) = m_.placement.normals.col(faces_[f].side);  // what a move does not turn
+    normals_.col(first) = m_.placement.normals.col(faces_[f].side);  // put() knows two sides
     normals_.col(second) = m_.placement.normals.col(t_.side(next));
     normals_.col(third) = m_.placement.normals.col(t_.side(previous));
   }
@@ -138,7 +123,8 @@ void MergedRing::put(const VertexPlace& place) {
   }
 }
 
-WorstShape MergedRing::worst() const {
+WorstShape MergedRing::worst(const VertexPlace& place) {
+  put(place);
   WorstShape worst;
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];

@@ -27,11 +27,8 @@ class MergedRing {
  public:
   MergedRing(const AdaptingMesh& mesh, int half_edge, int stays);
 
-  /// Puts the vertex there. To be called before worst().
-  void put(const VertexPlace& place);
-
-  /// Of these faces, their edges at the vertex and what is across their sides.
-  WorstShape worst() const;
+  /// Of these faces with the vertex at the place, their edges there and what is across their sides.
+  WorstShape worst(const VertexPlace& place);
 
  private:
   struct Face {
@@ -45,6 +42,7 @@ class MergedRing {
 
   void add_face(int spoke, int side);
   void copy_corners();
+  void put(const VertexPlace& place);
   int face_after(const Face& face) const;
   void look_at_face(size_t face, WorstShape& worst) const;
   void look_at_edge(size_t face, int corner, double target, WorstShape& worst) const;

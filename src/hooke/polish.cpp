@@ -75,7 +75,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   Placement kept = r.placement;
   int kept_stages = 0;
   double best = result.least_angle_before;
-  double last_error = result.edge_error_before, last_threshold = 0;  // of the last state kept
+  double last_error = result.edge_error_before, last_threshold = best;  // of the last state kept
   double step = o.threshold_step;
   double reached = best;  // the last threshold that was not too much
   double threshold = std::max(o.first_threshold, best + o.margin);
@@ -106,7 +106,7 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
       result.least_angle_after = angle;
       result.edge_error_after = error;
       // Errors rise ever faster: what would be too much need not be tried.
-      const double rise = 2 * std::max(0., error - last_error) / (threshold - last_threshold);
+      const double rise = 2 * std::max(0., error - last_error) / (threshold - last_threshold);  // per degree
       const double left = o.edge_error_limit * result.edge_error_before - error;
       if (rise * step > left) {
         step /= 2;

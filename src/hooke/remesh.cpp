@@ -84,14 +84,21 @@ class Remeshing {
     return lbfgs;
   }
 
+  IntegrationOptions integration() const {
+    IntegrationOptions integration = options_.integration;
+    if (options_.connectivity != ConnectivityMode::fixed)
+      integration.energy_drop = options_.flips.energy_drop;
+    return integration;
+  }
+
   IntegrationResult relax() {
     Relaxation r = relaxation();
     switch (options_.integrator) {
       case IntegratorKind::lbfgs:
-        return relax_lbfgs(r, options_.integration, lbfgs(), watch("relax"));
+        return relax_lbfgs(r, integration(), lbfgs(), watch("relax"));
       case IntegratorKind::damped: {
         TriMesh moving = build_mesh(work_.placement.points, *work_.connectivity);
-        return relax_damped(r, moving, options_.integration, options_.damped, watch("relax"));
+        return relax_damped(r, moving, integration(), options_.damped, watch("relax"));
       }
     }
     throw Error("unknown integrator");

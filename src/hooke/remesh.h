@@ -32,7 +32,7 @@ struct RemeshOptions {
   AdaptOptions adaptation;                             // in mode `adapt`
   bool map = false;                                    // RemeshResult::map is wanted
   IntegratorKind integrator = IntegratorKind::lbfgs;
-  IntegrationOptions integration{.energy_drop = 4e-3};
+  IntegrationOptions integration{.energy_drop = 4e-3};  // its energy_drop is that of mode `fixed`
   LbfgsOptions lbfgs;
   DampedOptions damped;
   double altitude = 1;  // beta, weight of the altitude springs against the strings

@@ -95,7 +95,8 @@ class Retraction {
 
   const ProjectionCounts& counts() const { return counts_; }
   bool stands_still(int vertex) const;
-  /// From now on; returns what it was before.
+
+  /// Sets the option from now on; returns what it was.
   double set_lazy_error(double error) { return std::exchange(options_.lazy_error, error); }
 
   const Surface& surface() const { return surface_; }
