@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <new>
+#include <utility>
 
 #include "exit_codes.h"
 #include "hooke/coincident_boundary.h"
@@ -43,18 +44,21 @@ bool keeps_faces(const Settings& s) {
 
 /// The mesh of the input, for the result to be measured against.
 struct Original {
-  Mat3X points;
-  std::vector<Triangle> faces;  // empty where the result keeps them
+  Mat3X points;  // as the layout has them
+  Layout layout;
   std::vector<int> tree_order;  // in which its tree holds the faces
 };
 
 /// What the input told of its vertices, for those of the result: the same while vertices stay what they were,
 /// else the values at their places. Normals are always those of the result.
 VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
-                          const MeasuredSurface& result, RunRecord& run) {
-  VertexData data =
-      keeps_faces(s) ? loaded.vertex_data : carry_over(loaded.vertex_data, run.result->map, original.faces);
-  set_normals(data, vertex_normals(result.points, result.connectivity));
+                          const Mat3X& points, const Layout& layout, RunRecord& run) {
+  VertexData data = loaded.vertex_data;
+  if (!keeps_faces(s) && !data.empty())
+    data = carry_over(data, run.result->map,
+                      original.layout.order.in_old_order(original.layout.connectivity->faces));
+  if (has_normals(data))
+    set_normals(data, layout.order.in_old_order(vertex_normals(points, *layout.connectivity)));
   FormatData carried = data_for_format(data, loaded.format, s.format);
   if (!carried.left_out.empty())
     run.warnings.push_back({"attributes_not_kept",
@@ -63,14 +67,17 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Ori
   return std::move(carried.data);
 }
 
-MeasuredSurface surface_of(const Mat3X& points, const Connectivity& connectivity, Stopwatch& stopwatch,
+MeasuredSurface surface_of(Mat3X points, const Layout& layout, Stopwatch& stopwatch,
                            const std::vector<int>& tree_order = {}) {
-  return timed(&stopwatch, "tree", [&] { return MeasuredSurface(points, connectivity, tree_order); });
+  return timed(&stopwatch, "tree", [&] {
+    return MeasuredSurface(std::move(points), *layout.connectivity, layout.order.old_ids(), tree_order);
+  });
 }
 
 /// Against the target lengths that the vertices have now.
-Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, Stopwatch& stopwatch) {
-  const std::vector<double> lengths = vertex_values(mesh, target_length_property);
+Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Reordered& order,
+                Stopwatch& stopwatch) {
+  const std::vector<double> lengths = order.in_new_order(vertex_values(mesh, target_length_property));
   return measure_quality(surface, spread_target_lengths(surface.connectivity, lengths).edge, {}, &stopwatch);
 }
 
@@ -88,40 +95,37 @@ auto in_the_name_of(const std::string& name, const Work& work) {
   }
 }
 
-RemeshResult optimize(const Settings& s, TriMesh& mesh, Stopwatch& stopwatch) {
+RemeshResult optimize(const Settings& s, TriMesh& mesh, Layout layout, Stopwatch& stopwatch) {
   ProgressLine line(s);
   const Observer observer = [&](const Progress& p) {
     line.show(p);
     return caught_signal() == 0;
   };
   return in_the_name_of(name_of_input(s), [&] {
-    return s.paper ? paper_remesh(mesh, s.paper_options, observer)
-                   : remesh(mesh, s.remesh, observer, &stopwatch);
+    return s.paper ? paper_remesh(mesh, std::move(layout), s.paper_options, observer)
+                   : remesh(mesh, std::move(layout), s.remesh, observer, &stopwatch);
   });
 }
 
-/// Gives the input its target lengths and measures it. What that takes is gone when the work begins; returns
-/// the order of its tree.
-std::vector<int> measure_input(const Settings& s, TriMesh& mesh, const Connectivity& connectivity,
-                               RunRecord& record, Stopwatch& stopwatch) {
-  record.input.connectivity_sha256 =
-      timed(&stopwatch, "sha256", [&] { return connectivity_sha256(connectivity.faces); });
+/// Gives the input its target lengths and measures it. Returns the order of its tree.
+std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord& record,
+                               Stopwatch& stopwatch) {
+  TriMesh& mesh = loaded.mesh;
+  const Layout& layout = loaded.layout;
+  const Mat3X points = layout.order.in_new_order(positions(mesh));
   if (!s.check)
-    warn_of_coincident_boundary(coincident_boundary_vertices(positions(mesh), connectivity).size(), record);
-  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, connectivity, record); });
-  const MeasuredSurface surface = surface_of(positions(mesh), connectivity, stopwatch);
-  record.before = timed(&stopwatch, "before", [&] { return measure(surface, mesh, stopwatch); });
+    warn_of_coincident_boundary(coincident_boundary_vertices(points, *layout.connectivity).size(), record);
+  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, layout, record); });
+  const MeasuredSurface surface = surface_of(points, layout, stopwatch);
+  record.before =
+      timed(&stopwatch, "before", [&] { return measure(surface, mesh, layout.order, stopwatch); });
   return surface.tree.order();
 }
 
 void measure_way(const Original& original, const MeasuredSurface& result, RunRecord& record,
                  Stopwatch& stopwatch) {
-  const bool same_faces = original.faces.empty();
-  const Connectivity others =
-      same_faces ? Connectivity{}
-                 : make_connectivity(static_cast<int>(original.points.cols()), original.faces);
   const MeasuredSurface reference =
-      surface_of(original.points, same_faces ? result.connectivity : others, stopwatch, original.tree_order);
+      surface_of(original.points, original.layout, stopwatch, original.tree_order);
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
   if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
@@ -131,27 +135,28 @@ void measure_way(const Original& original, const MeasuredSurface& result, RunRec
 void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
                  OutputFiles& files, Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
-  record.result = timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, stopwatch); });
+  if (!keeps_faces(s)) original.layout = loaded.layout;
+  record.result =
+      timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, std::move(loaded.layout), stopwatch); });
   return_free_memory();
-  const RemeshResult& done = *record.result;
-  original.points = std::move(record.result->input_points);
+  RemeshResult& done = *record.result;
+  const Layout layout = std::move(done.layout);
+  if (keeps_faces(s)) original.layout = layout;
+  original.points = original.layout.order.in_new_order(std::exchange(done.input_points, {}));
   if (!positions(mesh).allFinite())
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", record.input.path));
   record.status = status_of(done.reason);
-  const Connectivity after = timed(&stopwatch, "connectivity", [&] {
-    return make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
-  });
-  const MeasuredSurface result = surface_of(positions(mesh), after, stopwatch,
+  const MeasuredSurface result = surface_of(layout.order.in_new_order(positions(mesh)), layout, stopwatch,
                                             keeps_faces(s) ? original.tree_order : std::vector<int>());
-  record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, stopwatch); });
+  record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, layout.order, stopwatch); });
   if (!done.holds.empty())
     for (WorstFace& face : record.after->worst_faces) face.reasons = hindrances(face, done.holds);
   measure_way(original, result, record, stopwatch);
-  const VertexData data = data_of_result(s, loaded, original, result, record);
+  const VertexData data = data_of_result(s, loaded, original, result.points, layout, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
   });
-  record.output = {printable(s.output.string()), written.sha256, s.format, connectivity_sha256(after.faces)};
+  record.output = {printable(s.output.string()), written.sha256, s.format, written.connectivity_sha256};
   files.add(std::move(written.file));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
   add_result_warnings(s, record);
@@ -176,21 +181,17 @@ int run(Settings s) {
   LoadedMesh loaded = timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch); });
   if (!s.fix.empty())
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
-        read_id_list(s.fix, loaded.connectivity.vertex_count);
+        read_id_list(s.fix, loaded.layout.connectivity->vertex_count);
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
-  record.input = {name_of_input(s), loaded.sha256, loaded.format, {}};
+  record.input = {name_of_input(s), loaded.sha256, loaded.format, loaded.connectivity_sha256};
   record.warnings = loaded.warnings;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
   Original original;
-  {  // memory for the work: connectivity and surface are made again when they are needed again
-    Connectivity connectivity = std::move(loaded.connectivity);
-    original.tree_order = measure_input(s, loaded.mesh, connectivity, record, stopwatch);
-    if (!keeps_faces(s)) original.faces = std::move(connectivity.faces);
-  }
+  original.tree_order = measure_input(s, loaded, record, stopwatch);
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, record, files, stopwatch);

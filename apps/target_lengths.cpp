@@ -26,15 +26,15 @@ void require_reasonable(const Settings& s, double least, double most, double nat
 
 }  // namespace
 
-void set_target_lengths(const Settings& s, TriMesh& mesh, const Connectivity& connectivity,
-                        RunRecord& record) {
-  const Mat3X points = positions(mesh);
-  const Sizing sizing{read_sizing(s.sizing, s.input, points, connectivity), s.gradation};
+void set_target_lengths(const Settings& s, TriMesh& mesh, const Layout& layout, RunRecord& record) {
+  const Mat3X points = layout.order.in_new_order(positions(mesh));
+  const Connectivity& connectivity = *layout.connectivity;
+  const Sizing sizing{read_sizing(s.sizing, s.input, points, layout), s.gradation};
   const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, connectivity);
   const double natural = resolve_length({}, points, connectivity);
   const auto [least, most] = std::ranges::minmax_element(lengths);
   require_reasonable(s, *least, *most, natural);
-  set_vertex_values(mesh, target_length_property, lengths);
+  set_vertex_values(mesh, target_length_property, layout.order.in_old_order(lengths));
 
   const TargetLengths targets = spread_target_lengths(connectivity, lengths);
   record.parameters.update({{"L", mean_length(points, connectivity, targets)},

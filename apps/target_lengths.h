@@ -1,8 +1,7 @@
 // The lengths that the edges of the input are to have, from what the command line asks for.
 #pragma once
 
-#include "hooke/connectivity.h"
-#include "hooke/mesh.h"
+#include "hooke/layout.h"
 #include "hooke/report.h"
 #include "options.h"
 
@@ -10,7 +9,6 @@ namespace hooke::app {
 
 /// Gives the vertices their target lengths (v:target_length) and tells in the record what they are. Throws
 /// Error where they are out of all proportion to the mesh, and what reading a sizing throws.
-void set_target_lengths(const Settings& settings, TriMesh& mesh, const Connectivity& connectivity,
-                        RunRecord& record);
+void set_target_lengths(const Settings& settings, TriMesh& mesh, const Layout& layout, RunRecord& record);
 
 }  // namespace hooke::app

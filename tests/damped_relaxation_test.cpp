@@ -32,7 +32,7 @@ struct Bench {
 
   explicit Bench(const Triangles& t, const GuardOptions& guard_options = {},
                  FilterKind filter = FilterKind::local)
-      : work(with_natural_length(t), {}, {.kind = filter}, {}, guard_options),
+      : work(with_natural_length(t), lay_out(test::to_mesh(t)), {}, {.kind = filter}, {}, guard_options),
         energy(*work.connectivity, work.targets, {}),
         guards(*work.connectivity, work.targets, guard_options),
         mesh(build_mesh(work.placement.points, *work.connectivity)) {}

@@ -20,44 +20,21 @@ std::vector<int> sorted(std::vector<int> ids) {
   return ids;
 }
 
-/// The mesh with its vertices numbered at random.
-test::Triangles shuffled(const test::Triangles& t) {
-  std::vector<int> fresh = numbers(static_cast<size_t>(t.points.cols()));
-  std::mt19937 random(2);
-  std::ranges::shuffle(fresh, random);
-  test::Triangles result{Mat3X(3, t.points.cols()), t.faces};
-  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
-    result.points.col(fresh[static_cast<size_t>(v)]) = t.points.col(v);
-  for (Triangle& face : result.faces)
-    for (int& v : face) v = fresh[static_cast<size_t>(v)];
-  return result;
-}
-
 double mean_edge_span(const Connectivity& c) {
   double sum = 0;
   for (const auto& [a, b] : c.edges) sum += std::abs(a - b);
   return sum / static_cast<double>(c.edges.size());
 }
 
-const test::Triangles& two_parts_and_loose_vertices() {
-  static const test::Triangles t = [] {
-    test::Triangles r = test::both(test::sphere(2), test::grid(9, test::flat));
-    r.points.conservativeResize(3, r.points.cols() + 3);
-    r.points.rightCols(3).setRandom();
-    return r;
-  }();
-  return t;
-}
-
 TEST(Ordering, IsAPermutationOfAllVerticesAndFaces) {
-  const Connectivity c = test::connect(two_parts_and_loose_vertices());
+  const Connectivity c = test::connect(test::two_parts_and_loose_vertices());
   const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   EXPECT_EQ(sorted(r.old_vertex), numbers(static_cast<size_t>(c.vertex_count)));
   EXPECT_EQ(sorted(r.old_face), numbers(c.faces.size()));
 }
 
 TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
-  const Connectivity c = test::connect(shuffled(two_parts_and_loose_vertices()));
+  const Connectivity c = test::connect(test::shuffled(test::two_parts_and_loose_vertices()));
   const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   ASSERT_EQ(r.faces.size(), c.faces.size());
   for (size_t f = 0; f < r.faces.size(); ++f) {
@@ -68,7 +45,7 @@ TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
 }
 
 TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
-  const Connectivity c = test::connect(two_parts_and_loose_vertices());
+  const Connectivity c = test::connect(test::two_parts_and_loose_vertices());
   const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   const std::vector<int> old = {7, 0, 100};
   const std::vector<int> fresh = r.new_vertices(old);
@@ -78,13 +55,13 @@ TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
 }
 
 TEST(Ordering, FacesFollowTheirSmallestVertex) {
-  const Connectivity c = test::connect(shuffled(test::sphere(3)));
+  const Connectivity c = test::connect(test::shuffled(test::sphere(3)));
   const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
   EXPECT_TRUE(std::ranges::is_sorted(r.faces, {}, [](const Triangle& t) { return std::ranges::min(t); }));
 }
 
 TEST(Ordering, BringsNeighboursTogether) {
-  const Connectivity c = test::connect(shuffled(test::grid(40, test::flat)));
+  const Connectivity c = test::connect(test::shuffled(test::grid(40, test::flat)));
   const Connectivity ordered =
       make_connectivity(c.vertex_count, reorder(c.faces, locality_order(c.vertex_count, c.faces)).faces);
   EXPECT_LT(mean_edge_span(ordered), .2 * mean_edge_span(c));

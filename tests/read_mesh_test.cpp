@@ -10,6 +10,7 @@
 #include "hooke/io/sha256.h"
 #include "hooke/io/write_mesh.h"
 #include "meshes.h"
+#include "solids.h"
 #include "temporary_folder.h"
 
 namespace hooke {
@@ -62,6 +63,34 @@ TEST(ReadMesh, EveryFormatReturnsEveryBitOfTheMesh) {
     EXPECT_EQ(mesh_bytes(loaded.mesh, loaded.format, encoding), read_text(folder / name));
   }
   EXPECT_EQ(folder.file_count(), 5u);
+}
+
+TEST(ReadMesh, LaysTheMeshOut) {
+  const TemporaryFolder folder;
+  const test::Triangles t = test::shuffled(test::sphere(2));
+  prepare_mesh(folder / "m.off", test::to_mesh(t), "off").file.commit();
+  const LoadedMesh loaded = read_mesh(folder / "m.off");
+  const Layout expected = lay_out(loaded.mesh);
+  EXPECT_EQ(loaded.layout.order.old_vertex, expected.order.old_vertex);
+  EXPECT_EQ(loaded.layout.order.old_face, expected.order.old_face);
+  EXPECT_EQ(loaded.layout.connectivity->faces, expected.connectivity->faces);
+  EXPECT_EQ(loaded.layout.connectivity->edges, expected.connectivity->edges);
+  EXPECT_EQ(loaded.connectivity_sha256, connectivity_sha256(t.faces));
+}
+
+TEST(ReadMesh, WarningsNameTheVerticesOfTheFile) {
+  const TemporaryFolder folder;
+  test::Triangles t = test::shuffled(test::two_parts_and_loose_vertices());
+  std::vector<bool> used(static_cast<size_t>(t.points.cols()));
+  for (const Triangle& face : t.faces)
+    for (int v : face) used[static_cast<size_t>(v)] = true;
+  std::string loose;
+  for (size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) loose += (loose.empty() ? "" : ", ") + std::to_string(v);
+  prepare_mesh(folder / "m.off", test::to_mesh(t), "off").file.commit();
+  const LoadedMesh loaded = read_mesh(folder / "m.off");
+  ASSERT_EQ(loaded.warnings.size(), 1u);
+  EXPECT_TRUE(test::has(loaded.warnings[0].message, "vertices " + loose)) << loaded.warnings[0].message;
 }
 
 TEST(ReadMesh, GathersTheWarningsOfEachStep) {

@@ -56,7 +56,8 @@ double largest_move(const Mat3X& a, const Mat3X& b) {
 
 /// Largest distance of the points to the field that the input stands for, in target lengths.
 double off_the_field(const test::Triangles& t, const Mat3X& points, const RemeshOptions& options) {
-  const Workspace w(with_length(t, natural(t)), options.constraints, options.filter, options.retraction,
+  const TriMesh mesh = with_length(t, natural(t));
+  const Workspace w(mesh, lay_out(mesh), options.constraints, options.filter, options.retraction,
                     options.guards);
   Mat3X x(3, points.cols());
   for (Eigen::Index v = 0; v < x.cols(); ++v)

@@ -1,7 +1,9 @@
 // Small solids with figures known by heart, and the motions that must not change them. For tests.
 #pragma once
 
+#include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "hooke/connectivity.h"
@@ -59,6 +61,28 @@ inline Triangles moved(Triangles t, double scale = 1) {
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(1.1, Vec3(1, -2, 3).normalized()).toRotationMatrix();
   t.points = (scale * (rotation * t.points)).eval();
   t.points.colwise() += Vec3(.3, -7, 2) * scale;
+  return t;
+}
+
+/// The same with its vertices numbered at random.
+inline Triangles shuffled(const Triangles& t, unsigned seed = 2) {
+  std::vector<int> fresh(static_cast<size_t>(t.points.cols()));
+  std::iota(fresh.begin(), fresh.end(), 0);
+  std::mt19937 random(seed);
+  std::ranges::shuffle(fresh, random);
+  Triangles result{Mat3X(3, t.points.cols()), t.faces};
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    result.points.col(fresh[static_cast<size_t>(v)]) = t.points.col(v);
+  for (Triangle& face : result.faces)
+    for (int& v : face) v = fresh[static_cast<size_t>(v)];
+  return result;
+}
+
+/// A sphere and a piece of a plane with a boundary, and three vertices without faces.
+inline Triangles two_parts_and_loose_vertices() {
+  Triangles t = both(sphere(2), grid(9, flat));
+  t.points.conservativeResize(3, t.points.cols() + 3);
+  t.points.rightCols(3).setConstant(9);
   return t;
 }
 

@@ -25,7 +25,7 @@ test::Triangles wavy() {
 }
 
 Workspace on(const TriMesh& mesh, const FilterOptions& filter = {}) {
-  return Workspace(mesh, {}, filter, {}, {});
+  return Workspace(mesh, lay_out(mesh), {}, filter, {}, {});
 }
 
 /// Moves the vertices by a quarter of a target length.

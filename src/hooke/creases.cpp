@@ -87,6 +87,14 @@ void part_at_creases(Connectivity& c, const std::vector<Edge>& creases) {
   }
 }
 
+Connectivity without_creases(Connectivity c) {
+  c.creases.clear();
+  c.side_faces.clear();
+  c.side_edges.clear();
+  c.further_sides.clear();
+  return c;
+}
+
 std::vector<Edge> crease_edges(const Connectivity& c) {
   std::vector<Edge> creases;
   for (size_t e = 0; e < c.creases.size(); ++e)

@@ -12,6 +12,9 @@ namespace hooke {
 /// out.
 void part_at_creases(Connectivity& connectivity, const std::vector<Edge>& creases);
 
+/// The same, not parted.
+Connectivity without_creases(Connectivity connectivity);
+
 /// The edges that are marked, as pairs of vertices.
 std::vector<Edge> crease_edges(const Connectivity& connectivity);
 

@@ -67,15 +67,13 @@ void add_face(const Vec3& p, const Vec3& q, const Vec3& r, RingSums& sums) {
 
 }  // namespace
 
-VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& connectivity,
-                                  std::span<const int> order) {
+VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& connectivity) {
   const auto n = static_cast<size_t>(connectivity.vertex_count);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   VertexCurvature curvature{std::vector<double>(n, none), std::vector<double>(n, none)};
   const std::vector<char> on_boundary = boundary_vertices(connectivity);
-  parallel_for(order.empty() ? n : order.size(), 1024, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      const size_t v = order.empty() ? i : static_cast<size_t>(order[i]);
+  parallel_for(n, 1024, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
       const auto ring = connectivity.vertex_faces[static_cast<int>(v)];
       if (on_boundary[v] || ring.empty()) continue;
       RingSums sums;

@@ -15,8 +15,6 @@ struct VertexCurvature {
   std::vector<double> gaussian;  // 1/length^2: angle defect over the mixed area
 };
 
-/// `order`: ids of the vertices to look at, in a good order for the memory; empty: all, ascending.
-VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& connectivity,
-                                  std::span<const int> order = {});
+VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& connectivity);
 
 }  // namespace hooke

@@ -108,13 +108,12 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
 /// Unit normals; faces weigh by their area, so that a folded sliver does not turn them.
 Mat3X vertex_normals(const MeasuredSurface& side) {
   Mat3X normals = Mat3X::Zero(3, side.connectivity.vertex_count);
-  const std::vector<int> vertices = vertices_in_tree_order(side);
-  parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
+  parallel_for(static_cast<size_t>(normals.cols()), block, [&](size_t begin, size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       Vec3 sum = Vec3::Zero();
-      for (int f : side.connectivity.vertex_faces[vertices[i]])
+      for (int f : side.connectivity.vertex_faces[v])
         sum += area_vector(side.points, side.connectivity.faces[static_cast<size_t>(f)]);
-      normals.col(vertices[i]) = sum.normalized();
+      normals.col(v) = sum.normalized();
     }
   });
   return normals;
@@ -145,7 +144,8 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
   });
   deviation.flipped_faces = static_cast<size_t>(std::ranges::count(flipped, 1));
   for (size_t f = 0; f < opposing.size(); ++f)
-    if (opposing[f]) deviation.opposing_faces.push_back(static_cast<int>(f));
+    if (opposing[f]) deviation.opposing_faces.push_back(result.ids.face(static_cast<int>(f)));
+  std::ranges::sort(deviation.opposing_faces);
 }
 
 /// Boundary edges as triangles without area, which is how the tree takes segments.

@@ -25,8 +25,8 @@ struct Deviation {
   /// Faces whose normal opposes the reference's vertex normals, interpolated at the point closest to the
   /// centre.
   std::size_t flipped_faces = 0;
-  /// Ids of these, and of faces whose normal opposes that of the reference face closest to their centre: they
-  /// lie at folds of the reference itself.
+  /// Ids, ascending, of these, and of faces whose normal opposes that of the reference face closest to their
+  /// centre: they lie at folds of the reference itself.
   std::vector<int> opposing_faces;
 
   std::optional<double> area_change;    // result / reference - 1

@@ -13,10 +13,6 @@ constexpr size_t block = 4096;
 
 using OpenMesh::HalfedgeHandle, OpenMesh::FaceHandle, OpenMesh::VertexHandle;
 
-VertexHandle vertex(int v) {
-  return VertexHandle(v);
-}
-
 /// OpenMesh's half-edge that runs along side k of the face.
 HalfedgeHandle half_edge(const Connectivity& c, size_t face, size_t k) {
   const auto edge = static_cast<size_t>(c.face_edges[face][k]);
@@ -24,13 +20,13 @@ HalfedgeHandle half_edge(const Connectivity& c, size_t face, size_t k) {
   return HalfedgeHandle(static_cast<int>(2 * edge + (along ? 0 : 1)));
 }
 
-void link_inside(const Connectivity& c, TriMesh& mesh) {
+void link_inside(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
   parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
-      const FaceHandle face(static_cast<int>(f));
+      const FaceHandle face(ids.face(static_cast<int>(f)));
       for (size_t k = 0; k < 3; ++k) {
         const HalfedgeHandle h = half_edge(c, f, k);
-        mesh.set_vertex_handle(h, vertex(c.faces[f][(k + 1) % 3]));
+        mesh.set_vertex_handle(h, VertexHandle(ids.vertex(c.faces[f][(k + 1) % 3])));
         mesh.set_face_handle(h, face);
         mesh.set_next_halfedge_handle(h, half_edge(c, f, (k + 1) % 3));
       }
@@ -40,41 +36,43 @@ void link_inside(const Connectivity& c, TriMesh& mesh) {
 }
 
 /// A vertex points to a half-edge that leaves it: on the boundary to the one without a face.
-void link_vertices(const Connectivity& c, TriMesh& mesh) {
+void link_vertices(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
   parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      const VertexHandle vertex(ids.vertex(v));
       const auto ring = c.vertex_faces[v];
       if (ring.empty()) {
-        mesh.set_isolated(vertex(v));
+        mesh.set_isolated(vertex);
         continue;
       }
       const Triangle& t = c.faces[static_cast<size_t>(ring.front())];
       const size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-      mesh.set_halfedge_handle(vertex(v), half_edge(c, static_cast<size_t>(ring.front()), k));
+      mesh.set_halfedge_handle(vertex, half_edge(c, static_cast<size_t>(ring.front()), k));
     }
   });
 }
 
-void link_boundary(const Connectivity& c, TriMesh& mesh) {
+void link_boundary(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
+  const auto end = [&](size_t e, size_t k) { return VertexHandle(ids.vertex(c.edges[e][k])); };
   const auto boundary = [&](size_t e) { return HalfedgeHandle(static_cast<int>(2 * e + 1)); };
   for (size_t e = 0; e < c.edges.size(); ++e) {
     if (!c.is_boundary_edge(static_cast<int>(e))) continue;
-    mesh.set_vertex_handle(boundary(e), vertex(c.edges[e][0]));
+    mesh.set_vertex_handle(boundary(e), end(e, 0));
     mesh.set_boundary(boundary(e));
-    mesh.set_halfedge_handle(vertex(c.edges[e][1]), boundary(e));
+    mesh.set_halfedge_handle(end(e, 1), boundary(e));
   }
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.is_boundary_edge(static_cast<int>(e)))
-      mesh.set_next_halfedge_handle(boundary(e), mesh.halfedge_handle(vertex(c.edges[e][0])));
+      mesh.set_next_halfedge_handle(boundary(e), mesh.halfedge_handle(end(e, 0)));
 }
 
 }  // namespace
 
-TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity) {
+TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity, const MeshIds& ids) {
   TriMesh mesh;
   mesh.resize(static_cast<size_t>(points.cols()), 0, 0);
   positions(mesh) = points;
-  replace_faces(mesh, connectivity);
+  replace_faces(mesh, connectivity, ids);
   return mesh;
 }
 
@@ -86,12 +84,12 @@ TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) 
 }
 
 // Straight into the kernel's arrays: adding face by face looks at every ring again and again.
-void replace_faces(TriMesh& mesh, const Connectivity& connectivity) {
+void replace_faces(TriMesh& mesh, const Connectivity& connectivity, const MeshIds& ids) {
   mesh.resize(mesh.n_vertices(), 0, 0);  // properties of edges and faces go with them
   mesh.resize(mesh.n_vertices(), connectivity.edges.size(), connectivity.faces.size());
-  link_inside(connectivity, mesh);
-  link_vertices(connectivity, mesh);
-  link_boundary(connectivity, mesh);
+  link_inside(connectivity, ids, mesh);
+  link_vertices(connectivity, ids, mesh);
+  link_boundary(connectivity, ids, mesh);
 }
 
 Eigen::Map<Mat3X> positions(TriMesh& mesh) {

@@ -10,6 +10,7 @@
 #include <OpenMesh/Core/Utils/PropertyManager.hh>
 
 #include "hooke/connectivity.h"
+#include "hooke/mesh_ids.h"
 
 namespace hooke {
 
@@ -28,16 +29,17 @@ inline constexpr char force_property[] = "v:force";        // Vec3, lambda F_str
 inline constexpr char target_length_property[] =
     "v:target_length";  // double; an edge wants the mean of its ends
 
-/// Mesh from points and connectivity, with the ids that vertices, edges and faces have there.
-TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity);
+/// Mesh from points, by vertex id, and a connectivity, of which vertices and faces have these ids in the mesh
+/// and edges their own.
+TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity, const MeshIds& ids = {});
 
 /// The same from triangles, which need not have been looked at before. Throws MeshError unless they are
 /// manifold and consistently oriented (validation.h tells more).
 TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles);
 
 /// Gives the mesh other faces on the same vertices, which keep their ids, points and properties. Properties
-/// of edges and faces start anew. Pre-condition: as many vertices.
-void replace_faces(TriMesh& mesh, const Connectivity& connectivity);
+/// of edges and faces start anew. `ids` as for build_mesh(). Pre-condition: as many vertices.
+void replace_faces(TriMesh& mesh, const Connectivity& connectivity, const MeshIds& ids = {});
 
 /// The points as a 3 x |V| matrix over the mesh's own storage. Dies when vertices are added or removed.
 Eigen::Map<Mat3X> positions(TriMesh& mesh);

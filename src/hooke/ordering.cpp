@@ -64,6 +64,15 @@ IntLists other_corners(int vertex_count, const std::vector<Triangle>& faces) {
   return corners;
 }
 
+/// Calls each(new id, old id).
+template <class Each>
+void for_each_vertex(const Reordered& order, const Each& each) {
+  parallel_for(order.old_vertex.size(), block, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      each(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(order.old_vertex[v]));
+  });
+}
+
 }  // namespace
 
 std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces) {
@@ -85,6 +94,42 @@ std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
   std::vector<int> result;
   for (int v : old) result.push_back(fresh[static_cast<size_t>(v)]);
   return result;
+}
+
+Mat3X Reordered::in_new_order(const Eigen::Ref<const Mat3X>& old) const {
+  Mat3X fresh(3, old.cols());
+  for_each_vertex(*this, [&](auto v, auto before) { fresh.col(v) = old.col(before); });
+  return fresh;
+}
+
+std::vector<double> Reordered::in_new_order(const std::vector<double>& old) const {
+  std::vector<double> fresh(old.size());
+  for_each_vertex(
+      *this, [&](auto v, auto before) { fresh[static_cast<size_t>(v)] = old[static_cast<size_t>(before)]; });
+  return fresh;
+}
+
+Mat3X Reordered::in_old_order(const Mat3X& fresh) const {
+  Mat3X old(3, fresh.cols());
+  for_each_vertex(*this, [&](auto v, auto before) { old.col(before) = fresh.col(v); });
+  return old;
+}
+
+std::vector<double> Reordered::in_old_order(const std::vector<double>& fresh) const {
+  std::vector<double> old(fresh.size());
+  for_each_vertex(
+      *this, [&](auto v, auto before) { old[static_cast<size_t>(before)] = fresh[static_cast<size_t>(v)]; });
+  return old;
+}
+
+std::vector<Triangle> Reordered::in_old_order(const std::vector<Triangle>& fresh) const {
+  std::vector<Triangle> old(fresh.size());
+  parallel_for(fresh.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f)
+      for (size_t k = 0; k < 3; ++k)
+        old[static_cast<size_t>(old_face[f])][k] = old_vertex[static_cast<size_t>(fresh[f][k])];
+  });
+  return old;
 }
 
 Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order) {

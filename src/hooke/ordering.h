@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "hooke/int_lists.h"
+#include "hooke/mesh_ids.h"
 #include "hooke/short_list.h"
 #include "hooke/types.h"
 
@@ -24,8 +25,19 @@ struct Reordered {
   std::vector<int> old_face;    // of a new one; faces follow their smallest vertex
   std::vector<Triangle> faces;  // in new vertex ids
 
+  MeshIds old_ids() const { return {old_vertex, old_face}; }
+
   /// The new ids of these old vertices.
   std::vector<int> new_vertices(const std::vector<int>& old) const;
+
+  /// What belongs to the vertices, from the one order to the other.
+  Mat3X in_new_order(const Eigen::Ref<const Mat3X>& old) const;
+  std::vector<double> in_new_order(const std::vector<double>& old) const;
+  Mat3X in_old_order(const Mat3X& fresh) const;
+  std::vector<double> in_old_order(const std::vector<double>& fresh) const;
+
+  /// Faces in new vertex ids and new order, as they were.
+  std::vector<Triangle> in_old_order(const std::vector<Triangle>& fresh) const;
 };
 Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order);
 

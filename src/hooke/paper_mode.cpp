@@ -10,10 +10,10 @@ namespace {
 /// The work in hand and the account of it.
 class PaperRun {
  public:
-  PaperRun(const TriMesh& mesh, const PaperOptions& options, const Observer& observer)
+  PaperRun(const TriMesh& mesh, Layout layout, const PaperOptions& options, const Observer& observer)
       : options_(options),
         observer_(observer),
-        work_(mesh, options.constraints, options.filter, options.retraction, {}),
+        work_(mesh, std::move(layout), options.constraints, options.filter, options.retraction, {}),
         to_input_(*work_.retraction),
         strings_(*work_.connectivity, work_.targets, {.altitude = 0}),
         mesh_(build_mesh(*work_.start, *work_.connectivity)) {}
@@ -25,6 +25,7 @@ class PaperRun {
     result_.projection = work_.projection_counts();
     result_.folded_faces = folded_faces();
     result_.input_points = work_.copy_back(mesh);
+    result_.layout = work_.layout();
     return std::move(result_);
   }
 
@@ -124,7 +125,12 @@ class PaperRun {
 }  // namespace
 
 RemeshResult paper_remesh(TriMesh& mesh, const PaperOptions& options, const Observer& observer) {
-  return PaperRun(mesh, options, observer).run(mesh);
+  return paper_remesh(mesh, lay_out(mesh), options, observer);
+}
+
+RemeshResult paper_remesh(TriMesh& mesh, Layout layout, const PaperOptions& options,
+                          const Observer& observer) {
+  return PaperRun(mesh, std::move(layout), options, observer).run(mesh);
 }
 
 }  // namespace hooke

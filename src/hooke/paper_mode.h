@@ -30,4 +30,8 @@ struct PaperOptions {
 /// Throws LimitError or NumericalError when the spline cannot be fitted; the mesh is as it was then.
 RemeshResult paper_remesh(TriMesh& mesh, const PaperOptions& options, const Observer& observer = nullptr);
 
+/// The same with the mesh's layout, where it is known already.
+RemeshResult paper_remesh(TriMesh& mesh, Layout layout, const PaperOptions& options,
+                          const Observer& observer = nullptr);
+
 }  // namespace hooke

@@ -16,15 +16,12 @@ namespace {
 
 constexpr size_t block = 1024;
 
-using Face = BoundingVolumeTree::Face;
-
-/// By id.
-std::vector<TriangleShape> measure_faces(std::span<const Face> faces) {
+std::vector<TriangleShape> measure_faces(const Mat3X& points, const std::vector<Triangle>& faces) {
   std::vector<TriangleShape> shapes(faces.size());
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k) {
-      const auto& [a, b, c] = faces[k].corners;
-      shapes[static_cast<size_t>(faces[k].id)] = measure_triangle(a, b, c);
+    for (size_t f = begin; f < end; ++f) {
+      const auto& [a, b, c] = faces[f];
+      shapes[f] = measure_triangle(points.col(a), points.col(b), points.col(c));
     }
   });
   return shapes;
@@ -39,13 +36,13 @@ std::vector<double> measure_edges(const Mat3X& points, const std::vector<Edge>& 
   return lengths;
 }
 
-/// Cross products of two edges of every face, by id: along the normal, twice the area long.
-Mat3X area_vectors(std::span<const Face> faces) {
+/// Cross products of two edges of every face: along the normal, twice the area long.
+Mat3X area_vectors(const Mat3X& points, const std::vector<Triangle>& faces) {
   Mat3X vectors(3, static_cast<Eigen::Index>(faces.size()));
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k) {
-      const auto& [a, b, c] = faces[k].corners;
-      vectors.col(faces[k].id) = (b - a).cross(c - a);
+    for (size_t f = begin; f < end; ++f) {
+      const Vec3 a = points.col(faces[f][0]), b = points.col(faces[f][1]), c = points.col(faces[f][2]);
+      vectors.col(static_cast<Eigen::Index>(f)) = (b - a).cross(c - a);
     }
   });
   return vectors;
@@ -90,14 +87,15 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface,
   const auto count = static_cast<std::ptrdiff_t>(std::min(wanted, order.size()));
   const auto least_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
   std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int f, int g) {
-    return std::pair(least_angle(f), f) < std::pair(least_angle(g), g);
+    return std::pair(least_angle(f), surface.ids.face(f)) < std::pair(least_angle(g), surface.ids.face(g));
   });
   std::vector<WorstFace> worst(static_cast<size_t>(count));
   parallel_for(worst.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int f = order[i];
       const Triangle& t = surface.connectivity.faces[static_cast<size_t>(f)];
-      worst[i] = {f, least_angle(f), t, (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3,
+      worst[i] = {surface.ids.face(f), least_angle(f), surface.ids.corners(t),
+                  (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3,
                   bound_least_angle(X, surface.connectivity, f)};
     }
   });
@@ -156,17 +154,17 @@ Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_targ
     q.valence = count_valences(connectivity);
   });
   timed(stopwatch, "angles", [&] {
-    const std::vector<TriangleShape> shapes = measure_faces(surface.tree.faces());
+    const std::vector<TriangleShape> shapes = measure_faces(points, connectivity.faces);
     describe_all(shapes, measure_edges(points, connectivity.edges), edge_target_length, q);
     q.worst_faces = find_worst_faces(surface, shapes, options.worst_faces);
   });
   timed(stopwatch, "folds", [&] {
-    const Mat3X area_vector = area_vectors(surface.tree.faces());
+    const Mat3X area_vector = area_vectors(points, connectivity.faces);
     q.folded_edges = count_folded_edges(area_vector, connectivity);
     q.degenerate_faces = count_degenerate_faces(area_vector, 1e-14 * q.extent.diagonal * q.extent.diagonal);
   });
   timed(stopwatch, "curvature", [&] {
-    VertexCurvature curvature = measure_curvature(points, connectivity, vertices_in_tree_order(surface));
+    VertexCurvature curvature = measure_curvature(points, connectivity);
     q.mean_curvature = range_of(std::move(curvature.mean));
     q.gaussian_curvature = range_of(std::move(curvature.gaussian));
   });

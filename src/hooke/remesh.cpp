@@ -250,7 +250,13 @@ std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& 
 
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer,
                     Stopwatch* stopwatch) {
-  Workspace work(mesh, options.constraints, options.filter, options.retraction, options.guards, stopwatch);
+  return remesh(mesh, timed(stopwatch, "order", [&] { return lay_out(mesh); }), options, observer, stopwatch);
+}
+
+RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, const Observer& observer,
+                    Stopwatch* stopwatch) {
+  Workspace work(mesh, std::move(layout), options.constraints, options.filter, options.retraction,
+                 options.guards, stopwatch);
   const EnergyTerms terms{.altitude = options.altitude};
   const double corner_angle = options.constraints.corner_angle;
   AdaptResult adapted;
@@ -284,6 +290,7 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
   }
   if (options.map) result.map = work.map();
   result.input_points = work.copy_back(mesh);
+  result.layout = work.layout();
   return result;
 }
 

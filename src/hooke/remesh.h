@@ -61,6 +61,7 @@ struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
   Mat3X input_points;         // of the mesh as it was, to measure the result against
+  Layout layout;              // of the mesh as it is now
   bool near_regular = false;  // in mode `fixed`: see do_no_harm.h
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the result
@@ -88,5 +89,9 @@ std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& 
 /// has been reached.
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr,
                     Stopwatch* stopwatch = nullptr);
+
+/// The same with the mesh's layout, where it is known already.
+RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options,
+                    const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

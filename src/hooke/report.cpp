@@ -1,11 +1,9 @@
 #include "hooke/report.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <numbers>
 
-#include "hooke/io/sha256.h"
 #include "hooke/parallel.h"
 #include "hooke/quality_json.h"
 
@@ -105,16 +103,6 @@ Json stages_json(const std::vector<StageTime>& stages) {
 }
 
 }  // namespace
-
-std::string connectivity_sha256(const std::vector<Triangle>& faces) {
-  std::string bytes(12 * faces.size(), 0);
-  char* at = bytes.data();
-  for (const Triangle& t : faces)
-    for (int v : t)
-      for (int shift = 0; shift < 32; shift += 8)
-        *at++ = static_cast<char>(static_cast<std::uint32_t>(v) >> shift & 0xff);
-  return sha256(bytes);
-}
 
 Resources resources_used(double wall_seconds) {
   const ProcessUse use = process_use();

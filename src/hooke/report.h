@@ -21,9 +21,6 @@ struct FileRecord {
   std::string connectivity_sha256;
 };
 
-/// SHA-256 of the faces' vertex ids as little-endian 32-bit integers.
-std::string connectivity_sha256(const std::vector<Triangle>& faces);
-
 struct Resources {
   int threads = 0;
   double wall_s = 0;

@@ -83,11 +83,11 @@ bool is_acceptable(ProblemKind kind) {
   return kind >= ProblemKind::zero_area_faces;
 }
 
-Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source,
-                       VertexFans* fans) {
+Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles,
+                       const MeshSource& source) {
   std::string errors, help;
   Warnings warnings;
-  for (const Problem& problem : find_problems(points, triangles, fans)) {
+  for (const Problem& problem : find_problems(points, triangles)) {
     const std::string text = problem_text(problem, source);
     if (is_acceptable(problem.kind)) {
       warnings.push_back({name_of(problem.kind), fmt::format("{}: {}", source.name, text)});

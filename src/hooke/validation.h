@@ -24,10 +24,8 @@ struct MeshSource {
 };
 
 /// Throws MeshError "NAME: what, where; what was expected; what to do" for problems that are not acceptable.
-/// Returns the others as warnings, with name_of as code. `fans`, where given, gets the fans of the
-/// vertices.
-Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source,
-                       VertexFans* fans = nullptr);
+/// Returns the others as warnings, with name_of as code.
+Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source);
 
 /// Throws MeshError when the box of the points is so small or so large that the squares of areas would leave
 /// the range of numbers.

@@ -60,8 +60,12 @@ VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
   return carried;
 }
 
+bool has_normals(const VertexData& data) {
+  return channels_named(data, normal_names).size() == normal_names.size();
+}
+
 void set_normals(VertexData& data, const Mat3X& normals) {
-  if (channels_named(data, normal_names).size() < 3) return;
+  if (!has_normals(data)) return;
   for (size_t k = 0; k < 3; ++k) {
     std::vector<double>& values = find_channel(data, normal_names[k])->values;
     for (Eigen::Index v = 0; v < normals.cols(); ++v)

@@ -43,7 +43,10 @@ ChannelList channels_named(const VertexData& data, ChannelNames names);
 VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
                       const std::vector<Triangle>& faces);
 
-/// Writes normals to the channels nx, ny and nz where there are all three.
+/// Are there nx, ny and nz?
+bool has_normals(const VertexData& data);
+
+/// Writes normals to these channels, where there are all three.
 void set_normals(VertexData& data, const Mat3X& normals);
 
 }  // namespace hooke

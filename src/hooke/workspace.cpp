@@ -39,24 +39,18 @@ std::vector<int> identity(int count) {
 
 }  // namespace
 
-Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_options,
+Workspace::Workspace(const TriMesh& source, Layout layout, const ConstraintOptions& constraint_options,
                      const FilterOptions& filter, const RetractionOptions& retraction_options,
                      const GuardOptions& guard_options, Stopwatch* stopwatch_or_none)
     : stopwatch(stopwatch_or_none),
       guards(guard_options),
+      order(std::move(layout.order)),
       filter_(filter),
       retraction_options_(retraction_options) {
   const std::vector<double> length = vertex_values(source, target_length_property);
   normalisation = normalisation_of(positions(source), length);
 
   const int n = static_cast<int>(source.n_vertices());
-  Connectivity smooth = timed(stopwatch, "order", [&] {
-    std::vector<Triangle> faces = triangles_of(source);
-    const std::vector<int> local = locality_order(n, faces);
-    order = reorder(std::move(faces), local);
-    return make_connectivity(n, std::move(order.faces));
-  });
-
   Mat3X points(3, n);
   vertex_length.resize(length.size());
   const auto input = positions(source);
@@ -67,9 +61,9 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   }
   start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
-  for (int e : find_features(*start, smooth, vertex_length, constraint_options.features))
-    creases.push_back(smooth.edges[static_cast<size_t>(e)]);
-  connect(std::move(smooth), creases);
+  for (int e : find_features(*start, *layout.connectivity, vertex_length, constraint_options.features))
+    creases.push_back(layout.connectivity->edges[static_cast<size_t>(e)]);
+  connect(std::move(layout.connectivity), creases);
   start_length_ = vertex_length;
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
@@ -88,11 +82,15 @@ Workspace::Workspace(const TriMesh& source, const ConstraintOptions& constraint_
   placement = retraction->place(*start, input_anchors_, constraints.segment);
 }
 
-void Workspace::connect(Connectivity c, const std::vector<Edge>& creases) {
-  part_at_creases(c, creases);
-  sweeps = plan_sweeps(c);
-  targets = spread_target_lengths(c, vertex_length);
-  connectivity = std::make_shared<const Connectivity>(std::move(c));
+void Workspace::connect(std::shared_ptr<const Connectivity> smooth, const std::vector<Edge>& creases) {
+  connectivity = std::move(smooth);
+  if (!creases.empty()) {
+    Connectivity parted = *connectivity;
+    part_at_creases(parted, creases);
+    connectivity = std::make_shared<const Connectivity>(std::move(parted));
+  }
+  sweeps = plan_sweeps(*connectivity);
+  targets = spread_target_lengths(*connectivity, vertex_length);
 }
 
 void Workspace::keep_angles() {
@@ -167,7 +165,9 @@ void Workspace::return_to_input() {
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {
-  connect(make_connectivity(connectivity->vertex_count, std::move(faces)), constraints.creases);
+  connect(
+      std::make_shared<const Connectivity>(make_connectivity(connectivity->vertex_count, std::move(faces))),
+      constraints.creases);
   input_anchors_ = placement.anchors;  // vertices may be far from where they were
   faces_replaced_ = true;
 }
@@ -212,7 +212,9 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
       from[v] = origins[static_cast<size_t>(old)];
   origins = std::move(from);
 
-  connect(make_connectivity(static_cast<int>(n), std::move(order.faces)), constraints.creases);
+  connect(
+      std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(n), std::move(order.faces))),
+      constraints.creases);
   if (!constraints.creases.empty()) {
     std::vector<Triangle> moved;
     for (int f : order.old_face) moved.push_back(sides[static_cast<size_t>(f)]);
@@ -294,21 +296,18 @@ Mat3X Workspace::copy_back(TriMesh& target) const {
                : Vec3(normalisation.centre + normalisation.unit * placement.points.col(v));
     lengths[place] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
   }
-  if (faces_replaced_ || vertices_replaced_) {
-    std::vector<Triangle> faces(connectivity->faces.size());
-    for (size_t f = 0; f < faces.size(); ++f)
-      for (size_t k = 0; k < 3; ++k)
-        faces[static_cast<size_t>(order.old_face[f])][k] =
-            order.old_vertex[static_cast<size_t>(connectivity->faces[f][k])];
-    const Connectivity result = make_connectivity(connectivity->vertex_count, std::move(faces));
-    if (vertices_replaced_)
-      target = build_mesh(points, result);
-    else
-      hooke::replace_faces(target, result);
-  }
+  if (vertices_replaced_)
+    target = build_mesh(points, *connectivity, order.old_ids());
+  else if (faces_replaced_)
+    hooke::replace_faces(target, *connectivity, order.old_ids());
   positions(target) = points;
   if (graded() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
   return input;
+}
+
+Layout Workspace::layout() const {
+  if (connectivity->creases.empty()) return {order, connectivity};
+  return {order, std::make_shared<const Connectivity>(without_creases(*connectivity))};
 }
 
 ProjectionCounts Workspace::projection_counts() const {

@@ -6,8 +6,7 @@
 
 #include "hooke/constraints.h"
 #include "hooke/guards.h"
-#include "hooke/mesh.h"
-#include "hooke/ordering.h"
+#include "hooke/layout.h"
 #include "hooke/sizing.h"
 #include "hooke/stopwatch.h"
 #include "hooke/surface_field.h"
@@ -24,9 +23,10 @@ struct Normalisation {
 };
 
 struct Workspace {
-  /// Takes the target lengths from v:target_length.
-  Workspace(const TriMesh& mesh, const ConstraintOptions& constraints, const FilterOptions& filter,
-            const RetractionOptions& retraction, const GuardOptions& guards, Stopwatch* stopwatch = nullptr);
+  /// Takes the target lengths from v:target_length. The layout is that of the mesh.
+  Workspace(const TriMesh& mesh, Layout layout, const ConstraintOptions& constraints,
+            const FilterOptions& filter, const RetractionOptions& retraction, const GuardOptions& guards,
+            Stopwatch* stopwatch = nullptr);
 
   /// Fits a new field to the vertices as they lie now and makes it the one that moves are projected to.
   /// [11]-[14]
@@ -77,6 +77,9 @@ struct Workspace {
   /// had.
   Mat3X copy_back(TriMesh& target) const;
 
+  /// That of the result.
+  Layout layout() const;
+
   /// The id that a vertex of the work had in the mesh the work was made from; -1 for a new one.
   int vertex_of_input(int vertex) const;
 
@@ -105,7 +108,7 @@ struct Workspace {
  private:
   SurfacePoint place_on_input(int vertex) const;
   const Reordered& input_order() const { return input_order_ ? *input_order_ : order; }
-  void connect(Connectivity c, const std::vector<Edge>& creases);
+  void connect(std::shared_ptr<const Connectivity> smooth, const std::vector<Edge>& creases);
   SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
   Guards landing_guards() const;
 

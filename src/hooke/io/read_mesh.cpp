@@ -1,5 +1,6 @@
 #include "hooke/io/read_mesh.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -16,6 +17,32 @@ void append(Warnings& warnings, Warnings more) {
   warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+bool has_all_corners(const Mat3X& points, const std::vector<Triangle>& triangles) {
+  return std::ranges::all_of(triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(t, [&](int v) { return v >= 0 && v < points.cols(); });
+  });
+}
+
+/// Of a mesh that can be worked on. It is looked at in memory order, where that is quick; what is wrong, or
+/// worth a warning, is then told in the order of the file.
+Layout valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source,
+                    Warnings& warnings, Stopwatch* stopwatch) {
+  const auto explain = [&] { append(warnings, require_valid(points, triangles, source)); };
+  if (!has_all_corners(points, triangles)) explain();
+  const int n = static_cast<int>(points.cols());
+  Layout layout;
+  layout.order = timed(stopwatch, "order", [&] { return reorder(triangles, locality_order(n, triangles)); });
+  VertexFans fans;
+  timed(stopwatch, "validate", [&] {
+    if (!find_problems(layout.order.in_new_order(points), layout.order.faces, &fans).empty()) explain();
+  });
+  layout.connectivity = timed(stopwatch, "connectivity", [&] {
+    return std::make_shared<const Connectivity>(
+        make_connectivity(std::exchange(layout.order.faces, {}), std::move(fans)));
+  });
+  return layout;
+}
+
 }  // namespace
 
 LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
@@ -30,19 +57,19 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   Warnings warnings = std::move(file.warnings);
   append(warnings, warnings_of(triangulation, file.name));
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
-  VertexFans fans;
-  append(warnings, timed(stopwatch, "validate",
-                         [&] { return require_valid(file.points, triangulation.triangles, source, &fans); }));
+  Layout layout = valid_layout(file.points, triangulation.triangles, source, warnings, stopwatch);
   require_workable_size(file.points, file.name);
-  Connectivity connectivity = timed(stopwatch, "connectivity", [&] {
-    return make_connectivity(std::move(triangulation.triangles), std::move(fans));
-  });
+  const std::string faces_hash =
+      timed(stopwatch, "sha256", [&] { return connectivity_sha256(triangulation.triangles); });
+  triangulation = {};
   // Built in place: OpenMesh has no move, and copies all of a mesh.
-  return {timed(stopwatch, "build", [&] { return build_mesh(file.points, connectivity); }),
-          std::move(connectivity),
+  return {timed(stopwatch, "build",
+                [&] { return build_mesh(file.points, *layout.connectivity, layout.order.old_ids()); }),
+          std::move(layout),
           file.format,
           file.encoding,
           hash,
+          faces_hash,
           std::move(file.vertex_data),
           std::move(warnings)};
 }

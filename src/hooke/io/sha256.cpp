@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include <cstdint>
+
 #include "hooke/error.h"
 
 namespace hooke {
@@ -15,6 +17,16 @@ std::string sha256(std::string_view bytes) {
   std::string hex;
   for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
   return hex;
+}
+
+std::string connectivity_sha256(const std::vector<Triangle>& faces) {
+  std::string bytes(12 * faces.size(), 0);
+  char* at = bytes.data();
+  for (const Triangle& t : faces)
+    for (int v : t)
+      for (int shift = 0; shift < 32; shift += 8)
+        *at++ = static_cast<char>(static_cast<std::uint32_t>(v) >> shift & 0xff);
+  return sha256(bytes);
 }
 
 }  // namespace hooke

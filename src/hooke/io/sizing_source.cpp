@@ -61,14 +61,15 @@ SizingSource parse_sizing(const std::string& text) {
 }
 
 std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
-                                const Mat3X& points, const Connectivity& c) {
+                                const Mat3X& points, const Layout& layout) {
+  const Connectivity& c = *layout.connectivity;
   switch (source.kind) {
     case SizingSource::Kind::none:
       break;
     case SizingSource::Kind::file:
-      return read_length_list(source.name, c.vertex_count);
+      return layout.order.in_new_order(read_length_list(source.name, c.vertex_count));
     case SizingSource::Kind::ply_property:
-      return read_property(source.name, mesh_file, c.vertex_count);
+      return layout.order.in_new_order(read_property(source.name, mesh_file, c.vertex_count));
     case SizingSource::Kind::curvature: {
       const double diagonal = box_diagonal(points);
       const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "hooke/connectivity.h"
+#include "hooke/layout.h"
 
 namespace hooke {
 
@@ -20,10 +20,11 @@ struct SizingSource {
 /// message begins with what is wrong.
 SizingSource parse_sizing(const std::string& text);
 
-/// The lengths, one per vertex; none without a source. From curvature none is longer than a tenth of the
-/// box's diagonal. A property is read from the mesh's own file, which must be PLY: Error otherwise. Throws
-/// InputError for a file without them (see length_list.h and ply_lengths.h).
+/// The lengths, one per vertex of the layout, whose points these are; none without a source. Lists follow the
+/// mesh's own order. From curvature none is longer than a tenth of the box's diagonal. A property is read
+/// from the mesh's own file, which must be PLY: Error otherwise. Throws InputError for a file without them
+/// (see length_list.h and ply_lengths.h).
 std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
-                                const Mat3X& points, const Connectivity& connectivity);
+                                const Mat3X& points, const Layout& layout);
 
 }  // namespace hooke

@@ -11,22 +11,34 @@
 
 namespace hooke {
 
-std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncoding encoding,
-                       const VertexData& data) {
+namespace {
+
+std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, const std::string& format,
+                     PlyEncoding encoding, const VertexData& data) {
   const auto points = positions(mesh);
-  const std::vector<Triangle> triangles = triangles_of(mesh);
   if (format == "obj") return write_obj(points, triangles, data);
   if (format == "ply") return write_ply(points, triangles, encoding, data);
   if (format == "off") return write_off(points, triangles, data);
   throw Error(fmt::format("format {}; expected obj, ply or off; choose one of them", in_quotes(format)));
 }
 
+}  // namespace
+
+std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncoding encoding,
+                       const VertexData& data) {
+  return bytes_of(mesh, triangles_of(mesh), format, encoding, data);
+}
+
 PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
                          PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
-  const std::string bytes =
-      timed(stopwatch, "format", [&] { return mesh_bytes(mesh, format, encoding, data); });
+  std::string bytes, faces_hash;
+  timed(stopwatch, "format", [&] {
+    const std::vector<Triangle> triangles = triangles_of(mesh);
+    bytes = bytes_of(mesh, triangles, format, encoding, data);
+    faces_hash = connectivity_sha256(triangles);
+  });
   PendingFile file = timed(stopwatch, "file", [&] { return PendingFile(path, bytes); });
-  return {std::move(file), timed(stopwatch, "sha256", [&] { return sha256(bytes); })};
+  return {std::move(file), timed(stopwatch, "sha256", [&] { return sha256(bytes); }), faces_hash};
 }
 
 }  // namespace hooke

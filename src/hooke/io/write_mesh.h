@@ -18,8 +18,9 @@ std::string mesh_bytes(const TriMesh& mesh, const std::string& format,
                        PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
 
 struct PendingMesh {
-  PendingFile file;    // to be committed
-  std::string sha256;  // of its bytes, hex
+  PendingFile file;                 // to be committed
+  std::string sha256;               // of its bytes, hex
+  std::string connectivity_sha256;  // see sha256.h
 };
 
 /// Writes these bytes beside their place, which is `path` (see atomic_write.h for what it throws). The usual

@@ -1,0 +1,116 @@
+#include "hooke/layout.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/deviation.h"
+#include "hooke/quality.h"
+#include "remeshed.h"
+#include "solids.h"
+
+namespace hooke {
+namespace {
+
+const test::Triangles& scattered() {
+  static const test::Triangles t = test::shuffled(test::two_parts_and_loose_vertices());
+  return t;
+}
+
+MeasuredSurface measured(const Mat3X& points, const Layout& layout) {
+  return {layout.order.in_new_order(points), *layout.connectivity, layout.order.old_ids()};
+}
+
+/// Neighbours, counter-clockwise from the least, or from where a boundary begins.
+std::vector<int> ring_of(const TriMesh& mesh, OpenMesh::VertexHandle v) {
+  std::vector<int> ring;
+  for (const auto w : mesh.vv_ccw_range(v)) ring.push_back(w.idx());
+  if (!mesh.is_boundary(v)) std::ranges::rotate(ring, std::ranges::min_element(ring));
+  return ring;
+}
+
+TEST(Layout, IsTheMeshInMemoryOrder) {
+  const TriMesh mesh = test::to_mesh(scattered());
+  const Layout layout = lay_out(mesh);
+  EXPECT_NE(layout.connectivity->faces, scattered().faces);
+  EXPECT_EQ(layout.order.in_old_order(layout.connectivity->faces), scattered().faces);
+  EXPECT_EQ(layout.order.old_vertex, locality_order(static_cast<int>(mesh.n_vertices()), scattered().faces));
+}
+
+TEST(Layout, ValuesGoThereAndBack) {
+  const Layout layout = lay_out(test::to_mesh(scattered()));
+  const Mat3X fresh = layout.order.in_new_order(scattered().points);
+  EXPECT_NE(fresh, scattered().points);
+  EXPECT_EQ(layout.order.in_old_order(fresh), scattered().points);
+  std::vector<double> values(layout.order.old_vertex.size());
+  for (size_t v = 0; v < values.size(); ++v) values[v] = fresh(0, static_cast<Eigen::Index>(v));
+  const std::vector<double> old = layout.order.in_old_order(values);
+  for (size_t v = 0; v < old.size(); ++v)
+    EXPECT_EQ(old[v], scattered().points(0, static_cast<Eigen::Index>(v)));
+  EXPECT_EQ(layout.order.in_new_order(old), values);
+}
+
+TEST(Layout, AMeshBuiltFromItIsTheSameMesh) {
+  const TriMesh mesh = test::to_mesh(scattered());
+  const Layout layout = lay_out(mesh);
+  const TriMesh built = build_mesh(scattered().points, *layout.connectivity, layout.order.old_ids());
+  EXPECT_EQ(triangles_of(built), scattered().faces);
+  EXPECT_EQ(positions(built), scattered().points);
+  ASSERT_EQ(built.n_edges(), mesh.n_edges());
+  for (const auto v : mesh.vertices()) {
+    EXPECT_EQ(built.is_isolated(v), mesh.is_isolated(v));
+    if (mesh.is_isolated(v)) continue;
+    EXPECT_EQ(ring_of(built, v), ring_of(mesh, v));
+    EXPECT_EQ(built.is_boundary(v), mesh.is_boundary(v));
+  }
+}
+
+TEST(Layout, MeasuresNameTheIdsOfTheMesh) {
+  const test::Triangles regular = test::shuffled(test::grid(12, test::flat));  // many angles are the same
+  for (const test::Triangles& t : {test::shaken(regular, .02), regular}) {
+    const Quality expected = measure_quality(t.points, test::connect(t), {});
+    const Quality found = measure_quality(measured(t.points, lay_out(test::to_mesh(t))), {});
+    ASSERT_EQ(found.worst_faces.size(), expected.worst_faces.size());
+    for (size_t i = 0; i < found.worst_faces.size(); ++i) {
+      EXPECT_EQ(found.worst_faces[i].face, expected.worst_faces[i].face);
+      EXPECT_EQ(found.worst_faces[i].vertices, expected.worst_faces[i].vertices);
+    }
+  }
+}
+
+TEST(Layout, DeviationsNameTheIdsOfTheMesh) {
+  const test::Triangles t = test::shuffled(test::grid(12, test::flat));
+  const Layout layout = lay_out(test::to_mesh(t));
+  const Connectivity plain = test::connect(t);
+  Mat3X folded = t.points;
+  const auto inner = static_cast<Eigen::Index>(t.faces[40][0]);
+  folded.col(inner) += Vec3(.3, .2, 0);
+  const Deviation far = measure_deviation(t.points, plain, folded, plain);
+  EXPECT_FALSE(far.opposing_faces.empty());
+  EXPECT_EQ(measure_deviation(measured(t.points, layout), measured(folded, layout)).opposing_faces,
+            far.opposing_faces);
+}
+
+TEST(Layout, OfAResultIsThatOfTheMeshAsItIs) {
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    const test::Triangles t = test::shuffled(test::both(test::shaken(test::sphere(2), .04), test::cube()));
+    RemeshOptions options;
+    options.connectivity = mode;
+    options.constraints.features.angle = 60;
+    const test::Outcome o = test::remeshed(t, options);
+    const Layout& layout = o.result.layout;
+    EXPECT_EQ(layout.order.in_old_order(layout.connectivity->faces), o.faces);
+    EXPECT_GT(o.result.creases.edges, 0);
+    EXPECT_TRUE(layout.connectivity->creases.empty());
+    EXPECT_TRUE(layout.connectivity->further_sides.empty());
+  }
+}
+
+TEST(Layout, GivenBeforehandChangesNothing) {
+  const test::Triangles t = test::shuffled(test::shaken(test::sphere(2), .04));
+  TriMesh mesh = test::with_length(t, test::natural(t));
+  remesh(mesh, lay_out(mesh), RemeshOptions{});
+  EXPECT_EQ(positions(mesh), test::remeshed(t).points);
+}
+
+}  // namespace
+}  // namespace hooke
