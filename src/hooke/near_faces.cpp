@@ -1,10 +1,20 @@
 #include "hooke/near_faces.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "hooke/closest_point.h"
 
 namespace hooke {
+namespace {
+
+/// From x to the box about the corners, which no point of the face is closer than.
+double squared_distance_to_box(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
+  const Vec3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
+  return (lower - x).cwiseMax(x - upper).cwiseMax(0).squaredNorm();
+}
+
+}  // namespace
 
 int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   double least = (points.col(vertex) - x).squaredNorm();
@@ -26,7 +36,9 @@ Foot NearFaces::closest_point_of_ring(const Vec3& x, int anchor) const {
   const auto visit = [&](int v) {
     for (int f : connectivity.vertex_faces[v]) {
       const Triangle& face = connectivity.faces[static_cast<std::size_t>(f)];
+      if (v != anchor && std::ranges::find(face, anchor) != face.end()) continue;  // seen
       const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
+      if (squared_distance_to_box(a, b, c, x) >= least) continue;
       const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
       if (near.squared_distance >= least) continue;
       least = near.squared_distance;
