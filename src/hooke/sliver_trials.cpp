@@ -147,7 +147,21 @@ class SliverTrials {
     return best;
   }
 
+  /// Those about which the mesh will not be what it was.
+  std::vector<int> vertices_changed_by(const Trial& trial) const {
+    const int h = trial.change.half_edge;
+    std::vector<int> vertices = {t_.from(h), t_.to(h), t_.apex(h), t_.apex(t_.twin(h))};
+    for (Eigen::Index i = 0; i < trial.patch.placement.points.cols(); ++i) {
+      const int v = trial.patch.vertices[static_cast<size_t>(i)];
+      if (v < 0) continue;  // is to come
+      const Vec3 move = trial.patch.placement.points.col(i) - m_.placement.points.col(v);
+      if (move.norm() > options_.noticed * m_.vertex_length[static_cast<size_t>(v)]) vertices.push_back(v);
+    }
+    return vertices;
+  }
+
   void keep(Trial& trial) {
+    std::vector<int> changed = vertices_changed_by(trial);
     change_mesh(m_, trial.change, trial.patch);
     switch (trial.change.kind) {
       case ChangeKind::flip:
@@ -155,6 +169,7 @@ class SliverTrials {
         break;
       case ChangeKind::split:
         ++changes_.splits;
+        changed.push_back(trial.patch.vertices.back());
         faces_ += 2;
         break;
       case ChangeKind::merge:
@@ -163,7 +178,7 @@ class SliverTrials {
         break;
     }
     changed_at_.resize(static_cast<size_t>(t_.id_count()), 0);
-    for (int v : trial.patch.vertices) changed_at_[static_cast<size_t>(v)] = changes_.count();
+    for (int v : changed) changed_at_[static_cast<size_t>(v)] = changes_.count();
   }
 
   AdaptingMesh& m_;
@@ -176,7 +191,7 @@ class SliverTrials {
   double faces_;
   double sliver_cotangent_;
   std::vector<int> tried_at_;    // per half-edge that stands for its edge: changes so far; -1 for never
-  std::vector<int> changed_at_;  // per id: changes so far, when the last one moved it
+  std::vector<int> changed_at_;  // per id: changes so far, when the last one changed what is about it
   SliverChanges changes_;
 };
 

@@ -17,6 +17,7 @@ struct SliverTrialOptions {
   double share = .01;          // of the faces: so many slivers are tried in a round, the worst first,
   int least_tries = 10;        // but so many in any case,
   int most_tries = 200;        // and no more than these
+  double noticed = .03;        // in target lengths; a vertex that moves less has not moved for trials nearby
   int rings = 2;               // around an edge, within which the vertices settle
   size_t most = 100;           // vertices that settle: no edge is tried about which there are more
   int sweeps = 3;              // of Newton's method vertex by vertex, for them to settle
