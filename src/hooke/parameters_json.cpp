@@ -103,11 +103,12 @@ void add_harm(Json& j, const RemeshOptions& o) {
 Json parameters_json(const RemeshOptions& o, Effort effort) {
   const bool adapts = o.connectivity == ConnectivityMode::adapt;
   const bool damped = o.integrator == IntegratorKind::damped;
+  const bool fixed = o.connectivity == ConnectivityMode::fixed;
   Json j;
   j["paper"] = false;
   j["connectivity"] = name_of(o.connectivity);
   j["effort"] = name_of(effort);
-  j["flow_rounds"] = o.connectivity == ConnectivityMode::fixed ? 0 : o.flips.flow.rounds;
+  j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["integrator"] = damped ? "damped" : "lbfgs";
   add_polish(j, o);
@@ -121,6 +122,7 @@ Json parameters_json(const RemeshOptions& o, Effort effort) {
   j["tolerance"] = o.tolerance;
   j["max_outer"] = o.max_outer;
   j["outer_drop"] = o.outer_drop;
+  j["energy_drop"] = fixed ? o.integration.energy_drop : o.flips.energy_drop;
   j["hindered"] = where(!damped, o.hindered);
   j["max_steps"] = o.integration.max_steps;
   j["boundary"] = name_of(o.constraints.boundary);
@@ -132,7 +134,7 @@ Json parameters_json(const RemeshOptions& o, Effort effort) {
   j["guard_fold"] = o.guards.fold;
   j["guard_sagitta"] = o.guards.sagitta;
   j["search_sagitta"] = where(o.polish_angles, o.search.sagitta);
-  const bool mends = o.polish_angles && o.connectivity != ConnectivityMode::fixed;
+  const bool mends = o.polish_angles && !fixed;
   j["sliver_angle"] = where(mends, o.mend.trials.sliver_angle);
   j["sliver_sagitta"] = where(mends, o.mend.trials.sagitta);
   return j;
