@@ -104,7 +104,7 @@ class Adaptation {
     options.rounds = rounds;
     const FlowResult flowed = flow(flipping, options, flip_guard_, guards_, watch());
     result_.flips += flowed.flips;
-    result_.interrupted = flowed.interrupted || (rounds == 0 && observer_ && !watch()({}));
+    result_.interrupted = flowed.interrupted;
     if (graded_) work_.vertex_length = work_.input_lengths();
   }
 

@@ -25,6 +25,7 @@ int move_vertices(FlippingMesh& m, const Connectivity& connectivity, const Lloyd
 FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOptions& flip_guard,
                 const GuardOptions& guards, const Observer& observer) {
   FlowResult result;
+  result.interrupted = observer && !observer({.stage = "flow"});
   const auto connect = [&m] {
     Connectivity c = connectivity_of(m.triangulation, static_cast<int>(m.placement.points.cols()));
     part_at_creases(c, m.constraints.creases);

@@ -22,7 +22,8 @@ struct FlowResult {
   bool interrupted = false;
 };
 
-/// Ends with flips: the mesh is Delaunay as far as the guards allow.
+/// Ends with flips: the mesh is Delaunay as far as the guards allow. The observer is asked beforehand, and
+/// after each round.
 FlowResult flow(FlippingMesh& mesh, const FlowOptions& options, const FlipGuardOptions& flip_guard,
                 const GuardOptions& guards, const Observer& observer);
 
