@@ -112,11 +112,11 @@ std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord&
                                Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
   const Layout& layout = loaded.layout;
-  const Mat3X points = layout.order.in_new_order(positions(mesh));
+  Mat3X points = layout.order.in_new_order(positions(mesh));
   if (!s.check)
     warn_of_coincident_boundary(coincident_boundary_vertices(points, *layout.connectivity).size(), record);
-  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, layout, record); });
-  const MeasuredSurface surface = surface_of(points, layout, stopwatch);
+  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, layout, points, record); });
+  const MeasuredSurface surface = surface_of(std::move(points), layout, stopwatch);
   record.before =
       timed(&stopwatch, "before", [&] { return measure(surface, mesh, layout.order, stopwatch); });
   return surface.tree.order();

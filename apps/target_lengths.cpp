@@ -26,8 +26,8 @@ void require_reasonable(const Settings& s, double least, double most, double nat
 
 }  // namespace
 
-void set_target_lengths(const Settings& s, TriMesh& mesh, const Layout& layout, RunRecord& record) {
-  const Mat3X points = layout.order.in_new_order(positions(mesh));
+void set_target_lengths(const Settings& s, TriMesh& mesh, const Layout& layout, const Mat3X& points,
+                        RunRecord& record) {
   const Connectivity& connectivity = *layout.connectivity;
   const Sizing sizing{read_sizing(s.sizing, s.input, points, layout), s.gradation};
   const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, connectivity);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/deviation.h"
+#include "hooke/hindrances.h"
 #include "hooke/quality.h"
 #include "remeshed.h"
 #include "solids.h"
@@ -65,6 +66,7 @@ TEST(Layout, AMeshBuiltFromItIsTheSameMesh) {
 
 TEST(Layout, MeasuresNameTheIdsOfTheMesh) {
   const test::Triangles regular = test::shuffled(test::grid(12, test::flat));  // many angles are the same
+  int bounded = 0;
   for (const test::Triangles& t : {test::shaken(regular, .02), regular}) {
     const Quality expected = measure_quality(t.points, test::connect(t), {});
     const Quality found = measure_quality(measured(t.points, lay_out(test::to_mesh(t))), {});
@@ -72,8 +74,12 @@ TEST(Layout, MeasuresNameTheIdsOfTheMesh) {
     for (size_t i = 0; i < found.worst_faces.size(); ++i) {
       EXPECT_EQ(found.worst_faces[i].face, expected.worst_faces[i].face);
       EXPECT_EQ(found.worst_faces[i].vertices, expected.worst_faces[i].vertices);
+      if (expected.worst_faces[i].bound.degrees > 59.999) continue;  // rounding tells whether there is one
+      EXPECT_EQ(found.worst_faces[i].bound.vertices, expected.worst_faces[i].bound.vertices);
+      ++bounded;
     }
   }
+  EXPECT_GT(bounded, 0);
 }
 
 TEST(Layout, DeviationsNameTheIdsOfTheMesh) {
@@ -105,11 +111,34 @@ TEST(Layout, OfAResultIsThatOfTheMeshAsItIs) {
   }
 }
 
-TEST(Layout, GivenBeforehandChangesNothing) {
-  const test::Triangles t = test::shuffled(test::shaken(test::sphere(2), .04));
-  TriMesh mesh = test::with_length(t, test::natural(t));
-  remesh(mesh, lay_out(mesh), RemeshOptions{});
-  EXPECT_EQ(positions(mesh), test::remeshed(t).points);
+TEST(Layout, WhatBoundsTheWorstFacesIsTheSameInAnyOrder) {
+  test::Triangles t = test::both(test::shaken(test::sphere(2), .04), test::cube());
+  RemeshOptions options;
+  options.constraints.features.angle = 60;
+  const auto reasons = [&](const test::Triangles& mesh) {
+    const test::Outcome o = test::remeshed(mesh, options);
+    Quality q = measure_quality(measured(o.points, o.result.layout), {}, {.worst_faces = mesh.faces.size()});
+    std::vector<std::vector<std::string>> all;
+    for (const WorstFace& face : q.worst_faces) all.push_back(hindrances(face, o.result.holds));
+    std::ranges::sort(all);
+    return all;
+  };
+  const auto expected = reasons(t);
+  EXPECT_GT(std::ranges::count_if(expected, [](const auto& r) { return !r.empty(); }), 10);
+  EXPECT_EQ(std::ranges::count(expected, std::vector<std::string>{"corner", "crease"}), 12);  // of the cube
+  EXPECT_EQ(std::ranges::count(reasons(test::shuffled(t)), std::vector<std::string>{"corner", "crease"}), 12);
+}
+
+TEST(Layout, DisplacementsAreThoseOfTheSameVertices) {
+  const test::Triangles t = test::shuffled(test::grid(12, test::flat));
+  const Mat3X moved = test::shaken(t, .01).points;
+  const Connectivity plain = test::connect(t);
+  const Layout layout = lay_out(test::to_mesh(t));
+  const MaxRms expected = *measure_deviation(t.points, plain, moved, plain).displacement;
+  const MaxRms found =
+      *measure_deviation(MeasuredSurface(t.points, plain), measured(moved, layout)).displacement;
+  EXPECT_EQ(found.max, expected.max);
+  EXPECT_DOUBLE_EQ(found.rms, expected.rms);
 }
 
 }  // namespace

@@ -34,6 +34,14 @@ Vec3 weights_at(const Face& face, const TreeFoot& foot) {
   return barycentric(foot.point, face.corners[0], face.corners[1], face.corners[2]);
 }
 
+/// In the order of the ids that the vertices have in their mesh.
+Mat3X points_by_id(const MeasuredSurface& surface) {
+  Mat3X points(3, surface.points.cols());
+  for (int v = 0; v < surface.connectivity.vertex_count; ++v)
+    points.col(surface.ids.vertex(v)) = surface.points.col(v);
+  return points;
+}
+
 MaxRms measure_displacement(const Mat3X& before, const Mat3X& after) {
   MaxRms displacement;
   double squares = 0;
@@ -184,7 +192,9 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
                             Stopwatch* stopwatch) {
   Deviation d;
   if (reference.points.cols() == result.points.cols())
-    d.displacement = measure_displacement(reference.points, result.points);
+    d.displacement = std::ranges::equal(reference.ids.vertices, result.ids.vertices)
+                         ? measure_displacement(reference.points, result.points)
+                         : measure_displacement(points_by_id(reference), points_by_id(result));
 
   std::vector<TreeFoot> closest;
   timed(stopwatch, "to_reference", [&] { d.to_reference = measure_distance(result, reference, &closest); });

@@ -9,7 +9,7 @@
 namespace hooke {
 
 struct Layout {
-  Reordered order;  // against the mesh; its faces are those of the connectivity
+  Reordered order;  // against the mesh; without its faces, which the connectivity has
   std::shared_ptr<const Connectivity> connectivity;
 };
 

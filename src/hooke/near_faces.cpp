@@ -36,7 +36,7 @@ Foot NearFaces::closest_point_of_ring(const Vec3& x, int anchor) const {
   const auto visit = [&](int v) {
     for (int f : connectivity.vertex_faces[v]) {
       const Triangle& face = connectivity.faces[static_cast<std::size_t>(f)];
-      if (v != anchor && std::ranges::find(face, anchor) != face.end()) continue;  // seen
+      if (v != anchor && std::ranges::find(face, anchor) != face.end()) continue;  // seen with the anchor
       const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
       if (squared_distance_to_box(a, b, c, x) >= least) continue;
       const TrianglePoint near = closest_point_on_triangle(a, b, c, x);

@@ -25,7 +25,8 @@ struct Reordered {
   std::vector<int> old_face;    // of a new one; faces follow their smallest vertex
   std::vector<Triangle> faces;  // in new vertex ids
 
-  MeshIds old_ids() const { return {old_vertex, old_face}; }
+  MeshIds old_ids() const& { return {old_vertex, old_face}; }
+  MeshIds old_ids() const&& = delete;  // they would outlive the lists
 
   /// The new ids of these old vertices.
   std::vector<int> new_vertices(const std::vector<int>& old) const;

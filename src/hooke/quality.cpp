@@ -97,6 +97,9 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface,
       worst[i] = {surface.ids.face(f), least_angle(f), surface.ids.corners(t),
                   (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3,
                   bound_least_angle(X, surface.connectivity, f)};
+      std::vector<int>& bounding = worst[i].bound.vertices;
+      std::ranges::transform(bounding, bounding.begin(), [&](int v) { return surface.ids.vertex(v); });
+      std::ranges::sort(bounding);
     }
   });
   return worst;

@@ -72,7 +72,7 @@ class SliverTrials {
     return faces;
   }
 
-  /// Those about which something has changed since they were tried last.
+  /// Those about which something has changed noticeably since they were tried last.
   std::vector<int> untried_edges_about(int face) {
     tried_at_.resize(static_cast<size_t>(t_.half_edge_count()), -1);
     changed_at_.resize(static_cast<size_t>(t_.id_count()), 0);
@@ -147,15 +147,23 @@ class SliverTrials {
     return best;
   }
 
-  /// Those about which the mesh will not be what it was.
-  std::vector<int> vertices_changed_by(const Trial& trial) const {
+  /// The corners of the faces of its edge, what a merge joins anew, and those that have come so far, all in
+  /// all, that it is noticed.
+  std::vector<int> vertices_changed_by(const Trial& trial) {
     const int h = trial.change.half_edge;
     std::vector<int> vertices = {t_.from(h), t_.to(h), t_.apex(h), t_.apex(t_.twin(h))};
+    if (trial.change.kind == ChangeKind::merge)
+      for (int end : {t_.from(h), t_.to(h)})
+        for (int v : t_.neighbours(end)) vertices.push_back(v);
+    unnoticed_.resize(static_cast<size_t>(t_.id_count()), 0);
     for (Eigen::Index i = 0; i < trial.patch.placement.points.cols(); ++i) {
       const int v = trial.patch.vertices[static_cast<size_t>(i)];
       if (v < 0) continue;  // is to come
-      const Vec3 move = trial.patch.placement.points.col(i) - m_.placement.points.col(v);
-      if (move.norm() > options_.noticed * m_.vertex_length[static_cast<size_t>(v)]) vertices.push_back(v);
+      double& moved = unnoticed_[static_cast<size_t>(v)];
+      moved += (trial.patch.placement.points.col(i) - m_.placement.points.col(v)).norm();
+      if (moved <= options_.noticed * m_.vertex_length[static_cast<size_t>(v)]) continue;
+      moved = 0;
+      vertices.push_back(v);
     }
     return vertices;
   }
@@ -190,8 +198,9 @@ class SliverTrials {
   PatchLimits limits_of_patch_;
   double faces_;
   double sliver_cotangent_;
-  std::vector<int> tried_at_;    // per half-edge that stands for its edge: changes so far; -1 for never
-  std::vector<int> changed_at_;  // per id: changes so far, when the last one changed what is about it
+  std::vector<int> tried_at_;      // per half-edge that stands for its edge: changes so far; -1 for never
+  std::vector<int> changed_at_;    // per id: changes so far, when the last one changed what is about it
+  std::vector<double> unnoticed_;  // per id: the length of its moves since changed_at_ was set for them
   SliverChanges changes_;
 };
 

@@ -17,7 +17,7 @@ struct SliverTrialOptions {
   double share = .01;          // of the faces: so many slivers are tried in a round, the worst first,
   int least_tries = 10;        // but so many in any case,
   int most_tries = 200;        // and no more than these
-  double noticed = .03;        // in target lengths; a vertex that moves less has not moved for trials nearby
+  double noticed = .03;        // in target lengths; shorter moves are no reason to try edges again
   int rings = 2;               // around an edge, within which the vertices settle
   size_t most = 100;           // vertices that settle: no edge is tried about which there are more
   int sweeps = 3;              // of Newton's method vertex by vertex, for them to settle
@@ -41,8 +41,8 @@ struct SliverChanges {
 
 /// Every change lowers what its patch costs, keeps the least angle there, and adds nothing to what is beyond
 /// the limits of alignment, folds and sagittas; no edge gets longer than the limit, or than the longest was.
-/// An edge is tried again only when something has changed about it. The observer is called before each sliver
-/// that is tried. Projections of trials are not counted. The mesh is not compact afterwards.
+/// An edge is tried again only when something has changed noticeably about it. The observer is called before
+/// each sliver that is tried. Projections of trials are not counted. The mesh is not compact afterwards.
 SliverChanges change_slivers(AdaptingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
                              const GuardOptions& guards, const FaceCountLimits& limits,
                              const Observer& observer);

@@ -65,7 +65,6 @@ bool has_normals(const VertexData& data) {
 }
 
 void set_normals(VertexData& data, const Mat3X& normals) {
-  if (!has_normals(data)) return;
   for (size_t k = 0; k < 3; ++k) {
     std::vector<double>& values = find_channel(data, normal_names[k])->values;
     for (Eigen::Index v = 0; v < normals.cols(); ++v)

@@ -46,7 +46,7 @@ VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
 /// Are there nx, ny and nz?
 bool has_normals(const VertexData& data);
 
-/// Writes normals to these channels, where there are all three.
+/// Writes normals to these channels. Pre-condition: has_normals().
 void set_normals(VertexData& data, const Mat3X& normals);
 
 }  // namespace hooke

@@ -50,15 +50,10 @@ Workspace::Workspace(const TriMesh& source, Layout layout, const ConstraintOptio
   const std::vector<double> length = vertex_values(source, target_length_property);
   normalisation = normalisation_of(positions(source), length);
 
-  const int n = static_cast<int>(source.n_vertices());
-  Mat3X points(3, n);
-  vertex_length.resize(length.size());
-  const auto input = positions(source);
-  for (int v = 0; v < n; ++v) {
-    const int old = order.old_vertex[static_cast<size_t>(v)];
-    points.col(v) = (input.col(old) - normalisation.centre) / normalisation.unit;
-    vertex_length[static_cast<size_t>(v)] = length[static_cast<size_t>(old)] / normalisation.unit;
-  }
+  Mat3X points = order.in_new_order(positions(source));
+  for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
+  vertex_length = order.in_new_order(length);
+  for (double& l : vertex_length) l /= normalisation.unit;
   start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
   for (int e : find_features(*start, *layout.connectivity, vertex_length, constraint_options.features))
@@ -70,7 +65,7 @@ Workspace::Workspace(const TriMesh& source, Layout layout, const ConstraintOptio
   if (graded()) reordered.even_crease = 0;  // even edges are not what is asked for
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *connectivity, reordered); });
-  origins = identity(n);
+  origins = identity(connectivity->vertex_count);
   input_connectivity_ = connectivity;
 
   const Stage stage(stopwatch, "fit");

@@ -1,6 +1,5 @@
 #include "hooke/io/read_mesh.h"
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -17,18 +16,11 @@ void append(Warnings& warnings, Warnings more) {
   warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-bool has_all_corners(const Mat3X& points, const std::vector<Triangle>& triangles) {
-  return std::ranges::all_of(triangles, [&](const Triangle& t) {
-    return std::ranges::all_of(t, [&](int v) { return v >= 0 && v < points.cols(); });
-  });
-}
-
 /// Of a mesh that can be worked on. It is looked at in memory order, where that is quick; what is wrong, or
-/// worth a warning, is then told in the order of the file.
+/// worth a warning, is then told in the order of the file. Pre-condition: all corners are vertices.
 Layout valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source,
                     Warnings& warnings, Stopwatch* stopwatch) {
   const auto explain = [&] { append(warnings, require_valid(points, triangles, source)); };
-  if (!has_all_corners(points, triangles)) explain();
   const int n = static_cast<int>(points.cols());
   Layout layout;
   layout.order = timed(stopwatch, "order", [&] { return reorder(triangles, locality_order(n, triangles)); });

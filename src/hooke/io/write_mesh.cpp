@@ -31,14 +31,14 @@ std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncodi
 
 PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
                          PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
-  std::string bytes, faces_hash;
-  timed(stopwatch, "format", [&] {
-    const std::vector<Triangle> triangles = triangles_of(mesh);
-    bytes = bytes_of(mesh, triangles, format, encoding, data);
-    faces_hash = connectivity_sha256(triangles);
+  std::vector<Triangle> triangles;
+  const std::string bytes = timed(stopwatch, "format", [&] {
+    triangles = triangles_of(mesh);
+    return bytes_of(mesh, triangles, format, encoding, data);
   });
   PendingFile file = timed(stopwatch, "file", [&] { return PendingFile(path, bytes); });
-  return {std::move(file), timed(stopwatch, "sha256", [&] { return sha256(bytes); }), faces_hash};
+  const Stage stage(stopwatch, "sha256");
+  return {std::move(file), sha256(bytes), connectivity_sha256(triangles)};
 }
 
 }  // namespace hooke
