@@ -68,9 +68,29 @@ IntLists other_corners(int vertex_count, const std::vector<Triangle>& faces) {
 template <class Each>
 void for_each_vertex(const Reordered& order, const Each& each) {
   parallel_for(order.old_vertex.size(), block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v)
-      each(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(order.old_vertex[v]));
+    for (size_t v = begin; v < end; ++v) each(v, static_cast<size_t>(order.old_vertex[v]));
   });
+}
+
+/// What a matrix or a list holds for a vertex.
+template <class Values>
+decltype(auto) item(Values& values, size_t vertex) {
+  if constexpr (requires { values.cols(); })
+    return values.col(static_cast<Eigen::Index>(vertex));
+  else
+    return (values[vertex]);
+}
+
+template <class Old, class New>
+New gathered(const Reordered& order, const Old& old, New fresh) {
+  for_each_vertex(order, [&](size_t v, size_t before) { item(fresh, v) = item(old, before); });
+  return fresh;
+}
+
+template <class Values>
+Values scattered(const Reordered& order, const Values& fresh, Values old) {
+  for_each_vertex(order, [&](size_t v, size_t before) { item(old, before) = item(fresh, v); });
+  return old;
 }
 
 }  // namespace
@@ -97,29 +117,19 @@ std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
 }
 
 Mat3X Reordered::in_new_order(const Eigen::Ref<const Mat3X>& old) const {
-  Mat3X fresh(3, old.cols());
-  for_each_vertex(*this, [&](auto v, auto before) { fresh.col(v) = old.col(before); });
-  return fresh;
+  return gathered(*this, old, Mat3X(3, old.cols()));
 }
 
 std::vector<double> Reordered::in_new_order(const std::vector<double>& old) const {
-  std::vector<double> fresh(old.size());
-  for_each_vertex(
-      *this, [&](auto v, auto before) { fresh[static_cast<size_t>(v)] = old[static_cast<size_t>(before)]; });
-  return fresh;
+  return gathered(*this, old, std::vector<double>(old.size()));
 }
 
 Mat3X Reordered::in_old_order(const Mat3X& fresh) const {
-  Mat3X old(3, fresh.cols());
-  for_each_vertex(*this, [&](auto v, auto before) { old.col(before) = fresh.col(v); });
-  return old;
+  return scattered(*this, fresh, Mat3X(3, fresh.cols()));
 }
 
 std::vector<double> Reordered::in_old_order(const std::vector<double>& fresh) const {
-  std::vector<double> old(fresh.size());
-  for_each_vertex(
-      *this, [&](auto v, auto before) { old[static_cast<size_t>(before)] = fresh[static_cast<size_t>(v)]; });
-  return old;
+  return scattered(*this, fresh, std::vector<double>(fresh.size()));
 }
 
 std::vector<Triangle> Reordered::in_old_order(const std::vector<Triangle>& fresh) const {
