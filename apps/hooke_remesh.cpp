@@ -53,10 +53,11 @@ struct Original {
 /// else the values at their places. Normals are always those of the result.
 VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
                           const Mat3X& points, const Layout& layout, RunRecord& run) {
-  VertexData data = loaded.vertex_data;
-  if (!keeps_faces(s) && !data.empty())
-    data = carry_over(data, run.result->map,
-                      original.layout.order.in_old_order(original.layout.connectivity->faces));
+  const bool to_other_places = !keeps_faces(s) && !loaded.vertex_data.empty();
+  VertexData data = to_other_places
+                        ? carry_over(loaded.vertex_data, run.result->map,
+                                     original.layout.order.in_old_order(original.layout.connectivity->faces))
+                        : loaded.vertex_data;
   if (has_normals(data))
     set_normals(data, layout.order.in_old_order(vertex_normals(points, *layout.connectivity)));
   FormatData carried = data_for_format(data, loaded.format, s.format);

@@ -8,8 +8,8 @@
 namespace hooke::app {
 
 /// Gives the vertices, which are at these points in the layout, their target lengths (v:target_length) and
-/// tells in the record what they are. Throws
-/// Error where they are out of all proportion to the mesh, and what reading a sizing throws.
+/// tells in the record what they are. Throws Error where they are out of all proportion to the mesh, and what
+/// reading a sizing throws.
 void set_target_lengths(const Settings& settings, TriMesh& mesh, const Layout& layout, const Mat3X& points,
                         RunRecord& record);
 
