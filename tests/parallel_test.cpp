@@ -41,6 +41,19 @@ TEST(Parallel, SumsHaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(parallel_sum(0, 128, harmonic), 0);
 }
 
+TEST(Parallel, BothAreInvokedAndAnExceptionOfEitherArrives) {
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    int first = 0, second = 0;
+    parallel_invoke([&] { ++first; }, [&] { ++second; });
+    EXPECT_EQ(first, 1);
+    EXPECT_EQ(second, 1);
+    const auto fails = [] { throw std::runtime_error("one of two"); };
+    EXPECT_THROW(parallel_invoke(fails, [] {}), std::runtime_error);
+    EXPECT_THROW(parallel_invoke([] {}, fails), std::runtime_error);
+  }
+}
+
 TEST(Parallel, AnExceptionOfTheBodyArrives) {
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);

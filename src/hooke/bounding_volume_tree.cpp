@@ -108,7 +108,9 @@ std::vector<int> BoundingVolumeTree::order() const {
 void BoundingVolumeTree::enclose(size_t node, int level) {
   constexpr int upper_levels = 7;
   if (is_leaf(node)) {
-    for (const Face& face : faces_of(node - leaf_count())) boxes_[node].extend(face.box());
+    Box box;
+    for (const Face& face : faces_of(node - leaf_count())) box.extend(face.box());
+    boxes_[node] = box;
     return;
   }
   const auto enclose_children = [&](size_t begin, size_t end) {

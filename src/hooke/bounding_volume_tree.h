@@ -6,6 +6,7 @@
 #include <span>
 
 #include "hooke/types.h"
+#include "hooke/unfilled_vector.h"
 
 namespace hooke {
 
@@ -134,9 +135,9 @@ class BoundingVolumeTree {
 
   void enclose(size_t node, int level);
 
-  int depth_ = 0;            // levels below the root
-  std::vector<Face> faces_;  // leaf by leaf
-  std::vector<Box> boxes_;   // by node; that of node 0 is not used
+  int depth_ = 0;               // levels below the root
+  UnfilledVector<Face> faces_;  // leaf by leaf
+  UnfilledVector<Box> boxes_;   // by node; that of node 0 is not used
 };
 
 }  // namespace hooke

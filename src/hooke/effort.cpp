@@ -46,6 +46,7 @@ void set_effort(RemeshOptions& options, Effort effort) {
       options.integration.energy_drop = 2e-3;
       options.outer_drop = 1e-3;
       options.polish.sweeps = 24;
+      options.polish.rest = 3e-3;
       options.polish.threshold_step = 1;
       options.polish.least_step = .5;
       options.polish.last_threshold = 40;

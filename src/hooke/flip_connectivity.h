@@ -31,7 +31,8 @@ struct FlipOptions {
   double energy_drop = 2e-3;  // see IntegrationOptions; of the relaxation that follows
   FlipGuardOptions guard;
   /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.
-  PolishOptions polish{.first_threshold = 0, .margin = 3, .last_threshold = 60, .edge_error_limit = 1.05};
+  PolishOptions polish{
+      .first_threshold = 0, .margin = 3, .last_threshold = 60, .rest = 3e-3, .edge_error_limit = 1.05};
 };
 
 /// The options that an effort stands for.

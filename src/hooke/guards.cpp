@@ -17,6 +17,19 @@ void sort_unique(std::vector<int>& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
+/// The indices in [0, count) that pass a test, ascending.
+template <typename Test>
+std::vector<int> all_that(size_t count, const Test& test) {
+  std::vector<char> passes(count);
+  parallel_for(count, block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) passes[i] = test(i);
+  });
+  std::vector<int> indices;
+  for (size_t i = 0; i < count; ++i)
+    if (passes[i]) indices.push_back(static_cast<int>(i));
+  return indices;
+}
+
 double cosine(const Vec3& a, const Vec3& b, double otherwise) {
   const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
   return lengths > 0 ? a.dot(b) / lengths : otherwise;
@@ -128,32 +141,25 @@ bool Guards::edge_breaks(const Placement& from, const Placement& to, size_t e) c
          fold_breaks(from, to, e);
 }
 
-/// The vertices that can mend a broken edge: its ends, and for a fold all corners of the two faces.
-void Guards::add_offenders(const Placement& from, const Placement& to, size_t edge,
-                           std::vector<int>& vertices) const {
-  vertices.insert(vertices.end(), connectivity_.edges[edge].begin(), connectivity_.edges[edge].end());
-  if (!fold_breaks(from, to, edge)) return;
-  for (int f : connectivity_.edge_faces[edge]) {
-    const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
-    vertices.insert(vertices.end(), t.begin(), t.end());
-  }
+void Guards::add_corners(int face, std::vector<int>& vertices) const {
+  const Triangle& t = connectivity_.faces[static_cast<size_t>(face)];
+  vertices.insert(vertices.end(), t.begin(), t.end());
+}
+
+/// The ends, and for a fold all corners of the two faces.
+void Guards::add_vertices_about(int edge, bool folds, std::vector<int>& vertices) const {
+  const auto e = static_cast<size_t>(edge);
+  vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
+  if (!folds) return;
+  for (int f : connectivity_.edge_faces[e]) add_corners(f, vertices);
 }
 
 std::vector<int> Guards::offenders(const Placement& from, const Placement& to) const {
-  const size_t faces = connectivity_.faces.size();
-  const size_t edges = connectivity_.edges.size();
-  std::vector<char> bad(faces + edges, 0);
-  parallel_for(faces, block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) bad[f] = face_breaks(from, to, f);
-  });
-  parallel_for(edges, block, [&](size_t begin, size_t end) {
-    for (size_t e = begin; e < end; ++e) bad[faces + e] = edge_breaks(from, to, e);
-  });
   std::vector<int> vertices;
-  for (size_t f = 0; f < faces; ++f)
-    if (bad[f]) vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
-  for (size_t e = 0; e < edges; ++e)
-    if (bad[faces + e]) add_offenders(from, to, e, vertices);
+  for (int f : all_that(connectivity_.faces.size(), [&](size_t f) { return face_breaks(from, to, f); }))
+    add_corners(f, vertices);
+  for (int e : all_that(connectivity_.edges.size(), [&](size_t e) { return edge_breaks(from, to, e); }))
+    add_vertices_about(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
@@ -165,13 +171,12 @@ std::vector<int> Guards::offenders_around(const Placement& from, const Placement
   for (int f : united(connectivity_.vertex_faces, moved)) {
     const auto face = static_cast<size_t>(f);
     edges.insert(edges.end(), connectivity_.face_edges[face].begin(), connectivity_.face_edges[face].end());
-    if (!face_breaks(from, to, face)) continue;
-    vertices.insert(vertices.end(), connectivity_.faces[face].begin(), connectivity_.faces[face].end());
+    if (face_breaks(from, to, face)) add_corners(f, vertices);
   }
   sort_unique(edges);
   for (int e : edges)
     if (edge_breaks(from, to, static_cast<size_t>(e)))
-      add_offenders(from, to, static_cast<size_t>(e), vertices);
+      add_vertices_about(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
@@ -206,34 +211,23 @@ std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat
 
 std::vector<int> Guards::vertices_at_limits(const Placement& p) const {
   constexpr double cosine_margin = .02, sagitta_part = .95;
+  const auto leans = [&](size_t f) { return alignment(p, f) < options_.alignment + cosine_margin; };
+  const auto folds = [&](size_t e) {
+    return !connectivity_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
+  };
+  const auto is_at_limit = [&](size_t e) {
+    return folds(e) || !(sagitta(p, e) < sagitta_part * options_.sagitta * targets_.edge[e]);
+  };
   std::vector<int> vertices;
-  for (size_t f = 0; f < connectivity_.faces.size(); ++f)
-    if (alignment(p, f) < options_.alignment + cosine_margin)
-      vertices.insert(vertices.end(), connectivity_.faces[f].begin(), connectivity_.faces[f].end());
-  for (size_t e = 0; e < connectivity_.edges.size(); ++e) {
-    const bool folds =
-        !connectivity_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
-    if (!folds && sagitta(p, e) < sagitta_part * options_.sagitta * targets_.edge[e]) continue;
-    vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
-    if (!folds) continue;
-    for (const int f : connectivity_.edge_faces[e]) {
-      const Triangle& t = connectivity_.faces[static_cast<size_t>(f)];
-      vertices.insert(vertices.end(), t.begin(), t.end());
-    }
-  }
+  for (int f : all_that(connectivity_.faces.size(), leans)) add_corners(f, vertices);
+  for (int e : all_that(connectivity_.edges.size(), is_at_limit))
+    add_vertices_about(e, folds(static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
 
 std::vector<int> Guards::folded_faces(const Placement& p) const {
-  std::vector<char> folded(connectivity_.faces.size());
-  parallel_for(folded.size(), block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) folded[f] = alignment(p, f) < options_.alignment;
-  });
-  std::vector<int> faces;
-  for (size_t f = 0; f < folded.size(); ++f)
-    if (folded[f]) faces.push_back(static_cast<int>(f));
-  return faces;
+  return all_that(connectivity_.faces.size(), [&](size_t f) { return alignment(p, f) < options_.alignment; });
 }
 
 }  // namespace hooke

@@ -68,8 +68,8 @@ class Guards {
   bool face_breaks(const Placement& from, const Placement& to, size_t face) const;
   bool fold_breaks(const Placement& from, const Placement& to, size_t edge) const;
   bool edge_breaks(const Placement& from, const Placement& to, size_t edge) const;
-  void add_offenders(const Placement& from, const Placement& to, size_t edge,
-                     std::vector<int>& vertices) const;
+  void add_corners(int face, std::vector<int>& vertices) const;
+  void add_vertices_about(int edge, bool folds, std::vector<int>& vertices) const;
 
   const Connectivity& connectivity_;
   const TargetLengths& targets_;

@@ -1,6 +1,7 @@
 #include "hooke/local_newton.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hooke {
 namespace {
@@ -20,7 +21,8 @@ Mat32 tangent_basis(const Vec3& normal, const Vec3& edge) {
 /// / 2.
 double invert_by_size(const Eigen::Matrix2d& H, Eigen::Matrix2d& inverse) {
   const double m = .5 * (H(0, 0) + H(1, 1));
-  const double r = std::hypot(.5 * (H(0, 0) - H(1, 1)), H(0, 1));
+  const double d = .5 * (H(0, 0) - H(1, 1));
+  const double r = std::sqrt(d * d + H(0, 1) * H(0, 1));
   const double largest = std::abs(m) + r;
   if (!(largest > 0)) return 0;
   const double high = std::max(std::abs(m + r), least_curvature * largest);

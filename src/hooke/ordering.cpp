@@ -46,20 +46,18 @@ std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbour
   return order;
 }
 
-/// Of the faces about each vertex. Looked up beforehand on all cores, not one after the other on the way.
-IntLists other_corners(int vertex_count, const std::vector<Triangle>& faces) {
-  const IntLists vertex_faces = invert(vertex_count, faces);
-  IntLists corners;
-  corners.first.resize(vertex_faces.first.size());
-  corners.items.resize(2 * vertex_faces.items.size());
-  parallel_for(corners.first.size(), block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      int next = corners.first[v] = 2 * vertex_faces.first[v];
-      if (v + 1 == corners.first.size()) break;
-      for (int f : vertex_faces[static_cast<int>(v)])
-        for (int w : faces[static_cast<size_t>(f)])
-          if (w != static_cast<int>(v)) corners.items[static_cast<size_t>(next++)] = w;
-    }
+/// The next corner of each face about a vertex: all its neighbours, but for one at a boundary, which has it
+/// for a neighbour. Looked up beforehand on all cores, not one after the other on the way.
+IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
+  IntLists corners = invert(vertex_count, faces);
+  parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      for (int i = corners.first[static_cast<size_t>(v)]; i < corners.first[static_cast<size_t>(v) + 1];
+           ++i) {
+        int& item = corners.items[static_cast<size_t>(i)];
+        const Triangle& t = faces[static_cast<size_t>(item)];
+        item = t[0] == v ? t[1] : t[1] == v ? t[2] : t[0];
+      }
   });
   return corners;
 }
@@ -96,7 +94,7 @@ Values scattered(const Reordered& order, const Values& fresh, Values old) {
 }  // namespace
 
 std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces) {
-  const IntLists corners = other_corners(vertex_count, faces);
+  const IntLists corners = next_corners(vertex_count, faces);
   return order_by_clusters(
       vertex_count, [&](int v) { return corners[v]; }, [](int) { return false; });
 }

@@ -40,6 +40,12 @@ void parallel_for(std::size_t count, std::size_t block,
                     [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
 }
 
+void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second) {
+  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) (k == 0 ? first : second)();
+  });
+}
+
 void parallel_pipeline(const std::function<void*()>& make, const std::function<void(void*)>& use) {
   const auto threads = static_cast<std::size_t>(thread_count());
   if (threads == 1) {

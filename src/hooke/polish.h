@@ -16,7 +16,7 @@ struct PolishOptions {
   double weight = 100;             // w of the others
   int sweeps = 3;                  // per stage, of Newton's method vertex by vertex
   int rings = 2;                   // around the faces below the threshold, within which vertices move
-  double rest = 3e-3;              // of a target length; what moves less in a sweep sits out the next
+  double rest = .01;               // of a target length; what moves less in a sweep sits out the next
   double edge_error_limit = .995;  // of l / L_e's deviation at the start, for all stages after the first kept
   double keep_within = .1;         // degrees below the best angle at which a later state is still kept
 };

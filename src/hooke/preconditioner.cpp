@@ -10,13 +10,13 @@ namespace hooke {
 void Preconditioner::refresh(Relaxation& r) {
   const auto n = static_cast<size_t>(r.connectivity.vertex_count);
   inverse_.resize(n);
-  std::vector<double> mean(n, 0);
+  std::vector<float> mean(n, 0);  // a weight need not be exact, and memory is scarcest here
   parallel_for(n, 256, [&](size_t begin, size_t end) {
     LocalNewton newton(r);
     for (size_t v = begin; v < end; ++v) {
       const LocalCurvature c = newton.curvature(static_cast<int>(v));
       inverse_[v] = SymmetricMatrix(c.inverse);
-      mean[v] = c.mean;
+      mean[v] = static_cast<float>(c.mean);
     }
   });
   const auto middle = mean.begin() + static_cast<std::ptrdiff_t>(n / 2);

@@ -7,6 +7,7 @@
 #include "hooke/io/polygons.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/sha256.h"
+#include "hooke/parallel.h"
 #include "hooke/validation.h"
 
 namespace hooke {
@@ -17,13 +18,11 @@ void append(Warnings& warnings, Warnings more) {
 }
 
 /// Of a mesh that can be worked on. It is looked at in memory order, where that is quick; what is wrong, or
-/// worth a warning, is then told in the order of the file. Pre-condition: all corners are vertices.
-Layout valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source,
-                    Warnings& warnings, Stopwatch* stopwatch) {
+/// worth a warning, is then told in the order of the file.
+Layout valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, Reordered order,
+                    const MeshSource& source, Warnings& warnings, Stopwatch* stopwatch) {
   const auto explain = [&] { append(warnings, require_valid(points, triangles, source)); };
-  const int n = static_cast<int>(points.cols());
-  Layout layout;
-  layout.order = timed(stopwatch, "order", [&] { return reorder(triangles, locality_order(n, triangles)); });
+  Layout layout{std::move(order), nullptr};
   VertexFans fans;
   timed(stopwatch, "validate", [&] {
     if (!find_problems(layout.order.in_new_order(points), layout.order.faces, &fans).empty()) explain();
@@ -42,17 +41,27 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   std::string bytes = timed(stopwatch, "file", [&] { return read_regular_file(path); });
   MeshFile file =
       timed(stopwatch, "parse", [&] { return parse_mesh_file(bytes, printable(path.native()), format); });
-  const std::string hash = timed(stopwatch, "sha256", [&] { return sha256(bytes); });
-  bytes = {};  // the memory is wanted for the mesh
   Triangulation triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
   append(warnings, warnings_of(triangulation, file.name));
+  const std::vector<Triangle>& triangles = triangulation.triangles;
+
+  Reordered order;
+  std::string hash, faces_hash;
+  const auto find_order = [&] {
+    order = reorder(triangles, locality_order(static_cast<int>(file.points.cols()), triangles));
+  };
+  const auto take_hashes = [&] {
+    hash = sha256(bytes);
+    faces_hash = connectivity_sha256(triangles);
+  };
+  timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
+  bytes = {};  // the memory is wanted for the mesh
+
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
-  Layout layout = valid_layout(file.points, triangulation.triangles, source, warnings, stopwatch);
+  Layout layout = valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
   require_workable_size(file.points, file.name);
-  const std::string faces_hash =
-      timed(stopwatch, "sha256", [&] { return connectivity_sha256(triangulation.triangles); });
   triangulation = {};
   // Built in place: OpenMesh has no move, and copies all of a mesh.
   return {timed(stopwatch, "build",
@@ -60,8 +69,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
           std::move(layout),
           file.format,
           file.encoding,
-          hash,
-          faces_hash,
+          std::move(hash),
+          std::move(faces_hash),
           std::move(file.vertex_data),
           std::move(warnings)};
 }

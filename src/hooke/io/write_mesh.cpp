@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "hooke/error.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/sha256.h"
+#include "hooke/parallel.h"
 
 namespace hooke {
 
@@ -36,9 +39,15 @@ PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh,
     triangles = triangles_of(mesh);
     return bytes_of(mesh, triangles, format, encoding, data);
   });
-  PendingFile file = timed(stopwatch, "file", [&] { return PendingFile(path, bytes); });
-  const Stage stage(stopwatch, "sha256");
-  return {std::move(file), sha256(bytes), connectivity_sha256(triangles)};
+  const Stage stage(stopwatch, "file");
+  std::optional<PendingFile> file;
+  std::string hash, faces_hash;
+  const auto take_hashes = [&] {
+    hash = sha256(bytes);
+    faces_hash = connectivity_sha256(triangles);
+  };
+  parallel_invoke([&] { file.emplace(path, bytes); }, take_hashes);
+  return {*std::move(file), std::move(hash), std::move(faces_hash)};
 }
 
 }  // namespace hooke
