@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "hooke/least_angle.h"
-#include "hooke/local_relaxation.h"
 #include "hooke/parallel.h"
 
 namespace hooke {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "hooke/parallel.h"
 
@@ -67,6 +68,19 @@ Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges
   c.vertex_edges = invert(c.vertex_count, c.edges);
   c.vertex_neighbours = other_ends(c);
   return c;
+}
+
+std::vector<int> with_rings(const Connectivity& c, const std::vector<int>& vertices, int rings) {
+  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<int> all;
+  const auto add = [&](int v) {
+    if (!std::exchange(marked[static_cast<size_t>(v)], 1)) all.push_back(v);
+  };
+  std::ranges::for_each(vertices, add);
+  for (int ring = 0; ring < rings; ++ring)
+    for (size_t i = 0, count = all.size(); i < count; ++i)
+      std::ranges::for_each(c.vertex_neighbours[all[i]], add);
+  return all;
 }
 
 }  // namespace hooke

@@ -47,4 +47,7 @@ Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces);
 /// The same where their half-edges have been paired before.
 Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges);
 
+/// These vertices and those within so many rings about them.
+std::vector<int> with_rings(const Connectivity& connectivity, const std::vector<int>& vertices, int rings);
+
 }  // namespace hooke

@@ -1,6 +1,10 @@
 #include "hooke/landing.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "hooke/self_intersection.h"
 
 namespace hooke {
 namespace {
@@ -22,6 +26,17 @@ std::vector<int> put_back(const Guards& guards, const Placement& from, std::vect
   return all;
 }
 
+using FacePairs = std::vector<std::array<int, 2>>;
+
+std::vector<int> corners_of(const FacePairs& pairs, const std::vector<Triangle>& faces) {
+  std::vector<int> corners;
+  for (const auto& pair : pairs)
+    for (int f : pair)
+      corners.insert(corners.end(), faces[static_cast<size_t>(f)].begin(),
+                     faces[static_cast<size_t>(f)].end());
+  return corners;
+}
+
 }  // namespace
 
 std::vector<int> put_back_offenders(const Guards& guards, const Placement& from, Placement& to) {
@@ -31,6 +46,28 @@ std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
 std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
                                     const std::vector<int>& moved, Placement& to) {
   return put_back(guards, from, guards.offenders_around(from, to, moved), to);
+}
+
+std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& connectivity,
+                                    const Placement& from, Placement& to) {
+  constexpr int most_rounds = 8;  // each with a ring more about what still crosses
+  std::vector<int> all;
+  std::optional<FacePairs> before;
+  for (int round = 0; round < most_rounds; ++round) {
+    const FacePairs crossings = find_self_intersections(to.points, connectivity.faces);
+    if (crossings.empty()) break;
+    if (!before) before = find_self_intersections(from.points, connectivity.faces);
+    FacePairs added;
+    std::ranges::set_difference(crossings, *before, std::back_inserter(added));
+    std::vector<int> vertices = with_rings(connectivity, corners_of(added, connectivity.faces), round);
+    std::erase_if(vertices, [&](int v) { return to.points.col(v) == from.points.col(v); });
+    if (vertices.empty()) break;
+    for (int v : put_back(guards, from, std::move(vertices), to)) {
+      VertexPlace(from, v).write_to(to, v);
+      all.push_back(v);
+    }
+  }
+  return all;
 }
 
 void settle(const Guards& guards, Retraction& retraction, const Placement& from, Placement& to) {

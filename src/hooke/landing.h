@@ -1,4 +1,4 @@
-// Ways that end on the surface, taken back where a guard breaks on them.
+// Ways that end on the surface, taken back where a guard breaks on them or faces come to cross.
 #pragma once
 
 #include "hooke/guards.h"
@@ -12,6 +12,12 @@ std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
 /// The same where no vertices moved but these.
 std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
                                     const std::vector<int>& moved, Placement& to);
+
+/// Puts the vertices of faces that cross each other, and did not in `from`, back to where they were, with
+/// them those that a guard then wants back, and in each of a few rounds a ring more, until no such faces are
+/// left. Returns these vertices.
+std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& connectivity,
+                                    const Placement& from, Placement& to);
 
 /// to = from with the vertices projected that have drifted, but for those where that would break a guard:
 /// they stay drifted.

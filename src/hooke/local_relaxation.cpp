@@ -1,7 +1,6 @@
 #include "hooke/local_relaxation.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "hooke/parallel.h"
 
@@ -24,19 +23,6 @@ bool mark_restless(const Connectivity& c, const std::vector<int>& vertices, cons
 }
 
 }  // namespace
-
-std::vector<int> with_rings(const Connectivity& c, const std::vector<int>& vertices, int rings) {
-  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
-  std::vector<int> all;
-  const auto add = [&](int v) {
-    if (!std::exchange(marked[static_cast<size_t>(v)], 1)) all.push_back(v);
-  };
-  std::ranges::for_each(vertices, add);
-  for (int ring = 0; ring < rings; ++ring)
-    for (size_t i = 0, count = all.size(); i < count; ++i)
-      std::ranges::for_each(c.vertex_neighbours[all[i]], add);
-  return all;
-}
 
 /// Steps are Newton's, not longer: where guards hold and springs end, longer ones magnify every difference,
 /// and a mesh that is moved or turned would come out another.

@@ -16,9 +16,6 @@ struct LocalRelaxationResult {
   bool interrupted = false;
 };
 
-/// These vertices and those within so many rings about them.
-std::vector<int> with_rings(const Connectivity& connectivity, const std::vector<int>& vertices, int rings);
-
 /// Sweeps over the vertices until all are at rest or the sweeps are used up. Nothing else moves.
 LocalRelaxationResult relax_locally(Relaxation& relaxation, const std::vector<int>& vertices,
                                     const LocalRelaxationOptions& options, const Observer& observer);

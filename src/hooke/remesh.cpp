@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "hooke/creases.h"
 #include "hooke/error.h"
@@ -43,7 +44,7 @@ class Remeshing {
     if (interrupted())
       settle_down();
     else
-      search();
+      search({});
     record("mend", {.energy = energy_(work_.placement, nullptr)});
     conclude();
     return std::move(result_);
@@ -119,26 +120,36 @@ class Remeshing {
            static_cast<double>(relaxed.held_back) <= options_.hindered * vertex_steps;
   }
 
+  /// A field fitted again and again may let thin sheets drift through each other: where the vertices are now,
+  /// to undo that, and another field.
+  Placement refit() {
+    Placement before = work_.placement;
+    work_.refit();
+    return before;
+  }
+
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
-    if (refits() && outer_ > 1) work_.refit();
-    const double before = energy_(work_.placement, nullptr);
+    std::optional<Placement> before;
+    if (refits() && outer_ > 1) before = refit();
+    const double energy = energy_(work_.placement, nullptr);
     const IntegrationResult relaxed = relax();
     held_back_ = relaxed.held_back > 0;
     unhindered_ = is_unhindered(relaxed);
-    if (!unhindered_ || !options_.polish_angles) settle_down();  // else the polish goes on from here
+    if (!unhindered_ || !options_.polish_angles) settle_down(before);  // else the polish goes on from here
     record("relax", relaxed, outer_);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
-    if (unhindered_ || before - relaxed.energy <= options_.outer_drop * before)
+    if (unhindered_ || energy - relaxed.energy <= options_.outer_drop * energy)
       return stop(StopReason::stalled);
     result_.reason = StopReason::step_limit;
   }
 
   void raise_angles() {
     const Stage stage(work_.stopwatch, "polish");
-    if (refits()) work_.refit();
+    std::optional<Placement> before;
+    if (refits()) before = refit();
     {
       Relaxation r = relaxation();
       const PolishOptions& options =
@@ -147,21 +158,21 @@ class Remeshing {
     }
     if (result_.polish.interrupted) {
       result_.reason = StopReason::interrupted;
-      settle_down();
+      settle_down(before);
     } else {
-      search();
+      search(before);
     }
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
   /// On the field fitted last, where vertices can move that will not land; then, where landing has changed
   /// what is worst, on that of the input.
-  void search() {
+  void search(const std::optional<Placement>& before) {
     if (work_.refitted()) {
       settle(guards_, *work_.retraction, work_.placement);
       search_here();
     }
-    settle_down();
+    settle_down(before);
     work_.return_to_input();
     result_.not_landed = work_.land(search_here());
     work_.resample_lengths();
@@ -175,8 +186,10 @@ class Remeshing {
     });
   }
 
-  void settle_down() {
+  /// `before`: where the vertices had landed before the last refit, if there was one.
+  void settle_down(const std::optional<Placement>& before = {}) {
     result_.not_landed = work_.land();
+    if (before) work_.undo_crossings(*before);
     work_.resample_lengths();
   }
 

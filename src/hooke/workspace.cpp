@@ -143,6 +143,12 @@ int Workspace::land(const std::vector<int>& vertices) {
   return static_cast<int>(not_landed_.size());
 }
 
+void Workspace::undo_crossings(const Placement& before) {
+  const Stage stage(stopwatch, "crossings");
+  for (int v : put_back_crossings(landing_guards(), *connectivity, before, placement))
+    input_anchors_[static_cast<size_t>(v)] = placement.anchors[static_cast<size_t>(v)];
+}
+
 Guards Workspace::landing_guards() const {
   GuardOptions options = guards;
   options.slack = landing_slack;

@@ -43,6 +43,10 @@ struct Workspace {
   /// return_to_input(); returns how many of all stay where they are.
   int land(const std::vector<int>& vertices);
 
+  /// After a landing: takes back what has made faces cross that did not in `before`, where the vertices had
+  /// landed the last time; see put_back_crossings().
+  void undo_crossings(const Placement& before);
+
   /// Is the field fitted last another one than that of the input?
   bool refitted() const { return refitted_; }
 

@@ -31,7 +31,7 @@ struct Sphere {
   SweepPlan sweeps = plan_sweeps(*connectivity);
   TargetLengths targets = spread_target_lengths(*connectivity, length);
   Constraints constraints = find_constraints(start.points, *connectivity, {});
-  SurfaceField field{start.points, connectivity};
+  SurfaceField field{std::make_shared<const Mat3X>(start.points), connectivity};
   Retraction retraction{field.surface(), constraints, {}};
   Energy energy{*connectivity, targets, {}};
   Guards guards{*connectivity, targets, {}};
