@@ -95,6 +95,7 @@ BoundingVolumeTree::BoundingVolumeTree(const Mat3X& points, const std::vector<Tr
   });
   while (faces.size() > leaf_size << depth_) ++depth_;
   boxes_.resize(size_t{2} << depth_);
+  boxes_[0] = Box();
   enclose(1, 0);
 }
 

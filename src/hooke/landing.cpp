@@ -1,6 +1,7 @@
 #include "hooke/landing.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -37,6 +38,14 @@ std::vector<int> corners_of(const FacePairs& pairs, const std::vector<Triangle>&
   return corners;
 }
 
+/// Marks the vertices of faces that cross and those within so many rings about them.
+std::vector<char> about_crossings(const Placement& p, const Connectivity& c, int rings) {
+  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
+  for (int v : with_rings(c, corners_of(find_self_intersections(p.points, c.faces), c.faces), rings))
+    marked[static_cast<size_t>(v)] = 1;
+  return marked;
+}
+
 }  // namespace
 
 std::vector<int> put_back_offenders(const Guards& guards, const Placement& from, Placement& to) {
@@ -50,16 +59,20 @@ std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
 
 std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& connectivity,
                                     const Placement& from, Placement& to) {
-  constexpr int most_rounds = 8;  // each with a ring more about what still crosses
+  constexpr int most_rounds = 8;
+  constexpr int rings_along = 2;  // about what crossed before, within which it may go on to
   std::vector<int> all;
-  std::optional<FacePairs> before;
+  std::optional<std::vector<char>> crossed;
   for (int round = 0; round < most_rounds; ++round) {
-    const FacePairs crossings = find_self_intersections(to.points, connectivity.faces);
+    FacePairs crossings = find_self_intersections(to.points, connectivity.faces);
     if (crossings.empty()) break;
-    if (!before) before = find_self_intersections(from.points, connectivity.faces);
-    FacePairs added;
-    std::ranges::set_difference(crossings, *before, std::back_inserter(added));
-    std::vector<int> vertices = with_rings(connectivity, corners_of(added, connectivity.faces), round);
+    if (!crossed) crossed = about_crossings(from, connectivity, rings_along);
+    const auto touches = [&](int f) {
+      return std::ranges::any_of(connectivity.faces[static_cast<size_t>(f)],
+                                 [&](int v) { return (*crossed)[static_cast<size_t>(v)] != 0; });
+    };
+    std::erase_if(crossings, [&](const auto& pair) { return touches(pair[0]) && touches(pair[1]); });
+    std::vector<int> vertices = with_rings(connectivity, corners_of(crossings, connectivity.faces), round);
     std::erase_if(vertices, [&](int v) { return to.points.col(v) == from.points.col(v); });
     if (vertices.empty()) break;
     for (int v : put_back(guards, from, std::move(vertices), to)) {
@@ -67,6 +80,8 @@ std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& co
       all.push_back(v);
     }
   }
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

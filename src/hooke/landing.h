@@ -13,9 +13,10 @@ std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
 std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
                                     const std::vector<int>& moved, Placement& to);
 
-/// Puts the vertices of faces that cross each other, and did not in `from`, back to where they were, with
-/// them those that a guard then wants back, and in each of a few rounds a ring more, until no such faces are
-/// left. Returns these vertices.
+/// Puts the vertices of faces that have come to cross each other back to where they were, with them those
+/// that a guard then wants back, and in each of a few rounds a ring more about what still crosses. Parts that
+/// crossed before go on to cross along the same curve: what is close to it stays. Returns these vertices,
+/// ascending.
 std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& connectivity,
                                     const Placement& from, Placement& to);
 

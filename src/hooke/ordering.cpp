@@ -46,8 +46,9 @@ std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbour
   return order;
 }
 
-/// The next corner of each face about a vertex: all its neighbours, but for one at a boundary, which has it
-/// for a neighbour. Looked up beforehand on all cores, not one after the other on the way.
+/// The next corner of each face about a vertex: all its neighbours where faces are oriented alike, but for
+/// one at a boundary, which has it for a neighbour; elsewhere fewer, which costs order only. Looked up
+/// beforehand on all cores, not one after the other on the way.
 IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
   IntLists corners = invert(vertex_count, faces);
   parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {

@@ -29,7 +29,8 @@ int thread_count();
 void parallel_for(std::size_t count, std::size_t block,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// Calls both, at the same time where threads allow it. An exception of either is rethrown here.
+/// Calls both, at the same time where threads allow it. An exception of either is rethrown here; the other
+/// may then not have been called.
 void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second);
 
 /// Calls make() again and again, one call at a time, until it returns no piece of work, and meanwhile

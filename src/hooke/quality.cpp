@@ -121,7 +121,7 @@ void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, 
     return values;
   };
   // Fixed bins where the range is known, so that before and after can be laid side by side.
-  // Two halves that take as long: there are more edges than faces.
+  // In an order of which two threads get halves that take as long: there are more edges than faces.
   const std::function<void()> parts[] = {
       [&] { q.edge_length = describe(lengths); },
       [&] {

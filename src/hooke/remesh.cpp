@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 
 #include "hooke/creases.h"
 #include "hooke/error.h"
@@ -44,7 +43,7 @@ class Remeshing {
     if (interrupted())
       settle_down();
     else
-      search({});
+      search();
     record("mend", {.energy = energy_(work_.placement, nullptr)});
     conclude();
     return std::move(result_);
@@ -120,23 +119,15 @@ class Remeshing {
            static_cast<double>(relaxed.held_back) <= options_.hindered * vertex_steps;
   }
 
-  /// A field fitted again and again may let thin sheets drift through each other: where the vertices are now,
-  /// to undo that, and another field.
-  Placement refit() {
-    Placement before = work_.placement;
-    work_.refit();
-    return before;
-  }
-
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
-    std::optional<Placement> before;
-    if (refits() && outer_ > 1) before = refit();
+    if (refits() && outer_ > 1) work_.refit();
     const double energy = energy_(work_.placement, nullptr);
-    const IntegrationResult relaxed = relax();
+    IntegrationResult relaxed = relax();
     held_back_ = relaxed.held_back > 0;
     unhindered_ = is_unhindered(relaxed);
-    if (!unhindered_ || !options_.polish_angles) settle_down(before);  // else the polish goes on from here
+    if (!unhindered_ || !options_.polish_angles) settle_down();  // else the polish goes on from here
+    if (work_.took_back()) relaxed.energy = energy_(work_.placement, nullptr);
     record("relax", relaxed, outer_);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
@@ -148,8 +139,7 @@ class Remeshing {
 
   void raise_angles() {
     const Stage stage(work_.stopwatch, "polish");
-    std::optional<Placement> before;
-    if (refits()) before = refit();
+    if (refits()) work_.refit();
     {
       Relaxation r = relaxation();
       const PolishOptions& options =
@@ -158,21 +148,21 @@ class Remeshing {
     }
     if (result_.polish.interrupted) {
       result_.reason = StopReason::interrupted;
-      settle_down(before);
+      settle_down();
     } else {
-      search(before);
+      search();
     }
     record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
   }
 
   /// On the field fitted last, where vertices can move that will not land; then, where landing has changed
   /// what is worst, on that of the input.
-  void search(const std::optional<Placement>& before) {
+  void search() {
     if (work_.refitted()) {
       settle(guards_, *work_.retraction, work_.placement);
       search_here();
     }
-    settle_down(before);
+    settle_down();
     work_.return_to_input();
     result_.not_landed = work_.land(search_here());
     work_.resample_lengths();
@@ -186,10 +176,8 @@ class Remeshing {
     });
   }
 
-  /// `before`: where the vertices had landed before the last refit, if there was one.
-  void settle_down(const std::optional<Placement>& before = {}) {
+  void settle_down() {
     result_.not_landed = work_.land();
-    if (before) work_.undo_crossings(*before);
     work_.resample_lengths();
   }
 

@@ -1,6 +1,7 @@
 #include "hooke/workspace.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -117,6 +118,7 @@ int Workspace::chart_count() const {
 void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;
+  if (!before_refit_) before_refit_ = {placement, not_landed_};
   const SurfaceField field = fit(std::make_shared<const Mat3X>(placement.points));
   finished_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
@@ -130,6 +132,8 @@ int Workspace::land() {
   input_anchors_ = landed.anchors;
   not_landed_ = put_back_offenders(landing_guards(), placement, landed);
   placement = std::move(landed);
+  took_back_ = false;
+  if (before_refit_) undo_crossings();
   return static_cast<int>(not_landed_.size());
 }
 
@@ -143,10 +147,18 @@ int Workspace::land(const std::vector<int>& vertices) {
   return static_cast<int>(not_landed_.size());
 }
 
-void Workspace::undo_crossings(const Placement& before) {
+/// The anchors are all on the input's field again.
+void Workspace::undo_crossings() {
   const Stage stage(stopwatch, "crossings");
-  for (int v : put_back_crossings(landing_guards(), *connectivity, before, placement))
-    input_anchors_[static_cast<size_t>(v)] = placement.anchors[static_cast<size_t>(v)];
+  const Landed before = *std::exchange(before_refit_, std::nullopt);
+  const std::vector<int> back =
+      put_back_crossings(landing_guards(), *connectivity, before.placement, placement);
+  took_back_ = !back.empty();
+  if (!took_back_) return;
+  input_anchors_ = placement.anchors;
+  const auto is_back = [&](int v) { return std::ranges::binary_search(back, v); };
+  std::erase_if(not_landed_, is_back);
+  std::ranges::copy_if(before.not_landed, std::back_inserter(not_landed_), is_back);
 }
 
 Guards Workspace::landing_guards() const {

@@ -36,16 +36,17 @@ struct Workspace {
   void keep_angles();
 
   /// Projects the vertices to the field of the input, which is what they are to lie on in the end. A vertex
-  /// whose landing would break a guard stays where it is; returns their number.
+  /// whose landing would break a guard stays where it is; returns their number. Fields fitted again and again
+  /// may let thin sheets drift through each other: faces that have come to cross since refit() go back to
+  /// where they were, see put_back_crossings().
   int land();
 
   /// Lands vertices, ascending, each named once, that have moved on the field of the input since, after
   /// return_to_input(); returns how many of all stay where they are.
   int land(const std::vector<int>& vertices);
 
-  /// After a landing: takes back what has made faces cross that did not in `before`, where the vertices had
-  /// landed the last time; see put_back_crossings().
-  void undo_crossings(const Placement& before);
+  /// Did the last landing of all take crossings back?
+  bool took_back() const { return took_back_; }
 
   /// Is the field fitted last another one than that of the input?
   bool refitted() const { return refitted_; }
@@ -115,6 +116,7 @@ struct Workspace {
   void connect(std::shared_ptr<const Connectivity> smooth, const std::vector<Edge>& creases);
   SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
   Guards landing_guards() const;
+  void undo_crossings();
 
   FilterOptions filter_;
   RetractionOptions retraction_options_;
@@ -127,7 +129,13 @@ struct Workspace {
   std::vector<int> input_anchors_;                          // where each vertex is tracked on the input
   std::unique_ptr<Retraction> to_input_;                    // to the field of the input
   std::vector<int> not_landed_;                             // vertices that stayed where they were
-  ProjectionCounts finished_;                               // of the retractions that are gone
+  struct Landed {
+    Placement placement;
+    std::vector<int> not_landed;
+  };
+  std::optional<Landed> before_refit_;  // until the next landing
+  bool took_back_ = false;
+  ProjectionCounts finished_;  // of the retractions that are gone
 };
 
 }  // namespace hooke

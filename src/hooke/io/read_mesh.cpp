@@ -57,7 +57,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
     faces_hash = connectivity_sha256(triangles);
   };
   timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
-  bytes = {};  // the memory is wanted for the mesh
+  bytes = std::string();  // the memory is wanted for the mesh
 
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
   Layout layout = valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
