@@ -28,7 +28,7 @@ Workspace on(const TriMesh& mesh, const FilterOptions& filter = {}) {
   return Workspace(mesh, lay_out(mesh), {}, filter, {}, {});
 }
 
-/// Moves the vertices by a quarter of a target length.
+/// Moves the vertices by up to a twentieth of a target length in each direction.
 void shake(Workspace& w) {
   Mat3X u = test::random_vectors(w.start->cols(), .05);
   w.retraction->constrain(w.placement, u);
@@ -107,6 +107,7 @@ TEST(Workspace, LandsOnTheFieldOfTheInput) {
   Workspace w = on(mesh);
   for (int turn = 0; turn < 3; ++turn) {
     shake(w);
+    w.land();
     w.refit();
     shake(w);
     EXPECT_GT(off_the_input(mesh, w.placement.points), 1e-4);  // the fields differ, or landing were idle
