@@ -126,8 +126,10 @@ class Remeshing {
     IntegrationResult relaxed = relax();
     held_back_ = relaxed.held_back > 0;
     unhindered_ = is_unhindered(relaxed);
-    if (!unhindered_ || !options_.polish_angles) settle_down();  // else the polish goes on from here
-    if (work_.took_back()) relaxed.energy = energy_(work_.placement, nullptr);
+    if (!unhindered_ || !options_.polish_angles) {  // else the polish goes on from here
+      settle_down();
+      if (work_.took_back()) relaxed.energy = energy_(work_.placement, nullptr);
+    }
     record("relax", relaxed, outer_);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
