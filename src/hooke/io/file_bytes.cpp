@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <new>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "hooke/error.h"
 #include "hooke/io/file_descriptor.h"
 #include "hooke/io/printable.h"
+#include "hooke/parallel.h"
 
 namespace hooke {
 namespace {
@@ -27,26 +29,48 @@ std::string kind_of(mode_t mode) {
   return "a device";
 }
 
-std::string read_to_end(int descriptor, size_t expected_size, const std::string& name) {
-  std::string bytes;
+/// Reads `count` bytes from `offset` on to `to`, fewer only where the file ends. Returns how many.
+size_t read_range(int descriptor, size_t offset, size_t count, char* to, const std::string& name) {
   size_t used = 0;
-  while (true) {
-    if (used == bytes.size()) bytes.resize(used == 0 ? expected_size + 1 : 2 * used);
-    const ssize_t count = ::read(descriptor, bytes.data() + used, bytes.size() - used);
-    if (count == 0) break;
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
+  while (used < count) {
+    const ssize_t more = ::pread(descriptor, to + used, count - used, static_cast<off_t>(offset + used));
+    if (more == 0) break;
+    if (more < 0 && errno == EINTR) continue;
+    if (more < 0)
       throw InputError(fmt::format("{}: cannot be read: {}; expected a readable file; check the disk", name,
                                    reason(errno)));
-    used += static_cast<size_t>(count);
+    used += static_cast<size_t>(more);
+  }
+  return used;
+}
+
+/// Reads as many bytes as expected on all cores, then whatever has come to be there since.
+FileBytes read_to_end(int descriptor, size_t expected_size, const std::string& name) {
+  constexpr size_t block = size_t{1} << 22;
+  FileBytes file{UnfilledVector<char>(expected_size + 1)};
+  UnfilledVector<char>& bytes = file.bytes;
+  std::vector<size_t> counts((expected_size + block - 1) / block);
+  parallel_for(counts.size(), 1, [&](size_t first, size_t last) {
+    for (size_t b = first; b < last; ++b)
+      counts[b] = read_range(descriptor, b * block, std::min(block, expected_size - b * block),
+                             bytes.data() + b * block, name);
+  });
+  size_t used = 0;  // up to the first block that was not there
+  for (size_t b = 0; b < counts.size() && used == b * block; ++b) used += counts[b];
+  while (true) {
+    const size_t room = bytes.size() - used;
+    const size_t count = read_range(descriptor, used, room, bytes.data() + used, name);
+    used += count;
+    if (count < room) break;
+    bytes.resize(2 * used);
   }
   bytes.resize(used);
-  return bytes;
+  return file;
 }
 
 }  // namespace
 
-std::string read_regular_file(const std::filesystem::path& path) {
+FileBytes read_regular_file(const std::filesystem::path& path) {
   if (path.empty()) throw InputError("'': the input has no name; expected a mesh file; name one");
   const std::string name = printable(path.native());
   // O_NONBLOCK: opening a pipe without a writer would wait for ever.
@@ -63,9 +87,10 @@ std::string read_regular_file(const std::filesystem::path& path) {
     throw InputError(
         fmt::format("{}: is {}; expected a regular file; name a mesh file", name, kind_of(status.st_mode)));
   try {
-    std::string bytes = read_to_end(file.get(), static_cast<size_t>(status.st_size), name);
-    if (bytes.empty()) throw InputError(name + ": the file is empty; expected a mesh; check how it was made");
-    return bytes;
+    FileBytes content = read_to_end(file.get(), static_cast<size_t>(status.st_size), name);
+    if (content.bytes.empty())
+      throw InputError(name + ": the file is empty; expected a mesh; check how it was made");
+    return content;
   } catch (const std::bad_alloc&) {
     throw LimitError(
         fmt::format("{}: {} bytes do not fit in memory; use a machine with more", name, status.st_size));

@@ -9,8 +9,8 @@
 namespace hooke {
 
 std::vector<int> read_id_list(const std::filesystem::path& path, int count) {
-  const std::string text = read_regular_file(path);
-  Scanner scanner(text, printable(path.string()), {.comments = true});
+  const FileBytes file = read_regular_file(path);
+  Scanner scanner(file.text(), printable(path.string()), {.comments = true});
   std::vector<int> ids;
   while (scanner.next_line()) {
     const long long id = scanner.integer("vertex id");

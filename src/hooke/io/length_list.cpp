@@ -10,9 +10,9 @@
 namespace hooke {
 
 std::vector<double> read_length_list(const std::filesystem::path& path, int count) {
-  const std::string text = read_regular_file(path);
+  const FileBytes file = read_regular_file(path);
   const std::string name = printable(path.string());
-  Scanner scanner(text, name, {.comments = true});
+  Scanner scanner(file.text(), name, {.comments = true});
   std::vector<double> lengths;
   while (scanner.next_line()) {
     const double length = scanner.number("length");

@@ -140,41 +140,26 @@ void read_piece(ObjReader& obj) {
   end_corners(obj, obj.normals);
 }
 
-// How many elements faces can refer to.
-struct Counts {
-  int vertices = 0, texture = 0, normals = 0;
-};
-
-Counts count_elements(Scanner in) {
-  Counts counts;
-  while (in.next_line()) {
-    const std::string_view keyword = in.token();
-    counts.vertices += keyword == "v";
-    counts.texture += keyword == "vt";
-    counts.normals += keyword == "vn";
-  }
-  return counts;
-}
+// What faces refer to by number: a vertex, a texture coordinate, a normal.
+const std::vector<std::string_view> numbered = {"v", "vt", "vn"};
 
 // Readers of the pieces, each of which knows how much stands before it; makes room for the numbers.
 std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const std::string& name,
                                      ObjNumbers& all) {
-  std::vector<Counts> counts(pieces.size());
-  read_pieces(pieces, [&](const TextPiece& piece, size_t p) { counts[p] = count_elements(piece.scanner); });
   std::vector<ObjReader> readers;
   long long vertices = 0, texture = 0, normals = 0;
   const auto limited = [](long long count) {  // count_one() refuses what is beyond
     return static_cast<int>(std::min<long long>(count, std::numeric_limits<int>::max()));
   };
-  for (size_t p = 0; p < pieces.size(); ++p) {
-    ObjReader& reader = readers.emplace_back(pieces[p].scanner, all);
+  for (const TextPiece& piece : pieces) {
+    ObjReader& reader = readers.emplace_back(piece.scanner, all);
     reader.part.name = name;
     reader.vertices.count = limited(vertices);
     reader.texture.count = limited(texture);
     reader.normals.count = limited(normals);
-    vertices += counts[p].vertices;
-    texture += counts[p].texture;
-    normals += counts[p].normals;
+    vertices += piece.rows_of[0];
+    texture += piece.rows_of[1];
+    normals += piece.rows_of[2];
   }
   all = {Mat3X::Zero(3, limited(vertices)), Mat3X::Zero(3, limited(texture)),
          Mat3X::Zero(3, limited(normals))};
@@ -232,7 +217,7 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   file.name = name;
   file.format = "obj";
   const std::vector<TextPiece> pieces =
-      remaining_pieces(Scanner(text, name, {.comments = true, .continuations = true}));
+      remaining_pieces(Scanner(text, name, {.comments = true, .continuations = true}), numbered);
   ObjNumbers numbers;
   std::vector<ObjReader> readers = start_readers(pieces, name, numbers);
   read_pieces(pieces, [&](const TextPiece&, size_t p) { read_piece(readers[p]); });

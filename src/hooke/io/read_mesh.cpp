@@ -38,9 +38,9 @@ Layout valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles,
 
 LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   const std::string format = input_format_of(path);
-  std::string bytes = timed(stopwatch, "file", [&] { return read_regular_file(path); });
-  MeshFile file =
-      timed(stopwatch, "parse", [&] { return parse_mesh_file(bytes, printable(path.native()), format); });
+  FileBytes content = timed(stopwatch, "file", [&] { return read_regular_file(path); });
+  MeshFile file = timed(stopwatch, "parse",
+                        [&] { return parse_mesh_file(content.text(), printable(path.native()), format); });
   Triangulation triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
@@ -53,11 +53,11 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
     order = reorder(triangles, locality_order(static_cast<int>(file.points.cols()), triangles));
   };
   const auto take_hashes = [&] {
-    hash = sha256(bytes);
+    hash = sha256(content.text());
     faces_hash = connectivity_sha256(triangles);
   };
   timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
-  bytes = std::string();  // the memory is wanted for the mesh
+  content = {};  // the memory is wanted for the mesh
 
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
   Layout layout = valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);

@@ -64,7 +64,9 @@ Scanner::Scanner(std::string_view text, std::string name, Syntax syntax, int fir
 
 void Scanner::skip_line() {
   while (cursor_ < end_ && !is_line_end(*cursor_)) {
-    if (*cursor_ == '#' && syntax_.comments) {
+    if (kind_of(*cursor_) != LetterKind::mark) {
+      ++cursor_;
+    } else if (*cursor_ == '#' && syntax_.comments) {
       while (cursor_ < end_ && !is_line_end(*cursor_)) ++cursor_;
     } else if (at_continuation(cursor_)) {
       ++cursor_;

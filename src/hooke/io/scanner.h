@@ -1,6 +1,7 @@
 // Walks over a text held in memory: lines, tokens, numbers. Shared by the readers of text formats.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -78,13 +79,33 @@ class Scanner {
   bool started_ = false;
 };
 
-// The hot part, inline.
+// The hot part, inline: a text is looked at letter by letter.
+
+enum class LetterKind : unsigned char {
+  plain,
+  blank,
+  line_end,
+  mark,  // a '#' or a '\\': what it means depends on the syntax
+};
+
+inline constexpr std::array<LetterKind, 256> letter_kinds = [] {
+  std::array<LetterKind, 256> kinds{};
+  for (unsigned char c : {' ', '\t', '\v', '\f'}) kinds[c] = LetterKind::blank;
+  for (unsigned char c : {'\n', '\r'}) kinds[c] = LetterKind::line_end;
+  for (unsigned char c : {'#', '\\'}) kinds[c] = LetterKind::mark;
+  return kinds;
+}();
+
+inline LetterKind kind_of(char c) {
+  return letter_kinds[static_cast<unsigned char>(c)];
+}
 
 inline bool is_line_end(char c) {
-  return c == '\n' || c == '\r';
+  return kind_of(c) == LetterKind::line_end;
 }
+
 inline bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+  return kind_of(c) == LetterKind::blank;
 }
 
 inline bool Scanner::at_continuation(const char* at) const {
@@ -92,10 +113,8 @@ inline bool Scanner::at_continuation(const char* at) const {
 }
 
 inline bool Scanner::ends_token(const char* at) const {
-  const char c = *at;
-  if (c == '#') return syntax_.comments;
-  if (c == '\\') return at_continuation(at);
-  return is_blank(c) || is_line_end(c);
+  if (kind_of(*at) == LetterKind::mark) return *at == '#' ? syntax_.comments : at_continuation(at);
+  return kind_of(*at) != LetterKind::plain;
 }
 
 inline void Scanner::skip_line_end() {

@@ -39,7 +39,8 @@ std::vector<double> read_property(const std::string& property, const std::filesy
   if (input_format_of(mesh_file) != "ply")
     throw Error(fmt::format("{}: sizing by the property {}; expected a PLY file; name a file of lengths",
                             name, in_quotes(property)));
-  std::vector<double> lengths = read_ply_lengths(read_regular_file(mesh_file), name, property);
+  const FileBytes file = read_regular_file(mesh_file);
+  std::vector<double> lengths = read_ply_lengths(file.text(), name, property);
   if (lengths.size() != static_cast<size_t>(count))
     throw InputError(fmt::format("{}: {} vertices, and {} when it was first read; it has been changed", name,
                                  lengths.size(), count));

@@ -14,9 +14,22 @@ size_t cut_after(std::string_view text, size_t from) {
   return text.size();
 }
 
+/// Sets the counts of rows in the piece. Returns the number of its lines.
+int count_rows(TextPiece& piece, const std::vector<std::string_view>& keywords) {
+  piece.rows_of.assign(keywords.size(), 0);
+  Scanner counter = piece.scanner;
+  while (counter.next_line()) {
+    ++piece.rows;
+    if (keywords.empty()) continue;
+    const std::string_view first = counter.token();
+    for (size_t k = 0; k < keywords.size(); ++k) piece.rows_of[k] += first == keywords[k];
+  }
+  return counter.line();
+}
+
 }  // namespace
 
-std::vector<TextPiece> remaining_pieces(Scanner scanner) {
+std::vector<TextPiece> remaining_pieces(Scanner scanner, const std::vector<std::string_view>& keywords) {
   scanner.finish_line();
   const std::string_view text = scanner.rest();
   std::vector<TextPiece> pieces;
@@ -27,11 +40,7 @@ std::vector<TextPiece> remaining_pieces(Scanner scanner) {
   }
   std::vector<int> lines(pieces.size());
   parallel_for(pieces.size(), 1, [&](size_t begin, size_t end) {
-    for (size_t p = begin; p < end; ++p) {
-      Scanner counter = pieces[p].scanner;
-      while (counter.next_line()) ++pieces[p].rows;
-      lines[p] = counter.line();
-    }
+    for (size_t p = begin; p < end; ++p) lines[p] = count_rows(pieces[p], keywords);
   });
   int line = scanner.line();
   long long row = 0;

@@ -12,14 +12,15 @@ namespace hooke {
 
 /// Whole lines of a text.
 struct TextPiece {
-  Scanner scanner;          // on its first line, which is not begun
-  long long first_row = 0;  // rows before it; a row is a line with a token
-  long long rows = 0;       // in it
+  Scanner scanner;                   // on its first line, which is not begun
+  long long first_row = 0;           // rows before it; a row is a line with a token
+  long long rows = 0;                // in it
+  std::vector<long long> rows_of{};  // of them, with each of the keywords asked for as their first token
 };
 
 /// What is left of the scanner's text after its line, all of it, in order. How it is cut depends on the text
 /// only; no line that a '\' continues is cut.
-std::vector<TextPiece> remaining_pieces(Scanner scanner);
+std::vector<TextPiece> remaining_pieces(Scanner scanner, const std::vector<std::string_view>& keywords = {});
 
 /// Calls read(piece, index) for every piece, in parallel. Of the exceptions thrown, that of the first piece
 /// goes on: it tells of the first error in the text.
