@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "adapting_scene.h"
@@ -99,6 +100,32 @@ TEST(Adaptation, MakesGoodTriangles) {
   const Outcome o = adapted(t, natural(t), adapting(Effort::standard));
   EXPECT_GT(least_angle(o.points, o.connectivity.faces), 44);
   EXPECT_LT(least_angle(t.points, t.faces), 15);
+}
+
+double irregular_share(const Connectivity& c) {
+  int irregular = 0;
+  for (int v = 0; v < c.vertex_count; ++v) irregular += c.vertex_edges[v].size() != 6;
+  return static_cast<double>(irregular) / c.vertex_count;
+}
+
+TEST(Adaptation, ACoarserMeshFirstLeavesFewIrregularVertices) {
+  const test::Triangles t = test::sphere(4, .45, 4);
+  RemeshOptions coarse = adapting(Effort::standard), none = coarse;
+  none.adaptation.coarse.levels = 0;
+  const Outcome with = adapted(t, natural(t), coarse), without = adapted(t, natural(t), none);
+  EXPECT_EQ(with.result.adaptation.levels, 1);
+  EXPECT_EQ(without.result.adaptation.levels, 0);
+  EXPECT_LT(irregular_share(with.connectivity), .5 * irregular_share(without.connectivity));
+  EXPECT_GT(least_angle(with.points, with.connectivity.faces), 44);
+  expect_sound(t, with);
+}
+
+TEST(Adaptation, ARoughSurfaceHasNoCoarserMesh) {
+  test::Triangles t = test::sphere(4, .3, 4);
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, .3 * natural(t));
+  for (auto x : t.points.colwise()) x *= 1 + noise(random);
+  EXPECT_EQ(adapted(t, natural(t)).result.adaptation.levels, 0);
 }
 
 TEST(Adaptation, CornersAndGivenVerticesStayBitForBit) {

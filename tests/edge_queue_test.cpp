@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <set>
 
 #include "meshes.h"
@@ -98,6 +99,49 @@ TEST(EdgeQueue, ABatchOfOneIsTheNextEdge) {
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   for (const auto& [h, batch] : batches_of(t, 1)) EXPECT_EQ(h, queue.pop());
   EXPECT_EQ(queue.pop(), -1);
+}
+
+TEST(EdgeQueue, AlwaysGivesTheMostUrgentOfManyThatChange) {
+  const test::Triangles large = test::grid(60, test::flat);  // more edges than are sorted at a time
+  const Triangulation t(make_connectivity(static_cast<int>(large.points.cols()), large.faces));
+  std::map<int, double> urgencies;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any_urgency(-.3, 1);
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.twin(h) < h) urgencies[h] = any_urgency(random);
+  const auto of_edge = [&](int h) -> double& { return urgencies.at(std::max(h, t.twin(h))); };
+  EdgeQueue queue(t, of_edge);
+  const auto greatest = [&] {
+    return std::ranges::max_element(urgencies, {}, &std::pair<const int, double>::second);
+  };
+  std::uniform_int_distribution<int> any_edge(0, t.half_edge_count() - 1);
+  for (int step = 0; step < 3000; ++step) {
+    const auto next = greatest();
+    ASSERT_EQ(queue.pop(), next->first) << step;
+    next->second = 0;
+    for (int change = 0; change < 3; ++change) {
+      const int h = any_edge(random);
+      of_edge(h) = any_urgency(random);
+      queue.push(h);
+    }
+  }
+}
+
+TEST(EdgeQueue, KnowsEdgesThatGoByOtherHalfEdgesAfterASplit) {
+  const test::Triangles t = test::grid(cells, test::flat);
+  Triangulation split(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+  EdgeQueue queue(split, [&](int h) { return urgency(split, h); });
+  for (int k = 0; k < 40; ++k) {
+    const int h = queue.pop();
+    ASSERT_GE(h, 0);
+    queue.push_about(split.split(h));
+  }
+  double last = 1;
+  for (int h = queue.pop(); h >= 0; h = queue.pop()) {
+    EXPECT_LE(urgency(split, h), last);
+    EXPECT_GT(urgency(split, h), 0);
+    last = urgency(split, h);
+  }
 }
 
 TEST(EdgeQueue, DropsWhatIsNotWanted) {

@@ -1,9 +1,6 @@
 #include "hooke/adaptation.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "hooke/adapting_work.h"
 
 namespace hooke {
 namespace {
@@ -11,14 +8,11 @@ namespace {
 class Adaptation {
  public:
   Adaptation(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
-             const GuardOptions& guards, double corner_angle, const Observer& observer)
-      : work_(work),
-        options_(options),
-        flip_guard_(flip_guard),
-        guards_(guards),
+             const GuardOptions& guards, const EnergyTerms& terms, double corner_angle,
+             const Observer& observer)
+      : options_(options),
         observer_(observer),
-        adapting_(work, corner_angle),
-        graded_(work.graded()) {
+        steps_(work, options.steps, flip_guard, terms, guards, corner_angle, watch()) {
     result_.wanted_faces =
         wanted_face_count(work.placement.points, work.connectivity->faces, work.vertex_length);
   }
@@ -26,91 +20,64 @@ class Adaptation {
   /// `folded`: are there faces that lie against the surface? Flow would carry them along where splits and
   /// collapses take them out.
   AdaptResult run(bool folded) {
-    release_bends();
-    if (!folded) settle(options_.first_flow);
-    for (int i = 0; i < options_.rounds && !result_.interrupted; ++i) change_lengths();
-    for (int i = 0; i < options_.count_rounds && !result_.interrupted; ++i)
-      if (!change_count()) break;
-    adapting_.replace_mesh();
+    steps_.release_bends();
+    result_.levels = steps_.bearable_levels(result_.wanted_faces, options_.coarse);
+    if (result_.levels > 0)
+      refine_coarse_mesh();
+    else
+      change_lengths(folded);
+    steps_.finish();
+    result_.splits = steps_.counts().splits;
+    result_.collapses = steps_.counts().collapses;
+    result_.flips = steps_.counts().flips;
+    result_.interrupted = steps_.interrupted();
     return result_;
   }
 
  private:
-  /// Vertices at bends may move and go where a curve is to have other edges.
-  void release_bends() {
-    count_curve_edges(m_, options_.chord_error);
-    Constraints& constraints = work_.constraints;
-    for (size_t v = 0; v < constraints.freedom.size(); ++v) {
-      if (!constraints.at_bend(static_cast<int>(v))) continue;
-      const auto curve = static_cast<size_t>(constraints.curve[v]);
-      const double wanted = m_.curve_edges.wanted[curve], ratio = wanted / m_.curve_edges.present[curve];
-      if (std::max(ratio, 1 / ratio) > options_.keep_bends) constraints.freedom[v] = Freedom::curve;
+  void change_lengths(bool folded) {
+    if (!folded) steps_.settle(options_.first_flow);
+    change_lengths(options_.rounds, options_.flow_rounds);
+    approach(result_.wanted_faces, options_.count_slack);
+  }
+
+  void refine_coarse_mesh() {
+    steps_.coarsen(result_.levels);
+    change_lengths(options_.rounds, options_.coarse_flow);
+    approach(result_.wanted_faces / std::pow(4, result_.levels), options_.count_slack);
+    for (int level = result_.levels; level > 0; --level) {
+      if (level < result_.levels) settle(options_.coarse_flow);
+      flip_irregular();
+      steps_.quadruple();  // interrupted or not: the target lengths are to be those that were asked for
+    }
+    change_lengths(options_.fine_rounds, options_.coarse_flow);
+    approach(result_.wanted_faces, options_.fine_count_slack * result_.wanted_faces);
+  }
+
+  void change_lengths(int rounds, int flow_rounds) {
+    for (int i = 0; i < rounds && !steps_.interrupted(); ++i) {
+      steps_.change_lengths();
+      ++result_.rounds;
+      settle(flow_rounds);
     }
   }
 
-  void change_lengths() {
-    count_curve_edges(m_, options_.chord_error);
-    split();
-    flip();
-    collapse();
-    add(settle_curves(m_, options_.count));
-    give_up_unused_ids();
-    ++result_.rounds;
-    settle(options_.flow_rounds);
+  void approach(double wanted_faces, double slack) {
+    for (int i = 0; i < options_.count_rounds && !steps_.interrupted(); ++i) {
+      if (std::abs(steps_.face_count() - wanted_faces) <= slack) return;
+      if (!steps_.change_count(wanted_faces)) return;
+      ++result_.count_rounds;
+      settle(options_.count_flow);
+    }
   }
 
-  bool change_count() {
-    const auto faces = static_cast<double>(m_.triangulation.faces().size());
-    if (std::abs(faces - result_.wanted_faces) <= options_.count_slack) return false;
-    count_curve_edges(m_, options_.chord_error);
-    const CountChanges curves = settle_curves(m_, options_.count);
-    const CountChanges inner = approach_count(m_, result_.wanted_faces, options_.count);
-    give_up_unused_ids();
-    add(curves);
-    add(inner);
-    if (inner.splits + inner.collapses == 0) return false;
-    ++result_.count_rounds;
-    settle(options_.count_flow);
-    return true;
-  }
-
-  void split() {
-    const Stage stage(work_.stopwatch, "splits");
-    result_.splits += split_long_edges(m_, options_.split);
-  }
-
-  void collapse() {
-    const Stage stage(work_.stopwatch, "collapses");
-    result_.collapses += collapse_short_edges(m_, options_.collapse);
-    result_.collapses += collapse_folded_faces(m_, options_.folded);
-  }
-
-  void give_up_unused_ids() {
-    const Stage stage(work_.stopwatch, "compact");
-    compact(m_);
-  }
-
-  void flip() {
-    FlippingMesh flipping = m_.flipping();
-    result_.flips += flip_to_delaunay(flipping, flip_guard_);
-  }
-
-  /// Flow, after which the mesh is Delaunay and its vertices lie on the surface, as far as guards let them.
   void settle(int rounds) {
-    const Stage stage(work_.stopwatch, "flow");
-    FlippingMesh flipping = m_.flipping();
-    result_.flips += flip_to_delaunay(flipping, flip_guard_) + force_corners(flipping, flip_guard_);
-    FlowOptions options;
-    options.rounds = rounds;
-    const FlowResult flowed = flow(flipping, options, flip_guard_, guards_, watch());
-    result_.flips += flowed.flips;
-    result_.interrupted = flowed.interrupted;
-    if (graded_) work_.vertex_length = work_.input_lengths();
+    if (!steps_.interrupted()) steps_.settle(rounds);
   }
 
-  void add(const CountChanges& changes) {
-    result_.splits += changes.splits;
-    result_.collapses += changes.collapses;
+  void flip_irregular() {
+    for (int pass = 0; pass < options_.coarse_passes && !steps_.interrupted(); ++pass)
+      if (steps_.flip_irregular() == 0) return;
   }
 
   Observer watch() const {
@@ -122,14 +89,9 @@ class Adaptation {
     };
   }
 
-  Workspace& work_;
   const AdaptOptions& options_;
-  const FlipGuardOptions& flip_guard_;
-  const GuardOptions& guards_;
   const Observer& observer_;
-  AdaptingWork adapting_;
-  AdaptingMesh& m_ = adapting_.mesh();
-  const bool graded_;
+  AdaptationSteps steps_;
   AdaptResult result_;
 };
 
@@ -151,15 +113,35 @@ AdaptOptions adapt_options(Effort effort) {
       options.rounds = 1;
       options.first_flow = 4;
       options.count_flow = 0;
+      options.coarse.levels = 3;
+      options.coarse_flow = 3;
+      options.coarse_passes = 1;
+      options.steps.irregular = {};
+      options.last_flow = 1;
+      options.last_passes = 0;
       break;
     case Effort::standard:
       break;
     case Effort::thorough:
       options.rounds = 7;
       options.flow_rounds = 8;
+      options.coarse_flow = 20;
+      options.coarse_passes = 8;
+      options.steps.irregular.sweeps = 6;
+      options.steps.irregular.hope = .6;
+      options.steps.irregular.swept_hope = .2;
+      options.last_flow = 20;
+      options.last_passes = 8;
       break;
   }
   return options;
+}
+
+FlipOptions flips_after(const AdaptResult& adapted, const AdaptOptions& options, FlipOptions flips) {
+  if (adapted.levels == 0) return flips;
+  flips.flow.rounds = options.last_flow;
+  flips.passes.passes = options.last_passes;
+  return flips;
 }
 
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
@@ -170,8 +152,8 @@ AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardO
   if (unfolded.interrupted)
     result.interrupted = true;
   else
-    result =
-        Adaptation(work, options, flip_guard, guards, corner_angle, observer).run(!unfolded.folded.empty());
+    result = Adaptation(work, options, flip_guard, guards, terms, corner_angle, observer)
+                 .run(!unfolded.folded.empty());
   result.untangle = unfolded;
   return result;
 }

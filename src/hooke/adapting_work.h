@@ -14,6 +14,7 @@ class AdaptingWork {
   AdaptingWork(const AdaptingWork&) = delete;
 
   AdaptingMesh& mesh() { return mesh_; }
+  const AdaptingMesh& mesh() const { return mesh_; }
 
   /// Gives the work the faces as they are now. Pre-condition: there were only flips.
   void replace_faces() { work_.replace_faces(triangulation_.faces()); }

@@ -1,8 +1,11 @@
 // Edges in the order in which they are to be changed, while changes make new ones.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <queue>
+#include <utility>
 
 #include "hooke/triangulation.h"
 
@@ -13,13 +16,20 @@ class EdgeQueue {
   /// `urgency` of an edge, by one of its half-edges: the greatest comes first, and none that is not positive.
   EdgeQueue(const Triangulation& triangulation, std::function<double(int half_edge)> urgency)
       : t_(triangulation), urgency_(std::move(urgency)) {
+    queued_.resize(static_cast<size_t>(t_.half_edge_count()), 0);
     for (int h = 0; h < t_.half_edge_count(); ++h)
-      if (!t_.is_gone(h / 3) && t_.twin(h) < h) push(h);
+      if (!t_.is_gone(h / 3) && t_.twin(h) < h) queued_[static_cast<size_t>(h)] = std::max(urgency_(h), 0.);
   }
 
   /// To be called again for each edge whose urgency has changed.
   void push(int h) {
-    if (const double urgency = urgency_(h); urgency > 0) entries_.push({urgency, h});
+    const int other = std::min(h, t_.twin(h));
+    h = std::max(h, t_.twin(h));
+    const double urgency = std::max(urgency_(h), 0.);
+    queued_.resize(static_cast<size_t>(t_.half_edge_count()), 0);
+    if (other >= 0) queued_[static_cast<size_t>(other)] = 0;  // it may have stood for another edge
+    if (std::exchange(queued_[static_cast<size_t>(h)], urgency) != urgency && urgency >= horizon_)
+      entries_.push({urgency, h});
   }
 
   /// All the edges of the vertex's faces. After a split those across from it go by other half-edges too.
@@ -33,10 +43,12 @@ class EdgeQueue {
 
   /// A half-edge of the next edge; -1 when there is none.
   int pop() {
-    while (!entries_.empty()) {
+    while (!entries_.empty() || look_farther()) {
       const auto [urgency, h] = entries_.top();
       entries_.pop();
-      if (!t_.is_gone(h / 3) && urgency_(h) == urgency) return h;
+      if (queued_[static_cast<size_t>(h)] != urgency) continue;  // it has another one by now
+      queued_[static_cast<size_t>(h)] = 0;
+      if (!t_.is_gone(h / 3)) return h;
     }
     return -1;
   }
@@ -49,7 +61,7 @@ class EdgeQueue {
     std::vector<int> apart, later;
     first_of_batch_ = claims_ + 1;
     claimed_by_.resize(static_cast<size_t>(t_.id_count()), 0);
-    while (apart.size() + later.size() < most && later.size() < 64 + 4 * apart.size()) {
+    while (apart.size() + later.size() < most && later.size() < 16 + apart.size()) {
       const int h = pop();
       if (h < 0) break;
       if (wanted(h)) (claim_about(h) ? apart : later).push_back(h);
@@ -59,6 +71,24 @@ class EdgeQueue {
   }
 
  private:
+  /// Takes the most urgent of those that wait into the queue proper, which most changes then need not touch.
+  /// False if none waits.
+  bool look_farther() {
+    constexpr size_t least = 1024, part = 4;
+    std::vector<std::pair<double, int>> waiting;
+    for (size_t h = 0; h < queued_.size(); ++h)
+      if (queued_[h] > 0) waiting.emplace_back(queued_[h], static_cast<int>(h));
+    if (waiting.empty()) return false;
+    horizon_ = 0;
+    if (const size_t next = std::max(least, waiting.size() / part); next < waiting.size()) {
+      std::ranges::nth_element(waiting, waiting.begin() + static_cast<std::ptrdiff_t>(next), std::greater());
+      horizon_ = waiting[next].first;
+      std::erase_if(waiting, [this](const auto& entry) { return entry.first < horizon_; });
+    }
+    entries_ = decltype(entries_)({}, std::move(waiting));
+    return true;
+  }
+
   /// Has no other edge of the batch claimed a vertex about this one?
   bool claim_about(int h) {
     ++claims_;
@@ -76,6 +106,8 @@ class EdgeQueue {
   const Triangulation& t_;
   std::function<double(int)> urgency_;
   std::priority_queue<std::pair<double, int>> entries_;
+  double horizon_ = std::numeric_limits<double>::infinity();  // edges less urgent than this wait
+  std::vector<double> queued_;   // per half-edge: the urgency with which it waits or is in the queue, else 0
   std::vector<int> claimed_by_;  // per vertex: the number of the last claim, from 1
   int claims_ = 0, first_of_batch_ = 1;
 };

@@ -272,7 +272,8 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
   flips.interrupted = adapted.interrupted;
   if (options.connectivity != ConnectivityMode::fixed && !flips.interrupted)
     flips = timed(stopwatch, "flip", [&] {
-      return flip_connectivity(work, options.flips, terms, options.guards, corner_angle, observer);
+      const FlipOptions then = flips_after(adapted, options.adaptation, options.flips);
+      return flip_connectivity(work, then, terms, options.guards, corner_angle, observer);
     });
   const bool near_regular = options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm);
   RemeshResult result = Remeshing(work, options, observer).run(flips);

@@ -89,9 +89,10 @@ Json flips_json(const RunRecord& run) {
 Json adaptation_json(const RunRecord& run) {
   if (!run.result || run.result->adaptation.rounds == 0) return nullptr;
   const AdaptResult& a = run.result->adaptation;
-  return {{"rounds", a.rounds}, {"count_rounds", a.count_rounds},
-          {"splits", a.splits}, {"collapses", a.collapses},
-          {"flips", a.flips},   {"wanted_faces", a.wanted_faces}};
+  return {{"coarse_levels", a.levels},      {"rounds", a.rounds},
+          {"count_rounds", a.count_rounds}, {"splits", a.splits},
+          {"collapses", a.collapses},       {"flips", a.flips},
+          {"wanted_faces", a.wanted_faces}};
 }
 
 Json stages_json(const std::vector<StageTime>& stages) {

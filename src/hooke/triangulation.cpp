@@ -40,9 +40,9 @@ ShortList Triangulation::outgoing(int vertex) const {
   ShortList spokes;
   const int any = leaving_[static_cast<size_t>(vertex)];
   if (any < 0) return spokes;
-  int start = any;  // as far clockwise as there are faces
-  for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
-  if (twin(start) >= 0) start = any;
+  int start = any;
+  if (on_boundary(vertex))  // as far clockwise as there are faces
+    for (int t = twin(start); t >= 0; t = twin(start)) start = next(t);
   for (int h = start; h >= 0;) {
     spokes.push_back(h);
     h = twin(previous(h));

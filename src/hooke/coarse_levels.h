@@ -1,0 +1,21 @@
+// How much coarser than asked for a mesh may first be made.
+#pragma once
+
+#include "hooke/adapting_mesh.h"
+
+namespace hooke {
+
+struct CoarseLimits {
+  int levels = 1;           // times the target lengths are doubled, at most
+  double least_faces = 80;  // of the coarsest mesh
+  double sagitta = .1;      // greatest of an edge of the coarsest mesh over its length ...
+  double bent_share = .01;  // ... but for this part of the edges
+  double rim_share = .4;    // greatest part of the coarsest mesh's vertices that lie on curves or stand still
+};
+
+/// How many times the target lengths can be doubled so that edges as long still follow the surface, judged by
+/// how its normals turn along the edges there are. None where there are creases: the narrow faces between
+/// them want the lengths that were asked for.
+int coarse_levels(const AdaptingMesh& mesh, double wanted_faces, const CoarseLimits& limits);
+
+}  // namespace hooke

@@ -1,0 +1,74 @@
+#include "hooke/subdivision.h"
+
+namespace hooke {
+namespace {
+
+/// The half-edge that runs from one vertex to the other, -1 if there is none.
+int half_edge_between(const Triangulation& t, int from, int to) {
+  for (int h : t.outgoing(from))
+    if (t.to(h) == to) return h;
+  return -1;
+}
+
+/// Each edge once, as a face runs through it.
+std::vector<Edge> all_edges(const Triangulation& t) {
+  std::vector<Edge> edges;
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.twin(h) < h) edges.push_back({t.from(h), t.to(h)});
+  return edges;
+}
+
+class Subdivision {
+ public:
+  Subdivision(AdaptingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard)
+      : m_(mesh), t_(mesh.triangulation), options_(options), guard_(flip_guard), ends_(ids(), Edge{-1, -1}) {}
+
+  int run() {
+    int splits = 0;
+    for (const Edge& edge : all_edges(t_)) {
+      const int v = split_edge(m_, half_edge_between(t_, edge[0], edge[1]), options_);
+      if (v < 0) continue;
+      ends_.resize(ids(), Edge{-1, -1});
+      ends_[static_cast<size_t>(v)] = edge;
+      ++splits;
+    }
+    m_.retraction.count();
+    join_middles();
+    return splits;
+  }
+
+ private:
+  size_t ids() const { return static_cast<size_t>(t_.id_count()); }
+
+  bool is_middle(int v) const { return ends_[static_cast<size_t>(v)][0] >= 0; }
+
+  /// The first split of a face joins the new vertex to the corner across. That edge has a middle on either
+  /// side in the end, which are to be joined instead.
+  bool is_between_middles(int h) const {
+    if (t_.twin(h) < 0 || t_.is_constrained(h)) return false;
+    const int a = t_.from(h), b = t_.to(h);
+    const auto& [first, second] = ends_[static_cast<size_t>(a)];
+    return is_middle(a) && !is_middle(b) && b != first && b != second && is_middle(t_.apex(h)) &&
+           is_middle(t_.apex(t_.twin(h)));
+  }
+
+  void join_middles() {
+    const FlippingMesh flipping = m_.flipping();
+    for (int h = 0; h < t_.half_edge_count(); ++h)
+      if (is_between_middles(h) && may_flip(flipping, h, guard_)) t_.flip(h);
+  }
+
+  AdaptingMesh& m_;
+  Triangulation& t_;
+  const SplitOptions& options_;
+  const FlipGuardOptions& guard_;
+  std::vector<Edge> ends_;  // per id: of the edge in whose middle the vertex is; -1 for all others
+};
+
+}  // namespace
+
+int subdivide(AdaptingMesh& m, const SplitOptions& options, const FlipGuardOptions& flip_guard) {
+  return Subdivision(m, options, flip_guard).run();
+}
+
+}  // namespace hooke
