@@ -4,6 +4,7 @@
 
 #include <random>
 #include <set>
+#include <string_view>
 
 #include "adapting_scene.h"
 #include "hooke/least_angle.h"
@@ -118,6 +119,48 @@ TEST(Adaptation, ACoarserMeshFirstLeavesFewIrregularVertices) {
   EXPECT_LT(irregular_share(with.connectivity), .5 * irregular_share(without.connectivity));
   EXPECT_GT(least_angle(with.points, with.connectivity.faces), 44);
   expect_sound(t, with);
+}
+
+TEST(Adaptation, InterruptedAtACoarserMeshItStillHasTheLengthsAskedFor) {
+  const test::Triangles t = test::sphere(4, .3, 4);
+  const double L = natural(t), wanted = static_cast<double>(t.faces.size());
+  int all = 0;
+  adapted(t, L, adapting(),
+          [&](const Progress& p) { return all += std::string_view(p.stage) == "adapt", true; });
+  ASSERT_GT(all, 8);
+  for (int calls : {1, all / 4, all / 2, 3 * all / 4}) {
+    int left = calls;
+    const Outcome o = adapted(t, L, adapting(), [&](const Progress& p) {
+      return std::string_view(p.stage) != "adapt" || --left > 0;
+    });
+    EXPECT_EQ(o.result.reason, StopReason::interrupted);
+    EXPECT_GT(o.result.adaptation.levels, 0);
+    EXPECT_NEAR(static_cast<double>(o.connectivity.faces.size()) / wanted, 1, .35) << calls;
+    expect_sound(t, o);
+  }
+}
+
+TEST(Adaptation, ACoarserMeshHonoursASizing) {
+  const test::Triangles t = test::sphere(4, .3, 4);
+  std::vector<double> lengths;
+  for (const auto& x : t.points.colwise()) lengths.push_back(natural(t) * (1 + .4 * x[2]));
+  const Outcome o = adapted(t, adapting(), lengths);
+  EXPECT_GT(o.result.adaptation.levels, 0);
+  double error = 0;
+  for (const auto& [a, b] : o.connectivity.edges) {
+    const double z = .5 * (o.points(2, a) + o.points(2, b)), l = (o.points.col(a) - o.points.col(b)).norm();
+    error += std::pow(l / (natural(t) * (1 + .4 * z)) - 1, 2);
+  }
+  EXPECT_LT(std::sqrt(error / static_cast<double>(o.connectivity.edges.size())), .1);
+  expect_sound(t, o);
+}
+
+TEST(Adaptation, ARegularMeshKeepsItsVertices) {
+  const test::Triangles t = test::sphere(4);
+  const Outcome o = adapted(t, natural(t), adapting(Effort::standard));
+  EXPECT_EQ(o.result.adaptation.levels, 0);
+  for (size_t v = 0; v < o.result.map.size(); ++v) EXPECT_EQ(o.result.map[v].vertex, static_cast<int>(v));
+  EXPECT_EQ(o.connectivity.faces.size(), t.faces.size());
 }
 
 TEST(Adaptation, ARoughSurfaceHasNoCoarserMesh) {

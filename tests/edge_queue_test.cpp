@@ -127,21 +127,51 @@ TEST(EdgeQueue, AlwaysGivesTheMostUrgentOfManyThatChange) {
   }
 }
 
-TEST(EdgeQueue, KnowsEdgesThatGoByOtherHalfEdgesAfterASplit) {
-  const test::Triangles t = test::grid(cells, test::flat);
-  Triangulation split(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
-  EdgeQueue queue(split, [&](int h) { return urgency(split, h); });
-  for (int k = 0; k < 40; ++k) {
-    const int h = queue.pop();
-    ASSERT_GE(h, 0);
-    queue.push_about(split.split(h));
-  }
+/// What is left in the queue after changes: each of these edges once, the most urgent first.
+void expect_all_of(const Triangulation& t, EdgeQueue& queue, const std::set<int>& wanted) {
+  const auto name = [&](int h) { return std::max(h, t.twin(h)); };
+  std::set<int> found;
   double last = 1;
   for (int h = queue.pop(); h >= 0; h = queue.pop()) {
-    EXPECT_LE(urgency(split, h), last);
-    EXPECT_GT(urgency(split, h), 0);
-    last = urgency(split, h);
+    EXPECT_LE(urgency(t, h), last);
+    last = urgency(t, h);
+    EXPECT_TRUE(found.insert(name(h)).second) << h;
   }
+  EXPECT_EQ(found, wanted);
+}
+
+std::set<int> urgent_edges(const Triangulation& t) {
+  std::set<int> urgent;
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (!t.is_gone(h / 3) && t.twin(h) < h && urgency(t, h) > 0) urgent.insert(h);
+  return urgent;
+}
+
+TEST(EdgeQueue, LosesNoEdgeWhereOthersAreSplit) {
+  const test::Triangles large = test::grid(40, test::flat);  // more edges than are sorted at a time
+  Triangulation t(make_connectivity(static_cast<int>(large.points.cols()), large.faces));
+  EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
+  for (int k = 0; k < 300; ++k) queue.push_about(t.split(queue.pop()));
+  expect_all_of(t, queue, urgent_edges(t));
+}
+
+TEST(EdgeQueue, LosesNoEdgeWhereOthersCollapse) {
+  const test::Triangles large = test::grid(40, test::flat);
+  Triangulation t(make_connectivity(static_cast<int>(large.points.cols()), large.faces));
+  EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
+  std::vector<int> refused;
+  for (int k = 0; k < 300; ++k) {
+    const int h = queue.pop(), stays = t.from(h);
+    if (!t.may_collapse(h) || t.on_boundary(stays) || t.on_boundary(t.to(h))) {
+      refused.push_back(h);
+      continue;
+    }
+    t.collapse(h, stays);
+    queue.push_about(stays);
+  }
+  for (int h : refused)
+    if (!t.is_gone(h / 3)) queue.push(h);
+  expect_all_of(t, queue, urgent_edges(t));
 }
 
 TEST(EdgeQueue, DropsWhatIsNotWanted) {

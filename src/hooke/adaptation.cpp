@@ -1,5 +1,6 @@
 #include "hooke/adaptation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hooke {
@@ -47,10 +48,10 @@ class Adaptation {
     approach(result_.wanted_faces / std::pow(4, result_.levels), options_.count_slack);
     for (int level = result_.levels; level > 0; --level) {
       if (level < result_.levels) settle(options_.coarse_flow);
-      flip_irregular();
+      if (!steps_.interrupted()) steps_.flip_irregular();
       steps_.quadruple();  // interrupted or not: the target lengths are to be those that were asked for
     }
-    change_lengths(options_.fine_rounds, options_.coarse_flow);
+    change_lengths(options_.fine_rounds, options_.fine_flow);
     approach(result_.wanted_faces, options_.fine_count_slack * result_.wanted_faces);
   }
 
@@ -73,11 +74,6 @@ class Adaptation {
 
   void settle(int rounds) {
     if (!steps_.interrupted()) steps_.settle(rounds);
-  }
-
-  void flip_irregular() {
-    for (int pass = 0; pass < options_.coarse_passes && !steps_.interrupted(); ++pass)
-      if (steps_.flip_irregular() == 0) return;
   }
 
   Observer watch() const {
@@ -115,8 +111,9 @@ AdaptOptions adapt_options(Effort effort) {
       options.count_flow = 0;
       options.coarse.levels = 3;
       options.coarse_flow = 3;
-      options.coarse_passes = 1;
-      options.steps.irregular = {};
+      options.fine_flow = 1;
+      options.steps.spring_steps = 8;
+      options.steps.irregular = {.passes = 1};
       options.last_flow = 1;
       options.last_passes = 0;
       break;
@@ -125,8 +122,8 @@ AdaptOptions adapt_options(Effort effort) {
     case Effort::thorough:
       options.rounds = 7;
       options.flow_rounds = 8;
-      options.coarse_flow = 20;
-      options.coarse_passes = 8;
+      options.coarse_flow = options.fine_flow = 20;
+      options.steps.irregular.passes = 8;
       options.steps.irregular.sweeps = 6;
       options.steps.irregular.hope = .6;
       options.steps.irregular.swept_hope = .2;
@@ -139,8 +136,8 @@ AdaptOptions adapt_options(Effort effort) {
 
 FlipOptions flips_after(const AdaptResult& adapted, const AdaptOptions& options, FlipOptions flips) {
   if (adapted.levels == 0) return flips;
-  flips.flow.rounds = options.last_flow;
-  flips.passes.passes = options.last_passes;
+  flips.flow.rounds = std::min(flips.flow.rounds, options.last_flow);
+  flips.passes.passes = std::min(flips.passes.passes, options.last_passes);
   return flips;
 }
 

@@ -21,9 +21,9 @@ struct AdaptOptions {
 
   // With a coarser mesh first. The rounds are then those of the coarsest mesh, which is not flown before.
   CoarseLimits coarse;
-  int coarse_flow = 6;    // takes the place of flow_rounds
-  int coarse_passes = 3;  // over irregular edges, at most, each after springs, before faces become four
-  int fine_rounds = 1;    // of splits, collapses and flow at the target lengths
+  int coarse_flow = 6;                 // takes the place of flow_rounds
+  int fine_rounds = 1;                 // of splits, collapses and flow at the target lengths ...
+  int fine_flow = 6;                   // ... with so many rounds of flow
   double fine_count_slack = .01;       // part of the faces
   int last_flow = 3, last_passes = 2;  // what mode `flip` does then, at most
 

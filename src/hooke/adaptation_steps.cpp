@@ -79,20 +79,26 @@ void AdaptationSteps::settle(int rounds) {
   counts_.flips += flowed.flips;
   interrupted_ = flowed.interrupted;
   resample_lengths();
-  lately_changed_.clear();
 }
 
-int AdaptationSteps::flip_irregular() {
-  settle_springs();
-  if (interrupted_) return 0;
+void AdaptationSteps::flip_irregular() {
+  std::vector<char> lately_changed;
+  for (int pass = 0; pass < options_.irregular.passes && !interrupted_; ++pass) {
+    settle_springs();
+    if (interrupted_ || pass_over_irregular(lately_changed) == 0) return;
+  }
+}
+
+int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
   const Stage stage(work_.stopwatch, "irregular");
   const Observer watch = [this](const Progress& p) {
     interrupted_ = observer_ && !observer_(p);
     return !interrupted_;
   };
   FlippingMesh flipping = m_.flipping();
-  const int flips = flip_irregular_edges(flipping, terms_, options_.irregular, flip_guard_, guards_,
-                                         lately_changed_, watch);
+  const int flips =
+      flip_irregular_edges(flipping, terms_, options_.irregular, flip_guard_, guards_, lately_changed, watch);
+  resample_lengths();
   counts_.flips += flips;
   return flips;
 }
@@ -108,7 +114,6 @@ void AdaptationSteps::quadruple() {
 void AdaptationSteps::give_up_unused_ids() {
   const Stage stage(work_.stopwatch, "compact");
   compact(m_);
-  lately_changed_.clear();
 }
 
 void AdaptationSteps::settle_springs() {

@@ -17,7 +17,7 @@ struct StepOptions {
   CollapseOptions collapse;
   CollapseOptions folded = folded_face_options();
   CountOptions count;
-  FlipPassOptions irregular{.rings = 3, .sweeps = 4, .hope = .5, .swept_hope = .15};
+  FlipPassOptions irregular{.passes = 3, .rings = 3, .sweeps = 4, .hope = .5, .swept_hope = .15};
 };
 
 struct StepCounts {
@@ -51,9 +51,8 @@ class AdaptationSteps {
   /// Flow, after which the mesh is Delaunay and its vertices lie on the surface, as far as guards let them.
   void settle(int rounds);
 
-  /// Springs, then flips about irregular vertices; the number of these. Edges are tried about which the last
-  /// pass has changed something, all by the first after other steps.
-  int flip_irregular();
+  /// Passes of springs and flips about irregular vertices, until one flips nothing.
+  void flip_irregular();
 
   /// Every face becomes four.
   void quadruple();
@@ -68,6 +67,7 @@ class AdaptationSteps {
  private:
   void give_up_unused_ids();
   void settle_springs();
+  int pass_over_irregular(std::vector<char>& lately_changed);
   void resample_lengths();
   void add(const CountChanges& changes);
 
@@ -80,8 +80,7 @@ class AdaptationSteps {
   AdaptingWork adapting_;
   AdaptingMesh& m_ = adapting_.mesh();
   const bool graded_;
-  int level_ = 0;                     // the target lengths are doubled so many times
-  std::vector<char> lately_changed_;  // vertices, by flips of irregular edges
+  int level_ = 0;  // the target lengths are doubled so many times
   StepCounts counts_;
   bool interrupted_ = false;
 };

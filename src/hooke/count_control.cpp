@@ -63,6 +63,7 @@ double wanted_face_count(const Mat3X& points, const std::vector<Triangle>& faces
 
 CountChanges settle_curves(AdaptingMesh& m, const CountOptions& options) {
   CountChanges changes;
+  if (m.constraints.curves.empty()) return changes;
   const Triangulation& t = m.triangulation;
   const auto lacking = [&](int h) {  // edges on the curve of h
     const int curve = is_rim(t, h) ? curve_of(m, h).curve : -1;

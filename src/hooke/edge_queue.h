@@ -75,6 +75,7 @@ class EdgeQueue {
   /// False if none waits.
   bool look_farther() {
     constexpr size_t least = 1024, part = 4;
+    if (horizon_ <= 0) return false;
     std::vector<std::pair<double, int>> waiting;
     for (size_t h = 0; h < queued_.size(); ++h)
       if (queued_[h] > 0) waiting.emplace_back(queued_[h], static_cast<int>(h));

@@ -42,7 +42,7 @@ ShortList Triangulation::outgoing(int vertex) const {
   if (any < 0) return spokes;
   int start = any;
   if (on_boundary(vertex))  // as far clockwise as there are faces
-    for (int t = twin(start); t >= 0; t = twin(start)) start = next(t);
+    for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
   for (int h = start; h >= 0;) {
     spokes.push_back(h);
     h = twin(previous(h));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -140,8 +141,9 @@ void read_piece(ObjReader& obj) {
   end_corners(obj, obj.normals);
 }
 
-// What faces refer to by number: a vertex, a texture coordinate, a normal.
-const std::vector<std::string_view> numbered = {"v", "vt", "vn"};
+// Keywords of what faces refer to by number, and their places in TextPiece::rows_of.
+constexpr std::array<std::string_view, 3> numbered = {"v", "vt", "vn"};
+enum : size_t { of_vertices, of_texture, of_normals };
 
 // Readers of the pieces, each of which knows how much stands before it; makes room for the numbers.
 std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const std::string& name,
@@ -157,9 +159,9 @@ std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const
     reader.vertices.count = limited(vertices);
     reader.texture.count = limited(texture);
     reader.normals.count = limited(normals);
-    vertices += piece.rows_of[0];
-    texture += piece.rows_of[1];
-    normals += piece.rows_of[2];
+    vertices += piece.rows_of[of_vertices];
+    texture += piece.rows_of[of_texture];
+    normals += piece.rows_of[of_normals];
   }
   all = {Mat3X::Zero(3, limited(vertices)), Mat3X::Zero(3, limited(texture)),
          Mat3X::Zero(3, limited(normals))};

@@ -15,7 +15,7 @@ size_t cut_after(std::string_view text, size_t from) {
 }
 
 /// Sets the counts of rows in the piece. Returns the number of its lines.
-int count_rows(TextPiece& piece, const std::vector<std::string_view>& keywords) {
+int count_rows(TextPiece& piece, std::span<const std::string_view> keywords) {
   piece.rows_of.assign(keywords.size(), 0);
   Scanner counter = piece.scanner;
   while (counter.next_line()) {
@@ -29,7 +29,7 @@ int count_rows(TextPiece& piece, const std::vector<std::string_view>& keywords) 
 
 }  // namespace
 
-std::vector<TextPiece> remaining_pieces(Scanner scanner, const std::vector<std::string_view>& keywords) {
+std::vector<TextPiece> remaining_pieces(Scanner scanner, std::span<const std::string_view> keywords) {
   scanner.finish_line();
   const std::string_view text = scanner.rest();
   std::vector<TextPiece> pieces;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <span>
 #include <vector>
 
 #include "hooke/io/scanner.h"
@@ -20,7 +21,7 @@ struct TextPiece {
 
 /// What is left of the scanner's text after its line, all of it, in order. How it is cut depends on the text
 /// only; no line that a '\' continues is cut.
-std::vector<TextPiece> remaining_pieces(Scanner scanner, const std::vector<std::string_view>& keywords = {});
+std::vector<TextPiece> remaining_pieces(Scanner scanner, std::span<const std::string_view> keywords = {});
 
 /// Calls read(piece, index) for every piece, in parallel. Of the exceptions thrown, that of the first piece
 /// goes on: it tells of the first error in the text.
