@@ -8,7 +8,7 @@ namespace hooke {
 struct CoarseLimits {
   int levels = 1;           // times the target lengths are doubled, at most
   double least_faces = 80;  // of the coarsest mesh
-  double sagitta = .1;      // greatest of an edge of the coarsest mesh over its length ...
+  double sagitta = .07;     // greatest of an edge of the coarsest mesh over its length ...
   double bent_share = .01;  // ... but for this part of them
   double rim_share = .25;   // greatest part of the coarsest mesh's vertices that lie on curves or stand still
   // A mesh with no more irregular inner vertices and no more edges beyond these lengths, in parts of all, is
