@@ -49,6 +49,7 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 
 void warn_of_count(RunRecord& run) {
   const AdaptResult& adapted = run.result->adaptation;
+  if (run.result->reason == StopReason::interrupted) return;  // there was no time for all
   const double faces = run.after->topology.faces, wanted = adapted.wanted_faces;
   if (adapted.rounds > 0 && std::abs(faces - wanted) > (1 + 1e-9) * std::max(3., .03 * wanted))
     run.warnings.push_back(
