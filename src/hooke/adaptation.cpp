@@ -26,7 +26,7 @@ class Adaptation {
     if (result_.levels > 0)
       refine_coarse_mesh();
     else
-      change_lengths(folded);
+      adapt_at_once(folded);
     steps_.finish();
     result_.splits = steps_.counts().splits;
     result_.collapses = steps_.counts().collapses;
@@ -36,7 +36,8 @@ class Adaptation {
   }
 
  private:
-  void change_lengths(bool folded) {
+  /// Without a coarser mesh first.
+  void adapt_at_once(bool folded) {
     if (!folded) steps_.settle(options_.first_flow);
     change_lengths(options_.rounds, options_.flow_rounds);
     approach(result_.wanted_faces, options_.count_slack);
