@@ -9,6 +9,7 @@
 
 #include "exit_codes.h"
 #include "hooke/coincident_boundary.h"
+#include "hooke/crease_bound.h"
 #include "hooke/error.h"
 #include "hooke/io/format_data.h"
 #include "hooke/io/id_list.h"
@@ -104,7 +105,7 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, Layout layout, Stopwatch
   };
   return in_the_name_of(name_of_input(s), [&] {
     return s.paper ? paper_remesh(mesh, std::move(layout), s.paper_options, observer)
-                   : remesh(mesh, std::move(layout), s.remesh, observer, &stopwatch);
+                   : remesh_in_attempts(mesh, std::move(layout), s.remesh, s.attempts, observer, &stopwatch);
   });
 }
 
@@ -150,6 +151,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   const MeasuredSurface result = surface_of(layout.order.in_new_order(positions(mesh)), layout, stopwatch,
                                             keeps_faces(s) ? original.tree_order : std::vector<int>());
   record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, layout.order, stopwatch); });
+  bound_between_creases(record.after->worst_faces, result, done.crease_edges);
   if (!done.holds.empty())
     for (WorstFace& face : record.after->worst_faces) face.reasons = hindrances(face, done.holds);
   measure_way(original, result, record, stopwatch);
@@ -190,7 +192,8 @@ int run(Settings s) {
   record.input = {name_of_input(s), loaded.sha256, loaded.format, loaded.connectivity_sha256};
   record.warnings = loaded.warnings;
   s.remesh.map |= !loaded.vertex_data.empty();
-  record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
+  record.parameters =
+      s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.attempts, s.effort);
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hooke/attempts.h"
 #include "hooke/io/sizing_source.h"
 #include "hooke/paper_mode.h"
 
@@ -26,6 +27,7 @@ struct Settings {
   Effort effort = Effort::standard;
   std::filesystem::path map;  // empty without
   RemeshOptions remesh;
+  AttemptOptions attempts;
   PaperOptions paper_options;
   std::filesystem::path fix;    // file of vertex ids that stay; empty without
   std::string report;           // path, "-" for standard output, empty without

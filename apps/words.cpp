@@ -123,6 +123,7 @@ void settle(Settings& s, const Words& words) {
   refuse_idle(s, words);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
   set_effort(s.remesh, s.effort);
+  s.attempts = attempt_options(s.effort);
   s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
   if (words.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;

@@ -153,7 +153,7 @@ TEST(HardPlaces, MendingIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
     RemeshOptions options;
     options.connectivity = mode;
     set_effort(options, Effort::standard);
-    options.mend.trials.sliver_angle = 33;
+    options.mend.trials.sliver_angles = {33};
     int slivers = 0;
     const auto run = [&](int threads, int stop_at) {
       const ThreadLimit limit(threads);

@@ -99,7 +99,7 @@ TEST(SliverTrials, KeepTheCountWithinItsLimits) {
   for (const FaceCountLimits& limits :
        {FaceCountLimits{faces - 2, faces}, FaceCountLimits{faces, faces + 2}}) {
     test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
-    EXPECT_GT(change(s, limits, {.sliver_angle = 40}).count(), 0);
+    EXPECT_GT(change(s, limits, {.sliver_angles = {40}}).count(), 0);
     const auto count = static_cast<double>(faces_of(s).size());
     EXPECT_GE(count, limits.least);
     EXPECT_LE(count, limits.most);
@@ -143,7 +143,7 @@ TEST(SliverTrials, AddNothingBeyondTheLimits) {
     };
     const double longest = std::max(options.longest, worst(length));
     const double deepest = std::max(options.sagitta, worst(sagitta));
-    EXPECT_GT(change(s, any_count, {.sliver_angle = 40}).count(), 0);
+    EXPECT_GT(change(s, any_count, {.sliver_angles = {40}}).count(), 0);
     EXPECT_LE(worst(length), longest + 1e-9) << seed;
     EXPECT_LE(worst(sagitta), deepest + 1e-9) << seed;
   }
@@ -179,7 +179,7 @@ TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
   test::AdaptingScene s(t, test::plane());
   int calls = 0;
   const auto count = [&](const Progress&) { return ++calls > 0; };
-  const SliverTrialOptions options{.gain = 1e9};
+  const SliverTrialOptions options{.sliver_angles = {30}, .gain = 1e9};
   EXPECT_EQ(change(s, same_count, options, count).count(), 0);
   EXPECT_EQ(calls, 1);
 }

@@ -23,6 +23,23 @@ void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
   }
 }
 
+/// Flips alone pay for a larger least angle with their edges' lengths.
+void set_mending(SliverTrialOptions& trials, ConnectivityMode mode, Effort effort) {
+  const bool adapts = mode == ConnectivityMode::adapt;
+  switch (effort) {
+    case Effort::fast:
+      trials.rounds = 2;
+      trials.sliver_angles = {30};
+      break;
+    case Effort::standard:
+      if (!adapts) trials.sliver_angles = {25, 30, 35};
+      break;
+    case Effort::thorough:
+      if (adapts) trials.sliver_angles = {25, 30, 35, 40, 45};
+      break;
+  }
+}
+
 }  // namespace
 
 void set_effort(RemeshOptions& options, Effort effort) {
@@ -30,7 +47,7 @@ void set_effort(RemeshOptions& options, Effort effort) {
   options.adaptation = adapt_options(effort);
   if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
   if (options.connectivity != ConnectivityMode::fixed) {
-    if (effort == Effort::fast) options.mend.trials.rounds = 2;
+    set_mending(options.mend.trials, options.connectivity, effort);
     return;
   }
   switch (effort) {

@@ -21,7 +21,9 @@ FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double s
 SliverChanges mend_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
                            const MendOptions& options, const GuardOptions& guards, double corner_angle,
                            const Observer& observer) {
-  if (least_angle(work.placement.points, work.connectivity->faces) >= options.trials.sliver_angle) return {};
+  const std::vector<double>& angles = options.trials.sliver_angles;
+  if (angles.empty() || least_angle(work.placement.points, work.connectivity->faces) >= angles.back())
+    return {};
   AdaptingWork adapting(work, corner_angle);
   const SliverChanges changes = change_slivers(adapting.mesh(), terms, options.trials, guards,
                                                limits_of(work, mode, options.count_share), observer);

@@ -7,6 +7,7 @@
 namespace hooke {
 
 struct MendOptions {
+  int passes = 3;  // the vertices land after each, which may make slivers again
   SliverTrialOptions trials;
   double count_share = .02;  // of the wanted faces, by which their number may miss it in mode `adapt`
 };

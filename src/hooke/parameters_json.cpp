@@ -100,7 +100,7 @@ void add_harm(Json& j, const RemeshOptions& o) {
 
 }  // namespace
 
-Json parameters_json(const RemeshOptions& o, Effort effort) {
+Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Effort effort) {
   const bool adapts = o.connectivity == ConnectivityMode::adapt;
   const bool damped = o.integrator == IntegratorKind::damped;
   const bool fixed = o.connectivity == ConnectivityMode::fixed;
@@ -108,6 +108,7 @@ Json parameters_json(const RemeshOptions& o, Effort effort) {
   j["paper"] = false;
   j["connectivity"] = name_of(o.connectivity);
   j["effort"] = name_of(effort);
+  j["attempts"] = fixed ? 1 : attempts.most;
   j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;
@@ -138,7 +139,8 @@ Json parameters_json(const RemeshOptions& o, Effort effort) {
   j["guard_sagitta"] = o.guards.sagitta;
   j["search_sagitta"] = where(o.polish_angles, o.search.sagitta);
   const bool mends = o.polish_angles && !fixed;
-  j["sliver_angle"] = where(mends, o.mend.trials.sliver_angle);
+  j["sliver_angles"] = where(mends, o.mend.trials.sliver_angles);
+  j["sliver_passes"] = where(mends, o.mend.passes);
   j["sliver_sagitta"] = where(mends, o.mend.trials.sagitta);
   return j;
 }

@@ -3,13 +3,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "hooke/attempts.h"
 #include "hooke/paper_mode.h"
 
 namespace hooke {
 
 /// Every effective value of a run, `null` for what has no effect in it. `effort` is what the options were set
 /// for.
-nlohmann::ordered_json parameters_json(const RemeshOptions& options, Effort effort);
+nlohmann::ordered_json parameters_json(const RemeshOptions& options, const AttemptOptions& attempts,
+                                       Effort effort);
 nlohmann::ordered_json parameters_json(const PaperOptions& options);
 
 }  // namespace hooke

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hooke/face_shape.h"
 #include "hooke/guards.h"
 #include "hooke/least_angle.h"
 
@@ -11,8 +12,10 @@ namespace {
 void add_face(const Placement& p, const Triangle& t, const PatchLimits& limits, PatchLook& look) {
   const double cotangent = greatest_cotangent(p.points, t);
   const double lacks = std::max(0., limits.fair_angle - angle_with_cotangent(cotangent));
-  const double misses = limits.alignment - face_alignment(p.points, p.normals, t);
+  const double alignment = face_alignment(p.points, p.normals, t);
+  const double misses = limits.alignment - alignment;
   look.cotangent = std::max(look.cotangent, cotangent);
+  look.area += .5 * doubled_area_vector(p.points, t).norm() * alignment;
   look.angle_cost += lacks * lacks;
   look.excess.alignment += std::max(0., misses);
   look.excess.folds += misses > 0;

@@ -28,6 +28,7 @@ struct PatchLook {
   double length_errors = 0;  // sum of the squares of l / L_e - 1
   std::size_t edges = 0;
   double cotangent = 0;  // of the least angle
+  double area = 0;       // of the surface that it covers: of faces as seen along the surface's normals
   PatchExcess excess;
 };
 

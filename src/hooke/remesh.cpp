@@ -187,6 +187,9 @@ class Remeshing {
     result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.placement));
     result_.holds = holds_of_result(work_, guards_, options_.constraints);
     result_.creases = count_creases(work_);
+    result_.crease_edges = crease_edges(*work_.connectivity);
+    for (Edge& e : result_.crease_edges)
+      for (int& v : e) v = work_.order.old_vertex[static_cast<size_t>(v)];
     result_.projection = work_.projection_counts();
   }
 
@@ -218,9 +221,9 @@ class Remeshing {
   bool done_ = false;
 };
 
-/// Slivers that are left get other edges.
-void mend(Workspace& work, const RemeshOptions& options, const Observer& observer, RemeshResult& result) {
-  if (result.reason == StopReason::interrupted) return;
+/// Slivers that are left get other edges. Returns whether there was any such change.
+bool mend_once(Workspace& work, const RemeshOptions& options, const Observer& observer,
+               RemeshResult& result) {
   const auto start = std::chrono::steady_clock::now();
   const Observer watch = [&](Progress p) {
     p.stage = "mend";
@@ -231,7 +234,8 @@ void mend(Workspace& work, const RemeshOptions& options, const Observer& observe
     return mend_slivers(work, options.connectivity, {.altitude = options.altitude}, options.mend,
                         options.guards, options.constraints.corner_angle, watch);
   });
-  if (changes.count() == 0) return;
+  result.sliver_tries += changes.tries;
+  if (changes.count() == 0) return false;
   RemeshOptions rest = options;
   rest.search.sagitta = options.mend.trials.sagitta;
   const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
@@ -240,6 +244,13 @@ void mend(Workspace& work, const RemeshOptions& options, const Observer& observe
   result.flips.flips += changes.flips;
   result.adaptation.splits += changes.splits;
   result.adaptation.collapses += changes.merges;
+  return true;
+}
+
+void mend(Workspace& work, const RemeshOptions& options, const Observer& observer, RemeshResult& result) {
+  bool changed = options.polish_angles;
+  for (int pass = 0; changed && pass < options.mend.passes; ++pass)
+    changed = result.reason != StopReason::interrupted && mend_once(work, options, observer, result);
 }
 
 }  // namespace
@@ -284,12 +295,12 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
       break;
     case ConnectivityMode::flip:
       result.folded_before = flips.untangle.folded_before;
-      if (options.polish_angles) mend(work, options, observer, result);
+      mend(work, options, observer, result);
       measure_travel(work, result.flips);
       break;
     case ConnectivityMode::adapt:
       result.folded_before = adapted.untangle.folded_before;
-      if (options.polish_angles) mend(work, options, observer, result);
+      mend(work, options, observer, result);
       break;
   }
   if (options.map) result.map = work.map();

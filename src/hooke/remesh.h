@@ -59,6 +59,8 @@ struct RemeshOptions {
 
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
+  int attempts = 1;      // of which this is the best, see attempts.h
+  int sliver_tries = 0;  // see sliver_trials.h
   std::vector<IterationRecord> iterations;
   Mat3X input_points;         // of the mesh as it was, to measure the result against
   Layout layout;              // of the mesh as it is now
@@ -66,6 +68,7 @@ struct RemeshResult {
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the result
   CreaseCounts creases;
+  std::vector<Edge> crease_edges;    // ids of the result
   FlipResult flips;                  // in the modes `flip` and `adapt`
   AdaptResult adaptation;            // in mode `adapt`
   std::vector<MapEntry> map;         // per vertex of the result

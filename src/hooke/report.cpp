@@ -149,6 +149,7 @@ Json report_json(const RunRecord& run) {
     j["projection"] = projection_json(run.result->projection);
     j["projection"]["not_landed"] = run.result->not_landed;
     j["held_back"] = run.result->held_back;
+    j["attempts"] = run.result->attempts;
     j["near_regular"] = run.result->near_regular;
   }
   j["features"] = creases_json(run);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "hooke/guards.h"
@@ -20,6 +21,10 @@ struct Trial {
   double gain;
 };
 
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
+}
+
 class SliverTrials {
  public:
   SliverTrials(AdaptingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
@@ -31,32 +36,48 @@ class SliverTrials {
         guards_(guards),
         limits_(limits),
         faces_(static_cast<double>(t_.faces().size())),
-        sliver_cotangent_(1 / std::tan(options.sliver_angle * std::numbers::pi / 180)) {
+        most_tries_(std::max(options.least_in_all, static_cast<int>(options.share_in_all * faces_))) {
     guards_.sagitta = options.sagitta;
-    limits_of_patch_ = {options.fair_angle, guards.alignment, guards.fold, options.sagitta, options.longest};
   }
 
   SliverChanges run(const Observer& observer) {
-    const int tries =
-        std::clamp(static_cast<int>(options_.share * faces_), options_.least_tries, options_.most_tries);
-    for (int round = 0; round < options_.rounds; ++round) {
-      int tried = 0;
-      for (int f : slivers()) {
-        if (tried == tries) break;
-        if (!is_sliver(f)) continue;
-        const std::vector<int> edges = untried_edges_about(f);
-        if (edges.empty()) continue;
-        if (observer && !observer({.step = changes_.count()})) return changes_;
-        ++tried;
-        if (std::optional<Trial> best = best_trial(edges)) keep(*best);
-      }
-      if (tried == 0) break;
+    for (double angle : options_.sliver_angles) {
+      begin_with(angle);
+      for (int round = 0; round < options_.rounds && try_slivers(observer); ++round) continue;
+      if (interrupted_) break;
     }
     m_.retraction.count();
     return changes_;
   }
 
  private:
+  void begin_with(double sliver_angle) {
+    sliver_cotangent_ = 1 / std::tan(sliver_angle * std::numbers::pi / 180);
+    limits_of_patch_ = {sliver_angle + options_.fair_margin, guards_.alignment, guards_.fold,
+                        options_.sagitta, options_.longest};
+    tried_at_.clear();
+  }
+
+  /// One round. False if there was nothing to try, or if it was interrupted.
+  bool try_slivers(const Observer& observer) {
+    const int most = std::min(
+        std::clamp(static_cast<int>(options_.share * faces_), options_.least_tries, options_.most_tries),
+        most_tries_ - changes_.tries);
+    int tries = most;
+    for (int f : slivers()) {
+      if (tries == 0) break;
+      if (!is_sliver(f)) continue;
+      const std::vector<int> edges = untried_edges_about(f);
+      if (edges.empty()) continue;
+      interrupted_ = observer && !observer({.step = changes_.count()});
+      if (interrupted_) return false;
+      --tries;
+      ++changes_.tries;
+      if (std::optional<Trial> best = best_trial(edges)) keep(*best);
+    }
+    return tries < most;
+  }
+
   double cotangent(int f) const {
     return greatest_cotangent(m_.placement.points, t_.faces()[static_cast<size_t>(f)]);
   }
@@ -121,6 +142,8 @@ class SliverTrials {
     const PatchLook after = look_at(patch.placement, c, targets, limits_of_patch_);
     trial.gain = gain(before, after);
     if (trial.gain < options_.gain || after.cotangent > before.cotangent) return std::nullopt;
+    if (before.area - after.area > options_.area_loss * std::pow(mean_of(patch.vertex_length), 2))
+      return std::nullopt;
     if (!is_no_worse(after.excess, before.excess)) return std::nullopt;
     if (folds_at_rim(patch, c.faces, m_.flipping(), guards_)) return std::nullopt;
     return trial;
@@ -197,11 +220,13 @@ class SliverTrials {
   FaceCountLimits limits_;
   PatchLimits limits_of_patch_;
   double faces_;
-  double sliver_cotangent_;
+  const int most_tries_;
+  double sliver_cotangent_ = 0;
   std::vector<int> tried_at_;      // per half-edge that stands for its edge: changes so far; -1 for never
   std::vector<int> changed_at_;    // per id: changes so far, when the last one changed what is about it
   std::vector<double> unnoticed_;  // per id: the length of its moves since changed_at_ was set for them
   SliverChanges changes_;
+  bool interrupted_ = false;
 };
 
 }  // namespace
