@@ -129,7 +129,8 @@ void settle(Settings& s, const Words& words) {
   if (words.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (words.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*words.feature_angle);
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
-  if (words.max_outer) s.remesh.max_outer = s.paper_options.max_outer = *words.max_outer;
+  if (words.max_outer)
+    s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *words.max_outer;
   if (words.max_steps)
     s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *words.max_steps;
   if (words.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *words.boundary;

@@ -115,8 +115,7 @@ AdaptOptions adapt_options(Effort effort) {
       options.fine_flow = 1;
       options.steps.spring_steps = 8;
       options.steps.irregular = {.passes = 1};
-      options.last_flow = 1;
-      options.last_passes = 0;
+      options.last_flow = options.last_passes = options.last_outer = 0;  // polish does
       break;
     case Effort::standard:
       break;
@@ -130,6 +129,7 @@ AdaptOptions adapt_options(Effort effort) {
       options.steps.irregular.swept_hope = .2;
       options.last_flow = 20;
       options.last_passes = 8;
+      options.last_outer = 12;
       break;
   }
   return options;

@@ -25,7 +25,8 @@ struct AdaptOptions {
   int fine_rounds = 1;                 // of splits, collapses and flow at the target lengths ...
   int fine_flow = 6;                   // ... with so many rounds of flow
   double fine_count_slack = .01;       // part of the faces
-  int last_flow = 3, last_passes = 2;  // what mode `flip` does then, at most
+  int last_flow = 3, last_passes = 2;  // what mode `flip` does then, at most, ...
+  int last_outer = 6;                  // ... and so many outer iterations after it
 
   StepOptions steps;
 };

@@ -22,6 +22,7 @@ class Remeshing {
 
   RemeshResult run(const FlipResult& flips) {
     result_.flips = flips;
+    if (options_.max_outer < 1) result_.reason = StopReason::step_limit;
     if (flips.interrupted)
       stop(StopReason::interrupted);
     else
@@ -287,7 +288,9 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
       return flip_connectivity(work, then, terms, options.guards, corner_angle, observer);
     });
   const bool near_regular = options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm);
-  RemeshResult result = Remeshing(work, options, observer).run(flips);
+  RemeshOptions then = options;
+  if (adapted.levels > 0) then.max_outer = std::min(then.max_outer, options.adaptation.last_outer);
+  RemeshResult result = Remeshing(work, then, observer).run(flips);
   result.near_regular = near_regular;
   result.adaptation = adapted;
   switch (options.connectivity) {
