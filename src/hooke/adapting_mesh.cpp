@@ -145,7 +145,14 @@ void count_curve_edges(AdaptingMesh& m, double chord_error) {
           wanted_edges(m.constraints.curves[c], lengths[c] / m.curve_edges.present[c], chord_error);
 }
 
-int add_vertex(AdaptingMesh& m, int h) {
+VertexPlace middle_of(const AdaptingMesh& m, int h) {
+  const Triangulation& t = m.triangulation;
+  const int a = t.from(h), anchor = m.placement.anchors[static_cast<size_t>(t.side(h))];
+  const Vec3 half_way = .5 * (m.placement.points.col(t.to(h)) - m.placement.points.col(a));
+  return m.retraction.moved_copy(m.placement, a, anchor, half_way);
+}
+
+int add_vertex(AdaptingMesh& m, int h, const VertexPlace* middle) {
   const Triangulation& t = m.triangulation;
   const int a = t.from(h), b = t.to(h), v = t.id_count(), twin = t.twin(h);
   const int other_side = t.is_constrained(h) ? v + 1 : -1;
@@ -160,6 +167,10 @@ int add_vertex(AdaptingMesh& m, int h) {
   m.vertex_length[i] = target_length(m, a, b);
 
   Placement& p = m.placement;
+  if (middle) {
+    middle->write_to(p, v);
+    return v;
+  }
   VertexPlace start(p, a);
   start.segment = on.segment;
   start.drift = 0;

@@ -73,8 +73,11 @@ void count_curve_edges(AdaptingMesh& mesh, double chord_error);
 
 /// Adds what belongs to a vertex in the middle of the edge, on its curve or on the surface, and to its sides:
 /// the only place where a vertex is born. The triangles do not know it yet. Returns the id that a split of
-/// the edge will give it.
-int add_vertex(AdaptingMesh& mesh, int half_edge);
+/// the edge will give it. `middle` is that of the edge if it is known, else null.
+int add_vertex(AdaptingMesh& mesh, int half_edge, const VertexPlace* middle = nullptr);
+
+/// Where the middle of an edge that is no rim comes to lie on the surface; safe for different edges at once.
+VertexPlace middle_of(const AdaptingMesh& mesh, int half_edge);
 
 /// Takes back what was added last.
 void drop_vertex(AdaptingMesh& mesh);

@@ -47,10 +47,10 @@ bool shortens(const AdaptingMesh& m, int h) {
 
 }  // namespace
 
-int split_edge(AdaptingMesh& m, int h, const SplitOptions& options) {
+int split_edge(AdaptingMesh& m, int h, const SplitOptions& options, const VertexPlace* middle) {
   Triangulation& t = m.triangulation;
   if (stands_still(m, h)) return -1;
-  const int v = add_vertex(m, h), twin = t.twin(h), right = t.is_constrained(h) ? v + 1 : v;
+  const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_constrained(h) ? v + 1 : v;
   if (!may_halve(m, h, v, v, options) || (twin >= 0 && !may_halve(m, twin, v, right, options))) {
     drop_vertex(m);
     return -1;

@@ -12,8 +12,9 @@ struct SplitOptions {
 };
 
 /// Splits one edge and returns the new vertex; -1 where a guard forbids it, or where the edge joins two
-/// vertices of a boundary that stands still.
-int split_edge(AdaptingMesh& mesh, int half_edge, const SplitOptions& options);
+/// vertices of a boundary that stands still. `middle`: see add_vertex().
+int split_edge(AdaptingMesh& mesh, int half_edge, const SplitOptions& options,
+               const VertexPlace* middle = nullptr);
 
 /// Splits edges, the longest first, until none is too long. Returns the number of splits.
 int split_long_edges(AdaptingMesh& mesh, const SplitOptions& options);

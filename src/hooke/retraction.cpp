@@ -110,7 +110,7 @@ Foot Retraction::foot(const Vec3& point, int anchor, int vertex) {
   return foot;
 }
 
-VertexPlace Retraction::on_surface(VertexPlace place, int vertex) {
+VertexPlace Retraction::on_surface(VertexPlace place, int vertex, Freedom freedom) {
   const Foot on_side = foot(place.point, place.anchor, vertex);
   if (place.other_side >= 0) {
     const Foot on_other_side = foot(place.point, place.other_anchor, vertex);
@@ -118,7 +118,7 @@ VertexPlace Retraction::on_surface(VertexPlace place, int vertex) {
     place.other_anchor = on_other_side.anchor;
   }
   // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
-  if (constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::surface) place.point = on_side.point;
+  if (freedom == Freedom::surface) place.point = on_side.point;
   place.normal = on_side.normal;
   place.anchor = on_side.anchor;
   place.drift = 0;
@@ -130,8 +130,19 @@ bool Retraction::stands_still(int vertex) const {
 }
 
 VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& displacement) {
+  return moved(VertexPlace(from, vertex), vertex, constraints_.freedom[static_cast<size_t>(vertex)],
+               displacement);
+}
+
+VertexPlace Retraction::moved_copy(const Placement& from, int vertex, int anchor, const Vec3& displacement) {
   VertexPlace place(from, vertex);
-  const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
+  place.anchor = anchor;
+  place.drift = 0;
+  place.other_side = -1;
+  return moved(place, vertex, Freedom::surface, displacement);
+}
+
+VertexPlace Retraction::moved(VertexPlace place, int vertex, Freedom freedom, const Vec3& displacement) {
   const double length = displacement.norm();
   if (length == 0 || freedom == Freedom::fixed) return place;
   const Vec3 start = place.point;
@@ -146,7 +157,7 @@ VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& dis
   } else if (place.drift < std::min(short_way, options_.lazy)) {
     return place;  // in the tangent plane: bends say little here
   }
-  return on_surface(place, vertex);
+  return on_surface(place, vertex, freedom);
 }
 
 /// `way` led to the place, in the tangent plane or along a chord.
@@ -161,8 +172,8 @@ VertexPlace Retraction::drifted(VertexPlace place, const Vec3& way, const Surfac
 }
 
 VertexPlace Retraction::projected(VertexPlace place, int vertex) {
-  const bool on_its_curve = constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::curve;
-  return on_surface(on_its_curve ? on_curve(place, vertex) : place, vertex);
+  const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
+  return on_surface(freedom == Freedom::curve ? on_curve(place, vertex) : place, vertex, freedom);
 }
 
 Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
@@ -219,7 +230,8 @@ void Retraction::settle(Placement& placement) {
   parallel_for(placement.drift.size(), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
-      if (placement.drift[i] > 0) on_surface(VertexPlace(placement, v), v).write_to(placement, v);
+      if (placement.drift[i] > 0)
+        on_surface(VertexPlace(placement, v), v, constraints_.freedom[i]).write_to(placement, v);
     }
   });
   count();

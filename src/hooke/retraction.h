@@ -74,6 +74,9 @@ class Retraction {
   /// Where one vertex comes to lie; safe to call for different vertices at once. Call count() after a batch.
   VertexPlace moved(const Placement& from, int vertex, const Vec3& displacement);
 
+  /// Of a vertex that is yet to come, free on the surface, which starts where this one is, with this anchor.
+  VertexPlace moved_copy(const Placement& from, int vertex, int anchor, const Vec3& displacement);
+
   /// Adds the projections since the last call to counts().
   void count();
 
@@ -103,10 +106,11 @@ class Retraction {
   const RetractionOptions& options() const { return options_; }
 
  private:
+  VertexPlace moved(VertexPlace place, int vertex, Freedom freedom, const Vec3& displacement);
   Vec3 within_reach(const Vec3& point, int vertex) const;
   CurveFoot foot_on_curve(const Vec3& point, int segment, int vertex) const;
   VertexPlace on_curve(VertexPlace place, int vertex) const;
-  VertexPlace on_surface(VertexPlace place, int vertex);
+  VertexPlace on_surface(VertexPlace place, int vertex, Freedom freedom);
   VertexPlace projected(VertexPlace place, int vertex);
   VertexPlace drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend, Freedom freedom) const;
   Foot foot(const Vec3& point, int anchor, int vertex);

@@ -1,5 +1,9 @@
 #include "hooke/subdivision.h"
 
+#include <optional>
+
+#include "hooke/parallel.h"
+
 namespace hooke {
 namespace {
 
@@ -10,11 +14,25 @@ int half_edge_between(const Triangulation& t, int from, int to) {
   return -1;
 }
 
-/// Each edge once, as a face runs through it.
-std::vector<Edge> all_edges(const Triangulation& t) {
-  std::vector<Edge> edges;
+struct EdgeToSplit {
+  Edge ends;                          // as a face runs through it
+  std::optional<VertexPlace> middle;  // of an edge that is no rim
+};
+
+/// Each edge once. The middles are looked for at the same time: no split moves a vertex.
+std::vector<EdgeToSplit> all_edges(const AdaptingMesh& m) {
+  const Triangulation& t = m.triangulation;
+  std::vector<int> half_edges;
   for (int h = 0; h < t.half_edge_count(); ++h)
-    if (t.twin(h) < h) edges.push_back({t.from(h), t.to(h)});
+    if (t.twin(h) < h) half_edges.push_back(h);
+  std::vector<EdgeToSplit> edges(half_edges.size());
+  parallel_for(edges.size(), 64, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int h = half_edges[i];
+      edges[i].ends = {t.from(h), t.to(h)};
+      if (!is_rim(t, h)) edges[i].middle = middle_of(m, h);
+    }
+  });
   return edges;
 }
 
@@ -25,8 +43,9 @@ class Subdivision {
 
   int run() {
     int splits = 0;
-    for (const Edge& edge : all_edges(t_)) {
-      const int v = split_edge(m_, half_edge_between(t_, edge[0], edge[1]), options_);
+    for (const auto& [edge, middle] : all_edges(m_)) {
+      const int h = half_edge_between(t_, edge[0], edge[1]);
+      const int v = split_edge(m_, h, options_, middle ? &*middle : nullptr);
       if (v < 0) continue;
       ends_.resize(ids(), Edge{-1, -1});
       ends_[static_cast<size_t>(v)] = edge;
