@@ -184,6 +184,15 @@ TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
   EXPECT_EQ(calls, 1);
 }
 
+TEST(SliverTrials, ThereAreNoMoreTriesThanAllowed) {
+  const auto tries = [](int most) {
+    test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
+    return change(s, any_count, {.share_in_all = 0, .least_in_all = most}).tries;
+  };
+  EXPECT_EQ(tries(0), 0);
+  EXPECT_EQ(tries(3), 3);
+}
+
 TEST(SliverTrials, LeaveGoodFacesAlone) {
   test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
   const Mat3X before = s.placement.points;

@@ -129,7 +129,6 @@ AdaptOptions adapt_options(Effort effort) {
       options.steps.irregular.swept_hope = .2;
       options.last_flow = 20;
       options.last_passes = 8;
-      options.last_outer = 12;
       break;
   }
   return options;

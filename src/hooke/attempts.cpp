@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "hooke/crease_bound.h"
@@ -19,6 +20,8 @@ struct Attempt {
   double bound = 60;      // of that face
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
+
+  std::size_t face_count() const { return result.layout.connectivity->faces.size(); }
 
   bool is_better_than(const Attempt& other) const {
     return std::pair(flaws, -angle) < std::pair(other.flaws, -other.angle);
@@ -40,18 +43,26 @@ class Attempts {
 
   Attempt best() const {
     Attempt best = make(0);
-    const double faces = static_cast<double>(best.result.layout.connectivity->faces.size());
-    const int most = std::min(attempts_.most, static_cast<int>(attempts_.most_faces / faces));
-    int made = 1, tries = best.result.sliver_tries;
-    for (; made < most && tries < attempts_.most_tries && !best.is_interrupted() && !is_good(best); ++made) {
+    const auto most =
+        std::min<double>(attempts_.most, attempts_.most_faces / static_cast<double>(best.face_count()));
+    if (most < 2 || best.is_interrupted()) return best;
+    judge(best);
+    int tries = best.result.sliver_tries, kept = 1, made = 1;
+    while (made + 1 <= most && tries < attempts_.most_tries && !is_good(best)) {
       Attempt next = make(made);
-      tries += next.result.sliver_tries;
-      if (next.is_interrupted())
+      if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
-      else if (next.is_better_than(best))
-        best = std::move(next);
+        break;
+      }
+      ++made;
+      tries += next.result.sliver_tries;
+      judge(next);
+      if (!next.is_better_than(best)) continue;
+      best = std::move(next);
+      kept = made;
     }
     best.result.attempts = made;
+    best.result.kept_attempt = kept;
     return best;
   }
 
@@ -64,11 +75,12 @@ class Attempts {
   /// Another start: edges are split a little sooner or later, flow goes on for a little longer or shorter,
   /// and the surface is drawn closer to its faces.
   RemeshOptions varied(int number) const {
-    const int by = number % 2 == 1 ? (number + 1) / 2 : -number / 2;
     RemeshOptions o = options_;
+    if (number == 0) return o;
+    const int by = number % 2 == 1 ? (number + 1) / 2 : -number / 2;
     o.flips.flow.rounds = std::max(1, o.flips.flow.rounds + 4 * by);
     o.adaptation.steps.split.longest *= 1 - .02 * by;
-    o.filter.reach *= 1 - .1 * std::abs(by);
+    o.filter.reach *= std::pow(.9, std::abs(by));
     return o;
   }
 
@@ -76,9 +88,18 @@ class Attempts {
     Attempt a;
     a.mesh = mesh_;
     a.result = remesh(a.mesh, layout_, varied(number), observer_, stopwatch_);
+    return a;
+  }
+
+  void judge(Attempt& a) const {
     const Stage stage(stopwatch_, "judge");
     const Layout& layout = a.result.layout;
-    const MeasuredSurface surface(layout.order.in_new_order(positions(a.mesh)), *layout.connectivity,
+    const Mat3X points = positions(a.mesh);
+    if (!points.allFinite()) {
+      a.flaws = std::numeric_limits<std::size_t>::max();
+      return;
+    }
+    const MeasuredSurface surface(layout.order.in_new_order(points), *layout.connectivity,
                                   layout.order.old_ids());
     Quality quality = measure_quality(surface, {}, {.worst_faces = 1});
     bound_between_creases(quality.worst_faces, surface, a.result.crease_edges);
@@ -87,7 +108,6 @@ class Attempts {
         measure_deviation(input_, surface).flipped_faces + (crossings - std::min(crossings, crossings_));
     a.angle = quality.worst_faces.front().min_angle;
     a.bound = quality.worst_faces.front().bound.degrees;
-    return a;
   }
 
   const TriMesh& mesh_;

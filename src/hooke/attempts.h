@@ -18,7 +18,7 @@ AttemptOptions attempt_options(Effort effort);
 
 /// remesh(), in the modes `flip` and `adapt` again from other starts while the result is not good: while
 /// faces are flipped, more pairs cross than before, or the least angle is small and its bound (see
-/// angle_bound.h) is not. The best result is kept: by flipped faces and crossings, then by the least angle.
+/// crease_bound.h) is not. The best result is kept: by flipped faces and crossings, then by the least angle.
 /// An interrupted attempt after the first counts for nothing.
 RemeshResult remesh_in_attempts(TriMesh& mesh, Layout layout, const RemeshOptions& options,
                                 const AttemptOptions& attempts = {}, const Observer& observer = nullptr,

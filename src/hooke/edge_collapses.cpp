@@ -44,7 +44,7 @@ int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
     for (const std::optional<Collapse>& trial : try_all(m, edges, options)) {
       if (!trial || !curve_may_lose(m, trial->half_edge)) continue;  // others of its curve may have gone
       collapse(m, *trial);
-      queue.push_spokes(trial->stays);
+      queue.push_about(trial->stays);
       ++collapses;
     }
   m.retraction.count();

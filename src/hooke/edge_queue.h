@@ -32,14 +32,6 @@ class EdgeQueue {
       entries_.push({urgency, h});
   }
 
-  /// The edges of the vertex, those whose length changes when it moves.
-  void push_spokes(int vertex) {
-    for (int h : t_.outgoing(vertex)) {
-      push(h);
-      if (t_.twin(Triangulation::previous(h)) < 0) push(Triangulation::previous(h));
-    }
-  }
-
   /// All the edges of the vertex's faces. After a split those across from it go by other half-edges too.
   void push_about(int vertex) {
     for (int h : t_.outgoing(vertex)) {

@@ -108,11 +108,11 @@ Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Eff
   j["paper"] = false;
   j["connectivity"] = name_of(o.connectivity);
   j["effort"] = name_of(effort);
-  j["attempts"] = fixed ? 1 : attempts.most;
+  j["most_attempts"] = fixed ? 1 : attempts.most;
   j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;
-  j["last_outer"] = adapts ? o.adaptation.last_outer : o.max_outer;
+  j["last_outer"] = where(adapts && o.polish_angles, o.adaptation.last_outer);
   j["coarse_flow_rounds"] = adapts ? o.adaptation.coarse_flow : 0;  // of what follows where there are any
   j["last_flow_rounds"] = adapts ? o.adaptation.last_flow : 0;
   j["integrator"] = damped ? "damped" : "lbfgs";

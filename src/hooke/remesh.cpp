@@ -22,7 +22,6 @@ class Remeshing {
 
   RemeshResult run(const FlipResult& flips) {
     result_.flips = flips;
-    if (options_.max_outer < 1) result_.reason = StopReason::step_limit;
     if (flips.interrupted)
       stop(StopReason::interrupted);
     else
@@ -31,7 +30,12 @@ class Remeshing {
       ++outer_;
       iterate();
     }
-    if (options_.polish_angles && !interrupted()) raise_angles();
+    if (!interrupted()) {
+      if (options_.polish_angles)
+        raise_angles();
+      else if (outer_ == 0)
+        settle_down();
+    }
     conclude();
     return std::move(result_);
   }
@@ -289,7 +293,8 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
     });
   const bool near_regular = options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm);
   RemeshOptions then = options;
-  if (adapted.levels > 0) then.max_outer = std::min(then.max_outer, options.adaptation.last_outer);
+  if (adapted.levels > 0 && options.polish_angles)
+    then.max_outer = std::min(then.max_outer, options.adaptation.last_outer);
   RemeshResult result = Remeshing(work, then, observer).run(flips);
   result.near_regular = near_regular;
   result.adaptation = adapted;

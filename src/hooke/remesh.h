@@ -59,7 +59,8 @@ struct RemeshOptions {
 
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
-  int attempts = 1;      // of which this is the best, see attempts.h
+  int attempts = 1;      // of which this is the best, see attempts.h ...
+  int kept_attempt = 1;  // ... by its number
   int sliver_tries = 0;  // see sliver_trials.h
   std::vector<IterationRecord> iterations;
   Mat3X input_points;         // of the mesh as it was, to measure the result against

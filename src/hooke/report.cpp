@@ -77,7 +77,7 @@ Json creases_json(const RunRecord& run) {
 /// What mode `flip` did, and mode `adapt` after it had adapted: null without. Travel is in target lengths,
 /// null where vertices came and went.
 Json flips_json(const RunRecord& run) {
-  if (!run.result || run.result->flips.flow.rounds == 0) return nullptr;
+  if (!run.result || run.parameters.value("connectivity", "fixed") == "fixed") return nullptr;
   const FlipResult& f = run.result->flips;
   Json j = {{"flips", f.flips},   {"flow_rounds", f.flow.rounds}, {"spring_rounds", f.spring_rounds},
             {"passes", f.passes}, {"max_travel", f.max_travel},   {"rms_travel", f.rms_travel}};
@@ -149,7 +149,7 @@ Json report_json(const RunRecord& run) {
     j["projection"] = projection_json(run.result->projection);
     j["projection"]["not_landed"] = run.result->not_landed;
     j["held_back"] = run.result->held_back;
-    j["attempts"] = run.result->attempts;
+    j["attempts"] = {{"made", run.result->attempts}, {"kept", run.result->kept_attempt}};
     j["near_regular"] = run.result->near_regular;
   }
   j["features"] = creases_json(run);

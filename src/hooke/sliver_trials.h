@@ -21,7 +21,7 @@ struct SliverTrialOptions {
   double share = .01;          // of the faces: so many slivers are tried in a round, the worst first,
   int least_tries = 10;        // but so many in any case,
   int most_tries = 200;        // and no more than these
-  double share_in_all = .1;    // of the faces: no more tries than so many in all rounds, but ...
+  double share_in_all = .1;    // of the faces: no more tries than so many in all rounds and stages, but ...
   int least_in_all = 60;       // ... so many in any case
   double noticed = .03;        // in target lengths; shorter moves are no reason to try edges again
   int rings = 2;               // around an edge, within which the vertices settle
