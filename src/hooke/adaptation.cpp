@@ -115,7 +115,8 @@ AdaptOptions adapt_options(Effort effort) {
       options.fine_flow = 1;
       options.steps.spring_steps = 8;
       options.steps.irregular = {.passes = 1};
-      options.last_flow = options.last_passes = options.last_outer = 0;  // polish does
+      options.last_flow = options.last_passes = 0;
+      options.last_outer = 1;
       break;
     case Effort::standard:
       break;
