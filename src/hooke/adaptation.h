@@ -26,7 +26,8 @@ struct AdaptOptions {
   int fine_flow = 6;                   // ... with so many rounds of flow
   double fine_count_slack = .01;       // part of the faces
   int last_flow = 3, last_passes = 2;  // what mode `flip` does then, at most, ...
-  int last_outer = 6;                  // ... and so many outer iterations after it, if polish follows
+  int last_outer = 6;                  // ... and so many outer iterations after it, if polish follows, ...
+  int last_steps = 2000;               // ... each with so many evaluations of the energy by L-BFGS
 
   StepOptions steps;
 };

@@ -45,12 +45,12 @@ int AdaptationSteps::bearable_levels(double wanted_faces, const CoarseLimits& li
 
 void AdaptationSteps::change_lengths() {
   count_curve_edges(m_, options_.chord_error);
-  {
-    const Stage stage(work_.stopwatch, "splits");
-    counts_.splits += split_long_edges(m_, options_.split);
+  if (const int splits =
+          timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, options_.split); })) {
+    counts_.splits += splits;
+    FlippingMesh flipping = m_.flipping();
+    counts_.flips += flip_to_delaunay(flipping, flip_guard_);
   }
-  FlippingMesh flipping = m_.flipping();
-  counts_.flips += flip_to_delaunay(flipping, flip_guard_);
   {
     const Stage stage(work_.stopwatch, "collapses");
     counts_.collapses += collapse_short_edges(m_, options_.collapse);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "hooke/parallel.h"
+
 namespace hooke {
 namespace {
 
@@ -13,44 +15,57 @@ struct Turn {
   double angle, weight;
 };
 
+/// Per half-edge; without weight where the edge has had its turn.
 std::vector<Turn> turns(const AdaptingMesh& m) {
   const Triangulation& t = m.triangulation;
   const Mat3X& N = m.placement.normals;
-  std::vector<Turn> turns;
-  for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.twin(h) > h) continue;
-    const Vec3 a = N.col(t.side(h)), b = N.col(t.side(Triangulation::next(h)));
-    const double length = relative_length(m, h);
-    if (length > 0) turns.push_back({std::atan2(a.cross(b).norm(), a.dot(b)) / length, length * length});
-  }
+  std::vector<Turn> turns(static_cast<size_t>(t.half_edge_count()), Turn{0, 0});
+  parallel_for(turns.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int h = static_cast<int>(i);
+      if (t.twin(h) > h) continue;
+      const Vec3 a = N.col(t.side(h)), b = N.col(t.side(Triangulation::next(h)));
+      const double length = relative_length(m, h);
+      if (length > 0) turns[i] = {std::atan2(a.cross(b).norm(), a.dot(b)) / length, length * length};
+    }
+  });
   return turns;
 }
 
 /// The angle that no more than this part of the weights exceeds; 0 without any.
 double exceeded_by(double share, std::vector<Turn> turns) {
-  std::ranges::sort(turns, std::ranges::greater(), &Turn::angle);
   double left = 0;
   for (const Turn& turn : turns) left += share * turn.weight;
-  for (const Turn& turn : turns)
-    if ((left -= turn.weight) < 0) return turn.angle;
+  std::ranges::make_heap(turns, {}, &Turn::angle);
+  for (; !turns.empty(); turns.pop_back()) {
+    if ((left -= turns.front().weight) < 0) return turns.front().angle;
+    std::ranges::pop_heap(turns, {}, &Turn::angle);
+  }
   return 0;
+}
+
+/// How many of the ids [0, count) are such; asked several at once.
+double count_of(int count, const auto& is_such) {
+  return parallel_sum(static_cast<size_t>(count), 4096, [&](size_t begin, size_t end) {
+    double number = 0;
+    for (size_t i = begin; i < end; ++i) number += is_such(static_cast<int>(i));
+    return number;
+  });
 }
 
 bool is_regular(const AdaptingMesh& m, const CoarseLimits& limits) {
   const Triangulation& t = m.triangulation;
-  double inner = 0, irregular = 0, edges = 0, misfits = 0;
-  for (int v = 0; v < t.id_count(); ++v) {
-    if (t.valence(v) <= 0 || t.on_boundary(v)) continue;
-    ++inner;
-    irregular += t.valence(v) != 6;
-  }
-  for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.twin(h) > h) continue;
+  const auto is_inner = [&](int v) { return t.valence(v) > 0 && !t.on_boundary(v); };
+  const auto is_edge = [&](int h) { return t.twin(h) <= h; };
+  const auto is_misfit = [&](int h) {
     const double length = relative_length(m, h);
-    ++edges;
-    misfits += length < limits.shortest || length > limits.longest;
-  }
-  return irregular <= limits.irregular_share * inner && misfits <= limits.misfit_share * edges;
+    return length < limits.shortest || length > limits.longest;
+  };
+  const int ids = t.id_count(), half_edges = t.half_edge_count();
+  return count_of(ids, [&](int v) { return is_inner(v) && t.valence(v) != 6; }) <=
+             limits.irregular_share * count_of(ids, is_inner) &&
+         count_of(half_edges, [&](int h) { return is_edge(h) && is_misfit(h); }) <=
+             limits.misfit_share * count_of(half_edges, is_edge);
 }
 
 /// Of the chord of a circular arc that turns by so much, over the chord's length.

@@ -28,13 +28,14 @@ class Trial {
   std::optional<Collapse> run() const {
     if (!may_vanish(a_) && !may_vanish(b_)) return std::nullopt;
     if (!is_welcome() || !t_.may_collapse(h_)) return std::nullopt;
+    const Rings rings = {t_.neighbours(a_), t_.neighbours(b_)};
     const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
     const VertexPlace here(m_.placement, stays);
     const Vec3 way = m_.placement.points.col(goes) - here.point;
     std::optional<MergedRing> ring;
     std::optional<WorstShape> looser;
     for (double part : parts(stays, goes)) {
-      if (leaves_long_edges(stays, here.point + part * way)) continue;
+      if (leaves_long_edges(rings, stays, here.point + part * way)) continue;
       if (!ring) ring.emplace(m_, h_, stays);
       const VertexPlace there = part > 0 ? m_.retraction.moved(m_.placement, stays, part * way) : here;
       const WorstShape after = ring->worst(there), limits = limits_of(options_);
@@ -46,6 +47,10 @@ class Trial {
   }
 
  private:
+  struct Rings {
+    ShortList a, b;  // the neighbours of the ends
+  };
+
   Freedom freedom(int v) const { return m_.constraints.freedom[static_cast<size_t>(v)]; }
 
   bool may_vanish(int v) const {
@@ -84,10 +89,10 @@ class Trial {
   }
 
   /// The longest edge over its target length, if the vertex that stays were at the point.
-  double longest_edge(int stays, const Vec3& point) const {
+  double longest_edge(const Rings& rings, int stays, const Vec3& point) const {
     double longest = 0;
-    for (int end : {a_, b_})
-      for (int v : t_.neighbours(end))
+    for (const ShortList* ring : {&rings.a, &rings.b})
+      for (int v : *ring)
         if (v != a_ && v != b_) longest = std::max(longest, length(point, v) / target_length(m_, stays, v));
     return longest;
   }
@@ -95,13 +100,15 @@ class Trial {
   double length(const Vec3& point, int v) const { return (m_.placement.points.col(v) - point).norm(); }
 
   /// Would an edge come to be longer than allowed, and than every edge at the ends is now?
-  bool leaves_long_edges(int stays, const Vec3& point) const {
-    const double longest = longest_edge(stays, point);
+  bool leaves_long_edges(const Rings& rings, int stays, const Vec3& point) const {
+    const double longest = longest_edge(rings, stays, point);
     if (longest <= options_.longest) return false;
-    for (int end : {a_, b_})
-      for (int v : t_.neighbours(end))
-        if (length(m_.placement.points.col(end), v) / target_length(m_, end, v) >= longest) return false;
-    return true;
+    const auto has_as_long = [&](int end, const ShortList& ring) {
+      return std::ranges::any_of(ring, [&](int v) {
+        return length(m_.placement.points.col(end), v) / target_length(m_, end, v) >= longest;
+      });
+    };
+    return !has_as_long(a_, rings.a) && !has_as_long(b_, rings.b);
   }
 
   /// What is worse than it should be may stay as it is, unless the options insist.

@@ -1,5 +1,6 @@
 #include "hooke/edge_collapses.h"
 
+#include "hooke/block_collapses.h"
 #include "hooke/edge_queue.h"
 #include "hooke/parallel.h"
 
@@ -35,8 +36,8 @@ int collapse_edge(AdaptingMesh& m, int h, const CollapseOptions& options) {
 }
 
 int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
+  int collapses = collapse_in_blocks(m, options, {});
   EdgeQueue queue(m.triangulation, [&](int h) { return options.shortest - relative_length(m, h); });
-  int collapses = 0;
   const auto next_edges = [&] {
     return queue.pop_apart(most_edges, [&](int h) { return valence_after(m, h) <= options.valence; });
   };

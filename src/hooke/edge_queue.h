@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "hooke/parallel.h"
 #include "hooke/triangulation.h"
 
 namespace hooke {
@@ -14,11 +15,15 @@ namespace hooke {
 class EdgeQueue {
  public:
   /// `urgency` of an edge, by one of its half-edges: the greatest comes first, and none that is not positive.
+  /// It is asked for several edges at once.
   EdgeQueue(const Triangulation& triangulation, std::function<double(int half_edge)> urgency)
       : t_(triangulation), urgency_(std::move(urgency)) {
     queued_.resize(static_cast<size_t>(t_.half_edge_count()), 0);
-    for (int h = 0; h < t_.half_edge_count(); ++h)
-      if (!t_.is_gone(h / 3) && t_.twin(h) < h) queued_[static_cast<size_t>(h)] = std::max(urgency_(h), 0.);
+    parallel_for(queued_.size(), 4096, [this](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i)
+        if (const int h = static_cast<int>(i); !t_.is_gone(h / 3) && t_.twin(h) < h)
+          queued_[i] = std::max(urgency_(h), 0.);
+    });
   }
 
   /// To be called again for each edge whose urgency has changed.

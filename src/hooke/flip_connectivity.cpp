@@ -20,7 +20,7 @@ class FlipMode {
 
   FlipResult run() {
     unfold();
-    if (!result_.interrupted) flow_vertices();
+    if (!result_.interrupted && options_.flow.rounds > 0) flow_vertices();
     flip_and_relax();
     for (int pass = 0; pass < options_.passes.passes && !result_.interrupted; ++pass)
       if (!improve_flips()) break;

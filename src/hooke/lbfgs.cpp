@@ -70,6 +70,12 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     const Stage stage(r.stopwatch, "sweeps");
     local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
   }
+  if (options.max_steps <= 1) {
+    result.energy = r.energy(r.placement, nullptr);
+    result.evaluations = 1;
+    result.reason = StopReason::step_limit;
+    return result;
+  }
   LbfgsMemory memory(lbfgs.memory);
   Preconditioner h0(r, lbfgs.preconditioner);
   RestDetector rest(options);
@@ -157,6 +163,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
                               const Observer& observer) {
   Placement trial;
   IntegrationResult result = descend(r, options, lbfgs, observer, trial);
+  if (!lbfgs.settles) return result;
   settle(r.guards, r.retraction, r.placement, trial);
   std::swap(r.placement, trial);
   result.energy = r.energy(r.placement, nullptr);

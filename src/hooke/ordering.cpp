@@ -8,8 +8,7 @@ namespace {
 
 constexpr size_t block = 8192;
 
-template <class Neighbours, class Gone>
-std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbours, const Gone& gone) {
+std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours) {
   constexpr size_t cluster_size = 256;  // vertices whose data stay in the first cache
   const auto n = static_cast<size_t>(vertex_count);
   std::vector<int> order;
@@ -22,7 +21,7 @@ std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbour
     taken[static_cast<size_t>(seed)] = true;
     order.push_back(seed);
     for (size_t i = begin; i < order.size(); ++i)
-      for (int w : neighbours(order[i])) {
+      for (int w : neighbours[order[i]]) {
         const auto u = static_cast<size_t>(w);
         if (taken[u]) continue;
         if (order.size() - begin < cluster_size) {
@@ -35,7 +34,7 @@ std::vector<int> order_by_clusters(int vertex_count, const Neighbours& neighbour
       }
   };
   for (size_t start = 0; start < n; ++start) {
-    if (taken[start] || gone(static_cast<int>(start))) continue;
+    if (taken[start]) continue;
     seeds.push_back(static_cast<int>(start));
     while (!seeds.empty()) {
       const int seed = seeds.front();
@@ -95,14 +94,7 @@ Values scattered(const Reordered& order, const Values& fresh, Values old) {
 }  // namespace
 
 std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces) {
-  const IntLists corners = next_corners(vertex_count, faces);
-  return order_by_clusters(
-      vertex_count, [&](int v) { return corners[v]; }, [](int) { return false; });
-}
-
-std::vector<int> locality_order(int vertex_count, const std::function<ShortList(int)>& neighbours,
-                                const std::function<bool(int)>& gone) {
-  return order_by_clusters(vertex_count, neighbours, gone);
+  return order_by_clusters(vertex_count, next_corners(vertex_count, faces));
 }
 
 std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {

@@ -1,11 +1,8 @@
 // Order in memory: neighbours on the mesh become neighbours in the arrays.
 #pragma once
 
-#include <functional>
-
 #include "hooke/int_lists.h"
 #include "hooke/mesh_ids.h"
-#include "hooke/short_list.h"
 #include "hooke/types.h"
 
 namespace hooke {
@@ -14,10 +11,6 @@ namespace hooke {
 /// one cluster. Depends on the connectivity only, never on coordinates: a moved or turned mesh has the same
 /// order.
 std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces);
-
-/// The same for any graph with vertices 0 to n - 1: those that `gone` tells are left out.
-std::vector<int> locality_order(int vertex_count, const std::function<ShortList(int vertex)>& neighbours,
-                                const std::function<bool(int vertex)>& gone);
 
 /// A mesh in another order, and the way back.
 struct Reordered {

@@ -86,6 +86,7 @@ class Remeshing {
     LbfgsOptions lbfgs = options_.lbfgs;
     const bool flowed = options_.connectivity != ConnectivityMode::fixed;
     if (flowed || !held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
+    lbfgs.settles = !goes_on();
     return lbfgs;
   }
 
@@ -124,6 +125,11 @@ class Remeshing {
            static_cast<double>(relaxed.held_back) <= options_.hindered * vertex_steps;
   }
 
+  /// The next iteration or the polish goes on from where the vertices are, on the same field.
+  bool goes_on() const {
+    return options_.polish_angles && (unhindered_ || options_.connectivity == ConnectivityMode::adapt);
+  }
+
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
     if (refits() && outer_ > 1) work_.refit();
@@ -131,9 +137,11 @@ class Remeshing {
     IntegrationResult relaxed = relax();
     held_back_ = relaxed.held_back > 0;
     unhindered_ = is_unhindered(relaxed);
-    if (!unhindered_ || !options_.polish_angles) {  // else the polish goes on from here
+    if (!goes_on() || relaxed.reason == StopReason::interrupted) {
       settle_down();
       if (work_.took_back()) relaxed.energy = energy_(work_.placement, nullptr);
+    } else {
+      work_.resample_lengths();
     }
     record("relax", relaxed, outer_);
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
@@ -226,6 +234,14 @@ class Remeshing {
   bool done_ = false;
 };
 
+/// A coarser mesh was relaxed before: these vertices started where they are nearly at rest.
+RemeshOptions relaxing_little(RemeshOptions options) {
+  options.max_outer = std::min(options.max_outer, options.adaptation.last_outer);
+  if (options.integrator == IntegratorKind::lbfgs)
+    options.integration.max_steps = std::min(options.integration.max_steps, options.adaptation.last_steps);
+  return options;
+}
+
 /// Slivers that are left get other edges. Returns whether there was any such change.
 bool mend_once(Workspace& work, const RemeshOptions& options, const Observer& observer,
                RemeshResult& result) {
@@ -293,8 +309,7 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
     });
   const bool near_regular = options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm);
   RemeshOptions then = options;
-  if (adapted.levels > 0 && options.polish_angles)
-    then.max_outer = std::min(then.max_outer, options.adaptation.last_outer);
+  if (adapted.levels > 0 && options.polish_angles) then = relaxing_little(std::move(then));
   RemeshResult result = Remeshing(work, then, observer).run(flips);
   result.near_regular = near_regular;
   result.adaptation = adapted;

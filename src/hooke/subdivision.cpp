@@ -71,10 +71,17 @@ class Subdivision {
            is_middle(t_.apex(t_.twin(h)));
   }
 
+  /// No face that was quartered has more than one such edge: one flip leaves the others what they are.
   void join_middles() {
     const FlippingMesh flipping = m_.flipping();
-    for (int h = 0; h < t_.half_edge_count(); ++h)
-      if (is_between_middles(h) && may_flip(flipping, h, guard_)) t_.flip(h);
+    std::vector<char> joins(static_cast<size_t>(t_.half_edge_count()), 0);
+    parallel_for(joins.size(), 1024, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i)
+        if (const int h = static_cast<int>(i); is_between_middles(h))
+          joins[i] = may_flip(flipping, h, guard_);
+    });
+    for (size_t h = 0; h < joins.size(); ++h)
+      if (joins[h]) t_.flip(static_cast<int>(h));
   }
 
   AdaptingMesh& m_;

@@ -4,8 +4,18 @@
 #include <cassert>
 
 #include "hooke/ordering.h"
+#include "hooke/parallel.h"
 
 namespace hooke {
+namespace {
+
+void for_each_index(size_t count, const auto& use) {
+  parallel_for(count, 8192, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) use(i);
+  });
+}
+
+}  // namespace
 
 Triangulation::Triangulation(const Connectivity& c)
     : faces_(c.faces),
@@ -36,26 +46,35 @@ Triangulation::Triangulation(const Connectivity& c)
     if (c.is_crease(c.face_edges[h / 3][h % 3])) constrained_[h] = 1;
 }
 
+int Triangulation::first_outgoing(int vertex) const {
+  const int any = leaving_[static_cast<size_t>(vertex)];
+  int start = any;
+  if (any >= 0 && on_boundary(vertex))  // as far clockwise as there are faces
+    for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
+  return start;
+}
+
 ShortList Triangulation::outgoing(int vertex) const {
   ShortList spokes;
-  const int any = leaving_[static_cast<size_t>(vertex)];
-  if (any < 0) return spokes;
-  int start = any;
-  if (on_boundary(vertex))  // as far clockwise as there are faces
-    for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
-  for (int h = start; h >= 0;) {
+  const int first = first_outgoing(vertex);
+  for (int h = first; h >= 0;) {
     spokes.push_back(h);
     h = twin(previous(h));
-    if (h == start) break;
+    if (h == first) break;
   }
   return spokes;
 }
 
 ShortList Triangulation::neighbours(int vertex) const {
-  const ShortList spokes = outgoing(vertex);
   ShortList ring;
-  for (int h : spokes) ring.push_back(to(h));
-  if (!spokes.empty() && twin(previous(spokes.back())) < 0) ring.push_back(apex(spokes.back()));
+  const int first = first_outgoing(vertex);
+  for (int h = first; h >= 0;) {
+    ring.push_back(to(h));
+    const int back = previous(h);
+    h = twin(back);
+    if (h < 0) ring.push_back(from(back));
+    if (h == first) break;
+  }
   return ring;
 }
 
@@ -216,23 +235,29 @@ void Triangulation::collapse(int h, int stays) {
 }
 
 std::vector<int> Triangulation::compact() {
-  std::vector<int> kept = locality_order(
-      id_count(), [this](int v) { return neighbours(v); }, [this](int v) { return valence(v) < 0; });
+  const auto old_face_count = static_cast<int>(faces_.size());
+  std::vector<int> left;
+  left.reserve(faces_.size());
+  for (int f = 0; f < old_face_count; ++f)
+    if (!is_gone(f)) left.push_back(f);
+  std::vector<Triangle> faces(left.size());
+  for_each_index(left.size(), [&](size_t i) { faces[i] = faces_[static_cast<size_t>(left[i])]; });
+
+  std::vector<int> kept = locality_order(id_count(), faces);
+  std::erase_if(kept, [this](int v) { return valence(v) < 0; });
   std::vector<int> vertex_id(valences_.size(), -1);
   for (size_t i = 0; i < kept.size(); ++i) vertex_id[static_cast<size_t>(kept[i])] = static_cast<int>(i);
 
-  const auto first_corner = [&](int f) {
-    const auto& [a, b, c] = faces_[static_cast<size_t>(f)];
-    return std::min({vertex_id[static_cast<size_t>(a)], vertex_id[static_cast<size_t>(b)],
-                     vertex_id[static_cast<size_t>(c)]});
-  };
-  std::vector<std::pair<int, int>> order;  // of the faces: by their first corners
-  for (int f = 0; f < static_cast<int>(faces_.size()); ++f)
-    if (!is_gone(f)) order.emplace_back(first_corner(f), f);
-  std::ranges::sort(order);
+  std::vector<std::array<int, 1>> first_corners(left.size());  // faces follow theirs
+  for_each_index(left.size(), [&](size_t i) {
+    for (int& v : faces[i]) v = vertex_id[static_cast<size_t>(v)];
+    first_corners[i][0] = std::ranges::min(faces[i]);
+  });
+  const std::vector<int> order = invert(static_cast<int>(kept.size()), first_corners).items;
   std::vector<int> face_id(faces_.size(), -1);
-  for (size_t g = 0; g < order.size(); ++g)
-    face_id[static_cast<size_t>(order[g].second)] = static_cast<int>(g);
+  for_each_index(order.size(), [&](size_t g) {
+    face_id[static_cast<size_t>(left[static_cast<size_t>(order[g])])] = static_cast<int>(g);
+  });
 
   const auto renumber = [&](int h) { return h < 0 ? -1 : 3 * face_id[static_cast<size_t>(h / 3)] + h % 3; };
   const Triangulation old = std::move(*this);
@@ -240,24 +265,24 @@ std::vector<int> Triangulation::compact() {
   sides_.resize(old.sides_.empty() ? 0 : order.size());
   twins_.resize(3 * order.size());
   constrained_.resize(3 * order.size());
-  for (size_t g = 0; g < order.size(); ++g) {
-    const auto f = static_cast<size_t>(order[g].second);
+  for_each_index(order.size(), [&](size_t g) {
+    const auto i = static_cast<size_t>(order[g]), f = static_cast<size_t>(left[i]);
+    faces_[g] = faces[i];
     if (!sides_.empty()) sides_[g] = old.sides_[f];
     for (size_t k = 0; k < 3; ++k) {
-      faces_[g][k] = vertex_id[static_cast<size_t>(old.faces_[f][k])];
       twins_[3 * g + k] = renumber(old.twins_[3 * f + k]);
       constrained_[3 * g + k] = old.constrained_[3 * f + k];
     }
-  }
+  });
   leaving_.resize(kept.size());
   valences_.resize(kept.size());
   on_boundary_.resize(kept.size());
-  for (size_t i = 0; i < kept.size(); ++i) {
+  for_each_index(kept.size(), [&](size_t i) {
     const auto v = static_cast<size_t>(kept[i]);
     leaving_[i] = renumber(old.leaving_[v]);
     valences_[i] = old.valences_[v];
     on_boundary_[i] = old.on_boundary_[v];
-  }
+  });
   return kept;
 }
 

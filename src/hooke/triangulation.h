@@ -92,6 +92,7 @@ class Triangulation {
   void set_sides(const Connectivity& connectivity);
 
  private:
+  int first_outgoing(int vertex) const;
   void link(int h, int twin);
   void halve(int h, int vertex, int side);
   void close(int h);

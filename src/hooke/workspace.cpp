@@ -188,11 +188,15 @@ void Workspace::replace_faces(std::vector<Triangle> faces) {
 void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& sides,
                              const std::vector<int>& before) {
   const auto n = before.size();
-  std::vector<int> by_id = identity(static_cast<int>(n));  // in the order of the result
-  std::ranges::stable_sort(by_id, {}, [&](int v) {
-    const int old = before[static_cast<size_t>(v)];
-    return old < 0 ? std::numeric_limits<int>::max() : order.old_vertex[static_cast<size_t>(old)];
-  });
+  std::vector<int> kept_as(order.old_vertex.size(), -1);  // by the ids of before
+  for (size_t v = 0; v < n; ++v)
+    if (before[v] >= 0)
+      kept_as[static_cast<size_t>(order.old_vertex[static_cast<size_t>(before[v])])] = static_cast<int>(v);
+  std::vector<int> by_id;  // in the order of the result
+  by_id.reserve(n);
+  std::ranges::copy_if(kept_as, std::back_inserter(by_id), [](int v) { return v >= 0; });
+  for (size_t v = 0; v < n; ++v)
+    if (before[v] < 0) by_id.push_back(static_cast<int>(v));
   if (!input_order_) input_order_ = order;
   std::vector<int> id(n);
   for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
