@@ -42,7 +42,7 @@ Foot within_reach(const NearFaces& faces, const std::vector<float>& reaches, con
                   const Foot& foot) {
   if (reaches.empty()) return foot;
   const double reach = reaches[static_cast<std::size_t>(foot.anchor)];
-  if (reach == no_limit) return foot;
+  if (reach == no_limit || faces.has_face_within(foot.point, foot.anchor, reach)) return foot;
   Foot below = faces.closest_point(foot.point, foot.anchor);
   Vec3 height = foot.point - below.point;
   if (!(height.squaredNorm() > reach * reach)) return foot;

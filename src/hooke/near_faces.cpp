@@ -58,6 +58,14 @@ Foot NearFaces::closest_point_of_ring(const Vec3& x, int anchor) const {
   return foot;
 }
 
+bool NearFaces::has_face_within(const Vec3& x, int anchor, double distance) const {
+  return std::ranges::any_of(connectivity.vertex_faces[anchor], [&](int f) {
+    const Triangle& face = connectivity.faces[static_cast<std::size_t>(f)];
+    return closest_point_on_triangle(points.col(face[0]), points.col(face[1]), points.col(face[2]), x)
+               .squared_distance <= distance * distance;
+  });
+}
+
 Foot NearFaces::closest_point(const Vec3& x, int anchor) const {
   Foot foot = closest_point_of_ring(x, anchor);
   while (foot.anchor != anchor) {

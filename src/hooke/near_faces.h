@@ -17,6 +17,9 @@ struct NearFaces {
   /// Walks from the vertex over edges while that brings it closer to x: steepest descent of the distance.
   int nearest_vertex(const Vec3& x, int vertex) const;
 
+  /// Has a face at the anchor a point within the distance? No more than that: others may be closer.
+  bool has_face_within(const Vec3& x, int anchor, double distance) const;
+
   /// Closest point of the faces about the anchor and about its neighbours, from where it walks on while that
   /// brings it closer. Its normal is blended from those of the corners, its anchor the nearest corner. x
   /// itself, normal zero and no_cover where the anchor has no faces.
