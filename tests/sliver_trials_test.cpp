@@ -128,7 +128,7 @@ TEST(SliverTrials, NeverLowerTheLeastAngleNorFoldAFace) {
 TEST(SliverTrials, AddNothingBeyondTheLimits) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     test::AdaptingScene s(test::sphere(2, .4, seed), test::unit_sphere());
-    const SliverTrialOptions options;
+    const ChangeTrialOptions options;
     const auto worst = [&](const auto& measure) {
       double most = 0;
       for (const Triangle& t : faces_of(s))
@@ -179,7 +179,7 @@ TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
   test::AdaptingScene s(t, test::plane());
   int calls = 0;
   const auto count = [&](const Progress&) { return ++calls > 0; };
-  const SliverTrialOptions options{.sliver_angles = {30}, .gain = 1e9};
+  const SliverTrialOptions options{.sliver_angles = {30}, .change = {.gain = 1e9}};
   EXPECT_EQ(change(s, same_count, options, count).count(), 0);
   EXPECT_EQ(calls, 1);
 }

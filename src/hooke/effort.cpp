@@ -35,6 +35,7 @@ void set_mending(SliverTrialOptions& trials, ConnectivityMode mode, Effort effor
       if (!adapts) trials.sliver_angles = {25, 30, 35};
       break;
     case Effort::thorough:
+      trials.searched = 100;
       if (adapts) trials.sliver_angles = {25, 30, 35, 40, 45};
       break;
   }

@@ -143,7 +143,7 @@ Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Eff
   const bool mends = o.polish_angles && !fixed;
   j["sliver_angles"] = where(mends, o.mend.trials.sliver_angles);
   j["sliver_passes"] = where(mends, o.mend.passes);
-  j["sliver_sagitta"] = where(mends, o.mend.trials.sagitta);
+  j["sliver_sagitta"] = where(mends, o.mend.trials.change.sagitta);
   return j;
 }
 

@@ -258,7 +258,7 @@ bool mend_once(Workspace& work, const RemeshOptions& options, const Observer& ob
   result.sliver_tries += changes.tries;
   if (changes.count() == 0) return false;
   RemeshOptions rest = options;
-  rest.search.sagitta = options.mend.trials.sagitta;
+  rest.search.sagitta = options.mend.trials.change.sagitta;
   const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
   const std::chrono::duration<double> trials = std::chrono::steady_clock::now() - start;
   result = Remeshing(work, rest, observer).search_again(std::move(result), before + trials.count());

@@ -3,27 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
-#include "hooke/guards.h"
 #include "hooke/least_angle.h"
-#include "hooke/local_newton.h"
 #include "hooke/parallel.h"
-#include "hooke/patch_look.h"
 
 namespace hooke {
 namespace {
-
-struct Trial {
-  EdgeChange change;
-  EdgePatch patch;
-  double gain;
-};
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
-}
 
 class SliverTrials {
  public:
@@ -31,14 +17,11 @@ class SliverTrials {
                const GuardOptions& guards, const FaceCountLimits& limits)
       : m_(mesh),
         t_(mesh.triangulation),
-        terms_(terms),
         options_(options),
-        guards_(guards),
+        trials_(mesh, terms, options.change, guards),
         limits_(limits),
         faces_(static_cast<double>(t_.faces().size())),
-        most_tries_(std::max(options.least_in_all, static_cast<int>(options.share_in_all * faces_))) {
-    guards_.sagitta = options.sagitta;
-  }
+        most_tries_(std::max(options.least_in_all, static_cast<int>(options.share_in_all * faces_))) {}
 
   SliverChanges run(const Observer& observer) {
     for (double angle : options_.sliver_angles) {
@@ -53,8 +36,7 @@ class SliverTrials {
  private:
   void begin_with(double sliver_angle) {
     sliver_cotangent_ = 1 / std::tan(sliver_angle * std::numbers::pi / 180);
-    limits_of_patch_ = {sliver_angle + options_.fair_margin, guards_.alignment, guards_.fold,
-                        options_.sagitta, options_.longest};
+    trials_.begin_with(sliver_angle);
     tried_at_.clear();
   }
 
@@ -73,7 +55,7 @@ class SliverTrials {
       if (interrupted_) return false;
       --tries;
       ++changes_.tries;
-      if (std::optional<Trial> best = best_trial(edges)) keep(*best);
+      if (std::optional<ChangeTrial> best = best_trial(edges)) keep(*best);
     }
     return tries < most;
   }
@@ -106,51 +88,7 @@ class SliverTrials {
     return edges;
   }
 
-  PatchLook look_before(const EdgePatch& patch) const {
-    const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), patch.faces);
-    return look_at(patch.placement, c, spread_target_lengths(c, patch.vertex_length), limits_of_patch_);
-  }
-
-  /// A vertex that comes or goes takes no credit for the number of its edges.
-  double gain(const PatchLook& before, const PatchLook& now) const {
-    const double errors_before = before.length_errors,
-                 errors_now =
-                     now.length_errors * static_cast<double>(before.edges) / static_cast<double>(now.edges);
-    return before.angle_cost - now.angle_cost + options_.length_weight * (errors_before - errors_now);
-  }
-
-  /// Nothing where the change is not worth it.
-  std::optional<Trial> try_change(const EdgeChange& change) const {
-    std::optional<EdgePatch> cut = cut_patch(m_.flipping(), change.half_edge, options_.rings, options_.most);
-    if (!cut) return std::nullopt;
-    Trial trial{change, std::move(*cut), 0};
-    EdgePatch& patch = trial.patch;
-    const PatchLook before = look_before(patch);
-    std::vector<Triangle> faces =
-        change_patch(patch, change, m_.retraction.surface(), m_.retraction.options());
-    const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), std::move(faces));
-    const TargetLengths targets = spread_target_lengths(c, patch.vertex_length);
-    Energy energy(c, targets, terms_);
-    Guards guards(c, targets, guards_);
-    Retraction retraction(m_.retraction.surface(), patch.constraints, m_.retraction.options());
-    const SweepPlan sweeps = plan_one_block(c);
-    Relaxation r{c, sweeps, patch.vertex_length, energy, retraction, guards, patch.placement};
-    for (int sweep = 0; sweep < options_.sweeps; ++sweep) local_newton_sweep(r, {}, {});
-    if (gain(before, look_at(patch.placement, c, targets, limits_of_patch_)) < -options_.hope)
-      return std::nullopt;
-    search_angles(r, options_.search);
-    const PatchLook after = look_at(patch.placement, c, targets, limits_of_patch_);
-    trial.gain = gain(before, after);
-    if (trial.gain < options_.gain || after.cotangent > before.cotangent) return std::nullopt;
-    if (before.area - after.area > options_.area_loss * std::pow(mean_of(patch.vertex_length), 2))
-      return std::nullopt;
-    if (!is_no_worse(after.excess, before.excess)) return std::nullopt;
-    if (folds_at_rim(patch, c.faces, m_.flipping(), guards_)) return std::nullopt;
-    return trial;
-  }
-
-  /// Of equal ones the first.
-  std::optional<Trial> best_trial(const std::vector<int>& edges) {
+  std::vector<EdgeChange> changes_of(const std::vector<int>& edges) {
     const ChangeRules rules{.valence = options_.valence,
                             .splits = faces_ + 2 <= limits_.most,
                             .merges = faces_ - 2 >= limits_.least};
@@ -160,19 +98,31 @@ class SliverTrials {
       changes.insert(changes.end(), allowed.begin(), allowed.end());
       tried_at_[static_cast<size_t>(h)] = changes_.count();
     }
-    std::vector<std::optional<Trial>> trials(changes.size());
-    parallel_for(changes.size(), 1, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) trials[i] = try_change(changes[i]);
+    return changes;
+  }
+
+  /// Of equal ones the first.
+  std::optional<ChangeTrial> best_trial(const std::vector<int>& edges) {
+    const std::vector<EdgeChange> changes = changes_of(edges);
+    std::vector<ChangeTrial> trials(changes.size());
+    parallel_for(trials.size(), 1, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) trials[i] = trials_.begin(changes[i]);
     });
-    std::optional<Trial> best;
-    for (std::optional<Trial>& trial : trials)
-      if (trial && (!best || trial->gain > best->gain)) best = std::move(trial);
-    return best;
+    const auto is_hopeless = [](const ChangeTrial& trial) { return !trial.is_hopeful; };
+    std::erase_if(trials, is_hopeless);
+    std::ranges::stable_sort(trials, std::ranges::greater(), &ChangeTrial::gain);
+    if (trials.size() > options_.searched) trials.resize(options_.searched);
+    parallel_for(trials.size(), 1, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) trials_.finish(trials[i]);
+    });
+    std::erase_if(trials, is_hopeless);
+    const auto best = std::ranges::max_element(trials, {}, &ChangeTrial::gain);
+    return best == trials.end() ? std::nullopt : std::optional(std::move(*best));
   }
 
   /// The corners of the faces of its edge, what a merge joins anew, and those that have come so far, all in
   /// all, that it is noticed.
-  std::vector<int> vertices_changed_by(const Trial& trial) {
+  std::vector<int> vertices_changed_by(const ChangeTrial& trial) {
     const int h = trial.change.half_edge;
     std::vector<int> vertices = {t_.from(h), t_.to(h), t_.apex(h), t_.apex(t_.twin(h))};
     if (trial.change.kind == ChangeKind::merge)
@@ -191,7 +141,7 @@ class SliverTrials {
     return vertices;
   }
 
-  void keep(Trial& trial) {
+  void keep(ChangeTrial& trial) {
     std::vector<int> changed = vertices_changed_by(trial);
     change_mesh(m_, trial.change, trial.patch);
     switch (trial.change.kind) {
@@ -214,11 +164,9 @@ class SliverTrials {
 
   AdaptingMesh& m_;
   Triangulation& t_;
-  const EnergyTerms& terms_;
   const SliverTrialOptions& options_;
-  GuardOptions guards_;
+  ChangeTrials trials_;
   FaceCountLimits limits_;
-  PatchLimits limits_of_patch_;
   double faces_;
   const int most_tries_;
   double sliver_cotangent_ = 0;
