@@ -129,6 +129,7 @@ void AdaptationSteps::settle_springs() {
   integration.max_steps = options_.spring_steps;
   LbfgsOptions lbfgs;
   lbfgs.sweeps = 0;  // flow has left no slivers for them
+  lbfgs.settles = false;
   interrupted_ = relax_lbfgs(r, integration, lbfgs, observer_).reason == StopReason::interrupted;
   resample_lengths();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "hooke/least_angle.h"
@@ -63,7 +64,8 @@ EdgeErrors errors_of_all(const Relaxation& r) {
   return errors;
 }
 
-/// The faces and edges as they lie.
+/// The faces and edges as they lie. Faces with small angles stand in a list of their own: rounds look at no
+/// others.
 class Measures {
  public:
   explicit Measures(const Relaxation& r)
@@ -72,24 +74,29 @@ class Measures {
       for (size_t f = begin; f < end; ++f) look(f);
     });
     start_deviation_ = deviation();
+    list_worst();
   }
 
-  double least_angle() const { return angle_with_cotangent(*std::ranges::max_element(cotangents_)); }
+  double least_angle() {
+    if (greatest_cotangent_of(listed_) < listed_from_) list_worst();
+    return angle_with_cotangent(greatest_cotangent_of(listed_));
+  }
 
   /// Of l / L_e, over that at the start.
   double edge_error() const { return start_deviation_ > 0 ? deviation() / start_deviation_ : 1; }
 
   /// The corners of the worst faces, worst first: those with an angle below `goal`.
-  std::vector<int> worst_corners(double goal, int max_faces) const {
+  std::vector<int> worst_corners(double goal, int max_faces) {
     const double limit = cotangent_of(goal);
-    std::vector<int> worst;
-    for (size_t f = 0; f < cotangents_.size(); ++f)
-      if (cotangents_[f] >= limit) worst.push_back(static_cast<int>(f));
-    std::ranges::stable_sort(worst, std::ranges::greater(),
-                             [&](int f) { return cotangents_[static_cast<size_t>(f)]; });
+    if (limit < listed_from_) list_below(goal + listed_above);
+    std::vector<std::pair<double, int>> worst;
+    for (int f : listed_)
+      if (const double cotangent = cotangents_[static_cast<size_t>(f)]; cotangent >= limit)
+        worst.emplace_back(-cotangent, f);
+    std::ranges::sort(worst);
     if (std::ssize(worst) > max_faces) worst.resize(static_cast<size_t>(max_faces));
     std::vector<int> corners;
-    for (int f : worst) {
+    for (const auto& [cotangent, f] : worst) {
       const Triangle& t = r_.connectivity.faces[static_cast<size_t>(f)];
       corners.insert(corners.end(), t.begin(), t.end());
     }
@@ -103,31 +110,61 @@ class Measures {
     errors_ -= errors_of(r_, edges);
     move();
     errors_ += errors_of(r_, edges);
-    for (int f : united(r_.connectivity.vertex_faces, vertices)) look(static_cast<size_t>(f));
+    for (int f : united(r_.connectivity.vertex_faces, vertices)) {
+      look(static_cast<size_t>(f));
+      list_if_low(f);
+    }
   }
 
  private:
+  static constexpr double listed_above = 3;  // degrees, above what is asked for
+
   void look(size_t f) { cotangents_[f] = greatest_cotangent(r_.placement.points, r_.connectivity.faces[f]); }
   double deviation() const { return errors_.deviation(r_.connectivity.edges.size()); }
 
+  double greatest_cotangent_of(const std::vector<int>& faces) const {
+    double greatest = -std::numeric_limits<double>::infinity();
+    for (int f : faces) greatest = std::max(greatest, cotangents_[static_cast<size_t>(f)]);
+    return greatest;
+  }
+
+  void list_worst() {
+    list_below(angle_with_cotangent(*std::ranges::max_element(cotangents_)) + listed_above);
+  }
+
+  void list_below(double angle) {
+    listed_from_ = cotangent_of(angle);
+    listed_.clear();
+    is_listed_.assign(cotangents_.size(), 0);
+    for (size_t f = 0; f < cotangents_.size(); ++f) list_if_low(static_cast<int>(f));
+  }
+
+  void list_if_low(int f) {
+    char& is_listed = is_listed_[static_cast<size_t>(f)];
+    if (is_listed || !(cotangents_[static_cast<size_t>(f)] >= listed_from_)) return;
+    is_listed = 1;
+    listed_.push_back(f);
+  }
+
   const Relaxation& r_;
   std::vector<double> cotangents_;  // the greatest of each face
+  double listed_from_ = 0;          // cotangent of an angle
+  std::vector<int> listed_;         // all faces with a smaller angle, and some that had one
+  std::vector<char> is_listed_;     // per face
   EdgeErrors errors_;
   double start_deviation_ = 0;
 };
 
-/// Improves each of the vertices in turn; returns how many moved.
+/// Improves each of the vertices, which ascend, in turn; returns how many moved.
 int improve(Relaxation& r, const std::vector<int>& vertices, const VertexSearchOptions& options,
             const GuardOptions& guards, double goal) {
-  std::vector<char> active(static_cast<size_t>(r.connectivity.vertex_count), 0);
-  std::vector<char> moved = active;
-  for (int v : vertices) active[static_cast<size_t>(v)] = 1;
+  std::vector<char> moved(vertices.size(), 0);
   for_each_block(r.sweeps, [&](int begin, int end) {
-    const auto first = active.begin() + begin, last = active.begin() + end;
-    if (std::find(first, last, 1) == last) return;
+    const auto first = std::ranges::lower_bound(vertices, begin);
+    if (first == vertices.end() || *first >= end) return;
     VertexSearch search(r, options, guards);
-    for (int v = begin; v < end; ++v)
-      if (active[static_cast<size_t>(v)]) moved[static_cast<size_t>(v)] = search.improve(v, goal);
+    for (auto v = first; v != vertices.end() && *v < end; ++v)
+      moved[static_cast<size_t>(v - vertices.begin())] = search.improve(*v, goal);
   });
   return static_cast<int>(std::ranges::count(moved, 1));
 }
@@ -141,8 +178,9 @@ void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOption
   while (result.rounds < o.max_rounds && above > o.least_rise &&
          least + o.least_rise < greatest_least_angle) {
     const double goal = least + above;
-    const std::vector<int> vertices =
+    std::vector<int> vertices =
         with_rings(r.connectivity, measures.worst_corners(goal, o.max_faces), o.rings);
+    std::ranges::sort(vertices);
     std::vector<VertexPlace> before;
     for (int v : vertices) before.emplace_back(r.placement, v);
     int moves = 0;

@@ -70,16 +70,17 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
   result.edge_error_before = result.edge_error_after =
       relative_edge_deviation(r.placement.points, edges, targets);
 
+  double best = result.least_angle_before;
+  double threshold = std::max(o.first_threshold, best + o.margin);
+  double too_high = o.last_threshold + 1e-9;  // the first that is
+  if (threshold >= too_high) return result;
   const EnergyTerms terms = r.energy.terms;
   r.energy.terms.altitude = 0;
   Placement kept = r.placement;
   int kept_stages = 0;
-  double best = result.least_angle_before;
   double last_error = result.edge_error_before, last_threshold = best;  // of the last state kept
   double step = o.threshold_step;
   double reached = best;  // the last threshold that was not too much
-  double threshold = std::max(o.first_threshold, best + o.margin);
-  double too_high = o.last_threshold + 1e-9;  // the first that is
   while (threshold < too_high && !result.interrupted) {
     r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
