@@ -26,7 +26,7 @@ std::string reason_in_words(const RunRecord& run) {
     case StopReason::stalled:
       return "at rest: the springs are in equilibrium, as near to the target as the connectivity allows";
     case StopReason::step_limit:
-      return "stopped at the iteration limit; more outer iterations or steps would go on";
+      return "stopped at the iteration limit; more --effort, --max-outer or --max-steps would go on";
     case StopReason::jammed:
       return "jammed: no time step is accepted any more";
     case StopReason::interrupted:

@@ -107,7 +107,7 @@ AdaptOptions adapt_options(Effort effort) {
   AdaptOptions options;
   switch (effort) {
     case Effort::fast:
-      options.rounds = 1;
+      options.rounds = 2;
       options.first_flow = 4;
       options.count_flow = 0;
       options.coarse.levels = 3;

@@ -90,6 +90,18 @@ class Report(CommandTest):
         limited = self.report(DATA / "patch.obj", "-o", "out.off", "--max-outer", 1, "--max-steps", 1)
         self.assertEqual(limited["status"], "iteration_limit")
 
+    def test_limits_that_are_given_hold_for_each_effort(self):
+        def steps(*options):
+            report = self.report(DATA / "torus.off", "-o", "out.off", "-L", ".3x", "--connectivity", "adapt", "--effort",
+                                 "fast", *options)
+            self.assertGreater(report["adaptation"]["coarse_levels"], 0)
+            return [i["steps"] for i in report["iterations"] if i["stage"] == "relax"]
+
+        self.assertEqual(steps(), [0])  # a sweep
+        more = steps("--max-outer", 3, "--max-steps", 4)
+        self.assertGreater(more[0], 0)
+        self.assertLessEqual(max(more), 4)
+
     def test_length_out_of_reach_is_a_warning(self):
         for length, warned in (("auto", False), ("mean", False), ("1.05x", False), ("1.2x", True), ("5%", True)):
             with self.subTest(length=length):
