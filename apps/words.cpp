@@ -131,9 +131,10 @@ void settle(Settings& s, const Words& words) {
   if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
   if (words.max_outer)
     s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *words.max_outer;
-  if (words.max_steps)
-    s.remesh.integration.max_steps = s.remesh.adaptation.last_steps = s.paper_options.evolution.max_steps =
-        *words.max_steps;
+  if (words.max_steps) {
+    s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *words.max_steps;
+    s.remesh.adaptation.last_steps = *words.max_steps;
+  }
   if (words.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *words.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
   if (s.check) return;

@@ -68,6 +68,22 @@ TEST(BlockCollapses, KeepTopologyBoundaryAndLengthsThatMayStay) {
             0);
 }
 
+/// Of triangles with two equal sides: an inner edge may come to lie on the boundary and be as long as before.
+TEST(BlockCollapses, LeaveCurvesTheirEdges) {
+  test::Triangles even = test::grid(cells, test::flat);
+  for (int v = 0; v < side * side; ++v) even.points.col(v) = Vec3(v % side - .5 * (v / side), v / side, 0);
+  test::AdaptingScene s(even, test::plane());
+  for (double& length : s.vertex_length) length *= 5;
+  count_curve_edges(s.adapting, .1);
+  const std::vector<int> present = s.curve_edges.present;
+  EXPECT_GT(collapse_in_blocks(s.adapting, {.valence = 12}, {.vertices = 12 * side}), cells);
+  EXPECT_EQ(s.curve_edges.present, present);
+  for (int v = 0; v < side * side; ++v)
+    if (v % side == 0 || v % side == cells || v < side || v >= cells * side) {
+      EXPECT_GT(s.triangulation.valence(v), 0) << v;
+    }
+}
+
 TEST(BlockCollapses, DoNotDependOnThreads) {
   std::vector<Mat3X> points;
   std::vector<std::vector<Triangle>> faces;

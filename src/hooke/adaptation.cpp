@@ -116,7 +116,8 @@ AdaptOptions adapt_options(Effort effort) {
       options.steps.spring_steps = 8;
       options.steps.irregular = {.passes = 1};
       options.last_flow = options.last_passes = 0;
-      options.last_outer = options.last_steps = 1;  // a sweep
+      options.last_outer = 1;
+      options.last_steps = 1;  // a sweep
       break;
     case Effort::standard:
       break;

@@ -5,6 +5,8 @@
 // that few others are left.
 #pragma once
 
+#include <optional>
+
 #include "hooke/adaptation_steps.h"
 #include "hooke/flip_connectivity.h"
 #include "hooke/untangle.h"
@@ -27,7 +29,7 @@ struct AdaptOptions {
   double fine_count_slack = .01;       // part of the faces
   int last_flow = 3, last_passes = 2;  // what mode `flip` does then, at most, ...
   int last_outer = 6;                  // ... and so many outer iterations after it, if polish follows, ...
-  int last_steps = 2000;               // ... each with so many evaluations of the energy by L-BFGS
+  std::optional<int> last_steps;       // ... each with so many evaluations of the energy by L-BFGS
 
   StepOptions steps;
 };

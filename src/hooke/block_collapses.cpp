@@ -1,17 +1,18 @@
 #include "hooke/block_collapses.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <queue>
+#include <utility>
 #include <vector>
 
-#include "hooke/edge_collapses.h"
 #include "hooke/parallel.h"
 
 namespace hooke {
 namespace {
 
-/// Which block each vertex belongs to: as many that follow each other, but for the first.
+/// Which block each vertex belongs to: as many that follow each other, but for the first and the last.
 struct Blocks {
   std::vector<int> of;     // per id
   std::vector<int> first;  // id of each block, and one past the last
@@ -32,7 +33,8 @@ Blocks cut_into_blocks(const Triangulation& t, int vertices, int offset) {
 }
 
 /// How far each vertex lies from the other blocks: at 0 a neighbour is in one, at 1 a neighbour is at 0. A
-/// collapse of an edge between vertices at 2 reads and writes its own block alone, and leaves them at 2.
+/// collapse of an inner edge between vertices at 2 reads and writes its own block alone, and leaves them
+/// at 2. Edges of rims count in what the mesh knows of their curves.
 std::vector<char> depths_in(const Blocks& blocks, const Triangulation& t) {
   std::vector<char> depths(static_cast<size_t>(t.id_count()), 2);
   const auto lower = [&](char depth, const auto& is_so_deep) {
@@ -82,12 +84,13 @@ class BlockCollapses {
     if (const double length = relative_length(m_, h); length < shortest_) waiting_.emplace(length, h);
   }
 
-  /// The shortest of the edges that are as long as they were when they came; -1 without one.
+  /// The shortest of the edges that are as long as they were when they came, and still inner ones: a
+  /// half-edge may stand for another edge by then. -1 without one.
   int pop() {
     while (!waiting_.empty()) {
       const auto [length, h] = waiting_.top();
       waiting_.pop();
-      if (!t_.is_gone(h / 3) && relative_length(m_, h) == length) return h;
+      if (!t_.is_gone(h / 3) && !is_rim(t_, h) && relative_length(m_, h) == length) return h;
     }
     return -1;
   }
@@ -106,7 +109,7 @@ int vertex_count(const Triangulation& t) {
   return count;
 }
 
-/// Of all edges, the part that is shorter than this.
+/// Of all half-edges, the part that is shorter than this.
 double share_of_shorter(const AdaptingMesh& m, double length) {
   const Triangulation& t = m.triangulation;
   const auto count = [&](const auto& counts) {
@@ -141,7 +144,7 @@ int collapse_in_blocks(AdaptingMesh& m, const CollapseOptions& options, const Bl
   int collapses = 0;
   for (int pass = 0; pass < o.passes; ++pass) {
     const int size = std::min(o.vertices, vertex_count(t) / 2);
-    collapses += collapse_in(cut_into_blocks(t, size, pass % 2 * size / 2), m, options, shortest);
+    collapses += collapse_in(cut_into_blocks(t, size, pass * size / o.passes), m, options, shortest);
   }
   return collapses;
 }

@@ -43,7 +43,7 @@ class ChangeTrials {
   /// Faces with a smaller angle than this, degrees, are slivers from now on.
   void begin_with(double sliver_angle);
 
-  /// Changes the patch and lets its springs settle.
+  /// Changes the patch and lets its springs settle. Pre-condition: begin_with().
   ChangeTrial begin(const EdgeChange& change) const;
 
   /// Searches for better places, and judges the outcome: it is to lower what the patch costs, to keep the

@@ -135,6 +135,20 @@ std::optional<Collapse> try_collapse(const AdaptingMesh& m, int half_edge, const
   return Trial(m, half_edge, options).run();
 }
 
+void make_collapse(AdaptingMesh& m, const Collapse& c) {
+  const int curve = is_rim(m.triangulation, c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
+  if (curve >= 0) --m.curve_edges.present[static_cast<size_t>(curve)];
+  m.triangulation.collapse(c.half_edge, c.stays);
+  c.place.write_to(m.placement, c.stays);
+}
+
+int collapse_edge(AdaptingMesh& m, int half_edge, const CollapseOptions& options) {
+  const std::optional<Collapse> trial = try_collapse(m, half_edge, options);
+  if (!trial) return -1;
+  make_collapse(m, *trial);
+  return trial->stays;
+}
+
 bool curve_may_lose(const AdaptingMesh& m, int half_edge) {
   if (!is_rim(m.triangulation, half_edge)) return true;
   const int curve = curve_of(m, half_edge).curve;

@@ -1,4 +1,4 @@
-// Tries an edge collapse: may it be, and where does the vertex that stays come to lie?
+// One edge collapse: may it be, and where does the vertex that stays come to lie?
 #pragma once
 
 #include <optional>
@@ -38,6 +38,12 @@ int valence_after(const AdaptingMesh& mesh, int half_edge);
 /// counted.
 /// Pre-condition: the edges of the curves are counted.
 std::optional<Collapse> try_collapse(const AdaptingMesh& mesh, int half_edge, const CollapseOptions& options);
+
+/// Makes a collapse that has passed its trial.
+void make_collapse(AdaptingMesh& mesh, const Collapse& collapse);
+
+/// Both: merges the ends of the edge and returns the vertex that stays, -1 where that is not allowed.
+int collapse_edge(AdaptingMesh& mesh, int half_edge, const CollapseOptions& options);
 
 /// The curve of the edge has more edges than it wants, or the edge has no curve.
 bool curve_may_lose(const AdaptingMesh& mesh, int half_edge);

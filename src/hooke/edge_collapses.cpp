@@ -19,21 +19,7 @@ std::vector<std::optional<Collapse>> try_all(const AdaptingMesh& m, const std::v
   return trials;
 }
 
-void collapse(AdaptingMesh& m, const Collapse& c) {
-  const int curve = is_rim(m.triangulation, c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
-  if (curve >= 0) --m.curve_edges.present[static_cast<size_t>(curve)];
-  m.triangulation.collapse(c.half_edge, c.stays);
-  c.place.write_to(m.placement, c.stays);
-}
-
 }  // namespace
-
-int collapse_edge(AdaptingMesh& m, int h, const CollapseOptions& options) {
-  const std::optional<Collapse> trial = try_collapse(m, h, options);
-  if (!trial) return -1;
-  collapse(m, *trial);
-  return trial->stays;
-}
 
 int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
   int collapses = collapse_in_blocks(m, options, {});
@@ -44,7 +30,7 @@ int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
   for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
     for (const std::optional<Collapse>& trial : try_all(m, edges, options)) {
       if (!trial || !curve_may_lose(m, trial->half_edge)) continue;  // others of its curve may have gone
-      collapse(m, *trial);
+      make_collapse(m, *trial);
       queue.push_about(trial->stays);
       ++collapses;
     }

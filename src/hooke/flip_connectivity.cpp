@@ -133,7 +133,7 @@ class FlipMode {
   const Observer& observer_;
   std::vector<int> corner_valences_;
   std::vector<char> lately_changed_;  // vertices, by flips of irregular edges
-  bool hindered_ = true;              // by guards, in the flow or the last springs
+  bool hindered_ = true;              // by guards, in the flow or the last springs; maybe, without either
   FlipResult result_;
 };
 

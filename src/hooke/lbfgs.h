@@ -20,13 +20,14 @@ struct LbfgsOptions {
   double carried = .25;
   double least_cap = .25;    // but no less than this, in target lengths
   double lazy_error = 1e-2;  // of the retraction on the way, in mean target lengths
-  bool settles = true;       // at the end; else the vertices stay as far off the surface as they are
+  bool settles = true;       // at the end; else the vertices stay where they have drifted to
   double mendable = .01;     // part of the vertices: no more than so many that guards hold back are mended
   int mended_rings = 1;      // about them, within which vertices move ...
   int mending_sweeps = 3;    // ... in so many sweeps
 };
 
-/// Moves relaxation.placement to a minimum of relaxation.energy on the surface.
+/// Moves relaxation.placement to a minimum of relaxation.energy on the surface or, unless it settles, no
+/// farther off than `lazy_error`. With a single evaluation allowed there are only the sweeps.
 IntegrationResult relax_lbfgs(Relaxation& relaxation, const IntegrationOptions& options,
                               const LbfgsOptions& lbfgs, const Observer& observer);
 

@@ -113,7 +113,8 @@ Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Eff
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;
   j["last_outer"] = where(adapts && o.polish_angles, o.adaptation.last_outer);
-  j["last_steps"] = where(adapts && o.polish_angles, o.adaptation.last_steps);
+  j["last_steps"] = where(adapts && o.polish_angles && !damped && o.adaptation.last_steps,
+                          o.adaptation.last_steps.value_or(0));
   j["coarse_flow_rounds"] = adapts ? o.adaptation.coarse_flow : 0;  // of what follows where there are any
   j["last_flow_rounds"] = adapts ? o.adaptation.last_flow : 0;
   j["integrator"] = damped ? "damped" : "lbfgs";

@@ -35,6 +35,8 @@ class Remeshing {
         raise_angles();
       else if (outer_ == 0)
         settle_down();
+    } else if (outer_ == 0) {
+      settle_down();  // what came before has left the vertices where they were
     }
     conclude();
     return std::move(result_);
@@ -237,8 +239,9 @@ class Remeshing {
 /// A coarser mesh was relaxed before: these vertices started where they are nearly at rest.
 RemeshOptions relaxing_little(RemeshOptions options) {
   options.max_outer = std::min(options.max_outer, options.adaptation.last_outer);
+  int& steps = options.integration.max_steps;
   if (options.integrator == IntegratorKind::lbfgs)
-    options.integration.max_steps = std::min(options.integration.max_steps, options.adaptation.last_steps);
+    steps = std::min(steps, options.adaptation.last_steps.value_or(steps));
   return options;
 }
 

@@ -101,7 +101,7 @@ class SliverTrials {
     return changes;
   }
 
-  /// Of equal ones the first.
+  /// Of those that are as good at the end, the one that was best before the search.
   std::optional<ChangeTrial> best_trial(const std::vector<int>& edges) {
     const std::vector<EdgeChange> changes = changes_of(edges);
     std::vector<ChangeTrial> trials(changes.size());

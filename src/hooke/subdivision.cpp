@@ -71,7 +71,8 @@ class Subdivision {
            is_middle(t_.apex(t_.twin(h)));
   }
 
-  /// No face that was quartered has more than one such edge: one flip leaves the others what they are.
+  /// All are judged by the faces as the splits have left them. No face that was quartered has more than one
+  /// such edge: a flip leaves the other edges in their places.
   void join_middles() {
     const FlippingMesh flipping = m_.flipping();
     std::vector<char> joins(static_cast<size_t>(t_.half_edge_count()), 0);
