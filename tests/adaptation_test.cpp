@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "adapting_scene.h"
+#include "hooke/bounding_volume_tree.h"
 #include "hooke/least_angle.h"
 #include "hooke/parallel.h"
 #include "hooke/quality.h"
@@ -137,6 +138,30 @@ TEST(Adaptation, InterruptedAtACoarserMeshItStillHasTheLengthsAskedFor) {
     EXPECT_GT(o.result.adaptation.levels, 0);
     EXPECT_NEAR(static_cast<double>(o.connectivity.faces.size()) / wanted, 1, .35) << calls;
     expect_sound(t, o);
+  }
+}
+
+/// On the faces of the input, where any drift shows.
+TEST(Adaptation, AllVerticesLandInterruptedOrNot) {
+  const test::Triangles t = test::sphere(4, .3, 4);
+  const BoundingVolumeTree input(t.points, t.faces);
+  RemeshOptions options = adapting();
+  options.filter.kind = FilterKind::closest;
+  int all = 0;
+  const auto greatest_distance = [&](const Outcome& o) {
+    double greatest = 0;
+    for (const auto& x : o.points.colwise())
+      greatest = std::max(greatest, input.closest(Vec3(x)).squared_distance);
+    return std::sqrt(greatest);
+  };
+  EXPECT_LT(greatest_distance(adapted(t, natural(t), options, [&](const Progress&) { return ++all > 0; })),
+            1e-9);
+  ASSERT_GT(all, 12);
+  for (int calls = 1; calls < all; calls += all / 8) {
+    int left = calls;
+    const Outcome o = adapted(t, natural(t), options, [&](const Progress&) { return --left > 0; });
+    EXPECT_EQ(o.result.reason, StopReason::interrupted);
+    EXPECT_LT(greatest_distance(o), 1e-9) << calls;
   }
 }
 

@@ -72,6 +72,34 @@ TEST(RelaxLbfgs, KeepsEveryVertexOnTheSurfaceAndNoFaceFolds) {
   }
 }
 
+TEST(RelaxLbfgs, DriftsNoFartherThanItMayUnlessItSettles) {
+  test::SceneOptions options;
+  options.retraction.lazy = .01;
+  const auto drift = [&](bool settles) {
+    test::Scene s = test::sphere_scene(.35, options);
+    Relaxation r = s.relaxation();
+    LbfgsOptions lbfgs;
+    lbfgs.settles = settles;
+    relax_lbfgs(r, until_rest(), lbfgs, nullptr);
+    return (s.placement.points.colwise().norm().array() - 1).abs().maxCoeff();
+  };
+  EXPECT_LT(drift(true), 1e-15);
+  EXPECT_GT(drift(false), 1e-12);
+  EXPECT_LT(drift(false), options.retraction.lazy);
+}
+
+TEST(RelaxLbfgs, HasOnlySweepsWhereOneEvaluationIsAllowed) {
+  IntegrationOptions once;
+  once.max_steps = 1;
+  test::Scene s = test::ground_scene(.4);
+  const double before = s.energy(s.placement, nullptr);
+  const IntegrationResult result = relax(s, once);
+  EXPECT_EQ(result.steps, 0);
+  EXPECT_EQ(result.evaluations, 1);
+  EXPECT_LT(result.energy, before);
+  EXPECT_EQ(result.reason, StopReason::step_limit);
+}
+
 TEST(RelaxLbfgs, KeepsCornersAndCurves) {
   test::Triangles t = test::moved(test::grid(8, test::flat, .4));
   const Vec3 normal = test::area_vector(t.points, t.faces[0]).normalized();

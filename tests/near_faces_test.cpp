@@ -54,6 +54,24 @@ TEST(NearFaces, NoFaceAboutTheAnchorIsCloser) {
   }
 }
 
+TEST(NearFaces, AFaceWithinADistanceIsNoFartherThanTheClosestOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  const test::Triangles t = test::shaken(test::grid(4, test::flat), .1);
+  const Connectivity c = test::connect(t);
+  const Mat3X normals = vertex_normals(t.points, c);
+  const NearFaces faces{t.points, normals, c};
+  int within = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Vec3 x(coordinate(random), coordinate(random), .1 * coordinate(random));
+    const Foot foot = faces.closest_point(x, 12);
+    const double distance = (foot.point - x).norm();
+    EXPECT_FALSE(faces.has_face_within(x, 12, .999 * distance));
+    within += faces.has_face_within(x, foot.anchor, 1.001 * distance);  // the foot is on one of its faces
+  }
+  EXPECT_EQ(within, 300);
+}
+
 TEST(NearFaces, AnAnchorWithoutFacesHasNoFoot) {
   test::Triangles t = test::equilateral();
   t.points.conservativeResize(3, 4);

@@ -193,6 +193,15 @@ TEST(SliverTrials, ThereAreNoMoreTriesThanAllowed) {
   EXPECT_EQ(tries(3), 3);
 }
 
+TEST(SliverTrials, KeepNothingThatIsNotTriedToTheEnd) {
+  const auto changes = [](size_t searched) {
+    test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
+    return change(s, any_count, {.searched = searched}).count();
+  };
+  EXPECT_EQ(changes(0), 0);
+  EXPECT_GT(changes(1), 0);
+}
+
 TEST(SliverTrials, LeaveGoodFacesAlone) {
   test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
   const Mat3X before = s.placement.points;
