@@ -30,14 +30,10 @@ class Remeshing {
       ++outer_;
       iterate();
     }
-    if (!interrupted()) {
-      if (options_.polish_angles)
-        raise_angles();
-      else if (outer_ == 0)
-        settle_down();
-    } else if (outer_ == 0) {
-      settle_down();  // what came before has left the vertices where they were
-    }
+    if (!interrupted() && options_.polish_angles)
+      raise_angles();
+    else if (outer_ == 0)
+      settle_down();  // no iteration has
     conclude();
     return std::move(result_);
   }
