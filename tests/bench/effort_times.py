@@ -8,21 +8,13 @@ File to file on irregular bumpy tori, all threads: medians of five runs each, ta
 import statistics
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import artificial_meshes
-from run_tool import run_tool
+from run_tool import timed_run
 
 RUNS = 5
 EFFORTS = ("fast", "default")
-
-
-def timed(tool, source, output, *options):
-    """Wall seconds and report of a run."""
-    start = time.perf_counter()
-    report = run_tool(tool, source, output, *options)
-    return time.perf_counter() - start, report
 
 
 def quality(report):
@@ -34,7 +26,7 @@ def print_row(tool, size, mode, source, output):
     seconds, reports = {effort: [] for effort in EFFORTS}, {}
     for _ in range(RUNS):
         for effort in EFFORTS:
-            wall, reports[effort] = timed(tool, source, output, "--connectivity", mode, "--effort", effort)
+            wall, reports[effort] = timed_run(tool, source, output, "--connectivity", mode, "--effort", effort)
             seconds[effort].append(wall)
     fast, default = (statistics.median(seconds[effort]) for effort in EFFORTS)
     print("| %d | %s | %.2f | %.2f | %.1f | %s | %s |"

@@ -2,6 +2,7 @@
 
 import json
 import subprocess
+import time
 
 
 def run_tool(tool, source, output, *options):
@@ -11,3 +12,10 @@ def run_tool(tool, source, output, *options):
     if run.returncode != 0:
         raise SystemExit("%s: exit %d\n%s" % (" ".join(map(str, command)), run.returncode, run.stderr))
     return json.loads(run.stdout)
+
+
+def timed_run(tool, source, output, *options):
+    """Wall seconds and report of a run."""
+    start = time.perf_counter()
+    report = run_tool(tool, source, output, *options)
+    return time.perf_counter() - start, report

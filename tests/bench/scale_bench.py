@@ -8,11 +8,10 @@ File to file, default options, all threads; the run of median wall time out of t
 import csv
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import artificial_meshes
-from run_tool import run_tool
+from run_tool import timed_run
 
 RUNS = 3
 
@@ -20,9 +19,7 @@ RUNS = 3
 def timed(tool, source, output):
     """Wall seconds, report and trace of a run."""
     trace = output.with_suffix(".csv")
-    start = time.perf_counter()
-    report = run_tool(tool, source, output, "--trace", trace)
-    wall = time.perf_counter() - start
+    wall, report = timed_run(tool, source, output, "--trace", trace)
     with open(trace, newline="") as lines:
         return wall, report, list(csv.DictReader(lines))
 
