@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hooke/report.h"
+#include "hooke/report/report.h"
 #include "options.h"
 
 namespace hooke::app {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "exit_codes.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/printable.h"
 #include "messages.h"
 #include "words.h"

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "hooke/attempts.h"
 #include "hooke/io/sizing_source.h"
-#include "hooke/paper_mode.h"
+#include "hooke/remesh/attempts.h"
+#include "hooke/remesh/paper_mode.h"
 
 namespace hooke::app {
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/printable.h"
 
 namespace hooke::app {

@@ -1,7 +1,7 @@
 // What a result must not hide.
 #pragma once
 
-#include "hooke/report.h"
+#include "hooke/report/report.h"
 #include "options.h"
 
 namespace hooke::app {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/printable.h"
 #include "result_warnings.h"
 

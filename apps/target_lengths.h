@@ -1,8 +1,8 @@
 // The lengths that the edges of the input are to have, from what the command line asks for.
 #pragma once
 
-#include "hooke/layout.h"
-#include "hooke/report.h"
+#include "hooke/mesh/layout.h"
+#include "hooke/report/report.h"
 #include "options.h"
 
 namespace hooke::app {

@@ -8,10 +8,10 @@
 #include <initializer_list>
 #include <limits>
 
-#include "hooke/effort.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/printable.h"
+#include "hooke/remesh/effort.h"
 
 namespace hooke::app {
 namespace {

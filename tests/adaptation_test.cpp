@@ -1,4 +1,4 @@
-#include "hooke/adaptation.h"
+#include "hooke/connectivity/adaptation.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <string_view>
 
 #include "adapting_scene.h"
-#include "hooke/bounding_volume_tree.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/quality.h"
-#include "hooke/remesh.h"
-#include "hooke/topology.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/bounding_volume_tree.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/measure/quality.h"
+#include "hooke/mesh/topology.h"
+#include "hooke/remesh/remesh.h"
 #include "remeshed.h"
 
 namespace hooke {

@@ -1,8 +1,8 @@
-#include "hooke/angle_bound.h"
+#include "hooke/measure/angle_bound.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/least_angle.h"
+#include "hooke/geometry/least_angle.h"
 #include "solids.h"
 
 namespace hooke {

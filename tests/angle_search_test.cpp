@@ -1,11 +1,11 @@
-#include "hooke/angle_search.h"
+#include "hooke/integrator/angle_search.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/lbfgs.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/polish.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/integrator/lbfgs.h"
+#include "hooke/integrator/polish.h"
 #include "remeshed.h"
 #include "scene.h"
 

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "temporary_folder.h"
 
 namespace hooke {

@@ -1,14 +1,14 @@
-#include "hooke/attempts.h"
+#include "hooke/remesh/attempts.h"
 
 #include <gtest/gtest.h>
 
 #include <string_view>
 
-#include "hooke/deviation.h"
-#include "hooke/effort.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/self_intersection.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/self_intersection.h"
+#include "hooke/measure/deviation.h"
+#include "hooke/remesh/effort.h"
 #include "remeshed.h"
 #include "solids.h"
 

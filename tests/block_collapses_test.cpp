@@ -1,10 +1,10 @@
-#include "hooke/block_collapses.h"
+#include "hooke/connectivity/block_collapses.h"
 
 #include <gtest/gtest.h>
 
 #include "adapting_scene.h"
-#include "hooke/parallel.h"
-#include "hooke/topology.h"
+#include "hooke/core/parallel.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

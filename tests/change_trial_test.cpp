@@ -1,9 +1,9 @@
-#include "hooke/change_trial.h"
+#include "hooke/connectivity/change_trial.h"
 
 #include <gtest/gtest.h>
 
 #include "adapting_scene.h"
-#include "hooke/guards.h"
+#include "hooke/integrator/guards.h"
 
 namespace hooke {
 namespace {

@@ -1,4 +1,4 @@
-#include "hooke/closest_point.h"
+#include "hooke/geometry/closest_point.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/coarse_levels.h"
+#include "hooke/connectivity/coarse_levels.h"
 
 #include <gtest/gtest.h>
 

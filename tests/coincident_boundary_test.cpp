@@ -1,4 +1,4 @@
-#include "hooke/coincident_boundary.h"
+#include "hooke/constraints/coincident_boundary.h"
 
 #include <gtest/gtest.h>
 

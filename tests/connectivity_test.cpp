@@ -1,4 +1,4 @@
-#include "hooke/connectivity.h"
+#include "hooke/mesh/connectivity.h"
 
 #include <gtest/gtest.h>
 

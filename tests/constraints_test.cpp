@@ -1,9 +1,9 @@
-#include "hooke/constraints.h"
+#include "hooke/constraints/constraints.h"
 
 #include <gtest/gtest.h>
 
 #include "crease_solids.h"
-#include "hooke/creases.h"
+#include "hooke/mesh/creases.h"
 #include "scene.h"
 
 namespace hooke {

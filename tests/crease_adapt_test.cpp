@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "crease_outcome.h"
-#include "hooke/closest_point.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/quality.h"
-#include "hooke/topology.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/closest_point.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/measure/quality.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

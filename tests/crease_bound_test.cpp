@@ -1,4 +1,4 @@
-#include "hooke/crease_bound.h"
+#include "hooke/measure/crease_bound.h"
 
 #include <gtest/gtest.h>
 

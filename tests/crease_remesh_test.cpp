@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "crease_outcome.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
 
 namespace hooke {
 namespace {

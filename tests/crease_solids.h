@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "hooke/normals.h"
+#include "hooke/mesh/normals.h"
 #include "solids.h"
 
 namespace hooke::test {

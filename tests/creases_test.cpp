@@ -1,12 +1,12 @@
-#include "hooke/creases.h"
+#include "hooke/mesh/creases.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "crease_solids.h"
-#include "hooke/features.h"
-#include "hooke/triangulation.h"
+#include "hooke/constraints/features.h"
+#include "hooke/mesh/triangulation.h"
 
 namespace hooke {
 namespace {

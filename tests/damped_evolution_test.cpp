@@ -1,13 +1,13 @@
-#include "hooke/damped_evolution.h"
+#include "hooke/integrator/damped_evolution.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hooke/error.h"
-#include "hooke/face_shape.h"
-#include "hooke/parallel.h"
-#include "hooke/spring_law.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/face_shape.h"
+#include "hooke/springs/spring_law.h"
 #include "meshes.h"
 
 namespace hooke {

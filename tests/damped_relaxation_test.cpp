@@ -1,14 +1,14 @@
-#include "hooke/damped_relaxation.h"
+#include "hooke/integrator/damped_relaxation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "hooke/error.h"
-#include "hooke/forces.h"
-#include "hooke/parallel.h"
-#include "hooke/remesh.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
+#include "hooke/remesh/remesh.h"
+#include "hooke/springs/forces.h"
 #include "meshes.h"
 
 namespace hooke {

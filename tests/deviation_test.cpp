@@ -1,11 +1,11 @@
-#include "hooke/deviation.h"
+#include "hooke/measure/deviation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 #include "solids.h"
 
 namespace hooke {

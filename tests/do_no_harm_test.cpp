@@ -1,8 +1,8 @@
-#include "hooke/do_no_harm.h"
+#include "hooke/remesh/do_no_harm.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/least_angle.h"
+#include "hooke/geometry/least_angle.h"
 #include "remeshed.h"
 #include "solids.h"
 

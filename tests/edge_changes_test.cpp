@@ -1,9 +1,9 @@
-#include "hooke/edge_changes.h"
+#include "hooke/connectivity/edge_changes.h"
 
 #include <gtest/gtest.h>
 
 #include "adapting_scene.h"
-#include "hooke/topology.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

@@ -1,14 +1,14 @@
-#include "hooke/edge_collapses.h"
+#include "hooke/connectivity/edge_collapses.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "adapting_scene.h"
-#include "hooke/least_angle.h"
-#include "hooke/merged_ring.h"
-#include "hooke/parallel.h"
-#include "hooke/topology.h"
+#include "hooke/connectivity/merged_ring.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

@@ -1,4 +1,4 @@
-#include "hooke/edge_flips.h"
+#include "hooke/connectivity/edge_flips.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "flipping_scene.h"
-#include "hooke/guards.h"
+#include "hooke/integrator/guards.h"
 
 namespace hooke {
 namespace {

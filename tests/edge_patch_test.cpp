@@ -1,4 +1,4 @@
-#include "hooke/edge_patch.h"
+#include "hooke/working_mesh/edge_patch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/edge_queue.h"
+#include "hooke/connectivity/edge_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "hooke/energy.h"
+#include "hooke/springs/energy.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 #include "meshes.h"
 #include "named_terms.h"
 

@@ -1,9 +1,9 @@
-#include "hooke/face_collapses.h"
+#include "hooke/connectivity/face_collapses.h"
 
 #include <gtest/gtest.h>
 
 #include "adapting_scene.h"
-#include "hooke/topology.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

@@ -1,11 +1,11 @@
-#include "hooke/face_springs.h"
+#include "hooke/springs/face_springs.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "hooke/spring_law.h"
+#include "hooke/springs/spring_law.h"
 
 namespace hooke {
 namespace {

@@ -1,4 +1,4 @@
-#include "hooke/fast_log.h"
+#include "hooke/core/fast_log.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/features.h"
+#include "hooke/constraints/features.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "errors.h"
-#include "hooke/error.h"
-#include "hooke/parallel.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
 #include "temporary_folder.h"
 
 namespace hooke {

@@ -1,13 +1,13 @@
-#include "hooke/flip_connectivity.h"
+#include "hooke/connectivity/flip_connectivity.h"
 
 #include <gtest/gtest.h>
 
 #include "flipping_scene.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/quality.h"
-#include "hooke/remesh.h"
-#include "hooke/topology.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/measure/quality.h"
+#include "hooke/mesh/topology.h"
+#include "hooke/remesh/remesh.h"
 
 namespace hooke {
 namespace {

@@ -1,9 +1,9 @@
-#include "hooke/flip_pass.h"
+#include "hooke/connectivity/flip_pass.h"
 
 #include <gtest/gtest.h>
 
 #include "flipping_scene.h"
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 
 namespace hooke {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "hooke/creases.h"
-#include "hooke/edge_flips.h"
-#include "hooke/guards.h"
-#include "hooke/sizing.h"
+#include "hooke/connectivity/edge_flips.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/mesh/creases.h"
+#include "hooke/springs/sizing.h"
 #include "meshes.h"
 
 namespace hooke::test {

@@ -1,10 +1,10 @@
-#include "hooke/flow.h"
+#include "hooke/connectivity/flow.h"
 
 #include <gtest/gtest.h>
 
 #include "flipping_scene.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
 
 namespace hooke {
 namespace {

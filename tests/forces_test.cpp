@@ -1,13 +1,13 @@
-#include "hooke/forces.h"
+#include "hooke/springs/forces.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "hooke/face_shape.h"
-#include "hooke/parallel.h"
-#include "hooke/spring_law.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/face_shape.h"
+#include "hooke/springs/spring_law.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/gradation.h"
+#include "hooke/springs/gradation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/guard_rules.h"
+#include "hooke/integrator/guard_rules.h"
 
 #include <gtest/gtest.h>
 

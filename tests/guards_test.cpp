@@ -1,11 +1,11 @@
-#include "hooke/guards.h"
+#include "hooke/integrator/guards.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/landing.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/vertex_ring.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/integrator/landing.h"
+#include "hooke/integrator/vertex_ring.h"
 #include "scene.h"
 
 namespace hooke {

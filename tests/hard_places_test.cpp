@@ -1,10 +1,10 @@
 // Meshes that optimizers like to break: what must hold for them in every mode.
 #include <gtest/gtest.h>
 
-#include "hooke/effort.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/quality.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/measure/quality.h"
+#include "hooke/remesh/effort.h"
 #include "remeshed.h"
 #include "solids.h"
 

@@ -1,9 +1,9 @@
-#include "hooke/hindrances.h"
+#include "hooke/remesh/hindrances.h"
 
 #include <gtest/gtest.h>
 
 #include "crease_solids.h"
-#include "hooke/quality.h"
+#include "hooke/measure/quality.h"
 #include "remeshed.h"
 #include "solids.h"
 

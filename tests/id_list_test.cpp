@@ -1,7 +1,7 @@
 #include "hooke/io/id_list.h"
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "temporary_folder.h"
 
 namespace hooke {

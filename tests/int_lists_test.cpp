@@ -1,10 +1,10 @@
-#include "hooke/int_lists.h"
+#include "hooke/core/int_lists.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "hooke/types.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
 namespace {

@@ -1,4 +1,4 @@
-#include "hooke/integrator.h"
+#include "hooke/integrator/integrator.h"
 
 #include <gtest/gtest.h>
 

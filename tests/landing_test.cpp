@@ -1,10 +1,10 @@
-#include "hooke/landing.h"
+#include "hooke/integrator/landing.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "hooke/self_intersection.h"
+#include "hooke/geometry/self_intersection.h"
 #include "scene.h"
 
 namespace hooke {

@@ -1,10 +1,10 @@
-#include "hooke/layout.h"
+#include "hooke/mesh/layout.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/deviation.h"
-#include "hooke/hindrances.h"
-#include "hooke/quality.h"
+#include "hooke/measure/deviation.h"
+#include "hooke/measure/quality.h"
+#include "hooke/remesh/hindrances.h"
 #include "remeshed.h"
 #include "solids.h"
 

@@ -1,8 +1,8 @@
-#include "hooke/lbfgs.h"
+#include "hooke/integrator/lbfgs.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 #include "scene.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/lengths.h"
+#include "hooke/core/lengths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "hooke/lloyd.h"
+#include "hooke/connectivity/lloyd.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "flipping_scene.h"
-#include "hooke/topology.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

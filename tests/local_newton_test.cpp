@@ -1,8 +1,8 @@
-#include "hooke/local_newton.h"
+#include "hooke/integrator/local_newton.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 #include "scene.h"
 
 namespace hooke {

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/read_mesh.h"
 #include "temporary_folder.h"
 

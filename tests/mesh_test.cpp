@@ -1,8 +1,8 @@
-#include "hooke/mesh.h"
+#include "hooke/mesh/mesh.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "solids.h"
 
 namespace hooke {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "hooke/mesh.h"
+#include "hooke/mesh/mesh.h"
 
 namespace hooke::test {
 

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "hooke/energy.h"
+#include "hooke/springs/energy.h"
 
 namespace hooke::test {
 

@@ -1,9 +1,9 @@
-#include "hooke/near_faces.h"
+#include "hooke/filter/near_faces.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/closest_point.h"
-#include "hooke/normals.h"
+#include "hooke/geometry/closest_point.h"
+#include "hooke/mesh/normals.h"
 #include "solids.h"
 
 namespace hooke {

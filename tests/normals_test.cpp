@@ -1,4 +1,4 @@
-#include "hooke/normals.h"
+#include "hooke/mesh/normals.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 
 namespace hooke {
 namespace {

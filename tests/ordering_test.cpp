@@ -1,4 +1,4 @@
-#include "hooke/ordering.h"
+#include "hooke/mesh/ordering.h"
 
 #include <gtest/gtest.h>
 

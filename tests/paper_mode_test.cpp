@@ -1,11 +1,11 @@
-#include "hooke/paper_mode.h"
+#include "hooke/remesh/paper_mode.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hooke/error.h"
-#include "hooke/parallel.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
 #include "meshes.h"
 
 namespace hooke {

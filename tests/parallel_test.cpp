@@ -1,4 +1,4 @@
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 
 #include <gtest/gtest.h>
 

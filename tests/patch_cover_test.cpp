@@ -1,11 +1,11 @@
-#include "hooke/patch_cover.h"
+#include "hooke/filter/patch_cover.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 
-#include "hooke/normals.h"
+#include "hooke/mesh/normals.h"
 #include "solids.h"
 
 namespace hooke {

@@ -1,10 +1,10 @@
-#include "hooke/patch_grower.h"
+#include "hooke/filter/patch_grower.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "hooke/normals.h"
+#include "hooke/mesh/normals.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 
 namespace hooke {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 
 namespace hooke {
 namespace {

@@ -1,10 +1,10 @@
-#include "hooke/polish.h"
+#include "hooke/integrator/polish.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/lbfgs.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/integrator/lbfgs.h"
 #include "scene.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/predicates.h"
+#include "hooke/geometry/predicates.h"
 
 #include <gtest/gtest.h>
 

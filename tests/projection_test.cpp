@@ -1,4 +1,4 @@
-#include "hooke/projection.h"
+#include "hooke/filter/projection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/quality_json.h"
+#include "hooke/report/quality_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/quality_table.h"
+#include "hooke/report/quality_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/quality.h"
+#include "hooke/measure/quality.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "hooke/curvature.h"
-#include "hooke/parallel.h"
-#include "hooke/triangle_shape.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle_shape.h"
+#include "hooke/mesh/curvature.h"
 #include "solids.h"
 
 namespace hooke {

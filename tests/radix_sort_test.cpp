@@ -1,4 +1,4 @@
-#include "hooke/radix_sort.h"
+#include "hooke/geometry/radix_sort.h"
 
 #include <gtest/gtest.h>
 

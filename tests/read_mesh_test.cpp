@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/sha256.h"
 #include "hooke/io/write_mesh.h"
 #include "meshes.h"

@@ -1,9 +1,9 @@
 // What sizing and effort do to a remeshing.
 #include <gtest/gtest.h>
 
-#include "hooke/effort.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/remesh/effort.h"
 #include "remeshed.h"
 #include "solids.h"
 

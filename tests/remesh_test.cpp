@@ -1,10 +1,10 @@
-#include "hooke/remesh.h"
+#include "hooke/remesh/remesh.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/closest_point.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/closest_point.h"
+#include "hooke/geometry/least_angle.h"
 #include "remeshed.h"
 #include "scene.h"
 

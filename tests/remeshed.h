@@ -1,7 +1,7 @@
 // A mesh before and after remeshing.
 #pragma once
 
-#include "hooke/remesh.h"
+#include "hooke/remesh/remesh.h"
 #include "meshes.h"
 
 namespace hooke::test {

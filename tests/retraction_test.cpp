@@ -1,10 +1,10 @@
-#include "hooke/retraction.h"
+#include "hooke/filter/retraction.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 #include "scene.h"
 
 namespace hooke {

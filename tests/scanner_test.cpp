@@ -10,7 +10,7 @@
 #include <random>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/append_number.h"
 #include "hooke/io/printable.h"
 

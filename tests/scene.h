@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hooke/integrator.h"
+#include "hooke/integrator/integrator.h"
 #include "solids.h"
 
 namespace hooke::test {

@@ -1,10 +1,10 @@
-#include "hooke/self_intersection.h"
+#include "hooke/geometry/self_intersection.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hooke/parallel.h"
+#include "hooke/core/parallel.h"
 #include "solids.h"
 
 namespace hooke {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "solids.h"
 #include "temporary_folder.h"
 

@@ -1,10 +1,10 @@
-#include "hooke/sizing.h"
+#include "hooke/springs/sizing.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "solids.h"
 
 namespace hooke {

@@ -1,11 +1,11 @@
-#include "hooke/sliver_trials.h"
+#include "hooke/connectivity/sliver_trials.h"
 
 #include <gtest/gtest.h>
 
 #include "adapting_scene.h"
-#include "hooke/least_angle.h"
-#include "hooke/parallel.h"
-#include "hooke/topology.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/least_angle.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "hooke/connectivity.h"
+#include "hooke/mesh/connectivity.h"
 #include "meshes.h"
 
 namespace hooke::test {

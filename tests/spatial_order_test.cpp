@@ -1,4 +1,4 @@
-#include "hooke/spatial_order.h"
+#include "hooke/geometry/spatial_order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/statistics.h"
+#include "hooke/measure/statistics.h"
 
 #include <gtest/gtest.h>
 

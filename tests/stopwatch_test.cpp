@@ -1,4 +1,4 @@
-#include "hooke/stopwatch.h"
+#include "hooke/core/stopwatch.h"
 
 #include <gtest/gtest.h>
 

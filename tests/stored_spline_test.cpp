@@ -1,4 +1,4 @@
-#include "hooke/stored_spline.h"
+#include "hooke/filter/stored_spline.h"
 
 #include <gtest/gtest.h>
 

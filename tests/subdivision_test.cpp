@@ -1,4 +1,4 @@
-#include "hooke/subdivision.h"
+#include "hooke/connectivity/subdivision.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "hooke/surface_bend.h"
+#include "hooke/filter/surface_bend.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/normals.h"
+#include "hooke/mesh/normals.h"
 #include "scene.h"
 
 namespace hooke {

@@ -1,14 +1,14 @@
-#include "hooke/surface_field.h"
+#include "hooke/filter/surface_field.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "hooke/closest_point.h"
-#include "hooke/error.h"
-#include "hooke/normals.h"
-#include "hooke/parallel.h"
-#include "hooke/partition_of_unity.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
+#include "hooke/filter/partition_of_unity.h"
+#include "hooke/geometry/closest_point.h"
+#include "hooke/mesh/normals.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -1,8 +1,8 @@
-#include "hooke/surface_point.h"
+#include "hooke/mesh/surface_point.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/bounding_volume_tree.h"
+#include "hooke/geometry/bounding_volume_tree.h"
 #include "hooke/io/map_text.h"
 #include "meshes.h"
 

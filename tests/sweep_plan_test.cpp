@@ -1,4 +1,4 @@
-#include "hooke/sweep_plan.h"
+#include "hooke/integrator/sweep_plan.h"
 
 #include <gtest/gtest.h>
 

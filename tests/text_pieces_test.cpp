@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"

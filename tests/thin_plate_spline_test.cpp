@@ -1,11 +1,11 @@
-#include "hooke/thin_plate_spline.h"
+#include "hooke/filter/thin_plate_spline.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <random>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 
 namespace hooke {
 namespace {

@@ -1,4 +1,4 @@
-#include "hooke/time_step.h"
+#include "hooke/integrator/time_step.h"
 
 #include <gtest/gtest.h>
 

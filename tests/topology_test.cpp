@@ -1,4 +1,4 @@
-#include "hooke/topology.h"
+#include "hooke/mesh/topology.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/triangulation.h"
+#include "hooke/mesh/triangulation.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "crease_solids.h"
 #include "flipping_scene.h"
-#include "hooke/creases.h"
-#include "hooke/topology.h"
+#include "hooke/mesh/creases.h"
+#include "hooke/mesh/topology.h"
 
 namespace hooke {
 namespace {

@@ -1,8 +1,8 @@
-#include "hooke/untangle.h"
+#include "hooke/integrator/untangle.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/least_angle.h"
+#include "hooke/geometry/least_angle.h"
 #include "scene.h"
 
 namespace hooke {

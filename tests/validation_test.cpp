@@ -1,4 +1,4 @@
-#include "hooke/validation.h"
+#include "hooke/mesh/validation.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "errors.h"
-#include "hooke/error.h"
-#include "hooke/parallel.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/vertex_data.h"
+#include "hooke/mesh/vertex_data.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "errors.h"
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/format_data.h"
 #include "hooke/io/ply.h"
-#include "hooke/remesh.h"
-#include "hooke/sizing.h"
+#include "hooke/remesh/remesh.h"
+#include "hooke/springs/sizing.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/vertex_fans.h"
+#include "hooke/mesh/vertex_fans.h"
 
 #include <gtest/gtest.h>
 

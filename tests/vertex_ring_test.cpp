@@ -1,4 +1,4 @@
-#include "hooke/vertex_ring.h"
+#include "hooke/integrator/vertex_ring.h"
 
 #include <gtest/gtest.h>
 

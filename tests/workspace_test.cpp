@@ -1,9 +1,9 @@
-#include "hooke/workspace.h"
+#include "hooke/working_mesh/workspace.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/error.h"
-#include "hooke/remesh.h"
+#include "hooke/core/error.h"
+#include "hooke/remesh/remesh.h"
 #include "scene.h"
 
 namespace hooke {

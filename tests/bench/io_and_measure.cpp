@@ -8,10 +8,10 @@
 #include <numeric>
 #include <random>
 
-#include "hooke/deviation.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"
-#include "hooke/quality.h"
+#include "hooke/measure/deviation.h"
+#include "hooke/measure/quality.h"
 
 namespace hooke {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "hooke/local_newton.h"
-#include "hooke/surface_field.h"
+#include "hooke/filter/surface_field.h"
+#include "hooke/integrator/local_newton.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -13,7 +13,7 @@
 #include <string>
 #include <system_error>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/file_descriptor.h"
 #include "hooke/io/printable.h"
 

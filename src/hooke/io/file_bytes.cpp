@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
 #include "hooke/io/file_descriptor.h"
 #include "hooke/io/printable.h"
-#include "hooke/parallel.h"
 
 namespace hooke {
 namespace {

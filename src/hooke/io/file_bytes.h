@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "hooke/unfilled_vector.h"
+#include "hooke/core/unfilled_vector.h"
 
 namespace hooke {
 

@@ -1,7 +1,7 @@
 // What of the data of vertices a file format can hold.
 #pragma once
 
-#include "hooke/vertex_data.h"
+#include "hooke/mesh/vertex_data.h"
 
 namespace hooke {
 

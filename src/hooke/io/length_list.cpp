@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/file_bytes.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hooke/surface_point.h"
+#include "hooke/mesh/surface_point.h"
 
 namespace hooke {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"

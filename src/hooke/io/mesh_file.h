@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "hooke/vertex_data.h"
+#include "hooke/mesh/vertex_data.h"
 
 namespace hooke {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/obj_elements.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/printable.h"
 
 namespace hooke {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/ply_body.h"
 #include "hooke/io/ply_header.h"
 #include "hooke/io/printable.h"

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/printable.h"
 
 namespace hooke {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
 

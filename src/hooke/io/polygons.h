@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hooke/connectivity.h"
-#include "hooke/types.h"
+#include "hooke/core/types.h"
+#include "hooke/mesh/connectivity.h"
 
 namespace hooke {
 

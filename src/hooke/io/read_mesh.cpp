@@ -3,12 +3,12 @@
 #include <iterator>
 #include <utility>
 
+#include "hooke/core/parallel.h"
 #include "hooke/io/file_bytes.h"
 #include "hooke/io/polygons.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/sha256.h"
-#include "hooke/parallel.h"
-#include "hooke/validation.h"
+#include "hooke/mesh/validation.h"
 
 namespace hooke {
 namespace {

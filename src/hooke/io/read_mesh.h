@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
+#include "hooke/core/stopwatch.h"
 #include "hooke/io/mesh_file.h"
-#include "hooke/layout.h"
-#include "hooke/stopwatch.h"
+#include "hooke/mesh/layout.h"
 
 namespace hooke {
 

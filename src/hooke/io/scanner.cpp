@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/printable.h"
 
 namespace hooke {

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 
 namespace hooke {
 

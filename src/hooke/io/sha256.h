@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hooke/types.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
 

@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cmath>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
 #include "hooke/io/file_bytes.h"
 #include "hooke/io/length_list.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply_lengths.h"
 #include "hooke/io/printable.h"
-#include "hooke/sizing.h"
+#include "hooke/springs/sizing.h"
 
 namespace hooke {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "hooke/layout.h"
+#include "hooke/mesh/layout.h"
 
 namespace hooke {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "hooke/core/parallel.h"
 #include "hooke/io/scanner.h"
-#include "hooke/parallel.h"
 
 namespace hooke {
 

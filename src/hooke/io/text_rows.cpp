@@ -1,7 +1,7 @@
 #include "hooke/io/text_rows.h"
 
+#include "hooke/core/parallel.h"
 #include "hooke/io/append_number.h"
-#include "hooke/parallel.h"
 
 namespace hooke {
 namespace {

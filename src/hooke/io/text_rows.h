@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hooke/vertex_data.h"
+#include "hooke/mesh/vertex_data.h"
 
 namespace hooke {
 

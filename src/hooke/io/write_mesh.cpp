@@ -4,13 +4,13 @@
 
 #include <optional>
 
-#include "hooke/error.h"
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/sha256.h"
-#include "hooke/parallel.h"
 
 namespace hooke {
 

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "hooke/core/stopwatch.h"
 #include "hooke/io/atomic_write.h"
 #include "hooke/io/mesh_file.h"
-#include "hooke/mesh.h"
-#include "hooke/stopwatch.h"
+#include "hooke/mesh/mesh.h"
 
 namespace hooke {
 

@@ -1,0 +1,21 @@
+// Corners of the boundary and of creases: as many faces as fit their angle. Delaunay flips alone cut a corner
+// of 42 degrees into two of 21, which no motion mends.
+#pragma once
+
+#include "hooke/connectivity/edge_flips.h"
+
+namespace hooke {
+
+/// Per side: the number of edges that each corner wants: 1 + max(1, round(angle / 60 degrees)), by the angle
+/// that its faces span. 0 for all others. A corner is a side, between two creases or boundary edges, of a
+/// vertex that stands still, where the faces span no straight angle to within `corner_angle` degrees.
+std::vector<int> corner_valences(const Mat3X& points, const Connectivity& connectivity,
+                                 const Constraints& constraints, double corner_angle);
+
+/// Flips edges at the corners that do not have the valence they want. Where a flip is not allowed it makes
+/// room: it gives an inner neighbour with three edges a fourth, else pushes the neighbour away from the
+/// corner, else slides the corner's neighbours on the boundary toward it. What brings nothing is undone.
+/// Returns the number of flips.
+int force_corners(FlippingMesh& mesh, const FlipGuardOptions& options);
+
+}  // namespace hooke

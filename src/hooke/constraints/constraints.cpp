@@ -1,0 +1,246 @@
+#include "hooke/constraints/constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hooke/constraints/coincident_boundary.h"
+#include "hooke/geometry/closest_point.h"
+#include "hooke/mesh/creases.h"
+
+namespace hooke {
+namespace {
+
+CurveFoot foot_on_segment(const Curve& curve, const Vec3& x, int segment) {
+  const int next = (segment + 1) % static_cast<int>(curve.points.cols());
+  const Vec3 a = curve.points.col(segment);
+  const Vec3 ab = curve.points.col(next) - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
+  // Blended tangents let a vertex pass a point of the polyline without a kink in its direction.
+  const Vec3 tangent = (1 - t) * curve.tangents.col(segment) + t * curve.tangents.col(next);
+  return {t < 1 ? Vec3(a + t * ab) : Vec3(curve.points.col(next)), tangent.stableNormalized(), segment};
+}
+
+void set_tangents(Curve& curve) {
+  const int n = static_cast<int>(curve.points.cols());
+  curve.tangents = Mat3X::Zero(3, n);
+  for (int s = 0; s < curve.segment_count(); ++s) {
+    const int next = (s + 1) % n;
+    const Vec3 direction = (curve.points.col(next) - curve.points.col(s)).stableNormalized();
+    curve.tangents.col(s) += direction;
+    curve.tangents.col(next) += direction;
+  }
+  for (int i = 0; i < n; ++i) curve.tangents.col(i).stableNormalize();
+}
+
+/// The vertex after each boundary vertex along its loop, -1 elsewhere.
+std::vector<int> boundary_successors(const Connectivity& c) {
+  std::vector<int> next(static_cast<size_t>(c.vertex_count), -1);
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_boundary_edge(static_cast<int>(e))) next[static_cast<size_t>(c.edges[e][0])] = c.edges[e][1];
+  return next;
+}
+
+bool is_corner(const Mat3X& points, int before, int at, int after, double cos_corner) {
+  const Vec3 in = points.col(at) - points.col(before);
+  const Vec3 out = points.col(after) - points.col(at);
+  return in.dot(out) < cos_corner * in.norm() * out.norm();
+}
+
+/// The vertices become a curve along which those between its ends slide.
+void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool closed, Constraints& result) {
+  Curve curve;
+  curve.closed = closed;
+  curve.points.resize(3, std::ssize(vertices));
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const auto v = static_cast<size_t>(vertices[i]);
+    curve.points.col(static_cast<Eigen::Index>(i)) = points.col(static_cast<Eigen::Index>(v));
+    if (result.freedom[v] == Freedom::fixed) continue;
+    result.freedom[v] = Freedom::curve;
+    result.curve[v] = static_cast<int>(result.curves.size());
+    result.segment[v] = static_cast<int>(i);
+  }
+  set_tangents(curve);
+  result.curves.push_back(std::move(curve));
+}
+
+/// One loop of vertices, cut into curves at its corners and at `breaks`.
+void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corner,
+              const std::vector<char>& breaks, Constraints& result) {
+  const size_t n = loop.size();
+  std::vector<size_t> corners;
+  for (size_t i = 0; i < n; ++i)
+    if (breaks[static_cast<size_t>(loop[i])] ||
+        is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner))
+      corners.push_back(i);
+  if (corners.empty()) return add_curve(points, loop, true, result);
+  for (size_t i : corners) result.freedom[static_cast<size_t>(loop[i])] = Freedom::fixed;
+  for (size_t p = 0; p < corners.size(); ++p) {
+    const size_t begin = corners[p];
+    const size_t length = (corners[(p + 1) % corners.size()] + n - begin - 1) % n + 2;
+    std::vector<int> piece;
+    for (size_t i = 0; i < length; ++i) piece.push_back(loop[(begin + i) % n]);
+    add_curve(points, piece, false, result);
+  }
+}
+
+/// The crease edges, traced from corner to corner.
+class CreaseTracer {
+ public:
+  CreaseTracer(const Mat3X& points, const Connectivity& c, double cos_corner,
+               const ConstraintOptions& options, Constraints& result)
+      : points_(points),
+        c_(c),
+        options_(options),
+        result_(result),
+        breaks_(crease_breaks(points, c, cos_corner)),
+        traced_(c.edges.size(), 0) {}
+
+  void run() {
+    for (size_t v = 0; v < breaks_.size(); ++v)
+      if (breaks_[v]) result_.freedom[v] = Freedom::fixed;
+    for (const bool at_corners : {true, false})  // what is left then are loops without a corner
+      for (size_t v = 0; v < breaks_.size(); ++v)
+        if (!at_corners || breaks_[v])
+          for (int e : c_.vertex_edges[static_cast<int>(v)])
+            if (c_.is_crease(e) && !traced_[static_cast<size_t>(e)]) trace(static_cast<int>(v), e);
+  }
+
+  /// Vertices where curves of creases end.
+  static std::vector<char> crease_breaks(const Mat3X& points, const Connectivity& c, double cos_corner) {
+    std::vector<char> breaks(static_cast<size_t>(c.vertex_count), 0);
+    if (c.creases.empty()) return breaks;
+    for (int v = 0; v < c.vertex_count; ++v) {
+      std::vector<int> ends;
+      bool boundary = false;
+      for (int e : c.vertex_edges[v]) {
+        if (c.is_crease(e)) ends.push_back(c.other_end(e, v));
+        boundary |= c.is_boundary_edge(e);
+      }
+      if (ends.empty()) continue;
+      breaks[static_cast<size_t>(v)] =
+          boundary || ends.size() != 2 || is_corner(points, ends[0], v, ends[1], cos_corner);
+    }
+    return breaks;
+  }
+
+ private:
+  void trace(int start, int edge) {
+    std::vector<int> vertices = {start};
+    while (edge >= 0) {
+      traced_[static_cast<size_t>(edge)] = 1;
+      const Edge& ends = c_.edges[static_cast<size_t>(edge)];
+      const int v = ends[0] == vertices.back() ? ends[1] : ends[0];
+      if (v == start && !breaks_[static_cast<size_t>(v)]) return add_crease(vertices, true);
+      vertices.push_back(v);
+      edge = breaks_[static_cast<size_t>(v)] ? -1 : next_at(v);
+    }
+    add_crease(vertices, false);
+  }
+
+  void add_crease(const std::vector<int>& vertices, bool closed) {
+    add_curve(points_, vertices, closed, result_);
+    ++result_.crease_curves;
+    hold_bends(vertices, closed);
+  }
+
+  /// To slide past a bend cuts it off, and gains nothing where the edges are even already.
+  void hold_bends(const std::vector<int>& vertices, bool closed) {
+    const size_t n = vertices.size(), segments = closed ? n : n - 1;
+    const auto point = [&](size_t i) { return points_.col(vertices[i % n]); };
+    double sum = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (size_t i = 0; i < segments; ++i) {
+      const double length = (point(i + 1) - point(i)).norm();
+      sum += length;
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
+    if (longest > options_.even_crease * shortest) return;
+    const double limit = options_.crease_bend * sum / static_cast<double>(segments);
+    for (size_t i = closed ? n : 1; i < segments + (closed ? n : 0); ++i)
+      if (distance_to_segment(point(i), point(i - 1), point(i + 1)) > limit)
+        result_.freedom[static_cast<size_t>(vertices[i % n])] = Freedom::fixed;
+  }
+
+  int next_at(int v) const {
+    for (int e : c_.vertex_edges[v])
+      if (c_.is_crease(e) && !traced_[static_cast<size_t>(e)]) return e;
+    return -1;
+  }
+
+  const Mat3X& points_;
+  const Connectivity& c_;
+  const ConstraintOptions& options_;
+  Constraints& result_;
+  std::vector<char> breaks_;
+  std::vector<char> traced_;
+};
+
+void add_boundary(const Mat3X& points, const Connectivity& c, BoundaryRule rule, double cos_corner,
+                  Constraints& result) {
+  const std::vector<int> next = boundary_successors(c);
+  const std::vector<char> breaks = CreaseTracer::crease_breaks(points, c, cos_corner);
+  std::vector<bool> seen(next.size(), false);
+  for (size_t start = 0; start < next.size(); ++start) {
+    if (next[start] < 0 || seen[start]) continue;
+    std::vector<int> loop;
+    for (int v = static_cast<int>(start); !seen[static_cast<size_t>(v)]; v = next[static_cast<size_t>(v)]) {
+      seen[static_cast<size_t>(v)] = true;
+      loop.push_back(v);
+    }
+    if (rule == BoundaryRule::fixed)
+      for (int v : loop) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+    else
+      add_loop(points, loop, cos_corner, breaks, result);
+  }
+}
+
+}  // namespace
+
+CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment) {
+  const int n = curve.segment_count();
+  CurveFoot best = foot_on_segment(curve, x, segment);
+  double best2 = (x - best.point).squaredNorm();
+  for (int direction : {1, -1}) {
+    // Two segments without gain end the walk: one may be hidden behind a reflex point.
+    for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n;
+         s += direction, ++steps) {
+      if (!curve.closed && (s < 0 || s >= n)) break;
+      const CurveFoot foot = foot_on_segment(curve, x, ((s % n) + n) % n);
+      const double distance2 = (x - foot.point).squaredNorm();
+      if (distance2 < best2) {
+        best = foot;
+        best2 = distance2;
+        misses = 0;
+      } else {
+        ++misses;
+      }
+    }
+  }
+  return best;
+}
+
+Constraints find_constraints(const Mat3X& points, const Connectivity& c, const ConstraintOptions& options) {
+  Constraints result;
+  const auto n = static_cast<size_t>(c.vertex_count);
+  result.freedom.assign(n, Freedom::surface);
+  result.curve.assign(n, -1);
+  result.segment.assign(n, 0);
+  for (size_t v = 0; v < n; ++v)
+    if (c.vertex_faces[static_cast<int>(v)].empty()) result.freedom[v] = Freedom::fixed;
+  for (int v : options.fixed_vertices) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+
+  for (int v : coincident_boundary_vertices(points, c))
+    result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+
+  const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);
+  if (options.boundary != BoundaryRule::free) add_boundary(points, c, options.boundary, cos_corner, result);
+  if (!c.creases.empty()) CreaseTracer(points, c, cos_corner, options, result).run();
+  result.creases = crease_edges(c);
+  result.further_sides = c.further_sides;
+  return result;
+}
+
+}  // namespace hooke

@@ -1,0 +1,77 @@
+#include "hooke/core/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace hooke {
+
+struct ThreadLimit::Impl {
+  // Built in place: a copy of a global_control is not registered and limits nothing.
+  explicit Impl(size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
+  tbb::global_control control;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads < 1) threads = tbb::this_task_arena::max_concurrency();
+  impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
+}
+
+ThreadLimit::~ThreadLimit() = default;
+
+int thread_count() {
+  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return std::min(static_cast<int>(allowed), tbb::this_task_arena::max_concurrency());
+}
+
+void parallel_for(std::size_t count, std::size_t block,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body) {
+  const std::size_t blocks = (count + block - 1) / block;
+  if (blocks <= 1 || thread_count() == 1) {
+    if (count > 0) body(0, count);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, blocks,
+                    [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
+}
+
+void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second) {
+  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) (k == 0 ? first : second)();
+  });
+}
+
+void parallel_pipeline(const std::function<void*()>& make, const std::function<void(void*)>& use) {
+  const auto threads = static_cast<std::size_t>(thread_count());
+  if (threads == 1) {
+    while (void* piece = make()) use(piece);
+    return;
+  }
+  const auto source = [&](tbb::flow_control& control) {
+    void* piece = make();
+    if (!piece) control.stop();
+    return piece;
+  };
+  tbb::parallel_pipeline(4 * threads,
+                         tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order, source) &
+                             tbb::make_filter<void*, void>(tbb::filter_mode::parallel, use));
+}
+
+double parallel_sum(std::size_t count, std::size_t block,
+                    const std::function<double(std::size_t begin, std::size_t end)>& body) {
+  const std::size_t blocks = (count + block - 1) / block;
+  std::vector<double> partial(blocks);
+  parallel_for(blocks, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) partial[b] = body(b * block, std::min(count, (b + 1) * block));
+  });
+  double sum = 0;
+  for (double p : partial) sum += p;
+  return sum;
+}
+
+}  // namespace hooke

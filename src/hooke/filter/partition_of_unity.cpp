@@ -1,0 +1,217 @@
+#include "hooke/filter/partition_of_unity.h"
+
+#include <algorithm>
+
+#include "hooke/core/parallel.h"
+#include "hooke/mesh/normals.h"
+
+namespace hooke {
+namespace {
+
+constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
+constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
+constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
+constexpr double least_height = 1e-8;             // in radii: less is no offset
+
+std::size_t idx(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Many in a large mesh: small pieces of memory that come and go between those that stay leave holes.
+std::size_t patches_of_batch(int vertices) {
+  return std::clamp<std::size_t>(idx(vertices) / 1000, 32, 512);
+}
+
+/// Wendland's C2 function of the squared distance over the squared radius, for r2 < 1.
+double weight(double r2) {
+  const double r = std::sqrt(r2), s = (1 - r) * (1 - r);
+  return s * s * (4 * r + 1);
+}
+
+/// Vertices whose normal is on the outer side of all their faces.
+std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+                                    const Mat3X& normals) {
+  const Mat3X of_faces = face_normals(points, connectivity);
+  std::vector<char> unfolded(idx(connectivity.vertex_count), 0);
+  parallel_for(unfolded.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      double least = normals.col(v).squaredNorm();
+      for (int f : connectivity.vertex_faces[v]) least = std::min(least, of_faces.col(f).dot(normals.col(v)));
+      unfolded[idx(v)] = least >= least_fold_agreement;
+    }
+  });
+  return unfolded;
+}
+
+/// Every third vertex of a patch has an offset point, outside and inside in turn. (All of them: no better.)
+constexpr std::size_t offset_stride = 3;
+
+/// Vertices and offsets of a patch: at most this many.
+std::size_t most_centres(std::size_t vertices) {
+  return vertices + (vertices + offset_stride - 1) / offset_stride;
+}
+
+/// The way for patches that the group has no spline for. Nothing where there is none.
+std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std::size_t vertices,
+                                            SplineWorkspace& workspace, PatchFit& fit) {
+  data.drop_repeated(coincidence);
+  const auto centres = data.centres.leftCols(data.count);
+  const auto values = data.values.head(data.count);
+  const bool quadratic = vertices >= least_quadratic_size;
+  fit = PatchFit::failed;
+  if (data.count == 0 || values.isZero(least_height)) return std::nullopt;  // no offset says where outside is
+  std::optional<SplineCoefficients> spline;
+  if (quadratic && (spline = fit_spline(centres, values, kernel, 2, workspace)))
+    fit = PatchFit::as_wanted;
+  else if ((spline = fit_spline(centres, values, kernel, 1, workspace)))
+    fit = quadratic ? PatchFit::affine : PatchFit::as_wanted;
+  return spline;
+}
+
+}  // namespace
+
+PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+                                   const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
+                                   const PartitionOptions& options)
+    : kernel_(options.kernel) {
+  const std::vector<char> unfolded = unfolded_vertices(points, connectivity, normals);
+  const Samples samples{points, normals, edge_lengths, unfolded, options.offset};
+  PatchCover cover(points, connectivity, normals, edge_lengths, unfolded, options.cover);
+  std::deque<Batch> batches;
+  const auto place = [&]() -> Batch* {
+    PatchList list = cover.next(patches_of_batch(connectivity.vertex_count));
+    if (list.size() == 0) return nullptr;
+    batches.push_back({std::move(list), {}, {}});
+    return &batches.back();
+  };
+  parallel_pipeline<Batch>(place, [&](Batch& batch) { fit(samples, batch); });
+  index_patches(connectivity.vertex_count, batches);
+  std::size_t count = 0;
+  for (const Batch& batch : batches) count += batch.patches.size();
+  patches_.reserve(count);
+  storage_.reserve(batches.size());
+  for (Batch& batch : batches) {
+    patches_.insert(patches_.end(), batch.patches.begin(), batch.patches.end());
+    storage_.push_back(std::move(batch.storage));
+  }
+}
+
+/// In radii about the centre: zero at the vertices [11], a distance near them [13]. The value of a snapped
+/// centre changes by its way along the normal.
+void PartitionOfUnity::gather(const Samples& samples, const PatchList& list, std::size_t patch,
+                              SplineData& data) {
+  const auto& [points, normals, edge_lengths, unfolded, offset] = samples;
+  const auto vertices = list.members[static_cast<int>(patch)];
+  const Vec3 centre = points.col(list.centres[patch]);
+  const double radius = list.radii[patch];
+  data.clear(most_centres(vertices.size()));
+  if (!(radius > 0)) return;
+  const auto add = [&](const Vec3& place, int v, double height) {
+    const Vec3 local = (place - centre) / radius, snap = snapped(local);
+    data.add(snap, height / radius + normals.col(v).dot(snap - local));
+  };
+  for (int v : vertices) add(points.col(v), v, 0);
+  for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {
+    const int v = vertices[i];
+    if (!unfolded[idx(v)]) continue;
+    const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * offset * edge_lengths[v];
+    add(points.col(v) + rho * normals.col(v), v, rho);
+  }
+}
+
+void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
+  using Stored = StoredSpline<SnappedCoordinate>;
+  const PatchList& list = batch.list;
+  const auto vertices = [&](std::size_t p) { return list.members[static_cast<int>(p)].size(); };
+  std::size_t coordinates = 0, coefficients = 0;
+  for (std::size_t p = 0; p < list.size(); ++p) {
+    coordinates += Stored::coordinates_size(most_centres(vertices(p)));
+    coefficients += Stored::coefficients_size(most_centres(vertices(p)));
+  }
+  batch.patches.reserve(list.size());
+  batch.storage.coordinates.resize(coordinates);
+  batch.storage.coefficients.resize(coefficients);
+  SnappedCoordinate* coordinate = batch.storage.coordinates.data();
+  double* coefficient = batch.storage.coefficients.data();
+  const auto store = [&](const SplineData& data, const SplineCoefficients& spline) {
+    const Stored stored = store_spline(data.centres.leftCols(data.count), spline, coordinate, coefficient);
+    coordinate += Stored::coordinates_size(stored.centres);
+    coefficient += Stored::coefficients_size(stored.centres);
+    return stored;
+  };
+
+  SplineWorkspace workspace;
+  SplineGroup group;
+  SplineGroup::Data data;
+  for (std::size_t first = 0; first < list.size(); first += lane_count) {
+    SplineGroup::Flags wanted{};
+    const std::size_t count = std::min(lane_count, list.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      gather(samples, list, first + k, data[k]);
+      wanted[k] = vertices(first + k) >= least_quadratic_size &&
+                  static_cast<std::size_t>(data[k].count) > vertices(first + k);
+    }
+    const SplineGroup::Flags fitted = group.fit(data, wanted, kernel_, coincidence);
+    for (std::size_t k = 0; k < count; ++k) {
+      Patch patch{samples.points.col(list.centres[first + k]), list.radii[first + k]};
+      if (fitted[k])
+        patch.spline = store(data[k], group.solution(k, static_cast<std::size_t>(data[k].count)));
+      else if (const auto spline = fit_alone(data[k], kernel_, vertices(first + k), workspace, patch.fit))
+        patch.spline = store(data[k], *spline);
+      batch.patches.push_back(patch);
+    }
+  }
+}
+
+void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& batches) {
+  const auto for_each_pair = [&](const auto& visit) {
+    int id = 0;
+    for (const Batch& batch : batches)
+      for (std::size_t p = 0; p < batch.patches.size(); ++p, ++id)
+        if (batch.patches[p].fit != PatchFit::failed)
+          for (int v : batch.list.members[static_cast<int>(p)]) visit(idx(v), id);
+  };
+  auto& [first, items] = vertex_patches_;
+  first.assign(idx(vertex_count) + 1, 0);
+  for_each_pair([&](std::size_t v, int) { ++first[v + 1]; });
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+  items.resize(idx(first.back()));
+  std::vector<int> next = first;
+  for_each_pair([&](std::size_t v, int p) { items[idx(next[v]++)] = p; });
+}
+
+FieldSample PartitionOfUnity::operator()(const Vec3& x, int anchor) const {
+  FieldSample sum;
+  double total = 0;
+  for (int p : vertex_patches_[anchor]) {
+    const Patch& patch = patches_[idx(p)];
+    const Vec3 local = (x - patch.centre) / patch.radius;
+    const double r2 = local.squaredNorm();
+    if (!(r2 < 1)) continue;
+    const double w = weight(r2);
+    const FieldSample s = patch.spline(kernel_, local);
+    sum.value += w * patch.radius * s.value;
+    sum.gradient += w * s.gradient;
+    total += w;
+  }
+  if (total > 0) {
+    sum.value /= total;
+    sum.gradient /= total;
+  }
+  return sum;
+}
+
+std::size_t PartitionOfUnity::count(PatchFit fit) const {
+  return static_cast<std::size_t>(std::ranges::count(patches_, fit, &Patch::fit));
+}
+
+std::size_t PartitionOfUnity::memory_bytes() const {
+  std::size_t splines = 0;
+  for (const Storage& s : storage_)
+    splines +=
+        sizeof(SnappedCoordinate) * s.coordinates.capacity() + sizeof(double) * s.coefficients.capacity();
+  return sizeof(Patch) * patches_.capacity() + splines +
+         sizeof(int) * (vertex_patches_.first.capacity() + vertex_patches_.items.capacity());
+}
+
+}  // namespace hooke

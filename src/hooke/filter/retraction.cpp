@@ -1,0 +1,288 @@
+#include "hooke/filter/retraction.h"
+
+#include <algorithm>
+#include <atomic>
+#include <tuple>
+#include <utility>
+
+#include "hooke/core/parallel.h"
+#include "hooke/mesh/creases.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 256;
+
+constexpr double short_way = .1;  // in mean target lengths: however the surface bends
+
+/// The sides of vertices that stand still are not written by a step.
+void copy_sides(const Placement& from, Placement& to) {
+  to.other_side = from.other_side;
+  to.normals.resize(3, from.normals.cols());
+  to.anchors.resize(from.anchors.size());
+  for (size_t side = from.drift.size(); side < from.anchors.size(); ++side) {
+    to.normals.col(static_cast<Eigen::Index>(side)) = from.normals.col(static_cast<Eigen::Index>(side));
+    to.anchors[side] = from.anchors[side];
+  }
+}
+
+/// Few vertices share a tally, so that threads seldom meet there.
+constexpr size_t vertices_of_tally = 64;
+constexpr size_t statuses = std::tuple_size_v<decltype(ProjectionCounts::by_status)>;
+constexpr size_t tally_size = statuses + 1;  // the last is of evaluations
+
+size_t tallies_for(size_t vertices) {
+  return (vertices / vertices_of_tally + 1) * tally_size;
+}
+
+void add(int count, long long& tally) {
+  std::atomic_ref(tally).fetch_add(count, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+ProjectionCounts& ProjectionCounts::operator+=(const ProjectionCounts& other) {
+  calls += other.calls;
+  evaluations += other.evaluations;
+  for (size_t s = 0; s < by_status.size(); ++s) by_status[s] += other.by_status[s];
+  return *this;
+}
+
+Retraction::Retraction(Surface surface, const Constraints& constraints, const RetractionOptions& options)
+    : surface_(std::move(surface)),
+      constraints_(constraints),
+      options_(options),
+      uncounted_(tallies_for(constraints.freedom.size()), 0) {}
+
+VertexPlace::VertexPlace(const Placement& p, int vertex)
+    : point(p.points.col(vertex)),
+      normal(p.normals.col(vertex)),
+      anchor(p.anchors[static_cast<size_t>(vertex)]),
+      segment(p.segments[static_cast<size_t>(vertex)]),
+      drift(p.drift[static_cast<size_t>(vertex)]),
+      other_side(p.other_side_of(vertex)) {
+  if (other_side < 0) return;
+  other_normal = p.normals.col(other_side);
+  other_anchor = p.anchors[static_cast<size_t>(other_side)];
+}
+
+void VertexPlace::write_to(Placement& p, int vertex) const {
+  p.points.col(vertex) = point;
+  p.normals.col(vertex) = normal;
+  p.anchors[static_cast<size_t>(vertex)] = anchor;
+  p.segments[static_cast<size_t>(vertex)] = segment;
+  p.drift[static_cast<size_t>(vertex)] = drift;
+  if (other_side < 0) return;
+  p.normals.col(other_side) = other_normal;
+  p.anchors[static_cast<size_t>(other_side)] = other_anchor;
+}
+
+Vec3 Retraction::within_reach(const Vec3& point, int vertex) const {
+  if (constraints_.reach.empty()) return point;
+  const Vec3 home = constraints_.home.col(vertex), way = point - home;
+  const double length = way.norm(), reach = constraints_.reach[static_cast<size_t>(vertex)];
+  return length > reach ? Vec3(home + way * (reach / length)) : point;
+}
+
+CurveFoot Retraction::foot_on_curve(const Vec3& point, int segment, int vertex) const {
+  const auto curve = static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)]);
+  return project_to_curve(constraints_.curves[curve], point, segment);
+}
+
+Vec3 Retraction::tangent(const Placement& at, int vertex) const {
+  const auto v = static_cast<size_t>(vertex);
+  if (constraints_.freedom[v] != Freedom::curve) return Vec3::Zero();
+  return foot_on_curve(at.points.col(vertex), at.segments[v], vertex).tangent;
+}
+
+VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
+  const CurveFoot foot = foot_on_curve(place.point, place.segment, vertex);
+  place.point = foot.point;
+  place.segment = foot.segment;
+  return place;
+}
+
+Foot Retraction::foot(const Vec3& point, int anchor, int vertex) {
+  const Foot foot = surface_(point, anchor, options_.tolerance);
+  long long* const tally = &uncounted_[static_cast<size_t>(vertex) / vertices_of_tally * tally_size];
+  add(1, tally[static_cast<size_t>(foot.status)]);
+  add(foot.evaluations, tally[statuses]);
+  return foot;
+}
+
+VertexPlace Retraction::on_surface(VertexPlace place, int vertex, Freedom freedom) {
+  const Foot on_side = foot(place.point, place.anchor, vertex);
+  if (place.other_side >= 0) {
+    const Foot on_other_side = foot(place.point, place.other_anchor, vertex);
+    place.other_normal = on_other_side.normal;
+    place.other_anchor = on_other_side.anchor;
+  }
+  // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
+  if (freedom == Freedom::surface) place.point = on_side.point;
+  place.normal = on_side.normal;
+  place.anchor = on_side.anchor;
+  place.drift = 0;
+  return place;
+}
+
+bool Retraction::stands_still(int vertex) const {
+  return constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::fixed;
+}
+
+VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& displacement) {
+  return moved(VertexPlace(from, vertex), vertex, constraints_.freedom[static_cast<size_t>(vertex)],
+               displacement);
+}
+
+VertexPlace Retraction::moved_copy(const Placement& from, int vertex, int anchor, const Vec3& displacement) {
+  VertexPlace place(from, vertex);
+  place.anchor = anchor;
+  place.drift = 0;
+  place.other_side = -1;
+  return moved(place, vertex, Freedom::surface, displacement);
+}
+
+VertexPlace Retraction::moved(VertexPlace place, int vertex, Freedom freedom, const Vec3& displacement) {
+  const double length = displacement.norm();
+  if (length == 0 || freedom == Freedom::fixed) return place;
+  const Vec3 start = place.point;
+  place.point = within_reach(start + displacement, vertex);
+  place.drift += length;
+  if (freedom == Freedom::curve) place = on_curve(place, vertex);
+  const SurfaceBend bend = surface_.bend(place.anchor);
+  const double error = .5 * bend.change * place.drift * place.drift;  // off the surface
+  if (error < options_.lazy_error) {
+    place = drifted(place, place.point - start, bend, freedom);
+    if (place.drift < options_.lazy) return place;
+  } else if (place.drift < std::min(short_way, options_.lazy)) {
+    return place;  // in the tangent plane: bends say little here
+  }
+  return on_surface(place, vertex, freedom);
+}
+
+/// `way` led to the place, in the tangent plane or along a chord.
+VertexPlace Retraction::drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend,
+                                Freedom freedom) const {
+  const Vec3 turn = bend.shape * way;
+  if (freedom == Freedom::surface) place.point -= (way.dot(place.normal) + .5 * way.dot(turn)) * place.normal;
+  place.normal = (place.normal + turn).normalized();
+  if (place.other_side >= 0)
+    place.other_normal = (place.other_normal + surface_.bend(place.other_anchor).shape * way).normalized();
+  return place;
+}
+
+VertexPlace Retraction::projected(VertexPlace place, int vertex) {
+  const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
+  return on_surface(freedom == Freedom::curve ? on_curve(place, vertex) : place, vertex, freedom);
+}
+
+Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
+  Placement p;
+  p.points = points;
+  const auto& further = constraints_.further_sides;
+  p.normals = Mat3X::Zero(3, points.cols() + std::ssize(further));
+  p.anchors = std::move(anchors);
+  p.segments = std::move(segments);
+  p.drift.assign(static_cast<size_t>(points.cols()), 0);
+  p.other_side = other_sides(p.drift.size(), further);
+  parallel_for(static_cast<size_t>(points.cols()), block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int v = static_cast<int>(i);
+      projected(VertexPlace(p, v), v).write_to(p, v);
+    }
+  });
+  for (size_t s = 0; s < further.size(); ++s) {  // third and further sides of corners
+    const size_t side = p.drift.size() + s;
+    const int v = further[s];
+    if (p.other_side_of(v) == static_cast<int>(side)) continue;
+    const Foot on_side = foot(p.points.col(v), p.anchors[side], v);
+    p.normals.col(static_cast<Eigen::Index>(side)) = on_side.normal;
+    p.anchors[side] = on_side.anchor;
+  }
+  count();
+  return p;
+}
+
+void Retraction::step(const Placement& from, const Mat3X& displacement, std::span<const int> vertices,
+                      Placement& to) {
+  parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      moved(from, vertices[i], displacement.col(vertices[i])).write_to(to, vertices[i]);
+  });
+  count();
+}
+
+void Retraction::step(const Placement& from, const Mat3X& displacement, Placement& to) {
+  to.points.resize(3, from.points.cols());
+  copy_sides(from, to);
+  to.segments.resize(from.segments.size());
+  to.drift.resize(from.drift.size());
+  parallel_for(static_cast<size_t>(from.points.cols()), block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int v = static_cast<int>(i);
+      moved(from, v, displacement.col(v)).write_to(to, v);
+    }
+  });
+  count();
+}
+
+void Retraction::settle(Placement& placement) {
+  parallel_for(placement.drift.size(), block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int v = static_cast<int>(i);
+      if (placement.drift[i] > 0)
+        on_surface(VertexPlace(placement, v), v, constraints_.freedom[i]).write_to(placement, v);
+    }
+  });
+  count();
+}
+
+void Retraction::settle(std::span<const int> vertices, Placement& placement) {
+  parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
+    for (int v : vertices.subspan(begin, end - begin))
+      projected(VertexPlace(placement, v), v).write_to(placement, v);
+  });
+  count();
+}
+
+void Retraction::constrain(const Placement& at, Mat3X& vectors) const {
+  parallel_for(static_cast<size_t>(vectors.cols()), 4096, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto v = static_cast<Eigen::Index>(i);
+      auto u = vectors.col(v);
+      switch (constraints_.freedom[i]) {
+        case Freedom::surface:
+          u -= at.normals.col(v) * at.normals.col(v).dot(u);
+          break;
+        case Freedom::curve: {
+          const Vec3 along = tangent(at, static_cast<int>(i));
+          u = (along * along.dot(u)).eval();
+          break;
+        }
+        case Freedom::fixed:
+          u.setZero();
+          break;
+      }
+    }
+  });
+}
+
+void Retraction::resize(size_t vertices) {
+  count();
+  uncounted_.resize(tallies_for(vertices), 0);
+}
+
+void Retraction::count() {
+  for (size_t i = 0; i < uncounted_.size(); ++i) {
+    const long long n = std::exchange(uncounted_[i], 0);
+    const size_t counter = i % tally_size;
+    if (counter == statuses) {
+      counts_.evaluations += n;
+    } else {
+      counts_.by_status[counter] += n;
+      counts_.calls += n;
+    }
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,55 @@
+// The surface as the optimizer sees it: a place to put points back on. A fitted field, a closest point search
+// and a test's sphere all fit.
+#pragma once
+
+#include <concepts>
+#include <utility>
+
+#include "hooke/core/types.h"
+#include "hooke/filter/surface_bend.h"
+
+namespace hooke {
+
+/// How a projection ended. All but `converged` used the fallback and are counted in the report.
+enum class FootStatus : unsigned char {
+  converged,
+  no_cover,       // no patch of the field reaches the point
+  flat_gradient,  // |grad psi| too small for a Newton step
+  too_far,        // Newton left the neighbourhood of its start
+  step_limit,     // Newton did not converge
+};
+
+/// Where a point lands on the surface.
+struct Foot {
+  Vec3 point;
+  Vec3 normal;  // unit, outward
+  int anchor;   // vertex of the fitted mesh next to it: the start of the next search
+  FootStatus status = FootStatus::converged;
+  int evaluations = 0;  // of the field
+};
+
+/// Its members must be safe to call from several threads at once.
+class Surface {
+ public:
+  /// Projects a point that is tracked near the vertex `anchor` to within `tolerance` (a length) of the
+  /// surface.
+  using Project = std::function<Foot(const Vec3& point, int anchor, double tolerance)>;
+  /// How it bends near the vertex `anchor`.
+  using Bend = std::function<SurfaceBend(int anchor)>;
+
+  template <typename F>
+  requires std::convertible_to<F, Project> &&(!std::same_as<std::remove_cvref_t<F>, Surface>)Surface(
+      F&& project, Bend bend = [](int) { return SurfaceBend{}; })
+      : project_(std::forward<F>(project)), bend_(std::move(bend)) {}
+
+  Foot operator()(const Vec3& point, int anchor, double tolerance) const {
+    return project_(point, anchor, tolerance);
+  }
+  SurfaceBend bend(int anchor) const { return bend_(anchor); }
+
+ private:
+  Project project_;
+  Bend bend_;
+};
+
+}  // namespace hooke

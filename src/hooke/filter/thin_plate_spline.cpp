@@ -1,0 +1,150 @@
+#include "hooke/filter/thin_plate_spline.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "hooke/core/error.h"
+#include "hooke/filter/spline_kernel.h"
+#include "hooke/filter/stored_spline.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::size_t polynomial_size = monomial_count(2);
+
+constexpr double least_column_ratio = 1e-8;  // of a polynomial's part that the ones before it do not explain
+constexpr double least_pivot_ratio = 1e-7;   // of the Cholesky diagonal: beyond, coefficients are noise
+
+using Monomials = Eigen::Matrix<double, polynomial_size, 1>;
+Monomials monomials(double x, double y, double z) {
+  return Monomials{1, x, y, z, x * x, y * y, z * z, x * y, y * z, z * x};
+}
+
+/// Lower triangle of the kernel matrix. [32]
+HOOKE_SIMD void fill_kernel_matrix(const Eigen::Ref<const Mat3X>& centres, Kernel kernel,
+                                   Eigen::MatrixXd& A) {
+  const Eigen::Index n = centres.cols();
+  A.resize(n, n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j; i < n; i += lane_count) {
+      const Eigen::Index count = std::min<Eigen::Index>(lane_count, n - i);
+      Lanes r2 = {};
+      for (Eigen::Index k = 0; k < count; ++k) r2[k] = (centres.col(i + k) - centres.col(j)).squaredNorm();
+      KernelSample phi;
+      sample_kernel(kernel, r2, phi);
+      for (Eigen::Index k = 0; k < count; ++k) A(i + k, j) = phi.value[k];
+    }
+}
+
+/// A := H A H for the reflector H = I - tau v v^T, lower triangle only.
+void reflect_both_sides(Eigen::MatrixXd& A, const Eigen::VectorXd& v, double tau, Eigen::VectorXd& w) {
+  w.noalias() = tau * (A.selfadjointView<Eigen::Lower>() * v);
+  w -= (.5 * tau * v.dot(w)) * v;
+  A.selfadjointView<Eigen::Lower>().rankUpdate(v, w, -1);
+}
+
+bool is_independent(const Eigen::MatrixXd& R, Eigen::Index m) {
+  for (Eigen::Index k = 0; k < m; ++k)
+    if (!(std::abs(R(k, k)) > least_column_ratio * R.col(k).head(k + 1).norm())) return false;
+  return true;
+}
+
+}  // namespace
+
+std::size_t spline_fit_bytes(std::size_t centres) {
+  return sizeof(double) * (centres * centres + 24 * centres);
+}
+
+std::optional<SplineCoefficients> fit_spline(const Eigen::Ref<const Mat3X>& centres,
+                                             const Eigen::Ref<const Eigen::VectorXd>& values, Kernel kernel,
+                                             SplineDegree degree, SplineWorkspace& workspace) {
+  const Eigen::Index n = centres.cols();
+  const Eigen::Index m = monomial_count(degree);
+  if (n < m) return std::nullopt;
+
+  // P = Q R; the coefficients a are orthogonal to the polynomials, so a = Q [0; z].
+  auto& P = workspace.polynomials;
+  P.resize(n, m);
+  for (Eigen::Index i = 0; i < n; ++i)
+    P.row(i) = monomials(centres(0, i), centres(1, i), centres(2, i)).head(m).transpose();
+  const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> qr(P);
+  if (!is_independent(P, m)) return std::nullopt;
+
+  auto& A = workspace.kernel_matrix;
+  auto& d = workspace.right_side;
+  fill_kernel_matrix(centres, kernel, A);
+  d = values;
+  Eigen::VectorXd v(n), w(n);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    v.head(k).setZero();
+    v[k] = 1;
+    v.tail(n - k - 1) = P.col(k).tail(n - k - 1);
+    const double tau = qr.hCoeffs()[k];
+    reflect_both_sides(A, v, tau, w);
+    d -= tau * v.dot(d) * v;
+  }
+
+  // [31] in these coordinates: A22 z = d2, then R c = d1 - A12 z.
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(n);
+  if (n > m) {
+    Eigen::Ref<Eigen::MatrixXd> A22 = A.bottomRightCorner(n - m, n - m);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(A22);
+    if (llt.info() != Eigen::Success) return std::nullopt;
+    const auto pivots = A22.diagonal();
+    if (!(pivots.minCoeff() > least_pivot_ratio * pivots.maxCoeff())) return std::nullopt;
+    a.tail(n - m) = llt.solve(d.tail(n - m));
+    d.head(m).noalias() -= A.bottomLeftCorner(n - m, m).transpose() * a.tail(n - m);
+  }
+  P.topRows(m).triangularView<Eigen::Upper>().solveInPlace(d.head(m));
+  for (Eigen::Index k = m - 1; k >= 0; --k) {
+    const auto essential = P.col(k).tail(n - k - 1);
+    const double s = qr.hCoeffs()[k] * (a[k] + essential.dot(a.tail(n - k - 1)));
+    a[k] -= s;
+    a.tail(n - k - 1) -= s * essential;
+  }
+  if (!a.allFinite() || !d.head(m).allFinite()) return std::nullopt;
+
+  SplineCoefficients spline{.radial = {a.begin(), a.end()}};
+  std::copy_n(d.begin(), m, spline.polynomial.begin());
+  return spline;
+}
+
+std::optional<ThinPlateSpline> ThinPlateSpline::fit(const Mat3X& centres, const Eigen::VectorXd& values,
+                                                    Kernel kernel, SplineDegree degree,
+                                                    std::size_t memory_limit_bytes) {
+  ThinPlateSpline spline;
+  spline.kernel_ = kernel;
+  spline.centres_ = static_cast<std::size_t>(centres.cols());
+  const std::size_t bytes = spline_fit_bytes(spline.centres_);
+  if (bytes > memory_limit_bytes)
+    throw LimitError(
+        fmt::format("a thin-plate spline of {} centres takes {} bytes; {} bytes are allowed; "
+                    "use the local filter, or more memory",
+                    spline.centres_, bytes, memory_limit_bytes));
+  if (spline.centres_ == 0) return std::nullopt;
+  spline.origin_ = centres.rowwise().mean();
+  Mat3X local = centres.colwise() - spline.origin_;
+  spline.scale_ = std::sqrt(local.colwise().squaredNorm().maxCoeff());
+  if (!(spline.scale_ > 0)) return std::nullopt;
+  local /= spline.scale_;
+
+  SplineWorkspace workspace;
+  const auto fitted = fit_spline(local, values / spline.scale_, kernel, degree, workspace);
+  if (!fitted) return std::nullopt;
+  spline.coordinates_.resize(StoredSpline<double>::coordinates_size(spline.centres_));
+  spline.coefficients_.resize(StoredSpline<double>::coefficients_size(spline.centres_));
+  store_spline(local, *fitted, spline.coordinates_.data(), spline.coefficients_.data());
+  return spline;
+}
+
+FieldSample ThinPlateSpline::operator()(const Vec3& x) const {
+  const StoredSpline<double> stored{coordinates_.data(), coefficients_.data(), centres_};
+  FieldSample s = stored(kernel_, (x - origin_) / scale_);
+  s.value *= scale_;
+  return s;
+}
+
+}  // namespace hooke

@@ -1,0 +1,75 @@
+// Thin-plate splines in space: a radial part and a polynomial, fitted to values at centres. Points only.
+// "Hooke's Optimization for 3D triangular mesh", sections 3.3 and 4.4, equations [27]-[35]. The system is
+// solved on the null space of the polynomials, where the kernel matrix is positive definite (H. Wendland,
+// "Scattered Data Approximation", 2005, chapter 8).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "hooke/core/types.h"
+
+namespace hooke {
+
+/// r2logr is the paper's [27]. Both are conditionally positive definite of order 2: an affine part is the
+/// least.
+enum class Kernel { r2logr, r3 };
+
+/// Polynomial part: 1 affine [29], 2 quadratic.
+using SplineDegree = int;
+
+/// Number of monomials of a degree: 4 or 10.
+constexpr int monomial_count(SplineDegree degree) {
+  return degree == 2 ? 10 : 4;
+}
+
+/// Scratch memory of fit_spline, reused from fit to fit.
+struct SplineWorkspace {
+  Eigen::MatrixXd kernel_matrix;
+  Eigen::MatrixXd polynomials;
+  Eigen::VectorXd right_side;
+};
+
+/// What a spline is made of: the kernel's coefficient at each centre, and those of the monomials 1, x, y, z,
+/// x x, y y, z z, x y, y z, z x.
+struct SplineCoefficients {
+  std::vector<double> radial;
+  std::array<double, monomial_count(2)> polynomial{};
+};
+
+/// Fits a spline to values at centres [31]. The centres should be of size 1 about the origin, for
+/// conditioning. Nothing when the centres do not determine it: too few for the polynomials, on a surface of
+/// that degree, or (nearly) coincident.
+std::optional<SplineCoefficients> fit_spline(const Eigen::Ref<const Mat3X>& centres,
+                                             const Eigen::Ref<const Eigen::VectorXd>& values, Kernel kernel,
+                                             SplineDegree degree, SplineWorkspace& workspace);
+
+/// Bytes needed while a spline of so many centres is fitted: the kernel matrix, worked on in place.
+std::size_t spline_fit_bytes(std::size_t centres);
+
+/// One spline on its own, in any coordinates: it is fitted in coordinates centred and scaled to size 1.
+class ThinPlateSpline {
+ public:
+  /// Nothing when the centres do not determine the spline (see fit_spline).
+  /// Throws LimitError, naming the bytes, when the fit would take more than `memory_limit_bytes`.
+  static std::optional<ThinPlateSpline> fit(const Mat3X& centres, const Eigen::VectorXd& values,
+                                            Kernel kernel, SplineDegree degree,
+                                            std::size_t memory_limit_bytes = SIZE_MAX);
+
+  FieldSample operator()(const Vec3& x) const;
+
+  std::size_t memory_bytes() const {
+    return sizeof(double) * (coordinates_.capacity() + coefficients_.capacity());
+  }
+
+ private:
+  Kernel kernel_ = Kernel::r3;
+  Vec3 origin_ = Vec3::Zero();
+  double scale_ = 1;
+  std::size_t centres_ = 0;
+  std::vector<double> coordinates_, coefficients_;
+};
+
+}  // namespace hooke

@@ -1,0 +1,194 @@
+#include "hooke/geometry/self_intersection.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/predicates.h"
+
+namespace hooke {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+using Corners2 = std::array<Vec2, 3>;
+
+Vec2 drop_axis(const Vec3& p, int axis) {
+  return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+}
+
+/// An axis along which the triangle can be flattened without losing its area.
+int flattening_axis(const Corners& t) {
+  const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs();
+  std::array<int, 3> axes = {0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) { return n[i] > n[j]; });
+  for (int axis : axes)  // rounding may have misled us
+    if (orient2d(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0) return axis;
+  return axes[0];
+}
+
+bool same_side(int i, int j, int k) {
+  return (i >= 0 && j >= 0 && k >= 0) || (i <= 0 && j <= 0 && k <= 0);
+}
+
+bool contains(const Corners2& t, const Vec2& p) {
+  return same_side(orient2d(t[0], t[1], p), orient2d(t[1], t[2], p), orient2d(t[2], t[0], p));
+}
+
+/// Pre-condition: p lies on the line through a and b.
+bool between(const Vec2& a, const Vec2& b, const Vec2& p) {
+  return (p.array() >= a.array().min(b.array())).all() && (p.array() <= a.array().max(b.array())).all();
+}
+
+bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const int abc = orient2d(a, b, c), abd = orient2d(a, b, d);
+  const int cda = orient2d(c, d, a), cdb = orient2d(c, d, b);
+  if (abc * abd < 0 && cda * cdb < 0) return true;
+  return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
+         (cdb == 0 && between(c, d, b));
+}
+
+/// Pre-condition: all five points lie in one plane.
+bool segment_meets_triangle_in_plane(const Vec3& p, const Vec3& q, const Corners& t) {
+  const int axis = flattening_axis(t);
+  const Vec2 a = drop_axis(p, axis), b = drop_axis(q, axis);
+  const Corners2 flat = {drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)};
+  if (contains(flat, a)) return true;
+  for (size_t k = 0; k < 3; ++k)
+    if (segments_meet(a, b, flat[k], flat[(k + 1) % 3])) return true;
+  return false;
+}
+
+/// `side_p` and `side_q` are the sides of the triangle's plane on which p and q lie.
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Corners& t, int side_p, int side_q) {
+  if (side_p * side_q > 0) return false;
+  if (side_p == 0 && side_q == 0) return segment_meets_triangle_in_plane(p, q, t);
+  return same_side(orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0]));
+}
+
+/// More than what rounding adds to a product of the differences of points with a vector, in parts of the
+/// sum of its terms' sizes.
+constexpr double rounding = 1e-14;
+constexpr double underflow = 1e-280;
+
+double size_of(const Vec3& v) {
+  return v.lpNorm<1>();
+}
+
+/// Whether a plane between the centres surely has one triangle on each side. Most pairs that are asked for
+/// are: their boxes meet as they are next to each other.
+bool surely_apart(const Corners& s, const Corners& t) {
+  const Vec3 across = (t[0] - s[0]) + (t[1] - s[1]) + (t[2] - s[2]);
+  double last_of_s = 0, first_of_t = std::numeric_limits<double>::infinity(), farthest = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3 to_s = s[k] - s[0], to_t = t[k] - s[0];
+    last_of_s = std::max(last_of_s, across.dot(to_s));
+    first_of_t = std::min(first_of_t, across.dot(to_t));
+    farthest = std::max({farthest, size_of(to_s), size_of(to_t)});
+  }
+  return first_of_t - last_of_s > rounding * farthest * size_of(across) + underflow;
+}
+
+/// The same for two triangles that share their corner 0, where the plane goes through it.
+bool surely_apart_but_for_corner(const Corners& s, const Corners& t) {
+  const Vec3 s1 = s[1] - s[0], s2 = s[2] - s[0], t1 = t[1] - t[0], t2 = t[2] - t[0];
+  const Vec3 across = (t1 + t2).normalized() - (s1 + s2).normalized();
+  const double last_of_s = std::max(across.dot(s1), across.dot(s2));
+  const double first_of_t = std::min(across.dot(t1), across.dot(t2));
+  const double farthest = std::max({size_of(s1), size_of(s2), size_of(t1), size_of(t2)});
+  const double margin = rounding * farthest * size_of(across) + underflow;
+  return last_of_s < -margin && first_of_t > margin;
+}
+
+/// Two triangles that share their corner 0. If they share any further point, then the ray from the corner to
+/// it leaves one of them, through the opposite edge, inside the other.
+bool fans_meet(const Corners& s, const Corners& t) {
+  if (surely_apart_but_for_corner(s, t)) return false;
+  const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
+  if (s1 * s2 > 0) return false;
+  if (s1 == 0 && s2 == 0)
+    return segment_meets_triangle_in_plane(s[1], s[2], t) || segment_meets_triangle_in_plane(t[1], t[2], s);
+  const int t1 = orient3d(s[0], s[1], s[2], t[1]), t2 = orient3d(s[0], s[1], s[2], t[2]);
+  if (t1 * t2 > 0) return false;
+  return segment_meets_triangle(s[1], s[2], t, s1, s2) || segment_meets_triangle(t[1], t[2], s, t1, t2);
+}
+
+/// Two triangles that share the edge of their corners 0 and 1: folded flat onto each other?
+bool hinge_is_shut(const Corners& s, const Vec3& tip) {
+  if (orient3d(s[0], s[1], s[2], tip) != 0) return false;
+  const int axis = flattening_axis(s);
+  const Vec2 a = drop_axis(s[0], axis), b = drop_axis(s[1], axis);
+  return orient2d(a, b, drop_axis(s[2], axis)) * orient2d(a, b, drop_axis(tip, axis)) > 0;
+}
+
+using Face = BoundingVolumeTree::Face;
+
+/// The corners in their order, beginning with `first`.
+Corners corners_from(const Face& face, size_t first) {
+  return {face.corners[first], face.corners[(first + 1) % 3], face.corners[(first + 2) % 3]};
+}
+
+bool faces_meet(const Face& s, const Face& t) {
+  std::array<size_t, 3> in_s{}, in_t{};  // places of the common vertices
+  size_t common = 0;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j)
+      if (s.vertices[i] == t.vertices[j]) {
+        in_s[common] = i;
+        in_t[common] = j;
+        ++common;
+      }
+  if (common == 0) return triangles_meet(s.corners, t.corners);
+  if (common == 1) return fans_meet(corners_from(s, in_s[0]), corners_from(t, in_t[0]));
+  if (common == 3) return false;
+  const size_t tip_s = 3 - in_s[0] - in_s[1], tip_t = 3 - in_t[0] - in_t[1];
+  return hinge_is_shut(corners_from(s, (tip_s + 1) % 3), t.corners[tip_t]);
+}
+
+}  // namespace
+
+bool triangles_meet(const Corners& s, const Corners& t) {
+  if (surely_apart(s, t)) return false;
+  std::array<int, 3> side_s, side_t;
+  for (size_t k = 0; k < 3; ++k) side_t[k] = orient3d(s[0], s[1], s[2], t[k]);
+  if (side_t[0] != 0 && side_t[0] == side_t[1] && side_t[1] == side_t[2]) return false;
+  for (size_t k = 0; k < 3; ++k) side_s[k] = orient3d(t[0], t[1], t[2], s[k]);
+  if (side_s[0] != 0 && side_s[0] == side_s[1] && side_s[1] == side_s[2]) return false;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t next = (k + 1) % 3;
+    if (segment_meets_triangle(s[k], s[next], t, side_s[k], side_s[next])) return true;
+    if (segment_meets_triangle(t[k], t[next], s, side_t[k], side_t[next])) return true;
+  }
+  return false;
+}
+
+std::vector<std::array<int, 2>> find_self_intersections(const BoundingVolumeTree& tree) {
+  constexpr size_t block = 1024, parts_of_block = 64;
+  const std::span<const Face> faces = tree.faces();
+  std::vector<char> has_area(faces.size());  // by id
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k)
+      has_area[static_cast<size_t>(faces[k].id)] =
+          !is_collinear(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
+  });
+
+  std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / parts_of_block + 1);
+  parallel_for(tree.parts(), parts_of_block, [&](size_t begin, size_t end) {
+    tree.for_each_meeting_pair(begin, end, [&](const Face& f, const Face& g) {
+      const auto [low, high] = std::minmax(f.id, g.id);
+      if (!has_area[static_cast<size_t>(low)] || !has_area[static_cast<size_t>(high)]) return;
+      if (f.id < g.id ? faces_meet(f, g) : faces_meet(g, f))
+        found[begin / parts_of_block].push_back({low, high});
+    });
+  });
+  std::vector<std::array<int, 2>> pairs;
+  for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
+  std::sort(pairs.begin(), pairs.end());  // the tree has its own order
+  return pairs;
+}
+
+std::vector<std::array<int, 2>> find_self_intersections(const Mat3X& points,
+                                                        const std::vector<Triangle>& faces) {
+  return find_self_intersections(BoundingVolumeTree(points, faces));
+}
+
+}  // namespace hooke

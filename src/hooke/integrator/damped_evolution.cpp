@@ -1,0 +1,139 @@
+#include "hooke/integrator/damped_evolution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
+#include "hooke/springs/forces.h"
+#include "hooke/springs/spring_law.h"
+
+namespace hooke {
+namespace {
+
+double string_energy(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+                     std::span<const double> target_lengths) {
+  return parallel_sum(c.edges.size(), 1024, [&](size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t e = begin; e < end; ++e) {
+      const double L = target_lengths[e];
+      const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
+      sum += spring_potential(l, L).value / (L * L);
+    }
+    return sum;
+  });
+}
+
+void update_forces(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
+                   const DampedOptions& options, const Restraint& restraint) {
+  Mat3X forces(3, motion.points.cols()), torques(3, motion.points.cols());
+  string_forces(motion.points, c, target_lengths, forces);
+  torque_forces(motion.points, c, torques);
+  forces = options.string * forces + options.torque * torques;  // [17]
+  if (restraint) restraint(forces);
+  motion.forces = forces;
+}
+
+}  // namespace
+
+void require_valid(const DampedOptions& options) {
+  if (!(options.friction > 0))
+    throw Error(fmt::format("friction {}; expected a positive number", options.friction));
+  if (!(options.string > 0))
+    throw Error(fmt::format("string tension {}; expected a positive number", options.string));
+}
+
+Motion motion_of(TriMesh& mesh) {
+  assert(mesh.n_vertices() > 0);
+  const VProp<Vec3> velocity(mesh, velocity_property);
+  const VProp<Vec3> force(mesh, force_property);
+  return {positions(mesh), as_matrix(mesh, velocity), as_matrix(mesh, force),
+          1 / static_cast<double>(mesh.n_vertices())};
+}
+
+void come_to_rest(Motion& motion) {
+  motion.velocities.setZero();
+  motion.forces.setZero();
+}
+
+Mat3X displacement(const Motion& motion, double tau, double dt) {
+  const auto& U = motion.velocities;
+  const auto& F = motion.forces;
+  const double m = motion.mass;
+  return U * (-std::expm1(-tau * dt) / tau) + F * (dt * dt / (2 * m));  // [22]
+}
+
+void accelerate(Motion& motion, double tau, double dt) {
+  auto& U = motion.velocities;
+  U = U * std::exp(-tau * dt) + motion.forces * (dt / motion.mass);  // [22]
+}
+
+double max_length_error(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+                        std::span<const double> target_lengths) {
+  double worst = 0;
+  for (size_t e = 0; e < c.edges.size(); ++e) {
+    const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
+    worst = std::max(worst, std::abs(l - target_lengths[e]));
+  }
+  return worst;
+}
+
+EvolutionStep evolution_step(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
+                             const EvolutionOptions& options, const Restraint& restraint,
+                             double last_factor) {
+  update_forces(motion, c, target_lengths, options.damped, restraint);
+  const StepScales scales = step_scales(motion.points, motion.velocities, motion.forces, c);
+  const double base = base_step(scales, motion.mass);
+  if (!std::isfinite(base)) return {.at_rest = true};
+  Mat3X X;
+  EvolutionStep step;
+  step.adapted = adapt_step(base, last_factor, options.time_step.floor, [&](double dt) {
+    X = motion.points + displacement(motion, options.damped.friction, dt);
+    return test_step(motion.points, X, c, scales.edge, options.time_step);
+  });
+  if (step.adapted.jammed) return step;
+  motion.points = X;
+  accelerate(motion, options.damped.friction, step.adapted.time);
+  return step;
+}
+
+EvolutionResult evolve_damped(TriMesh& mesh, const Connectivity& c, std::span<const double> target_lengths,
+                              const EvolutionOptions& options, const Restraint& restraint,
+                              const Observer& observer) {
+  require_valid(options.damped);
+  Motion motion = motion_of(mesh);
+  come_to_rest(motion);
+  EvolutionResult result;
+  const auto measure = [&] {
+    result.max_length_error = max_length_error(motion.points, c, target_lengths);
+    result.energy = string_energy(motion.points, c, target_lengths);
+  };
+  const auto stopped = [&](StopReason reason) {
+    result.reason = reason;
+    return result;
+  };
+  measure();
+  double factor = first_factor;
+  while (!(result.max_length_error < options.tolerance)) {
+    if (result.steps >= options.max_steps) return stopped(StopReason::step_limit);
+    const EvolutionStep step = evolution_step(motion, c, target_lengths, options, restraint, factor);
+    if (step.at_rest) return stopped(StopReason::stalled);
+    result.evaluations += step.adapted.rejected + !step.adapted.jammed;
+    if (step.adapted.jammed) {
+      result.jam = step.adapted.bound;
+      return stopped(StopReason::jammed);
+    }
+    ++result.steps;
+    factor = step.adapted.factor;
+    result.bound.add(step.adapted.bound);
+    result.time += step.adapted.time;
+    measure();
+    if (observer && !observer({"", 0, result.steps, result.energy})) return stopped(StopReason::interrupted);
+  }
+  return stopped(StopReason::converged);
+}
+
+}  // namespace hooke

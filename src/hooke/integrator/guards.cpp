@@ -1,0 +1,233 @@
+#include "hooke/integrator/guards.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/face_shape.h"
+#include "hooke/geometry/least_angle.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 2048;
+
+void sort_unique(std::vector<int>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// The indices in [0, count) that pass a test, ascending.
+template <typename Test>
+std::vector<int> all_that(size_t count, const Test& test) {
+  std::vector<char> passes(count);
+  parallel_for(count, block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) passes[i] = test(i);
+  });
+  std::vector<int> indices;
+  for (size_t i = 0; i < count; ++i)
+    if (passes[i]) indices.push_back(static_cast<int>(i));
+  return indices;
+}
+
+double cosine(const Vec3& a, const Vec3& b, double otherwise) {
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0 ? a.dot(b) / lengths : otherwise;
+}
+
+Vec3 sum_of_normals(const Mat3X& normals, const Triangle& sides) {
+  return normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2]);
+}
+
+// What most faces and edges pass without a root or a measure of what was before. They hold with a margin, so
+// that they never contradict the rules.
+constexpr double rounding = 1e-9;
+
+/// Cosine between two vectors of these squared lengths, not below a limit.
+bool cosine_exceeds(double limit, double product, double square, double other_square) {
+  return product > 0 && product * product > limit * limit * (1 + rounding) * square * other_square;
+}
+
+/// `n` is the face's doubled area vector.
+bool area_and_alignment_are_well(const GuardOptions& o, const Vec3& n_before, const Vec3& n,
+                                 const Vec3& normals) {
+  const double square = n.squaredNorm();
+  return square > o.area_ratio * o.area_ratio * (1 + rounding) * n_before.squaredNorm() &&
+         cosine_exceeds(o.alignment, n.dot(normals), square, normals.squaredNorm());
+}
+
+bool angles_are_well(const GuardOptions& o, const Mat3X& points, const Triangle& t, const Vec3& n) {
+  const Vec3 p = points.col(t[0]), q = points.col(t[1]), r = points.col(t[2]);
+  const double a2 = (r - q).squaredNorm(), b2 = (p - r).squaredNorm(), c2 = (q - p).squaredNorm();
+  const double cosine =
+      .5 * (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // of the least angle, times its sides
+  return cosine * cosine < o.cotangent * o.cotangent * (1 - rounding) * n.squaredNorm();
+}
+
+/// (l / 2) tan(theta / 4) is no more than (l / 2) sin(theta / 2).
+bool sagitta_is_well(const GuardOptions& o, double target, const Vec3& edge, double cosine) {
+  const double limit = o.sagitta * (1 - rounding) * target;
+  return .125 * edge.squaredNorm() * (1 - cosine) < limit * limit;
+}
+
+}  // namespace
+
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
+                      const Triangle& sides) {
+  return cosine(doubled_area_vector(points, face), sum_of_normals(normals, sides), 0);
+}
+
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides) {
+  const double c = std::clamp(normals.col(sides[0]).dot(normals.col(sides[1])), -1., 1.);
+  const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
+  return .5 * (points.col(edge[1]) - points.col(edge[0])).norm() * tan_quarter;
+}
+
+double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other) {
+  return cosine_between(doubled_area_vector(points, face), doubled_area_vector(points, other));
+}
+
+double cosine_between(const Vec3& area_vector, const Vec3& other) {
+  return cosine(area_vector, other, 1);
+}
+
+double Guards::alignment(const Placement& p, size_t face) const {
+  return face_alignment(p.points, p.normals, connectivity_.faces[face], connectivity_.sides_of_faces()[face]);
+}
+
+double Guards::sagitta(const Placement& p, size_t edge) const {
+  return edge_sagitta(p.points, p.normals, connectivity_.edges[edge], connectivity_.sides_of_edges()[edge]);
+}
+
+double Guards::fold(const Placement& p, size_t edge) const {
+  const auto [left, right] = connectivity_.edge_faces[edge];
+  if (right < 0) return 1;
+  return cosine_between(p.points, connectivity_.faces[static_cast<size_t>(left)],
+                        connectivity_.faces[static_cast<size_t>(right)]);
+}
+
+bool Guards::face_breaks(const Placement& from, const Placement& to, size_t f) const {
+  const Triangle& t = connectivity_.faces[f];
+  const Vec3 n = doubled_area_vector(to.points, t), n_before = doubled_area_vector(from.points, t);
+  const Vec3 normals = sum_of_normals(to.normals, connectivity_.sides_of_faces()[f]);
+  const bool angles_are_free = !std::isfinite(options_.cotangent);
+  if (area_and_alignment_are_well(options_, n_before, n, normals) &&
+      (angles_are_free || angles_are_well(options_, to.points, t, n)))
+    return false;
+  const double before = alignment(from, f);
+  return hooke::face_breaks(options_, .5 * n_before.norm(), .5 * n.norm(), before, cosine(n, normals, 0)) ||
+         (!angles_are_free && angle_breaks(options_, before, greatest_cotangent(from.points, t),
+                                           greatest_cotangent(to.points, t)));
+}
+
+bool Guards::fold_breaks(const Placement& from, const Placement& to, size_t e) const {
+  const auto [left, right] = connectivity_.edge_faces[e];
+  if (right < 0) return false;
+  const Vec3 n = doubled_area_vector(to.points, connectivity_.faces[static_cast<size_t>(left)]);
+  const Vec3 m = doubled_area_vector(to.points, connectivity_.faces[static_cast<size_t>(right)]);
+  if (cosine_exceeds(options_.fold, n.dot(m), n.squaredNorm(), m.squaredNorm())) return false;
+  const double before = fold(from, e), after = cosine(n, m, 1);
+  return connectivity_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(options_, before, after)
+                                                      : hooke::fold_breaks(options_, before, after);
+}
+
+bool Guards::edge_breaks(const Placement& from, const Placement& to, size_t e) const {
+  const auto& [a, b] = connectivity_.edges[e];
+  const auto& [side, other_side] = connectivity_.sides_of_edges()[e];
+  const double target = targets_.edge[e];
+  return (!sagitta_is_well(options_, target, to.points.col(b) - to.points.col(a),
+                           to.normals.col(side).dot(to.normals.col(other_side))) &&
+          sagitta_breaks(options_, target, sagitta(from, e), sagitta(to, e))) ||
+         fold_breaks(from, to, e);
+}
+
+void Guards::add_corners(int face, std::vector<int>& vertices) const {
+  const Triangle& t = connectivity_.faces[static_cast<size_t>(face)];
+  vertices.insert(vertices.end(), t.begin(), t.end());
+}
+
+/// The ends, and for a fold all corners of the two faces.
+void Guards::add_vertices_about(int edge, bool folds, std::vector<int>& vertices) const {
+  const auto e = static_cast<size_t>(edge);
+  vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
+  if (!folds) return;
+  for (int f : connectivity_.edge_faces[e]) add_corners(f, vertices);
+}
+
+std::vector<int> Guards::offenders(const Placement& from, const Placement& to) const {
+  std::vector<int> vertices;
+  for (int f : all_that(connectivity_.faces.size(), [&](size_t f) { return face_breaks(from, to, f); }))
+    add_corners(f, vertices);
+  for (int e : all_that(connectivity_.edges.size(), [&](size_t e) { return edge_breaks(from, to, e); }))
+    add_vertices_about(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
+  sort_unique(vertices);
+  return vertices;
+}
+
+std::vector<int> Guards::offenders_around(const Placement& from, const Placement& to,
+                                          const std::vector<int>& moved) const {
+  std::vector<int> vertices;
+  std::vector<int> edges;  // of the faces around: those across from a moved vertex fold too
+  for (int f : united(connectivity_.vertex_faces, moved)) {
+    const auto face = static_cast<size_t>(f);
+    edges.insert(edges.end(), connectivity_.face_edges[face].begin(), connectivity_.face_edges[face].end());
+    if (face_breaks(from, to, face)) add_corners(f, vertices);
+  }
+  sort_unique(edges);
+  for (int e : edges)
+    if (edge_breaks(from, to, static_cast<size_t>(e)))
+      add_vertices_about(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
+  sort_unique(vertices);
+  return vertices;
+}
+
+std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacement,
+                              Placement& to, Stopwatch* stopwatch) const {
+  timed(stopwatch, "projection", [&] { retraction.step(from, displacement, to); });
+  std::vector<int> offending = offenders(from, to);
+  if (offending.empty()) return {};
+
+  std::vector<unsigned char> halvings(static_cast<size_t>(connectivity_.vertex_count), 0);
+  std::vector<int> held;
+  while (!offending.empty()) {
+    std::vector<int> slowed;
+    for (int v : offending) {
+      auto u = displacement.col(v);
+      if (u.isZero(0)) continue;
+      auto& count = halvings[static_cast<size_t>(v)];
+      if (++count == 1) held.push_back(v);
+      if (count > options_.max_halvings)
+        u.setZero();
+      else
+        u *= .5;
+      slowed.push_back(v);
+    }
+    if (slowed.empty()) break;  // nothing there moves any more: it is as it was
+    timed(stopwatch, "projection", [&] { retraction.step(from, displacement, slowed, to); });
+    offending = offenders_around(from, to, slowed);
+  }
+  return held;
+}
+
+std::vector<int> Guards::vertices_at_limits(const Placement& p) const {
+  constexpr double cosine_margin = .02, sagitta_part = .95;
+  const auto leans = [&](size_t f) { return alignment(p, f) < options_.alignment + cosine_margin; };
+  const auto folds = [&](size_t e) {
+    return !connectivity_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
+  };
+  const auto is_at_limit = [&](size_t e) {
+    return folds(e) || !(sagitta(p, e) < sagitta_part * options_.sagitta * targets_.edge[e]);
+  };
+  std::vector<int> vertices;
+  for (int f : all_that(connectivity_.faces.size(), leans)) add_corners(f, vertices);
+  for (int e : all_that(connectivity_.edges.size(), is_at_limit))
+    add_vertices_about(e, folds(static_cast<size_t>(e)), vertices);
+  sort_unique(vertices);
+  return vertices;
+}
+
+std::vector<int> Guards::folded_faces(const Placement& p) const {
+  return all_that(connectivity_.faces.size(), [&](size_t f) { return alignment(p, f) < options_.alignment; });
+}
+
+}  // namespace hooke

@@ -1,0 +1,173 @@
+#include "hooke/integrator/lbfgs.h"
+
+#include <algorithm>
+
+#include "hooke/integrator/column_arithmetic.h"
+#include "hooke/integrator/landing.h"
+#include "hooke/integrator/local_relaxation.h"
+
+namespace hooke {
+namespace {
+
+void clear_columns(const std::vector<int>& columns, Mat3X& matrix) {
+  for (int v : columns) matrix.col(v).setZero();
+}
+
+/// Part of the vertices that go as far as they may.
+double carried_share(const Relaxation& r, double max_move, const Mat3X& d) {
+  constexpr double almost = 1 - 1e-6;
+  Eigen::Index carried = 0;
+  for (Eigen::Index v = 0; v < d.cols(); ++v)
+    carried += d.col(v).norm() >= almost * max_move * r.vertex_length[static_cast<size_t>(v)];
+  return static_cast<double>(carried) / static_cast<double>(d.cols());
+}
+
+/// Makes d a descent direction in the tangent space, no vertex longer than the cap; blocked vertices neither
+/// move nor pull at others. Falls back to the gradient.
+void find_descent(const Relaxation& r, double max_move, const Mat3X& gradient,
+                  const std::vector<int>& blocked, const Preconditioner& h0, LbfgsMemory& memory, Mat3X& d) {
+  for (;;) {
+    assign_scaled(-1, gradient, d);
+    clear_columns(blocked, d);
+    memory.apply(r, h0, d);
+    clear_columns(blocked, d);
+    r.retraction.constrain(r.placement, d);
+    cap_displacement(r.vertex_length, max_move, d);
+    if (memory.empty() || dot(d, gradient) < 0) return;
+    memory.clear();
+  }
+}
+
+/// The retraction is content with less while this lives.
+class LooseRetraction {
+ public:
+  LooseRetraction(Retraction& retraction, double lazy_error)
+      : retraction_(retraction),
+        before_(retraction.set_lazy_error(std::max(lazy_error, retraction.options().lazy_error))) {}
+  ~LooseRetraction() { retraction_.set_lazy_error(before_); }
+  LooseRetraction(const LooseRetraction&) = delete;
+  LooseRetraction& operator=(const LooseRetraction&) = delete;
+
+ private:
+  Retraction& retraction_;
+  double before_;
+};
+
+/// What the guards hold back is out of step with what is around it: lets these places find their own way.
+void mend(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs, Placement& trial) {
+  std::swap(r.placement, trial);
+  relax_locally(r, with_rings(r.connectivity, held, lbfgs.mended_rings), {.sweeps = lbfgs.mending_sweeps},
+                nullptr);
+  std::swap(r.placement, trial);
+}
+
+/// Leaves the vertices where they have drifted to. The trial is for its memory: its values mean nothing.
+IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
+                          const Observer& observer, Placement& trial) {
+  const LooseRetraction loose(r.retraction, lbfgs.lazy_error);
+  IntegrationResult result;
+  for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep) {
+    const Stage stage(r.stopwatch, "sweeps");
+    local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
+  }
+  if (options.max_steps <= 1) {
+    result.energy = r.energy(r.placement, nullptr);
+    result.evaluations = 1;
+    result.reason = StopReason::step_limit;
+    return result;
+  }
+  LbfgsMemory memory(lbfgs.memory);
+  Preconditioner h0(r, lbfgs.preconditioner);
+  RestDetector rest(options);
+  Mat3X gradient, step;
+  Mat3X trial_gradient;      // until the energy is known it holds the step, which the guards shorten
+  std::vector<int> held;     // by the guards, in the last trial
+  std::vector<int> blocked;  // held in the last step: they sit out this one
+  double max_move = options.max_move;
+
+  result.energy = r.energy(r.placement, &gradient);
+  result.evaluations = 1;
+  r.retraction.constrain(r.placement, gradient);
+  rest.at_rest(result.energy);
+  result.reason = StopReason::step_limit;
+
+  while (result.evaluations < options.max_steps) {
+    if (result.steps % lbfgs.curvature_every == 0)
+      timed(r.stopwatch, "preconditioner", [&] { h0.refresh(r); });
+    const auto find_step = [&] { find_descent(r, max_move, gradient, blocked, h0, memory, step); };
+    timed(r.stopwatch, "direction", find_step);
+    bool accepted = false;
+    bool mended = false;
+    double trial_energy = 0;
+    for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
+      if (tries > 0 && (held.empty() || mended)) {
+        assign_scaled(.5, step, step);
+      } else if (tries > 0) {  // what the guards hold back spoils the step of the others
+        if (max_move > lbfgs.least_cap && carried_share(r, max_move, step) > lbfgs.carried) {
+          max_move /= 2;
+          result.held_back -= static_cast<long long>(held.size());  // but by what ran over them
+        } else {
+          blocked.insert(blocked.end(), held.begin(), held.end());
+        }
+        find_step();
+      }
+      assign_scaled(1, step, trial_gradient);
+      held = timed(r.stopwatch, "guards", [&] {
+        return r.guards.step(r.retraction, r.placement, trial_gradient, trial, r.stopwatch);
+      });
+      result.held_back += static_cast<long long>(held.size());
+      mended =
+          !held.empty() && static_cast<double>(held.size()) <= lbfgs.mendable * r.connectivity.vertex_count;
+      if (mended) timed(r.stopwatch, "mending", [&] { mend(r, held, lbfgs, trial); });
+      trial_energy = timed(r.stopwatch, "energy", [&] { return r.energy(trial, &trial_gradient); });
+      ++result.evaluations;
+      const double slope = dot_with_difference(gradient, trial.points, r.placement.points);
+      accepted = trial_energy <= result.energy + lbfgs.armijo * std::min(0., slope);
+    }
+    if (!accepted) {
+      if (!memory.empty()) {
+        memory.clear();
+        blocked.clear();
+        continue;
+      }
+      result.reason = StopReason::stalled;
+      break;
+    }
+    r.retraction.constrain(trial, trial_gradient);
+    subtract(trial_gradient, gradient, gradient);
+    subtract(trial.points, r.placement.points, step);
+    memory.push(r, h0, step, gradient);
+    std::swap(r.placement, trial);
+    std::swap(gradient, trial_gradient);
+    if (mended)
+      blocked.clear();
+    else
+      blocked = held;
+    result.energy = trial_energy;
+    ++result.steps;
+    if (observer && !observer({"", 0, result.steps, result.energy})) {
+      result.reason = StopReason::interrupted;
+      break;
+    }
+    if (rest.at_rest(result.energy)) {
+      result.reason = StopReason::stalled;
+      break;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
+                              const Observer& observer) {
+  Placement trial;
+  IntegrationResult result = descend(r, options, lbfgs, observer, trial);
+  if (!lbfgs.settles) return result;
+  settle(r.guards, r.retraction, r.placement, trial);
+  std::swap(r.placement, trial);
+  result.energy = r.energy(r.placement, nullptr);
+  return result;
+}
+
+}  // namespace hooke

@@ -1,0 +1,43 @@
+#include "hooke/integrator/untangle.h"
+
+namespace hooke {
+namespace {
+
+std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces) {
+  std::vector<int> vertices;
+  for (int f : faces) {
+    const Triangle& t = c.faces[static_cast<size_t>(f)];
+    vertices.insert(vertices.end(), t.begin(), t.end());
+  }
+  return vertices;
+}
+
+}  // namespace
+
+UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer& observer) {
+  UntangleResult result;
+  result.folded = r.guards.folded_faces(r.placement);
+  result.folded_before = static_cast<int>(result.folded.size());
+  if (result.folded.empty()) return result;
+
+  const EnergyTerms terms = r.energy.terms;
+  r.energy.terms.unfold = 1;
+  size_t least = result.folded.size();
+  for (int round = 0, in_vain = 0;
+       round < o.rounds && in_vain < o.patience && !result.folded.empty() && !result.interrupted; ++round) {
+    const LocalRelaxationResult relaxed =
+        relax_locally(r,
+                      with_rings(r.connectivity, corners_of(r.connectivity, result.folded),
+                                 o.first_rings + round * o.more_rings),
+                      {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation}, observer);
+    result.sweeps += relaxed.sweeps;
+    result.interrupted = relaxed.interrupted;
+    result.folded = r.guards.folded_faces(r.placement);
+    in_vain = result.folded.size() < least ? 0 : in_vain + 1;
+    least = std::min(least, result.folded.size());
+  }
+  r.energy.terms = terms;
+  return result;
+}
+
+}  // namespace hooke

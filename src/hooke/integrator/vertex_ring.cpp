@@ -1,0 +1,212 @@
+#include "hooke/integrator/vertex_ring.h"
+
+#include "hooke/integrator/ring_limits.h"
+
+namespace hooke {
+
+using namespace ring;
+
+namespace {
+
+HOOKE_SIMD void make_shape(const double* fixed, std::size_t stride, const Vec3& x, double* shape) {
+  for (std::size_t i = 0; i < stride; i += lane_count) {
+    LaneVec a, b, n;
+    Lanes la, lb, area;
+    load(fixed + near * stride + i, stride, a);
+    load(fixed + far * stride + i, stride, b);
+    const LaneVec e = {a.x - x[0], a.y - x[1], a.z - x[2]}, f = {b.x - x[0], b.y - x[1], b.z - x[2]};
+    cross(e, f, n);
+    dot(e, e, la);
+    dot(f, f, lb);
+    dot(n, n, area);
+    take_sqrt(la);
+    take_sqrt(lb);
+    take_sqrt(area);
+    store(e, shape + to_near * stride + i, stride);
+    store(f, shape + to_far * stride + i, stride);
+    store(n, shape + area_vector * stride + i, stride);
+    store(la, shape + near_length * stride + i);
+    store(lb, shape + far_length * stride + i);
+    store(area, shape + doubled_area * stride + i);
+  }
+}
+
+double cotangent_of_least_angle(const double* moving, std::size_t stride) {
+  const Vec3 e = get(moving + to_near * stride, stride), f = get(moving + to_far * stride, stride);
+  const double a = e.squaredNorm(), b = f.squaredNorm(), c = (f - e).squaredNorm();
+  const double area = moving[doubled_area * stride];
+  if (!(area > 0)) return std::numeric_limits<double>::infinity();
+  return (.5 * (a + b + c) - std::min({a, b, c})) / area;
+}
+
+}  // namespace
+
+void VertexRing::gather(const Placement& at, int side) {
+  side_ = side;
+  const auto ring = spokes();
+  const std::size_t count = ring.size();
+  stride_ = padded_to_lanes(count);
+  const std::size_t S = stride_;
+  columns_.resize(fixed_columns * S);
+  double* const data = columns_.data();
+  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(side)]);
+  if (begins_at_crease()) mate_ = at.points.col(spokes_.mate[static_cast<std::size_t>(side)]);
+  const auto normal = [&](std::size_t i) {
+    return at.normals.col(spokes_.sides.empty() ? ring[i].neighbour : spokes_.sides[item + i]);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Spoke& spoke = ring[i];
+    const bool face = spoke.face >= 0;
+    // The last edge of an open fan has no face: one across the edge before keeps the numbers finite.
+    const std::size_t j = face ? (i + 1) % count : i - 1;
+    const Spoke& next = ring[j];
+    put(at.points.col(spoke.neighbour), data + near * S + i, S);
+    put(at.points.col(next.neighbour), data + far * S + i, S);
+    put(normal(i) + normal(j), data + face_normals * S + i, S);
+    put(normal(i), data + edge_normal * S + i, S);
+    Vec3 other = Vec3::Zero();
+    if (spoke.across >= 0) {
+      const Vec3 b = at.points.col(next.neighbour);
+      other = (at.points.col(spoke.neighbour) - b).cross(at.points.col(spoke.across) - b);
+    }
+    put(other, data + beyond * S + i, S);
+    data[edge_target * S + i] = targets_.edge[static_cast<std::size_t>(spoke.edge)];
+    data[face_target * S + i] =
+        face ? targets_.face[static_cast<std::size_t>(spoke.face)] : data[edge_target * S + i];
+    data[has_edge * S + i] = spokes_.owned.empty() || spokes_.owned[item + i];
+    data[has_face * S + i] = face;
+  }
+  for (std::size_t c = 0; c < fixed_columns; ++c)
+    for (std::size_t i = count; i < S; ++i)
+      data[c * S + i] = c == has_edge || c == has_face ? 0 : data[c * S];
+}
+
+void VertexRing::shape(const Vec3& point, const Vec3& normal, RingShape& shape) const {
+  const std::size_t S = stride_, count = spokes().size();
+  shape.point = point;
+  shape.normal = normal;
+  shape.columns.resize(moving_columns * S);
+  double* const data = shape.columns.data();
+  make_shape(columns_.data(), S, point, data);
+  for (std::size_t i = 0; i < S; ++i) {
+    const std::size_t before = i == 0 ? count - 1 : i - 1;
+    const bool pair = i < count && spokes()[i].face >= 0 && spokes()[before].face >= 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      data[(previous_vector + k) * S + i] = pair ? data[(area_vector + k) * S + before] : 0;
+    data[previous_area * S + i] = pair ? data[doubled_area * S + before] : 0;
+  }
+  if (!begins_at_crease()) return;
+  const Vec3 beyond_crease = (mate_ - point).cross(get(data + to_near * S, S));
+  put(beyond_crease, data + previous_vector * S, S);
+  data[previous_area * S] = beyond_crease.norm();
+}
+
+double VertexRing::energy(const RingShape& shape, const EnergyTerms& terms) const {
+  std::vector<double> unfolded;
+  const double folded =
+      terms.unfold > 0 ? unfold(shape, terms, Vec3::Zero(), Vec3::Zero(), unfolded).energy : 0;
+  return folded + ring_energy(view(shape), unfolded.empty() ? nullptr : unfolded.data(), terms);
+}
+
+RingModel VertexRing::model(const RingShape& shape, const EnergyTerms& terms, const Vec3& u,
+                            const Vec3& v) const {
+  RingModel model;
+  std::vector<double> unfolded;
+  if (terms.unfold > 0) model = unfold(shape, terms, u, v, unfolded);
+  add_ring_model(view(shape), unfolded.empty() ? nullptr : unfolded.data(), terms, u, v, model);
+  return model;
+}
+
+/// 3/2 ((d - s) / d)^2 of the folded faces, s = (2 A n) . r / (.866 L^2); tells which faces are left for the
+/// other terms.
+RingModel VertexRing::unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
+                             std::vector<double>& unfolded) const {
+  const std::size_t S = stride_;
+  RingModel model;
+  unfolded.assign(columns_.begin() + static_cast<std::ptrdiff_t>(has_face * S),
+                  columns_.begin() + static_cast<std::ptrdiff_t>((has_face + 1) * S));
+  for (std::size_t i = 0; i < S; ++i) {
+    if (unfolded[i] == 0) continue;
+    const Vec3 n = get(shape.columns.data() + area_vector * S + i, S);
+    const Vec3 r = get(columns_.data() + face_normals * S + i, S) + shape.normal;
+    const double lengths = std::sqrt(n.squaredNorm() * r.squaredNorm());
+    const double d = terms.unfold_below;
+    if (lengths > 0 && n.dot(r) / lengths >= d) continue;
+    unfolded[i] = 0;
+    const double target = columns_[face_target * S + i];
+    const double unit = altitude_ratio * target * target;
+    const Vec3 up = r.stableNormalized();
+    const double s = n.dot(up) / unit;
+    if (s >= d) continue;
+    const Vec3 c = get(columns_.data() + far * S + i, S) - get(columns_.data() + near * S + i, S);
+    const Vec3 lift = up.cross(c) / unit;  // gradient of s
+    const Eigen::Vector2d g(lift.dot(u), lift.dot(v));
+    const double weight = 3 * terms.unfold / (d * d);
+    model.energy += .5 * weight * (d - s) * (d - s);
+    model.gradient -= weight * (d - s) * g;
+    model.hessian += weight * g * g.transpose();
+  }
+  return model;
+}
+
+RingMeasures VertexRing::measures(const RingShape& shape) const {
+  const std::size_t S = stride_;
+  const double* const data = shape.columns.data();
+  const auto cosine = [](const Vec3& a, const Vec3& b) {
+    const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+    return lengths > 0 ? a.dot(b) / lengths : 1;
+  };
+  RingMeasures m;
+  for (std::size_t i = 0; i < spokes().size(); ++i) {
+    const Vec3 n = get(data + area_vector * S + i, S);
+    const Vec3 r = get(columns_.data() + face_normals * S + i, S) + shape.normal;
+    const double c = std::clamp(get(columns_.data() + edge_normal * S + i, S).dot(shape.normal), -1., 1.);
+    const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
+    const bool face = spokes()[i].face >= 0;
+    m.area.push_back(face ? .5 * data[doubled_area * S + i] : 0);
+    m.cotangent.push_back(face ? cotangent_of_least_angle(data + i, S) : 0);
+    m.alignment.push_back(!face ? 1 : n.isZero(0) || r.isZero(0) ? 0 : cosine(n, r));
+    m.sagitta.push_back(.5 * data[near_length * S + i] * tan_quarter);
+    m.fold.push_back(face ? cosine(n, get(data + previous_vector * S + i, S)) : 1);
+    m.far_fold.push_back(face ? cosine(n, get(columns_.data() + beyond * S + i, S)) : 1);
+  }
+  return m;
+}
+
+double VertexRing::greatest_cotangent(const RingShape& shape) const {
+  double greatest = 0;
+  for (std::size_t i = 0; i < spokes().size(); ++i)
+    if (spokes()[i].face >= 0)
+      greatest = std::max(greatest, cotangent_of_least_angle(shape.columns.data() + i, stride_));
+  return greatest;
+}
+
+int VertexRing::folded_faces(const RingShape& shape, double limit) const {
+  return static_cast<int>(
+      std::ranges::count_if(measures(shape).alignment, [limit](double a) { return a < limit; }));
+}
+
+bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMeasures& b,
+                             const RingMeasures& a) const {
+  const auto breaks = [&](bool crease, double before, double after) {
+    return crease ? crease_fold_breaks(o, before, after) : hooke::fold_breaks(o, before, after);
+  };
+  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(side_)]) + i;
+  const bool far_crease = !spokes_.far_crease.empty() && spokes_.far_crease[item];
+  return breaks(i == 0 && begins_at_crease(), b.fold[i], a.fold[i]) ||
+         breaks(far_crease, b.far_fold[i], a.far_fold[i]);
+}
+
+bool VertexRing::obeys(const RingShape& before, const RingShape& after, const GuardOptions& o) const {
+  if (within_limits(view(before), view(after), o)) return true;
+  const RingMeasures b = measures(before), a = measures(after);
+  for (std::size_t i = 0; i < spokes().size(); ++i)
+    if (face_breaks(o, b.area[i], a.area[i], b.alignment[i], a.alignment[i]) ||
+        angle_breaks(o, b.alignment[i], b.cotangent[i], a.cotangent[i]) ||
+        sagitta_breaks(o, columns_[edge_target * stride_ + i], b.sagitta[i], a.sagitta[i]) ||
+        fold_breaks(o, i, b, a))
+      return false;
+  return true;
+}
+
+}  // namespace hooke

@@ -1,0 +1,206 @@
+#include "hooke/measure/angle_bound.h"
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace hooke {
+namespace {
+
+/// What is left to share out once every angle has its t: a transport of degrees from faces to vertices.
+/// Whole numbers keep the flow exact.
+constexpr double units_per_degree = 1e6;
+
+using Amount = std::int64_t;
+
+struct Patch {
+  std::vector<int> faces, vertices;            // ascending
+  std::vector<std::array<size_t, 3>> corners;  // per face: places in `vertices`
+  std::vector<double> angle_sum;               // per vertex, degrees, over all its faces
+  std::vector<int> face_count;                 // per vertex, in the mesh
+  std::vector<char> enclosed;                  // per vertex: all its faces are in the patch
+};
+
+double corner_angle(const Mat3X& points, const Triangle& t, size_t k) {
+  const Vec3 p = points.col(t[k]);
+  const Vec3 a = points.col(t[(k + 1) % 3]) - p, b = points.col(t[(k + 2) % 3]) - p;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
+void sort_unique(std::vector<int>& ids) {
+  std::ranges::sort(ids);
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+}
+
+std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces) {
+  std::vector<int> vertices;
+  for (int f : faces)
+    for (int v : c.faces[static_cast<size_t>(f)]) vertices.push_back(v);
+  sort_unique(vertices);
+  return vertices;
+}
+
+Patch patch_about(const Mat3X& points, const Connectivity& c, int face, int rings) {
+  Patch patch;
+  patch.faces = {face};
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<int> vertices = corners_of(c, patch.faces);
+    for (int v : vertices)
+      for (int f : c.vertex_faces[v]) patch.faces.push_back(f);
+    sort_unique(patch.faces);
+  }
+  patch.vertices = corners_of(c, patch.faces);
+  const auto place = [](const std::vector<int>& ids, int id) {
+    return static_cast<size_t>(std::ranges::lower_bound(ids, id) - ids.begin());
+  };
+  for (int f : patch.faces) {
+    const Triangle& t = c.faces[static_cast<size_t>(f)];
+    patch.corners.push_back(
+        {place(patch.vertices, t[0]), place(patch.vertices, t[1]), place(patch.vertices, t[2])});
+  }
+  for (int v : patch.vertices) {
+    double sum = 0;
+    bool enclosed = true;
+    for (int f : c.vertex_faces[v]) {
+      const Triangle& t = c.faces[static_cast<size_t>(f)];
+      sum += corner_angle(points, t, t[0] == v ? 0 : t[1] == v ? 1 : 2);
+      enclosed = enclosed && std::ranges::binary_search(patch.faces, f);
+    }
+    patch.angle_sum.push_back(sum);
+    patch.face_count.push_back(static_cast<int>(c.vertex_faces[v].size()));
+    patch.enclosed.push_back(enclosed);
+  }
+  return patch;
+}
+
+/// A flow network with a source 0 and a sink 1.
+class Network {
+ public:
+  explicit Network(size_t nodes) : graph_(nodes + 2) {}
+
+  void connect(size_t from, size_t to, Amount capacity) {
+    const auto forth = boost::add_edge(from, to, graph_).first;
+    const auto back = boost::add_edge(to, from, graph_).first;
+    boost::put(boost::edge_capacity, graph_, forth, capacity);
+    boost::put(boost::edge_capacity, graph_, back, Amount{0});
+    boost::put(boost::edge_reverse, graph_, forth, back);
+    boost::put(boost::edge_reverse, graph_, back, forth);
+  }
+
+  Amount max_flow() { return boost::boykov_kolmogorov_max_flow(graph_, size_t{0}, size_t{1}); }
+
+  /// After max_flow(): is the node on the source's side of the smallest cut?
+  bool cut_off(size_t node) const {
+    return boost::get(boost::vertex_color, graph_, node) ==
+           boost::get(boost::vertex_color, graph_, size_t{0});
+  }
+
+ private:
+  using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
+  using Nodes =
+      boost::property<boost::vertex_color_t, boost::default_color_type,
+                      boost::property<boost::vertex_distance_t, long,
+                                      boost::property<boost::vertex_predecessor_t, Traits::edge_descriptor>>>;
+  using Arcs =
+      boost::property<boost::edge_capacity_t, Amount,
+                      boost::property<boost::edge_residual_capacity_t, Amount,
+                                      boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>;
+  boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, Nodes, Arcs> graph_;
+};
+
+Amount amount(double degrees) {
+  return static_cast<Amount>(std::llround(std::max(degrees, 0.) * units_per_degree));
+}
+
+/// Can one side send all it must to the other? If not, the vertices that stand in the way.
+struct Verdict {
+  bool possible = true;
+  std::vector<int> vertices;
+};
+
+/// Faces must share out 180 - 3 t each (`faces_send`), or enclosed vertices must receive all that their sum
+/// leaves them. Either can be met with the other side's amounts as limits; then both can at once (Mendelsohn
+/// and Dulmage, "Some generalizations of the problem of distinct representatives", 1958).
+Verdict share_out(const Patch& p, double t, bool faces_send) {
+  const size_t faces = p.faces.size(), vertices = p.vertices.size();
+  const auto face_node = [](size_t f) { return 2 + f; };
+  const auto vertex_node = [faces](size_t v) { return 2 + faces + v; };
+  Network network(faces + vertices);
+  Amount wanted = 0;
+  for (size_t f = 0; f < faces; ++f) {
+    const Amount share = amount(180 - 3 * t);
+    if (faces_send) wanted += share;
+    faces_send ? network.connect(0, face_node(f), share) : network.connect(face_node(f), 1, share);
+    for (size_t v : p.corners[f])
+      faces_send ? network.connect(face_node(f), vertex_node(v), share)
+                 : network.connect(vertex_node(v), face_node(f), share);
+  }
+  for (size_t v = 0; v < vertices; ++v) {
+    const double room = p.angle_sum[v] - p.face_count[v] * t;
+    if (room < -.5 / units_per_degree) return {false, {p.vertices[v]}};
+    if (faces_send) {
+      network.connect(vertex_node(v), 1, amount(room));
+    } else if (p.enclosed[v]) {
+      network.connect(0, vertex_node(v), amount(room));
+      wanted += amount(room);
+    }
+  }
+  const Amount slack = static_cast<Amount>(faces + vertices);  // of rounding
+  if (network.max_flow() >= wanted - slack) return {};
+  Verdict verdict{.possible = false, .vertices = {}};
+  for (size_t v = 0; v < vertices; ++v)
+    if (network.cut_off(vertex_node(v))) verdict.vertices.push_back(p.vertices[v]);
+  return verdict;
+}
+
+Verdict share_out(const Patch& p, double t) {
+  const Verdict sent = share_out(p, t, true);
+  return sent.possible ? share_out(p, t, false) : sent;
+}
+
+/// Of its angle sum, for each face.
+double share_of(const Patch& p, size_t vertex) {
+  return p.angle_sum[vertex] / p.face_count[vertex];
+}
+
+/// The vertex that leaves each of its faces the least.
+size_t tightest_vertex(const Patch& p) {
+  size_t tightest = 0;
+  for (size_t v = 1; v < p.vertices.size(); ++v)
+    if (share_of(p, v) < share_of(p, tightest)) tightest = v;
+  return tightest;
+}
+
+}  // namespace
+
+AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivity, int face, int rings) {
+  const Patch patch = patch_about(points, connectivity, face, rings);
+  AngleBound bound;
+  const auto unknown = [](double sum) { return !std::isfinite(sum); };
+  if (std::ranges::any_of(patch.angle_sum, unknown)) return bound;
+  double possible = 0, impossible = 60;
+  const size_t tightest = tightest_vertex(patch);
+  if (const double share = share_of(patch, tightest); share < impossible) {
+    impossible = share;
+    bound.vertices = {patch.vertices[tightest]};
+  }
+  Verdict at_most = share_out(patch, impossible);
+  if (at_most.possible) {  // most often
+    bound.degrees = impossible;
+    return bound;
+  }
+  bound.vertices = std::move(at_most.vertices);
+  while (impossible - possible > 1e-3) {
+    const double t = .5 * (possible + impossible);
+    Verdict verdict = share_out(patch, t);
+    (verdict.possible ? possible : impossible) = t;
+    if (!verdict.possible) bound.vertices = std::move(verdict.vertices);
+  }
+  bound.degrees = possible;
+  return bound;
+}
+
+}  // namespace hooke

@@ -1,0 +1,228 @@
+#include "hooke/measure/deviation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 1024;
+
+/// Along the normal, twice the area long.
+Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (b - a).cross(c - a);
+}
+Vec3 area_vector(const Mat3X& points, const Triangle& t) {
+  return area_vector(points.col(t[0]), points.col(t[1]), points.col(t[2]));
+}
+
+using Face = BoundingVolumeTree::Face;
+
+Vec3 area_vector(const Face& face) {
+  return area_vector(face.corners[0], face.corners[1], face.corners[2]);
+}
+
+const Face& face_at(const MeasuredSurface& surface, const TreeFoot& foot) {
+  return surface.tree.faces()[static_cast<size_t>(foot.place)];
+}
+
+Vec3 weights_at(const Face& face, const TreeFoot& foot) {
+  return barycentric(foot.point, face.corners[0], face.corners[1], face.corners[2]);
+}
+
+/// In the order of the ids that the vertices have in their mesh.
+Mat3X points_by_id(const MeasuredSurface& surface) {
+  Mat3X points(3, surface.points.cols());
+  for (int v = 0; v < surface.connectivity.vertex_count; ++v)
+    points.col(surface.ids.vertex(v)) = surface.points.col(v);
+  return points;
+}
+
+MaxRms measure_displacement(const Mat3X& before, const Mat3X& after) {
+  MaxRms displacement;
+  double squares = 0;
+  for (Eigen::Index v = 0; v < before.cols(); ++v) {
+    const double d = (after.col(v) - before.col(v)).squaredNorm();
+    displacement.max = std::max(displacement.max, d);
+    squares += d;
+  }
+  displacement.max = std::sqrt(displacement.max);
+  if (before.cols() > 0) displacement.rms = std::sqrt(squares / static_cast<double>(before.cols()));
+  return displacement;
+}
+
+/// Degrees between two vectors along normals; NaN when one has no length: no normal, no angle.
+double angle_between(const Vec3& n, const Vec3& m) {
+  if (!(n.squaredNorm() > 0 && m.squaredNorm() > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return std::atan2(n.cross(m).norm(), n.dot(m)) * (180 / std::numbers::pi);
+}
+
+/// Does a face with this area vector oppose one of the reference's faces that fold at the closest point?
+/// Where that is on an edge or a vertex, it is the closest point of several faces.
+bool opposes_at_fold(const MeasuredSurface& reference, const TreeFoot& at, const Vec3& n) {
+  constexpr double on_side = 1e-9;  // of a barycentric weight
+  constexpr double fold = -.1;      // cosine; a crease of a right angle is none
+  const Face& face = face_at(reference, at);
+  const Triangle& t = face.vertices;
+  const Vec3 weights = weights_at(face, at);
+  const auto touches = [&](const Triangle& other) {
+    for (size_t k = 0; k < 3; ++k)
+      if (weights[static_cast<Eigen::Index>(k)] > on_side && std::ranges::find(other, t[k]) == other.end())
+        return false;
+    return true;
+  };
+  if (weights.minCoeff() > on_side) return false;
+  const Vec3 own = area_vector(face).normalized();
+  Eigen::Index corner = 0;
+  weights.maxCoeff(&corner);
+  for (int f : reference.connectivity.vertex_faces[t[static_cast<size_t>(corner)]]) {
+    const Triangle& other = reference.connectivity.faces[static_cast<size_t>(f)];
+    const Vec3 m = area_vector(reference.points, other).normalized();
+    if (touches(other) && m.dot(own) < fold && m.dot(n) < 0) return true;
+  }
+  return false;
+}
+
+/// `closest` belongs to the centres of the result's faces, in the order of its tree.
+MaxRms measure_normal_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
+                                const std::vector<TreeFoot>& closest) {
+  const std::span<const Face> faces = result.tree.faces();
+  std::vector<double> angles(closest.size()), weights(closest.size());
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      if (closest[k].place < 0) continue;
+      const auto f = static_cast<size_t>(faces[k].id);
+      const Vec3 n = area_vector(faces[k]);
+      angles[f] = angle_between(n, area_vector(face_at(reference, closest[k])));
+      weights[f] = n.norm();
+    }
+  });
+  MaxRms deviation;
+  double area = 0, integral = 0;
+  for (size_t f = 0; f < angles.size(); ++f) {
+    if (std::isnan(angles[f])) continue;
+    deviation.max = std::max(deviation.max, angles[f]);
+    area += weights[f];
+    integral += weights[f] * angles[f] * angles[f];
+  }
+  if (area > 0) deviation.rms = std::sqrt(integral / area);
+  return deviation;
+}
+
+/// Unit normals; faces weigh by their area, so that a folded sliver does not turn them.
+Mat3X vertex_normals(const MeasuredSurface& side) {
+  Mat3X normals = Mat3X::Zero(3, side.connectivity.vertex_count);
+  parallel_for(static_cast<size_t>(normals.cols()), block, [&](size_t begin, size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      Vec3 sum = Vec3::Zero();
+      for (int f : side.connectivity.vertex_faces[v])
+        sum += area_vector(side.points, side.connectivity.faces[static_cast<size_t>(f)]);
+      normals.col(v) = sum.normalized();
+    }
+  });
+  return normals;
+}
+
+/// The reference's vertex normals, interpolated at a point of its surface.
+Vec3 normal_at(const Mat3X& normals, const Face& face, const TreeFoot& at) {
+  const Triangle& t = face.vertices;
+  const Vec3 weights = weights_at(face, at);
+  return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
+}
+
+/// `closest` belongs to the centres of the result's faces, in the order of its tree.
+void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
+                         const std::vector<TreeFoot>& closest, Deviation& deviation) {
+  const Mat3X normals = vertex_normals(reference);
+  std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
+  const std::span<const Face> faces = result.tree.faces();
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      if (closest[k].place < 0) continue;
+      const auto f = static_cast<size_t>(faces[k].id);
+      const Vec3 n = area_vector(faces[k]);
+      const Face& there = face_at(reference, closest[k]);
+      flipped[f] = n.dot(normal_at(normals, there, closest[k])) < 0;
+      opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
+    }
+  });
+  deviation.flipped_faces = static_cast<size_t>(std::ranges::count(flipped, 1));
+  for (size_t f = 0; f < opposing.size(); ++f)
+    if (opposing[f]) deviation.opposing_faces.push_back(result.ids.face(static_cast<int>(f)));
+  std::ranges::sort(deviation.opposing_faces);
+}
+
+/// Boundary edges as triangles without area, which is how the tree takes segments.
+std::vector<Triangle> boundary_segments(const Connectivity& connectivity) {
+  std::vector<Triangle> segments;
+  for (size_t e = 0; e < connectivity.edges.size(); ++e) {
+    const auto [a, b] = connectivity.edges[e];
+    if (connectivity.is_boundary_edge(static_cast<int>(e))) segments.push_back({a, b, b});
+  }
+  return segments;
+}
+
+double greatest_distance(const Mat3X& points, const std::vector<Triangle>& segments,
+                         const BoundingVolumeTree& to) {
+  constexpr int samples = 8;
+  std::vector<double> greatest(segments.size());
+  parallel_for(segments.size(), block, [&](size_t begin, size_t end) {
+    for (size_t s = begin; s < end; ++s)
+      for (int k = 0; k < samples; ++k) {
+        const double share = static_cast<double>(k) / samples;
+        const Vec3 x = (1 - share) * points.col(segments[s][0]) + share * points.col(segments[s][1]);
+        greatest[s] = std::max(greatest[s], to.closest(x).squared_distance);
+      }
+  });
+  return std::sqrt(*std::max_element(greatest.begin(), greatest.end()));
+}
+
+std::optional<double> relative_change(std::optional<double> before, std::optional<double> after) {
+  if (!before || !after || *before == 0) return std::nullopt;
+  return (*after - *before) / std::abs(*before);
+}
+
+}  // namespace
+
+Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
+                            Stopwatch* stopwatch) {
+  Deviation d;
+  if (reference.points.cols() == result.points.cols())
+    d.displacement = std::ranges::equal(reference.ids.vertices, result.ids.vertices)
+                         ? measure_displacement(reference.points, result.points)
+                         : measure_displacement(points_by_id(reference), points_by_id(result));
+
+  std::vector<TreeFoot> closest;
+  timed(stopwatch, "to_reference", [&] { d.to_reference = measure_distance(result, reference, &closest); });
+  timed(stopwatch, "from_reference", [&] { d.from_reference = measure_distance(reference, result); });
+  timed(stopwatch, "normals", [&] {
+    d.normal_deviation = measure_normal_deviation(reference, result, closest);
+    find_opposing_faces(reference, result, closest, d);
+  });
+  d.diagonal = reference.extent.diagonal;
+  d.area_change = relative_change(reference.extent.area, result.extent.area);
+  d.volume_change = relative_change(reference.extent.volume, result.extent.volume);
+
+  const Stage stage(stopwatch, "boundary");
+  const auto old_rim = boundary_segments(reference.connectivity);
+  const auto new_rim = boundary_segments(result.connectivity);
+  if (!old_rim.empty() && !new_rim.empty()) {
+    d.boundary_to_reference =
+        greatest_distance(result.points, new_rim, BoundingVolumeTree(reference.points, old_rim));
+    d.boundary_from_reference =
+        greatest_distance(reference.points, old_rim, BoundingVolumeTree(result.points, new_rim));
+  }
+  return d;
+}
+
+Deviation measure_deviation(const Mat3X& reference_points, const Connectivity& reference,
+                            const Mat3X& result_points, const Connectivity& result) {
+  return measure_deviation(MeasuredSurface(reference_points, reference),
+                           MeasuredSurface(result_points, result));
+}
+
+}  // namespace hooke

@@ -1,0 +1,189 @@
+#include "hooke/measure/quality.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "hooke/core/parallel.h"
+#include "hooke/core/unfilled_vector.h"
+#include "hooke/geometry/self_intersection.h"
+#include "hooke/geometry/triangle_shape.h"
+#include "hooke/mesh/curvature.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 1024;
+
+using FaceShapes = UnfilledVector<TriangleShape>;
+
+FaceShapes measure_faces(const Mat3X& points, const std::vector<Triangle>& faces) {
+  FaceShapes shapes(faces.size());
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const auto& [a, b, c] = faces[f];
+      shapes[f] = measure_triangle(points.col(a), points.col(b), points.col(c));
+    }
+  });
+  return shapes;
+}
+
+std::vector<double> measure_edges(const Mat3X& points, const std::vector<Edge>& edges) {
+  std::vector<double> lengths(edges.size());
+  parallel_for(edges.size(), block, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e)
+      lengths[e] = (points.col(edges[e][0]) - points.col(edges[e][1])).norm();
+  });
+  return lengths;
+}
+
+/// Cross products of two edges of every face: along the normal, twice the area long.
+Mat3X area_vectors(const Mat3X& points, const std::vector<Triangle>& faces) {
+  Mat3X vectors(3, static_cast<Eigen::Index>(faces.size()));
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const Vec3 a = points.col(faces[f][0]), b = points.col(faces[f][1]), c = points.col(faces[f][2]);
+      vectors.col(static_cast<Eigen::Index>(f)) = (b - a).cross(c - a);
+    }
+  });
+  return vectors;
+}
+
+/// Sum over [0, count) of what is 1 or 0.
+template <typename Condition>
+size_t count_where(size_t count, const Condition& condition) {
+  const double sum = parallel_sum(count, block, [&](size_t begin, size_t end) {
+    size_t found = 0;
+    for (size_t i = begin; i < end; ++i) found += condition(i);
+    return static_cast<double>(found);
+  });
+  return static_cast<size_t>(sum);
+}
+
+/// Creases of a right angle are no folds, whichever way they are rounded.
+constexpr double least_fold = -1e-6;
+
+size_t count_folded_edges(const Mat3X& area_vector, const Connectivity& connectivity) {
+  return count_where(connectivity.edge_faces.size(), [&](size_t e) {
+    const auto [left, right] = connectivity.edge_faces[e];
+    if (right < 0) return false;
+    // Unit normals first: the plain product of two small faces' vectors could vanish.
+    const Vec3 n = area_vector.col(left).normalized(), m = area_vector.col(right).normalized();
+    return n.dot(m) < least_fold;
+  });
+}
+
+size_t count_degenerate_faces(const Mat3X& area_vector, double least_area) {
+  return count_where(static_cast<size_t>(area_vector.cols()), [&](size_t f) {
+    const double area = .5 * area_vector.col(static_cast<Eigen::Index>(f)).norm();
+    return !(area > 0 && area >= least_area);
+  });
+}
+
+std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const FaceShapes& shapes,
+                                        size_t wanted) {
+  const Mat3X& X = surface.points;
+  std::vector<int> order(shapes.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto count = static_cast<std::ptrdiff_t>(std::min(wanted, order.size()));
+  const auto least_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
+  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int f, int g) {
+    return std::pair(least_angle(f), surface.ids.face(f)) < std::pair(least_angle(g), surface.ids.face(g));
+  });
+  std::vector<WorstFace> worst(static_cast<size_t>(count));
+  parallel_for(worst.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int f = order[i];
+      const Triangle& t = surface.connectivity.faces[static_cast<size_t>(f)];
+      worst[i] = {surface.ids.face(f), least_angle(f), surface.ids.corners(t),
+                  (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3,
+                  bound_least_angle(X, surface.connectivity, f)};
+      std::vector<int>& bounding = worst[i].bound.vertices;
+      std::ranges::transform(bounding, bounding.begin(), [&](int v) { return surface.ids.vertex(v); });
+      std::ranges::sort(bounding);
+    }
+  });
+  return worst;
+}
+
+Range range_of(std::vector<double> values) {
+  const Statistics s = describe(std::move(values));
+  return {s.min, s.mean, s.max};
+}
+
+void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, const Lengths& targets,
+                  Quality& q) {
+  const auto column = [&](double TriangleShape::*measure) {
+    std::vector<double> values(shapes.size());
+    for (size_t f = 0; f < shapes.size(); ++f) values[f] = shapes[f].*measure;
+    return values;
+  };
+  // Fixed bins where the range is known, so that before and after can be laid side by side.
+  // In an order of which two threads get halves that take as long: there are more edges than faces.
+  const std::function<void()> parts[] = {
+      [&] { q.edge_length = describe(lengths); },
+      [&] {
+        q.min_angle = describe(column(&TriangleShape::min_angle), {0, 60});
+      },
+      [&] {
+        q.max_angle = describe(column(&TriangleShape::max_angle), {60, 180});
+      },
+      [&] {
+        q.shape = describe(column(&TriangleShape::shape), {0, 1});
+      },
+      [&] {
+        std::vector<double> errors(targets.size());
+        for (size_t e = 0; e < targets.size(); ++e) errors[e] = (lengths[e] - targets[e]) / targets[e];
+        q.length_error = describe(std::move(errors));
+      },
+      [&] { q.radius_ratio = describe(column(&TriangleShape::radius_ratio)); },
+      [&] { q.aspect_ratio = describe(column(&TriangleShape::aspect_ratio)); },
+      [&] { q.edge_ratio = describe(column(&TriangleShape::edge_ratio)); },
+  };
+  parallel_for(std::size(parts), 1, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) parts[k]();
+  });
+}
+
+}  // namespace
+
+Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_target_length,
+                        const QualityOptions& options, Stopwatch* stopwatch) {
+  const Connectivity& connectivity = surface.connectivity;
+  const Mat3X& points = surface.points;
+  assert(edge_target_length.empty() || edge_target_length.size() == connectivity.edges.size());
+  Quality q;
+  q.extent = surface.extent;
+  timed(stopwatch, "topology", [&] {
+    q.topology = measure_topology(connectivity);
+    q.valence = count_valences(connectivity);
+  });
+  timed(stopwatch, "angles", [&] {
+    const FaceShapes shapes = measure_faces(points, connectivity.faces);
+    describe_all(shapes, measure_edges(points, connectivity.edges), edge_target_length, q);
+    q.worst_faces = find_worst_faces(surface, shapes, options.worst_faces);
+  });
+  timed(stopwatch, "folds", [&] {
+    const Mat3X area_vector = area_vectors(points, connectivity.faces);
+    q.folded_edges = count_folded_edges(area_vector, connectivity);
+    q.degenerate_faces = count_degenerate_faces(area_vector, 1e-14 * q.extent.diagonal * q.extent.diagonal);
+  });
+  timed(stopwatch, "curvature", [&] {
+    VertexCurvature curvature = measure_curvature(points, connectivity);
+    q.mean_curvature = range_of(std::move(curvature.mean));
+    q.gaussian_curvature = range_of(std::move(curvature.gaussian));
+  });
+  if (options.self_intersections)
+    q.self_intersections =
+        timed(stopwatch, "self_intersections", [&] { return find_self_intersections(surface.tree).size(); });
+  return q;
+}
+
+Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
+                        const Lengths& edge_target_length, const QualityOptions& options) {
+  return measure_quality(MeasuredSurface(points, connectivity), edge_target_length, options);
+}
+
+}  // namespace hooke

@@ -1,0 +1,55 @@
+#include "hooke/mesh/extent.h"
+
+#include <algorithm>
+
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 4096;
+
+/// Sums over the faces, block by block.
+struct Sums {
+  double area = 0;
+  double volume = 0;  // of the cones to the centre
+};
+
+Sums sum_up(const Mat3X& points, const std::vector<Triangle>& faces, const Vec3& centre) {
+  std::vector<Sums> blocks(faces.size() / block + 1);
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const Vec3 a = points.col(faces[f][0]), b = points.col(faces[f][1]), c = points.col(faces[f][2]);
+      blocks[f / block].area += .5 * (b - a).cross(c - a).norm();
+      blocks[f / block].volume += (a - centre).dot((b - centre).cross(c - centre)) / 6;
+    }
+  });
+  Sums all;
+  for (const Sums& of_block : blocks) {
+    all.area += of_block.area;
+    all.volume += of_block.volume;
+  }
+  return all;
+}
+
+}  // namespace
+
+Extent measure_extent(const Mat3X& points, const Connectivity& connectivity) {
+  Extent extent;
+  if (connectivity.faces.empty()) return extent;
+  Eigen::AlignedBox3d box;
+  for (int v = 0; v < connectivity.vertex_count; ++v)
+    if (!connectivity.vertex_faces[v].empty()) box.extend(Vec3(points.col(v)));
+  extent.lower = box.min();
+  extent.upper = box.max();
+  extent.diagonal = box.diagonal().norm();
+  const Vec3 centre = box.center();  // keeps the cones small, and the rounding with them
+  const Sums sums = sum_up(points, connectivity.faces, centre);
+  extent.area = sums.area;
+  const bool closed =
+      std::ranges::none_of(connectivity.edge_faces, [](const auto& sides) { return sides[1] < 0; });
+  if (closed) extent.volume = sums.volume;
+  return extent;
+}
+
+}  // namespace hooke

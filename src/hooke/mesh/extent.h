@@ -1,0 +1,20 @@
+// The size of a mesh: box, area, volume.
+#pragma once
+
+#include <optional>
+
+#include "hooke/mesh/connectivity.h"
+
+namespace hooke {
+
+struct Extent {
+  Vec3 lower = Vec3::Zero();  // box of the vertices that have a face
+  Vec3 upper = Vec3::Zero();
+  double diagonal = 0;
+  double area = 0;
+  std::optional<double> volume;  // signed, positive when the faces look outward; none for an open mesh
+};
+
+Extent measure_extent(const Mat3X& points, const Connectivity& connectivity);
+
+}  // namespace hooke

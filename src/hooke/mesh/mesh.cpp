@@ -1,0 +1,140 @@
+#include "hooke/mesh/mesh.h"
+
+#include <fmt/format.h>
+
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+
+namespace {
+
+constexpr size_t block = 4096;
+
+using OpenMesh::HalfedgeHandle, OpenMesh::FaceHandle, OpenMesh::VertexHandle;
+
+/// OpenMesh's half-edge that runs along side k of the face.
+HalfedgeHandle half_edge(const Connectivity& c, size_t face, size_t k) {
+  const auto edge = static_cast<size_t>(c.face_edges[face][k]);
+  const bool along = c.edge_faces[edge][0] == static_cast<int>(face);
+  return HalfedgeHandle(static_cast<int>(2 * edge + (along ? 0 : 1)));
+}
+
+void link_inside(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
+  parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const FaceHandle face(ids.face(static_cast<int>(f)));
+      for (size_t k = 0; k < 3; ++k) {
+        const HalfedgeHandle h = half_edge(c, f, k);
+        mesh.set_vertex_handle(h, VertexHandle(ids.vertex(c.faces[f][(k + 1) % 3])));
+        mesh.set_face_handle(h, face);
+        mesh.set_next_halfedge_handle(h, half_edge(c, f, (k + 1) % 3));
+      }
+      mesh.set_halfedge_handle(face, half_edge(c, f, 2));  // so that its circulators begin at corner 0
+    }
+  });
+}
+
+/// A vertex points to a half-edge that leaves it: on the boundary to the one without a face.
+void link_vertices(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
+  parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      const VertexHandle vertex(ids.vertex(v));
+      const auto ring = c.vertex_faces[v];
+      if (ring.empty()) {
+        mesh.set_isolated(vertex);
+        continue;
+      }
+      const Triangle& t = c.faces[static_cast<size_t>(ring.front())];
+      const size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+      mesh.set_halfedge_handle(vertex, half_edge(c, static_cast<size_t>(ring.front()), k));
+    }
+  });
+}
+
+void link_boundary(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
+  const auto end = [&](size_t e, size_t k) { return VertexHandle(ids.vertex(c.edges[e][k])); };
+  const auto boundary = [&](size_t e) { return HalfedgeHandle(static_cast<int>(2 * e + 1)); };
+  for (size_t e = 0; e < c.edges.size(); ++e) {
+    if (!c.is_boundary_edge(static_cast<int>(e))) continue;
+    mesh.set_vertex_handle(boundary(e), end(e, 0));
+    mesh.set_boundary(boundary(e));
+    mesh.set_halfedge_handle(end(e, 1), boundary(e));
+  }
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_boundary_edge(static_cast<int>(e)))
+      mesh.set_next_halfedge_handle(boundary(e), mesh.halfedge_handle(end(e, 0)));
+}
+
+}  // namespace
+
+TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity, const MeshIds& ids) {
+  TriMesh mesh;
+  mesh.resize(static_cast<size_t>(points.cols()), 0, 0);
+  positions(mesh) = points;
+  replace_faces(mesh, connectivity, ids);
+  return mesh;
+}
+
+TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) {
+  VertexFans fans = examine_fans(static_cast<int>(points.cols()), triangles);
+  if (const int broken = first_broken(fans); broken >= 0)
+    throw MeshError(fmt::format("the faces around vertex {} do not fit a manifold mesh", broken));
+  return build_mesh(points, make_connectivity(triangles, std::move(fans)));
+}
+
+// Straight into the kernel's arrays: adding face by face looks at every ring again and again.
+void replace_faces(TriMesh& mesh, const Connectivity& connectivity, const MeshIds& ids) {
+  mesh.resize(mesh.n_vertices(), 0, 0);  // properties of edges and faces go with them
+  mesh.resize(mesh.n_vertices(), connectivity.edges.size(), connectivity.faces.size());
+  link_inside(connectivity, ids, mesh);
+  link_vertices(connectivity, ids, mesh);
+  link_boundary(connectivity, ids, mesh);
+}
+
+Eigen::Map<Mat3X> positions(TriMesh& mesh) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const auto n = static_cast<Eigen::Index>(mesh.n_vertices());
+  return {n ? mesh.point(mesh.vertex_handle(0)).data() : nullptr, 3, n};
+}
+
+Eigen::Map<const Mat3X> positions(const TriMesh& mesh) {
+  const auto n = static_cast<Eigen::Index>(mesh.n_vertices());
+  return {n ? mesh.points()->data() : nullptr, 3, n};
+}
+
+Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property) {
+  const auto n = static_cast<Eigen::Index>(mesh.n_vertices());
+  auto& storage = mesh.property(property.getRawProperty());
+  return {n ? storage.data_vector().data()->data() : nullptr, 3, n};
+}
+
+std::vector<double> vertex_values(const TriMesh& mesh, const char* property) {
+  OpenMesh::VPropHandleT<double> handle;
+  if (!mesh.get_property_handle(handle, property))
+    throw Error(fmt::format("the mesh has no vertex property '{}'", property));
+  return mesh.property(handle).data_vector();
+}
+
+void set_vertex_values(TriMesh& mesh, const char* property, double value) {
+  auto values = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, property);
+  for (const auto v : mesh.vertices()) values[v] = value;
+}
+
+void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<double>& values) {
+  auto stored = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, property);
+  for (const auto v : mesh.vertices()) stored[v] = values[static_cast<size_t>(v.idx())];
+}
+
+std::vector<Triangle> triangles_of(const TriMesh& mesh) {
+  std::vector<Triangle> triangles(mesh.n_faces());
+  parallel_for(triangles.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      auto corner = mesh.cfv_begin(FaceHandle(static_cast<int>(f)));
+      for (int& v : triangles[f]) v = (corner++)->idx();
+    }
+  });
+  return triangles;
+}
+
+}  // namespace hooke

@@ -1,0 +1,64 @@
+#include "hooke/mesh/normals.h"
+
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::size_t block = 1024;
+
+Vec3 unit_or_zero(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+/// Normal of the face weighted for its corner at `v`: sin(angle) / (product of the two edges there).
+Vec3 weighted_corner_normal(const Eigen::Ref<const Mat3X>& points, const Triangle& face, int v) {
+  const std::size_t k = face[0] == v ? 0 : face[1] == v ? 1 : 2;
+  const Vec3 a = points.col(face[(k + 1) % 3]) - points.col(v);
+  const Vec3 b = points.col(face[(k + 2) % 3]) - points.col(v);
+  const double weight = a.squaredNorm() * b.squaredNorm();
+  return weight > 0 ? Vec3(a.cross(b) / weight) : Vec3(Vec3::Zero());
+}
+
+}  // namespace
+
+Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity) {
+  Mat3X normals(3, static_cast<Eigen::Index>(connectivity.faces.size()));
+  parallel_for(connectivity.faces.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto& [a, b, c] = connectivity.faces[f];
+      const Vec3 ab = points.col(b) - points.col(a), ac = points.col(c) - points.col(a);
+      normals.col(static_cast<Eigen::Index>(f)) = unit_or_zero(ab.cross(ac));
+    }
+  });
+  return normals;
+}
+
+Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity) {
+  Mat3X normals(3, points.cols());
+  parallel_for(static_cast<std::size_t>(points.cols()), block, [&](std::size_t begin, std::size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      Vec3 sum = Vec3::Zero();
+      for (int f : connectivity.vertex_faces[v])
+        sum += weighted_corner_normal(points, connectivity.faces[static_cast<std::size_t>(f)], v);
+      normals.col(v) = unit_or_zero(sum);
+    }
+  });
+  return normals;
+}
+
+Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity) {
+  Eigen::VectorXd lengths(points.cols());
+  parallel_for(static_cast<std::size_t>(points.cols()), block, [&](std::size_t begin, std::size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      const auto neighbours = connectivity.vertex_neighbours[v];
+      double sum = 0;
+      for (int n : neighbours) sum += (points.col(n) - points.col(v)).norm();
+      lengths[v] = neighbours.empty() ? 0 : sum / static_cast<double>(neighbours.size());
+    }
+  });
+  return lengths;
+}
+
+}  // namespace hooke

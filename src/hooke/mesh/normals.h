@@ -1,0 +1,20 @@
+// Normals of faces and vertices, outward when the faces are counter-clockwise seen from outside.
+#pragma once
+
+#include "hooke/core/types.h"
+#include "hooke/mesh/connectivity.h"
+
+namespace hooke {
+
+/// Unit normal per face; zero for a face without area.
+Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity);
+
+/// Unit normal per vertex; zero for a vertex without faces of positive area. The faces are weighted so that
+/// the normal is exact wherever the ring lies on a sphere (N. Max, "Weights for computing vertex normals from
+/// facet normals", 1999).
+Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity);
+
+/// Mean length of the edges at each vertex; zero for a vertex without edges.
+Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity);
+
+}  // namespace hooke

@@ -1,0 +1,41 @@
+#include "hooke/mesh/surface_point.h"
+
+#include <limits>
+
+#include "hooke/geometry/closest_point.h"
+
+namespace hooke {
+namespace {
+
+struct Nearest {
+  SurfacePoint point;
+  double squared_distance = std::numeric_limits<double>::infinity();
+
+  void look_at(const Mat3X& points, const Connectivity& c, const Vec3& x, int vertex) {
+    for (int f : c.vertex_faces[vertex]) {
+      const Triangle& t = c.faces[static_cast<size_t>(f)];
+      const TrianglePoint near =
+          closest_point_on_triangle(points.col(t[0]), points.col(t[1]), points.col(t[2]), x);
+      if (!(near.squared_distance < squared_distance)) continue;
+      squared_distance = near.squared_distance;
+      point = {f, near.weights};
+    }
+  }
+};
+
+}  // namespace
+
+SurfacePoint locate(const Mat3X& points, const Connectivity& c, const Vec3& x, int anchor) {
+  Nearest nearest;
+  for (;;) {
+    const double before = nearest.squared_distance;
+    nearest.look_at(points, c, x, anchor);
+    for (int v : c.vertex_neighbours[anchor]) nearest.look_at(points, c, x, v);
+    if (!(nearest.squared_distance < before)) return nearest.point;
+    Eigen::Index corner;
+    nearest.point.weights.maxCoeff(&corner);
+    anchor = c.faces[static_cast<size_t>(nearest.point.face)][static_cast<size_t>(corner)];
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,35 @@
+// How a mesh hangs together, regardless of where its vertices are.
+#pragma once
+
+#include <vector>
+
+#include "hooke/mesh/connectivity.h"
+
+namespace hooke {
+
+struct Topology {
+  int vertices = 0;
+  int edges = 0;
+  int faces = 0;
+  int isolated_vertices = 0;  // without a face; they belong to no component and are not in `euler`
+  int components = 0;
+  int boundary_edges = 0;
+  int boundary_loops = 0;
+  int euler = 0;  // vertices - edges + faces
+
+  bool closed() const { return faces > 0 && boundary_edges == 0; }
+};
+
+/// counts[k] vertices have k edges. Isolated vertices are not counted.
+struct Valence {
+  std::vector<int> interior;
+  std::vector<int> boundary;
+};
+
+Topology measure_topology(const Connectivity& connectivity);
+Valence count_valences(const Connectivity& connectivity);
+
+/// For every vertex: does it lie on a boundary edge?
+std::vector<char> boundary_vertices(const Connectivity& connectivity);
+
+}  // namespace hooke

@@ -1,0 +1,136 @@
+#include "hooke/remesh/paper_mode.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+namespace hooke {
+namespace {
+
+/// The work in hand and the account of it.
+class PaperRun {
+ public:
+  PaperRun(const TriMesh& mesh, Layout layout, const PaperOptions& options, const Observer& observer)
+      : options_(options),
+        observer_(observer),
+        work_(mesh, std::move(layout), options.constraints, options.filter, options.retraction, {}),
+        to_input_(*work_.retraction),
+        strings_(*work_.connectivity, work_.targets, {.altitude = 0}),
+        mesh_(build_mesh(*work_.start, *work_.connectivity)) {}
+
+  RemeshResult run(TriMesh& mesh) {
+    result_.folded_before = static_cast<int>(folded_faces().size());
+    result_.reason = StopReason::step_limit;
+    for (outer_ = 1; !done_ && outer_ <= options_.max_outer; ++outer_) iterate();
+    result_.projection = work_.projection_counts();
+    result_.folded_faces = folded_faces();
+    result_.input_points = work_.copy_back(mesh);
+    result_.layout = work_.layout();
+    return std::move(result_);
+  }
+
+ private:
+  void iterate() {
+    if (outer_ > 1) work_.refit();  // psi of M_t
+    const double before = strings_(work_.placement, nullptr);
+    EvolutionResult evolved = optimize();  // M_{t+1}
+    filter();                              // M*_{t+1}
+    evolved.energy = strings_(work_.placement, nullptr);
+    record(evolved);
+    const double worst =
+        max_length_error(work_.placement.points, *work_.connectivity, work_.targets.edge.values());  // D
+    if (worst < options_.evolution.tolerance) return stop(StopReason::converged);
+    if (evolved.reason == StopReason::interrupted) return stop(StopReason::interrupted);
+    if (before - evolved.energy > options_.outer_drop * before) return;
+    stop(evolved.reason == StopReason::jammed ? StopReason::jammed : StopReason::stalled);
+  }
+
+  EvolutionResult optimize() {
+    return evolve_damped(mesh_, *work_.connectivity, work_.targets.edge.values(), options_.evolution,
+                         boundary_rule(), watch());
+  }
+
+  void filter() {
+    Placement& p = work_.placement;
+    p = work_.retraction->place(positions(mesh_), std::move(p.anchors), std::move(p.segments));
+    positions(mesh_) = p.points;
+  }
+
+  /// What curve and fixed vertices may not do, where the user asked for more than the paper. All others stay
+  /// free in space, as they are there.
+  Restraint boundary_rule() const {
+    const bool all_free =
+        std::ranges::all_of(work_.constraints.freedom, [](Freedom f) { return f == Freedom::surface; });
+    if (all_free) return nullptr;
+    return [this](Mat3X& forces) {
+      for (Eigen::Index v = 0; v < forces.cols(); ++v) {
+        const Freedom freedom = work_.constraints.freedom[static_cast<size_t>(v)];
+        if (freedom == Freedom::surface) continue;
+        const Vec3 tangent =
+            work_.retraction->tangent(work_.placement, static_cast<int>(v));  // zero if fixed
+        forces.col(v) = (tangent * tangent.dot(forces.col(v))).eval();
+      }
+    };
+  }
+
+  Observer watch() const {
+    if (!observer_) return nullptr;
+    return [this](Progress p) {
+      p.stage = "paper";
+      p.outer = outer_;
+      return observer_(p);
+    };
+  }
+
+  /// Faces of the present points against the surface of the input: the field of a folded mesh is no judge.
+  std::vector<int> folded_faces() {
+    Placement seen = to_input_.place(work_.placement.points, input_anchors(), work_.placement.segments);
+    seen.points = work_.placement.points;
+    const Guards guards(*work_.connectivity, work_.targets, {});
+    return faces_of_result(work_, guards.folded_faces(seen));
+  }
+
+  std::vector<int> input_anchors() const {
+    std::vector<int> anchors(work_.placement.anchors.size());
+    std::iota(anchors.begin(), anchors.end(), 0);
+    return anchors;
+  }
+
+  void record(const EvolutionResult& evolved) {
+    IterationRecord record = iteration_record(work_, "paper", evolved);
+    record.outer = outer_;
+    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    result_.iterations.push_back(record);
+    result_.bound += evolved.bound;
+    result_.jam = evolved.jam;
+  }
+
+  void stop(StopReason reason) {
+    result_.reason = reason;
+    done_ = true;
+  }
+
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const PaperOptions& options_;
+  const Observer& observer_;
+  Workspace work_;
+  Retraction to_input_;  // to the field of the input, for the last look
+  Energy strings_;
+  TriMesh mesh_;  // in motion
+  RemeshResult result_;
+  int outer_ = 0;
+  bool done_ = false;
+};
+
+}  // namespace
+
+RemeshResult paper_remesh(TriMesh& mesh, const PaperOptions& options, const Observer& observer) {
+  return paper_remesh(mesh, lay_out(mesh), options, observer);
+}
+
+RemeshResult paper_remesh(TriMesh& mesh, Layout layout, const PaperOptions& options,
+                          const Observer& observer) {
+  return PaperRun(mesh, std::move(layout), options, observer).run(mesh);
+}
+
+}  // namespace hooke

@@ -1,0 +1,234 @@
+#include "hooke/springs/energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "hooke/core/parallel.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/springs/face_springs.h"
+#include "hooke/springs/spring_law.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 1024;  // faces, a multiple of the lanes
+// Parts large enough for several threads, and so many that what is kept of one does not count.
+constexpr size_t most_parts = 16, least_part = 32 * block;
+
+constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
+
+/// One face with what all terms need of it.
+struct FaceFrame {
+  std::array<Vec3, 3> opposite;  // edge vector across from corner k, from corner k + 1 to corner k + 2
+  std::array<double, 3> length;  // of it
+  Vec3 normal;                   // unit; of the surface where the face has no area
+  double doubled_area;
+};
+
+/// Sum of the surface normals at the corners, unit.
+Vec3 surface_normal(const Placement& at, const Triangle& sides) {
+  return (at.normals.col(sides[0]) + at.normals.col(sides[1]) + at.normals.col(sides[2])).stableNormalized();
+}
+
+FaceFrame frame_of(const Placement& at, const Triangle& t, const Triangle& sides, double target) {
+  const std::array<Vec3, 3> p = {at.points.col(t[0]), at.points.col(t[1]), at.points.col(t[2])};
+  FaceFrame f;
+  for (size_t k = 0; k < 3; ++k) {
+    f.opposite[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
+    f.length[k] = std::max(f.opposite[k].norm(), FaceSprings::least_length * target);
+  }
+  f.normal = f.opposite[2].cross(-f.opposite[1]);
+  f.doubled_area = f.normal.norm();
+  const double floor = FaceSprings::least_length * target * target;
+  if (f.doubled_area > floor) {
+    f.normal /= f.doubled_area;
+  } else {
+    f.normal = surface_normal(at, sides);
+    f.doubled_area = floor;
+  }
+  return f;
+}
+
+/// Corner angles below the threshold: U(theta; t) / t^2 = ln z - 1 + 1 / z, z = t / theta.
+double angle_energy(const FaceFrame& f, double weight, double threshold, std::array<Vec3, 3>& gradient) {
+  double energy = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const Vec3 a = f.opposite[j];   // from corner k to corner i
+    const Vec3 b = -f.opposite[i];  // from corner k to corner j
+    const double theta = std::max(std::atan2(f.doubled_area, a.dot(b)), 1e-6);
+    if (theta >= threshold) continue;
+    const Potential u = spring_potential(theta, threshold);
+    energy += weight * u.value / (threshold * threshold);
+    const double slope = weight * u.slope / (threshold * threshold);
+    const Vec3 by_i = -f.normal.cross(a) / (f.length[j] * f.length[j]);
+    const Vec3 by_j = f.normal.cross(b) / (f.length[i] * f.length[i]);
+    gradient[i] += slope * by_i;
+    gradient[j] += slope * by_j;
+    gradient[k] -= slope * (by_i + by_j);
+  }
+  return energy;
+}
+
+/// Altitudes below h0: U(h; h0) / h0^2. Adds to the derivatives by the doubled area and by the edge lengths.
+double altitude_energy(const FaceFrame& f, double weight, double h0, double& by_area,
+                       std::array<double, 3>& by_length) {
+  double energy = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    const double h = f.doubled_area / f.length[k];
+    if (h >= h0) continue;
+    const Potential u = spring_potential(h, h0);
+    energy += weight * u.value / (h0 * h0);
+    const double slope = weight * u.slope / (h0 * h0);
+    by_area += slope / f.length[k];
+    by_length[k] -= slope * h / f.length[k];
+  }
+  return energy;
+}
+
+/// 3/2 ((d - s) / d)^2 with the signed area s = (2 A n) . r / (.866 L^2), r the surface normal. Unlike
+/// springs on unsigned altitudes it pushes a folded face the right way round.
+double unfold_energy(const Vec3& r, const FaceFrame& f, const EnergyTerms& terms, double target,
+                     std::array<Vec3, 3>& gradient) {
+  const double d = terms.unfold_below;
+  const double unit = altitude_ratio * target * target;
+  const double s = f.opposite[2].cross(-f.opposite[1]).dot(r) / unit;
+  if (s >= d) return 0;
+  const double slope = -3 * terms.unfold * (d - s) / (d * d) / unit;
+  for (size_t k = 0; k < 3; ++k) gradient[k] += slope * r.cross(f.opposite[k]);
+  return 1.5 * terms.unfold * (d - s) * (d - s) / (d * d);
+}
+
+/// Index of the vertex in the face.
+size_t corner_of(const Triangle& face, int vertex) {
+  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
+}
+
+}  // namespace
+
+Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
+               const EnergyTerms& energy_terms)
+    : terms(energy_terms), connectivity_(connectivity), targets_(targets) {
+  const auto& faces = connectivity.faces;
+  const size_t size = std::max(least_part, (faces.size() / most_parts / block + 1) * block);
+  for (size_t begin = 0; begin < faces.size(); begin += size) {
+    Part part{begin, std::min(begin + size, faces.size()), connectivity.vertex_count, 0};
+    for (size_t f = part.begin; f < part.end; ++f) {
+      part.first_vertex = std::min(part.first_vertex, std::ranges::min(faces[f]));
+      part.last_vertex = std::max(part.last_vertex, std::ranges::max(faces[f]));
+    }
+    parts_.push_back(part);
+  }
+  corner_gradients_.resize(9 * std::min(size, faces.size()));
+}
+
+double Energy::face_energy(const Placement& at, size_t face, double* corner_gradients) const {
+  const Triangle& t = connectivity_.faces[face];
+  const double target = targets_.face[face];
+  const Triangle& sides = connectivity_.sides_of_faces()[face];
+  const FaceFrame f = frame_of(at, t, sides, target);
+  double energy = 0;
+  double by_area = 0;
+  std::array<double, 3> by_length{};
+  std::array<Vec3, 3> gradient = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+
+  for (size_t k = 0; k < 3; ++k) {  // an edge belongs to its first face
+    const auto e = static_cast<size_t>(connectivity_.face_edges[face][(k + 1) % 3]);
+    if (connectivity_.edge_faces[e][0] != static_cast<int>(face)) continue;
+    const double L = targets_.edge[e];
+    const Potential u = spring_potential(f.length[k], L);
+    energy += terms.string * u.value / (L * L);
+    by_length[k] += terms.string * u.slope / (L * L);
+  }
+  if (terms.unfold > 0 && face_alignment(at.points, at.normals, t, sides) < terms.unfold_below) {
+    energy += unfold_energy(surface_normal(at, sides), f, terms, target, gradient);
+  } else {
+    if (terms.altitude > 0)
+      energy += altitude_energy(f, terms.altitude, altitude_ratio * target, by_area, by_length);
+    if (terms.angle > 0) energy += angle_energy(f, terms.angle, terms.angle_threshold, gradient);
+  }
+  if (!corner_gradients) return energy;
+
+  for (size_t k = 0; k < 3; ++k) {
+    const Vec3 by_edge = by_length[k] / f.length[k] * f.opposite[k];
+    gradient[k] += by_area * f.normal.cross(f.opposite[k]);
+    gradient[(k + 2) % 3] += by_edge;
+    gradient[(k + 1) % 3] -= by_edge;
+  }
+  for (size_t k = 0; k < 3; ++k) Eigen::Map<Vec3>(corner_gradients + 3 * k) = gradient[k];
+  return energy;
+}
+
+/// Four faces from `face` on or as many as there are, together where nothing but springs acts on them.
+double Energy::energy_of_four(const Placement& at, size_t face, double* corner_gradients) const {
+  const size_t count = std::min(lane_count, connectivity_.faces.size() - face);
+  if (terms.unfold <= 0 && terms.angle <= 0) {
+    FaceSprings four;
+    gather_faces(at, face, count, four);
+    evaluate_face_springs(terms.string, terms.altitude, four);
+    if (!four.flat) {
+      if (corner_gradients)
+        for (size_t i = 0; i < count; ++i)
+          for (size_t k = 0; k < 9; ++k) corner_gradients[9 * i + k] = four.gradient[k * lane_count + i];
+      return four.energy;
+    }
+  }
+  double energy = 0;
+  for (size_t i = 0; i < count; ++i)
+    energy += face_energy(at, face + i, corner_gradients ? corner_gradients + 9 * i : nullptr);
+  return energy;
+}
+
+void Energy::gather_faces(const Placement& at, size_t face, size_t count, FaceSprings& four) const {
+  for (size_t i = 0; i < lane_count; ++i) {
+    const size_t f = face + std::min(i, count - 1);
+    const Triangle& t = connectivity_.faces[f];
+    for (size_t k = 0; k < 3; ++k) {
+      const auto e = static_cast<size_t>(connectivity_.face_edges[f][(k + 1) % 3]);
+      for (size_t d = 0; d < 3; ++d)
+        four.corners[(3 * k + d) * lane_count + i] = at.points(static_cast<Eigen::Index>(d), t[k]);
+      four.edge_target[k * lane_count + i] = targets_.edge[e];
+      // An edge belongs to its first face.
+      four.has_edge[k * lane_count + i] = i < count && connectivity_.edge_faces[e][0] == static_cast<int>(f);
+    }
+    four.face_target[i] = targets_.face[f];
+    four.has_face[i] = i < count;
+  }
+}
+
+/// Adds the gradients of the part's faces to those of the vertices, in the order of each one's fan.
+void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
+  const auto first = static_cast<size_t>(part.first_vertex);
+  parallel_for(static_cast<size_t>(part.last_vertex) + 1 - first, 2048, [&](size_t begin, size_t end) {
+    for (size_t v = first + begin; v < first + end; ++v) {
+      Vec3 sum = gradient.col(static_cast<Eigen::Index>(v));
+      for (int face : connectivity_.vertex_faces[static_cast<int>(v)]) {
+        const auto f = static_cast<size_t>(face);
+        if (f < part.begin || f >= part.end) continue;
+        const size_t k = corner_of(connectivity_.faces[f], static_cast<int>(v));
+        sum += Eigen::Map<const Vec3>(corner_gradients_.data() + 9 * (f - part.begin) + 3 * k);
+      }
+      gradient.col(static_cast<Eigen::Index>(v)) = sum;
+    }
+  });
+}
+
+double Energy::operator()(const Placement& at, Mat3X* gradient) {
+  if (gradient) gradient->setZero(3, connectivity_.vertex_count);
+  std::vector<double> energies((connectivity_.faces.size() + block - 1) / block);
+  for (const Part& part : parts_) {
+    const size_t blocks = (part.end - part.begin + block - 1) / block;
+    parallel_for(blocks, 1, [&](size_t begin, size_t end) {
+      for (size_t b = begin; b < end; ++b)
+        for (size_t f = b * block; f < std::min((b + 1) * block, part.end - part.begin); f += lane_count)
+          energies[part.begin / block + b] +=
+              energy_of_four(at, part.begin + f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
+    });
+    if (gradient) add_corner_gradients(part, *gradient);
+  }
+  return std::accumulate(energies.begin(), energies.end(), 0.);
+}
+
+}  // namespace hooke

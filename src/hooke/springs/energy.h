@@ -1,0 +1,54 @@
+// The energy that relaxation minimises: springs on edges, on altitudes and on corner angles, all under the
+// modified Hooke's law [4], each measured in parts of its own rest length. Its negative gradient is the
+// force.
+#pragma once
+
+#include "hooke/filter/retraction.h"
+#include "hooke/springs/sizing.h"
+
+namespace hooke {
+
+struct FaceSprings;
+
+/// Weights of the terms; a term with weight 0 costs nothing.
+struct EnergyTerms {
+  double string = 1;           // lambda: U(l; L_e) / L_e^2 per edge [2]-[4]
+  double altitude = 1;         // beta: U(h; h0) / h0^2 per altitude h < h0 = (sqrt 3 / 2) L_f
+  double angle = 0;            // w: U(theta; t) / t^2 per corner angle theta < t
+  double angle_threshold = 0;  // t, radians, below pi / 2
+  double unfold = 0;           // weight of 3/2 ((d - s) / d)^2 for faces with alignment < d; replaces the
+                               // altitude and angle terms of such a face
+  double unfold_below = .3;    // d
+};
+
+class Energy {
+ public:
+  /// Keeps references to the connectivity and the targets.
+  Energy(const Connectivity& connectivity, const TargetLengths& targets, const EnergyTerms& terms);
+
+  /// Energy of the placement. The normals count as constant. With `gradient` also its gradient by the points.
+  double operator()(const Placement& at, Mat3X* gradient);
+
+  const TargetLengths& targets() const { return targets_; }
+
+  EnergyTerms terms;
+
+ private:
+  double energy_of_four(const Placement& at, size_t face, double* corner_gradients) const;
+  void gather_faces(const Placement& at, size_t face, size_t count, FaceSprings& four) const;
+  double face_energy(const Placement& at, size_t face, double* corner_gradients) const;
+
+  /// Faces whose gradients are added up together, and the vertices among which all their corners are.
+  struct Part {
+    size_t begin, end;
+    int first_vertex, last_vertex;
+  };
+  void add_corner_gradients(const Part& part, Mat3X& gradient) const;
+
+  const Connectivity& connectivity_;
+  const TargetLengths& targets_;
+  std::vector<Part> parts_;
+  std::vector<double> corner_gradients_;  // 9 per face of a part: gradient by each of its corners
+};
+
+}  // namespace hooke
