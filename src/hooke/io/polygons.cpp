@@ -160,8 +160,8 @@ bool cut_quadrilateral(const std::vector<Vec2>& p, std::vector<Triangle>& out) {
 
 }  // namespace
 
-Triangulation triangulate(const Mat3X& points, const IntLists& polygons) {
-  Triangulation result;
+TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons) {
+  TriangulatedPolygons result;
   std::vector<Vec2> plane;
   std::vector<Triangle> cuts;
   EarClipper clipper;
@@ -187,7 +187,7 @@ Triangulation triangulate(const Mat3X& points, const IntLists& polygons) {
   return result;
 }
 
-Warnings warnings_of(const Triangulation& triangulation, const std::string& name) {
+Warnings warnings_of(const TriangulatedPolygons& triangulation, const std::string& name) {
   Warnings warnings;
   if (triangulation.polygons_cut > 0)
     warnings.push_back({"polygons_triangulated",

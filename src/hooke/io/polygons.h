@@ -10,7 +10,7 @@
 
 namespace hooke {
 
-struct Triangulation {
+struct TriangulatedPolygons {
   std::vector<Triangle> triangles;  // those of a polygon stand together, polygons in their order
   std::vector<int> polygon;         // from which each triangle was cut
   int polygons_cut = 0;             // polygons with more than three corners
@@ -22,9 +22,9 @@ struct Triangulation {
 /// better one. In a simple polygon no triangle is flipped, and none has zero area unless corners coincide.
 /// Time grows with the square of a polygon's concave corners: 1.4 s for a star of 20 000.
 /// Pre-condition: corners are columns of `points`, three or more a polygon.
-Triangulation triangulate(const Mat3X& points, const IntLists& polygons);
+TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons);
 
 /// The warnings `polygons_triangulated` and `polygons_not_simple` of that, none if nothing was cut.
-Warnings warnings_of(const Triangulation& triangulation, const std::string& name);
+Warnings warnings_of(const TriangulatedPolygons& triangulation, const std::string& name);
 
 }  // namespace hooke

@@ -41,7 +41,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   FileBytes content = timed(stopwatch, "file", [&] { return read_regular_file(path); });
   MeshFile file = timed(stopwatch, "parse",
                         [&] { return parse_mesh_file(content.text(), printable(path.native()), format); });
-  Triangulation triangulation =
+  TriangulatedPolygons triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
   append(warnings, warnings_of(triangulation, file.name));
