@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "hooke/io/printable.h"
-#include "hooke/report/quality_table.h"
+#include "hooke/report/table.h"
 
 namespace hooke::app {
 namespace {

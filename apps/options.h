@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "hooke/io/sizing_source.h"
-#include "hooke/remesh/attempts.h"
+#include "hooke/springs/sizing.h"
+#include "hooke/remesh/restarts.h"
 #include "hooke/remesh/paper_mode.h"
 
 namespace hooke::app {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hooke/io/atomic_write.h"
+#include "hooke/io/files.h"
 #include "options.h"
 
 namespace hooke::app {

@@ -1,7 +1,7 @@
 // The lengths that the edges of the input are to have, from what the command line asks for.
 #pragma once
 
-#include "hooke/mesh/layout.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/report/report.h"
 #include "options.h"
 

@@ -11,7 +11,7 @@
 #include "hooke/core/error.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/printable.h"
-#include "hooke/remesh/effort.h"
+#include "hooke/remesh/options.h"
 
 namespace hooke::app {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "adapting_scene.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/bounding_volume_tree.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/aabb_tree.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/remesh/remesh.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "flipping_scene.h"
-#include "hooke/working_mesh/adapting_mesh.h"
+#include "hooke/working_mesh/vertex_table.h"
 
 namespace hooke::test {
 

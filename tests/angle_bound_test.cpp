@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "solids.h"
 
 namespace hooke {

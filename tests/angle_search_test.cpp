@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/integrator/lbfgs.h"
-#include "hooke/integrator/polish.h"
+#include "hooke/integrator/angle_springs.h"
 #include "remeshed.h"
 #include "scene.h"
 

@@ -1,4 +1,4 @@
-#include "hooke/io/atomic_write.h"
+#include "hooke/io/files.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

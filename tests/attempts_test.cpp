@@ -1,14 +1,14 @@
-#include "hooke/remesh/attempts.h"
+#include "hooke/remesh/restarts.h"
 
 #include <gtest/gtest.h>
 
 #include <string_view>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/measure/deviation.h"
-#include "hooke/remesh/effort.h"
+#include "hooke/remesh/options.h"
 #include "remeshed.h"
 #include "solids.h"
 

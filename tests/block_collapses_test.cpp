@@ -1,4 +1,4 @@
-#include "hooke/connectivity/block_collapses.h"
+#include "hooke/connectivity/collapse_passes.h"
 
 #include <gtest/gtest.h>
 

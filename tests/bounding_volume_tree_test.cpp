@@ -1,4 +1,4 @@
-#include "hooke/geometry/bounding_volume_tree.h"
+#include "hooke/geometry/aabb_tree.h"
 
 #include <gtest/gtest.h>
 

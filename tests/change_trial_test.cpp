@@ -1,4 +1,4 @@
-#include "hooke/connectivity/change_trial.h"
+#include "hooke/connectivity/edge_trial.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/geometry/closest_point.h"
+#include "hooke/geometry/triangle.h"
 
 #include <gtest/gtest.h>
 

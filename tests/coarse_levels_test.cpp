@@ -1,4 +1,4 @@
-#include "hooke/connectivity/coarse_levels.h"
+#include "hooke/connectivity/adaptation.h"
 
 #include <gtest/gtest.h>
 

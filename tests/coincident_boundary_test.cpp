@@ -1,4 +1,4 @@
-#include "hooke/constraints/coincident_boundary.h"
+#include "hooke/constraints/constraints.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/mesh/connectivity.h"
+#include "hooke/mesh/adjacency.h"
 
 #include <gtest/gtest.h>
 

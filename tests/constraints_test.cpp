@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "crease_solids.h"
-#include "hooke/mesh/creases.h"
+#include "hooke/mesh/wedges.h"
 #include "scene.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/io/corner_data.h"
+#include "hooke/io/obj_corner_data.h"
 
 #include <gtest/gtest.h>
 

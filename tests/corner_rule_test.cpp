@@ -1,4 +1,4 @@
-#include "hooke/connectivity/corner_rule.h"
+#include "hooke/connectivity/corner_flips.h"
 
 #include <gtest/gtest.h>
 

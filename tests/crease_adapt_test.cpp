@@ -3,8 +3,7 @@
 
 #include "crease_outcome.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/closest_point.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/topology.h"
 

@@ -1,4 +1,4 @@
-#include "hooke/measure/crease_bound.h"
+#include "hooke/measure/quality.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "crease_outcome.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {

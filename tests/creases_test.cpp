@@ -1,12 +1,12 @@
-#include "hooke/mesh/creases.h"
+#include "hooke/mesh/wedges.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "crease_solids.h"
-#include "hooke/constraints/features.h"
-#include "hooke/mesh/triangulation.h"
+#include "hooke/constraints/crease_detection.h"
+#include "hooke/mesh/halfedge_mesh.h"
 
 namespace hooke {
 namespace {

@@ -1,4 +1,4 @@
-#include "hooke/integrator/damped_relaxation.h"
+#include "hooke/integrator/damped_evolution.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "hooke/remesh/do_no_harm.h"
+#include "hooke/remesh/remesh.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "remeshed.h"
 #include "solids.h"
 

@@ -1,4 +1,4 @@
-#include "hooke/connectivity/edge_changes.h"
+#include "hooke/connectivity/edge_trial.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "hooke/connectivity/edge_collapses.h"
+#include "hooke/connectivity/collapse_passes.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "adapting_scene.h"
-#include "hooke/connectivity/merged_ring.h"
+#include "hooke/connectivity/edge_collapses.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/topology.h"
 
 namespace hooke {

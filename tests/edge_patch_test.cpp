@@ -1,4 +1,4 @@
-#include "hooke/working_mesh/edge_patch.h"
+#include "hooke/working_mesh/patch.h"
 
 #include <gtest/gtest.h>
 

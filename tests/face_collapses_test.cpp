@@ -1,4 +1,4 @@
-#include "hooke/connectivity/face_collapses.h"
+#include "hooke/connectivity/collapse_passes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "hooke/springs/face_springs.h"
+#include "hooke/springs/energy.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "hooke/springs/spring_law.h"
+#include "hooke/springs/hooke_law.h"
 
 namespace hooke {
 namespace {

@@ -1,4 +1,4 @@
-#include "hooke/core/fast_log.h"
+#include "hooke/core/simd.h"
 
 #include <gtest/gtest.h>
 

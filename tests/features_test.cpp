@@ -1,4 +1,4 @@
-#include "hooke/constraints/features.h"
+#include "hooke/constraints/crease_detection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/io/file_bytes.h"
+#include "hooke/io/files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "hooke/connectivity/flip_connectivity.h"
+#include "hooke/connectivity/flip_mode.h"
 
 #include <gtest/gtest.h>
 
 #include "flipping_scene.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/remesh/remesh.h"

@@ -1,4 +1,4 @@
-#include "hooke/connectivity/flip_pass.h"
+#include "hooke/connectivity/valence_flips.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/integrator/guards.h"
-#include "hooke/mesh/creases.h"
-#include "hooke/springs/sizing.h"
+#include "hooke/mesh/wedges.h"
+#include "hooke/springs/target_lengths.h"
 #include "meshes.h"
 
 namespace hooke::test {

@@ -1,10 +1,10 @@
-#include "hooke/connectivity/flow.h"
+#include "hooke/connectivity/lloyd_flow.h"
 
 #include <gtest/gtest.h>
 
 #include "flipping_scene.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/face_shape.h"
-#include "hooke/springs/spring_law.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/springs/hooke_law.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/springs/gradation.h"
+#include "hooke/springs/sizing.h"
 
 #include <gtest/gtest.h>
 

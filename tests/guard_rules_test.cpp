@@ -1,4 +1,4 @@
-#include "hooke/integrator/guard_rules.h"
+#include "hooke/integrator/guards.h"
 
 #include <gtest/gtest.h>
 

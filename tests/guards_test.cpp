@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
-#include "hooke/integrator/landing.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/vertex_ring.h"
 #include "scene.h"
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
-#include "hooke/remesh/effort.h"
+#include "hooke/remesh/options.h"
 #include "remeshed.h"
 #include "solids.h"
 

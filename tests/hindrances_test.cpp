@@ -1,4 +1,4 @@
-#include "hooke/remesh/hindrances.h"
+#include "hooke/remesh/limiting_factors.h"
 
 #include <gtest/gtest.h>
 

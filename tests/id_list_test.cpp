@@ -1,4 +1,4 @@
-#include "hooke/io/id_list.h"
+#include "hooke/io/vertex_lists.h"
 
 #include "errors.h"
 #include "hooke/core/error.h"

@@ -1,4 +1,4 @@
-#include "hooke/core/int_lists.h"
+#include "hooke/core/lists.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/integrator/integrator.h"
+#include "hooke/integrator/relaxation.h"
 
 #include <gtest/gtest.h>
 

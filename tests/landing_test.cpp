@@ -1,4 +1,4 @@
-#include "hooke/integrator/landing.h"
+#include "hooke/integrator/final_projection.h"
 
 #include <gtest/gtest.h>
 

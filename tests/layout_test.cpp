@@ -1,10 +1,10 @@
-#include "hooke/mesh/layout.h"
+#include "hooke/mesh/mesh.h"
 
 #include <gtest/gtest.h>
 
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
-#include "hooke/remesh/hindrances.h"
+#include "hooke/remesh/limiting_factors.h"
 #include "remeshed.h"
 #include "solids.h"
 

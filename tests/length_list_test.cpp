@@ -1,4 +1,4 @@
-#include "hooke/io/length_list.h"
+#include "hooke/io/vertex_lists.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/core/lengths.h"
+#include "hooke/core/uniform_vector.h"
 
 #include <gtest/gtest.h>
 

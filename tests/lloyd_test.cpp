@@ -1,4 +1,4 @@
-#include "hooke/connectivity/lloyd.h"
+#include "hooke/connectivity/lloyd_flow.h"
 
 #include <gtest/gtest.h>
 

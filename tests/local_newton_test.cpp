@@ -1,4 +1,4 @@
-#include "hooke/integrator/local_newton.h"
+#include "hooke/integrator/gauss_seidel.h"
 
 #include <gtest/gtest.h>
 

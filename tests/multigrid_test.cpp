@@ -1,4 +1,4 @@
-#include "hooke/integrator/multigrid.h"
+#include "hooke/integrator/preconditioner.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "hooke/filter/near_faces.h"
+#include "hooke/filter/surface_field.h"
 
 #include <gtest/gtest.h>
 
-#include "hooke/geometry/closest_point.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
 #include "solids.h"
 

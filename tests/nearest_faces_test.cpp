@@ -1,4 +1,4 @@
-#include "hooke/geometry/nearest_faces.h"
+#include "hooke/geometry/closest_faces.h"
 
 #include <gtest/gtest.h>
 

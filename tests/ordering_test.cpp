@@ -1,4 +1,4 @@
-#include "hooke/mesh/ordering.h"
+#include "hooke/mesh/memory_order.h"
 
 #include <gtest/gtest.h>
 

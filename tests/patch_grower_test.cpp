@@ -1,4 +1,4 @@
-#include "hooke/filter/patch_grower.h"
+#include "hooke/filter/partition_of_unity.h"
 
 #include <gtest/gtest.h>
 

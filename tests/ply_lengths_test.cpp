@@ -1,4 +1,4 @@
-#include "hooke/io/ply_lengths.h"
+#include "hooke/io/ply.h"
 
 #include <gtest/gtest.h>
 

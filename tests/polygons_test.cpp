@@ -1,4 +1,4 @@
-#include "hooke/io/polygons.h"
+#include "hooke/io/polygon_triangulation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/mesh/principal_curvature.h"
+#include "hooke/mesh/curvature.h"
 
 #include <gtest/gtest.h>
 

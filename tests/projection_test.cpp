@@ -1,4 +1,4 @@
-#include "hooke/filter/projection.h"
+#include "hooke/filter/newton_projection.h"
 
 #include <gtest/gtest.h>
 

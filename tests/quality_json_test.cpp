@@ -1,4 +1,4 @@
-#include "hooke/report/quality_json.h"
+#include "hooke/report/report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/report/quality_table.h"
+#include "hooke/report/table.h"
 
 #include <gtest/gtest.h>
 

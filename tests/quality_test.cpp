@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/triangle_shape.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 #include "solids.h"
 

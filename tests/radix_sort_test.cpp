@@ -1,4 +1,4 @@
-#include "hooke/geometry/radix_sort.h"
+#include "hooke/geometry/aabb_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
-#include "hooke/remesh/effort.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/remesh/options.h"
 #include "remeshed.h"
 #include "solids.h"
 

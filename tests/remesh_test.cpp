@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/closest_point.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "remeshed.h"
 #include "scene.h"
 

@@ -11,7 +11,7 @@
 
 #include "errors.h"
 #include "hooke/core/error.h"
-#include "hooke/io/append_number.h"
+#include "hooke/io/text.h"
 #include "hooke/io/printable.h"
 
 namespace hooke {

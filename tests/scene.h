@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hooke/integrator/integrator.h"
+#include "hooke/integrator/relaxation.h"
 #include "solids.h"
 
 namespace hooke::test {

@@ -1,4 +1,4 @@
-#include "hooke/io/sizing_source.h"
+#include "hooke/springs/sizing.h"
 
 #include <gtest/gtest.h>
 

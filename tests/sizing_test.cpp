@@ -1,4 +1,4 @@
-#include "hooke/springs/sizing.h"
+#include "hooke/springs/target_lengths.h"
 
 #include <gtest/gtest.h>
 

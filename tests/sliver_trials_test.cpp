@@ -1,10 +1,10 @@
-#include "hooke/connectivity/sliver_trials.h"
+#include "hooke/connectivity/sliver_removal.h"
 
 #include <gtest/gtest.h>
 
 #include "adapting_scene.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/topology.h"
 
 namespace hooke {

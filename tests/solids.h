@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "hooke/mesh/connectivity.h"
+#include "hooke/mesh/adjacency.h"
 #include "meshes.h"
 
 namespace hooke::test {

@@ -1,4 +1,4 @@
-#include "hooke/filter/spline_group.h"
+#include "hooke/filter/spline_batch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/filter/stored_spline.h"
+#include "hooke/filter/thin_plate_spline.h"
 
 #include <gtest/gtest.h>
 

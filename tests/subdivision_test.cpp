@@ -1,4 +1,4 @@
-#include "hooke/connectivity/subdivision.h"
+#include "hooke/connectivity/edge_splits.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/filter/surface_bend.h"
+#include "hooke/filter/surface.h"
 
 #include <gtest/gtest.h>
 

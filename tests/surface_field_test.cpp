@@ -7,7 +7,7 @@
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/partition_of_unity.h"
-#include "hooke/geometry/closest_point.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
 #include "meshes.h"
 

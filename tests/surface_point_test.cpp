@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hooke/geometry/bounding_volume_tree.h"
-#include "hooke/io/map_text.h"
+#include "hooke/geometry/aabb_tree.h"
+#include "hooke/io/vertex_lists.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/integrator/sweep_plan.h"
+#include "hooke/integrator/vertex_coloring.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hooke/io/text_pieces.h"
+#include "hooke/io/text.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "hooke/mesh/triangulation.h"
+#include "hooke/mesh/halfedge_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "crease_solids.h"
 #include "flipping_scene.h"
-#include "hooke/mesh/creases.h"
+#include "hooke/mesh/wedges.h"
 #include "hooke/mesh/topology.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/mesh/vertex_data.h"
+#include "hooke/mesh/attributes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "errors.h"
 #include "hooke/core/error.h"
-#include "hooke/io/format_data.h"
+#include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
 #include "hooke/remesh/remesh.h"
-#include "hooke/springs/sizing.h"
+#include "hooke/springs/target_lengths.h"
 #include "meshes.h"
 
 namespace hooke {

@@ -1,4 +1,4 @@
-#include "hooke/working_mesh/workspace.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 #include <gtest/gtest.h>
 

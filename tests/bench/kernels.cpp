@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "hooke/filter/surface_field.h"
-#include "hooke/integrator/local_newton.h"
+#include "hooke/integrator/gauss_seidel.h"
 #include "meshes.h"
 
 namespace hooke {

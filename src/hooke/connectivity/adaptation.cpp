@@ -2,8 +2,236 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "hooke/connectivity/edge_splits.h"
+#include "hooke/connectivity/lloyd_flow.h"
+#include "hooke/core/parallel.h"
+#include "hooke/integrator/lbfgs.h"
+#include "hooke/mesh/wedges.h"
 
 namespace hooke {
+namespace {
+
+/// How far the surface turns along an arc of the target length, radians, and how much of it is like that.
+struct Turn {
+  double angle, weight;
+};
+
+/// Per half-edge; without weight where the edge has had its turn.
+std::vector<Turn> turns(const AdaptingMesh& m) {
+  const Triangulation& t = m.triangulation;
+  const Mat3X& N = m.placement.normals;
+  std::vector<Turn> turns(static_cast<size_t>(t.half_edge_count()), Turn{0, 0});
+  parallel_for(turns.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const int h = static_cast<int>(i);
+      if (t.twin(h) > h) continue;
+      const Vec3 a = N.col(t.side(h)), b = N.col(t.side(Triangulation::next(h)));
+      const double length = relative_length(m, h);
+      if (length > 0) turns[i] = {std::atan2(a.cross(b).norm(), a.dot(b)) / length, length * length};
+    }
+  });
+  return turns;
+}
+
+/// The angle that no more than this part of the weights exceeds; 0 without any.
+double exceeded_by(double share, std::vector<Turn> turns) {
+  double left = 0;
+  for (const Turn& turn : turns) left += share * turn.weight;
+  std::ranges::make_heap(turns, {}, &Turn::angle);
+  for (; !turns.empty(); turns.pop_back()) {
+    if ((left -= turns.front().weight) < 0) return turns.front().angle;
+    std::ranges::pop_heap(turns, {}, &Turn::angle);
+  }
+  return 0;
+}
+
+/// How many of the ids [0, count) are such; asked several at once.
+double count_of(int count, const auto& is_such) {
+  return parallel_sum(static_cast<size_t>(count), 4096, [&](size_t begin, size_t end) {
+    double number = 0;
+    for (size_t i = begin; i < end; ++i) number += is_such(static_cast<int>(i));
+    return number;
+  });
+}
+
+bool is_regular(const AdaptingMesh& m, const CoarseLimits& limits) {
+  const Triangulation& t = m.triangulation;
+  const auto is_inner = [&](int v) { return t.valence(v) > 0 && !t.on_boundary(v); };
+  const auto is_edge = [&](int h) { return t.twin(h) <= h; };
+  const auto is_misfit = [&](int h) {
+    const double length = relative_length(m, h);
+    return length < limits.shortest || length > limits.longest;
+  };
+  const int ids = t.id_count(), half_edges = t.half_edge_count();
+  return count_of(ids, [&](int v) { return is_inner(v) && t.valence(v) != 6; }) <=
+             limits.irregular_share * count_of(ids, is_inner) &&
+         count_of(half_edges, [&](int h) { return is_edge(h) && is_misfit(h); }) <=
+             limits.misfit_share * count_of(half_edges, is_edge);
+}
+
+/// Of the chord of a circular arc that turns by so much, over the chord's length.
+double relative_sagitta(double turn) {
+  return turn < std::numbers::pi ? .5 * std::tan(turn / 4) : .5;
+}
+
+}  // namespace
+
+int coarse_levels(const AdaptingMesh& m, double wanted_faces, const CoarseLimits& limits) {
+  if (!m.constraints.creases.empty() || is_regular(m, limits)) return 0;
+  const double turn = exceeded_by(limits.bent_share, turns(m));
+  const auto still = static_cast<double>(std::ranges::count(m.constraints.freedom, Freedom::fixed));
+  const std::vector<int>& wanted = m.curve_edges.wanted;
+  const double on_curves = std::accumulate(wanted.begin(), wanted.end(), 0.);
+  const auto bears = [&](int level) {
+    const double scale = std::pow(2, level), faces = wanted_faces / (scale * scale), vertices = .5 * faces;
+    return faces >= limits.least_faces && relative_sagitta(scale * turn) <= limits.sagitta &&
+           still + on_curves / scale <= limits.rim_share * vertices;
+  };
+  int level = 0;
+  while (level < limits.levels && bears(level + 1)) ++level;
+  return level;
+}
+
+AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options,
+                                 const FlipGuardOptions& flip_guard, const EnergyTerms& terms,
+                                 const GuardOptions& guards, double corner_angle, Observer observer)
+    : work_(work),
+      options_(options),
+      flip_guard_(flip_guard),
+      terms_(terms),
+      guards_(guards),
+      observer_(std::move(observer)),
+      adapting_(work, corner_angle),
+      graded_(work.graded()) {}
+
+void AdaptationSteps::release_bends() {
+  count_curve_edges(m_, options_.chord_error);
+  Constraints& constraints = work_.constraints;
+  for (size_t v = 0; v < constraints.freedom.size(); ++v) {
+    if (!constraints.at_bend(static_cast<int>(v))) continue;
+    const auto curve = static_cast<size_t>(constraints.curve[v]);
+    const double wanted = m_.curve_edges.wanted[curve], ratio = wanted / m_.curve_edges.present[curve];
+    if (std::max(ratio, 1 / ratio) > options_.keep_bends) constraints.freedom[v] = Freedom::curve;
+  }
+}
+
+void AdaptationSteps::coarsen(int levels) {
+  level_ += levels;
+  for (double& length : work_.vertex_length) length = std::ldexp(length, levels);
+}
+
+int AdaptationSteps::bearable_levels(double wanted_faces, const CoarseLimits& limits) const {
+  return coarse_levels(adapting_.mesh(), wanted_faces, limits);
+}
+
+void AdaptationSteps::change_lengths() {
+  count_curve_edges(m_, options_.chord_error);
+  // Splits leave flat faces, which collapses would keep. Where there are none, flips before the collapses
+  // gain nothing: most of their edges go.
+  if (const int splits =
+          timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, options_.split); })) {
+    counts_.splits += splits;
+    FlippingMesh flipping = m_.flipping();
+    counts_.flips += flip_to_delaunay(flipping, flip_guard_);
+  }
+  {
+    const Stage stage(work_.stopwatch, "collapses");
+    counts_.collapses += collapse_short_edges(m_, options_.collapse);
+    counts_.collapses += collapse_folded_faces(m_, options_.folded);
+  }
+  add(settle_curves(m_, options_.count));
+  give_up_unused_ids();
+}
+
+bool AdaptationSteps::change_count(double wanted_faces) {
+  count_curve_edges(m_, options_.chord_error);
+  add(settle_curves(m_, options_.count));
+  const CountChanges inner = approach_count(m_, wanted_faces, options_.count);
+  give_up_unused_ids();
+  add(inner);
+  return inner.splits + inner.collapses > 0;
+}
+
+void AdaptationSteps::settle(int rounds) {
+  const Stage stage(work_.stopwatch, "flow");
+  FlippingMesh flipping = m_.flipping();
+  counts_.flips += flip_to_delaunay(flipping, flip_guard_) + force_corners(flipping, flip_guard_);
+  FlowOptions options;
+  options.rounds = rounds;
+  const FlowResult flowed = flow(flipping, options, flip_guard_, guards_, observer_);
+  counts_.flips += flowed.flips;
+  interrupted_ = flowed.interrupted;
+  resample_lengths();
+}
+
+void AdaptationSteps::flip_irregular() {
+  std::vector<char> lately_changed;
+  for (int pass = 0; pass < options_.irregular.passes && !interrupted_; ++pass) {
+    settle_springs();
+    if (interrupted_ || pass_over_irregular(lately_changed) == 0) return;
+  }
+}
+
+int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
+  const Stage stage(work_.stopwatch, "irregular");
+  const Observer watch = [this](const Progress& p) {
+    interrupted_ = observer_ && !observer_(p);
+    return !interrupted_;
+  };
+  FlippingMesh flipping = m_.flipping();
+  const int flips =
+      flip_irregular_edges(flipping, terms_, options_.irregular, flip_guard_, guards_, lately_changed, watch);
+  resample_lengths();
+  counts_.flips += flips;
+  return flips;
+}
+
+void AdaptationSteps::quadruple() {
+  const Stage stage(work_.stopwatch, "quadruple");
+  count_curve_edges(m_, options_.chord_error);
+  counts_.splits += subdivide(m_, options_.split, flip_guard_);
+  give_up_unused_ids();
+  coarsen(-1);
+}
+
+void AdaptationSteps::give_up_unused_ids() {
+  const Stage stage(work_.stopwatch, "compact");
+  compact(m_);
+}
+
+void AdaptationSteps::settle_springs() {
+  const Stage stage(work_.stopwatch, "springs");
+  Connectivity c = connectivity_of(m_.triangulation, static_cast<int>(m_.placement.points.cols()));
+  part_at_creases(c, m_.constraints.creases);
+  const SweepPlan sweeps = plan_sweeps(c);
+  const TargetLengths targets = spread_target_lengths(c, m_.vertex_length);
+  Energy energy(c, targets, terms_);
+  Guards guards(c, targets, guards_);
+  Relaxation r{c, sweeps, m_.vertex_length, energy, m_.retraction, guards, m_.placement, work_.stopwatch};
+  IntegrationOptions integration;
+  integration.max_steps = options_.spring_steps;
+  LbfgsOptions lbfgs;
+  lbfgs.sweeps = 0;  // flow has left no slivers for them
+  lbfgs.settles = false;
+  interrupted_ = relax_lbfgs(r, integration, lbfgs, observer_).reason == StopReason::interrupted;
+  resample_lengths();
+}
+
+void AdaptationSteps::resample_lengths() {
+  if (!graded_) return;
+  work_.vertex_length = work_.input_lengths();
+  coarsen(std::exchange(level_, 0));
+}
+
+void AdaptationSteps::add(const CountChanges& changes) {
+  counts_.splits += changes.splits;
+  counts_.collapses += changes.collapses;
+}
+
 namespace {
 
 class Adaptation {

@@ -1,41 +1,305 @@
 #include "hooke/connectivity/edge_collapses.h"
 
-#include "hooke/connectivity/block_collapses.h"
-#include "hooke/connectivity/edge_queue.h"
-#include "hooke/core/parallel.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <tuple>
+
+#include "hooke/geometry/triangle.h"
+#include "hooke/integrator/guards.h"
 
 namespace hooke {
 namespace {
 
-/// Of edges that are tried at the same time, against the mesh as it was before.
-constexpr size_t most_edges = 1024;
+/// The columns of a face's corners.
+Triangle corners_of(size_t face) {
+  const int first = static_cast<int>(3 * face);
+  return {first, first + 1, first + 2};
+}
 
-std::vector<std::optional<Collapse>> try_all(const AdaptingMesh& m, const std::vector<int>& edges,
-                                             const CollapseOptions& options) {
-  std::vector<std::optional<Collapse>> trials(edges.size());
-  parallel_for(edges.size(), 16, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) trials[i] = try_collapse(m, edges[i], options);
-  });
-  return trials;
+void look_at_face(const AdaptingMesh& m, size_t face, WorstShape& worst) {
+  const Mat3X& X = m.placement.points;
+  const Triangle& corners = m.triangulation.faces()[face];
+  const Triangle& sides = m.triangulation.sides()[face];
+  worst.cotangent = std::max(worst.cotangent, greatest_cotangent(X, corners));
+  worst.alignment = std::min(worst.alignment, face_alignment(X, m.placement.normals, corners, sides));
+}
+
+/// The edge of h, and the fold there. Creases are folds that shall be.
+void look_at_edge(const AdaptingMesh& m, int h, WorstShape& worst) {
+  const Triangulation& t = m.triangulation;
+  const Mat3X& X = m.placement.points;
+  const Edge edge = {t.from(h), t.to(h)}, sides = {t.side(h), t.side(Triangulation::next(h))};
+  const double sagitta = edge_sagitta(X, m.placement.normals, edge, sides);
+  worst.sagitta = std::max(worst.sagitta, sagitta / target_length(m, edge[0], edge[1]));
+  if (t.is_border(h)) return;
+  const auto face = static_cast<size_t>(h / 3), across = static_cast<size_t>(t.twin(h) / 3);
+  worst.fold = std::min(worst.fold, cosine_between(X, t.faces()[face], t.faces()[across]));
 }
 
 }  // namespace
 
-int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
-  int collapses = collapse_in_blocks(m, options, {});
-  EdgeQueue queue(m.triangulation, [&](int h) { return options.shortest - relative_length(m, h); });
-  const auto next_edges = [&] {
-    return queue.pop_apart(most_edges, [&](int h) { return valence_after(m, h) <= options.valence; });
-  };
-  for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
-    for (const std::optional<Collapse>& trial : try_all(m, edges, options)) {
-      if (!trial || !curve_may_lose(m, trial->half_edge)) continue;  // others of its curve may have gone
-      make_collapse(m, *trial);
-      queue.push_about(trial->stays);
-      ++collapses;
+WorstShape worse_of(const WorstShape& a, const WorstShape& b) {
+  return {std::max(a.cotangent, b.cotangent), std::min(a.alignment, b.alignment), std::min(a.fold, b.fold),
+          std::max(a.sagitta, b.sagitta)};
+}
+
+bool is_within(const WorstShape& w, const WorstShape& limits) {
+  return w.cotangent <= limits.cotangent && w.alignment >= limits.alignment && w.fold >= limits.fold &&
+         w.sagitta <= limits.sagitta;
+}
+
+WorstShape worst_about(const AdaptingMesh& m, int half_edge) {
+  const Triangulation& t = m.triangulation;
+  WorstShape worst;
+  for (int end : {t.from(half_edge), t.to(half_edge)})
+    for (int spoke : t.outgoing(end)) {
+      look_at_face(m, static_cast<size_t>(spoke / 3), worst);
+      for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)})
+        look_at_edge(m, h, worst);
     }
-  m.retraction.count();
-  return collapses;
+  return worst;
+}
+
+MergedRing::MergedRing(const AdaptingMesh& mesh, int half_edge, int stays)
+    : m_(mesh), t_(mesh.triangulation), stays_(stays) {
+  const int twin = t_.twin(half_edge);
+  const int dying[] = {half_edge / 3, twin < 0 ? -1 : twin / 3};
+  for (int v : {t_.from(half_edge), t_.to(half_edge)})
+    for (int spoke : t_.outgoing(v))
+      if (spoke / 3 != dying[0] && spoke / 3 != dying[1])
+        add_face(spoke, t_.side_after_collapse(half_edge, stays, spoke));
+  for (Face& face : faces_) face.next = face_after(face);
+  copy_corners();
+}
+
+void MergedRing::add_face(int spoke, int side) {
+  const int next = Triangulation::next(spoke), previous = Triangulation::previous(spoke);
+  Face face{.spoke = spoke,
+            .side = side,
+            .first_target = target_length(m_, stays_, t_.from(next)),
+            .last_target = target_length(m_, stays_, t_.from(previous)),
+            .has_beyond = !t_.is_border(next),
+            .beyond = Vec3::Zero(),
+            .next = -1};
+  if (face.has_beyond) {
+    const auto across = static_cast<size_t>(t_.twin(next) / 3);
+    face.beyond = doubled_area_vector(m_.placement.points, t_.faces()[across]);
+  }
+  faces_.push_back(face);
+}
+
+/// The face after it about the vertex that stays, also where two edges have become one.
+int MergedRing::face_after(const Face& face) const {
+  const int last = Triangulation::previous(face.spoke);
+  const auto found =
+      std::ranges::find_if(faces_, [&](const Face& other) { return t_.to(other.spoke) == t_.from(last); });
+  if (found == faces_.end() || t_.is_constrained(last) || t_.is_constrained(found->spoke)) return -1;
+  return static_cast<int>(found - faces_.begin());
+}
+
+void MergedRing::copy_corners() {
+  const auto columns = static_cast<Eigen::Index>(3 * faces_.size());
+  points_.resize(3, columns);
+  normals_.resize(3, columns);
+  areas_.resize(faces_.size());
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const int next = Triangulation::next(faces_[f].spoke),
+              previous = Triangulation::previous(faces_[f].spoke);
+    const auto [first, second, third] = corners_of(f);
+    points_.col(second) = m_.placement.points.col(t_.from(next));
+    points_.col(third) = m_.placement.points.col(t_.from(previous));
+    normals_.col(first) = m_.placement.normals.col(faces_[f].side);  // put() knows two sides
+    normals_.col(second) = m_.placement.normals.col(t_.side(next));
+    normals_.col(third) = m_.placement.normals.col(t_.side(previous));
+  }
+}
+
+void MergedRing::put(const VertexPlace& place) {
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const Triangle corners = corners_of(f);
+    points_.col(corners[0]) = place.point;
+    if (faces_[f].side == stays_) normals_.col(corners[0]) = place.normal;
+    if (faces_[f].side == place.other_side) normals_.col(corners[0]) = place.other_normal;
+    areas_[f] = doubled_area_vector(points_, corners);
+  }
+}
+
+WorstShape MergedRing::worst(const VertexPlace& place) {
+  put(place);
+  WorstShape worst;
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const Face& face = faces_[f];
+    look_at_face(f, worst);
+    look_at_edge(f, 1, face.first_target, worst);
+    look_at_edge(f, 2, face.last_target, worst);
+    if (face.has_beyond) worst.fold = std::min(worst.fold, cosine_between(areas_[f], face.beyond));
+    if (face.next >= 0)
+      worst.fold = std::min(worst.fold, cosine_between(areas_[f], areas_[static_cast<size_t>(face.next)]));
+  }
+  return worst;
+}
+
+void MergedRing::look_at_face(size_t face, WorstShape& worst) const {
+  const Triangle corners = corners_of(face);
+  worst.cotangent = std::max(worst.cotangent, greatest_cotangent(points_, corners));
+  worst.alignment = std::min(worst.alignment, face_alignment(points_, normals_, corners));
+}
+
+/// The edge from the first corner to another one.
+void MergedRing::look_at_edge(size_t face, int corner, double target, WorstShape& worst) const {
+  const int first = corners_of(face)[0];
+  const double sagitta = edge_sagitta(points_, normals_, {first, first + corner});
+  worst.sagitta = std::max(worst.sagitta, sagitta / target);
+}
+
+namespace {
+
+WorstShape limits_of(const CollapseOptions& o) {
+  return {1 / std::tan(o.angle * std::numbers::pi / 180), o.alignment, o.fold, o.sagitta};
+}
+
+class Trial {
+ public:
+  Trial(const AdaptingMesh& mesh, int half_edge, const CollapseOptions& options)
+      : m_(mesh),
+        t_(mesh.triangulation),
+        options_(options),
+        h_(half_edge),
+        a_(t_.from(half_edge)),
+        b_(t_.to(half_edge)) {}
+
+  std::optional<Collapse> run() const {
+    if (!may_vanish(a_) && !may_vanish(b_)) return std::nullopt;
+    if (!is_welcome() || !t_.may_collapse(h_)) return std::nullopt;
+    const Rings rings = {t_.neighbours(a_), t_.neighbours(b_)};
+    const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
+    const VertexPlace here(m_.placement, stays);
+    const Vec3 way = m_.placement.points.col(goes) - here.point;
+    std::optional<MergedRing> ring;
+    std::optional<WorstShape> looser;
+    for (double part : parts(stays, goes)) {
+      if (leaves_long_edges(rings, stays, here.point + part * way)) continue;
+      if (!ring) ring.emplace(m_, h_, stays);
+      const VertexPlace there = part > 0 ? m_.retraction.moved(m_.placement, stays, part * way) : here;
+      const WorstShape after = ring->worst(there), limits = limits_of(options_);
+      if (is_within(after, limits)) return Collapse{h_, stays, there};
+      if (!looser) looser = loosened(limits);
+      if (is_within(after, *looser)) return Collapse{h_, stays, there};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Rings {
+    ShortList a, b;  // the neighbours of the ends
+  };
+
+  Freedom freedom(int v) const { return m_.constraints.freedom[static_cast<size_t>(v)]; }
+
+  bool may_vanish(int v) const {
+    if (freedom(v) == Freedom::fixed) return false;
+    if (freedom(v) == Freedom::surface && !t_.on_boundary(v)) return true;
+    return is_rim(t_, h_);
+  }
+
+  /// Does the valence stay fair, and do curve and corners keep what they want?
+  bool is_welcome() const {
+    if (valence_after(m_, h_) > options_.valence) return false;
+    for (int side : {h_, t_.twin(h_)}) {
+      if (side < 0) continue;
+      const CornerValence apex = corner_valence(m_.flipping(), Triangulation::previous(side));
+      if (apex.has <= apex.wanted) return false;
+    }
+    return curve_may_lose(m_, h_);
+  }
+
+  /// Which vertex is less free, or older.
+  int staying_end() const {
+    const auto rank = [&](int v) {
+      const int origin = m_.origins[static_cast<size_t>(v)];
+      return std::tuple(may_vanish(v), freedom(v) == Freedom::surface && !t_.on_boundary(v), origin < 0,
+                        origin < 0 ? v : origin);
+    };
+    return rank(a_) < rank(b_) ? a_ : b_;
+  }
+
+  /// Where the vertex that stays may go, as parts of the way to the other.
+  std::span<const double> parts(int stays, int goes) const {
+    static constexpr double anywhere[] = {.5, 0, 1}, nowhere[] = {0};
+    const bool alike =
+        may_vanish(stays) && freedom(stays) == freedom(goes) && t_.on_boundary(stays) == t_.on_boundary(goes);
+    return alike ? std::span<const double>(anywhere) : std::span<const double>(nowhere);
+  }
+
+  /// The longest edge over its target length, if the vertex that stays were at the point.
+  double longest_edge(const Rings& rings, int stays, const Vec3& point) const {
+    double longest = 0;
+    for (const ShortList* ring : {&rings.a, &rings.b})
+      for (int v : *ring)
+        if (v != a_ && v != b_) longest = std::max(longest, length(point, v) / target_length(m_, stays, v));
+    return longest;
+  }
+
+  double length(const Vec3& point, int v) const { return (m_.placement.points.col(v) - point).norm(); }
+
+  /// Would an edge come to be longer than allowed, and than every edge at the ends is now?
+  bool leaves_long_edges(const Rings& rings, int stays, const Vec3& point) const {
+    const double longest = longest_edge(rings, stays, point);
+    if (longest <= options_.longest) return false;
+    const auto has_as_long = [&](int end, const ShortList& ring) {
+      return std::ranges::any_of(ring, [&](int v) {
+        return length(m_.placement.points.col(end), v) / target_length(m_, end, v) >= longest;
+      });
+    };
+    return !has_as_long(a_, rings.a) && !has_as_long(b_, rings.b);
+  }
+
+  /// What is worse than it should be may stay as it is, unless the options insist.
+  WorstShape loosened(const WorstShape& limits) const {
+    WorstShape loose = worse_of(limits, worst_about(m_, h_));
+    if (options_.insist_on_alignment) loose.alignment = limits.alignment;
+    return loose;
+  }
+
+  const AdaptingMesh& m_;
+  const Triangulation& t_;
+  const CollapseOptions& options_;
+  int h_, a_, b_;
+};
+
+}  // namespace
+
+int valence_after(const AdaptingMesh& m, int half_edge) {
+  const Triangulation& t = m.triangulation;
+  return t.valence(t.from(half_edge)) + t.valence(t.to(half_edge)) - (t.twin(half_edge) < 0 ? 3 : 4);
+}
+
+std::optional<Collapse> try_collapse(const AdaptingMesh& m, int half_edge, const CollapseOptions& options) {
+  return Trial(m, half_edge, options).run();
+}
+
+void make_collapse(AdaptingMesh& m, const Collapse& c) {
+  const int curve = is_rim(m.triangulation, c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
+  if (curve >= 0) --m.curve_edges.present[static_cast<size_t>(curve)];
+  m.triangulation.collapse(c.half_edge, c.stays);
+  c.place.write_to(m.placement, c.stays);
+}
+
+int collapse_edge(AdaptingMesh& m, int half_edge, const CollapseOptions& options) {
+  const std::optional<Collapse> trial = try_collapse(m, half_edge, options);
+  if (!trial) return -1;
+  make_collapse(m, *trial);
+  return trial->stays;
+}
+
+bool curve_may_lose(const AdaptingMesh& m, int half_edge) {
+  if (!is_rim(m.triangulation, half_edge)) return true;
+  const int curve = curve_of(m, half_edge).curve;
+  if (curve < 0) return true;
+  const auto c = static_cast<size_t>(curve);
+  return m.curve_edges.present[c] > m.curve_edges.wanted[c];
 }
 
 }  // namespace hooke

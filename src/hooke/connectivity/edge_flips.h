@@ -4,7 +4,7 @@
 #pragma once
 
 #include "hooke/filter/retraction.h"
-#include "hooke/mesh/triangulation.h"
+#include "hooke/mesh/halfedge_mesh.h"
 
 namespace hooke {
 

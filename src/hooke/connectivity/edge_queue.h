@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "hooke/core/parallel.h"
-#include "hooke/mesh/triangulation.h"
+#include "hooke/mesh/halfedge_mesh.h"
 
 namespace hooke {
 

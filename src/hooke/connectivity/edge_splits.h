@@ -1,7 +1,7 @@
 // Edge splits: a new vertex in the middle of an edge that is too long.
 #pragma once
 
-#include "hooke/working_mesh/adapting_mesh.h"
+#include "hooke/working_mesh/vertex_table.h"
 
 namespace hooke {
 
@@ -18,5 +18,14 @@ int split_edge(AdaptingMesh& mesh, int half_edge, const SplitOptions& options,
 
 /// Splits edges, the longest first, until none is too long. Returns the number of splits.
 int split_long_edges(AdaptingMesh& mesh, const SplitOptions& options);
+
+// Subdivision: every face becomes four of half its size, whose new vertices are regular.
+
+/// Halves every edge, the new vertices on their curves or on the surface, and joins those of each face: one
+/// step of C. Loop, "Smooth subdivision surfaces based on triangles", 1987, as far as who touches whom. An
+/// edge that may not be split (see split_edge()) stays whole, and flips that the guard forbids are left out.
+/// Target lengths stay as they are. Returns the number of splits. Pre-condition: no id is unused, and the
+/// edges of the curves are counted.
+int subdivide(AdaptingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard);
 
 }  // namespace hooke

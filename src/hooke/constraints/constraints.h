@@ -1,9 +1,17 @@
-// What a vertex may do: move on the surface, slide along a curve of the input, or stand still.
+// Boundaries that lie on each other: a surface that is cut open, along a seam of its texture for instance.
 #pragma once
 
-#include "hooke/constraints/features.h"
+#include <vector>
+
+#include "hooke/constraints/crease_detection.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
+
+/// Ids, ascending, of boundary vertices that have exactly the coordinates of another boundary vertex.
+std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Connectivity& connectivity);
+
+// What a vertex may do: move on the surface, slide along a curve of the input, or stand still.
 
 enum class Freedom : unsigned char { surface, curve, fixed };
 

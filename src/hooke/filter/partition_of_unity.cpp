@@ -8,14 +8,133 @@
 namespace hooke {
 namespace {
 
-constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
-constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
-constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
-constexpr double least_height = 1e-8;             // in radii: less is no offset
+constexpr double least_normal_agreement = -.2;  // with the centre: stops at the other sheet of a thin body
+constexpr double tie = 1 + 1e-6;                // of distances: rounding must not choose between equals
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
+
+}  // namespace
+
+PatchGrower::PatchGrower(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+                         const Mat3X& normals, const std::vector<char>& unfolded)
+    : points_(points),
+      connectivity_(connectivity),
+      normals_(normals),
+      unfolded_(unfolded),
+      met_by_(idx(connectivity.vertex_count), -1),
+      held_by_(idx(connectivity.vertex_count), -1) {}
+
+void PatchGrower::grow(int centre, int size) {
+  axis_ = axis_at(centre);
+  search(centre, idx(size + size / 2));
+  distances_.clear();
+  for (int m : members_) distances_.push_back((points_.col(m) - points_.col(centre)).norm());
+  std::vector<double> sorted = distances_;
+  const auto last = sorted.begin() + std::min(size, static_cast<int>(sorted.size())) - 1;
+  std::nth_element(sorted.begin(), last, sorted.end());
+  farthest_ = *last;
+
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (distances_[i] > farthest_ * tie) continue;
+    members_[kept] = members_[i];
+    distances_[kept++] = distances_[i];
+    held_by_[idx(members_[i])] = round_;
+  }
+  members_.resize(kept);
+  distances_.resize(kept);
+}
+
+bool PatchGrower::is_inside(int vertex) const {
+  return std::ranges::all_of(connectivity_.vertex_neighbours[vertex],
+                             [&](int n) { return held_by_[idx(n)] == round_ || !is_admitted(n); });
+}
+
+/// A folded vertex is admitted whatever its normal, which means nothing.
+bool PatchGrower::is_admitted(int vertex) const {
+  return !unfolded_[idx(vertex)] || normals_.col(vertex).dot(axis_) > least_normal_agreement;
+}
+
+/// The normal of the centre or, where that means nothing, of its neighbours.
+Vec3 PatchGrower::axis_at(int centre) const {
+  Vec3 sum = Vec3::Zero();
+  if (!unfolded_[idx(centre)])
+    for (int n : connectivity_.vertex_neighbours[centre])
+      if (unfolded_[idx(n)]) sum += normals_.col(n);
+  return sum.isZero(0) ? Vec3(normals_.col(centre)) : sum.normalized();
+}
+
+void PatchGrower::search(int centre, std::size_t most) {
+  ++round_;
+  members_.assign(1, centre);
+  met_by_[idx(centre)] = round_;
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    for (int n : connectivity_.vertex_neighbours[members_[i]]) {
+      if (members_.size() >= most) return;
+      if (met_by_[idx(n)] == round_) continue;
+      met_by_[idx(n)] = round_;
+      if (is_admitted(n)) members_.push_back(n);
+    }
+}
+
+namespace {
+
+constexpr double reach = .9;  // radius over the distance of the farthest vertex
+
+}  // namespace
+
+PatchCover::PatchCover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+                       const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
+                       const std::vector<char>& unfolded, const PatchCoverOptions& options)
+    : connectivity_(connectivity),
+      edge_lengths_(edge_lengths),
+      unfolded_(unfolded),
+      options_(options),
+      grower_(points, connectivity, normals, unfolded),
+      covered_(static_cast<size_t>(connectivity.vertex_count), 0) {}
+
+PatchList PatchCover::next(size_t count) {
+  PatchList patches;
+  patches.members.first.push_back(0);
+  while (patches.size() < count) {
+    if (vertex_ == connectivity_.vertex_count) {
+      if (folded_) break;
+      folded_ = true;
+      vertex_ = 0;
+      continue;
+    }
+    if (is_centre(vertex_)) add_patch(vertex_, patches);
+    ++vertex_;
+  }
+  return patches;
+}
+
+bool PatchCover::is_centre(int vertex) const {
+  const auto v = static_cast<size_t>(vertex);
+  return !covered_[v] && (unfolded_[v] == 0) == folded_ && !connectivity_.vertex_faces[vertex].empty();
+}
+
+void PatchCover::add_patch(int centre, PatchList& patches) {
+  grower_.grow(centre, options_.patch_size);
+  const std::vector<int>& members = grower_.members();
+  const double radius = grower_.farthest() > 0 ? reach * grower_.farthest() : 2 * edge_lengths_[centre];
+  for (size_t i = 0; i < members.size(); ++i)
+    if (i == 0 || (grower_.distances()[i] <= options_.coverage * radius && grower_.is_inside(members[i])))
+      covered_[static_cast<size_t>(members[i])] = 1;
+  patches.centres.push_back(centre);
+  patches.radii.push_back(radius);
+  patches.members.items.insert(patches.members.items.end(), members.begin(), members.end());
+  patches.members.first.push_back(static_cast<int>(patches.members.items.size()));
+}
+
+namespace {
+
+constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
+constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
+constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
+constexpr double least_height = 1e-8;             // in radii: less is no offset
 
 /// Many in a large mesh: small pieces of memory that come and go between those that stay leave holes.
 std::size_t patches_of_batch(int vertices) {

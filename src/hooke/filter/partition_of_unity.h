@@ -1,16 +1,100 @@
-// A surface field at every size: local splines on overlapping patches of the mesh, blended by weights.
-// R. Franke, G. Nielson, "Smooth interpolation of large sets of scattered data", 1980; H. Wendland,
-// "Piecewise polynomial, positive definite and compactly supported radial functions of minimal degree", 1995
-// (the weights); Y. Ohtake et al., "Multi-level partition of unity implicits", 2003.
+// Neighbourhoods on a mesh: the vertices around one vertex, as a surface would see them.
 #pragma once
 
 #include <deque>
 
-#include "hooke/filter/patch_cover.h"
-#include "hooke/filter/spline_group.h"
-#include "hooke/filter/stored_spline.h"
+#include "hooke/core/types.h"
+#include "hooke/filter/spline_batch.h"
+#include "hooke/filter/thin_plate_spline.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
+
+/// Grows patches over mesh edges within the cone of normals about their centre. One patch at a time: what is
+/// asked is about the last one grown.
+class PatchGrower {
+ public:
+  /// `normals` are the unit vertex normals; `unfolded` tells where they mean something: on the outer side of
+  /// all faces of the vertex. All arguments must outlive the grower.
+  PatchGrower(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals,
+              const std::vector<char>& unfolded);
+
+  /// Finds half as many vertices again as wanted by breadth-first search, keeps the nearest `size` of them
+  /// and those that tie. What the search cuts off in the middle of a ring would leave the patch lopsided. The
+  /// vertices stay in the order of the search, which knows nothing of coordinates.
+  void grow(int centre, int size);
+
+  const std::vector<int>& members() const { return members_; }         // the centre first
+  const std::vector<double>& distances() const { return distances_; }  // from the centre
+  double farthest() const { return farthest_; }                        // of the distances, ties aside
+
+  /// Whether the patch holds the whole ring of the vertex, as far as the cone admits it.
+  bool is_inside(int vertex) const;
+
+ private:
+  bool is_admitted(int vertex) const;
+  Vec3 axis_at(int centre) const;
+  void search(int centre, std::size_t most);
+
+  Eigen::Ref<const Mat3X> points_;
+  const Connectivity& connectivity_;
+  const Mat3X& normals_;
+  const std::vector<char>& unfolded_;
+  Vec3 axis_ = Vec3::Zero();  // of the cone
+  std::vector<int> met_by_;   // the last round whose search met the vertex
+  std::vector<int> held_by_;  // the last round whose patch holds it
+  std::vector<int> members_;
+  std::vector<double> distances_;
+  double farthest_ = 0;
+  int round_ = -1;
+};
+
+// Overlapping patches that cover a mesh.
+
+/// Some of the patches of a cover.
+struct PatchList {
+  std::vector<int> centres;   // vertices
+  std::vector<double> radii;  // in the unit of the points
+  IntLists members;           // the vertices of each, its centre first
+
+  size_t size() const { return centres.size(); }
+};
+
+struct PatchCoverOptions {
+  int patch_size = 30;    // vertices of a patch
+  double coverage = .75;  // every vertex is closer to some centre than this share of the patch's radius
+};
+
+/// Places patches one by one, each at the first vertex that is not yet well inside one.
+class PatchCover {
+ public:
+  /// `normals`, `edge_lengths`: at the vertices (see normals.h); for `unfolded` see patch_grower.h. All
+  /// but the options must outlive the cover.
+  PatchCover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals,
+             const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
+             const PatchCoverOptions& options);
+
+  /// The next patches, so many as long as there are; none at the end. A vertex without faces gets no patch.
+  PatchList next(size_t count);
+
+ private:
+  bool is_centre(int vertex) const;
+  void add_patch(int centre, PatchList& patches);
+
+  const Connectivity& connectivity_;
+  const Eigen::VectorXd& edge_lengths_;
+  const std::vector<char>& unfolded_;
+  PatchCoverOptions options_;
+  PatchGrower grower_;
+  std::vector<char> covered_;
+  bool folded_ = false;  // the turn of the folded vertices: poor centres, only where nothing else covers them
+  int vertex_ = 0;       // the next to be looked at
+};
+
+// A surface field at every size: local splines on overlapping patches of the mesh, blended by weights.
+// R. Franke, G. Nielson, "Smooth interpolation of large sets of scattered data", 1980; H. Wendland,
+// "Piecewise polynomial, positive definite and compactly supported radial functions of minimal degree", 1995
+// (the weights); Y. Ohtake et al., "Multi-level partition of unity implicits", 2003.
 
 struct PartitionOptions {
   Kernel kernel = Kernel::r3;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "hooke/core/parallel.h"
-#include "hooke/mesh/creases.h"
+#include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {

@@ -1,18 +1,154 @@
 #include "hooke/filter/surface_field.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <vector>
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
-#include "hooke/filter/field_reach.h"
-#include "hooke/filter/near_faces.h"
+#include "hooke/filter/newton_projection.h"
 #include "hooke/filter/partition_of_unity.h"
-#include "hooke/filter/projection.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
 
 namespace hooke {
 namespace {
+
+/// From x to the box about the corners, which no point of the face is closer than.
+double squared_distance_to_box(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
+  const Vec3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
+  return (lower - x).cwiseMax(x - upper).cwiseMax(0).squaredNorm();
+}
+
+}  // namespace
+
+int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
+  double least = (points.col(vertex) - x).squaredNorm();
+  for (int from = -1; from != vertex;) {
+    from = vertex;
+    for (int n : connectivity.vertex_neighbours[from]) {
+      const double distance2 = (points.col(n) - x).squaredNorm();
+      if (!(distance2 < least)) continue;  // ends the walk for NaN too
+      least = distance2;
+      vertex = n;
+    }
+  }
+  return vertex;
+}
+
+Foot NearFaces::closest_point_of_ring(const Vec3& x, int anchor) const {
+  Foot foot{x, Vec3::Zero(), anchor, FootStatus::no_cover, 0};
+  double least = std::numeric_limits<double>::infinity();
+  const auto visit = [&](int v) {
+    for (int f : connectivity.vertex_faces[v]) {
+      const Triangle& face = connectivity.faces[static_cast<std::size_t>(f)];
+      if (v != anchor && std::ranges::find(face, anchor) != face.end()) continue;  // seen with the anchor
+      const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
+      if (squared_distance_to_box(a, b, c, x) >= least) continue;
+      const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
+      if (near.squared_distance >= least) continue;
+      least = near.squared_distance;
+      foot.point = near.point;
+      foot.normal.setZero();
+      for (int k = 0; k < 3; ++k)
+        foot.normal += near.weights[k] * normals.col(face[static_cast<std::size_t>(k)]);
+      Eigen::Index corner;
+      near.weights.maxCoeff(&corner);
+      foot.anchor = face[static_cast<std::size_t>(corner)];
+      foot.status = FootStatus::converged;
+    }
+  };
+  visit(anchor);
+  for (int n : connectivity.vertex_neighbours[anchor]) visit(n);
+  foot.normal.normalize();
+  return foot;
+}
+
+bool NearFaces::has_face_within(const Vec3& x, int anchor, double distance) const {
+  return std::ranges::any_of(connectivity.vertex_faces[anchor], [&](int f) {
+    const Triangle& face = connectivity.faces[static_cast<std::size_t>(f)];
+    return closest_point_on_triangle(points.col(face[0]), points.col(face[1]), points.col(face[2]), x)
+               .squared_distance <= distance * distance;
+  });
+}
+
+Foot NearFaces::closest_point(const Vec3& x, int anchor) const {
+  Foot foot = closest_point_of_ring(x, anchor);
+  while (foot.anchor != anchor) {
+    anchor = foot.anchor;
+    const Foot next = closest_point_of_ring(x, anchor);
+    if (!((next.point - x).squaredNorm() < (foot.point - x).squaredNorm())) break;
+    foot = next;
+  }
+  return foot;
+}
+
+namespace {
+
+// A bound on how far a fitted surface may swing out from the faces it was fitted to: splines do where long
+// faces lie beside short ones.
+
+/// How far the surface may be from the faces about each vertex: `reach` times the vertex's length (empty: 1),
+/// and infinity where it could only come that far by bending several times more than the normals turn along
+/// edges. Empty: no limit anywhere.
+std::vector<float> reaches_of(const NearFaces& faces, double reach, const std::vector<double>& lengths);
+
+/// The foot of x, unless it is beyond its anchor's reach: then a place on the same side at that distance from
+/// the faces, above their point next to x when x is more than half as far from them, else above that next to
+/// the foot.
+Foot within_reach(const NearFaces& faces, const std::vector<float>& reaches, const Vec3& x, const Foot& foot);
+
+constexpr float no_limit = std::numeric_limits<float>::infinity();
+
+std::vector<float> reaches_of(const NearFaces& faces, double reach, const std::vector<double>& lengths) {
+  constexpr double bending = 4;
+  const auto& [points, normals, connectivity] = faces;
+  std::vector<float> reaches;
+  if (reach == std::numeric_limits<double>::infinity()) return reaches;
+  const auto most = [&](int v) {
+    return lengths.empty() ? reach : reach * lengths[static_cast<std::size_t>(v)];
+  };
+  std::vector<char> bends(connectivity.edges.size());
+  parallel_for(bends.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto& [a, b] = connectivity.edges[e];
+      const double sagitta =
+          (normals.col(a) - normals.col(b)).norm() * (points.col(a) - points.col(b)).norm() / 8;
+      bends[e] = bending * sagitta > std::min(most(a), most(b));
+    }
+  });
+  for (std::size_t e = 0; e < bends.size(); ++e) {
+    if (!bends[e]) continue;
+    reaches.resize(static_cast<std::size_t>(connectivity.vertex_count), no_limit);
+    for (int end : connectivity.edges[e]) {
+      reaches[static_cast<std::size_t>(end)] = static_cast<float>(most(end));
+      for (int v : connectivity.vertex_neighbours[end])
+        reaches[static_cast<std::size_t>(v)] = static_cast<float>(most(v));
+    }
+  }
+  return reaches;
+}
+
+Foot within_reach(const NearFaces& faces, const std::vector<float>& reaches, const Vec3& x,
+                  const Foot& foot) {
+  if (reaches.empty()) return foot;
+  const double reach = reaches[static_cast<std::size_t>(foot.anchor)];
+  if (reach == no_limit || faces.has_face_within(foot.point, foot.anchor, reach)) return foot;
+  Foot below = faces.closest_point(foot.point, foot.anchor);
+  Vec3 height = foot.point - below.point;
+  if (!(height.squaredNorm() > reach * reach)) return foot;
+
+  const double side = height.dot(below.normal) < 0 ? -1 : 1;
+  const Foot below_start = faces.closest_point(x, foot.anchor);
+  const Vec3 start_height = x - below_start.point;
+  if (side * start_height.dot(below_start.normal) > 0 && start_height.norm() > .5 * reach) {
+    below = below_start;
+    height = start_height;
+  }
+  height.normalize();
+  return {below.point + reach * height, side * height, below.anchor, FootStatus::converged, foot.evaluations};
+}
 
 constexpr double longest_step = .5;  // of Newton, in mean edge lengths at the anchor
 constexpr double longest_move = 2;

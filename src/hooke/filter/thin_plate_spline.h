@@ -6,9 +6,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "hooke/core/simd.h"
 #include "hooke/core/types.h"
 
 namespace hooke {
@@ -71,5 +74,59 @@ class ThinPlateSpline {
   std::size_t centres_ = 0;
   std::vector<double> coordinates_, coefficients_;
 };
+
+// The radial function of thin-plate splines, four values at a time.
+
+/// The kernel [27] and its derivative over r, at r2 = r^2.
+struct KernelSample {
+  Lanes value, slope_over_r;
+};
+
+HOOKE_INLINE void sample_kernel(Kernel kernel, const Lanes& r2, KernelSample& sample) {
+  if (kernel == Kernel::r2logr) {
+    constexpr double smallest = std::numeric_limits<double>::min();  // r^2 log r is 0 at r = 0
+    Lanes log_r2 = r2 > smallest ? r2 : Lanes{} + smallest;
+    take_log(log_r2);
+    sample.value = .5 * r2 * log_r2;
+    sample.slope_over_r = log_r2 + 1.;
+  } else {
+    Lanes r = r2;
+    take_sqrt(r);
+    sample.value = r2 * r;
+    sample.slope_over_r = 3. * r;
+  }
+}
+
+// Thin-plate splines as they are kept to be evaluated again and again.
+
+/// A centre's coordinate in parts of 2^-30: half the memory of a double, and as good for centres of size 1
+/// about the origin.
+using SnappedCoordinate = std::int32_t;
+
+/// The place nearest to a point that snapped coordinates tell exactly. They reach from -2 to 2.
+Vec3 snapped(const Vec3& point);
+
+/// Where a spline is kept. `Coordinate`: double or SnappedCoordinate.
+template <typename Coordinate>
+struct StoredSpline {
+  const Coordinate* coordinates = nullptr;  // of the centres: coordinates_size() of them
+  const double* coefficients = nullptr;     // coefficients_size()
+  std::size_t centres = 0;
+
+  static std::size_t coordinates_size(std::size_t centres);
+  static std::size_t coefficients_size(std::size_t centres);
+
+  /// Value [30] and gradient [35] at x.
+  FieldSample operator()(Kernel kernel, const Vec3& x) const;
+};
+
+/// Keeps a spline in this memory. Pre-condition: the coordinates tell the centres exactly.
+template <typename Coordinate>
+StoredSpline<Coordinate> store_spline(const Eigen::Ref<const Mat3X>& centres,
+                                      const SplineCoefficients& spline, Coordinate* coordinates,
+                                      double* coefficients);
+
+extern template struct StoredSpline<double>;
+extern template struct StoredSpline<SnappedCoordinate>;
 
 }  // namespace hooke

@@ -1,7 +1,7 @@
 // Where a surface passes through itself.
 #pragma once
 
-#include "hooke/geometry/bounding_volume_tree.h"
+#include "hooke/geometry/aabb_tree.h"
 
 namespace hooke {
 

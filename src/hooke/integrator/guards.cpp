@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/face_shape.h"
-#include "hooke/geometry/least_angle.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {

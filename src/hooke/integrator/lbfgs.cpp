@@ -1,12 +1,115 @@
 #include "hooke/integrator/lbfgs.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "hooke/integrator/column_arithmetic.h"
-#include "hooke/integrator/landing.h"
-#include "hooke/integrator/local_relaxation.h"
+#include "hooke/core/parallel.h"
+#include "hooke/core/types.h"
+#include "hooke/integrator/final_projection.h"
+#include "hooke/integrator/gauss_seidel.h"
 
 namespace hooke {
+namespace {
+
+// Arithmetic on matrices of one column per vertex, by all threads.
+
+/// Calls body(first, count) on blocks of columns.
+template <typename Body>
+void for_columns(Eigen::Index columns, const Body& body) {
+  parallel_for(static_cast<std::size_t>(columns), 4096, [&](std::size_t begin, std::size_t end) {
+    body(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
+  });
+}
+
+/// Sum of all products of their entries; of any precision, in double precision.
+template <typename A, typename B>
+double dot(const A& a, const B& b) {
+  return parallel_sum(static_cast<std::size_t>(a.cols()), 4096, [&](std::size_t begin, std::size_t end) {
+    const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+    return a.middleCols(first, count)
+        .template cast<double>()
+        .cwiseProduct(b.middleCols(first, count).template cast<double>())
+        .sum();
+  });
+}
+
+/// dot(a, b - c)
+inline double dot_with_difference(const Mat3X& a, const Mat3X& b, const Mat3X& c) {
+  return parallel_sum(static_cast<std::size_t>(a.cols()), 4096, [&](std::size_t begin, std::size_t end) {
+    const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
+    return a.middleCols(first, count)
+        .cwiseProduct(b.middleCols(first, count) - c.middleCols(first, count))
+        .sum();
+  });
+}
+
+/// a += factor * b
+template <typename B>
+void add_scaled(double factor, const B& b, Mat3X& a) {
+  for_columns(a.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    a.middleCols(first, count) += factor * b.middleCols(first, count).template cast<double>();
+  });
+}
+
+/// a = factor * b
+template <typename B, typename A>
+void assign_scaled(double factor, const B& b, A& a) {
+  a.resize(3, b.cols());
+  for_columns(a.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    a.middleCols(first, count) = (factor * b.middleCols(first, count)).template cast<typename A::Scalar>();
+  });
+}
+
+/// difference = a - b, which may be one of them
+inline void subtract(const Mat3X& a, const Mat3X& b, Mat3X& difference) {
+  difference.resize(3, a.cols());
+  for_columns(a.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    difference.middleCols(first, count) = a.middleCols(first, count) - b.middleCols(first, count);
+  });
+}
+
+}  // namespace
+
+void LbfgsMemory::clear() {
+  pairs_.clear();
+  pushed_ = 0;
+  scale_ = options_.first_step;
+}
+
+void LbfgsMemory::push(const Relaxation& r, const Preconditioner& h0, const Mat3X& s, const Mat3X& y) {
+  const double sy = dot(s, y);
+  if (!(sy > 1e-12 * dot(y, y))) return;  // no curvature along this step: it would spoil the inverse Hessian
+  if (pushed_++ < options_.scaled_pairs) {
+    Mat3X preconditioned = y;
+    h0.apply(r, preconditioned);
+    scale_ = sy / dot(y, preconditioned);
+  }
+  if (options_.pairs == 0) return;
+  Pair pair;
+  if (pairs_.size() == static_cast<size_t>(options_.pairs)) {  // its memory serves again
+    pair = std::move(pairs_.front());
+    pairs_.pop_front();
+  }
+  assign_scaled(1, s, pair.s);
+  assign_scaled(1, y, pair.y);
+  pair.rho = 1 / sy;
+  pairs_.push_back(std::move(pair));
+}
+
+void LbfgsMemory::apply(const Relaxation& r, const Preconditioner& h0, Mat3X& q) const {
+  std::vector<double> alpha(pairs_.size());
+  for (size_t i = pairs_.size(); i-- > 0;) {
+    alpha[i] = pairs_[i].rho * dot(pairs_[i].s, q);
+    add_scaled(-alpha[i], pairs_[i].y, q);
+  }
+  h0.apply(r, q);
+  assign_scaled(scale_, q, q);
+  for (size_t i = 0; i < pairs_.size(); ++i) {
+    const double beta = pairs_[i].rho * dot(pairs_[i].y, q);
+    add_scaled(alpha[i] - beta, pairs_[i].s, q);
+  }
+}
+
 namespace {
 
 void clear_columns(const std::vector<int>& columns, Mat3X& matrix) {

@@ -1,11 +1,212 @@
 #include "hooke/integrator/preconditioner.h"
 
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 
 #include "hooke/core/parallel.h"
-#include "hooke/integrator/local_newton.h"
+#include "hooke/integrator/gauss_seidel.h"
 
 namespace hooke {
+namespace {
+
+constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the last
+constexpr int most_levels = 24;
+constexpr size_t most_parts = 8, least_part = 4096;  // of the vertices, summed on their own
+
+using Cell = std::array<int, 3>;
+
+struct CellHash {
+  size_t operator()(const Cell& c) const {
+    size_t h = 0;
+    for (int i : c) h = h * 0x9e3779b97f4a7c15ULL + static_cast<size_t>(static_cast<unsigned>(i)) + (h >> 29);
+    return h;
+  }
+};
+
+/// Numbers the nodes of one grid in the order in which they are named.
+class NodeNumbers {
+ public:
+  int operator[](const Cell& cell) {
+    const auto [it, fresh] = ids_.try_emplace(cell, static_cast<int>(cells_.size()));
+    if (fresh) cells_.push_back(cell);
+    return it->second;
+  }
+  const std::vector<Cell>& cells() const { return cells_; }
+
+ private:
+  std::unordered_map<Cell, int, CellHash> ids_;
+  std::vector<Cell> cells_;
+};
+
+/// Right-handed axes from three vertices chosen by number; they turn with the mesh.
+Eigen::Matrix3d frame_of(const Mat3X& points) {
+  const Eigen::Index n = points.cols();
+  const Vec3 origin = points.col(0);
+  for (Eigen::Index i = n / 2; i < n; ++i) {
+    const Vec3 a = points.col(i) - origin;
+    for (Eigen::Index j = n / 4; j < i; ++j) {
+      const Vec3 b = points.col(j) - origin;
+      const Vec3 c = a.cross(b);
+      if (c.norm() <= .1 * a.norm() * b.norm() || c.isZero(0)) continue;
+      Eigen::Matrix3d frame;
+      frame.row(0) = a.normalized();
+      frame.row(2) = c.normalized();
+      frame.row(1) = frame.row(2).cross(frame.row(0));
+      return frame;
+    }
+  }
+  return Eigen::Matrix3d::Identity();
+}
+
+/// The corner k of a cell is high in direction d where bit d of k is set.
+bool is_high(unsigned k, unsigned d) {
+  return (k >> d) & 1;
+}
+
+std::array<int, 8> corners_of(const Cell& cell, NodeNumbers& nodes) {
+  std::array<int, 8> ids;
+  for (unsigned k = 0; k < 8; ++k)
+    ids[k] = nodes[{cell[0] + is_high(k, 0), cell[1] + is_high(k, 1), cell[2] + is_high(k, 2)}];
+  return ids;
+}
+
+/// Of the corners of a cell, at a place within it.
+std::array<float, 8> hats(const Eigen::Vector3f& t) {
+  std::array<float, 8> weights;
+  for (unsigned k = 0; k < 8; ++k) {
+    float weight = 1;
+    for (unsigned d = 0; d < 3; ++d) weight *= is_high(k, d) ? t[d] : 1 - t[d];
+    weights[k] = weight;
+  }
+  return weights;
+}
+
+}  // namespace
+
+GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
+  if (points.cols() == 0) return;
+  const Eigen::Matrix3d frame = frame_of(points);
+  const Vec3 origin = points.col(0);
+  const auto n = static_cast<size_t>(points.cols());
+  places_.resize(n);
+  std::vector<Cell> cells(n);
+  parallel_for(n, 4096, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      // Half a cell off the origin: the first vertex would lie on a corner of four cells.
+      const Vec3 x = frame * (points.col(static_cast<Eigen::Index>(v)) - origin) / cell + Vec3::Constant(.5);
+      const Vec3 low = x.array().floor();
+      cells[v] = {static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
+      places_[v].within = (x - low).cast<float>();
+    }
+  });
+  NodeNumbers nodes;
+  std::unordered_map<Cell, int, CellHash> cell_ids;
+  int id = -1;  // of the cell in which the next vertex mostly lies too
+  for (size_t v = 0; v < n; ++v) {
+    if (v == 0 || cells[v] != cells[v - 1]) {
+      const auto [it, fresh] = cell_ids.try_emplace(cells[v], static_cast<int>(cells_.size()));
+      if (fresh) cells_.push_back(corners_of(cells[v], nodes));
+      id = it->second;
+    }
+    places_[v].cell = id;
+  }
+  for (;;) {
+    Level level;
+    level.nodes = static_cast<int>(nodes.cells().size());
+    if (level.nodes < coarsest_nodes || level_count() + 1 == most_levels) {
+      levels_.push_back(std::move(level));
+      break;
+    }
+    NodeNumbers coarser;
+    for (const Cell& at : nodes.cells()) {
+      // A node with an even coordinate lies on a coarser node, with an odd one half way between two.
+      Weighted row;
+      for (unsigned k = 0; k < 8; ++k) {
+        Cell corner;
+        double weight = 1;
+        for (unsigned d = 0; d < 3; ++d) {
+          const bool odd = at[d] & 1;
+          const bool high = is_high(k, d);
+          corner[d] = (at[d] >> 1) + (odd && high);
+          weight *= odd ? .5 : (high ? 0 : 1);
+        }
+        row.node[k] = coarser[corner];
+        row.weight[k] = static_cast<float>(weight);
+      }
+      level.to_coarser.push_back(row);
+    }
+    levels_.push_back(std::move(level));
+    nodes = std::move(coarser);
+  }
+  parts_ = part_vertices();
+}
+
+std::vector<GridHierarchy::Part> GridHierarchy::part_vertices() const {
+  std::vector<Part> parts(std::clamp<size_t>(places_.size() / least_part, 1, most_parts));
+  for (size_t i = 0; i < parts.size(); ++i) {
+    Part& part = parts[i];
+    part = {i * places_.size() / parts.size(), (i + 1) * places_.size() / parts.size(), levels_[0].nodes, 0};
+    for (size_t v = part.first_vertex; v < part.last_vertex; ++v)
+      for (int node : cells_[static_cast<size_t>(places_[v].cell)]) {
+        part.first_node = std::min(part.first_node, node);
+        part.last_node = std::max(part.last_node, node + 1);
+      }
+  }
+  return parts;
+}
+
+/// P^T residual on the finest grid. Parts of the vertices are summed on their own, then added in order.
+Mat3X GridHierarchy::collect(const Mat3X& residual) const {
+  std::vector<Mat3X> sums(parts_.size());
+  parallel_for(parts_.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const Part& part = parts_[i];
+      sums[i] = Mat3X::Zero(3, part.last_node - part.first_node);
+      for (size_t v = part.first_vertex; v < part.last_vertex; ++v) {
+        const auto& nodes = cells_[static_cast<size_t>(places_[v].cell)];
+        const auto weights = hats(places_[v].within);
+        for (size_t k = 0; k < 8; ++k)
+          sums[i].col(nodes[k] - part.first_node) += weights[k] * residual.col(static_cast<Eigen::Index>(v));
+      }
+    }
+  });
+  Mat3X sum = Mat3X::Zero(3, levels_[0].nodes);
+  for (size_t i = 0; i < parts_.size(); ++i) sum.middleCols(parts_[i].first_node, sums[i].cols()) += sums[i];
+  return sum;
+}
+
+GridHierarchy::Correction GridHierarchy::solve(const Mat3X& residual) const {
+  if (levels_.empty()) return {};
+  std::vector<Mat3X> values;
+  values.push_back(collect(residual));
+  for (size_t l = 0; l + 1 < levels_.size(); ++l) {
+    values.push_back(Mat3X::Zero(3, levels_[l + 1].nodes));
+    for (size_t i = 0; i < levels_[l].to_coarser.size(); ++i)
+      for (size_t k = 0; k < 8; ++k)
+        values[l + 1].col(levels_[l].to_coarser[i].node[k]) +=
+            levels_[l].to_coarser[i].weight[k] * values[l].col(static_cast<Eigen::Index>(i));
+  }
+  for (size_t l = levels_.size() - 1; l-- > 0;)
+    parallel_for(levels_[l].to_coarser.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i)
+        for (size_t k = 0; k < 8; ++k)
+          values[l].col(static_cast<Eigen::Index>(i)) +=
+              levels_[l].to_coarser[i].weight[k] * values[l + 1].col(levels_[l].to_coarser[i].node[k]);
+    });
+  return {std::move(values[0])};
+}
+
+void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vectors) const {
+  parallel_for(places_.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) {
+      const auto& nodes = cells_[static_cast<size_t>(places_[v].cell)];
+      const auto weights = hats(places_[v].within);
+      for (size_t k = 0; k < 8; ++k)
+        vectors.col(static_cast<Eigen::Index>(v)) += weight * weights[k] * correction.at_nodes.col(nodes[k]);
+    }
+  });
+}
 
 void Preconditioner::refresh(Relaxation& r) {
   const auto n = static_cast<size_t>(r.connectivity.vertex_count);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/face_shape.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {

@@ -2,7 +2,7 @@
 // wrong way, so they first feel a spring on their signed area.
 #pragma once
 
-#include "hooke/integrator/local_relaxation.h"
+#include "hooke/integrator/gauss_seidel.h"
 
 namespace hooke {
 

@@ -2,9 +2,9 @@
 // order, and what the guards ask of a move.
 #pragma once
 
-#include "hooke/integrator/guard_rules.h"
-#include "hooke/integrator/sweep_plan.h"
-#include "hooke/springs/ring_terms.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/integrator/vertex_coloring.h"
+#include "hooke/springs/ring_energy.h"
 
 namespace hooke {
 

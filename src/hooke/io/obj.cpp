@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "hooke/core/error.h"
-#include "hooke/io/obj_elements.h"
+#include "hooke/io/obj_corner_data.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
-#include "hooke/io/text_pieces.h"
+#include "hooke/io/text.h"
 
 namespace hooke {
 namespace {
@@ -240,6 +240,22 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   append_passed_over(readers, not_kept);
   warn_not_kept(file, not_kept);
   return file;
+}
+
+std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      const VertexData& data) {
+  const ChannelList texture = channels_named(data, texture_names);
+  const ChannelList normals = channels_named(data, normal_names);
+  std::vector<const char*>
+      repeats;  // every vertex has the texture coordinate and the normal of its own number
+  if (!texture.empty()) repeats.push_back("/");
+  if (!normals.empty()) repeats.push_back(texture.empty() ? "//" : "/");
+  std::string text;
+  append_vertex_rows(text, points, "v ", channels_named(data, colour_names));
+  append_value_rows(text, "vt", texture);
+  append_value_rows(text, "vn", normals);
+  append_face_rows(text, triangles, "f", 1, repeats);
+  return text;
 }
 
 }  // namespace hooke

@@ -10,7 +10,7 @@
 
 #include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
-#include "hooke/io/text_pieces.h"
+#include "hooke/io/text.h"
 
 namespace hooke {
 namespace {
@@ -223,6 +223,22 @@ MeshFile read_off(std::string_view text, const std::string& name) {
   find_type_of_colours(file.vertex_data);
   warn_not_kept(file, kinds_not_kept(header, extra, !file.vertex_data.empty(), any_face_colour));
   return file;
+}
+
+std::string write_off(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      const VertexData& data) {
+  const ChannelList normals = channels_named(data, normal_names);
+  const ChannelList colours = channels_named(data, colour_names);
+  const ChannelList texture = channels_named(data, texture_names);
+  ChannelList channels;
+  for (const ChannelList* list : {&normals, &colours, &texture})
+    channels.insert(channels.end(), list->begin(), list->end());
+  std::string text =
+      fmt::format("{}{}{}OFF\n{} {} 0\n", texture.empty() ? "" : "ST", colours.empty() ? "" : "C",
+                  normals.empty() ? "" : "N", points.cols(), triangles.size());
+  append_vertex_rows(text, points, "", channels);
+  append_face_rows(text, triangles, "3", 0);
+  return text;
 }
 
 }  // namespace hooke

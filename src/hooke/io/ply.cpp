@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "hooke/core/error.h"
-#include "hooke/io/ply_body.h"
-#include "hooke/io/ply_header.h"
+#include "hooke/io/ply_format.h"
 #include "hooke/io/printable.h"
-#include "hooke/io/text_pieces.h"
+#include "hooke/io/text.h"
 
 namespace hooke {
 namespace {
@@ -223,6 +225,160 @@ MeshFile read_ply(std::string_view bytes, const std::string& name) {
     read_body(BinaryPlyBody(bytes, name, header), {header, vertex, face}, file);
   warn_not_kept(file, kinds_not_kept(header, vertex, face));
   return file;
+}
+
+namespace {
+
+const char* name_of(PlyEncoding encoding) {
+  switch (encoding) {
+    case PlyEncoding::ascii:
+      return "ascii";
+    case PlyEncoding::binary_little_endian:
+      return "binary_little_endian";
+    case PlyEncoding::binary_big_endian:
+      return "binary_big_endian";
+  }
+  return "";
+}
+
+const char* name_of(PlyType type) {
+  static constexpr const char* names[] = {"char", "uchar", "short", "ushort",
+                                          "int",  "uint",  "float", "double"};
+  return names[static_cast<size_t>(type)];
+}
+
+std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encoding, const VertexData& data) {
+  std::string channels;
+  for (const VertexChannel& channel : data)
+    channels += fmt::format("property {} {}\n", name_of(channel.type), channel.name);
+  return fmt::format(
+      "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
+      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      name_of(encoding), vertices, channels, faces);
+}
+
+/// The value's bytes at `at`, which moves on.
+template <typename T>
+void put(char*& at, T value, bool swap) {
+  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  if (swap) std::reverse(raw.begin(), raw.end());
+  at = std::copy(raw.begin(), raw.end(), at);
+}
+
+void put(char*& at, PlyType type, double value, bool swap) {
+  switch (type) {
+    case PlyType::int8:
+      return put(at, static_cast<std::int8_t>(value), swap);
+    case PlyType::uint8:
+      return put(at, static_cast<std::uint8_t>(value), swap);
+    case PlyType::int16:
+      return put(at, static_cast<std::int16_t>(value), swap);
+    case PlyType::uint16:
+      return put(at, static_cast<std::uint16_t>(value), swap);
+    case PlyType::int32:
+      return put(at, static_cast<std::int32_t>(value), swap);
+    case PlyType::uint32:
+      return put(at, static_cast<std::uint32_t>(value), swap);
+    case PlyType::float32:
+      return put(at, static_cast<float>(value), swap);
+    case PlyType::float64:
+      return put(at, value, swap);
+  }
+}
+
+void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                   const VertexData& data, bool swap) {
+  constexpr size_t face_size = 1 + 3 * sizeof(int);
+  size_t vertex_size = 3 * sizeof(double);
+  for (const VertexChannel& channel : data) vertex_size += size_of(channel.type);
+  const size_t header = bytes.size();
+  bytes.resize(header + static_cast<size_t>(points.cols()) * vertex_size + triangles.size() * face_size);
+  char* at = bytes.data() + header;
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    for (int k = 0; k < 3; ++k) put(at, points(k, v), swap);
+    for (const VertexChannel& channel : data)
+      put(at, channel.type, channel.values[static_cast<size_t>(v)], swap);
+  }
+  for (const Triangle& triangle : triangles) {
+    *at++ = 3;
+    for (const int id : triangle) put(at, id, swap);
+  }
+}
+
+}  // namespace
+
+std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      PlyEncoding encoding, const VertexData& data) {
+  const bool ascii = encoding == PlyEncoding::ascii;
+  std::string bytes = header_text(points.cols(), triangles.size(), encoding, data);
+  if (ascii) {
+    ChannelList channels;
+    for (const VertexChannel& channel : data) channels.push_back(&channel);
+    append_vertex_rows(bytes, points, "", channels);
+    append_face_rows(bytes, triangles, "3", 0);
+  } else {
+    const bool little = encoding == PlyEncoding::binary_little_endian;
+    append_binary(bytes, points, triangles, data, little != (std::endian::native == std::endian::little));
+  }
+  return bytes;
+}
+
+namespace {
+
+bool is_length(const PlyProperty& property) {
+  const bool is_coordinate = property.name == "x" || property.name == "y" || property.name == "z";
+  return !property.count_type && !is_integer(property.type) && !is_coordinate;
+}
+
+void require_length_property(const PlyElement& vertex, const std::string& property, const std::string& name) {
+  std::string there;
+  for (const PlyProperty& p : vertex.properties) {
+    if (!is_length(p)) continue;
+    if (p.name == property) return;
+    there += (there.empty() ? " " : ", ") + in_quotes(p.name);
+  }
+  throw InputError(fmt::format(
+      "{}: vertices have no float or double property {}; expected one of target lengths; there {}", name,
+      in_quotes(property), there.empty() ? "is none" : "are" + there));
+}
+
+template <typename Body>
+std::vector<double> read_lengths(Body body, const PlyHeader& header, const PlyElement& vertex,
+                                 const std::string& property_name) {
+  for (const PlyElement& element : header.elements) {
+    body.begin_element(element);
+    if (&element == &vertex) break;
+    skip_element(body, element);
+  }
+  std::vector<double> lengths;
+  lengths.reserve(static_cast<size_t>(vertex.count));
+  for (long long row = 0; row < vertex.count; ++row) {
+    body.begin_row(vertex, row);
+    for (const PlyProperty& property : vertex.properties) {
+      if (property.name != property_name) {
+        skip_property(body, property);
+        continue;
+      }
+      const double length = body.number(property.type, "target length");
+      if (!(length > 0))
+        body.fail(fmt::format("target length {}; expected a positive number; correct it", length));
+      lengths.push_back(length);
+    }
+    body.end_row();
+  }
+  return lengths;
+}
+
+}  // namespace
+
+std::vector<double> read_ply_lengths(std::string_view bytes, const std::string& name,
+                                     const std::string& property) {
+  const PlyHeader header = read_ply_header(bytes, name);
+  const PlyElement& vertex = find_element(header, "vertex", name);
+  require_length_property(vertex, property, name);
+  if (header.encoding == PlyEncoding::ascii)
+    return read_lengths(AsciiPlyBody(bytes, name, header), header, vertex, property);
+  return read_lengths(BinaryPlyBody(bytes, name, header), header, vertex, property);
 }
 
 }  // namespace hooke

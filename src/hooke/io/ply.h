@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hooke/io/mesh_file.h"
 
@@ -20,5 +21,13 @@ MeshFile read_ply(std::string_view bytes, const std::string& name);
 /// exactly the same in every encoding.
 std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
                       PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
+
+// Target lengths out of a PLY file.
+
+/// Reads target lengths, one per vertex, from the float or double vertex property of that name. Throws
+/// InputError as read_ply() does, also when there is no such property, naming those there are, and for a
+/// value that is not positive. What follows the vertices in the file is not looked at.
+std::vector<double> read_ply_lengths(std::string_view bytes, const std::string& name,
+                                     const std::string& property);
 
 }  // namespace hooke

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "hooke/core/parallel.h"
-#include "hooke/io/file_bytes.h"
-#include "hooke/io/polygons.h"
+#include "hooke/io/files.h"
+#include "hooke/io/polygon_triangulation.h"
 #include "hooke/io/printable.h"
 #include "hooke/io/sha256.h"
 #include "hooke/mesh/validation.h"

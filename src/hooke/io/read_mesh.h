@@ -6,7 +6,7 @@
 
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/mesh_file.h"
-#include "hooke/mesh/layout.h"
+#include "hooke/mesh/mesh.h"
 
 namespace hooke {
 

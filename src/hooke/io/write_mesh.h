@@ -5,7 +5,7 @@
 #include <string>
 
 #include "hooke/core/stopwatch.h"
-#include "hooke/io/atomic_write.h"
+#include "hooke/io/files.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/mesh/mesh.h"
 

@@ -1,11 +1,14 @@
 #include "hooke/measure/angle_bound.h"
 
-#include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+
+#include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {
@@ -201,6 +204,76 @@ AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivi
   }
   bound.degrees = possible;
   return bound;
+}
+
+namespace {
+
+constexpr int rings = 2;  // about the face, within which its bound is found
+
+/// All faces about the vertices of those rings, as a mesh of its own.
+struct SubMesh {
+  std::vector<int> vertices;  // in the mesh, ascending
+  std::vector<Triangle> faces;
+  int face = 0;  // the one in question
+
+  int place_of(int vertex) const {
+    const auto found = std::ranges::lower_bound(vertices, vertex);
+    return found != vertices.end() && *found == vertex ? static_cast<int>(found - vertices.begin()) : -1;
+  }
+};
+
+SubMesh cut_out(const Connectivity& c, int face) {
+  const Triangle& t = c.faces[static_cast<size_t>(face)];
+  const std::vector<int> faces = united(c.vertex_faces, with_rings(c, {t.begin(), t.end()}, rings));
+  SubMesh part;
+  part.face = static_cast<int>(std::ranges::lower_bound(faces, face) - faces.begin());
+  for (int f : faces) part.faces.push_back(c.faces[static_cast<size_t>(f)]);
+  for (const Triangle& corners : part.faces)
+    part.vertices.insert(part.vertices.end(), corners.begin(), corners.end());
+  sort_unique(part.vertices);
+  for (Triangle& corners : part.faces)
+    for (int& v : corners) v = part.place_of(v);
+  return part;
+}
+
+AngleBound bound_in_pieces(const MeasuredSurface& surface, int face, const std::vector<Edge>& creases) {
+  const SubMesh part = cut_out(surface.connectivity, face);
+  std::vector<Edge> here;
+  for (const Edge& crease : creases) {
+    const Edge e = {part.place_of(crease[0]), part.place_of(crease[1])};
+    if (std::min(e[0], e[1]) >= 0) here.push_back(e);
+  }
+  Connectivity c = make_connectivity(static_cast<int>(part.vertices.size()), part.faces);
+  part_at_creases(c, here);
+  const Mat3X points = surface.points(Eigen::all, part.vertices);
+  AngleBound bound = bound_least_angle(side_points(points, c), cut_open(c), part.face, rings);
+  for (int& v : bound.vertices)
+    v = surface.ids.vertex(part.vertices[static_cast<size_t>(c.vertex_of_side(v))]);
+  sort_unique(bound.vertices);
+  return bound;
+}
+
+/// Where an id stands in a list of all of them.
+std::vector<int> places(std::span<const int> ids, size_t count) {
+  std::vector<int> places(count);
+  for (size_t i = 0; i < count; ++i)
+    places[ids.empty() ? i : static_cast<size_t>(ids[i])] = static_cast<int>(i);
+  return places;
+}
+
+}  // namespace
+
+std::vector<AngleBound> bound_least_angles(const MeasuredSurface& surface, const std::vector<int>& faces,
+                                           const std::vector<Edge>& creases) {
+  const Connectivity& c = surface.connectivity;
+  const std::vector<int> vertex_at = places(surface.ids.vertices, static_cast<size_t>(c.vertex_count));
+  const std::vector<int> face_at = places(surface.ids.faces, c.faces.size());
+  std::vector<Edge> edges = creases;
+  for (Edge& e : edges)
+    for (int& v : e) v = vertex_at[static_cast<size_t>(v)];
+  std::vector<AngleBound> bounds;
+  for (int f : faces) bounds.push_back(bound_in_pieces(surface, face_at[static_cast<size_t>(f)], edges));
+  return bounds;
 }
 
 }  // namespace hooke

@@ -1,7 +1,8 @@
 // What the connectivity allows: how large the least angle about a face can become when only vertices move.
 #pragma once
 
-#include "hooke/mesh/connectivity.h"
+#include "hooke/measure/measured_surface.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 
@@ -17,5 +18,10 @@ struct AngleBound {
 /// no movement gets beyond it; the geometry may allow less. 60 degrees where the coordinates are too large
 /// for the angles to be measured.
 AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivity, int face, int rings = 2);
+
+/// The same where creases, edges of the surface's ids, part the faces about a vertex and stay: what the
+/// angles sum to stays as it is in each sector of a vertex on its own. The vertices are the surface's ids.
+std::vector<AngleBound> bound_least_angles(const MeasuredSurface& surface, const std::vector<int>& faces,
+                                           const std::vector<Edge>& creases);
 
 }  // namespace hooke

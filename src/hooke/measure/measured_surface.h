@@ -1,10 +1,10 @@
 // A mesh and what several of its measures need alike.
 #pragma once
 
-#include "hooke/geometry/bounding_volume_tree.h"
-#include "hooke/mesh/connectivity.h"
+#include "hooke/geometry/aabb_tree.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
-#include "hooke/mesh/mesh_ids.h"
+#include "hooke/mesh/memory_order.h"
 
 namespace hooke {
 

@@ -6,10 +6,10 @@
 #include <functional>
 #include <numeric>
 
+#include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
-#include "hooke/core/unfilled_vector.h"
 #include "hooke/geometry/self_intersection.h"
-#include "hooke/geometry/triangle_shape.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 
 namespace hooke {
@@ -184,6 +184,15 @@ Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_targ
 Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
                         const Lengths& edge_target_length, const QualityOptions& options) {
   return measure_quality(MeasuredSurface(points, connectivity), edge_target_length, options);
+}
+
+void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,
+                           const std::vector<Edge>& creases) {
+  if (creases.empty()) return;
+  std::vector<int> ids;
+  for (const WorstFace& f : faces) ids.push_back(f.face);
+  std::vector<AngleBound> bounds = bound_least_angles(surface, ids, creases);
+  for (size_t i = 0; i < faces.size(); ++i) faces[i].bound = std::move(bounds[i]);
 }
 
 }  // namespace hooke

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "hooke/core/lengths.h"
 #include "hooke/core/stopwatch.h"
+#include "hooke/core/uniform_vector.h"
 #include "hooke/measure/angle_bound.h"
 #include "hooke/measure/measured_surface.h"
 #include "hooke/measure/statistics.h"
@@ -63,5 +63,9 @@ Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_targ
                         const QualityOptions& options = {}, Stopwatch* stopwatch = nullptr);
 Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
                         const Lengths& edge_target_length, const QualityOptions& options = {});
+
+/// Bounds the least angles of these faces anew for creases that stay, see bound_least_angles().
+void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,
+                           const std::vector<Edge>& creases);
 
 }  // namespace hooke

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "hooke/mesh/connectivity.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 

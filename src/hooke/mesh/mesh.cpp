@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 
 namespace hooke {
-
 namespace {
 
 constexpr size_t block = 4096;
@@ -135,6 +136,15 @@ std::vector<Triangle> triangles_of(const TriMesh& mesh) {
     }
   });
   return triangles;
+}
+
+Layout lay_out(const TriMesh& mesh) {
+  const int n = static_cast<int>(mesh.n_vertices());
+  const std::vector<Triangle> faces = triangles_of(mesh);
+  Layout layout{reorder(faces, locality_order(n, faces)), nullptr};
+  layout.connectivity =
+      std::make_shared<const Connectivity>(make_connectivity(n, std::exchange(layout.order.faces, {})));
+  return layout;
 }
 
 }  // namespace hooke

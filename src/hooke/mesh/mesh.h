@@ -1,6 +1,8 @@
 // The mesh: an OpenMesh TriMesh in double precision with Eigen points, seen as matrices where we compute.
 #pragma once
 
+#include <memory>
+
 // vector_traits.hh must come before EigenVectorT.hh, which specialises what it declares.
 #include <OpenMesh/Core/Mesh/Traits.hh>
 #include <OpenMesh/Core/Utils/vector_traits.hh>
@@ -9,8 +11,8 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Utils/PropertyManager.hh>
 
-#include "hooke/mesh/connectivity.h"
-#include "hooke/mesh/mesh_ids.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/memory_order.h"
 
 namespace hooke {
 
@@ -59,5 +61,15 @@ void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<do
 
 /// Vertex ids of every face, in face order.
 std::vector<Triangle> triangles_of(const TriMesh& mesh);
+
+// How a mesh lies in memory while we work on it and measure it, however its file has it.
+
+struct Layout {
+  Reordered order;  // against the mesh; without its faces, which the connectivity has
+  std::shared_ptr<const Connectivity> connectivity;
+};
+
+/// In memory order.
+Layout lay_out(const TriMesh& mesh);
 
 }  // namespace hooke

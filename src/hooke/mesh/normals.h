@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hooke/core/types.h"
-#include "hooke/mesh/connectivity.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 

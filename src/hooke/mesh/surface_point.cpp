@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "hooke/geometry/closest_point.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {

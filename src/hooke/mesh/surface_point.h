@@ -1,7 +1,7 @@
 // A point on a mesh by face and weights: what carries values from one mesh to another.
 #pragma once
 
-#include "hooke/mesh/connectivity.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "hooke/mesh/connectivity.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 

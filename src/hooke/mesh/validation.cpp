@@ -2,10 +2,236 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
 #include "hooke/core/error.h"
-#include "hooke/springs/sizing.h"
+#include "hooke/core/parallel.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
+namespace {
+
+constexpr size_t block = 1024;
+
+// Collects the problems, each kind once.
+class Findings {
+ public:
+  void add(ProblemKind kind, std::initializer_list<int> faces, std::initializer_list<int> vertices) {
+    auto known =
+        std::find_if(problems_.begin(), problems_.end(), [&](const Problem& p) { return p.kind == kind; });
+    if (known == problems_.end()) known = problems_.insert(known, Problem{kind, 0, {}, {}});
+    Problem& problem = *known;
+    if (++problem.count > most_places) return;
+    problem.faces.insert(problem.faces.end(), faces);
+    problem.vertices.insert(problem.vertices.end(), vertices);
+  }
+  bool empty() const { return problems_.empty(); }
+  std::vector<Problem> sorted() {
+    std::sort(problems_.begin(), problems_.end(),
+              [](const Problem& a, const Problem& b) { return a.kind < b.kind; });
+    return problems_;
+  }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+// A side of a face, kept with the smaller of its two vertices.
+struct Side {
+  int to;  // the greater vertex
+  int face;
+  int opposite;  // third vertex of the face
+  bool upward;   // runs from the smaller to the greater vertex
+};
+
+// Lists of one entry per vertex and item, stored end to end.
+template <typename Item>
+struct Buckets {
+  std::vector<size_t> first;
+  std::vector<Item> items;
+  Item* begin(size_t i) { return items.data() + first[i]; }
+  Item* end(size_t i) { return items.data() + first[i + 1]; }
+};
+
+// `each(face, add)` calls add(vertex, item) for what the face puts into buckets. Items are in face order.
+template <typename Item, typename Each>
+Buckets<Item> fill_buckets(size_t vertices, size_t faces, const Each& each) {
+  Buckets<Item> buckets;
+  buckets.first.assign(vertices + 1, 0);
+  for (size_t f = 0; f < faces; ++f)
+    each(f, [&](int v, const Item&) { ++buckets.first[static_cast<size_t>(v) + 1]; });
+  for (size_t v = 0; v < vertices; ++v) buckets.first[v + 1] += buckets.first[v];
+  buckets.items.resize(buckets.first[vertices]);
+  std::vector<size_t> next(buckets.first.begin(), buckets.first.end() - 1);
+  for (size_t f = 0; f < faces; ++f)
+    each(f, [&](int v, const Item& item) { buckets.items[next[static_cast<size_t>(v)]++] = item; });
+  return buckets;
+}
+
+void find_bad_corners(const Mat3X& points, const std::vector<Triangle>& triangles, Findings& findings) {
+  for (size_t f = 0; f < triangles.size(); ++f) {
+    const int face = static_cast<int>(f);
+    const auto& [a, b, c] = triangles[f];
+    for (const int v : triangles[f])
+      if (v < 0 || v >= points.cols()) findings.add(ProblemKind::index_out_of_range, {face}, {v});
+    if (a == b || a == c)
+      findings.add(ProblemKind::repeated_index, {face}, {a});
+    else if (b == c)
+      findings.add(ProblemKind::repeated_index, {face}, {b});
+  }
+  for (int v = 0; v < points.cols(); ++v)
+    if (!points.col(v).allFinite()) findings.add(ProblemKind::not_finite, {}, {v});
+}
+
+// What is wrong with the faces [begin, end) on the edge from `from`, sorted by their opposite vertex.
+void judge_edge(int from, const Side* begin, const Side* end, Findings& findings) {
+  bool duplicates = false;
+  for (const Side* side = begin + 1; side < end; ++side) {
+    if (side->opposite != side[-1].opposite) continue;
+    duplicates = true;
+    // Each duplicate shares three edges; it is reported at the one with the two smallest vertices.
+    if (side->opposite > side->to)
+      findings.add(ProblemKind::duplicate_face, {side[-1].face, side->face},
+                   {from, side->to, side->opposite});
+  }
+  if (duplicates) return;
+  if (end - begin > 2)
+    findings.add(ProblemKind::non_manifold_edge, {begin[0].face, begin[1].face, begin[2].face},
+                 {from, begin->to});
+  else if (end - begin == 2 && begin[0].upward == begin[1].upward)
+    findings.add(ProblemKind::inconsistent_orientation, {begin[0].face, begin[1].face}, {from, begin->to});
+}
+
+void find_bad_edges(size_t vertices, const std::vector<Triangle>& triangles, Findings& findings) {
+  auto sides = fill_buckets<Side>(vertices, triangles.size(), [&](size_t f, const auto& add) {
+    for (size_t k = 0; k < 3; ++k) {
+      const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
+      add(std::min(a, b), Side{std::max(a, b), static_cast<int>(f), triangles[f][(k + 2) % 3], a < b});
+    }
+  });
+  parallel_for(vertices, block, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      std::sort(sides.begin(v), sides.end(v), [](const Side& a, const Side& b) {
+        return std::tie(a.to, a.opposite, a.face) < std::tie(b.to, b.opposite, b.face);
+      });
+  });
+  for (size_t v = 0; v < vertices; ++v) {
+    const Side* const end = sides.end(v);
+    for (const Side *side = sides.begin(v), *last; side < end; side = last) {
+      last = std::find_if(side, end, [&](const Side& other) { return other.to != side->to; });
+      judge_edge(static_cast<int>(v), side, last, findings);
+    }
+  }
+}
+
+// Number of connected parts of a graph whose edges join the ids of each pair.
+int count_parts(const Edge* begin, const Edge* end, std::vector<int>& nodes, std::vector<size_t>& parent) {
+  nodes.clear();
+  for (const Edge* e = begin; e < end; ++e) nodes.insert(nodes.end(), e->begin(), e->end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  parent.resize(nodes.size());
+  for (size_t i = 0; i < parent.size(); ++i) parent[i] = i;
+  const auto root = [&](int id) {
+    auto i = static_cast<size_t>(std::lower_bound(nodes.begin(), nodes.end(), id) - nodes.begin());
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  int parts = static_cast<int>(nodes.size());
+  for (const Edge* e = begin; e < end; ++e) {
+    const size_t a = root((*e)[0]), b = root((*e)[1]);
+    if (a == b) continue;
+    parent[a] = b;
+    --parts;
+  }
+  return parts;
+}
+
+// The faces around a manifold vertex form one fan: the edges opposite to it are one chain.
+void find_bad_vertices(size_t vertices, const std::vector<Triangle>& triangles, Findings& findings) {
+  auto links = fill_buckets<Edge>(vertices, triangles.size(), [&](size_t f, const auto& add) {
+    const auto& [a, b, c] = triangles[f];
+    add(a, Edge{b, c});
+    add(b, Edge{c, a});
+    add(c, Edge{a, b});
+  });
+  std::vector<int> parts(vertices);
+  parallel_for(vertices, block, [&](size_t begin, size_t end) {
+    std::vector<int> nodes;
+    std::vector<size_t> parent;
+    for (size_t v = begin; v < end; ++v) parts[v] = count_parts(links.begin(v), links.end(v), nodes, parent);
+  });
+  for (size_t v = 0; v < vertices; ++v)
+    if (parts[v] > 1) findings.add(ProblemKind::non_manifold_vertex, {}, {static_cast<int>(v)});
+}
+
+void find_lone_parts(const IntLists& vertex_faces, size_t faces, Findings& findings) {
+  bool shared = false;
+  for (int v = 0; v < static_cast<int>(vertex_faces.first.size()) - 1; ++v) {
+    if (vertex_faces[v].empty()) findings.add(ProblemKind::isolated_vertices, {}, {v});
+    shared |= vertex_faces[v].size() > 1;
+  }
+  if (!shared && faces > 1) findings.add(ProblemKind::unconnected_triangles, {}, {});
+}
+
+// Quick, and false only where has_no_area() has to look.
+bool surely_has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+  const double longest2 = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
+  // The height over the longest side against the size, squared; far from where numbers under- or overflow.
+  return size > 1e-50 && size < 1e50 && u.cross(v).squaredNorm() > 1e-26 * longest2 * size * size;
+}
+
+// Zero up to the rounding of the coordinates. Lengths are taken relative to them, then heights to lengths: no
+// product underflows or overflows.
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+  if (size == 0) return true;
+  const Vec3 p = a / size, u = b / size - p, v = c / size - p;
+  const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
+  if (longest == 0) return true;
+  const double height = (u / longest).cross(v / longest).norm() * longest;
+  return height <= 4 * std::numeric_limits<double>::epsilon();
+}
+
+void find_zero_areas(const Mat3X& points, const std::vector<Triangle>& triangles, Findings& findings) {
+  std::vector<char> flat(triangles.size());
+  parallel_for(triangles.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const auto& [a, b, c] = triangles[f];
+      const Vec3 p = points.col(a), q = points.col(b), r = points.col(c);
+      flat[f] = !surely_has_area(p, q, r) && has_no_area(p, q, r);
+    }
+  });
+  if (std::find(flat.begin(), flat.end(), 0) == flat.end()) return findings.add(ProblemKind::no_area, {}, {});
+  for (size_t f = 0; f < flat.size(); ++f)
+    if (flat[f]) findings.add(ProblemKind::zero_area_faces, {static_cast<int>(f)}, {});
+}
+
+}  // namespace
+
+std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triangle>& triangles,
+                                   VertexFans* fans) {
+  Findings findings;
+  if (triangles.empty()) findings.add(ProblemKind::no_faces, {}, {});
+  find_bad_corners(points, triangles, findings);
+  if (!findings.empty()) return findings.sorted();
+  const auto vertices = static_cast<size_t>(points.cols());
+  VertexFans own_fans = examine_fans(static_cast<int>(vertices), triangles);
+  if (first_broken(own_fans) >= 0) {  // then what, and where
+    find_bad_edges(vertices, triangles, findings);
+    find_bad_vertices(vertices, triangles, findings);
+  }
+  find_lone_parts(own_fans.faces, triangles.size(), findings);
+  find_zero_areas(points, triangles, findings);
+  if (fans) *fans = std::move(own_fans);
+  return findings.sorted();
+}
+
 namespace {
 
 struct Explanation {

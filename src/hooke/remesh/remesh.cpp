@@ -3,10 +3,268 @@
 #include <algorithm>
 #include <chrono>
 
-#include "hooke/remesh/outer_iterations.h"
+#include "hooke/core/error.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/integrator/final_projection.h"
+#include "hooke/mesh/wedges.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {
+
+/// Standard deviation of l / L_e in parts of its mean.
+double spread_of_edges(const Workspace& work) {
+  const auto& edges = work.connectivity->edges;
+  double sum = 0, squares = 0;
+  for (size_t e = 0; e < edges.size(); ++e) {
+    const auto [a, b] = edges[e];
+    const double l = (work.start->col(a) - work.start->col(b)).norm() / work.targets.edge[e];
+    sum += l;
+    squares += l * l;
+  }
+  const double n = static_cast<double>(edges.size()), mean = sum / n;
+  return std::sqrt(std::max(0., squares / n - mean * mean)) / mean;
+}
+
+}  // namespace
+
+bool do_no_harm(Workspace& work, const HarmOptions& options) {
+  const bool near_regular = least_angle(*work.start, work.connectivity->faces) >= options.angle &&
+                            spread_of_edges(work) <= options.deviation;
+  if (near_regular || !work.graded()) work.keep_angles();
+  if (near_regular) {
+    work.constraints.home = *work.start;
+    for (double length : work.vertex_length) work.constraints.reach.push_back(options.reach * length);
+  }
+  return near_regular;
+}
+
+namespace {
+
+/// What every connectivity mode ends with, on faces that stay: unfolds, relaxes and puts the vertices back on
+/// the surface until they are at rest, then raises the least angles. They have landed on the field of the
+/// input in the end, interrupted or not.
+class OuterIterations {
+ public:
+  OuterIterations(Workspace& work, const RemeshOptions& options, const Observer& observer)
+      : options_(options),
+        observer_(observer),
+        work_(work),
+        energy_(*work_.connectivity, work_.targets, {.altitude = options.altitude}),
+        guards_(*work_.connectivity, work_.targets, work_.guards) {}
+
+  /// `flips` is what the mode has done before: nothing more is done if it was interrupted.
+  RemeshResult run(const FlipResult& flips) {
+    result_.flips = flips;
+    if (flips.interrupted)
+      stop(StopReason::interrupted);
+    else
+      unfold();
+    for (int i = 0; !done_ && i < options_.max_outer; ++i) {
+      ++outer_;
+      iterate();
+    }
+    if (!interrupted() && options_.polish_angles)
+      raise_angles();
+    else if (outer_ == 0)
+      settle_down();  // no iteration has
+    conclude();
+    return std::move(result_);
+  }
+
+  /// Other faces about the worst corners: these are searched again, for the `result` of a run so far, which
+  /// has taken so long.
+  RemeshResult search_again(RemeshResult result, double seconds) {
+    result_ = std::move(result);
+    seconds_before_ = seconds;
+    if (interrupted())
+      settle_down();
+    else
+      search();
+    record("mend", {.energy = energy_(work_.placement, nullptr)});
+    conclude();
+    return std::move(result_);
+  }
+
+ private:
+  Relaxation relaxation() {
+    return {*work_.connectivity, work_.sweeps, work_.vertex_length, energy_,
+            *work_.retraction,   guards_,      work_.placement,     work_.stopwatch};
+  }
+
+  Observer watch(const char* stage) const {
+    if (!observer_) return nullptr;
+    return [this, stage](Progress p) {
+      p.stage = stage;
+      p.outer = outer_;
+      return observer_(p);
+    };
+  }
+
+  bool interrupted() const { return result_.reason == StopReason::interrupted; }
+
+  void unfold() {
+    const Stage stage(work_.stopwatch, "untangle");
+    Relaxation r = relaxation();
+    const UntangleResult unfolded = untangle(r, options_.untangle, watch("untangle"));
+    result_.folded_before = unfolded.folded_before;
+    if (unfolded.interrupted) stop(StopReason::interrupted);
+    if (unfolded.sweeps > 0) record("untangle", {.steps = unfolded.sweeps});
+  }
+
+  /// The sweeps take out slivers, of which hardly any are left after flow, or after an iteration that no
+  /// guard held back.
+  LbfgsOptions lbfgs() const {
+    LbfgsOptions lbfgs = options_.lbfgs;
+    const bool flowed = options_.connectivity != ConnectivityMode::fixed;
+    if (flowed || !held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
+    lbfgs.settles = !goes_on();
+    return lbfgs;
+  }
+
+  IntegrationOptions integration() const {
+    IntegrationOptions integration = options_.integration;
+    if (options_.connectivity != ConnectivityMode::fixed)
+      integration.energy_drop = options_.flips.energy_drop;
+    return integration;
+  }
+
+  IntegrationResult relax() {
+    Relaxation r = relaxation();
+    switch (options_.integrator) {
+      case IntegratorKind::lbfgs:
+        return relax_lbfgs(r, integration(), lbfgs(), watch("relax"));
+      case IntegratorKind::damped: {
+        TriMesh moving = build_mesh(work_.placement.points, *work_.connectivity);
+        return relax_damped(r, moving, integration(), options_.damped, watch("relax"));
+      }
+    }
+    throw Error("unknown integrator");
+  }
+
+  /// A coarser mesh knows less of the surface than the input does.
+  bool refits() const {
+    return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt && !unhindered_;
+  }
+
+  /// Came to rest where the guards had next to nothing to hold back: there the surface is smooth under the
+  /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same, unless the
+  /// vertices have come to places with other target lengths.
+  bool is_unhindered(const IntegrationResult& relaxed) const {
+    const double vertex_steps = static_cast<double>(relaxed.evaluations) * work_.connectivity->vertex_count;
+    return options_.integrator == IntegratorKind::lbfgs && !work_.graded() &&
+           relaxed.reason == StopReason::stalled &&
+           static_cast<double>(relaxed.held_back) <= options_.hindered * vertex_steps;
+  }
+
+  /// The next iteration or the polish goes on from where the vertices are, on the same field.
+  bool goes_on() const {
+    return options_.polish_angles && (unhindered_ || options_.connectivity == ConnectivityMode::adapt);
+  }
+
+  void iterate() {
+    const Stage stage(work_.stopwatch, "relax");
+    if (refits() && outer_ > 1) work_.refit();
+    const double energy = energy_(work_.placement, nullptr);
+    IntegrationResult relaxed = relax();
+    held_back_ = relaxed.held_back > 0;
+    unhindered_ = is_unhindered(relaxed);
+    if (!goes_on() || relaxed.reason == StopReason::interrupted) {
+      settle_down();
+      if (work_.took_back()) relaxed.energy = energy_(work_.placement, nullptr);
+    } else {
+      work_.resample_lengths();
+    }
+    record("relax", relaxed, outer_);
+    if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
+    if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
+    if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
+    if (unhindered_ || energy - relaxed.energy <= options_.outer_drop * energy)
+      return stop(StopReason::stalled);
+    result_.reason = StopReason::step_limit;
+  }
+
+  void raise_angles() {
+    const Stage stage(work_.stopwatch, "polish");
+    if (refits()) work_.refit();
+    {
+      Relaxation r = relaxation();
+      const PolishOptions& options =
+          options_.connectivity == ConnectivityMode::fixed ? options_.polish : options_.flips.polish;
+      result_.polish = polish(r, work_.targets, options, watch("polish"));
+    }
+    if (result_.polish.interrupted) {
+      result_.reason = StopReason::interrupted;
+      settle_down();
+    } else {
+      search();
+    }
+    record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
+  }
+
+  /// On the field fitted last, where vertices can move that will not land; then, where landing has changed
+  /// what is worst, on that of the input.
+  void search() {
+    if (work_.refitted()) {
+      settle(guards_, *work_.retraction, work_.placement);
+      search_here();
+    }
+    settle_down();
+    work_.return_to_input();
+    result_.not_landed = work_.land(search_here());
+    work_.resample_lengths();
+  }
+
+  /// Returns the vertices that may have moved.
+  std::vector<int> search_here() {
+    return timed(work_.stopwatch, "search", [&] {
+      Relaxation r = relaxation();
+      return search_angles(r, options_.search).vertices;
+    });
+  }
+
+  void settle_down() {
+    result_.not_landed = work_.land();
+    work_.resample_lengths();
+  }
+
+  void conclude() {
+    result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.placement));
+    result_.holds = holds_of_result(work_, guards_, options_.constraints);
+    result_.creases = count_creases(work_);
+    result_.crease_edges = crease_edges(*work_.connectivity);
+    for (Edge& e : result_.crease_edges)
+      for (int& v : e) v = work_.order.old_vertex[static_cast<size_t>(v)];
+    result_.projection = work_.projection_counts();
+  }
+
+  void stop(StopReason reason) {
+    result_.reason = reason;
+    done_ = true;
+  }
+
+  void record(const char* stage, const IntegrationResult& done, int outer = 0) {
+    IterationRecord record = iteration_record(work_, stage, done);
+    record.outer = outer;
+    record.seconds =
+        seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    result_.iterations.push_back(record);
+    result_.held_back += done.held_back;
+  }
+
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const RemeshOptions& options_;
+  const Observer& observer_;
+  Workspace& work_;
+  Energy energy_;
+  Guards guards_;
+  RemeshResult result_;
+  double seconds_before_ = 0;
+  int outer_ = 0;
+  bool held_back_ = true;  // by the guards, in the last relaxation
+  bool unhindered_ = false;
+  bool done_ = false;
+};
 
 /// A coarser mesh was relaxed before: these vertices started where they are nearly at rest.
 RemeshOptions relaxing_little(RemeshOptions options) {
@@ -36,7 +294,7 @@ bool mend_once(Workspace& work, const RemeshOptions& options, const Observer& ob
   rest.search.sagitta = options.mend.trials.change.sagitta;
   const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
   const std::chrono::duration<double> trials = std::chrono::steady_clock::now() - start;
-  result = search_again(work, rest, std::move(result), before + trials.count(), observer);
+  result = OuterIterations(work, rest, observer).search_again(std::move(result), before + trials.count());
   result.flips.flips += changes.flips;
   result.adaptation.splits += changes.splits;
   result.adaptation.collapses += changes.merges;
@@ -50,13 +308,6 @@ void mend(Workspace& work, const RemeshOptions& options, const Observer& observe
 }
 
 }  // namespace
-
-std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces) {
-  std::vector<int> ids;
-  for (int f : faces) ids.push_back(work.order.old_face[static_cast<size_t>(f)]);
-  std::ranges::sort(ids);
-  return ids;
-}
 
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer,
                     Stopwatch* stopwatch) {
@@ -85,7 +336,7 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
   const bool near_regular = options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm);
   RemeshOptions then = options;
   if (adapted.levels > 0 && options.polish_angles) then = relaxing_little(std::move(then));
-  RemeshResult result = iterate(work, then, flips, observer);
+  RemeshResult result = OuterIterations(work, then, observer).run(flips);
   result.near_regular = near_regular;
   result.adaptation = adapted;
   switch (options.connectivity) {

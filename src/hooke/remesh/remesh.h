@@ -1,22 +1,34 @@
-// Filtered Hooke's Optimization, Algorithm 1: relaxation and filtering by turns until the mesh is regular.
-// "Hooke's Optimization for 3D triangular mesh".
+// What a mesh that is good already must not lose. Equal edges and great angles are two aims: a mesh whose
+// angles are all good could pay for the one with the other.
 #pragma once
 
 #include "hooke/connectivity/adaptation.h"
-#include "hooke/connectivity/flip_connectivity.h"
-#include "hooke/connectivity/mending.h"
+#include "hooke/connectivity/flip_mode.h"
+#include "hooke/connectivity/sliver_removal.h"
 #include "hooke/integrator/angle_search.h"
-#include "hooke/integrator/damped_relaxation.h"
+#include "hooke/integrator/angle_springs.h"
+#include "hooke/integrator/damped_evolution.h"
 #include "hooke/integrator/lbfgs.h"
-#include "hooke/integrator/polish.h"
 #include "hooke/integrator/untangle.h"
-#include "hooke/remesh/crease_counts.h"
-#include "hooke/remesh/do_no_harm.h"
-#include "hooke/remesh/hindrances.h"
-#include "hooke/remesh/iteration_record.h"
-#include "hooke/working_mesh/workspace.h"
+#include "hooke/remesh/limiting_factors.h"
+#include "hooke/remesh/result.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
+
+struct HarmOptions {
+  double angle = 35;       // degrees; a mesh is near-regular if no angle is below ...
+  double deviation = .25;  // ... and the standard deviation of l / L_e is at most this part of its mean
+  double reach = .19;      // of its target length, that a vertex of a near-regular mesh may travel
+};
+
+/// Keeps the least angle where all edges are to have one length or the mesh is near-regular, and the vertices
+/// of a near-regular mesh within reach. Returns whether it is near-regular. Pre-condition: no vertex has
+/// moved.
+bool do_no_harm(Workspace& work, const HarmOptions& options);
+
+// Filtered Hooke's Optimization, Algorithm 1: relaxation and filtering by turns until the mesh is regular.
+// "Hooke's Optimization for 3D triangular mesh".
 
 enum class Refit { each, once };
 
@@ -81,9 +93,6 @@ struct RemeshResult {
   BoundCounts bound;        // time steps by the test that set them (paper_remesh only)
   FailedTests jam;          // what no time step passed, when jammed there
 };
-
-/// The ids that these faces of the work have in the result, ascending.
-std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces);
 
 /// Moves the vertices of the mesh on its own surface until its edges are as near to their target lengths
 /// (v:target_length) as the connectivity allows, then raises its least angles. Ids stay, and in mode `fixed`

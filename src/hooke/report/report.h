@@ -1,17 +1,36 @@
-// The JSON report of a run: what went in, what came out, and what the way cost. Schema hooke-remesh/report/1:
-// degrees, file units, 0-based ids; `null` for what does not exist. What varies from run to run stands only
-// under `resources` and in keys that end in _s.
+// The measured figures as JSON, for the report. Degrees, file units, 0-based ids; `null` for what does not
+// exist.
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+
 #include <optional>
 
 #include "hooke/core/stopwatch.h"
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/remesh/restarts.h"
 
 namespace hooke {
+
+/// {min, p01, p05, median, mean, p95, max, std, histogram: {edges, counts}, non_finite}; the figures and the
+/// histogram are null when there was no finite number.
+nlohmann::ordered_json to_json(const Statistics& statistics);
+
+/// The blocks `before` and `after`.
+nlohmann::ordered_json to_json(const Quality& quality);
+
+/// The block `geometry`.
+nlohmann::ordered_json to_json(const Deviation& deviation);
+
+/// The figures of the mesh itself in the blocks `input` and `output`, from `vertices` to `volume`.
+nlohmann::ordered_json to_json(const Topology& topology, const Extent& extent);
+
+// The JSON report of a run: what went in, what came out, and what the way cost. Schema hooke-remesh/report/1:
+// degrees, file units, 0-based ids; `null` for what does not exist. What varies from run to run stands only
+// under `resources` and in keys that end in _s.
 
 /// A mesh file and the mesh in it.
 struct FileRecord {
@@ -58,5 +77,13 @@ nlohmann::ordered_json report_json(const RunRecord& run);
 
 /// The report as a text. What is not UTF-8 in names is replaced.
 std::string report_text(const RunRecord& run);
+
+// The parameters of a run, for its report.
+
+/// Every effective value of a run, `null` for what has no effect in it. `effort` is what the options were set
+/// for.
+nlohmann::ordered_json parameters_json(const RemeshOptions& options, const AttemptOptions& attempts,
+                                       Effort effort);
+nlohmann::ordered_json parameters_json(const PaperOptions& options);
 
 }  // namespace hooke

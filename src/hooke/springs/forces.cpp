@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/face_shape.h"
-#include "hooke/springs/spring_law.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/springs/hooke_law.h"
 
 namespace hooke {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "hooke/core/types.h"
-#include "hooke/mesh/connectivity.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 

@@ -2,193 +2,108 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <queue>
 
 #include "hooke/core/error.h"
-#include "hooke/core/parallel.h"
-#include "hooke/mesh/principal_curvature.h"
-#include "hooke/springs/gradation.h"
+#include "hooke/io/files.h"
+#include "hooke/io/mesh_file.h"
+#include "hooke/io/ply.h"
+#include "hooke/io/printable.h"
+#include "hooke/io/vertex_lists.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
-
 namespace {
 
-constexpr size_t block = 4096;
+constexpr double longest = .1;  // of the box's diagonal: beyond it a mesh hardly shows a shape
 
-double face_area(const Mat3X& points, const Triangle& t) {
-  const Vec3 a = points.col(t[0]);
-  return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
-}
-
-}  // namespace
-
-double total_area(const Mat3X& points, const std::vector<Triangle>& faces) {
-  return parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
-    double sum = 0;
-    for (size_t f = begin; f < end; ++f) sum += face_area(points, faces[f]);
-    return sum;
-  });
-}
-
-double natural_length(double area, std::size_t face_count) {
-  return std::sqrt(4 * area / (std::sqrt(3.) * static_cast<double>(face_count)));
-}
-
-LengthSpec parse_length(const std::string& text) {
-  if (text == "auto") return {};
-  if (text == "mean") return {LengthSpec::Kind::mean, 0};
-  if (text == "sizing") return {LengthSpec::Kind::as_given, 0};
-  LengthSpec spec{LengthSpec::Kind::absolute, 0};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, spec.value);
+SizingSource parse_curvature(std::string_view error) {
+  SizingSource source{.kind = SizingSource::Kind::curvature, .name = {}};
+  const char* const end = error.data() + error.size();
+  const auto [rest, failed] = std::from_chars(error.data(), end, source.chord_error);
   const std::string_view unit(rest, end);
-  if (unit == "%") spec.kind = LengthSpec::Kind::percent_of_diagonal;
-  if (unit == "x") spec.kind = LengthSpec::Kind::times_natural;
-  const bool known = unit.empty() || unit == "%" || unit == "x";
-  if (error != std::errc() || !known || !(spec.value > 0) || !std::isfinite(spec.value))
+  source.percent = unit == "%";
+  if (failed != std::errc() || !(unit.empty() || source.percent) || !(source.chord_error > 0) ||
+      !std::isfinite(source.chord_error))
     throw Error(
-        fmt::format("'{}'; expected auto, mean, sizing, or a positive number, alone or with % or x", text));
-  return spec;
+        fmt::format("curvature: chord error {}; expected a positive number, alone or with %; for instance "
+                    "curvature:0.1%",
+                    in_quotes(error)));
+  return source;
 }
 
-double box_diagonal(const Mat3X& points) {
-  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).stableNorm();
-}
-
-double resolve_length(const LengthSpec& spec, const Mat3X& points, const Connectivity& c) {
-  const double natural = natural_length(total_area(points, c.faces), c.faces.size());
-  switch (spec.kind) {
-    case LengthSpec::Kind::natural:
-      return natural;
-    case LengthSpec::Kind::times_natural:
-      return spec.value * natural;
-    case LengthSpec::Kind::absolute:
-      return spec.value;
-    case LengthSpec::Kind::percent_of_diagonal:
-      return spec.value / 100 * box_diagonal(points);
-    case LengthSpec::Kind::as_given:
-      throw Error("length 'sizing' without a sizing; expected one; name it, or another length");
-    case LengthSpec::Kind::mean:
-      break;
-  }
-  double sum = 0;
-  for (const auto& [a, b] : c.edges) sum += (points.col(b) - points.col(a)).norm();
-  return sum / static_cast<double>(c.edges.size());
-}
-
-namespace {
-
-/// Finds the factor for which measure(factor), which grows with it, is the goal, by secants in logarithms.
-/// The last call of `measure` is with that factor.
-template <typename Measure>
-void scale_to(double goal, double factor, const Measure& measure) {
-  constexpr int tries = 20;
-  constexpr double close = 1e-6;
-  double slope = 1;  // d log(measure) / d log(factor): less where a limit holds lengths back
-  double reached = measure(factor);
-  for (int i = 0; i < tries && std::abs(reached / goal - 1) > close; ++i) {
-    const double next = factor * std::pow(goal / reached, 1 / slope);
-    const double after = measure(next);
-    slope = std::clamp(std::log(after / reached) / std::log(next / factor), .05, 1.);
-    factor = next;
-    reached = after;
-  }
+std::vector<double> read_property(const std::string& property, const std::filesystem::path& mesh_file,
+                                  int count) {
+  const std::string name = printable(mesh_file.native());
+  if (input_format_of(mesh_file) != "ply")
+    throw Error(fmt::format("{}: sizing by the property {}; expected a PLY file; name a file of lengths",
+                            name, in_quotes(property)));
+  const FileBytes file = read_regular_file(mesh_file);
+  std::vector<double> lengths = read_ply_lengths(file.text(), name, property);
+  if (lengths.size() != static_cast<size_t>(count))
+    throw InputError(fmt::format("{}: {} vertices, and {} when it was first read; it has been changed", name,
+                                 lengths.size(), count));
+  return lengths;
 }
 
 }  // namespace
 
-std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
-                                           const Connectivity& c) {
-  std::vector<double> lengths = sizing.vertex_length;
-  if (lengths.empty()) {
-    lengths.assign(static_cast<size_t>(c.vertex_count), resolve_length(spec, points, c));
-    return lengths;
-  }
-  if (spec.kind == LengthSpec::Kind::as_given) {
-    limit_gradation(points, c, sizing.gradation, lengths);
-    return lengths;
-  }
-  const bool by_area = spec.kind == LengthSpec::Kind::natural || spec.kind == LengthSpec::Kind::times_natural;
-  const auto size_of = [&](const TargetLengths& t) {
-    return by_area ? covering_length(points, c, t) : mean_length(points, c, t);
-  };
-  // Over the greatest, so that equal lengths become exactly 1.
-  const double greatest = *std::ranges::max_element(lengths);
-  for (double& l : lengths) l /= greatest;
-  const std::vector<double> shares = lengths;
-  const double goal = resolve_length(spec, points, c);
-  scale_to(goal, goal / size_of(spread_target_lengths(c, shares)), [&](double factor) {
-    std::ranges::transform(shares, lengths.begin(), [&](double share) { return factor * share; });
-    limit_gradation(points, c, sizing.gradation, lengths);
-    return size_of(spread_target_lengths(c, lengths));
-  });
-  return lengths;
+SizingSource parse_sizing(const std::string& text) {
+  const std::string curvature = "curvature", ply = "ply:";
+  if (text == curvature) return {.kind = SizingSource::Kind::curvature, .name = {}};
+  if (text.starts_with(curvature + ":"))
+    return parse_curvature(std::string_view(text).substr(curvature.size() + 1));
+  const bool is_property = text.starts_with(ply);
+  const std::string name = is_property ? text.substr(ply.size()) : text;
+  if (name.empty())
+    throw Error(fmt::format("{}; expected FILE, ply:PROPERTY or curvature[:ERROR]", in_quotes(text)));
+  return {.kind = is_property ? SizingSource::Kind::ply_property : SizingSource::Kind::file, .name = name};
 }
 
-double covering_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
-  if (!targets.face.vary()) return targets.face[0];
-  const auto sum = [&](const auto& weight) {
-    return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
-      double part = 0;
-      for (size_t f = begin; f < end; ++f) part += weight(f) * face_area(points, c.faces[f]);
-      return part;
-    });
-  };
-  return std::sqrt(sum([](size_t) { return 1.; }) /
-                   sum([&](size_t f) { return 1 / (targets.face[f] * targets.face[f]); }));
+std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
+                                const Mat3X& points, const Layout& layout) {
+  const Connectivity& c = *layout.connectivity;
+  switch (source.kind) {
+    case SizingSource::Kind::none:
+      break;
+    case SizingSource::Kind::file:
+      return layout.order.in_new_order(read_length_list(source.name, c.vertex_count));
+    case SizingSource::Kind::ply_property:
+      return layout.order.in_new_order(read_property(source.name, mesh_file, c.vertex_count));
+    case SizingSource::Kind::curvature: {
+      const double diagonal = box_diagonal(points);
+      const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
+      return curvature_lengths(points, c, error, longest * diagonal);
+    }
+  }
+  return {};
 }
 
-double mean_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
-  const double first = targets.edge[0];
-  if (!targets.edge.vary()) return first;
-  const auto sum = [&](const auto& value) {
-    return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
-      double part = 0;
-      for (size_t f = begin; f < end; ++f) {
-        double of_edges = 0;
-        for (int e : c.face_edges[f]) of_edges += value(targets.edge[static_cast<size_t>(e)]);
-        part += of_edges * face_area(points, c.faces[f]);
+void limit_gradation(const Mat3X& points, const Connectivity& c, double slope, std::vector<double>& length) {
+  if (std::isinf(slope)) return;
+  const auto at = [&](int v) -> double& { return length[static_cast<size_t>(v)]; };
+  const auto limit = [&](int from, int to) {
+    return at(from) + slope * (points.col(to) - points.col(from)).norm();
+  };
+  // The smallest first, as in Dijkstra's shortest paths: a vertex that comes up has its final length.
+  using Item = std::pair<double, int>;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+  for (const auto& [a, b] : c.edges) {
+    if (at(b) > limit(a, b)) queue.emplace(at(a), a);
+    if (at(a) > limit(b, a)) queue.emplace(at(b), b);
+  }
+  while (!queue.empty()) {
+    const auto [l, v] = queue.top();
+    queue.pop();
+    if (l > at(v)) continue;
+    for (int w : c.vertex_neighbours[v])
+      if (const double most = limit(v, w); at(w) > most) {
+        at(w) = most;
+        queue.emplace(most, w);
       }
-      return part;
-    });
-  };
-  return first +
-         sum([&](double l) { return (l - first) / (l * l); }) / sum([](double l) { return 1 / (l * l); });
-}
-
-std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c, double chord_error,
-                                      double longest) {
-  std::vector<double> lengths = largest_curvatures(points, c);
-  for (double& l : lengths) {
-    const double radius = std::max(1 / l, chord_error);  // infinite where it is flat
-    l = std::min(std::sqrt((8 * radius - 4 * chord_error) * chord_error), longest);
   }
-  return lengths;
-}
-
-TargetLengths spread_target_lengths(const Connectivity& c, const std::vector<double>& vertex_length) {
-  const auto mean_of_three = [](double a, double b, double d) { return (a + b + d) / 3; };
-  if (!c.faces.empty() && Lengths::are_equal(vertex_length)) {
-    const double length = vertex_length[0];
-    return {Lengths(c.edges.size(), length), Lengths(c.faces.size(), mean_of_three(length, length, length))};
-  }
-  std::vector<double> edge(c.edges.size()), face(c.faces.size());
-  parallel_for(c.edges.size(), block, [&](size_t begin, size_t end) {
-    for (size_t e = begin; e < end; ++e) {
-      const auto& [a, b] = c.edges[e];
-      edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
-    }
-  });
-  parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      const auto& [a, b, d] = c.face_edges[f];
-      face[f] = mean_of_three(edge[static_cast<size_t>(a)], edge[static_cast<size_t>(b)],
-                              edge[static_cast<size_t>(d)]);
-    }
-  });
-  return {std::move(edge), std::move(face)};
 }
 
 }  // namespace hooke

@@ -1,0 +1,216 @@
+#include "hooke/connectivity/collapse_passes.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "hooke/connectivity/edge_queue.h"
+#include "hooke/core/parallel.h"
+#include "hooke/integrator/guards.h"
+
+namespace hooke {
+namespace {
+
+/// Which block each vertex belongs to: as many that follow each other, but for the first and the last.
+struct Blocks {
+  std::vector<int> of;     // per id
+  std::vector<int> first;  // id of each block, and one past the last
+};
+
+Blocks cut_into_blocks(const Triangulation& t, int vertices, int offset) {
+  Blocks blocks{std::vector<int>(static_cast<size_t>(t.id_count())), {0}};
+  int in_block = offset;
+  for (int v = 0; v < t.id_count(); ++v) {
+    if (t.valence(v) > 0 && ++in_block > vertices) {
+      blocks.first.push_back(v);
+      in_block = 1;
+    }
+    blocks.of[static_cast<size_t>(v)] = static_cast<int>(blocks.first.size()) - 1;
+  }
+  blocks.first.push_back(t.id_count());
+  return blocks;
+}
+
+/// How far each vertex lies from the other blocks: at 0 a neighbour is in one, at 1 a neighbour is at 0. A
+/// collapse of an inner edge between vertices at 2 reads and writes its own block alone, and leaves them
+/// at 2. Edges of rims count in what the mesh knows of their curves.
+std::vector<char> depths_in(const Blocks& blocks, const Triangulation& t) {
+  std::vector<char> depths(static_cast<size_t>(t.id_count()), 2);
+  const auto lower = [&](char depth, const auto& is_so_deep) {
+    for (const Triangle& face : t.faces()) {
+      if (face[0] < 0 || !is_so_deep(face)) continue;
+      for (int v : face) depths[static_cast<size_t>(v)] = std::min(depths[static_cast<size_t>(v)], depth);
+    }
+  };
+  lower(0, [&](const Triangle& face) {
+    return std::ranges::any_of(face, [&](int v) {
+      return blocks.of[static_cast<size_t>(v)] != blocks.of[static_cast<size_t>(face[0])];
+    });
+  });
+  lower(1, [&](const Triangle& face) {
+    return std::ranges::any_of(face, [&](int v) { return depths[static_cast<size_t>(v)] == 0; });
+  });
+  return depths;
+}
+
+class BlockCollapses {
+ public:
+  BlockCollapses(AdaptingMesh& mesh, const CollapseOptions& options, double shortest,
+                 const std::vector<char>& depths)
+      : m_(mesh), t_(mesh.triangulation), options_(options), shortest_(shortest), depths_(depths) {}
+
+  int run(int first_vertex, int end_vertex) {
+    for (int v = first_vertex; v < end_vertex; ++v) {
+      if (!is_deep(v)) continue;
+      for (int h : t_.outgoing(v))
+        if (h > t_.twin(h)) push(h);
+    }
+    int collapses = 0;
+    for (int h = pop(); h >= 0; h = pop()) {
+      const int stays = collapse_edge(m_, h, options_);
+      if (stays < 0) continue;
+      ++collapses;
+      for (int spoke : t_.outgoing(stays)) push(spoke);
+    }
+    return collapses;
+  }
+
+ private:
+  bool is_deep(int v) const { return depths_[static_cast<size_t>(v)] == 2; }
+
+  void push(int h) {
+    if (!is_deep(t_.from(h)) || !is_deep(t_.to(h)) || is_rim(t_, h)) return;
+    if (const double length = relative_length(m_, h); length < shortest_) waiting_.emplace(length, h);
+  }
+
+  /// The shortest of the edges that are as long as they were when they came, and still inner ones: a
+  /// half-edge may stand for another edge by then. -1 without one.
+  int pop() {
+    while (!waiting_.empty()) {
+      const auto [length, h] = waiting_.top();
+      waiting_.pop();
+      if (!t_.is_gone(h / 3) && !is_rim(t_, h) && relative_length(m_, h) == length) return h;
+    }
+    return -1;
+  }
+
+  AdaptingMesh& m_;
+  const Triangulation& t_;
+  const CollapseOptions& options_;
+  double shortest_;
+  const std::vector<char>& depths_;
+  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> waiting_;
+};
+
+int vertex_count(const Triangulation& t) {
+  int count = 0;
+  for (int v = 0; v < t.id_count(); ++v) count += t.valence(v) > 0;
+  return count;
+}
+
+/// Of all half-edges, the part that is shorter than this.
+double share_of_shorter(const AdaptingMesh& m, double length) {
+  const Triangulation& t = m.triangulation;
+  const auto count = [&](const auto& counts) {
+    return parallel_sum(static_cast<size_t>(t.half_edge_count()), 4096, [&](size_t begin, size_t end) {
+      double sum = 0;
+      for (size_t i = begin; i < end; ++i) {
+        const int h = static_cast<int>(i);
+        sum += !t.is_gone(h / 3) && counts(h);
+      }
+      return sum;
+    });
+  };
+  return count([&](int h) { return relative_length(m, h) < length; }) / count([](int) { return true; });
+}
+
+int collapse_in(const Blocks& blocks, AdaptingMesh& m, const CollapseOptions& options, double shortest) {
+  const std::vector<char> depths = depths_in(blocks, m.triangulation);
+  std::vector<int> collapses(blocks.first.size() - 1, 0);
+  parallel_for(collapses.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t b = begin; b < end; ++b)
+      collapses[b] = BlockCollapses(m, options, shortest, depths).run(blocks.first[b], blocks.first[b + 1]);
+  });
+  return std::accumulate(collapses.begin(), collapses.end(), 0);
+}
+
+}  // namespace
+
+int collapse_in_blocks(AdaptingMesh& m, const CollapseOptions& options, const BlockOptions& o) {
+  const Triangulation& t = m.triangulation;
+  const double shortest = o.part * options.shortest;
+  if (t.id_count() < 2 * o.vertices || share_of_shorter(m, shortest) < o.share) return 0;
+  int collapses = 0;
+  for (int pass = 0; pass < o.passes; ++pass) {
+    const int size = std::min(o.vertices, vertex_count(t) / 2);
+    collapses += collapse_in(cut_into_blocks(t, size, pass * size / o.passes), m, options, shortest);
+  }
+  return collapses;
+}
+
+namespace {
+
+/// Of edges that are tried at the same time, against the mesh as it was before.
+constexpr size_t most_edges = 1024;
+
+std::vector<std::optional<Collapse>> try_all(const AdaptingMesh& m, const std::vector<int>& edges,
+                                             const CollapseOptions& options) {
+  std::vector<std::optional<Collapse>> trials(edges.size());
+  parallel_for(edges.size(), 16, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) trials[i] = try_collapse(m, edges[i], options);
+  });
+  return trials;
+}
+
+}  // namespace
+
+int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
+  int collapses = collapse_in_blocks(m, options, {});
+  EdgeQueue queue(m.triangulation, [&](int h) { return options.shortest - relative_length(m, h); });
+  const auto next_edges = [&] {
+    return queue.pop_apart(most_edges, [&](int h) { return valence_after(m, h) <= options.valence; });
+  };
+  for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
+    for (const std::optional<Collapse>& trial : try_all(m, edges, options)) {
+      if (!trial || !curve_may_lose(m, trial->half_edge)) continue;  // others of its curve may have gone
+      make_collapse(m, *trial);
+      queue.push_about(trial->stays);
+      ++collapses;
+    }
+  m.retraction.count();
+  return collapses;
+}
+
+namespace {
+
+/// Collapses the first edge that may, of the face or at its corners.
+bool collapse_about(AdaptingMesh& m, int face, const CollapseOptions& options) {
+  const Triangulation& t = m.triangulation;
+  for (int h = 3 * face; h < 3 * face + 3; ++h)
+    if (collapse_edge(m, h, options) >= 0) return true;
+  for (int corner : t.faces()[static_cast<size_t>(face)])
+    for (int h : t.outgoing(corner))
+      if (collapse_edge(m, h, options) >= 0) return true;
+  return false;
+}
+
+}  // namespace
+
+int collapse_folded_faces(AdaptingMesh& m, const CollapseOptions& options) {
+  const Triangulation& t = m.triangulation;
+  const auto is_folded = [&](int f) {
+    const auto face = static_cast<size_t>(f);
+    return face_alignment(m.placement.points, m.placement.normals, t.faces()[face], t.sides()[face]) <
+           options.alignment;
+  };
+  const int count = t.half_edge_count() / 3;
+  int collapses = 0;
+  for (int f = 0; f < count; ++f) collapses += !t.is_gone(f) && is_folded(f) && collapse_about(m, f, options);
+  m.retraction.count();
+  return collapses;
+}
+
+}  // namespace hooke

@@ -1,0 +1,189 @@
+#include "hooke/connectivity/corner_flips.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "hooke/geometry/triangle.h"
+#include "hooke/integrator/guards.h"
+
+namespace hooke {
+namespace {
+
+constexpr double push = .1;  // in target lengths
+constexpr int most_pushes = 8;
+
+/// One corner and what can be done about its valence.
+class Corner {
+ public:
+  Corner(FlippingMesh& mesh, const FlipGuardOptions& options, int vertex, int side)
+      : m_(mesh), t_(mesh.triangulation), options_(options), vertex_(vertex), side_(side) {}
+
+  int settle() {
+    const int wanted = m_.corner_valences[static_cast<size_t>(side_)];
+    while (valence() < wanted && flip_best(sides_across())) ++flips_;
+    while (valence() > wanted) {
+      if (!flip_best(inner_spokes()) && !free_inner_neighbour() && !push_inner_neighbour() && !pull_sides())
+        break;
+      ++flips_;
+    }
+    return flips_;
+  }
+
+ private:
+  ShortList spokes() const {
+    for (int h : t_.outgoing(vertex_))
+      if (t_.side(h) == side_) return t_.sector(h);
+    return {};
+  }
+
+  int valence() const { return static_cast<int>(spokes().size()) + 1; }
+
+  ShortList inner_spokes() const {
+    ShortList inner;
+    for (int h : spokes())
+      if (!t_.is_border(h)) inner.push_back(h);
+    return inner;
+  }
+
+  ShortList sides_across() const {
+    ShortList sides;
+    for (int h : spokes()) sides.push_back(Triangulation::next(h));
+    return sides;
+  }
+
+  /// Flips the edge whose new faces have the largest least angle.
+  bool flip_best(const ShortList& half_edges) {
+    int best = -1;
+    double best_angle = -1;
+    for (int h : half_edges) {
+      if (!may_flip(m_, h, options_)) continue;
+      const int a = t_.from(h), b = t_.to(h), c = t_.apex(h), d = t_.apex(t_.twin(h));
+      const double angle = least_angle(m_.placement.points, {{c, a, d}, {d, b, c}});
+      if (angle <= best_angle) continue;
+      best = h;
+      best_angle = angle;
+    }
+    if (best >= 0) t_.flip(best);
+    return best >= 0;
+  }
+
+  /// An inner neighbour with three edges cannot lose one: the edge across it goes to it first.
+  bool free_inner_neighbour() {
+    for (int h : inner_spokes()) {
+      const int w = t_.to(h);
+      if (t_.valence(w) != 3 || is_on_border(w)) continue;
+      for (int side : t_.outgoing(w)) {
+        const int across = Triangulation::next(side);
+        if (t_.from(across) == vertex_ || t_.to(across) == vertex_) continue;
+        if (!may_flip(m_, across, options_)) continue;
+        t_.flip(across);
+        ++flips_;
+        if (flip_best(inner_spokes())) return true;
+        break;
+      }
+    }
+    return false;
+  }
+
+  bool push_inner_neighbour() {
+    for (int h : inner_spokes()) {
+      const int w = t_.to(h);
+      if (!is_on_border(w) && shift({w}, push)) return true;
+    }
+    return false;
+  }
+
+  bool pull_sides() {
+    const ShortList all = spokes();
+    return shift({t_.to(all.front()), t_.apex(all.back())}, -push);
+  }
+
+  bool is_on_border(int vertex) const { return t_.on_boundary(vertex) || t_.on_crease(vertex); }
+
+  /// Moves the vertices along the lines from the corner, bit by bit, until a spoke can be flipped.
+  bool shift(const std::vector<int>& vertices, double part) {
+    std::vector<VertexPlace> before;
+    for (int v : vertices) before.emplace_back(m_.placement, v);
+    for (int i = 0; i < most_pushes && shift_once(vertices, part); ++i)
+      if (flip_best(inner_spokes())) return true;
+    for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(m_.placement, vertices[i]);
+    return false;
+  }
+
+  bool shift_once(const std::vector<int>& vertices, double part) {
+    Mat3X& X = m_.placement.points;
+    for (int v : vertices) {
+      if (m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed) continue;
+      const std::vector<double> before = alignments(v);
+      const Vec3 away = (X.col(v) - X.col(vertex_)).normalized();
+      const double length = part * m_.vertex_length[static_cast<size_t>(v)];
+      m_.retraction.moved(m_.placement, v, length * away).write_to(m_.placement, v);
+      const std::vector<double> after = alignments(v);
+      for (size_t i = 0; i < before.size(); ++i)
+        if (after[i] < std::min(options_.alignment, before[i])) return false;
+    }
+    return true;
+  }
+
+  std::vector<double> alignments(int v) const {
+    std::vector<double> values;
+    for (int h : t_.outgoing(v)) {
+      const auto f = static_cast<size_t>(h / 3);
+      values.push_back(
+          face_alignment(m_.placement.points, m_.placement.normals, t_.faces()[f], t_.sides()[f]));
+    }
+    return values;
+  }
+
+  FlippingMesh& m_;
+  Triangulation& t_;
+  const FlipGuardOptions& options_;
+  int vertex_;
+  int side_;
+  int flips_ = 0;
+};
+
+}  // namespace
+
+std::vector<int> corner_valences(const Mat3X& points, const Connectivity& c, const Constraints& constraints,
+                                 double corner_angle) {
+  std::vector<int> borders(static_cast<size_t>(c.vertex_count), 0);
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_border(static_cast<int>(e)))
+      for (int v : c.edges[e]) ++borders[static_cast<size_t>(v)];
+  const auto is_corner = [&](int v) {
+    return borders[static_cast<size_t>(v)] >= 2 &&
+           constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed;
+  };
+  std::vector<double> angles(static_cast<size_t>(c.side_count()), 0);  // degrees
+  for (size_t f = 0; f < c.faces.size(); ++f) {
+    const Triangle& t = c.faces[f];
+    for (size_t k = 0; k < 3; ++k) {
+      if (!is_corner(t[k])) continue;
+      const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(t[k]);
+      const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(t[k]);
+      angles[static_cast<size_t>(c.sides_of_faces()[f][k])] +=
+          std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+    }
+  }
+  std::vector<int> wanted(angles.size(), 0);
+  for (size_t side = 0; side < angles.size(); ++side)
+    if (angles[side] > 0 && std::abs(180 - angles[side]) >= corner_angle)
+      wanted[side] = 1 + std::max(1, static_cast<int>(std::lround(angles[side] / 60)));
+  return wanted;
+}
+
+int force_corners(FlippingMesh& m, const FlipGuardOptions& options) {
+  const int vertices = static_cast<int>(m.vertex_length.size());
+  int flips = 0;
+  for (size_t side = 0; side < m.corner_valences.size(); ++side) {
+    const int i = static_cast<int>(side);
+    const int v = i < vertices ? i : m.constraints.further_sides[static_cast<size_t>(i - vertices)];
+    if (m.corner_valences[side] > 0 && m.triangulation.valence(v) > 0)
+      flips += Corner(m, options, v, i).settle();
+  }
+  m.retraction.count();
+  return flips;
+}
+
+}  // namespace hooke

@@ -1,0 +1,296 @@
+#include "hooke/connectivity/edge_trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "hooke/geometry/triangle.h"
+#include "hooke/integrator/gauss_seidel.h"
+#include "hooke/integrator/guards.h"
+
+namespace hooke {
+namespace {
+
+void add_face(const Placement& p, const Triangle& t, const PatchLimits& limits, PatchLook& look) {
+  const double cotangent = greatest_cotangent(p.points, t);
+  const double lacks = std::max(0., limits.fair_angle - angle_with_cotangent(cotangent));
+  const double alignment = face_alignment(p.points, p.normals, t);
+  const double misses = limits.alignment - alignment;
+  look.cotangent = std::max(look.cotangent, cotangent);
+  look.area += .5 * doubled_area_vector(p.points, t).norm() * alignment;
+  look.angle_cost += lacks * lacks;
+  look.excess.alignment += std::max(0., misses);
+  look.excess.folds += misses > 0;
+}
+
+void add_edge(const Placement& p, const Edge& edge, double target, const PatchLimits& limits,
+              PatchLook& look) {
+  const double length = (p.points.col(edge[1]) - p.points.col(edge[0])).norm() / target;
+  const double sagitta = edge_sagitta(p.points, p.normals, edge) / target;
+  look.length_errors += (length - 1) * (length - 1);
+  look.excess.length = std::max(look.excess.length, length - limits.longest);
+  look.excess.sagitta += std::max(0., sagitta - limits.sagitta);
+}
+
+void add_fold(const Placement& p, const Triangle& face, const Triangle& other, const PatchLimits& limits,
+              PatchLook& look) {
+  const double misses = limits.fold - cosine_between(p.points, face, other);
+  look.excess.fold += std::max(0., misses);
+  look.excess.folds += misses > 0;
+}
+
+}  // namespace
+
+bool is_no_worse(const PatchExcess& now, const PatchExcess& before) {
+  return now.alignment <= before.alignment && now.fold <= before.fold && now.sagitta <= before.sagitta &&
+         now.length <= before.length && now.folds <= before.folds;
+}
+
+PatchLook look_at(const Placement& p, const Connectivity& c, const TargetLengths& targets,
+                  const PatchLimits& limits) {
+  PatchLook look;
+  look.edges = c.edges.size();
+  for (const Triangle& t : c.faces) add_face(p, t, limits, look);
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    add_edge(p, c.edges[e], targets.edge[e], limits, look);
+    if (const auto [f, g] = c.edge_faces[e]; g >= 0)
+      add_fold(p, c.faces[static_cast<std::size_t>(f)], c.faces[static_cast<std::size_t>(g)], limits, look);
+  }
+  return look;
+}
+
+namespace {
+
+class Choice {
+ public:
+  Choice(const AdaptingMesh& mesh, const ChangeRules& rules)
+      : m_(mesh), flipping_(mesh.flipping()), t_(mesh.triangulation), rules_(rules) {}
+
+  std::vector<EdgeChange> changes(int h) const {
+    std::vector<EdgeChange> changes;
+    if (may_flip(h)) changes.push_back({h, ChangeKind::flip});
+    if (rules_.splits && may_split(h)) changes.push_back({h, ChangeKind::split});
+    if (rules_.merges && may_merge(h)) changes.push_back(merge(h));
+    return changes;
+  }
+
+ private:
+  bool may_gain_an_edge(int corner) const {
+    const CornerValence valence = corner_valence(flipping_, corner);
+    return valence.wanted > 0 ? valence.has < valence.wanted : valence.has < rules_.valence;
+  }
+
+  bool may_lose_an_edge(int corner) const {
+    const CornerValence valence = corner_valence(flipping_, corner);
+    if (valence.wanted > 0) return valence.has > valence.wanted;
+    return valence.has > (t_.on_boundary(t_.from(corner)) ? 2 : 3);
+  }
+
+  template <typename MayChange>
+  bool at_both_apexes(int h, const MayChange& may_change) const {
+    return may_change(Triangulation::previous(h)) && may_change(Triangulation::previous(t_.twin(h)));
+  }
+
+  /// A flip brings the corners across one more edge, too.
+  bool may_flip(int h) const {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    return may_split(h) &&
+           hooke::may_flip(flipping_, h, {.area_share = 0, .alignment = -1, .fold = -any, .sagitta = any});
+  }
+
+  bool may_split(int h) const {
+    return at_both_apexes(h, [this](int corner) { return may_gain_an_edge(corner); });
+  }
+
+  bool may_go(int v) const {
+    return m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::surface && !t_.on_boundary(v) &&
+           !t_.on_crease(v);
+  }
+
+  /// Does a corner that stays keep to the edges it wants?
+  bool may_take_up(int stays, int goes) const {
+    const CornerValence corner = corner_valence(flipping_, stays);
+    return corner.wanted == 0 || corner.has + t_.valence(t_.from(goes)) - 4 <= corner.wanted;
+  }
+
+  bool may_merge(int h) const {
+    const int g = t_.twin(h), a = t_.from(h), b = t_.to(h);
+    if (!may_go(a) && !may_go(b)) return false;
+    if (!may_go(a) && !may_take_up(h, g)) return false;
+    if (!may_go(b) && !may_take_up(g, h)) return false;
+    return t_.valence(a) + t_.valence(b) - 4 <= rules_.valence && t_.may_collapse(h) &&
+           at_both_apexes(h, [this](int corner) { return may_lose_an_edge(corner); });
+  }
+
+  /// Of two alike that one stays which has been there longer, and goes to the middle.
+  EdgeChange merge(int h) const {
+    const int a = t_.from(h), b = t_.to(h);
+    const auto rank = [this](int v) {
+      const int origin = m_.origins[static_cast<size_t>(v)];
+      return std::tuple(may_go(v), origin < 0, origin < 0 ? v : origin);
+    };
+    return {h, ChangeKind::merge, rank(a) < rank(b) ? 0 : 1, may_go(a) && may_go(b)};
+  }
+
+  const AdaptingMesh& m_;
+  const FlippingMesh flipping_;
+  const Triangulation& t_;
+  const ChangeRules& rules_;
+};
+
+/// A vertex that is at one end of the edge goes half the way to the other.
+void move_half_way(EdgePatch& patch, int vertex, int to, const Surface& surface,
+                   const RetractionOptions& options) {
+  const Vec3 way = .5 * (patch.placement.points.col(to) - patch.placement.points.col(vertex));
+  Retraction retraction(surface, patch.constraints, options);
+  retraction.moved(patch.placement, vertex, way).write_to(patch.placement, vertex);
+}
+
+/// Appends the vertex in the middle of the edge. Returns its id.
+int add_middle(EdgePatch& patch, const Surface& surface, const RetractionOptions& options) {
+  const int v = append_vertex(patch, 0);
+  move_half_way(patch, v, 1, surface, options);
+  return v;
+}
+
+void merge_ends(EdgePatch& patch, const EdgeChange& merge, const Surface& surface,
+                const RetractionOptions& options) {
+  const int goes = 1 - merge.stays;
+  if (merge.half_way) move_half_way(patch, merge.stays, goes, surface, options);
+  patch.constraints.freedom[static_cast<size_t>(goes)] = Freedom::fixed;
+}
+
+}  // namespace
+
+std::vector<int> inner_edges_about(const Triangulation& t, int face) {
+  std::vector<int> edges;
+  for (int corner : t.faces()[static_cast<size_t>(face)])
+    for (int spoke : t.outgoing(corner))
+      for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)})
+        if (!t.is_border(h)) edges.push_back(std::min(h, t.twin(h)));
+  std::ranges::sort(edges);
+  const auto rest = std::ranges::unique(edges);
+  edges.erase(rest.begin(), rest.end());
+  return edges;
+}
+
+std::vector<EdgeChange> allowed_changes(const AdaptingMesh& m, int half_edge, const ChangeRules& rules) {
+  return Choice(m, rules).changes(half_edge);
+}
+
+std::vector<Triangle> change_patch(EdgePatch& patch, const EdgeChange& change, const Surface& surface,
+                                   const RetractionOptions& options) {
+  switch (change.kind) {
+    case ChangeKind::flip:
+      break;
+    case ChangeKind::split:
+      return halved_faces(patch, add_middle(patch, surface, options));
+    case ChangeKind::merge:
+      merge_ends(patch, change, surface, options);
+      return merged_faces(patch, change.stays);
+  }
+  return flipped_faces(patch);
+}
+
+void change_mesh(AdaptingMesh& m, const EdgeChange& change, EdgePatch& patch) {
+  Triangulation& t = m.triangulation;
+  const int h = change.half_edge;
+  switch (change.kind) {
+    case ChangeKind::flip:
+      t.flip(h);
+      break;
+    case ChangeKind::split:
+      patch.vertices.back() = add_vertex(m, h);
+      t.split(h);
+      break;
+    case ChangeKind::merge:
+      t.collapse(h, change.stays == 0 ? t.from(h) : t.to(h));
+      break;
+  }
+  move_vertices(patch, m.placement);
+}
+
+namespace {
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+ChangeTrials::ChangeTrials(const AdaptingMesh& mesh, const EnergyTerms& terms,
+                           const ChangeTrialOptions& options, const GuardOptions& guards)
+    : m_(mesh), terms_(terms), options_(options), guards_(guards) {
+  guards_.sagitta = options.sagitta;
+}
+
+void ChangeTrials::begin_with(double sliver_angle) {
+  limits_ = {sliver_angle + options_.fair_margin, guards_.alignment, guards_.fold, options_.sagitta,
+             options_.longest};
+}
+
+PatchLook ChangeTrials::look_before(const EdgePatch& patch) const {
+  const Connectivity c = make_connectivity(static_cast<int>(patch.sides.size()), patch.faces);
+  return look_at(patch.placement, c, spread_target_lengths(c, patch.vertex_length), limits_);
+}
+
+/// A vertex that comes or goes takes no credit for the number of its edges.
+double ChangeTrials::gain(const PatchLook& before, const PatchLook& now) const {
+  const double errors_before = before.length_errors,
+               errors_now =
+                   now.length_errors * static_cast<double>(before.edges) / static_cast<double>(now.edges);
+  return before.angle_cost - now.angle_cost + options_.length_weight * (errors_before - errors_now);
+}
+
+ChangeTrial ChangeTrials::cut(const EdgeChange& change) const {
+  ChangeTrial trial;
+  trial.change = change;
+  std::optional<EdgePatch> patch = cut_patch(m_.flipping(), change.half_edge, options_.rings, options_.most);
+  if (!patch) return trial;
+  trial.patch = std::move(*patch);
+  trial.before = look_before(trial.patch);
+  trial.connectivity =
+      make_connectivity(static_cast<int>(trial.patch.sides.size()),
+                        change_patch(trial.patch, change, m_.retraction.surface(), m_.retraction.options()));
+  trial.targets = spread_target_lengths(trial.connectivity, trial.patch.vertex_length);
+  trial.is_hopeful = true;
+  return trial;
+}
+
+/// Calls body(relaxation) and looks at the patch again.
+template <typename Relax>
+PatchLook ChangeTrials::relax(ChangeTrial& trial, const Relax& body) const {
+  Energy energy(trial.connectivity, trial.targets, terms_);
+  Guards guards(trial.connectivity, trial.targets, guards_);
+  Retraction retraction(m_.retraction.surface(), trial.patch.constraints, m_.retraction.options());
+  const SweepPlan sweeps = plan_one_block(trial.connectivity);
+  Relaxation r{trial.connectivity, sweeps, trial.patch.vertex_length, energy,
+               retraction,         guards, trial.patch.placement};
+  body(r);
+  return look_at(trial.patch.placement, trial.connectivity, trial.targets, limits_);
+}
+
+ChangeTrial ChangeTrials::begin(const EdgeChange& change) const {
+  ChangeTrial trial = cut(change);
+  if (!trial.is_hopeful) return trial;
+  const PatchLook now = relax(trial, [this](Relaxation& r) {
+    for (int sweep = 0; sweep < options_.sweeps; ++sweep) local_newton_sweep(r, {}, {});
+  });
+  trial.gain = gain(trial.before, now);
+  trial.is_hopeful = trial.gain >= -options_.hope;
+  return trial;
+}
+
+void ChangeTrials::finish(ChangeTrial& trial) const {
+  const PatchLook& before = trial.before;
+  const PatchLook after = relax(trial, [this](Relaxation& r) { search_angles(r, options_.search); });
+  trial.gain = gain(before, after);
+  trial.is_hopeful =
+      trial.gain >= options_.gain && after.cotangent <= before.cotangent &&
+      before.area - after.area <= options_.area_loss * std::pow(mean_of(trial.patch.vertex_length), 2) &&
+      is_no_worse(after.excess, before.excess) &&
+      !folds_at_rim(trial.patch, trial.connectivity.faces, m_.flipping(), guards_);
+}
+
+}  // namespace hooke

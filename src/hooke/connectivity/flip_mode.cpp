@@ -1,0 +1,185 @@
+#include "hooke/connectivity/flip_mode.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hooke {
+namespace {
+
+class FlipMode {
+ public:
+  FlipMode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms, const GuardOptions& guards,
+           double corner_angle, const Observer& observer)
+      : work_(work),
+        options_(options),
+        terms_(terms),
+        guards_(guards),
+        observer_(observer),
+        corner_valences_(
+            corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)) {}
+
+  FlipResult run() {
+    unfold();
+    if (!result_.interrupted && options_.flow.rounds > 0) flow_vertices();
+    flip_and_relax();
+    for (int pass = 0; pass < options_.passes.passes && !result_.interrupted; ++pass)
+      if (!improve_flips()) break;
+    return result_;
+  }
+
+ private:
+  /// Calls what relaxes with the parts it wants, made for the faces as they are now.
+  template <typename Relax>
+  auto relax(const Relax& body) {
+    Energy energy(*work_.connectivity, work_.targets, terms_);
+    Guards guards(*work_.connectivity, work_.targets, guards_);
+    Relaxation r{*work_.connectivity, work_.sweeps, work_.vertex_length, energy,
+                 *work_.retraction,   guards,       work_.placement,     work_.stopwatch};
+    return body(r);
+  }
+
+  /// Calls what flips, and takes over its faces when it says that it flipped.
+  template <typename Flips>
+  long long flip(const Flips& body) {
+    Triangulation triangulation(*work_.connectivity);
+    FlippingMesh m{triangulation,
+                   work_.placement,
+                   *work_.retraction,
+                   work_.constraints,
+                   work_.vertex_length,
+                   corner_valences_,
+                   [this] { work_.resample_lengths(); }};
+    const long long flips = body(m);
+    if (flips > 0) work_.replace_faces(triangulation.faces());
+    result_.flips += flips;
+    return flips;
+  }
+
+  Observer watch(const char* stage) const {
+    if (!observer_) return nullptr;
+    return [this, stage](Progress p) {
+      p.stage = stage;
+      return observer_(p);
+    };
+  }
+
+  void unfold() {
+    result_.untangle =
+        relax([&](Relaxation& r) { return untangle(r, UntangleOptions{}, watch("untangle")); });
+    result_.interrupted = result_.untangle.interrupted;
+  }
+
+  void flow_vertices() {
+    const Stage stage(work_.stopwatch, "flow");
+    flip([&](FlippingMesh& m) {
+      result_.flow = flow(m, options_.flow, options_.guard, guards_, observer_);
+      return result_.flow.flips;
+    });
+    result_.interrupted = result_.flow.interrupted;
+    note_hindrance(result_.flow.held_back, result_.flow.rounds);
+  }
+
+  void note_hindrance(long long held_back, int steps) {
+    const double share = options_.hindered * work_.connectivity->vertex_count;
+    hindered_ = static_cast<double>(held_back) > share * steps;
+  }
+
+  /// Sweeps loosen what guards hold; elsewhere flow has left no slivers for them.
+  void settle_springs() {
+    const Stage stage(work_.stopwatch, "springs");
+    IntegrationOptions integration;
+    integration.max_steps = options_.spring_steps;
+    LbfgsOptions lbfgs;
+    if (!hindered_) lbfgs.sweeps = 0;
+    const IntegrationResult relaxed =
+        relax([&](Relaxation& r) { return relax_lbfgs(r, integration, lbfgs, watch("springs")); });
+    note_hindrance(relaxed.held_back, relaxed.evaluations);
+    work_.resample_lengths();
+    result_.evaluations += relaxed.evaluations;
+    result_.interrupted = relaxed.reason == StopReason::interrupted;
+  }
+
+  void flip_and_relax() {
+    for (int round = 0; round < options_.spring_rounds && !result_.interrupted; ++round) {
+      settle_springs();
+      ++result_.spring_rounds;
+      if (flip([&](FlippingMesh& m) { return flip_to_delaunay(m, options_.guard); }) <= few_flips()) break;
+    }
+  }
+
+  long long few_flips() const {
+    return static_cast<long long>(options_.few_flips * static_cast<double>(work_.connectivity->edges.size()));
+  }
+
+  bool improve_flips() {
+    settle_springs();
+    if (result_.interrupted) return false;
+    ++result_.passes;
+    const Stage stage(work_.stopwatch, "irregular");
+    const Observer watching = [this, watched = watch("flips")](const Progress& p) {
+      result_.interrupted = watched && !watched(p);
+      return !result_.interrupted;
+    };
+    return flip([&](FlippingMesh& m) {
+             return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_, lately_changed_,
+                                         watching);
+           }) > 0;
+  }
+
+  Workspace& work_;
+  const FlipOptions& options_;
+  const EnergyTerms& terms_;
+  const GuardOptions& guards_;
+  const Observer& observer_;
+  std::vector<int> corner_valences_;
+  std::vector<char> lately_changed_;  // vertices, by flips of irregular edges
+  bool hindered_ = true;              // by guards, in the flow or the last springs; maybe, without either
+  FlipResult result_;
+};
+
+}  // namespace
+
+FlipOptions flip_options(Effort effort) {
+  FlipOptions options;
+  switch (effort) {
+    case Effort::fast:
+      options.flow.rounds = 9;
+      options.spring_rounds = 1;
+      options.spring_steps = 8;
+      options.passes.passes = 0;
+      options.energy_drop = 1e-2;
+      options.polish.last_threshold = 36;
+      options.polish.sweeps = 4;
+      break;
+    case Effort::standard:
+      break;
+    case Effort::thorough:
+      options.flow.rounds = 200;
+      options.few_flips = 0;
+      options.passes.passes = 8;
+      options.passes.rings = 3;
+      options.passes.sweeps = 6;
+      options.passes.hope = .6;
+      options.passes.swept_hope = .2;
+      break;
+  }
+  return options;
+}
+
+FlipResult flip_connectivity(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
+                             const GuardOptions& guards, double corner_angle, const Observer& observer) {
+  return FlipMode(work, options, terms, guards, corner_angle, observer).run();
+}
+
+void measure_travel(const Workspace& work, FlipResult& result) {
+  double sum2 = 0;
+  for (Eigen::Index v = 0; v < work.start->cols(); ++v) {
+    const double travel = (work.placement.points.col(v) - work.start->col(v)).norm() /
+                          work.vertex_length[static_cast<size_t>(v)];
+    result.max_travel = std::max(result.max_travel, travel);
+    sum2 += travel * travel;
+  }
+  result.rms_travel = std::sqrt(sum2 / static_cast<double>(std::max<Eigen::Index>(work.start->cols(), 1)));
+}
+
+}  // namespace hooke

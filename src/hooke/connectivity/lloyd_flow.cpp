@@ -1,0 +1,233 @@
+#include "hooke/connectivity/lloyd_flow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/core/parallel.h"
+#include "hooke/integrator/final_projection.h"
+#include "hooke/mesh/wedges.h"
+
+namespace hooke {
+namespace {
+
+/// Mass and first moment about the vertex.
+struct Moments {
+  double mass = 0;
+  Vec3 moment = Vec3::Zero();
+
+  /// The triangle (0, a, b) of signed area with densities at its corners, linear between them.
+  void add(double area, const Vec3& a, const Vec3& b, double at_0, double at_a, double at_b) {
+    const double sum = at_0 + at_a + at_b;
+    mass += area * sum / 3;
+    moment += area / 12 * ((sum + at_a) * a + (sum + at_b) * b);
+  }
+};
+
+/// What Voronoi cells take from a face: its circumcentre and how its angles stand.
+struct FaceCell {
+  Vec3 circumcentre = Vec3::Zero();               // seen from the first corner
+  Vec3 cotangent = Vec3::Constant(std::nan(""));  // of the angle across from each edge, NaN without area
+};
+
+FaceCell cell_of(const Mat3X& points, const Triangle& t) {
+  const Vec3 a = points.col(t[0]), u = points.col(t[1]) - a, v = points.col(t[2]) - a, w = v - u;
+  const double area = u.cross(v).norm();  // doubled
+  if (!(area > 0)) return {};
+  const double at_0 = u.dot(v), at_1 = -u.dot(w), at_2 = v.dot(w);
+  // The barycentric weights of the circumcentre are as a^2 (b^2 + c^2 - a^2), a^2 being across the corner.
+  const double scale = 1 / (2 * area * area);
+  return {scale * (v.squaredNorm() * at_1 * u + u.squaredNorm() * at_2 * v), Vec3(at_2, at_0, at_1) / area};
+}
+
+/// Edges across which Voronoi cells are not made of kites: the angles across from them make more than pi. A
+/// crease bounds the cells on either side.
+std::vector<char> crooked_edges(const std::vector<FaceCell>& cells, const Connectivity& c) {
+  constexpr double least = -1e-9;
+  std::vector<char> crooked(c.edges.size());
+  parallel_for(c.edges.size(), 2048, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      std::array<double, 2> cotangent = {0, 0};  // of a right angle
+      for (size_t side = 0; side < 2; ++side) {
+        if (c.edge_faces[e][side] < 0) continue;
+        const auto face = static_cast<size_t>(c.edge_faces[e][side]);
+        const Triangle& edges = c.face_edges[face];
+        const Eigen::Index k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
+        cotangent[side] = cells[face].cotangent[k];
+      }
+      const bool straight = c.is_border(static_cast<int>(e)) ? std::min(cotangent[0], cotangent[1]) >= least
+                                                             : cotangent[0] + cotangent[1] >= least;
+      crooked[e] = !straight;
+    }
+  });
+  return crooked;
+}
+
+std::vector<FaceCell> cells_of(const Mat3X& points, const Connectivity& c) {
+  std::vector<FaceCell> cells(c.faces.size());
+  parallel_for(cells.size(), 2048, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) cells[f] = cell_of(points, c.faces[f]);
+  });
+  return cells;
+}
+
+class Lloyd {
+ public:
+  Lloyd(const Placement& at, const Connectivity& c, const std::vector<double>& length,
+        const LloydOptions& options)
+      : X_(at.points),
+        c_(c),
+        length_(length),
+        options_(options),
+        even_(std::ranges::adjacent_find(length, std::ranges::not_equal_to()) == length.end()),
+        cells_(cells_of(X_, c)),
+        crooked_(crooked_edges(cells_, c)) {}
+
+  Vec3 step(int v) const {
+    if (c_.vertex_faces[v].empty()) return Vec3::Zero();
+    const std::array<int, 2> sides = border_neighbours(v);
+    if (sides[1] >= 0) return boundary_step(v, sides[0], sides[1]);
+    Moments cell = has_straight_cell(v) ? voronoi_cell(v) : Moments{};
+    if (!(cell.mass > 0)) cell = faces_about(v);
+    if (!(cell.mass > 0)) return Vec3::Zero();
+    return options_.over_relaxation / cell.mass * cell.moment;
+  }
+
+ private:
+  /// -1 for an inner vertex.
+  std::array<int, 2> border_neighbours(int v) const {
+    std::array<int, 2> sides = {-1, -1};
+    size_t count = 0;
+    for (int e : c_.vertex_edges[v])
+      if (count < 2 && c_.is_border(e)) sides[count++] = c_.other_end(e, v);
+    return sides;
+  }
+
+  Vec3 boundary_step(int v, int a, int b) const {
+    const double to_a = length(v) + length(a), to_b = length(v) + length(b);
+    const Vec3 along = X_.col(b) - X_.col(a);
+    const double squared = along.squaredNorm();
+    if (!(squared > 0)) return Vec3::Zero();
+    const double t = (X_.col(v) - X_.col(a)).dot(along) / squared;
+    return options_.boundary_relaxation * (to_a / (to_a + to_b) - t) * along;
+  }
+
+  bool has_straight_cell(int v) const {
+    for (int f : c_.vertex_faces[v])
+      for (int e : c_.face_edges[static_cast<size_t>(f)])
+        if (crooked_[static_cast<size_t>(e)]) return false;
+    return true;
+  }
+
+  /// The kite of a face has its corner, the midpoints of two edges and the circumcentre; half of it over an
+  /// edge of length l across from an angle is l^2 / 8 cot(angle) large.
+  Moments voronoi_cell(int v) const {
+    Moments cell;
+    for (int f : c_.vertex_faces[v]) {
+      const size_t k = corner(f, v);
+      const auto [p, q] = others(f, k);
+      const FaceCell& face = cells_[static_cast<size_t>(f)];
+      const Vec3 a = X_.col(p) - X_.col(v), b = X_.col(q) - X_.col(v);
+      const Vec3 o = X_.col(c_.faces[static_cast<size_t>(f)][0]) - X_.col(v) + face.circumcentre;
+      const double beside_a = .125 * a.squaredNorm() * face.cotangent[static_cast<Eigen::Index>(k)];
+      const double beside_b = .125 * b.squaredNorm() * face.cotangent[static_cast<Eigen::Index>((k + 2) % 3)];
+      const double at_v = density(length(v)), at_o = density((length(v) + length(p) + length(q)) / 3);
+      cell.add(beside_a, .5 * a, o, at_v, density(.5 * (length(v) + length(p))), at_o);
+      cell.add(beside_b, o, .5 * b, at_v, at_o, density(.5 * (length(v) + length(q))));
+    }
+    return cell;
+  }
+
+  Moments faces_about(int v) const {
+    Moments faces;
+    for (int f : c_.vertex_faces[v]) {
+      const auto [p, q] = others(f, corner(f, v));
+      const Vec3 a = X_.col(p) - X_.col(v), b = X_.col(q) - X_.col(v);
+      faces.add(.5 * a.cross(b).norm(), a, b, density(length(v)), density(length(p)), density(length(q)));
+    }
+    return faces;
+  }
+
+  /// Where the vertex stands in the face.
+  size_t corner(int face, int v) const {
+    const Triangle& t = c_.faces[static_cast<size_t>(face)];
+    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
+  }
+
+  /// The vertices that follow corner k of the face.
+  Edge others(int face, size_t k) const {
+    const Triangle& t = c_.faces[static_cast<size_t>(face)];
+    return {t[(k + 1) % 3], t[(k + 2) % 3]};
+  }
+
+  double density(double length) const { return even_ ? 1 : 1 / (length * length * length * length); }
+
+  double length(int v) const { return length_[static_cast<size_t>(v)]; }
+
+  const Mat3X& X_;
+  const Connectivity& c_;
+  const std::vector<double>& length_;
+  const LloydOptions& options_;
+  bool even_;  // the same target length everywhere
+  std::vector<FaceCell> cells_;
+  std::vector<char> crooked_;
+};
+
+}  // namespace
+
+Mat3X lloyd_step(const Placement& placement, const Connectivity& connectivity,
+                 const std::vector<double>& vertex_length, const LloydOptions& options) {
+  const Lloyd lloyd(placement, connectivity, vertex_length, options);
+  Mat3X step(3, placement.points.cols());
+  parallel_for(static_cast<size_t>(step.cols()), 512, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      step.col(static_cast<Eigen::Index>(v)) = lloyd.step(static_cast<int>(v));
+  });
+  return step;
+}
+
+namespace {
+
+/// One guarded Lloyd step. Returns the number of vertices held back.
+int move_vertices(FlippingMesh& m, const Connectivity& connectivity, const LloydOptions& options,
+                  const GuardOptions& guard_options) {
+  const TargetLengths targets = spread_target_lengths(connectivity, m.vertex_length);
+  Mat3X step = lloyd_step(m.placement, connectivity, m.vertex_length, options);
+  m.retraction.constrain(m.placement, step);
+  cap_displacement(m.vertex_length, options.max_move, step);
+  const Guards guards(connectivity, targets, guard_options);
+  Placement moved;
+  const auto held_back = guards.step(m.retraction, m.placement, step, moved).size();
+  m.placement = std::move(moved);
+  return static_cast<int>(held_back);
+}
+
+}  // namespace
+
+FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOptions& flip_guard,
+                const GuardOptions& guards, const Observer& observer) {
+  FlowResult result;
+  result.interrupted = observer && !observer({.stage = "flow"});
+  const auto connect = [&m] {
+    Connectivity c = connectivity_of(m.triangulation, static_cast<int>(m.placement.points.cols()));
+    part_at_creases(c, m.constraints.creases);
+    return c;
+  };
+  Connectivity connectivity = connect();
+  while (result.rounds < options.rounds && !result.interrupted) {
+    int flips = flip_to_delaunay(m, flip_guard);
+    if (result.rounds >= options.rounds / 4 && result.rounds % options.corner_every == 0)
+      flips += force_corners(m, flip_guard);
+    if (flips > 0) connectivity = connect();
+    result.held_back += move_vertices(m, connectivity, options.lloyd, guards);
+    if (m.after_move) m.after_move();
+    result.flips += flips;
+    ++result.rounds;
+    result.interrupted = observer && !observer({.stage = "flow", .step = result.rounds});
+  }
+  const TargetLengths targets = spread_target_lengths(connectivity, m.vertex_length);
+  settle(Guards(connectivity, targets, guards), m.retraction, m.placement);
+  result.flips += flip_to_delaunay(m, flip_guard);
+  return result;
+}
+
+}  // namespace hooke

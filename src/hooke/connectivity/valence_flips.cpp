@@ -1,0 +1,198 @@
+#include "hooke/connectivity/valence_flips.h"
+
+#include <algorithm>
+
+#include "hooke/core/parallel.h"
+#include "hooke/integrator/gauss_seidel.h"
+#include "hooke/working_mesh/patch.h"
+
+namespace hooke {
+namespace {
+
+// Edges of a batch are tried at the same time, against the mesh as it was before. They lie far apart: a batch
+// takes every so many-th of the candidates, which follow the mesh.
+constexpr size_t edges_of_batch = 512;
+constexpr size_t least_batches = 16;
+
+/// Of the corner where h leaves.
+int irregularity(const FlippingMesh& m, int h) {
+  const CornerValence corner = corner_valence(m, h);
+  if (corner.wanted > 0) return corner.has - corner.wanted;
+  return corner.has - (m.triangulation.on_boundary(m.triangulation.from(h)) ? 4 : 6);
+}
+
+/// Two or more irregular vertices about the edge, and no more irregularity after the flip.
+bool worth_a_try(const FlippingMesh& m, int h) {
+  const int g = m.triangulation.twin(h);
+  int irregular = 0, before = 0, after = 0;
+  const auto look = [&](int corner, int change) {
+    const int i = irregularity(m, corner);
+    irregular += i != 0;
+    before += i * i;
+    after += (i + change) * (i + change);
+  };
+  look(h, -1);
+  look(g, -1);
+  look(Triangulation::previous(h), 1);
+  look(Triangulation::previous(g), 1);
+  return irregular >= 2 && after <= before;
+}
+
+/// Of a patch of an edge's two faces, before and after its flip.
+struct Pair {
+  Connectivity before = make_connectivity(4, {{0, 1, 2}, {1, 0, 3}});
+  Connectivity after = make_connectivity(4, {{2, 0, 3}, {3, 1, 2}});
+};
+
+double energy_of(const EdgePatch& patch, const Connectivity& connectivity, const EnergyTerms& terms) {
+  const TargetLengths targets = spread_target_lengths(connectivity, patch.vertex_length);
+  return Energy(connectivity, targets, terms)(patch.placement, nullptr);
+}
+
+class FlipPass {
+ public:
+  FlipPass(FlippingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
+           const FlipGuardOptions& flip_guard, const GuardOptions& guards, std::vector<char>& near)
+      : m_(mesh),
+        t_(mesh.triangulation),
+        terms_(terms),
+        options_(options),
+        flip_guard_(flip_guard),
+        guards_(guards),
+        unit_(std::max(terms.string, terms.altitude)),
+        near_(near),
+        batch_of_(mesh.vertex_length.size(), 0) {}
+
+  int run(const Observer& observer) {
+    for (int round = 0; round < options_.rounds; ++round) {
+      const std::vector<int> edges = candidates();
+      if (edges.empty()) break;
+      near_.assign(batch_of_.size(), 0);
+      const size_t batches = std::max(least_batches, (edges.size() + edges_of_batch - 1) / edges_of_batch);
+      for (size_t i = 0; i < batches; ++i) {
+        std::vector<int> batch;
+        for (size_t k = i; k < edges.size(); k += batches) batch.push_back(edges[k]);
+        keep_gains(batch, try_all(batch));
+        if (observer && !observer({.step = batch_})) return flips_;
+      }
+      if (m_.after_move) m_.after_move();
+    }
+    return flips_;
+  }
+
+ private:
+  bool is_candidate(int h) const {
+    return t_.twin(h) >= 0 && !t_.is_constrained(h) && worth_a_try(m_, h) && may_flip(m_, h, flip_guard_);
+  }
+
+  bool is_near(int h) const {
+    const auto near = [this](int v) { return near_[static_cast<size_t>(v)] != 0; };
+    return near_.empty() || near(t_.from(h)) || near(t_.to(h)) || near(t_.apex(h)) ||
+           near(t_.apex(t_.twin(h)));
+  }
+
+  std::vector<int> candidates() const {
+    std::vector<char> found(static_cast<size_t>(t_.half_edge_count()), 0);
+    parallel_for(found.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) {
+        const int h = static_cast<int>(i);
+        found[i] = t_.twin(h) > h && is_near(h) && is_candidate(h);
+      }
+    });
+    std::vector<int> edges;
+    for (size_t h = 0; h < found.size(); ++h)
+      if (found[h]) edges.push_back(static_cast<int>(h));
+    return edges;
+  }
+
+  /// Flips the edge in its patch and settles that, while there is hope.
+  std::optional<EdgePatch> try_flip(int h) const {
+    if (!is_candidate(h)) return std::nullopt;
+    const double loss = loss_before_settling(h);
+    if (loss > options_.hope * unit_) return std::nullopt;
+    std::optional<EdgePatch> patch = cut_patch(m_, h, options_.rings, options_.most);
+    if (!patch) return std::nullopt;
+    const Connectivity c = make_connectivity(static_cast<int>(patch->sides.size()), flipped_faces(*patch));
+    const TargetLengths targets = spread_target_lengths(c, patch->vertex_length);
+    Energy energy(c, targets, terms_);
+    Guards guards(c, targets, guards_);
+    Retraction retraction(m_.retraction.surface(), patch->constraints, m_.retraction.options());
+    const SweepPlan sweeps = plan_one_block(c);
+    Relaxation r{c, sweeps, patch->vertex_length, energy, retraction, guards, patch->placement};
+    LocalNewton newton(r);
+    const double before = energy(patch->placement, nullptr) - loss;
+    for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
+      if (sweep > 0 && energy(patch->placement, nullptr) - before > options_.swept_hope * unit_)
+        return std::nullopt;
+      for (size_t v = 0; v < patch->movable; ++v) newton.improve(static_cast<int>(v), {});
+    }
+    if (before - energy(patch->placement, nullptr) < options_.gain) return std::nullopt;
+    return patch;
+  }
+
+  double loss_before_settling(int h) const {
+    const EdgePatch patch = cut_pair(m_, h);
+    return energy_of(patch, pair_.after, terms_) - energy_of(patch, pair_.before, terms_);
+  }
+
+  std::vector<std::optional<EdgePatch>> try_all(const std::vector<int>& edges) const {
+    std::vector<std::optional<EdgePatch>> trials(edges.size());
+    parallel_for(edges.size(), 4, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) trials[i] = try_flip(edges[i]);
+    });
+    return trials;
+  }
+
+  /// Those that meet with others of their batch are to be tried again.
+  void keep_gains(const std::vector<int>& edges, const std::vector<std::optional<EdgePatch>>& trials) {
+    ++batch_;
+    for (size_t i = 0; i < edges.size(); ++i) {
+      if (!trials[i]) continue;
+      const EdgePatch& patch = *trials[i];
+      if (meets_another(patch))
+        look_again_near(patch, 2);  // the ends of the edge
+      else if (!folds_at_rim(patch, flipped_faces(patch), m_, guards_))
+        keep(edges[i], patch);
+    }
+  }
+
+  bool meets_another(const EdgePatch& patch) const {
+    return std::ranges::any_of(patch.vertices,
+                               [this](int v) { return batch_of_[static_cast<size_t>(v)] == batch_; });
+  }
+
+  void look_again_near(const EdgePatch& patch, size_t vertices) {
+    for (size_t id = 0; id < vertices; ++id) near_[static_cast<size_t>(patch.vertices[id])] = 1;
+  }
+
+  void keep(int edge, const EdgePatch& patch) {
+    t_.flip(edge);
+    move_vertices(patch, m_.placement);
+    for (size_t id = 0; id < patch.movable; ++id) batch_of_[static_cast<size_t>(patch.vertices[id])] = batch_;
+    look_again_near(patch, patch.movable);
+    ++flips_;
+  }
+
+  FlippingMesh& m_;
+  Triangulation& t_;
+  const EnergyTerms& terms_;
+  const FlipPassOptions& options_;
+  const FlipGuardOptions& flip_guard_;
+  const GuardOptions& guards_;
+  const Pair pair_;
+  double unit_;                // of what a flip may cost at first
+  std::vector<char>& near_;    // per vertex: edges of which are to be tried; all if empty
+  std::vector<int> batch_of_;  // per vertex: the last batch in which it moved, from 1
+  int batch_ = 0;
+  int flips_ = 0;
+};
+
+}  // namespace
+
+int flip_irregular_edges(FlippingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
+                         const FlipGuardOptions& flip_guard, const GuardOptions& guards,
+                         std::vector<char>& near, const Observer& observer) {
+  return FlipPass(m, terms, options, flip_guard, guards, near).run(observer);
+}
+
+}  // namespace hooke

@@ -1,0 +1,247 @@
+#include "hooke/geometry/aabb_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "hooke/core/parallel.h"
+#include "hooke/core/simd.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t sort_block = 4096;
+constexpr unsigned bits = 16;  // of each axis
+
+/// Two zeros before each bit.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 16) & 0x0000ff0000ff;
+  x = (x | x << 8) & 0x00f00f00f00f;
+  x = (x | x << 4) & 0x0c30c30c30c3;
+  return (x | x << 2) & 0x249249249249;
+}
+
+/// The number of a cell along the curve. J. Skilling, "Programming the Hilbert curve", 2004.
+std::uint64_t place_on_curve(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  const auto turn = [&x](std::uint32_t& coordinate, std::uint32_t bit) {
+    const bool inverts = coordinate & bit;
+    const std::uint32_t exchanged = (x ^ coordinate) & (bit - 1);
+    x ^= inverts ? bit - 1 : exchanged;
+    coordinate ^= inverts ? 0 : exchanged;
+  };
+  for (std::uint32_t bit = std::uint32_t{1} << (bits - 1); bit > 1; bit >>= 1) {
+    x ^= x & bit ? bit - 1 : 0;
+    turn(y, bit);
+    turn(z, bit);
+  }
+  y ^= x;
+  z ^= y;
+  std::uint32_t flipped = 0;
+  for (std::uint32_t bit = std::uint32_t{1} << (bits - 1); bit > 1; bit >>= 1)
+    flipped ^= z & bit ? bit - 1 : 0;
+  return spread(x ^ flipped) << 2 | spread(y ^ flipped) << 1 | spread(z ^ flipped);
+}
+
+}  // namespace
+
+std::vector<int> spatial_order(const std::vector<Vec3>& points) {
+  struct Item {
+    std::uint64_t key;
+    int id;
+  };
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : points) box.extend(p);
+  const double longest = points.empty() ? 0 : box.sizes().maxCoeff();
+  const double size = longest > 0 ? longest : 1;
+  std::vector<Item> items(points.size()), buffer(points.size());
+  parallel_for(points.size(), sort_block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const Vec3 cell = (points[i] - box.min()) / size * ((std::uint32_t{1} << bits) - 1);
+      items[i] = {place_on_curve(static_cast<std::uint32_t>(cell[0]), static_cast<std::uint32_t>(cell[1]),
+                                 static_cast<std::uint32_t>(cell[2])),
+                  static_cast<int>(i)};
+    }
+  });
+  parallel_radix_sort<Item>(items, buffer, [](const Item& item) { return item.key; });
+  std::vector<int> order(points.size());
+  parallel_for(points.size(), sort_block, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) order[i] = items[i].id;
+  });
+  return order;
+}
+
+namespace {
+
+constexpr size_t block = 1024;
+
+Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double squared_length = d.squaredNorm();
+  if (!(squared_length > 0)) return a;
+  return a + std::clamp(d.dot(x - a) / squared_length, 0., 1.) * d;
+}
+
+/// Eigen's squaredExteriorDistance without branches: they are unpredictable here.
+double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& x) {
+  return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
+}
+
+BoundingVolumeTree::Face face_of(const Mat3X& points, const std::vector<Triangle>& faces, size_t id) {
+  const auto& [a, b, c] = faces[id];
+  return {{points.col(a), points.col(b), points.col(c)}, {a, b, c}, static_cast<int>(id)};
+}
+
+std::vector<Vec3> centres(const Mat3X& points, const std::vector<Triangle>& faces) {
+  std::vector<Vec3> centres(faces.size());
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) centres[f] = face_of(points, faces, f).box().center();
+  });
+  return centres;
+}
+
+/// Better than `best`: closer, or as close and of a lower id.
+void try_face(const Vec3& x, const BoundingVolumeTree::Face& face, ClosestPoint& best) {
+  const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
+  const double d = candidate.squared_distance;
+  if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
+  best = candidate;
+  best.face = face.id;
+}
+
+}  // namespace
+
+ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  ClosestPoint best;
+  const Vec3 n = (b - a).cross(c - a);
+  const double nn = n.squaredNorm();
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  if (nn > least_triangle_squared_area * longest * longest) {
+    const bool inside =
+        n.cross(b - a).dot(x - a) >= 0 && n.cross(c - b).dot(x - b) >= 0 && n.cross(a - c).dot(x - c) >= 0;
+    if (inside) {
+      const double height = n.dot(x - a);
+      best.point = x - (height / nn) * n;
+      best.squared_distance = height * height / nn;
+      return best;
+    }
+  }
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  for (const Vec3& p :
+       {closest_on_segment(x, a, b), closest_on_segment(x, b, c), closest_on_segment(x, c, a)}) {
+    const double squared_distance = (x - p).squaredNorm();
+    if (squared_distance >= best.squared_distance) continue;
+    best.squared_distance = squared_distance;
+    best.point = p;
+  }
+  return best;
+}
+
+Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = (b - a).cross(c - a);
+  Vec3 weights(n.dot((c - b).cross(x - b)), n.dot((a - c).cross(x - c)), n.dot((b - a).cross(x - a)));
+  weights = weights.cwiseMax(0);
+  const double sum = weights.sum();
+  if (!(sum > 0)) return Vec3::Constant(1. / 3);
+  return weights / sum;
+}
+
+BoundingVolumeTree::BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces,
+                                       const std::vector<int>& given_order)
+    : faces_(faces.size()) {
+  const std::vector<int> own_order =
+      given_order.empty() ? spatial_order(centres(points, faces)) : std::vector<int>();
+  const std::vector<int>& order = given_order.empty() ? own_order : given_order;
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) faces_[k] = face_of(points, faces, static_cast<size_t>(order[k]));
+  });
+  while (faces.size() > leaf_size << depth_) ++depth_;
+  boxes_.resize(size_t{2} << depth_);
+  boxes_[0] = Box();
+  enclose(1, 0);
+}
+
+std::vector<int> BoundingVolumeTree::order() const {
+  std::vector<int> ids(faces_.size());
+  std::ranges::transform(faces_, ids.begin(), &Face::id);
+  return ids;
+}
+
+/// The subtrees of the upper levels in parallel.
+void BoundingVolumeTree::enclose(size_t node, int level) {
+  constexpr int upper_levels = 7;
+  if (is_leaf(node)) {
+    Box box;
+    for (const Face& face : faces_of(node - leaf_count())) box.extend(face.box());
+    boxes_[node] = box;
+    return;
+  }
+  const auto enclose_children = [&](size_t begin, size_t end) {
+    for (size_t child = begin; child < end; ++child) enclose(2 * node + child, level + 1);
+  };
+  if (level < upper_levels)
+    parallel_for(2, 1, enclose_children);
+  else
+    enclose_children(0, 2);
+  boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
+}
+
+BoundingVolumeTree::PartBoxes::PartBoxes(std::span<const Face> faces) {
+  const Box nowhere;
+  for (size_t i = 0; i < faces_of_part; ++i) {
+    const Box box = i < faces.size() ? faces[i].box() : nowhere;
+    all.extend(box);
+    for (size_t d = 0; d < 3; ++d) {
+      low[d][i] = box.min()[static_cast<Eigen::Index>(d)];
+      high[d][i] = box.max()[static_cast<Eigen::Index>(d)];
+    }
+  }
+}
+
+HOOKE_SIMD unsigned BoundingVolumeTree::PartBoxes::meeting(const Box& other) const {
+  constexpr LaneMask bits = {1, 2, 4, 8};
+  LaneMask found = {};
+  for (size_t k = 0; k < faces_of_part; k += lane_count) {
+    LaneMask meet = bits << static_cast<int>(k);
+    for (size_t d = 0; d < 3; ++d) {
+      const auto axis = static_cast<Eigen::Index>(d);
+      Lanes lows, highs;
+      load(&low[d][k], lows);
+      load(&high[d][k], highs);
+      meet &= (lows <= other.max()[axis]) & (highs >= other.min()[axis]);
+    }
+    found |= meet;
+  }
+  return static_cast<unsigned>(found[0] | found[1] | found[2] | found[3]);
+}
+
+ClosestPoint BoundingVolumeTree::closest(const Vec3& x) const {
+  ClosestPoint best;
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  if (empty()) return best;
+
+  struct Visit {
+    size_t node;
+    double distance;  // squared
+  };
+  Visit stack[max_depth + 1];
+  int size = 0;
+  stack[size++] = {1, squared_distance(boxes_[1], x)};
+  while (size > 0) {
+    const Visit visit = stack[--size];
+    if (visit.distance > best.squared_distance) continue;
+    if (is_leaf(visit.node)) {
+      for (const Face& face : faces_of(visit.node - leaf_count()))
+        if (squared_distance(face.box(), x) <= best.squared_distance) try_face(x, face, best);
+      continue;
+    }
+    Visit near{2 * visit.node, squared_distance(boxes_[2 * visit.node], x)};
+    Visit far{2 * visit.node + 1, squared_distance(boxes_[2 * visit.node + 1], x)};
+    if (far.distance < near.distance) std::swap(near, far);
+    if (far.distance <= best.squared_distance) stack[size++] = far;
+    if (near.distance <= best.squared_distance) stack[size++] = near;
+  }
+  return best;
+}
+
+}  // namespace hooke

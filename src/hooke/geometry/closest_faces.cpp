@@ -1,0 +1,354 @@
+#include "hooke/geometry/closest_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+
+#include "hooke/core/simd.h"
+#include "hooke/geometry/aabb_tree.h"
+
+namespace hooke {
+namespace {
+
+// Distances of four points at a time to one face. To the last bit those of closest_point() of the tree.
+
+/// Times this, what is a lower bound but for rounding surely is one.
+constexpr double surely = 1 - 1e-9;
+
+/// A face and all about it that is the same for every point.
+struct PreparedFace {
+  PreparedFace() = default;
+  PreparedFace(const BoundingVolumeTree::Face& face, size_t its_place)
+      : corners(face.corners), place(static_cast<long long>(its_place)) {
+    const auto& [a, b, c] = corners;
+    normal = (b - a).cross(c - a);
+    double longest = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      sides[k] = corners[(k + 1) % 3] - corners[k];
+      squared_sides[k] = sides[k].squaredNorm();
+      longest = std::max(longest, squared_sides[k]);
+      if (!(squared_sides[k] > 0)) squared_sides[k] = 1;
+      beside[k] = normal.cross(sides[k]);
+    }
+    const double nn = normal.squaredNorm();
+    has_area = nn > least_triangle_squared_area * longest * longest;
+    squared_normal = has_area ? nn : 1;
+    if (!(nn > least_for_bounds * longest * longest)) return;
+    height_weight = 1 / nn;
+    beside_weight = height_weight / longest;  // of the longest side: less than that of the others
+  }
+
+  /// Rounding of a thin triangle's normal could make a bound of it too large.
+  static constexpr double least_for_bounds = 1e-4;
+
+  std::array<Vec3, 3> corners;
+  long long place = 0;
+  Vec3 normal;
+  std::array<Vec3, 3> sides;  // from corner k to corner k + 1
+  std::array<double, 3> squared_sides;
+  std::array<Vec3, 3> beside;  // in the plane, off side k to the inside
+  bool has_area = false;
+  double squared_normal = 1;
+  // Squares times these are squared distances; 0 where they would not be trusted.
+  double beside_weight = 0;
+  double height_weight = 0;
+};
+
+/// Added in Eigen's order, so that the results are the same as those of closest_point().
+HOOKE_INLINE void dot(const LaneVec& a, const Vec3& b, Lanes& product) {
+  product = a.x * b[0] + a.y * b[1] + a.z * b[2];
+}
+HOOKE_INLINE void difference(const LaneVec& x, const Vec3& a, LaneVec& d) {
+  d = {x.x - a[0], x.y - a[1], x.z - a[2]};
+}
+
+HOOKE_INLINE void distances_to_side(const PreparedFace& face, size_t k, const LaneVec& x,
+                                    const LaneVec& from_corner, Lanes& squared) {
+  const Vec3 &a = face.corners[k], &d = face.sides[k];
+  const Lanes zero = {}, one = zero + 1.;
+  Lanes t;
+  dot(from_corner, d, t);
+  t /= zero + face.squared_sides[k];
+  t = t > zero ? t : zero;
+  t = t < one ? t : one;
+  const LaneVec way = {x.x - (a[0] + t * d[0]), x.y - (a[1] + t * d[1]), x.z - (a[2] + t * d[2])};
+  dot(way, way, squared);
+}
+
+/// Of faces at the same distance the first one wins.
+HOOKE_INLINE void try_face(const PreparedFace& face, const LaneVec& x, Lanes& best, LaneMask& places) {
+  std::array<LaneVec, 3> from;
+  std::array<Lanes, 3> beside;
+  Lanes height, outside = {};
+  for (size_t k = 0; k < 3; ++k) {
+    difference(x, face.corners[k], from[k]);
+    dot(from[k], face.beside[k], beside[k]);
+    outside = outside < beside[k] ? outside : beside[k];
+  }
+  dot(from[0], face.normal, height);
+  const Lanes bound =
+      (height * height * face.height_weight + outside * outside * face.beside_weight) * surely;
+  const LaneMask promising = bound <= best;
+  if (!any(promising)) return;
+
+  const LaneMask everywhere = ~LaneMask{}, nowhere = {};
+  const LaneMask inside =
+      ((beside[0] >= 0.) & (beside[1] >= 0.) & (beside[2] >= 0.)) & (face.has_area ? everywhere : nowhere);
+  Lanes squared = height * height / (Lanes{} + face.squared_normal);
+  Lanes to_side = Lanes{} + std::numeric_limits<double>::infinity(), other;
+  if (any(promising & ~inside)) {
+    distances_to_side(face, 0, x, from[0], to_side);
+    distances_to_side(face, 1, x, from[1], other);
+    to_side = other < to_side ? other : to_side;
+    distances_to_side(face, 2, x, from[2], other);
+    to_side = other < to_side ? other : to_side;
+  }
+  squared = inside ? squared : to_side;
+  const LaneMask closer = (squared < best) | ((squared == best) & (places > face.place));
+  best = closer ? squared : best;
+  places = closer ? face.place + LaneMask{} : places;
+}
+
+using Box = BoundingVolumeTree::Box;
+using Face = BoundingVolumeTree::Face;
+
+/// Squared distances of four points to a box.
+HOOKE_INLINE void distances_to(const Box& box, const LaneVec& x, Lanes& squared) {
+  const auto outside = [](const Lanes& t, double low, double high, Lanes& d) {
+    const Lanes zero = {}, below = low - t, above = t - high;
+    d = below > above ? below : above;
+    d = d > zero ? d : zero;
+  };
+  LaneVec d;
+  outside(x.x, box.min()[0], box.max()[0], d.x);
+  outside(x.y, box.min()[1], box.max()[1], d.y);
+  outside(x.z, box.min()[2], box.max()[2], d.z);
+  dot(d, d, squared);
+}
+
+}  // namespace
+
+/// Points in lanes, and what is known of them.
+struct NearestFaceSearch::Packet {
+  static constexpr size_t most_points = 160;
+
+  size_t groups = 0;  // of four; the last one is filled up with its first point
+  std::array<double, 3 * most_points> points;
+  std::array<double, most_points> squared_distance;
+  std::array<long long, most_points> place;
+  Box box;
+
+  explicit Packet(std::span<const Vec3> given) : groups(padded_to_lanes(given.size()) / lane_count) {
+    for (size_t i = 0; i < groups * lane_count; ++i) {
+      const Vec3& p = given[i < given.size() ? i : i / lane_count * lane_count];
+      for (size_t d = 0; d < 3; ++d)
+        points[(i / lane_count * 3 + d) * lane_count + i % lane_count] = p[static_cast<Eigen::Index>(d)];
+      squared_distance[i] = std::numeric_limits<double>::infinity();
+      place[i] = -1;
+      box.extend(p);
+    }
+  }
+
+  double farthest() const {
+    return *std::max_element(squared_distance.begin(),
+                             squared_distance.begin() + static_cast<std::ptrdiff_t>(groups * lane_count));
+  }
+  void store(std::span<NearestFace> results) const {
+    for (size_t i = 0; i < results.size(); ++i) results[i] = {squared_distance[i], place[i]};
+  }
+};
+
+/// Faces that may be nearest, and their boxes, coordinate by coordinate.
+struct NearestFaceSearch::Candidates {
+  static constexpr size_t most = 192;
+
+  std::vector<PreparedFace> faces;
+  bool too_many = false;
+  std::array<std::array<double, most>, 3> low, high;
+
+  void clear() {
+    faces.clear();
+    too_many = false;
+  }
+
+  void add(const Face& face, size_t place, const Box& box) {
+    const size_t k = faces.size();
+    too_many = too_many || k == most;
+    if (too_many) return;
+    faces.emplace_back(face, place);
+    for (size_t d = 0; d < 3; ++d) {
+      low[d][k] = box.min()[static_cast<Eigen::Index>(d)];
+      high[d][k] = box.max()[static_cast<Eigen::Index>(d)];
+    }
+  }
+
+  /// Fills the last lanes with boxes that are nowhere near.
+  void pad() {
+    for (size_t d = 0; d < 3; ++d)
+      for (size_t k = faces.size(); k < padded_to_lanes(faces.size()); ++k)
+        low[d][k] = high[d][k] = std::numeric_limits<double>::infinity();
+  }
+};
+
+namespace {
+
+using Packet = NearestFaceSearch::Packet;
+using Candidates = NearestFaceSearch::Candidates;
+
+HOOKE_INLINE void distances_between(const std::array<double, 3>& low, const std::array<double, 3>& high,
+                                    const Candidates& candidates, size_t first, Lanes& squared) {
+  squared = Lanes{};
+  for (size_t d = 0; d < 3; ++d) {
+    Lanes other_low, other_high;
+    load(&candidates.low[d][first], other_low);
+    load(&candidates.high[d][first], other_high);
+    const Lanes zero = {}, below = other_low - high[d], above = low[d] - other_high;
+    Lanes gap = below > above ? below : above;
+    gap = gap > zero ? gap : zero;
+    squared += gap * gap;
+  }
+}
+
+HOOKE_INLINE double greatest_of(const Lanes& x) {
+  return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
+}
+
+/// First the faces whose boxes meet that of the four points, then those that may be closer still.
+HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
+  std::array<double, Candidates::most> distances;
+  const size_t count = candidates.faces.size();
+  for (size_t g = 0; g < packet.groups; ++g) {
+    LaneVec x;
+    Lanes best;
+    LaneMask places;
+    load(&packet.points[g * 3 * lane_count], lane_count, x);
+    load(&packet.squared_distance[g * lane_count], best);
+    std::memcpy(&places, &packet.place[g * lane_count], sizeof(places));
+    std::array<double, 3> low, high;
+    for (size_t d = 0; d < 3; ++d) {
+      const double* const t = &packet.points[(g * 3 + d) * lane_count];
+      low[d] = std::min(std::min(t[0], t[1]), std::min(t[2], t[3]));
+      high[d] = std::max(std::max(t[0], t[1]), std::max(t[2], t[3]));
+    }
+    Lanes least = Lanes{} + std::numeric_limits<double>::infinity();  // of those that do not meet
+    for (size_t k = 0; k < count; k += lane_count) {
+      Lanes squared;
+      distances_between(low, high, candidates, k, squared);
+      squared *= surely;
+      store(squared, &distances[k]);
+      const LaneMask meets = squared <= 0.;
+      least = meets | (squared > least) ? least : squared;
+      if (!any(meets)) continue;
+      for (size_t i = 0; i < lane_count; ++i)
+        if (meets[i]) try_face(candidates.faces[k + i], x, best, places);
+    }
+    double farthest = greatest_of(best);
+    for (size_t k = 0; k < count && any(least <= farthest); k += lane_count) {
+      Lanes squared;
+      load(&distances[k], squared);
+      farthest = greatest_of(best);
+      const LaneMask near = (squared > 0.) & (squared <= farthest);
+      if (!any(near)) continue;
+      for (size_t i = 0; i < std::min(lane_count, count - k); ++i)
+        if (near[i]) try_face(candidates.faces[k + i], x, best, places);
+    }
+    store(best, &packet.squared_distance[g * lane_count]);
+    std::memcpy(&packet.place[g * lane_count], &places, sizeof(places));
+  }
+}
+
+/// One walk for four points: down wherever one of them may come closer, first where they are closer together.
+HOOKE_SIMD void walk(const BoundingVolumeTree& tree, Packet& packet) {
+  const Box* const boxes = tree.boxes().data();
+  LaneVec x;
+  Lanes best, near, far;
+  LaneMask places;
+  load(packet.points.data(), lane_count, x);
+  load(packet.squared_distance.data(), best);
+  std::memcpy(&places, packet.place.data(), sizeof(places));
+  size_t stack[BoundingVolumeTree::max_depth + 1];
+  int size = 0;
+  stack[size++] = 1;
+  while (size > 0) {
+    const size_t i = stack[--size];
+    distances_to(boxes[i], x, near);
+    if (!any(near * surely <= best)) continue;
+    if (tree.is_leaf(i)) {
+      const size_t leaf = i - tree.leaf_count();
+      for (size_t k = tree.first_face(leaf); k < tree.first_face(leaf + 1); ++k)
+        try_face(PreparedFace(tree.faces()[k], k), x, best, places);
+      continue;
+    }
+    const size_t left = 2 * i, right = left + 1;
+    distances_to(boxes[left], x, near);
+    distances_to(boxes[right], x, far);
+    const bool left_first = sum_of(near) <= sum_of(far);
+    const bool wants_left = any(near * surely <= best), wants_right = any(far * surely <= best);
+    if (left_first && wants_right) stack[size++] = right;
+    if (wants_left) stack[size++] = left;
+    if (!left_first && wants_right) stack[size++] = right;
+  }
+  store(best, packet.squared_distance.data());
+  std::memcpy(packet.place.data(), &places, sizeof(places));
+}
+
+}  // namespace
+
+NearestFaceSearch::NearestFaceSearch(const BoundingVolumeTree& tree)
+    : tree_(tree), candidates_(std::make_unique<Candidates>()) {}
+
+NearestFaceSearch::~NearestFaceSearch() = default;
+
+/// Tries the faces with a squared distance to the box of the packet beyond the one and within the other
+/// limit, unless they are too many to be tried with each point.
+bool NearestFaceSearch::try_faces(double beyond, double within, Packet& packet) {
+  Candidates& candidates = *candidates_;
+  candidates.clear();
+  const auto distance_to = [&](const Box& box) { return box.squaredExteriorDistance(packet.box) * surely; };
+  tree_.for_each_leaf(
+      0, [&](const Box& box) { return !candidates.too_many && distance_to(box) <= within; },
+      [&](size_t leaf) {
+        for (size_t place = tree_.first_face(leaf); place < tree_.first_face(leaf + 1); ++place) {
+          const Face& face = tree_.faces()[place];
+          const Box box = face.box();
+          const double squared = distance_to(box);
+          if (squared > beyond && squared <= within) candidates.add(face, place, box);
+        }
+      });
+  if (candidates.too_many) return false;
+  candidates.pad();
+  try_all(candidates, packet);
+  return true;
+}
+
+/// What is near to the box of all points first; it is enough when none of them finds its nearest face farther
+/// away.
+bool NearestFaceSearch::find_together(Packet& packet) {
+  const double near = std::min(expected_, packet.box.sizes().squaredNorm() / 16);
+  if (!try_faces(-1, near, packet)) return false;
+  const double farthest = packet.farthest();
+  expected_ = 4 * farthest;
+  return farthest <= near || try_faces(near, farthest, packet);
+}
+
+void NearestFaceSearch::find(std::span<const Vec3> points, std::span<NearestFace> results) {
+  Packet packet(points);
+  if (packet.groups == 1) {
+    walk(tree_, packet);
+  } else if (!find_together(packet)) {
+    const size_t half = packet.groups / 2 * lane_count;
+    find(points.first(half), results.first(half));
+    return find(points.subspan(half), results.subspan(half));
+  }
+  packet.store(results);
+}
+
+void NearestFaceSearch::operator()(std::span<const Vec3> points, std::span<NearestFace> results) {
+  for (size_t first = 0; first < points.size(); first += Packet::most_points) {
+    const size_t count = std::min(Packet::most_points, points.size() - first);
+    find(points.subspan(first, count), results.subspan(first, count));
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,126 @@
+#include "hooke/geometry/triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+namespace {
+
+/// Parameter in [0, 1] of the point of the segment a b closest to x.
+double closest_parameter(const Vec3& a, const Vec3& b, const Vec3& x) {
+  const Vec3 ab = b - a;
+  const double length2 = ab.squaredNorm();
+  return length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
+}
+
+}  // namespace
+
+TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
+  const Vec3 normal = (b - a).cross(c - a);
+  const double area2 = normal.squaredNorm();
+  if (area2 > 0) {
+    const Vec3 weights = Vec3((c - b).cross(x - b).dot(normal), (a - c).cross(x - c).dot(normal),
+                              (b - a).cross(x - a).dot(normal)) /
+                         area2;
+    if (weights.minCoeff() >= 0) {
+      const Vec3 point = weights[0] * a + weights[1] * b + weights[2] * c;
+      return {point, weights, (point - x).squaredNorm()};
+    }
+  }
+
+  // Outside, or without area: on one of the sides.
+  const std::array<Vec3, 3> corners = {a, b, c};
+  TrianglePoint best;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const Vec3 &from = corners[static_cast<std::size_t>(k)], &to = corners[static_cast<std::size_t>(next)];
+    const double t = closest_parameter(from, to, x);
+    const Vec3 point = from + t * (to - from);
+    const double squared_distance = (point - x).squaredNorm();
+    if (k > 0 && squared_distance >= best.squared_distance) continue;
+    best.point = point;
+    best.squared_distance = squared_distance;
+    best.weights.setZero();
+    best.weights[k] = 1 - t;
+    best.weights[next] = t;
+  }
+  return best;
+}
+
+double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
+  return (x - a - closest_parameter(a, b, x) * (b - a)).norm();
+}
+
+namespace {
+
+/// Twice the area: by the two shorter edges, whose cross product has the least rounding.
+double doubled_area(const Vec3& ab, const Vec3& bc, const Vec3& ca, const Vec3& lengths) {
+  Eigen::Index longest = 0;
+  lengths.maxCoeff(&longest);
+  return (longest == 0 ? bc.cross(ca) : longest == 1 ? ca.cross(ab) : ab.cross(bc)).norm();
+}
+
+/// Degrees; 0 when an edge has no length. The arc tangent keeps all digits near 0 and 180, where that of the
+/// cosine loses half of them.
+double angle_of(double product, double doubled_area) {
+  return std::atan2(doubled_area, product + 0.) * (180 / std::numbers::pi);  // atan2(0, -0) would be 180
+}
+
+}  // namespace
+
+TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const Vec3 lengths(ab.norm(), bc.norm(), ca.norm());
+  const double x = lengths[0], y = lengths[1], z = lengths[2];
+  const auto [shortest, longest] = std::minmax({x, y, z});
+  const double twice = doubled_area(ab, bc, ca, lengths), area = .5 * twice;
+  const auto [least, greatest] = std::minmax({-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)});
+  const double perimeter = x + y + z;
+  const double squares = x * x + y * y + z * z;
+
+  TriangleShape t;
+  t.min_angle = angle_of(greatest, twice);
+  t.max_angle = angle_of(least, twice);
+  t.shape = squares > 0 ? 4 * std::numbers::sqrt3 * area / squares : 0;
+  t.radius_ratio = (x / area) * (y / area) * z * perimeter / 16;  // R = xyz / 4A, r = 2A / perimeter
+  t.aspect_ratio = longest * perimeter / (4 * std::numbers::sqrt3 * area);
+  t.edge_ratio = longest / shortest;
+  return t;
+}
+
+double greatest_cotangent(const Mat3X& points, const Triangle& face) {
+  const Vec3 p = points.col(face[0]), q = points.col(face[1]), r = points.col(face[2]);
+  const Vec3 a = r - q, b = p - r, c = q - p;
+  const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
+  const double cosine = .5 * (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // times the other two lengths
+  const double sine = b.cross(c).norm();
+  return sine > 0 ? cosine / sine : std::numeric_limits<double>::infinity();
+}
+
+double angle_with_cotangent(double cotangent) {
+  return std::atan2(1, cotangent) * 180 / std::numbers::pi;
+}
+
+double greatest_cotangent(const Mat3X& points, const std::vector<Triangle>& faces) {
+  constexpr size_t block = 4096;
+  std::vector<double> greatest((faces.size() + block - 1) / block);
+  parallel_for(greatest.size(), 1, [&](size_t begin, size_t end) {
+    for (size_t b = begin; b < end; ++b) {
+      double cotangent = -std::numeric_limits<double>::infinity();
+      for (size_t f = b * block; f < std::min(faces.size(), (b + 1) * block); ++f)
+        cotangent = std::max(cotangent, greatest_cotangent(points, faces[f]));
+      greatest[b] = cotangent;
+    }
+  });
+  return greatest.empty() ? std::numeric_limits<double>::infinity() : *std::ranges::max_element(greatest);
+}
+
+double least_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
+  return angle_with_cotangent(greatest_cotangent(points, faces));
+}
+
+}  // namespace hooke

@@ -1,0 +1,79 @@
+// Closest point of one triangle. For the nearest of many see bounding_volume_tree.h.
+#pragma once
+
+#include <algorithm>
+
+#include "hooke/core/types.h"
+
+namespace hooke {
+
+struct TrianglePoint {
+  Vec3 point;
+  Vec3 weights;  // barycentric: point = weights[0] a + weights[1] b + weights[2] c, none negative
+  double squared_distance = 0;
+};
+
+/// The point of the triangle a b c that is closest to x. The triangle may be degenerate.
+TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
+
+/// Distance of x to the segment a b, which may have no length.
+double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b);
+
+// Measures of a single triangle. Those that need an area are infinite or NaN without one.
+// P. P. Pebay and T. J. Baker, "Analysis of triangle quality measures", 2003.
+
+struct TriangleShape {
+  double min_angle = 0;     // degrees, 60 at best
+  double max_angle = 0;     // degrees, 60 at best
+  double shape = 0;         // 4 sqrt(3) area / (sum of squared edges): 1 at best, 0 without area
+  double radius_ratio = 0;  // circumradius / (2 inradius): 1 at best, unbounded
+  double aspect_ratio = 0;  // longest edge / (2 sqrt(3) inradius): 1 at best, unbounded
+  double edge_ratio = 0;    // longest edge / shortest edge: 1 at best, unbounded
+};
+
+TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
+
+// The least corner angle of a face, by its cotangent, which costs no trigonometry and falls as the angle
+// grows.
+
+/// Cotangent of the least angle of a face, which is across from its shortest edge; infinite without area.
+double greatest_cotangent(const Mat3X& points, const Triangle& face);
+
+/// The greatest of all faces; infinite without faces.
+double greatest_cotangent(const Mat3X& points, const std::vector<Triangle>& faces);
+
+/// The angle, degrees.
+double angle_with_cotangent(double cotangent);
+
+/// Least corner angle of all faces, degrees; 0 without faces.
+double least_angle(const Mat3X& points, const std::vector<Triangle>& faces);
+
+// Area and normal of one triangle, and when it has none.
+
+struct FaceShape {
+  double area = 0;
+  Vec3 normal = Vec3::Zero();  // unit, outward; zero where the face is degenerate
+  Vec3 centre = Vec3::Zero();  // mean of the corners
+
+  bool degenerate() const { return normal.isZero(0); }
+};
+
+/// Its length is twice the area.
+inline Vec3 doubled_area_vector(const Mat3X& points, const Triangle& face) {
+  const Vec3 a = points.col(face[0]);
+  return (points.col(face[1]) - a).cross(points.col(face[2]) - a);
+}
+
+/// A face is degenerate when its double area is below 1e-12 of its longest edge squared: then rounding of the
+/// coordinates decides where its normal points.
+inline FaceShape face_shape(const Eigen::Ref<const Mat3X>& points, const Triangle& face) {
+  const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
+  const Vec3 cross = (b - a).cross(c - a);
+  const double double_area = cross.norm();
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  FaceShape shape{.5 * double_area, Vec3::Zero(), (a + b + c) / 3};
+  if (double_area > 1e-12 * longest) shape.normal = cross / double_area;
+  return shape;
+}
+
+}  // namespace hooke

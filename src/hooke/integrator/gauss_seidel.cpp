@@ -1,0 +1,181 @@
+#include "hooke/integrator/gauss_seidel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr double least_curvature = .1;  // of the largest
+
+/// Two unit vectors that span the plane across the normal. The first leans on an edge, not on a coordinate
+/// axis, so that a turned mesh has turned vectors.
+Mat32 tangent_basis(const Vec3& normal, const Vec3& edge) {
+  Mat32 basis;
+  basis.col(0) = (edge - normal * normal.dot(edge)).normalized();
+  basis.col(1) = normal.cross(basis.col(0));
+  return basis;
+}
+
+/// |H|^-1 and the mean of its eigenvalues, for H symmetric, by its two eigenprojections (1 +- (H - m) / r)
+/// / 2.
+double invert_by_size(const Eigen::Matrix2d& H, Eigen::Matrix2d& inverse) {
+  const double m = .5 * (H(0, 0) + H(1, 1));
+  const double d = .5 * (H(0, 0) - H(1, 1));
+  const double r = std::sqrt(d * d + H(0, 1) * H(0, 1));
+  const double largest = std::abs(m) + r;
+  if (!(largest > 0)) return 0;
+  const double high = std::max(std::abs(m + r), least_curvature * largest);
+  const double low = std::max(std::abs(m - r), least_curvature * largest);
+  const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
+  inverse = .5 * (1 / high + 1 / low) * unit;
+  if (r > 0) inverse += .5 * (1 / high - 1 / low) / r * (H - m * unit);
+  return .5 * (high + low);
+}
+
+LocalCurvature curvature_of(const RingModel& model, const Mat32& basis) {
+  LocalCurvature c;
+  if (basis.col(1).isZero(0)) {  // on a curve
+    c.mean = std::abs(model.hessian(0, 0));
+    if (c.mean > 0) c.inverse = basis.col(0) * basis.col(0).transpose() / c.mean;
+    return c;
+  }
+  Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
+  c.mean = invert_by_size(model.hessian, inverse);
+  c.inverse = basis * inverse * basis.transpose();
+  return c;
+}
+
+}  // namespace
+
+LocalNewton::LocalNewton(Relaxation& relaxation)
+    : r_(relaxation),
+      side_{VertexRing(relaxation.sweeps.spokes, relaxation.energy.targets()), {}, {}},
+      other_side_(side_) {}
+
+Mat32 LocalNewton::directions(int vertex) const {
+  const Placement& at = r_.placement;
+  Mat32 curve = Mat32::Zero();
+  curve.col(0) = r_.retraction.tangent(at, vertex);
+  if (!curve.col(0).isZero(0)) return curve;
+  const int neighbour = r_.sweeps.spokes[vertex][0].neighbour;
+  return tangent_basis(at.normals.col(vertex), at.points.col(neighbour) - at.points.col(vertex));
+}
+
+/// Takes in the ring of a vertex and the model of its energy; false where there is nothing to do.
+bool LocalNewton::look(int vertex) {
+  const Placement& at = r_.placement;
+  if (r_.sweeps.spokes[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
+  basis_ = directions(vertex);
+  const auto model = [&](Side& s, int side) {
+    s.ring.gather(at, side);
+    s.ring.shape(at.points.col(vertex), at.normals.col(side), s.before);
+    return s.ring.model(s.before, r_.energy.terms, basis_.col(0), basis_.col(1));
+  };
+  model_ = model(side_, vertex);
+  const int other = at.other_side_of(vertex);
+  two_sided_ = other >= 0;
+  if (!two_sided_) return true;
+  const RingModel more = model(other_side_, other);
+  model_.energy += more.energy;
+  model_.gradient += more.gradient;
+  model_.hessian += more.hessian;
+  return true;
+}
+
+/// A face that is unfolded gets the springs of all others, which cost more than what unfolding gains: such a
+/// move needs no lower energy.
+bool LocalNewton::may_move(const VertexPlace& place) {
+  double energy = 0;
+  int unfolded = 0;
+  const EnergyTerms& terms = r_.energy.terms;
+  const auto obeys = [&](Side& s, const Vec3& normal) {
+    s.ring.shape(place.point, normal, s.after);
+    if (!s.ring.obeys(s.before, s.after, r_.guards.options())) return false;
+    energy += s.ring.energy(s.after, terms);
+    if (terms.unfold > 0)
+      unfolded += s.ring.folded_faces(s.before, terms.unfold_below) -
+                  s.ring.folded_faces(s.after, terms.unfold_below);
+    return true;
+  };
+  return obeys(side_, place.normal) && (!two_sided_ || obeys(other_side_, place.other_normal)) &&
+         (unfolded > 0 || energy <= model_.energy);
+}
+
+LocalCurvature LocalNewton::curvature(int vertex) {
+  return look(vertex) ? curvature_of(model_, basis_) : LocalCurvature{};
+}
+
+double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
+  if (!look(vertex)) return 0;
+  Placement& at = r_.placement;
+  const double length = r_.vertex_length[static_cast<size_t>(vertex)];
+  Vec3 step = -options.over_relaxation * (curvature_of(model_, basis_).inverse * (basis_ * model_.gradient));
+  const double size = step.norm(), cap = options.max_move * length;
+  if (!(size > options.rest * length)) return 0;
+  if (size > cap) step *= cap / size;
+
+  for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
+    const VertexPlace place = r_.retraction.moved(at, vertex, step);
+    if (may_move(place)) {
+      const double way = (place.point - at.points.col(vertex)).norm();
+      place.write_to(at, vertex);
+      return way / length;
+    }
+  }
+  return 0;
+}
+
+std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& active,
+                                       const LocalNewtonOptions& options) {
+  std::vector<double> moves(static_cast<size_t>(r.connectivity.vertex_count), 0);
+  for_each_block(r.sweeps, [&](int begin, int end) {
+    LocalNewton newton(r);
+    for (int v = begin; v < end; ++v)
+      if (active.empty() || active[static_cast<size_t>(v)])
+        moves[static_cast<size_t>(v)] = newton.improve(v, options);
+  });
+  r.retraction.count();
+  return moves;
+}
+
+namespace {
+
+constexpr double still = .3;  // of `rest`: a vertex that wants to move less is not moved at all
+
+/// Marks those of the vertices that moved farther than `rest` and the neighbours of those: all others have
+/// found their place. Returns whether there are any.
+bool mark_restless(const Connectivity& c, const std::vector<int>& vertices, const std::vector<double>& moves,
+                   double rest, std::vector<char>& active) {
+  const auto moved = [&](int v) { return moves[static_cast<size_t>(v)] > rest; };
+  parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      active[static_cast<size_t>(vertices[i])] =
+          moved(vertices[i]) || std::ranges::any_of(c.vertex_neighbours[vertices[i]], moved);
+  });
+  return std::ranges::any_of(vertices, [&](int v) { return active[static_cast<size_t>(v)] != 0; });
+}
+
+}  // namespace
+
+/// Steps are Newton's, not longer: where guards hold and springs end, longer ones magnify every difference,
+/// and a mesh that is moved or turned would come out another.
+LocalRelaxationResult relax_locally(Relaxation& r, const std::vector<int>& vertices,
+                                    const LocalRelaxationOptions& o, const Observer& observer) {
+  LocalRelaxationResult result;
+  std::vector<char> active(static_cast<size_t>(r.connectivity.vertex_count), 0);
+  for (int v : vertices) active[static_cast<size_t>(v)] = 1;
+  bool restless = !vertices.empty();
+  while (restless && result.sweeps < o.sweeps && !result.interrupted) {
+    const std::vector<double> moves =
+        local_newton_sweep(r, active, {.over_relaxation = o.over_relaxation, .rest = still * o.rest});
+    restless = mark_restless(r.connectivity, vertices, moves, o.rest, active);
+    result.interrupted = observer && !observer({.step = result.sweeps});
+    ++result.sweeps;
+  }
+  return result;
+}
+
+}  // namespace hooke

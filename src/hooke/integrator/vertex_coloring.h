@@ -1,0 +1,51 @@
+// How sweeps over the vertices run: what each vertex looks at, and which vertices may move at once.
+#pragma once
+
+#include "hooke/mesh/adjacency.h"
+
+namespace hooke {
+
+/// An edge of a vertex, and the face between it and the next spoke about that vertex.
+struct Spoke {
+  int neighbour;  // the other end
+  int edge;
+  int face;    // -1 after the last edge of an open fan
+  int across;  // corner of the face beyond that face's far edge; -1 without one
+};
+
+/// The spokes of each vertex or, where creases part it, of each of its sides, counter-clockwise; a closed fan
+/// ends where it begins, an open one begins at the boundary or a crease.
+struct Spokes {
+  std::vector<int> first;  // size: sides + 1
+  std::vector<Spoke> items;
+  // Per item; empty without creases:
+  std::vector<int> sides;        // the neighbour's side, as the spoke sees it
+  std::vector<char> owned;       // 0 for a crease that is counted on the vertex's other side
+  std::vector<char> far_crease;  // 1 where the face's far edge is a crease
+  // Per side; empty without creases: corner of the face beyond the crease with which the side begins, -1
+  // where it begins otherwise.
+  std::vector<int> mate;
+
+  std::span<const Spoke> operator[](int side) const {
+    const auto s = static_cast<size_t>(side);
+    return {items.data() + first[s], items.data() + first[s + 1]};
+  }
+};
+
+/// Sweeps go wave by wave over blocks of consecutive vertices. No vertex of a block looks at a vertex of
+/// another block of its wave: they may be worked at the same time, each from its first vertex to its last.
+struct SweepPlan {
+  Spokes spokes;
+  int vertices = 0;
+  int block = 1;  // vertices of a block
+  std::vector<std::vector<int>> waves;
+};
+SweepPlan plan_sweeps(const Connectivity& connectivity);
+
+/// A plan of one block, for small meshes that one thread works on.
+SweepPlan plan_one_block(const Connectivity& connectivity);
+
+/// Calls body(begin, end) on each block of vertices, wave by wave.
+void for_each_block(const SweepPlan& plan, const std::function<void(int begin, int end)>& body);
+
+}  // namespace hooke

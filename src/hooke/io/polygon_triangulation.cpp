@@ -1,0 +1,205 @@
+#include "hooke/io/polygon_triangulation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <queue>
+#include <span>
+#include <tuple>
+
+namespace hooke {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+// Twice the signed area of a triangle in the plane.
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// 1 for an equilateral triangle, 0 for one without area, negative if it is flipped.
+double shape(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+  return squares > 0 ? 2 * std::sqrt(3.) * turn(a, b, c) / squares : 0;
+}
+
+// Below this shape a corner counts as straight.
+constexpr double straight = 1e-10;
+
+// The corners in the plane of the Newell normal, seen from outside, the polygon's size being 1.
+void project(const Mat3X& points, std::span<const int> corners, std::vector<Vec2>& plane) {
+  const Vec3 origin = points.col(corners[0]);
+  double size = 0;
+  for (const int v : corners) size = std::max(size, (points.col(v) - origin).cwiseAbs().maxCoeff());
+  const double scale = size > 0 ? size : 1;
+  const auto local = [&](size_t k) -> Vec3 {
+    return (points.col(corners[k % corners.size()]) - origin) / scale;
+  };
+  Vec3 normal = Vec3::Zero();
+  for (size_t k = 0; k < corners.size(); ++k) normal += local(k).cross(local(k + 1));
+  const Vec3 n = normal.norm() > 0 ? normal.normalized() : Vec3::UnitZ();
+  const Vec3 u = n.unitOrthogonal(), w = n.cross(u);
+  plane.clear();
+  for (size_t k = 0; k < corners.size(); ++k) plane.emplace_back(u.dot(local(k)), w.dot(local(k)));
+}
+
+// One polygon while its ears are clipped. Corners are counted from 0 within the polygon.
+class EarClipper {
+ public:
+  // Corner triples of the triangles, appended to `out`. False if some ear was not clean.
+  bool clip(const std::vector<Vec2>& plane, std::vector<Triangle>& out) {
+    plane_ = &plane;
+    const int n = static_cast<int>(plane.size());
+    start(n);
+    bool clean = true;
+    for (int left = n; left > 3; --left) {
+      int ear = best_ear();
+      if (ear < 0) {
+        for (int i = 0; i < n; ++i)
+          if (live_[at(i)]) push_if_ear(i);  // what blocked them may be gone
+        ear = best_ear();
+      }
+      clean &= ear >= 0;
+      cut(ear >= 0 ? ear : roundest_corner(), out);
+    }
+    const int last = next_live(0);
+    clean &= shape_at(last) > straight;
+    out.push_back({previous_[at(last)], last, next_[at(last)]});
+    return clean;
+  }
+
+ private:
+  using Candidate = std::tuple<double, int, int>;  // shape, -corner (the first of equals wins), stamp
+
+  static size_t at(int i) { return static_cast<size_t>(i); }
+  const Vec2& point(int i) const { return (*plane_)[at(i)]; }
+  double shape_at(int i) const { return shape(point(previous_[at(i)]), point(i), point(next_[at(i)])); }
+
+  void start(int n) {
+    previous_.resize(at(n));
+    next_.resize(at(n));
+    live_.assign(at(n), true);
+    stamp_.assign(at(n), 0);
+    candidates_ = {};
+    for (int i = 0; i < n; ++i) {
+      previous_[at(i)] = (i + n - 1) % n;
+      next_[at(i)] = (i + 1) % n;
+    }
+    blockers_.clear();
+    for (int i = 0; i < n; ++i)
+      if (shape_at(i) <= straight) blockers_.push_back(i);
+    for (int i = 0; i < n; ++i) push_if_ear(i);
+  }
+
+  // Only corners that are not convex can lie in an ear.
+  bool is_ear(int i) const {
+    if (shape_at(i) <= straight) return false;
+    const Vec2 &a = point(previous_[at(i)]), &b = point(i), &c = point(next_[at(i)]);
+    for (const int k : blockers_) {
+      const Vec2& p = point(k);
+      if (!live_[at(k)] || k == previous_[at(i)] || k == next_[at(i)] || p == a || p == b || p == c) continue;
+      if (turn(a, b, p) >= -straight && turn(b, c, p) >= -straight && turn(c, a, p) >= -straight)
+        return false;
+    }
+    return true;
+  }
+
+  void push_if_ear(int i) {
+    ++stamp_[at(i)];
+    if (is_ear(i)) candidates_.emplace(shape_at(i), -i, stamp_[at(i)]);
+  }
+
+  int best_ear() {
+    while (!candidates_.empty()) {
+      const auto [quality, corner, stamp] = candidates_.top();
+      candidates_.pop();
+      if (live_[at(-corner)] && stamp == stamp_[at(-corner)]) return -corner;
+    }
+    return -1;
+  }
+
+  int next_live(int i) const {
+    while (!live_[at(i)]) ++i;
+    return i;
+  }
+
+  int roundest_corner() const {
+    int best = next_live(0);
+    for (int i = 0; i < static_cast<int>(live_.size()); ++i)
+      if (live_[at(i)] && shape_at(i) > shape_at(best)) best = i;
+    return best;
+  }
+
+  void cut(int ear, std::vector<Triangle>& out) {
+    const int before = previous_[at(ear)], after = next_[at(ear)];
+    out.push_back({before, ear, after});
+    live_[at(ear)] = false;
+    next_[at(before)] = after;
+    previous_[at(after)] = before;
+    std::erase_if(blockers_, [&](int k) { return !live_[at(k)] || shape_at(k) > straight; });
+    push_if_ear(before);
+    push_if_ear(after);
+  }
+
+  const std::vector<Vec2>* plane_ = nullptr;
+  std::vector<int> previous_, next_, stamp_, blockers_;
+  std::vector<bool> live_;
+  std::priority_queue<Candidate> candidates_;
+};
+
+// The better diagonal of a quadrilateral. False if neither is inside.
+bool cut_quadrilateral(const std::vector<Vec2>& p, std::vector<Triangle>& out) {
+  const double first = std::min(shape(p[0], p[1], p[2]), shape(p[0], p[2], p[3]));
+  const double second = std::min(shape(p[0], p[1], p[3]), shape(p[1], p[2], p[3]));
+  if (first >= second)
+    out.insert(out.end(), {{0, 1, 2}, {0, 2, 3}});
+  else
+    out.insert(out.end(), {{0, 1, 3}, {1, 2, 3}});
+  return std::max(first, second) > straight;
+}
+
+}  // namespace
+
+TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons) {
+  TriangulatedPolygons result;
+  std::vector<Vec2> plane;
+  std::vector<Triangle> cuts;
+  EarClipper clipper;
+  const int count = static_cast<int>(polygons.first.size()) - 1;
+  result.triangles.reserve(polygons.items.size() / 3);
+  for (int f = 0; f < count; ++f) {
+    const std::span<const int> corners = polygons[f];
+    cuts.clear();
+    if (corners.size() == 3) {
+      cuts.push_back({0, 1, 2});
+    } else {
+      project(points, corners, plane);
+      const bool clean = corners.size() == 4 ? cut_quadrilateral(plane, cuts) : clipper.clip(plane, cuts);
+      ++result.polygons_cut;
+      if (!clean) ++result.not_simple;
+    }
+    for (const auto& [a, b, c] : cuts) {
+      result.triangles.push_back({corners[static_cast<size_t>(a)], corners[static_cast<size_t>(b)],
+                                  corners[static_cast<size_t>(c)]});
+      result.polygon.push_back(f);
+    }
+  }
+  return result;
+}
+
+Warnings warnings_of(const TriangulatedPolygons& triangulation, const std::string& name) {
+  Warnings warnings;
+  if (triangulation.polygons_cut > 0)
+    warnings.push_back({"polygons_triangulated",
+                        fmt::format("{}: polygons with more than three corners, cut into triangles: {}", name,
+                                    triangulation.polygons_cut)});
+  if (triangulation.not_simple > 0)
+    warnings.push_back(
+        {"polygons_not_simple",
+         fmt::format(
+             "{}: polygons that cross or fold over themselves or have no area, whose triangles overlap: {}",
+             name, triangulation.not_simple)});
+  return warnings;
+}
+
+}  // namespace hooke

@@ -1,0 +1,63 @@
+#include "hooke/io/vertex_lists.h"
+
+#include <fmt/format.h>
+
+#include "hooke/core/error.h"
+#include "hooke/io/files.h"
+#include "hooke/io/printable.h"
+#include "hooke/io/scanner.h"
+#include "hooke/io/text.h"
+
+namespace hooke {
+
+std::vector<double> read_length_list(const std::filesystem::path& path, int count) {
+  const FileBytes file = read_regular_file(path);
+  const std::string name = printable(path.string());
+  Scanner scanner(file.text(), name, {.comments = true});
+  std::vector<double> lengths;
+  while (scanner.next_line()) {
+    const double length = scanner.number("length");
+    if (!(length > 0)) scanner.fail(fmt::format("length {}; expected a positive number; correct it", length));
+    if (!scanner.token().empty())
+      scanner.fail("more than one value; expected one length a line; split the line");
+    if (lengths.size() == static_cast<size_t>(count))
+      scanner.fail(fmt::format("more than {} lengths; expected one for each vertex; remove some", count));
+    lengths.push_back(length);
+  }
+  if (lengths.size() < static_cast<size_t>(count))
+    throw InputError(
+        fmt::format("{}: {} lengths for {} vertices; expected one for each; is it another mesh's?", name,
+                    lengths.size(), count));
+  return lengths;
+}
+
+std::vector<int> read_id_list(const std::filesystem::path& path, int count) {
+  const FileBytes file = read_regular_file(path);
+  Scanner scanner(file.text(), printable(path.string()), {.comments = true});
+  std::vector<int> ids;
+  while (scanner.next_line()) {
+    const long long id = scanner.integer("vertex id");
+    if (id < 0 || id >= count)
+      scanner.fail(fmt::format("vertex id {}; expected 0 to {}; ids count from 0", id, count - 1));
+    if (!scanner.token().empty()) scanner.fail("more than one value; expected one vertex id a line");
+    ids.push_back(static_cast<int>(id));
+  }
+  return ids;
+}
+
+std::string map_text(const std::vector<MapEntry>& map) {
+  std::string text;
+  for (const MapEntry& entry : map) {
+    append_number(text, entry.vertex);
+    text += ' ';
+    append_number(text, entry.place.face);
+    for (double weight : entry.place.weights) {
+      text += ' ';
+      append_number(text, weight + 0.);  // no -0
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace hooke

@@ -1,0 +1,181 @@
+#include "hooke/mesh/adjacency.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 1024;
+
+/// A face as one of its corners sees it.
+struct Spoke {
+  int out, in;         // half-edges that leave the corner and come to it
+  int next, previous;  // the other corners
+};
+
+/// Ascending by the previous corner. Rings are short, and hubs are rare.
+void sort_by_previous(std::vector<Spoke>& ring) {
+  constexpr size_t short_ring = 16;
+  if (ring.size() > short_ring) {
+    std::ranges::sort(ring, {}, &Spoke::previous);
+    return;
+  }
+  for (size_t i = 1; i < ring.size(); ++i)
+    for (size_t k = i; k > 0 && ring[k].previous < ring[k - 1].previous; --k) std::swap(ring[k], ring[k - 1]);
+}
+
+/// The spokes of the vertex, ascending by their previous corner.
+void collect(int vertex, std::span<const int> its_faces, const std::vector<Triangle>& faces,
+             std::vector<Spoke>& ring) {
+  ring.clear();
+  for (int f : its_faces) {
+    const Triangle& t = faces[static_cast<size_t>(f)];
+    const int k = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2, before = (k + 2) % 3;
+    ring.push_back(
+        {3 * f + k, 3 * f + before, t[static_cast<size_t>((k + 1) % 3)], t[static_cast<size_t>(before)]});
+  }
+  sort_by_previous(ring);
+}
+
+/// Place of a spoke of the face across the half-edge that leaves with `spoke`; ring.size() if there is none.
+size_t follower(const std::vector<Spoke>& ring, const Spoke& spoke) {
+  const auto found = std::ranges::lower_bound(ring, spoke.next, {}, &Spoke::previous);
+  const bool there = found != ring.end() && found->previous == spoke.next;
+  return there ? static_cast<size_t>(found - ring.begin()) : ring.size();
+}
+
+Fan classify(const std::vector<Spoke>& ring, std::vector<char>& followed) {
+  if (ring.empty()) return Fan::isolated;
+  followed.assign(ring.size() + 1, 0);
+  for (const Spoke& spoke : ring)
+    if (std::exchange(followed[follower(ring, spoke)], 1)) return Fan::broken;  // two ends, or one after two
+  // Every spoke has another one after it, none has two before it, and at most one is the end: what is left to
+  // know is whether all are in one chain or cycle.
+  const auto first = static_cast<size_t>(std::ranges::find(followed, 0) - followed.begin());
+  const size_t start = first < ring.size() ? first : 0;
+  size_t reached = 1;
+  size_t at = follower(ring, ring[start]);
+  for (; at != ring.size() && at != start; at = follower(ring, ring[at])) ++reached;
+  const bool doubled = at == start && ring.size() == 2;  // two faces with the same corners
+  return reached == ring.size() && !doubled ? Fan::whole : Fan::broken;
+}
+
+/// Finds the twins of all half-edges and calls look(vertex, ring, memory) for each vertex.
+template <typename Look>
+void look_at_rings(int vertex_count, const std::vector<Triangle>& faces, HalfEdges& half_edges,
+                   const Look& look) {
+  parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
+    std::vector<Spoke> ring;
+    std::vector<char> memory;
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      collect(v, half_edges.faces[v], faces, ring);
+      look(v, ring, memory);
+      for (const Spoke& spoke : ring)
+        if (const size_t other = follower(ring, spoke); other < ring.size())
+          half_edges.twins[static_cast<size_t>(spoke.out)] = ring[other].in;
+    }
+  });
+}
+
+}  // namespace
+
+HalfEdges pair_half_edges(int vertex_count, const std::vector<Triangle>& faces) {
+  HalfEdges half_edges{invert(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)};
+  look_at_rings(vertex_count, faces, half_edges, [](int, const std::vector<Spoke>&, std::vector<char>&) {});
+  return half_edges;
+}
+
+VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces) {
+  VertexFans fans{{invert(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)},
+                  std::vector<Fan>(static_cast<size_t>(vertex_count))};
+  look_at_rings(vertex_count, faces, fans,
+                [&](int v, const std::vector<Spoke>& ring, std::vector<char>& followed) {
+                  fans.kinds[static_cast<size_t>(v)] = classify(ring, followed);
+                });
+  return fans;
+}
+
+int first_broken(const VertexFans& fans) {
+  const auto broken = std::ranges::find(fans.kinds, Fan::broken);
+  return broken == fans.kinds.end() ? -1 : static_cast<int>(broken - fans.kinds.begin());
+}
+
+namespace {
+
+/// Whether the face of half-edge h is the first that names its edge.
+bool names_edge(const std::vector<int>& twins, size_t h) {
+  return twins[h] < 0 || static_cast<int>(h) < twins[h];
+}
+
+/// Numbers the edges in the order of the half-edges that name them.
+void number_edges(const std::vector<int>& twins, Connectivity& c) {
+  std::vector<int> first(twins.size() / block + 2, 0);  // edge of each block of half-edges
+  parallel_for(twins.size(), block, [&](size_t begin, size_t end) {
+    for (size_t h = begin; h < end; ++h) first[h / block + 1] += names_edge(twins, h);
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  c.edges.resize(static_cast<size_t>(first.back()));
+  c.edge_faces.resize(c.edges.size());
+  c.face_edges.resize(c.faces.size());
+  parallel_for(twins.size(), block, [&](size_t begin, size_t end) {
+    int edge = first[begin / block];
+    for (size_t h = begin; h < end; ++h) {
+      if (!names_edge(twins, h)) continue;
+      const Triangle& t = c.faces[h / 3];
+      c.edges[static_cast<size_t>(edge)] = {t[h % 3], t[(h + 1) % 3]};
+      c.edge_faces[static_cast<size_t>(edge)] = {static_cast<int>(h / 3), twins[h] < 0 ? -1 : twins[h] / 3};
+      c.face_edges[h / 3][h % 3] = edge;
+      if (twins[h] >= 0)
+        c.face_edges[static_cast<size_t>(twins[h]) / 3][static_cast<size_t>(twins[h]) % 3] = edge;
+      ++edge;
+    }
+  });
+}
+
+/// The other end of every edge in c.vertex_edges.
+IntLists other_ends(const Connectivity& c) {
+  IntLists lists = c.vertex_edges;
+  parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v)
+      for (auto i = static_cast<size_t>(lists.first[v]); i < static_cast<size_t>(lists.first[v + 1]); ++i)
+        lists.items[i] = c.other_end(lists.items[i], static_cast<int>(v));
+  });
+  return lists;
+}
+
+}  // namespace
+
+Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
+  HalfEdges half_edges = pair_half_edges(vertex_count, faces);
+  return make_connectivity(std::move(faces), std::move(half_edges));
+}
+
+Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges) {
+  Connectivity c;
+  c.vertex_count = static_cast<int>(half_edges.faces.first.size()) - 1;
+  c.faces = std::move(faces);
+  c.vertex_faces = std::move(half_edges.faces);
+  number_edges(half_edges.twins, c);
+  c.vertex_edges = invert(c.vertex_count, c.edges);
+  c.vertex_neighbours = other_ends(c);
+  return c;
+}
+
+std::vector<int> with_rings(const Connectivity& c, const std::vector<int>& vertices, int rings) {
+  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<int> all;
+  const auto add = [&](int v) {
+    if (!std::exchange(marked[static_cast<size_t>(v)], 1)) all.push_back(v);
+  };
+  std::ranges::for_each(vertices, add);
+  for (int ring = 0; ring < rings; ++ring)
+    for (size_t i = 0, count = all.size(); i < count; ++i)
+      std::ranges::for_each(c.vertex_neighbours[all[i]], add);
+  return all;
+}
+
+}  // namespace hooke

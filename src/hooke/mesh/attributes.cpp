@@ -1,0 +1,75 @@
+#include "hooke/mesh/attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hooke/core/parallel.h"
+
+namespace hooke {
+namespace {
+
+double value_at(const MapEntry& entry, const std::vector<double>& values,
+                const std::vector<Triangle>& faces) {
+  if (entry.place.face < 0) return entry.vertex < 0 ? 0 : values[static_cast<size_t>(entry.vertex)];
+  const Triangle& corners = faces[static_cast<size_t>(entry.place.face)];
+  double value = 0, least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (size_t k = 0; k < 3; ++k) {  // a corner without weight may be without a number
+    const double weight = entry.place.weights[static_cast<Eigen::Index>(k)];
+    if (!(weight > 0)) continue;
+    const double corner = values[static_cast<size_t>(corners[k])];
+    value += weight * corner;
+    least = std::min(least, corner);
+    greatest = std::max(greatest, corner);
+  }
+  return std::isfinite(value) ? std::clamp(value, least, greatest) : value;  // what rounding adds
+}
+
+}  // namespace
+
+const VertexChannel* find_channel(const VertexData& data, const std::string& name) {
+  const auto found = std::ranges::find(data, name, &VertexChannel::name);
+  return found == data.end() ? nullptr : &*found;
+}
+
+VertexChannel* find_channel(VertexData& data, const std::string& name) {
+  const auto found = std::ranges::find(data, name, &VertexChannel::name);
+  return found == data.end() ? nullptr : &*found;
+}
+
+ChannelList channels_named(const VertexData& data, ChannelNames names) {
+  ChannelList channels;
+  for (const char* name : names)
+    if (const VertexChannel* channel = find_channel(data, name)) channels.push_back(channel);
+  return channels;
+}
+
+VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
+                      const std::vector<Triangle>& faces) {
+  VertexData carried;
+  for (const VertexChannel& channel : data) {
+    VertexChannel& to = carried.emplace_back(VertexChannel{channel.name, channel.type, {}});
+    to.values.resize(map.size());
+    parallel_for(map.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t v = begin; v < end; ++v) {
+        const double value = value_at(map[v], channel.values, faces);
+        to.values[v] = is_integer(channel.type) ? std::round(value) : value;
+      }
+    });
+  }
+  return carried;
+}
+
+bool has_normals(const VertexData& data) {
+  return channels_named(data, normal_names).size() == normal_names.size();
+}
+
+void set_normals(VertexData& data, const Mat3X& normals) {
+  for (size_t k = 0; k < 3; ++k) {
+    std::vector<double>& values = find_channel(data, normal_names[k])->values;
+    for (Eigen::Index v = 0; v < normals.cols(); ++v)
+      values[static_cast<size_t>(v)] = normals(static_cast<Eigen::Index>(k), v);
+  }
+}
+
+}  // namespace hooke

@@ -1,0 +1,156 @@
+#include "hooke/mesh/memory_order.h"
+
+#include <algorithm>
+#include <deque>
+
+namespace hooke {
+namespace {
+
+constexpr size_t block = 8192;
+
+std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours) {
+  constexpr size_t cluster_size = 256;  // vertices whose data stay in the first cache
+  const auto n = static_cast<size_t>(vertex_count);
+  std::vector<int> order;
+  order.reserve(n);
+  std::vector<bool> taken(n, false), waiting(n, false);
+  std::deque<int> seeds;  // vertices next to finished clusters, oldest first
+
+  const auto grow = [&](int seed) {
+    const size_t begin = order.size();
+    taken[static_cast<size_t>(seed)] = true;
+    order.push_back(seed);
+    for (size_t i = begin; i < order.size(); ++i)
+      for (int w : neighbours[order[i]]) {
+        const auto u = static_cast<size_t>(w);
+        if (taken[u]) continue;
+        if (order.size() - begin < cluster_size) {
+          taken[u] = true;
+          order.push_back(w);
+        } else if (!waiting[u]) {
+          waiting[u] = true;
+          seeds.push_back(w);
+        }
+      }
+  };
+  for (size_t start = 0; start < n; ++start) {
+    if (taken[start]) continue;
+    seeds.push_back(static_cast<int>(start));
+    while (!seeds.empty()) {
+      const int seed = seeds.front();
+      seeds.pop_front();
+      if (!taken[static_cast<size_t>(seed)]) grow(seed);
+    }
+  }
+  return order;
+}
+
+/// The next corner of each face about a vertex: all its neighbours where faces are oriented alike, but for
+/// one at a boundary, which has it for a neighbour; elsewhere fewer, which costs order only. Looked up
+/// beforehand on all cores, not one after the other on the way.
+IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
+  IntLists corners = invert(vertex_count, faces);
+  parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      for (int i = corners.first[static_cast<size_t>(v)]; i < corners.first[static_cast<size_t>(v) + 1];
+           ++i) {
+        int& item = corners.items[static_cast<size_t>(i)];
+        const Triangle& t = faces[static_cast<size_t>(item)];
+        item = t[0] == v ? t[1] : t[1] == v ? t[2] : t[0];
+      }
+  });
+  return corners;
+}
+
+/// Calls each(new id, old id).
+template <class Each>
+void for_each_vertex(const Reordered& order, const Each& each) {
+  parallel_for(order.old_vertex.size(), block, [&](size_t begin, size_t end) {
+    for (size_t v = begin; v < end; ++v) each(v, static_cast<size_t>(order.old_vertex[v]));
+  });
+}
+
+/// What a matrix or a list holds for a vertex.
+template <class Values>
+decltype(auto) item(Values& values, size_t vertex) {
+  if constexpr (requires { values.cols(); })
+    return values.col(static_cast<Eigen::Index>(vertex));
+  else
+    return (values[vertex]);
+}
+
+template <class Old, class New>
+New gathered(const Reordered& order, const Old& old, New fresh) {
+  for_each_vertex(order, [&](size_t v, size_t before) { item(fresh, v) = item(old, before); });
+  return fresh;
+}
+
+template <class Values>
+Values scattered(const Reordered& order, const Values& fresh, Values old) {
+  for_each_vertex(order, [&](size_t v, size_t before) { item(old, before) = item(fresh, v); });
+  return old;
+}
+
+}  // namespace
+
+std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces) {
+  return order_by_clusters(vertex_count, next_corners(vertex_count, faces));
+}
+
+std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
+  if (old.empty()) return {};
+  std::vector<int> fresh(old_vertex.size());
+  for (size_t i = 0; i < old_vertex.size(); ++i)
+    fresh[static_cast<size_t>(old_vertex[i])] = static_cast<int>(i);
+  std::vector<int> result;
+  for (int v : old) result.push_back(fresh[static_cast<size_t>(v)]);
+  return result;
+}
+
+Mat3X Reordered::in_new_order(const Eigen::Ref<const Mat3X>& old) const {
+  return gathered(*this, old, Mat3X(3, old.cols()));
+}
+
+std::vector<double> Reordered::in_new_order(const std::vector<double>& old) const {
+  return gathered(*this, old, std::vector<double>(old.size()));
+}
+
+Mat3X Reordered::in_old_order(const Mat3X& fresh) const {
+  return scattered(*this, fresh, Mat3X(3, fresh.cols()));
+}
+
+std::vector<double> Reordered::in_old_order(const std::vector<double>& fresh) const {
+  return scattered(*this, fresh, std::vector<double>(fresh.size()));
+}
+
+std::vector<Triangle> Reordered::in_old_order(const std::vector<Triangle>& fresh) const {
+  std::vector<Triangle> old(fresh.size());
+  parallel_for(fresh.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f)
+      for (size_t k = 0; k < 3; ++k)
+        old[static_cast<size_t>(old_face[f])][k] = old_vertex[static_cast<size_t>(fresh[f][k])];
+  });
+  return old;
+}
+
+Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order) {
+  std::vector<int> fresh(order.size());
+  for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);
+  std::vector<std::array<int, 1>> smallest(faces.size());  // vertex of each face
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      for (int& v : faces[f]) v = fresh[static_cast<size_t>(v)];
+      smallest[f][0] = std::ranges::min(faces[f]);
+    }
+  });
+  Reordered r;
+  r.old_vertex = order;
+  r.old_face = invert(static_cast<int>(order.size()), smallest).items;
+  r.faces.resize(faces.size());
+  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) r.faces[f] = faces[static_cast<size_t>(r.old_face[f])];
+  });
+  return r;
+}
+
+}  // namespace hooke

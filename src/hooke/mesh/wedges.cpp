@@ -1,0 +1,155 @@
+#include "hooke/mesh/wedges.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hooke {
+namespace {
+
+size_t corner_of(const Triangle& face, int vertex) {
+  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
+}
+
+/// The sectors about one vertex.
+class Sectors {
+ public:
+  Sectors(const Connectivity& c, int vertex) : c_(c), vertex_(vertex) {
+    for (int f : c.vertex_faces[vertex])
+      if (c.is_border(edge_at(f, 0))) starts_.push_back({neighbour_at(f), f});
+    std::ranges::sort(starts_);
+  }
+
+  size_t count() const { return starts_.size(); }
+
+  template <class Visit>
+  void for_each_face(size_t sector, const Visit& visit) const {
+    for (int f = starts_[sector][1];;) {
+      visit(f);
+      const int e = edge_at(f, 2);
+      if (c_.is_border(e)) return;
+      const auto& [left, right] = c_.edge_faces[static_cast<size_t>(e)];
+      f = left == f ? right : left;
+    }
+  }
+
+ private:
+  /// Edge of the face that leaves the vertex (0) or comes back to it (2).
+  int edge_at(int face, size_t offset) const {
+    const auto f = static_cast<size_t>(face);
+    return c_.face_edges[f][(corner_of(c_.faces[f], vertex_) + offset) % 3];
+  }
+
+  int neighbour_at(int face) const {
+    const Triangle& t = c_.faces[static_cast<size_t>(face)];
+    return t[(corner_of(t, vertex_) + 1) % 3];
+  }
+
+  const Connectivity& c_;
+  int vertex_;
+  std::vector<std::array<int, 2>> starts_;  // neighbour and face
+};
+
+void mark(Connectivity& c, const std::vector<Edge>& creases) {
+  c.creases.assign(c.edges.size(), 0);
+  for (const auto& [a, b] : creases) {
+    const auto edges = c.vertex_edges[a];
+    const auto edge = std::ranges::find_if(edges, [&](int e) { return c.other_end(e, a) == b; });
+    if (edge != edges.end()) c.creases[static_cast<size_t>(*edge)] = 1;
+  }
+}
+
+}  // namespace
+
+void part_at_creases(Connectivity& c, const std::vector<Edge>& creases) {
+  if (creases.empty()) return;
+  mark(c, creases);
+  c.side_faces = c.faces;
+  c.further_sides.clear();
+  std::vector<int> touched;
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.creases[e]) touched.insert(touched.end(), c.edges[e].begin(), c.edges[e].end());
+  std::ranges::sort(touched);
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  for (int v : touched) {
+    const Sectors sectors(c, v);
+    for (size_t s = 1; s < sectors.count(); ++s) {
+      const int side = c.side_count();
+      sectors.for_each_face(s, [&](int f) {
+        c.side_faces[static_cast<size_t>(f)][corner_of(c.faces[static_cast<size_t>(f)], v)] = side;
+      });
+      c.further_sides.push_back(v);
+    }
+  }
+  c.side_edges.resize(c.edges.size());
+  for (size_t e = 0; e < c.edges.size(); ++e) {
+    const auto f = static_cast<size_t>(c.edge_faces[e][0]);
+    for (size_t k = 0; k < 2; ++k) c.side_edges[e][k] = c.side_faces[f][corner_of(c.faces[f], c.edges[e][k])];
+  }
+}
+
+Connectivity without_creases(Connectivity c) {
+  c.creases.clear();
+  c.side_faces.clear();
+  c.side_edges.clear();
+  c.further_sides.clear();
+  return c;
+}
+
+std::vector<Edge> crease_edges(const Connectivity& c) {
+  std::vector<Edge> creases;
+  for (size_t e = 0; e < c.creases.size(); ++e)
+    if (c.creases[e]) creases.push_back(c.edges[e]);
+  return creases;
+}
+
+Connectivity cut_open(const Connectivity& c) {
+  return make_connectivity(c.side_count(), c.sides_of_faces());
+}
+
+std::vector<int> sides_before(const Connectivity& c, const std::vector<Triangle>& sides,
+                              std::vector<int> vertices) {
+  std::vector<int> before = std::move(vertices);
+  before.resize(static_cast<size_t>(c.side_count()), -1);
+  for (size_t f = 0; f < sides.size(); ++f)
+    for (size_t k = 0; k < 3; ++k) before[static_cast<size_t>(c.sides_of_faces()[f][k])] = sides[f][k];
+  return before;
+}
+
+std::vector<int> other_sides(std::size_t vertex_count, const std::vector<int>& further_sides) {
+  if (further_sides.empty()) return {};
+  std::vector<int> others(vertex_count, -1);
+  for (size_t s = further_sides.size(); s-- > 0;)
+    others[static_cast<size_t>(further_sides[s])] = static_cast<int>(vertex_count + s);
+  return others;
+}
+
+Mat3X side_points(const Mat3X& points, const Connectivity& c) {
+  Mat3X sides(3, c.side_count());
+  sides.leftCols(points.cols()) = points;
+  for (size_t s = 0; s < c.further_sides.size(); ++s)
+    sides.col(points.cols() + static_cast<Eigen::Index>(s)) = points.col(c.further_sides[s]);
+  return sides;
+}
+
+std::vector<int> label_components(const Connectivity& c) {
+  std::vector<int> label(static_cast<size_t>(c.vertex_count), -1);
+  int count = 0;
+  for (int start = 0; start < c.vertex_count; ++start) {
+    if (label[static_cast<size_t>(start)] >= 0) continue;
+    std::vector<int> front = {start};
+    label[static_cast<size_t>(start)] = count;
+    while (!front.empty()) {
+      const int v = front.back();
+      front.pop_back();
+      for (int w : c.vertex_neighbours[v])
+        if (int& l = label[static_cast<size_t>(w)]; l < 0) {
+          l = count;
+          front.push_back(w);
+        }
+    }
+    ++count;
+  }
+  return label;
+}
+
+}  // namespace hooke

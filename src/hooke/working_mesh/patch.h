@@ -1,0 +1,57 @@
+// The neighbourhood of an edge as a small mesh of its own, in which a change of the edge is tried.
+#pragma once
+
+#include <optional>
+
+#include "hooke/connectivity/edge_flips.h"
+#include "hooke/integrator/guards.h"
+
+namespace hooke {
+
+/// An edge with which a patch ends though the mesh goes on, or a crease that ends within it.
+struct PatchRim {
+  int half_edge;  // of the mesh, on the patch's side
+  int from, to;   // its ends, in ids of the patch
+  Edge beyond;    // those of the half-edge across, if its face is in the patch too; else -1
+};
+
+struct EdgePatch {
+  /// Of the whole mesh: the edge's ends first, then the others that may move, then those around.
+  std::vector<int> vertices, sides;
+  size_t movable = 0;           // so many may move, but for those on creases and boundaries
+  std::vector<Triangle> faces;  // all that the movable ones have, in ids of the patch
+  std::vector<PatchRim> rim;
+  Placement placement;
+  std::vector<double> vertex_length;
+  Constraints constraints;
+};
+
+/// The vertices within so many rings about an inner edge, as far as creases. Nothing where more than `most`
+/// vertices would move, or one of them has more edges.
+std::optional<EdgePatch> cut_patch(const FlippingMesh& mesh, int half_edge, int rings, size_t most);
+
+/// Only the two faces of the edge, of which no vertex may move.
+EdgePatch cut_pair(const FlippingMesh& mesh, int half_edge);
+
+/// The faces of the patch after the flip of its edge.
+std::vector<Triangle> flipped_faces(const EdgePatch& patch);
+
+/// After its edge has been halved by this vertex.
+std::vector<Triangle> halved_faces(const EdgePatch& patch, int vertex);
+
+/// After its edge has become one of its ends: 0 or 1.
+std::vector<Triangle> merged_faces(const EdgePatch& patch, int stays);
+
+/// Appends a vertex that is where another one is, free to move on the surface; the whole mesh has none for it
+/// yet. Its target length is that of the middle of the edge. Returns its id.
+int append_vertex(EdgePatch& patch, int like);
+
+/// Would the patch, with these faces and its vertices where they are now, break the rule of folds with the
+/// faces across its rim?
+bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippingMesh& mesh,
+                  const GuardOptions& guards);
+
+/// Moves the vertices of the mesh to where those of the patch are.
+void move_vertices(const EdgePatch& patch, Placement& placement);
+
+}  // namespace hooke

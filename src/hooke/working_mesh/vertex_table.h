@@ -1,0 +1,118 @@
+// A mesh whose vertices come and go: its triangles with all that belongs to each vertex, and what is to
+// become of its curves.
+#pragma once
+
+#include <map>
+
+#include "hooke/connectivity/edge_flips.h"
+#include "hooke/working_mesh/working_mesh.h"
+
+namespace hooke {
+
+/// The curves of the input by the points they pass through: an edge between two corners does not say along
+/// which curve it runs.
+class CurveFinder {
+ public:
+  struct Place {
+    int curve = -1;
+    int segment = 0;
+  };
+
+  explicit CurveFinder(const std::vector<Curve>& curves);
+
+  /// The curve that has both points, which are points of the input; curve -1 if there is none. Where there
+  /// are several, the one closest to the middle of the two.
+  Place common(const Vec3& a, const Vec3& b) const;
+
+ private:
+  const std::vector<Curve>* curves_;
+  std::map<std::array<double, 3>, std::vector<Place>> places_;
+};
+
+/// How many edges each curve has, and how many it is to have.
+struct CurveEdges {
+  std::vector<int> present, wanted;
+};
+
+/// All references are to objects that outlive it. Until compact() the arrays are by the ids of the
+/// triangulation, and may have room for more.
+struct AdaptingMesh {
+  Triangulation& triangulation;
+  Placement& placement;
+  Retraction& retraction;
+  Constraints& constraints;
+  std::vector<double>& vertex_length;
+  std::vector<int>& corner_valences;
+  std::vector<int>& origins;  // what the vertex was before vertices came and went: an id, -1 if it is new
+  const CurveFinder& curve_finder;
+  CurveEdges& curve_edges;
+
+  FlippingMesh flipping() const {
+    return {triangulation, placement, retraction, constraints, vertex_length, corner_valences};
+  }
+};
+
+/// Does the edge lie along a curve: a boundary or a crease?
+inline bool is_rim(const Triangulation& t, int h) {
+  return t.twin(h) < 0 || t.is_constrained(h);
+}
+
+/// The curve along which the edge of a rim runs; curve -1 where none is known.
+CurveFinder::Place curve_of(const AdaptingMesh& mesh, int half_edge);
+
+/// Of an edge between the vertices.
+inline double target_length(const AdaptingMesh& m, int v, int w) {
+  return .5 * (m.vertex_length[static_cast<size_t>(v)] + m.vertex_length[static_cast<size_t>(w)]);
+}
+
+/// Length of the edge over its target length.
+double relative_length(const AdaptingMesh& mesh, int half_edge);
+
+/// Fills curve_edges: one edge per target length, and as many more as it takes to keep the chords within
+/// `chord_error` target lengths of the curve.
+void count_curve_edges(AdaptingMesh& mesh, double chord_error);
+
+/// Adds what belongs to a vertex in the middle of the edge, on its curve or on the surface, and to its sides:
+/// the only place where a vertex is born. The triangles do not know it yet. Returns the id that a split of
+/// the edge will give it. `middle` is that of the edge if it is known, else null.
+int add_vertex(AdaptingMesh& mesh, int half_edge, const VertexPlace* middle = nullptr);
+
+/// Where the middle of an edge that is no rim comes to lie on the surface; safe for different edges at once.
+VertexPlace middle_of(const AdaptingMesh& mesh, int half_edge);
+
+/// Takes back what was added last.
+void drop_vertex(AdaptingMesh& mesh);
+
+/// Gives up the ids that are unused, numbers the sides as part_at_creases() does, and writes the creases to
+/// the constraints.
+void compact(AdaptingMesh& mesh);
+
+// The mesh of a work as one whose vertices come and go.
+
+/// Pre-condition: the vertices lie on the field of the input, see Workspace::replace_faces().
+class AdaptingWork {
+ public:
+  /// Keeps a reference to the work. `corner_angle`: degrees, see corner_rule.h.
+  AdaptingWork(Workspace& work, double corner_angle);
+  AdaptingWork(const AdaptingWork&) = delete;
+
+  AdaptingMesh& mesh() { return mesh_; }
+  const AdaptingMesh& mesh() const { return mesh_; }
+
+  /// Gives the work the faces as they are now. Pre-condition: there were only flips.
+  void replace_faces() { work_.replace_faces(triangulation_.faces()); }
+
+  /// Gives the work the mesh as it is now, which ends this one. Pre-condition: it is compact.
+  void replace_mesh() { work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_); }
+
+ private:
+  Workspace& work_;
+  Triangulation triangulation_;
+  std::vector<int> corner_valences_;
+  std::vector<int> origins_;
+  const CurveFinder curve_finder_;
+  CurveEdges curve_edges_;
+  AdaptingMesh mesh_;
+};
+
+}  // namespace hooke
