@@ -5,7 +5,7 @@
 
 #include "hooke/filter/surface_field.h"
 #include "hooke/integrator/gauss_seidel.h"
-#include "meshes.h"
+#include "support/meshes.h"
 
 namespace hooke {
 namespace {

@@ -1,0 +1,324 @@
+#include "hooke/connectivity/collapse_passes.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "hooke/connectivity/edge_collapses.h"
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/topology.h"
+#include "support/adapting_scene.h"
+
+namespace hooke {
+namespace {
+
+constexpr int fine_cells = 24;
+constexpr int side = fine_cells + 1;
+constexpr BlockOptions blocks{.vertices = 5 * side, .passes = 1};  // of five rows
+
+/// A grid that is far too fine.
+struct FineGrid : test::AdaptingScene {
+  explicit FineGrid(double times = 5) : AdaptingScene(test::grid(fine_cells, test::flat, .3), test::plane()) {
+    for (double& length : vertex_length) length *= times;
+    count_curve_edges(adapting, .1);
+  }
+};
+
+int rows_from_other_blocks(int vertex) {
+  const int row = vertex / side % 5;
+  return std::min(vertex / side < 5 ? 5 : row, vertex / side >= fine_cells / 5 * 5 ? 5 : 4 - row);
+}
+
+TEST(BlockCollapses, LeaveWhatLiesAboutOtherBlocks) {
+  FineGrid s;
+  const Mat3X before = s.placement.points;
+  const int collapses = collapse_in_blocks(s.adapting, {}, blocks);
+  EXPECT_GT(collapses, fine_cells);
+  int gone = 0;
+  for (int v = 0; v < side * side; ++v) {
+    gone += s.triangulation.valence(v) < 0;
+    if (rows_from_other_blocks(v) >= 2) continue;
+    EXPECT_GT(s.triangulation.valence(v), 0) << v;
+    EXPECT_EQ(Vec3(s.placement.points.col(v)), Vec3(before.col(v))) << v;
+  }
+  EXPECT_EQ(gone, collapses);
+}
+
+TEST(BlockCollapses, ReachFartherInFurtherPasses) {
+  FineGrid once, thrice;
+  BlockOptions more = blocks;
+  more.passes = 3;
+  EXPECT_GT(collapse_in_blocks(thrice.adapting, {}, more), collapse_in_blocks(once.adapting, {}, blocks));
+}
+
+TEST(BlockCollapses, KeepTopologyBoundaryAndLengthsThatMayStay) {
+  FineGrid s;
+  BlockOptions more = blocks;
+  more.passes = 3;
+  collapse_in_blocks(s.adapting, {}, more);
+  for (int v = 0; v < side * side; ++v)
+    if (v % side == 0 || v % side == fine_cells || v < side || v >= fine_cells * side) {
+      EXPECT_GT(s.triangulation.valence(v), 0) << v;
+    }
+  compact(s.adapting);
+  const Connectivity c =
+      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces());
+  EXPECT_EQ(measure_topology(c).euler, 1);
+  EXPECT_EQ(measure_topology(c).components, 1);
+
+  FineGrid barely(1.5);  // no edge is shorter than a tenth of what may stay
+  EXPECT_EQ(collapse_in_blocks(barely.adapting, {}, {.vertices = blocks.vertices, .part = .1, .share = 0}),
+            0);
+}
+
+/// Of triangles with two equal sides: an inner edge may come to lie on the boundary and be as long as before.
+TEST(BlockCollapses, LeaveCurvesTheirEdges) {
+  test::Triangles even = test::grid(fine_cells, test::flat);
+  for (int v = 0; v < side * side; ++v) even.points.col(v) = Vec3(v % side - .5 * (v / side), v / side, 0);
+  test::AdaptingScene s(even, test::plane());
+  for (double& length : s.vertex_length) length *= 5;
+  count_curve_edges(s.adapting, .1);
+  const std::vector<int> present = s.curve_edges.present;
+  EXPECT_GT(collapse_in_blocks(s.adapting, {.valence = 12}, {.vertices = 12 * side}), fine_cells);
+  EXPECT_EQ(s.curve_edges.present, present);
+  for (int v = 0; v < side * side; ++v)
+    if (v % side == 0 || v % side == fine_cells || v < side || v >= fine_cells * side) {
+      EXPECT_GT(s.triangulation.valence(v), 0) << v;
+    }
+}
+
+TEST(BlockCollapses, DoNotDependOnThreads) {
+  std::vector<Mat3X> points;
+  std::vector<std::vector<Triangle>> faces;
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    FineGrid s;
+    BlockOptions more = blocks;
+    more.passes = 3;
+    collapse_in_blocks(s.adapting, {}, more);
+    points.push_back(s.placement.points);
+    faces.push_back(s.triangulation.faces());
+  }
+  EXPECT_EQ(points[0], points[1]);
+  EXPECT_EQ(faces[0], faces[1]);
+}
+
+TEST(BlockCollapses, AreForManyShortEdgesOnly) {
+  FineGrid small, few;
+  EXPECT_EQ(collapse_in_blocks(small.adapting, {}, {.vertices = side * side}), 0);
+  EXPECT_EQ(collapse_in_blocks(few.adapting, {}, {.vertices = blocks.vertices, .share = 1.01}), 0);
+}
+
+constexpr int cells = 12;
+
+test::Triangles rough() {
+  return test::grid(cells, test::flat, .35);
+}
+
+/// Half-edges of edges with both ends inside.
+std::vector<int> inner_edges(const Triangulation& t) {
+  std::vector<int> edges;
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.twin(h) > h && !t.on_boundary(t.from(h)) && !t.on_boundary(t.to(h))) edges.push_back(h);
+  return edges;
+}
+
+/// Of the edges at the vertex.
+double longest_at(const AdaptingMesh& m, int v) {
+  double longest = 0;
+  for (int h : m.triangulation.outgoing(v)) longest = std::max(longest, relative_length(m, h));
+  return longest;
+}
+
+TEST(CollapseTrial, LeavesTheMeshAlone) {
+  test::AdaptingScene s(rough(), test::plane());
+  const Mat3X points = s.placement.points, normals = s.placement.normals;
+  const std::vector<Triangle> faces = s.triangulation.faces();
+  int allowed = 0;
+  for (int h : inner_edges(s.triangulation)) allowed += try_collapse(s.adapting, h, {}).has_value();
+  EXPECT_GT(allowed, 0);
+  EXPECT_EQ(s.placement.points, points);
+  EXPECT_EQ(s.placement.normals, normals);
+  EXPECT_EQ(s.triangulation.faces(), faces);
+}
+
+TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
+  for (int k = 0; k < 200; k += 7) {
+    test::AdaptingScene s(rough(), test::plane());
+    const int h = inner_edges(s.triangulation)[static_cast<size_t>(k)];
+    const std::optional<Collapse> trial = try_collapse(s.adapting, h, {});
+    EXPECT_EQ(collapse_edge(s.adapting, h, {}), trial ? trial->stays : -1);
+    if (trial) {
+      EXPECT_EQ(Vec3(s.placement.points.col(trial->stays)), trial->place.point);
+      EXPECT_TRUE(s.triangulation.is_gone(h / 3));
+    }
+  }
+}
+
+TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
+  constexpr double longest = 1.1;
+  int allowed = 0, refused = 0;
+  for (size_t k = 0; k < inner_edges(test::AdaptingScene(rough(), test::plane()).triangulation).size(); ++k) {
+    test::AdaptingScene s(rough(), test::plane());
+    const int h = inner_edges(s.triangulation)[k];
+    const double before = std::max(longest_at(s.adapting, s.triangulation.from(h)),
+                                   longest_at(s.adapting, s.triangulation.to(h)));
+    const int v = collapse_edge(s.adapting, h, {.longest = longest});
+    (v < 0 ? refused : allowed)++;
+    if (v >= 0) {
+      EXPECT_LE(longest_at(s.adapting, v), std::max(longest, before) + 1e-9);
+    }
+  }
+  EXPECT_GT(allowed, 0);
+  EXPECT_GT(refused, 0);
+}
+
+/// Of the faces at the vertex, their edges there and what is across their sides.
+WorstShape worst_at(const AdaptingMesh& m, int v) {
+  const Triangulation& t = m.triangulation;
+  const Mat3X &X = m.placement.points, &N = m.placement.normals;
+  WorstShape worst;
+  for (int spoke : t.outgoing(v)) {
+    const auto f = static_cast<size_t>(spoke / 3);
+    worst.cotangent = std::max(worst.cotangent, greatest_cotangent(X, t.faces()[f]));
+    worst.alignment = std::min(worst.alignment, face_alignment(X, N, t.faces()[f], t.sides()[f]));
+    for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)}) {
+      const Edge edge = {t.from(h), t.to(h)}, sides = {t.side(h), t.side(Triangulation::next(h))};
+      if (edge[0] == v || edge[1] == v)
+        worst.sagitta =
+            std::max(worst.sagitta, edge_sagitta(X, N, edge, sides) / target_length(m, edge[0], edge[1]));
+      if (!t.is_border(h))
+        worst.fold = std::min(worst.fold,
+                              cosine_between(X, t.faces()[f], t.faces()[static_cast<size_t>(t.twin(h) / 3)]));
+    }
+  }
+  return worst;
+}
+
+/// Every so many-th edge that may collapse, in a mesh of its own: what the ring foresees is there afterwards.
+template <typename MakeScene>
+void expect_rings_to_foresee(const MakeScene& make_scene, int every) {
+  int collapses = 0;
+  for (int h = 0; h < make_scene()->triangulation.half_edge_count(); h += every) {
+    const auto s = make_scene();
+    const std::optional<Collapse> trial = try_collapse(s->adapting, h, {.longest = 3});
+    if (!trial) continue;
+    const WorstShape foreseen = MergedRing(s->adapting, h, trial->stays).worst(trial->place);
+    ASSERT_EQ(collapse_edge(s->adapting, h, {.longest = 3}), trial->stays);
+    const WorstShape seen = worst_at(s->adapting, trial->stays);
+    EXPECT_NEAR(foreseen.cotangent, seen.cotangent, 1e-12);
+    EXPECT_NEAR(foreseen.alignment, seen.alignment, 1e-12);
+    EXPECT_NEAR(foreseen.fold, seen.fold, 1e-12);
+    EXPECT_NEAR(foreseen.sagitta, seen.sagitta, 1e-12);
+    ++collapses;
+  }
+  EXPECT_GT(collapses, 5);
+}
+
+TEST(MergedRing, ForeseesWhatIsThereAfterwards) {
+  expect_rings_to_foresee([] { return std::make_unique<test::AdaptingScene>(rough(), test::plane()); }, 11);
+  expect_rings_to_foresee(
+      [] { return std::make_unique<test::AdaptingScene>(test::sphere(2, .2), test::unit_sphere()); }, 11);
+}
+
+TEST(MergedRing, ForeseesItOnBothSidesOfACrease) {
+  std::vector<Edge> row;
+  for (int v = cells / 2 * (cells + 1); row.size() < cells; ++v) row.push_back({v, v + 1});
+  const auto creased = [&] {
+    auto s = std::make_unique<test::AdaptingScene>(test::grid(cells, test::flat), test::plane(), row);
+    for (int& wanted : s->curve_edges.wanted) wanted = 1;
+    return s;
+  };
+  expect_rings_to_foresee(creased, 1);
+}
+
+TEST(EdgeCollapses, DoNotDependOnThreads) {
+  std::vector<Mat3X> points;
+  std::vector<std::vector<Triangle>> faces;
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    test::AdaptingScene s(rough(), test::plane());
+    for (double& length : s.vertex_length) length *= 1.5;
+    count_curve_edges(s.adapting, .1);
+    EXPECT_GT(collapse_short_edges(s.adapting, {}), cells);
+    compact(s.adapting);
+    points.push_back(s.placement.points);
+    faces.push_back(s.triangulation.faces());
+    const Connectivity c = make_connectivity(static_cast<int>(s.placement.points.cols()), faces.back());
+    EXPECT_EQ(measure_topology(c).euler, 1);
+  }
+  EXPECT_EQ(points[0], points[1]);
+  EXPECT_EQ(faces[0], faces[1]);
+}
+
+/// Though many edges of a curve that has a few too many are tried at once.
+TEST(EdgeCollapses, LeaveCurvesTheEdgesTheyWant) {
+  constexpr int n = 40;
+  test::AdaptingScene s(test::grid(n, test::flat), test::plane());
+  for (size_t v = 0; v < s.vertex_length.size(); ++v)
+    s.vertex_length[v] = (s.triangulation.on_boundary(static_cast<int>(v)) ? 1.1 : 1.) / n;
+  count_curve_edges(s.adapting, .1);
+  EXPECT_GT(collapse_short_edges(s.adapting, {.shortest = .95, .longest = 10}), 0);
+  ASSERT_EQ(s.curve_edges.wanted.size(), 4u);
+  for (size_t c = 0; c < 4; ++c) {
+    EXPECT_LT(s.curve_edges.wanted[c], n);
+    EXPECT_EQ(s.curve_edges.present[c], s.curve_edges.wanted[c]);
+  }
+}
+
+constexpr int fold_cells = 8;
+
+/// A grid whose middle vertex has been moved by so many cells.
+test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
+  test::Triangles t = test::grid(fold_cells, test::flat);
+  const Eigen::Index middle = fold_cells / 2 * (fold_cells + 2);
+  t.points.col(middle) += Vec3(cells_in_x, cells_in_y, 0) / fold_cells;
+  return t;
+}
+
+/// Of the faces that are left.
+struct Look {
+  int faces = 0;
+  double least_alignment = 1;
+};
+
+Look look_at(const AdaptingMesh& m) {
+  Look look;
+  for (size_t f = 0; f < m.triangulation.faces().size(); ++f) {
+    if (m.triangulation.is_gone(static_cast<int>(f))) continue;
+    const Triangle& t = m.triangulation.faces()[f];
+    ++look.faces;
+    look.least_alignment =
+        std::min(look.least_alignment, face_alignment(m.placement.points, m.placement.normals, t));
+  }
+  return look;
+}
+
+void expect_a_disk(test::AdaptingScene& s) {
+  compact(s.adapting);
+  const Connectivity c =
+      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces());
+  EXPECT_EQ(measure_topology(c).euler, 1);
+  EXPECT_EQ(measure_topology(c).boundary_loops, 1);
+}
+
+TEST(FaceCollapses, TakeOutFoldedFaces) {
+  test::AdaptingScene s(with_moved_middle(1.4, 0), test::plane());
+  ASSERT_LT(look_at(s.adapting).least_alignment, 0);
+  EXPECT_GE(collapse_folded_faces(s.adapting, folded_face_options()), 1);
+  const Look after = look_at(s.adapting);
+  EXPECT_GT(after.least_alignment, .99);
+  EXPECT_GE(after.faces, 2 * fold_cells * fold_cells - 4);
+  expect_a_disk(s);
+}
+
+TEST(FaceCollapses, LeaveGoodFacesAlone) {
+  test::AdaptingScene s(test::grid(fold_cells, test::flat), test::plane());
+  EXPECT_EQ(collapse_folded_faces(s.adapting, folded_face_options()), 0);
+  EXPECT_EQ(look_at(s.adapting).faces, 2 * fold_cells * fold_cells);
+}
+
+}  // namespace
+
+}  // namespace hooke

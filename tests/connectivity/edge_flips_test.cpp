@@ -1,0 +1,164 @@
+#include "hooke/connectivity/edge_flips.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hooke/integrator/guards.h"
+#include "support/flipping_scene.h"
+
+namespace hooke {
+namespace {
+
+double worst_opposite_angles(const Triangulation& t, const Mat3X& points) {
+  double worst = 0;
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.twin(h) >= 0) worst = std::max(worst, opposite_angles(t, points, h));
+  return worst;
+}
+
+/// The square (0,1) x (0,1) of two triangles; the far corner (vertex 2) is placed at will. The diagonal is
+/// 0-2.
+test::Triangles quad(const Vec3& corner) {
+  test::Triangles t;
+  t.points.resize(3, 4);
+  t.points.col(0) = Vec3(0, 0, 0);
+  t.points.col(1) = Vec3(1, 0, 0);
+  t.points.col(2) = corner;
+  t.points.col(3) = Vec3(0, 1, 0);
+  t.faces = {{0, 1, 2}, {0, 2, 3}};
+  return t;
+}
+
+/// Four faces about the inner vertex 4 of a square.
+test::Triangles fan_in_square(const Vec3& inner) {
+  test::Triangles t = quad(Vec3(1, 1, 0));
+  t.points.conservativeResize(3, 5);
+  t.points.col(4) = inner;
+  t.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  return t;
+}
+
+TEST(EdgeFlips, APlaneMeshBecomesDelaunay) {
+  test::Triangles t = test::grid(8, test::flat, .45, 5);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) t.points(0, v) *= 3;  // stretched: many flips to do
+  test::FlippingScene s(t, test::plane());
+  ASSERT_GT(worst_opposite_angles(s.triangulation, t.points), std::numbers::pi + .1);
+  EXPECT_GT(flip_to_delaunay(s.mesh, {}), 0);
+  EXPECT_LE(worst_opposite_angles(s.triangulation, t.points), std::numbers::pi + 1e-9);
+  EXPECT_EQ(flip_to_delaunay(s.mesh, {}), 0);
+}
+
+TEST(EdgeFlips, BoundaryEdgesStay) {
+  const test::Triangles t = test::grid(8, test::paraboloid, .45, 6);
+  test::FlippingScene s(t, test::plane());
+  ASSERT_GT(flip_to_delaunay(s.mesh, {}), 0);
+  const int n = static_cast<int>(t.points.cols());
+  EXPECT_EQ(test::boundary_edges(n, s.triangulation.faces()), test::boundary_edges(n, t.faces));
+  for (int h = 0; h < s.triangulation.half_edge_count(); ++h)
+    EXPECT_FALSE(s.triangulation.twin(h) < 0 && may_flip(s.mesh, h, {}));
+}
+
+TEST(EdgeFlips, NoFaceFoldsAndNoVertexLosesItsThirdEdgeOnASphere) {
+  const test::Triangles t = test::sphere(2, .35, 2);
+  test::FlippingScene s(t, test::unit_sphere());
+  ASSERT_GT(flip_to_delaunay(s.mesh, {}), 0);
+  for (const Triangle& f : s.triangulation.faces())
+    EXPECT_GE(face_alignment(s.placement.points, s.placement.normals, f), .3);
+  for (int v = 0; v < t.points.cols(); ++v) EXPECT_GE(s.triangulation.valence(v), 3);
+}
+
+TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
+  test::Triangles t = test::sphere(2, .35, 2);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    t.points.col(v) *= 1 + .35 * std::sin(static_cast<double>(7 * v));
+  const Surface rough = [](const Vec3& x, int anchor, double) {
+    return Foot{x, x.normalized(), anchor, FootStatus::converged, 1};
+  };
+  test::FlippingScene s(t, rough);
+  const FlipGuardOptions folds_only{.area_share = 0, .alignment = -2, .fold = .1, .sagitta = 99};
+  const auto cosine = [&](int a, int b) {
+    const int h = test::half_edge(s.triangulation, a, b);
+    return cosine_between(s.placement.points, s.triangulation.faces()[static_cast<size_t>(h / 3)],
+                          s.triangulation.faces()[static_cast<size_t>(s.triangulation.twin(h) / 3)]);
+  };
+  int allowed = 0, beside_folds = 0;
+  for (int h = 0; h < s.triangulation.half_edge_count(); ++h) {
+    const int a = s.triangulation.from(h), b = s.triangulation.to(h), c = s.triangulation.apex(h),
+              d = s.triangulation.apex(s.triangulation.twin(h));
+    if (!may_flip(s.mesh, h, folds_only)) continue;
+    const std::array<Edge, 4> rim = {Edge{b, c}, Edge{c, a}, Edge{a, d}, Edge{d, b}};
+    std::vector<double> before = {cosine(a, b)};
+    for (const auto& [from, to] : rim) before.push_back(cosine(from, to));
+    const Triangulation kept = s.triangulation;
+    s.triangulation.flip(h);
+    std::vector<double> after = {cosine(c, d)};
+    for (const auto& [from, to] : rim) after.push_back(cosine(from, to));
+    s.triangulation = kept;
+    for (size_t i = 0; i < before.size(); ++i) EXPECT_GE(after[i], std::min(folds_only.fold, before[i]));
+    ++allowed;
+    beside_folds += *std::ranges::min_element(before) < folds_only.fold;
+  }
+  EXPECT_GT(allowed, 0);
+  EXPECT_GT(beside_folds, 0);
+}
+
+TEST(EdgeFlips, AConvexQuadMayFlipAndADentedOneMayNot) {
+  test::FlippingScene convex(quad(Vec3(1, 1, 0)), test::plane());
+  convex.corner_valences = {2, 2, 3, 3};  // vertices 0 and 2 have three edges
+  EXPECT_FALSE(may_flip(convex.mesh, test::half_edge(convex.triangulation, 0, 2), {}));
+  convex.corner_valences = {2, 3, 2, 3};
+  EXPECT_TRUE(may_flip(convex.mesh, test::half_edge(convex.triangulation, 0, 2), {}));
+
+  test::FlippingScene dented(quad(Vec3(.3, .3, 0)), test::plane());
+  dented.corner_valences = {2, 3, 2, 3};
+  EXPECT_FALSE(may_flip(dented.mesh, test::half_edge(dented.triangulation, 0, 2), {}));
+  test::FlippingScene sliver(quad(Vec3(.501, .501, 0)), test::plane());
+  sliver.corner_valences = {2, 3, 2, 3};
+  EXPECT_FALSE(may_flip(sliver.mesh, test::half_edge(sliver.triangulation, 0, 2), {}));
+  EXPECT_TRUE(may_flip(sliver.mesh, test::half_edge(sliver.triangulation, 0, 2), {.area_share = 1e-4}));
+}
+
+TEST(EdgeFlips, NoEdgeIsDoubled) {
+  test::Triangles t;
+  t.points.resize(3, 4);
+  t.points << 1, -1, -1, 1, 1, -1, 1, -1, 1, 1, -1, -1;
+  t.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  test::FlippingScene s(t, test::unit_sphere());
+  for (int h = 0; h < 12; ++h) {
+    s.corner_valences.assign(4,
+                             4);  // valences forbid nothing: the ends may lose an edge, the others gain one
+    for (int end : {s.triangulation.from(h), s.triangulation.to(h)})
+      s.corner_valences[static_cast<size_t>(end)] = 2;
+    EXPECT_FALSE(may_flip(s.mesh, h, {.area_share = 0, .alignment = -1, .sagitta = 9}));
+  }
+}
+
+TEST(EdgeFlips, AVertexKeepsThreeEdges) {
+  test::FlippingScene s(fan_in_square(Vec3(.6, .55, 0)), test::plane());
+  ASSERT_EQ(s.triangulation.valence(4), 4);
+  for (int h : s.triangulation.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // the ends have three
+  s.corner_valences = {2, 2, 2, 2, 0};
+  for (int h : s.triangulation.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // corners want no more
+  s.corner_valences = {2, 4, 2, 4, 0};
+  EXPECT_TRUE(may_flip(s.mesh, test::half_edge(s.triangulation, 4, 0), {}));
+  s.triangulation.flip(test::half_edge(s.triangulation, 4, 0));
+  ASSERT_EQ(s.triangulation.valence(4), 3);
+  for (int h : s.triangulation.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));
+}
+
+TEST(EdgeFlips, AnEdgeDoesNotCutThroughASharpBend) {
+  test::FlippingScene s(quad(Vec3(1, 1, 0)), test::plane());
+  s.corner_valences = {2, 3, 2, 3};
+  const int h = test::half_edge(s.triangulation, 0, 2);
+  ASSERT_TRUE(may_flip(s.mesh, h, {}));
+  s.placement.normals.col(1) = Vec3(.8, -.6, .1).normalized();  // the new edge would join 1 and 3
+  s.placement.normals.col(3) = Vec3(-.6, .8, .1).normalized();
+  EXPECT_FALSE(may_flip(s.mesh, h, {}));
+  EXPECT_TRUE(may_flip(s.mesh, h, {.sagitta = 10}));
+}
+
+}  // namespace
+}  // namespace hooke

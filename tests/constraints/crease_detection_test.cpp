@@ -1,0 +1,127 @@
+#include "hooke/constraints/crease_detection.h"
+
+#include <gtest/gtest.h>
+
+#include "support/crease_solids.h"
+
+namespace hooke {
+namespace {
+
+std::vector<Edge> features_of(const test::Triangles& t, const FeatureOptions& options = {}) {
+  const Connectivity c = test::connect(t);
+  const std::vector<double> length(static_cast<size_t>(c.vertex_count), 1);
+  std::vector<Edge> edges;
+  for (int e : find_features(t.points, c, length, options)) edges.push_back(c.edges[static_cast<size_t>(e)]);
+  return edges;
+}
+
+/// A sheet n x n, bent along x = n / 2 by `degrees(y)`, in cells of 1.
+test::Triangles bent_sheet(int n, const std::function<double(double)>& degrees) {
+  test::Triangles t = test::grid(n, test::flat);
+  t.points *= n;
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    t.points(2, v) =
+        -std::abs(t.points(0, v) - .5 * n) * std::tan(degrees(t.points(1, v)) * std::numbers::pi / 360);
+  return t;
+}
+
+TEST(Features, ACubeHasItsTwelveEdges) {
+  EXPECT_EQ(features_of(test::cube()).size(), 12u);
+  EXPECT_EQ(features_of(test::irregular_cube(5)).size(), 60u);
+  EXPECT_EQ(features_of(test::moved(test::irregular_cube(5), .25)).size(), 60u);
+}
+
+TEST(Features, AnOpenBoxHasTheEdgesBetweenItsSidesToo) {
+  for (const int depth : {2, 5, 20}) {
+    test::Triangles box = test::cells(10, 10, depth, [](int, int, int) { return true; });
+    std::erase_if(box.faces, [&](const Triangle& f) {
+      return std::ranges::all_of(f, [&](int v) { return box.points(2, v) == depth; });
+    });
+    EXPECT_EQ(features_of(box).size(), static_cast<size_t>(4 * 10 + 4 * depth));
+  }
+}
+
+TEST(Features, OffMeansNone) {
+  EXPECT_TRUE(features_of(test::cube(), {.angle = 180}).empty());
+}
+
+TEST(Features, OnlyAnglesAboveTheThresholdCount) {
+  const auto bent = [](double degrees) {
+    return features_of(bent_sheet(20, [degrees](double) { return degrees; })).size();
+  };
+  EXPECT_EQ(bent(39), 0u);
+  EXPECT_EQ(bent(41), 20u);
+}
+
+/// Bent by 60 degrees at y = 0, by one less every cell.
+test::Triangles fading_sheet() {
+  return bent_sheet(60, [](double y) { return 60 - y; });
+}
+
+TEST(Features, AWeakerEdgeGoesOnFromASharpOne) {
+  const auto edges = [](const FeatureOptions& options) {
+    return static_cast<double>(features_of(fading_sheet(), options).size());
+  };
+  EXPECT_NEAR(edges({}), 36, 1);           // to 24 degrees
+  EXPECT_NEAR(edges({.weak = 1}), 20, 1);  // to 40
+}
+
+TEST(Features, AChainWithALooseEndIsLong) {
+  EXPECT_FALSE(features_of(fading_sheet()).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.least_edges = 40}).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.least_length = 40}).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.sharp_share = .7}).empty());
+}
+
+/// A sheet 40 x 40, curved with about this radius, with a crease of 60 degrees along x = 20 that fades at
+/// both ends.
+test::Triangles creased_sheet(double radius) {
+  test::Triangles t =
+      bent_sheet(40, [](double y) { return std::max(0., 60 - 4 * std::max(0., std::abs(y - 20) - 10)); });
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+    const double x = t.points(0, v) - 20, y = t.points(1, v) - 20;
+    t.points(2, v) -= (x * x + x * y + y * y) / (2 * radius);
+  }
+  return t;
+}
+
+/// `wide` x `n` cells, bent by 90 degrees half way along.
+test::Triangles bent_strip(int wide, int n) {
+  test::Triangles t = bent_sheet(n, [](double) { return 90; });
+  std::erase_if(t.faces, [&](const Triangle& f) {
+    return std::ranges::any_of(f, [&](int v) { return t.points(1, v) > wide; });
+  });
+  return t;
+}
+
+TEST(Features, AShortFoldFromBoundaryToBoundaryIsOneBetweenFlatSides) {
+  for (const int wide : {2, 3, 8})
+    EXPECT_EQ(features_of(bent_strip(wide, 12)).size(), static_cast<size_t>(wide));
+  // Ears that are folded up by chance, of a piece that is rough elsewhere too, are none.
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    test::Triangles t = test::grid(12, test::paraboloid, .4, seed);
+    const Connectivity c = test::connect(t);
+    for (int v = 0; v < c.vertex_count;
+         ++v)  // corners of faces that have two boundary edges, and their neighbours
+      if (c.vertex_faces[v].size() <= 2) t.points(2, v) += .3;
+    EXPECT_TRUE(features_of(t).empty()) << seed;
+  }
+}
+
+TEST(Features, AChainInTheMidstOfTheSurfaceLiesBetweenFlatFaces) {
+  EXPECT_GE(features_of(creased_sheet(1000)).size(), 20u);
+  EXPECT_TRUE(features_of(creased_sheet(15)).empty());
+  EXPECT_FALSE(features_of(creased_sheet(15), {.flat_bend = .1}).empty());
+}
+
+TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
+  EXPECT_TRUE(features_of(test::sphere(0)).empty());  // an icosahedron bends by 42 degrees everywhere
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    EXPECT_TRUE(features_of(test::sphere(2, .45, seed)).empty());
+    EXPECT_TRUE(features_of(test::shaken(test::sphere(2, 0, seed), .04, seed)).empty());
+    EXPECT_TRUE(features_of(test::shaken(test::grid(15, test::flat), .02, seed)).empty());
+  }
+}
+
+}  // namespace
+}  // namespace hooke

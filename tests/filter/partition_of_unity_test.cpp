@@ -1,0 +1,100 @@
+#include "hooke/filter/partition_of_unity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "hooke/mesh/normals.h"
+#include "support/meshes.h"
+#include "support/solids.h"
+
+namespace hooke {
+namespace {
+
+struct Covered {
+  test::Triangles mesh;
+  Connectivity connectivity = test::connect(mesh);
+  Mat3X normals = vertex_normals(mesh.points, connectivity);
+  Eigen::VectorXd edge_lengths = mean_edge_lengths(mesh.points, connectivity);
+  std::vector<char> unfolded = std::vector<char>(static_cast<size_t>(connectivity.vertex_count), 1);
+
+  PatchCover cover() const {
+    return PatchCover(mesh.points, connectivity, normals, edge_lengths, unfolded, {});
+  }
+};
+
+TEST(PatchCover, EveryVertexIsWellInsideAPatch) {
+  const Covered s{test::sphere(4, .2, 3)};
+  const PatchList all = s.cover().next(SIZE_MAX);
+  std::vector<double> nearest(s.unfolded.size(), 1e9);  // of the patches that hold the vertex, in radii
+  for (size_t p = 0; p < all.size(); ++p)
+    for (int v : all.members[static_cast<int>(p)]) {
+      const double d = (s.mesh.points.col(v) - s.mesh.points.col(all.centres[p])).norm() / all.radii[p];
+      nearest[static_cast<size_t>(v)] = std::min(nearest[static_cast<size_t>(v)], d);
+    }
+  for (double d : nearest) EXPECT_LE(d, PatchCoverOptions{}.coverage);
+}
+
+TEST(PatchCover, IsTheSameInPieces) {
+  const Covered s{test::sphere(3, .2, 3)};
+  const PatchList all = s.cover().next(SIZE_MAX);
+  PatchCover cover = s.cover();
+  size_t found = 0;
+  for (PatchList some = cover.next(7); some.size() > 0; some = cover.next(7))
+    for (size_t p = 0; p < some.size(); ++p, ++found) {
+      ASSERT_LT(found, all.size());
+      EXPECT_EQ(some.centres[p], all.centres[found]);
+      EXPECT_EQ(some.radii[p], all.radii[found]);
+      EXPECT_TRUE(
+          std::ranges::equal(some.members[static_cast<int>(p)], all.members[static_cast<int>(found)]));
+    }
+  EXPECT_EQ(found, all.size());
+}
+
+TEST(PatchCover, FoldedVerticesAreCentresOnlyWhereNothingElseCoversThem) {
+  Covered s{test::sphere(3, .2, 3)};
+  const int first = s.cover().next(1).centres[0];
+  s.unfolded[static_cast<size_t>(first)] = 0;
+  const PatchList all = s.cover().next(SIZE_MAX);
+  EXPECT_EQ(std::ranges::count(all.centres, first), 0);
+  std::ranges::fill(s.unfolded, 0);
+  EXPECT_EQ(s.cover().next(1).centres[0], first);
+}
+
+TEST(PatchGrower, FindsTheNearestVerticesAndThoseThatTie) {
+  const auto t = test::sphere(3);
+  const Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  const std::vector<char> unfolded(static_cast<size_t>(c.vertex_count), 1);
+  PatchGrower grower(t.points, c, t.points, unfolded);
+  for (int centre : {0, 17, 400}) {
+    grower.grow(centre, 30);
+    EXPECT_EQ(grower.members()[0], centre);
+    EXPECT_GE(grower.members().size(), 30u);
+    for (int v = 0; v < c.vertex_count; ++v) {
+      const bool held = std::ranges::count(grower.members(), v) > 0;
+      const double distance = (t.points.col(v) - t.points.col(centre)).norm();
+      EXPECT_EQ(held, distance <= grower.farthest() * (1 + 1e-6)) << v;
+    }
+    EXPECT_TRUE(grower.is_inside(centre));
+    EXPECT_FALSE(grower.is_inside(grower.members().back()));
+  }
+}
+
+TEST(PatchGrower, DoesNotCrossAKnifeEdge) {
+  // Two sheets that share a rim: the vertices 0 and 1; each sheet has a vertex of its own.
+  Mat3X points(3, 4);
+  points << 0, 1, .5, .5, 0, 0, 1, 1, 0, 0, .01, -.01;
+  const Connectivity c = make_connectivity(4, {{0, 1, 2}, {1, 0, 3}});
+  Mat3X normals(3, 4);
+  normals << 0, 0, 0, 0, -1, -1, 0, 0, 0, 0, 1, -1;
+  const std::vector<char> unfolded = {0, 0, 1, 1};
+  PatchGrower grower(points, c, normals, unfolded);
+  grower.grow(2, 30);
+  EXPECT_EQ(grower.members(), (std::vector<int>{2, 1, 0}));
+  EXPECT_TRUE(grower.is_inside(0));  // as far as the cone admits its ring
+}
+
+}  // namespace
+
+}  // namespace hooke

@@ -1,0 +1,425 @@
+#include "hooke/filter/surface_field.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
+#include "hooke/filter/partition_of_unity.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
+#include "support/meshes.h"
+#include "support/solids.h"
+
+namespace hooke {
+namespace {
+
+/// A cone of so many faces about vertex 0, and a strip around it.
+test::Triangles hub(int spokes) {
+  test::Triangles t{Mat3X(3, 1 + 2 * spokes), {}};
+  t.points.col(0) = Vec3(0, 0, .3);
+  for (int k = 0; k < spokes; ++k) {
+    const double angle = 2 * std::numbers::pi * k / spokes;
+    const Vec3 out(std::cos(angle), std::sin(angle), 0);
+    t.points.col(1 + k) = out;
+    t.points.col(1 + spokes + k) = 1.2 * out - .2 * Vec3::UnitZ();
+    const int next = (k + 1) % spokes;
+    t.faces.push_back({0, 1 + k, 1 + next});
+    t.faces.push_back({1 + k, 1 + spokes + k, 1 + spokes + next});
+    t.faces.push_back({1 + k, 1 + spokes + next, 1 + next});
+  }
+  return t;
+}
+
+double squared_distance_to_all(const test::Triangles& t, const Vec3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : t.faces)
+    least = std::min(
+        least,
+        closest_point_on_triangle(t.points.col(a), t.points.col(b), t.points.col(c), x).squared_distance);
+  return least;
+}
+
+TEST(NearFaces, NoFaceAboutTheAnchorIsCloser) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  for (const test::Triangles& t : {hub(60), hub(5), test::shaken(test::grid(2, test::flat), .2)}) {
+    const Connectivity c = test::connect(t);
+    const Mat3X normals = vertex_normals(t.points, c);
+    const NearFaces faces{t.points, normals, c};
+    for (int round = 0; round < 300; ++round) {
+      const Vec3 x(coordinate(random), coordinate(random), coordinate(random));
+      // All faces of a cone are about its tip or a neighbour of it; so are those of a grid of two by two.
+      const int anchor = t.faces.size() == 8 ? 4 : 0;
+      const Foot foot = faces.closest_point(x, anchor);
+      EXPECT_EQ(foot.status, FootStatus::converged);
+      EXPECT_NEAR((foot.point - x).squaredNorm(), squared_distance_to_all(t, x), 1e-12);
+      EXPECT_NEAR(foot.normal.norm(), 1, 1e-12);
+    }
+  }
+}
+
+TEST(NearFaces, AFaceWithinADistanceIsNoFartherThanTheClosestOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
+  const test::Triangles t = test::shaken(test::grid(4, test::flat), .1);
+  const Connectivity c = test::connect(t);
+  const Mat3X normals = vertex_normals(t.points, c);
+  const NearFaces faces{t.points, normals, c};
+  int within = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Vec3 x(coordinate(random), coordinate(random), .1 * coordinate(random));
+    const Foot foot = faces.closest_point(x, 12);
+    const double distance = (foot.point - x).norm();
+    EXPECT_FALSE(faces.has_face_within(x, 12, .999 * distance));
+    within += faces.has_face_within(x, foot.anchor, 1.001 * distance);  // the foot is on one of its faces
+  }
+  EXPECT_EQ(within, 300);
+}
+
+TEST(NearFaces, AnAnchorWithoutFacesHasNoFoot) {
+  test::Triangles t = test::equilateral();
+  t.points.conservativeResize(3, 4);
+  t.points.col(3) = Vec3(5, 5, 5);
+  const Connectivity c = test::connect(t);
+  const Mat3X normals = vertex_normals(t.points, c);
+  const Foot foot = NearFaces{t.points, normals, c}.closest_point(Vec3(1, 2, 3), 3);
+  EXPECT_EQ(foot.status, FootStatus::no_cover);
+  EXPECT_EQ(foot.point, Vec3(1, 2, 3));
+}
+
+std::shared_ptr<const Connectivity> shared_connectivity(const test::Triangles& t) {
+  return std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+}
+
+SurfaceField field_of(const test::Triangles& t, const FilterOptions& options = {}) {
+  return SurfaceField(std::make_shared<const Mat3X>(t.points), shared_connectivity(t), options);
+}
+
+struct Start {
+  Vec3 point;
+  int anchor;
+};
+
+/// Random places of the faces, moved along the face normals by up to `off`.
+std::vector<Start> starts_near(const test::Triangles& t, double off, int per_face = 1) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Start> starts;
+  for (const auto& [a, b, c] : t.faces)
+    for (int i = 0; i < per_face; ++i) {
+      double u = unit(random), v = unit(random);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const Vec3 p = t.points.col(a), ab = t.points.col(b) - p, ac = t.points.col(c) - p;
+      starts.push_back({p + u * ab + v * ac + (2 * unit(random) - 1) * off * ab.cross(ac).normalized(), a});
+    }
+  return starts;
+}
+
+double mean_edge(const test::Triangles& t) {
+  const auto c = shared_connectivity(t);
+  double sum = 0;
+  for (const auto& [a, b] : c->edges) sum += (t.points.col(a) - t.points.col(b)).norm();
+  return sum / static_cast<double>(c->edges.size());
+}
+
+test::Triangles joined(const test::Triangles& a, const test::Triangles& b) {
+  test::Triangles t{Mat3X(3, a.points.cols() + b.points.cols()), a.faces};
+  t.points << a.points, b.points;
+  const int shift = static_cast<int>(a.points.cols());
+  for (const auto& [i, j, k] : b.faces) t.faces.push_back({i + shift, j + shift, k + shift});
+  return t;
+}
+
+class EveryField : public testing::TestWithParam<FilterOptions> {};
+INSTANTIATE_TEST_SUITE_P(SurfaceField, EveryField,
+                         testing::Values(FilterOptions{FilterKind::local, Kernel::r2logr, .3},
+                                         FilterOptions{FilterKind::local, Kernel::r3, .3},
+                                         FilterOptions{FilterKind::global, Kernel::r2logr, .02},
+                                         FilterOptions{FilterKind::global, Kernel::r3, .3}));
+
+TEST_P(EveryField, IsZeroAtEveryVertex) {
+  for (const auto& t : {test::sphere(2, .3), test::grid(12, test::paraboloid, .4)}) {
+    const SurfaceField field = field_of(t, GetParam());
+    const auto c = shared_connectivity(t);
+    const double h = mean_edge(t);
+    for (int v = 0; v < c->vertex_count; ++v) {
+      const FieldSample s = field.sample(t.points.col(v), v);
+      EXPECT_LT(std::abs(s.value), 1e-10 * h);
+      EXPECT_GT(s.gradient.dot(field.normals().col(v)), .8);
+      for (int n : c->vertex_neighbours[v])  // other patches: they agree, but not to the last digit
+        EXPECT_LT(std::abs(field.sample(t.points.col(v), n).value), 1e-3 * h);
+    }
+  }
+}
+
+TEST_P(EveryField, FindsTheSphereBetweenItsVertices) {
+  const auto t = test::sphere(3, .3);
+  const double h = mean_edge(t);
+  const SurfaceField field = field_of(t, GetParam());
+  double sum = 0;
+  const auto starts = starts_near(t, .2 * h);
+  for (const Start& s : starts) {
+    const Foot foot = field.project(s.point, s.anchor, 1e-8 * h);
+    ASSERT_EQ(foot.status, FootStatus::converged);
+    EXPECT_LT(std::abs(field.sample(foot.point, foot.anchor).value), 2e-8 * h);
+    EXPECT_NEAR(foot.normal.dot(foot.point), 1, 1e-3);
+    EXPECT_LT((foot.point - s.point.normalized()).norm(), .01 * h);
+    sum += std::pow(foot.point.norm() - 1, 2);
+  }
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(starts.size())), 5e-4 * h);
+}
+
+TEST_P(EveryField, FindsAPlaneExactly) {
+  const auto t = test::grid(10, test::flat, .4);
+  const SurfaceField field = field_of(t, GetParam());
+  for (const Start& s : starts_near(t, .02)) {
+    const Foot foot = field.project(s.point, s.anchor, 1e-14);
+    EXPECT_EQ(foot.status, FootStatus::converged);
+    EXPECT_LT((foot.point - Vec3(s.point[0], s.point[1], 0)).norm(), 1e-11);
+    EXPECT_LT((foot.normal - Vec3::UnitZ()).norm(), 1e-9);
+  }
+}
+
+TEST_P(EveryField, HasSaneFeetAtOpenRims) {
+  const int n = 12;
+  const auto t = test::grid(n, test::paraboloid, .3);
+  const SurfaceField field = field_of(t, GetParam());
+  for (int i = 0; i < n; ++i) {
+    const double along = (i + .5) / n;
+    const Vec3 x(along, 0, test::paraboloid(along, 0) + .3 / n);
+    const Foot foot = field.project(x, i, 1e-9);
+    EXPECT_EQ(foot.status, FootStatus::converged);
+    EXPECT_LT(std::abs(foot.point[2] - test::paraboloid(foot.point[0], foot.point[1])), .02 / n);
+    EXPECT_GT(foot.normal.dot(Vec3(-x[0], 0, 1).normalized()), .99);
+  }
+}
+
+TEST_P(EveryField, MovesAndTurnsWithTheMesh) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(1, -2, .5).normalized()).toRotationMatrix();
+  const Vec3 shift(3, -4, 5);
+  for (const auto& t : {test::sphere(2), test::sphere(2, .3), test::grid(12, test::paraboloid)}) {
+    test::Triangles moved = t;
+    moved.points = (turn * t.points).colwise() + shift;
+    const SurfaceField field = field_of(t, GetParam()), moved_field = field_of(moved, GetParam());
+    for (const Start& s : starts_near(t, .02)) {
+      const Foot foot = field.project(s.point, s.anchor, 1e-12);
+      const Foot there = moved_field.project(turn * s.point + shift, s.anchor, 1e-12);
+      EXPECT_LT((turn * foot.point + shift - there.point).norm(), 1e-9);
+      EXPECT_LT((turn * foot.normal - there.normal).norm(), 1e-8);
+    }
+  }
+}
+
+TEST_P(EveryField, ScalesExactlyByPowersOfTwo) {
+  const auto t = test::sphere(2, .3);
+  for (double scale : {1024., 1 / 4096.}) {
+    test::Triangles scaled = t;
+    scaled.points *= scale;
+    const SurfaceField field = field_of(t, GetParam()), scaled_field = field_of(scaled, GetParam());
+    for (const Start& s : starts_near(t, .02)) {
+      const Foot foot = field.project(s.point, s.anchor, 1e-7);
+      const Foot there = scaled_field.project(scale * s.point, s.anchor, scale * 1e-7);
+      EXPECT_EQ(there.point, scale * foot.point);
+      EXPECT_EQ(there.normal, foot.normal);
+    }
+  }
+}
+
+TEST_P(EveryField, DoesNotDependOnTheNumberOfThreads) {
+  const auto t = test::sphere(3, .3);
+  const auto feet = [&](int threads) {
+    const ThreadLimit limit(threads);
+    const SurfaceField field = field_of(t, GetParam());
+    std::vector<Foot> result;
+    for (const Start& s : starts_near(t, .02)) result.push_back(field.project(s.point, s.anchor, 1e-7));
+    return result;
+  };
+  const auto one = feet(1), many = feet(4);
+  for (size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].point, many[i].point);
+    EXPECT_EQ(one[i].normal, many[i].normal);
+  }
+}
+
+TEST(SurfaceField, KeepsCloseSheetsApart) {
+  const auto lower = test::grid(24, test::paraboloid, .3);
+  auto upper = lower;
+  const double h = mean_edge(lower);
+  upper.points.row(2).array() += .3 * h;
+  for (Triangle& f : upper.faces) std::swap(f[1], f[2]);
+  const auto t = joined(lower, upper);
+  const SurfaceField field = field_of(t);
+  const int on_lower = static_cast<int>(lower.points.cols());
+  for (const Start& s : starts_near(t, .25 * h, 3)) {
+    const bool is_lower = s.anchor < on_lower;
+    const Foot foot = field.project(s.point, s.anchor, 1e-6 * h);
+    EXPECT_EQ(foot.anchor < on_lower, is_lower);
+    const double height = foot.point[2] - test::paraboloid(foot.point[0], foot.point[1]);
+    EXPECT_NEAR(height, is_lower ? 0 : .3 * h, .03 * h);
+    EXPECT_GT((is_lower ? 1 : -1) * foot.normal[2], 0);
+  }
+}
+
+TEST(SurfaceField, WorksOnTheSmallestComponents) {
+  test::Triangles triangle{Mat3X(3, 3), {{0, 1, 2}}};
+  triangle.points << 0, 1, 0, 0, 0, 1, 0, 0, 0;
+  test::Triangles tetrahedron{Mat3X(3, 4), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  tetrahedron.points << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  tetrahedron.points.array() += 10;
+  const auto strip = test::grid(2, test::paraboloid);
+  const auto t = joined(joined(triangle, tetrahedron), joined(test::sphere(0), strip));
+  const SurfaceField field = field_of(t);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+    const Vec3 p = t.points.col(v);
+    const Foot foot = field.project(p, static_cast<int>(v), 1e-9);
+    EXPECT_LT((foot.point - p).norm(), 1e-9) << v;
+  }
+  const Foot foot = field.project({.3, .3, .1}, 0, 1e-12);
+  EXPECT_LT((foot.point - Vec3(.3, .3, 0)).norm(), 1e-12);
+}
+
+TEST(SurfaceField, OfDegenerateFacesFallsBackToTheFacesThemselves) {
+  test::Triangles t{Mat3X(3, 5), {{0, 1, 2}, {0, 2, 3}}};
+  t.points << 0, 1, 2, 3, 9, 0, 0, 0, 0, 9, 0, 0, 0, 0, 9;  // all faces on a line; vertex 4 has none
+  const SurfaceField field = field_of(t);
+  const Foot foot = field.project({.5, 1, 0}, 0, 1e-9);
+  EXPECT_NE(foot.status, FootStatus::converged);
+  EXPECT_LT((foot.point - Vec3(.5, 0, 0)).norm(), 1e-15);
+  const Foot lonely = field.project({9, 9, 8}, 4, 1e-9);
+  EXPECT_EQ(lonely.status, FootStatus::no_cover);
+  EXPECT_EQ(lonely.point, Vec3(9, 9, 8));
+  EXPECT_TRUE(lonely.normal.isZero(0));
+}
+
+TEST(SurfaceField, SurvivesDoubledVerticesAndFoldedFaces) {
+  auto t = test::grid(12, test::paraboloid, .3);
+  t.points.col(6 * 13 + 6) = t.points.col(6 * 13 + 7);  // two faces collapse
+  t.points.col(3 * 13 + 3) +=
+      1.6 * (t.points.col(3 * 13 + 4) - t.points.col(3 * 13 + 3));  // a ring folds over
+  const double h = 1 / 12.;
+  const SurfaceField field = field_of(t);
+  for (const Start& s : starts_near(test::grid(12, test::paraboloid, .3), .1 * h)) {
+    const Foot foot = field.project(s.point, s.anchor, 1e-6 * h);
+    EXPECT_LT(std::abs(foot.point[2] - test::paraboloid(foot.point[0], foot.point[1])), .05 * h);
+    EXPECT_GT(foot.normal[2], 0);
+  }
+}
+
+TEST(SurfaceField, FarFromTheSurfaceAnswersWithTheClosestPointAndSaysSo) {
+  const auto t = test::sphere(2, .2);
+  const Foot foot = field_of(t).project({3, .2, .1}, 0, 1e-9);
+  EXPECT_EQ(foot.status, FootStatus::no_cover);
+  const Foot closest = field_of(t, {.kind = FilterKind::closest}).project({3, .2, .1}, 0, 1e-9);
+  EXPECT_EQ(foot.point, closest.point);
+  EXPECT_EQ(foot.normal, closest.normal);
+  EXPECT_NEAR(foot.normal.norm(), 1, 1e-12);
+}
+
+TEST(SurfaceField, ClosestIsThatOfAllFaces) {
+  const auto t = test::sphere(2, .3);
+  const SurfaceField field = field_of(t, {.kind = FilterKind::closest});
+  for (const Start& s : starts_near(t, .1)) {
+    double least = INFINITY;
+    for (const auto& [a, b, c] : t.faces)
+      least = std::min(least,
+                       closest_point_on_triangle(t.points.col(a), t.points.col(b), t.points.col(c), s.point)
+                           .squared_distance);
+    const Foot foot = field.project(s.point, 0, 1e-9);  // whatever the anchor it comes from
+    EXPECT_NEAR((foot.point - s.point).norm(), std::sqrt(least), 1e-12);
+    EXPECT_EQ(foot.status, FootStatus::converged);
+    EXPECT_NEAR(field.sample(s.point, foot.anchor).value,
+                (foot.point.dot(foot.normal) < s.point.dot(foot.normal) ? 1 : -1) * std::sqrt(least), 1e-12);
+  }
+}
+
+/// A sphere whose cap is cut off and closed by long triangles about one vertex.
+test::Triangles capped_sphere() {
+  test::Triangles t = test::sphere(3);
+  const int apex = 0;
+  const double height = .6;
+  const auto gone = [&](int v) { return t.points(2, v) > height; };
+  t.points.col(apex) = Vec3(0, 0, 1);
+  std::vector<Triangle> faces;
+  for (Triangle face : t.faces) {
+    const auto of_cap = std::ranges::count_if(face, gone);
+    if (of_cap > 1) continue;
+    for (int& v : face)
+      if (gone(v)) v = apex;
+    faces.push_back(face);
+  }
+  t.points.col(apex) = Vec3(0, 0, height);
+  return {t.points, faces};
+}
+
+TEST(SurfaceField, StaysWithinReachOfTheFaces) {
+  const auto t = capped_sphere();
+  const double h = mean_edge(t), reach = .3 * h;
+  const SurfaceField free = field_of(t), limited = field_of(t, {.reach = reach});
+  const SurfaceField faces = field_of(t, {.kind = FilterKind::closest});
+  const auto height = [&](const Foot& f) {
+    return (faces.project(f.point, f.anchor, 1e-9).point - f.point).norm();
+  };
+  int beyond = 0;
+  for (const Start& s : starts_near(t, .01 * h, 20)) {
+    const Foot as_fitted = free.project(s.point, s.anchor, 1e-9),
+               foot = limited.project(s.point, s.anchor, 1e-9);
+    EXPECT_LE(height(foot), (1 + 1e-6) * reach);
+    if (height(as_fitted) <= reach) {
+      EXPECT_EQ(foot.point, as_fitted.point);
+      continue;
+    }
+    ++beyond;
+    EXPECT_NEAR(height(foot), reach, 1e-6 * reach);
+    EXPECT_GT(foot.normal.dot(faces.project(foot.point, foot.anchor, 1e-9).normal), 0);
+    EXPECT_LT((limited.project(foot.point, foot.anchor, 1e-9).point - foot.point).norm(), 1e-6 * h);
+  }
+  EXPECT_GT(beyond, 50);
+}
+
+TEST(SurfaceField, ReachCountsInTheLengthsOfTheVertices) {
+  const auto t = capped_sphere();
+  const double h = mean_edge(t);
+  const std::vector<double> lengths(static_cast<std::size_t>(t.points.cols()), h);
+  const SurfaceField a = field_of(t, {.reach = .5 * h});
+  const SurfaceField b(std::make_shared<const Mat3X>(t.points), shared_connectivity(t), {.reach = .5}, {},
+                       lengths);
+  for (const Start& s : starts_near(t, .01 * h))
+    EXPECT_LT((a.project(s.point, s.anchor, 1e-9).point - b.project(s.point, s.anchor, 1e-9).point).norm(),
+              1e-6 * h);
+}
+
+TEST(SurfaceField, NoneLeavesPointsAlone) {
+  const SurfaceField field = field_of(test::sphere(1), {.kind = FilterKind::none});
+  const Foot foot = field.project({0, 0, 1.5}, 0, 1e-9);
+  EXPECT_EQ(foot.point, Vec3(0, 0, 1.5));
+  EXPECT_GT(foot.normal[2], .8);
+}
+
+TEST(SurfaceField, GlobalRefusesWhatItCannotDo) {
+  const auto t = test::sphere(2);
+  EXPECT_THROW(field_of(t, {.kind = FilterKind::global, .memory_limit_bytes = 1000}), LimitError);
+  test::Triangles point = t;
+  point.points.setOnes();
+  EXPECT_THROW(field_of(point, {.kind = FilterKind::global}), NumericalError);
+}
+
+TEST(SurfaceField, SurfaceOutlivesItsField) {
+  const Surface surface = field_of(test::sphere(2)).surface();  // the field is gone
+  EXPECT_NEAR(surface({1.05, 0, 0}, 0, 1e-9).point.norm(), 1, 1e-3);
+}
+
+TEST(PartitionOfUnity, LeavesNoVertexWithoutAPatchAndFitsThemAllAsWanted) {
+  const auto t = test::sphere(3, .3);
+  const auto c = shared_connectivity(t);
+  const Mat3X normals = vertex_normals(t.points, *c);
+  const PartitionOfUnity psi(t.points, *c, normals, mean_edge_lengths(t.points, *c));
+  EXPECT_EQ(psi.count(PatchFit::as_wanted), psi.patch_count());
+  EXPECT_LT(psi.memory_bytes() / 642, 500u);
+  for (int v = 0; v < c->vertex_count; ++v) EXPECT_NEAR(psi(t.points.col(v), v).gradient.norm(), 1, .1);
+}
+
+}  // namespace
+
+}  // namespace hooke

@@ -1,0 +1,207 @@
+#include "hooke/geometry/aabb_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "support/solids.h"
+
+namespace hooke {
+namespace {
+
+/// Closest point by a fine walk over the triangle: slow, and true to about 1 / steps.
+double sampled_distance(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr int steps = 60;
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; i + j <= steps; ++j)
+      best = std::min(best, (x - (a + double(i) / steps * (b - a) + double(j) / steps * (c - a))).norm());
+  return best;
+}
+
+TEST(ClosestPoint, KnownCases) {
+  const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).point, Vec3(1, 1, 0));
+  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).squared_distance, 9);
+  EXPECT_EQ(closest_point({-1, -1, 0}, a, b, c).point, a);
+  EXPECT_EQ(closest_point({1, -2, 0}, a, b, c).point, Vec3(1, 0, 0));
+  EXPECT_EQ(closest_point({4, 4, 1}, a, b, c).point, Vec3(2, 2, 0));
+  EXPECT_EQ(closest_point({9, -1, 0}, a, b, c).point, b);
+}
+
+TEST(ClosestPoint, AgreesWithSampling) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const auto point = [&] { return Vec3(u(random), u(random), u(random)); };
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 a = point(), b = point(), c = point(), x = 2 * point();
+    const ClosestPoint p = closest_point(x, a, b, c);
+    const double sampled = sampled_distance(x, a, b, c);
+    EXPECT_NEAR((x - p.point).norm(), std::sqrt(p.squared_distance), 1e-12);
+    EXPECT_LE(std::sqrt(p.squared_distance), sampled + 1e-12);
+    EXPECT_NEAR(std::sqrt(p.squared_distance), sampled, .05);
+  }
+}
+
+TEST(ClosestPoint, TriangleWithoutAreaIsItsEdges) {
+  const ClosestPoint p = closest_point({1, 1, 0}, {0, 0, 0}, {2, 0, 0}, {4, 0, 0});
+  EXPECT_EQ(p.point, Vec3(1, 0, 0));
+  EXPECT_EQ(closest_point({1, 1, 0}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}).point, Vec3(3, 3, 3));
+}
+
+TEST(Barycentric, WeightsRebuildThePoint) {
+  const Vec3 a(0, 0, 0), b(4, 0, 1), c(0, 4, 2), x = .2 * a + .5 * b + .3 * c;
+  EXPECT_TRUE(barycentric(x, a, b, c).isApprox(Vec3(.2, .5, .3), 1e-14));
+  EXPECT_EQ(barycentric(x, a, a, a), Vec3::Constant(1. / 3));
+  EXPECT_EQ(barycentric(b, a, b, c), Vec3(0, 1, 0));
+}
+
+TEST(BoundingVolumeTree, ClosestPointEqualsBruteForce) {
+  const test::Triangles t = test::shaken(test::sphere(2), .1);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-2, 2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 x(u(random), u(random), u(random));
+    ClosestPoint best;
+    best.squared_distance = std::numeric_limits<double>::infinity();
+    for (size_t f = 0; f < t.faces.size(); ++f) {
+      const auto& [a, b, c] = t.faces[f];
+      const ClosestPoint p = closest_point(x, t.points.col(a), t.points.col(b), t.points.col(c));
+      if (p.squared_distance >= best.squared_distance) continue;
+      best = p;
+      best.face = static_cast<int>(f);
+    }
+    const ClosestPoint found = tree.closest(x);
+    ASSERT_EQ(found.squared_distance, best.squared_distance);
+    ASSERT_EQ(found.point, best.point);
+  }
+}
+
+TEST(BoundingVolumeTree, PointOnAVertexHasDistanceZero) {
+  const test::Triangles t = test::sphere(3, .2);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    EXPECT_LT(tree.closest(t.points.col(v)).squared_distance, 1e-30);
+}
+
+TEST(BoundingVolumeTree, PairsOfBoxesThatMeetAreAllVisitedOnce) {
+  const test::Triangles t = test::shaken(test::sphere(2), .3);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  using Face = BoundingVolumeTree::Face;
+  std::multiset<std::array<int, 2>> visited, expected;
+  const auto visit = [&](const Face& f, const Face& g) {
+    visited.insert({std::min(f.id, g.id), std::max(f.id, g.id)});
+  };
+  const size_t half = tree.parts() / 2;  // parts may be asked for in any grouping
+  tree.for_each_meeting_pair(half, tree.parts(), visit);
+  tree.for_each_meeting_pair(0, half, visit);
+  for (const Face& f : tree.faces())
+    for (const Face& g : tree.faces())
+      if (f.id < g.id && f.box().intersects(g.box())) expected.insert({f.id, g.id});
+  EXPECT_EQ(visited, expected);
+}
+
+TEST(BoundingVolumeTree, FacesInItsOrderAreThoseItWasMadeOf) {
+  const test::Triangles t = test::sphere(3, .2);
+  const BoundingVolumeTree tree(t.points, t.faces);
+  ASSERT_EQ(tree.faces().size(), t.faces.size());
+  std::set<int> ids;
+  for (const BoundingVolumeTree::Face& face : tree.faces()) {
+    ids.insert(face.id);
+    EXPECT_EQ(face.vertices, t.faces[static_cast<size_t>(face.id)]);
+    for (size_t k = 0; k < 3; ++k) EXPECT_EQ(face.corners[k], t.points.col(face.vertices[k]));
+  }
+  EXPECT_EQ(ids.size(), t.faces.size());
+}
+
+TEST(BoundingVolumeTree, OrderOfFacesCanBeGivenAndChangesNoAnswer) {
+  const test::Triangles t = test::shaken(test::sphere(3), .1), moved = test::shaken(test::sphere(3), .2);
+  const std::vector<int> order = BoundingVolumeTree(t.points, t.faces).order();
+  const BoundingVolumeTree own(moved.points, moved.faces), given(moved.points, moved.faces, order);
+  EXPECT_EQ(given.order(), order);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-2, 2);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 x(u(random), u(random), u(random));
+    EXPECT_EQ(own.closest(x).squared_distance, given.closest(x).squared_distance);
+    EXPECT_EQ(own.closest(x).face, given.closest(x).face);
+  }
+}
+
+TEST(BoundingVolumeTree, SegmentsAreTrianglesThatRepeatAVertex) {
+  const test::Triangles t = test::triangles({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 1}, {1, 2, 2}});
+  const BoundingVolumeTree tree(t.points, t.faces);
+  EXPECT_EQ(tree.closest({1, 3, 0}).point, Vec3(2, 2, 0));
+  EXPECT_EQ(tree.closest({1, -1, 0}).point, Vec3(1, 0, 0));
+}
+
+TEST(BoundingVolumeTree, EmptyTreeFindsNothing) {
+  const BoundingVolumeTree tree(Mat3X(3, 0), {});
+  EXPECT_TRUE(tree.empty());
+  EXPECT_EQ(tree.closest({0, 0, 0}).face, -1);
+  EXPECT_EQ(tree.closest({0, 0, 0}).squared_distance, std::numeric_limits<double>::infinity());
+  tree.for_each_meeting_pair(0, tree.parts(), [](const auto&, const auto&) { FAIL(); });
+}
+
+struct Item {
+  std::uint64_t key;
+  int id;
+};
+
+/// Keys of up to so many bits, some of them alike.
+std::vector<Item> random_items(size_t count, int bits) {
+  std::mt19937_64 random(count);
+  std::vector<Item> items;
+  for (size_t i = 0; i < count; ++i)
+    items.push_back({i % 3 == 0 && i > 0 ? items[i / 2].key : random() >> (64 - bits), static_cast<int>(i)});
+  return items;
+}
+
+TEST(RadixSort, IsAStableSort) {
+  for (size_t count : {0, 1, 2, 16, 17, 100, 5000, 100000})
+    for (int bits : {1, 5, 40, 64}) {
+      std::vector<Item> items = random_items(count, bits), expected = items, parallel = items;
+      std::vector<Item> buffer(count);
+      const auto key = [](const Item& item) { return item.key; };
+      std::ranges::stable_sort(expected, {}, &Item::key);
+      radix_sort<Item>(items, buffer, key);
+      parallel_radix_sort<Item>(parallel, buffer, key);
+      for (size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(items[i].id, expected[i].id);
+        ASSERT_EQ(parallel[i].id, expected[i].id);
+      }
+    }
+}
+
+TEST(SpatialOrder, GoesFromNeighbourToNeighbourInAGrid) {
+  constexpr int n = 16;
+  std::vector<Vec3> grid;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) grid.emplace_back(i, j, k);
+  const std::vector<int> order = spatial_order(grid);
+  for (size_t i = 1; i < order.size(); ++i)
+    ASSERT_EQ((grid[static_cast<size_t>(order[i])] - grid[static_cast<size_t>(order[i - 1])]).norm(), 1);
+}
+
+TEST(SpatialOrder, HasEveryIdOnceAndKeepsTheirOrderWherePointsCoincide) {
+  EXPECT_TRUE(spatial_order({}).empty());
+  EXPECT_EQ(spatial_order({Vec3::Ones(), Vec3::Ones(), Vec3::Ones()}), (std::vector<int>{0, 1, 2}));
+  std::vector<Vec3> points;
+  for (int i = 0; i < 1000; ++i) points.push_back(1e-40 * Vec3(i % 7, i % 11, i % 13));
+  std::vector<int> order = spatial_order(points);
+  std::ranges::sort(order);
+  std::vector<int> ids(points.size());
+  std::iota(ids.begin(), ids.end(), 0);
+  EXPECT_EQ(order, ids);
+}
+
+}  // namespace
+
+}  // namespace hooke

@@ -1,0 +1,134 @@
+#include "hooke/integrator/angle_search.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/integrator/angle_springs.h"
+#include "hooke/integrator/lbfgs.h"
+#include "support/remeshed.h"
+#include "support/scene.h"
+
+namespace hooke {
+namespace {
+
+/// Irregular connectivity, whose springs are at rest.
+test::Triangles irregular(unsigned seed) {
+  test::Triangles t = test::grid(8, test::flat, .3, seed);
+  test::split_at_centres(t, 5, 9);
+  return t;
+}
+
+struct Outcome {
+  double angle_before = 0, angle_after = 0, error_before = 0, error_after = 0;
+  int upside_down = 0;
+  AngleSearchResult result = {};
+  Mat3X points = {}, points_before = {};
+};
+
+Outcome search(const test::Triangles& t, const AngleSearchOptions& options = {}) {
+  test::Scene s(t, test::to_ground);
+  Relaxation r = s.relaxation();
+  relax_lbfgs(r, {}, {}, nullptr);
+  const auto angle = [&] { return least_angle(s.placement.points, t.faces); };
+  const auto error = [&] {
+    return relative_edge_deviation(s.placement.points, s.connectivity.edges, s.targets);
+  };
+  Outcome o;
+  o.angle_before = angle();
+  o.error_before = error();
+  o.points_before = s.placement.points;
+  o.result = search_angles(r, options);
+  o.angle_after = angle();
+  o.error_after = error();
+  for (const Triangle& f : t.faces) o.upside_down += test::area_vector(s.placement.points, f)[2] <= 0;
+  o.points = s.placement.points;
+  return o;
+}
+
+TEST(AngleSearch, EndsWhereAFaceHasNoArea) {
+  test::Triangles t = test::grid(6, test::flat);
+  const int on_edge = static_cast<int>(t.points.cols());
+  t.points.conservativeResize(3, on_edge + 1);
+  t.points.col(on_edge) = .5 * (t.points.col(2) + t.points.col(3));
+  t.faces.push_back({3, 2, on_edge});
+  const test::Outcome o = test::remeshed(t, RemeshOptions{});
+  EXPECT_TRUE(o.points.allFinite());
+}
+
+TEST(AngleSearch, RaisesTheLeastAngleForLittleOfTheEdges) {
+  double risen = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    AngleSearchOptions options;
+    options.edge_error_limit = 1.03;
+    const Outcome o = search(irregular(seed), options);
+    EXPECT_GE(o.angle_after, o.angle_before);
+    EXPECT_LE(o.error_after, 1.03 * o.error_before);
+    EXPECT_EQ(o.upside_down, 0);
+    risen += o.angle_after - o.angle_before;
+  }
+  EXPECT_GT(risen / 6, .2);
+}
+
+TEST(AngleSearch, NamesTheVerticesThatMoved) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Outcome o = search(irregular(seed));
+    const std::vector<int>& named = o.result.vertices;
+    EXPECT_GT(o.result.moves, 0);
+    EXPECT_TRUE(std::ranges::is_sorted(named));
+    EXPECT_EQ(std::ranges::adjacent_find(named), named.end());
+    for (Eigen::Index v = 0; v < o.points.cols(); ++v)
+      EXPECT_TRUE(o.points.col(v) == o.points_before.col(v) ||
+                  std::ranges::binary_search(named, static_cast<int>(v)))
+          << v;
+  }
+}
+
+TEST(AngleSearch, MayPayMoreWhereItIsAllowedTo) {
+  AngleSearchOptions dear;
+  dear.edge_error_limit = 1.2;
+  const Outcome cheap = search(irregular(3)), better = search(irregular(3), dear);
+  EXPECT_GT(better.angle_after, cheap.angle_after + 1);
+  EXPECT_LE(better.error_after, 1.2 * better.error_before);
+}
+
+TEST(AngleSearch, SagittasMayGrowWhereThatIsWorthIt) {
+  double risen = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const auto with = [&](double sagitta) {
+      test::SceneOptions tight;
+      tight.guards.sagitta = .05;
+      test::Scene s(test::sphere(2, .4, seed), test::to_unit_sphere, tight);
+      const auto greatest_sagitta = [&] {
+        double greatest = 0;
+        for (const Edge& e : s.connectivity.edges)
+          greatest = std::max(greatest, edge_sagitta(s.placement.points, s.placement.normals, e) / s.L());
+        return greatest;
+      };
+      const double before = greatest_sagitta();
+      Relaxation r = s.relaxation();
+      search_angles(r, {.edge_error_limit = 1.1, .sagitta = sagitta});
+      EXPECT_LE(greatest_sagitta(), std::max(sagitta, before) + 1e-6);
+      return least_angle(s.placement.points, s.connectivity.faces);
+    };
+    const double within = with(0), beyond = with(.15);
+    EXPECT_GE(beyond, within);
+    risen += beyond - within;
+  }
+  EXPECT_GT(risen / 6, .2);
+}
+
+TEST(AngleSearch, LeavesAPerfectMeshAlone) {
+  test::Triangles t = test::grid(6, test::flat);
+  for (auto x : t.points.colwise()) x = Vec3(x[0] - .5 * x[1], std::sqrt(.75) * x[1], 0);
+  EXPECT_EQ(search(t).result.moves, 0);
+}
+
+TEST(AngleSearch, OneThreadAndTwoGiveTheSameBits) {
+  const Mat3X two = search(irregular(2)).points;
+  const ThreadLimit one(1);
+  EXPECT_EQ(search(irregular(2)).points, two);
+}
+
+}  // namespace
+}  // namespace hooke

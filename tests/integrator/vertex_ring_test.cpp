@@ -1,0 +1,161 @@
+#include "hooke/integrator/vertex_ring.h"
+
+#include <gtest/gtest.h>
+
+#include "support/named_terms.h"
+#include "support/scene.h"
+
+namespace hooke {
+namespace {
+
+/// The corner angles of the faces of a vertex.
+std::vector<double> angles_about(const test::Scene& s, int vertex) {
+  std::vector<double> angles;
+  for (int f : s.connectivity.vertex_faces[vertex])
+    for (size_t k = 0; k < 3; ++k) {
+      const auto corner = [&](size_t i) {
+        return Vec3(s.placement.points.col(s.connectivity.faces[static_cast<size_t>(f)][(k + i) % 3]));
+      };
+      const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0);
+      angles.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
+    }
+  return angles;
+}
+
+/// A mesh with slivers and folds on a sphere and a grid with a boundary, looked at vertex by vertex.
+class RingLaws : public testing::TestWithParam<test::NamedTerms> {
+ protected:
+  test::SceneOptions options() const {
+    test::SceneOptions o;
+    o.terms = GetParam().terms;
+    return o;
+  }
+  test::Scene sphere_{test::sphere(2, .45, 7), test::to_unit_sphere, options()};
+  test::Scene ground_ = test::ground_scene(.45, options());
+
+  template <class Law>
+  void for_each_ring(const Law& law) {
+    for (test::Scene* s : {&sphere_, &ground_}) {
+      VertexRing ring(s->sweeps.spokes, s->targets);
+      for (int v = 0; v < s->connectivity.vertex_count; ++v) {
+        ring.gather(s->placement, v);
+        law(*s, ring, v);
+      }
+    }
+  }
+  static RingModel model(const test::Scene& s, const VertexRing& ring, int v, const Vec3& x, const Vec3& a,
+                         const Vec3& b) {
+    RingShape shape;
+    ring.shape(x, s.placement.normals.col(v), shape);
+    return ring.model(shape, s.energy.terms, a, b);
+  }
+};
+
+TEST_P(RingLaws, TheEnergyChangesAsThatOfTheWholeMesh) {
+  for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
+    const Vec3 x = s.placement.points.col(v), n = s.placement.normals.col(v);
+    RingShape here, there;
+    const Vec3 y = x + .05 * s.L() * n.unitOrthogonal();
+    ring.shape(x, n, here);
+    ring.shape(y, n, there);
+    const double before = s.energy(s.placement, nullptr);
+    s.placement.points.col(v) = y;
+    const double after = s.energy(s.placement, nullptr);
+    s.placement.points.col(v) = x;
+    EXPECT_NEAR(ring.energy(there, s.energy.terms) - ring.energy(here, s.energy.terms), after - before,
+                1e-10 * before);
+  });
+}
+
+TEST_P(RingLaws, TheModelHasTheEnergyAndItsGradient) {
+  for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
+    Mat3X gradient;
+    s.energy(s.placement, &gradient);
+    const Vec3 n = s.placement.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
+    RingShape here;
+    ring.shape(s.placement.points.col(v), n, here);
+    const RingModel m = ring.model(here, s.energy.terms, a, b);
+    EXPECT_NEAR(m.energy, ring.energy(here, s.energy.terms), 1e-13 * m.energy);
+    EXPECT_NEAR(m.gradient[0], gradient.col(v).dot(a), 1e-10 * (1 + gradient.col(v).norm()));
+    EXPECT_NEAR(m.gradient[1], gradient.col(v).dot(b), 1e-10 * (1 + gradient.col(v).norm()));
+  });
+}
+
+TEST_P(RingLaws, TheHessianEqualsDifferencesOfTheGradient) {
+  for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
+    const double t = s.energy.terms.angle > 0 ? s.energy.terms.angle_threshold : 0;
+    if (std::ranges::any_of(angles_about(s, v), [t](double a) { return a >= t && a <= angle_felt * t; }))
+      return;
+    const Vec3 x = s.placement.points.col(v);
+    const Vec3 a =
+        (s.placement.normals.col(v).unitOrthogonal() + .2 * s.placement.normals.col(v)).normalized();
+    const Vec3 b = s.placement.normals.col(v).cross(a).normalized();
+    const double h = 1e-6 * s.L();
+    Eigen::Matrix2d differences;
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 step = h * (k == 0 ? a : b);
+      differences.col(k) =
+          (model(s, ring, v, x + step, a, b).gradient - model(s, ring, v, x - step, a, b).gradient) / (2 * h);
+    }
+    const Eigen::Matrix2d hessian = model(s, ring, v, x, a, b).hessian;
+    // A term that begins or ends within the step spoils its difference: second derivatives jump there.
+    if ((differences - differences.transpose()).norm() > 1e-4 * differences.norm()) return;
+    EXPECT_LT((hessian - differences).norm(), 1e-3 * differences.norm()) << v;
+  });
+}
+
+TEST_P(RingLaws, TheHessianDoesNotLeapWhereAnglesReachTheirThreshold) {
+  const EnergyTerms terms = GetParam().terms;
+  for_each_ring([&terms](test::Scene& s, const VertexRing& ring, int v) {
+    const Vec3 n = s.placement.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
+    RingShape here;
+    ring.shape(s.placement.points.col(v), n, here);
+    const auto hessian = [&](double threshold) {
+      EnergyTerms moved = terms;
+      moved.angle_threshold = threshold;
+      return ring.model(here, moved, a, b).hessian;
+    };
+    for (double angle : angles_about(s, v)) {
+      const Eigen::Matrix2d below = hessian((1 - 1e-9) * angle), above = hessian((1 + 1e-9) * angle);
+      EXPECT_LT((above - below).norm(), 1e-6 * above.norm()) << v;
+    }
+  });
+}
+
+EnergyTerms all() {
+  EnergyTerms t;
+  t.string = .7;
+  t.altitude = 1.3;
+  t.angle = 2;
+  t.angle_threshold = 1.2;
+  return t;
+}
+EnergyTerms unfolding() {
+  EnergyTerms t;
+  t.unfold = 1;
+  t.unfold_below = .95;
+  return t;
+}
+INSTANTIATE_TEST_SUITE_P(All, RingLaws,
+                         testing::Values(test::NamedTerms{"strings", test::only_strings()},
+                                         test::NamedTerms{"altitudes", EnergyTerms{}},
+                                         test::NamedTerms{"angles", test::only_angles()},
+                                         test::NamedTerms{"all", all()},
+                                         test::NamedTerms{"unfold", unfolding()}),
+                         [](const auto& i) { return std::string(i.param.name); });
+
+TEST(VertexRing, AFaceWithoutAreaHasAFiniteModel) {
+  const test::Scene s(
+      test::triangles({{0, 0, 0}, {1, 0, 0}, {.5, 0, 0}, {.5, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}),
+      test::to_ground);
+  VertexRing ring(s.sweeps.spokes, s.targets);
+  RingShape shape;
+  ring.gather(s.placement, 2);
+  ring.shape(s.placement.points.col(2), Vec3::UnitZ(), shape);
+  const RingModel m = ring.model(shape, s.energy.terms, Vec3::UnitX(), Vec3::UnitY());
+  EXPECT_TRUE(std::isfinite(m.energy) && m.gradient.allFinite() && m.hessian.allFinite());
+  EXPECT_LT(m.gradient[1], 0);  // pushed open
+}
+
+}  // namespace
+}  // namespace hooke

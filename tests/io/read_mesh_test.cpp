@@ -1,0 +1,134 @@
+#include "hooke/io/read_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "hooke/core/error.h"
+#include "hooke/io/sha256.h"
+#include "hooke/io/write_mesh.h"
+#include "support/errors.h"
+#include "support/meshes.h"
+#include "support/solids.h"
+#include "support/temporary_folder.h"
+
+namespace hooke {
+namespace {
+
+using test::read_text;
+using test::TemporaryFolder;
+using test::write_text;
+
+// A sphere with every awkward kind of number among its coordinates.
+test::Triangles awkward() {
+  test::Triangles t = test::sphere(2, .2);
+  const double numbers[] = {
+      4.9e-324, -1e-320, 1e-300, -0., .1, 1. / 3, 123456789.123456789, 2.2250738585072011e-308};
+  Eigen::Index v = 0;
+  for (const double x : numbers) t.points(v % 3, v) = x, ++v;
+  return t;
+}
+
+void expect_same_bits(const TriMesh& mesh, const test::Triangles& t) {
+  EXPECT_EQ(triangles_of(mesh), t.faces);
+  const auto points = positions(mesh);
+  ASSERT_EQ(points.cols(), t.points.cols());
+  for (Eigen::Index k = 0; k < points.size(); ++k)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(points.data()[k]),
+              std::bit_cast<std::uint64_t>(t.points.data()[k]))
+        << k;
+}
+
+TEST(ReadMesh, EveryFormatReturnsEveryBitOfTheMesh) {
+  const TemporaryFolder folder;
+  const test::Triangles t = awkward();
+  const TriMesh mesh = test::to_mesh(t);
+  for (const auto& [name, encoding] : {std::pair{"a.obj", PlyEncoding::ascii},
+                                       {"b.off", PlyEncoding::ascii},
+                                       {"c.ply", PlyEncoding::ascii},
+                                       {"d.ply", PlyEncoding::binary_little_endian},
+                                       {"e.ply", PlyEncoding::binary_big_endian}}) {
+    PendingMesh written = prepare_mesh(folder / name, mesh, format_of(name), encoding);
+    written.file.commit();
+    const LoadedMesh loaded = read_mesh(folder / name);
+    expect_same_bits(loaded.mesh, t);
+    EXPECT_TRUE(loaded.warnings.empty());
+    EXPECT_EQ(loaded.format, format_of(name));
+    if (loaded.format == "ply") {
+      EXPECT_EQ(loaded.encoding, encoding);
+    }
+    EXPECT_EQ(loaded.sha256, written.sha256);
+    // Once more: the bytes are a fixed point.
+    EXPECT_EQ(mesh_bytes(loaded.mesh, loaded.format, encoding), read_text(folder / name));
+  }
+  EXPECT_EQ(folder.file_count(), 5u);
+}
+
+TEST(ReadMesh, LaysTheMeshOut) {
+  const TemporaryFolder folder;
+  const test::Triangles t = test::shuffled(test::sphere(2));
+  prepare_mesh(folder / "m.off", test::to_mesh(t), "off").file.commit();
+  const LoadedMesh loaded = read_mesh(folder / "m.off");
+  const Layout expected = lay_out(loaded.mesh);
+  EXPECT_EQ(loaded.layout.order.old_vertex, expected.order.old_vertex);
+  EXPECT_EQ(loaded.layout.order.old_face, expected.order.old_face);
+  EXPECT_EQ(loaded.layout.connectivity->faces, expected.connectivity->faces);
+  EXPECT_EQ(loaded.layout.connectivity->edges, expected.connectivity->edges);
+  EXPECT_EQ(loaded.connectivity_sha256, connectivity_sha256(t.faces));
+}
+
+TEST(ReadMesh, WarningsNameTheVerticesOfTheFile) {
+  const TemporaryFolder folder;
+  test::Triangles t = test::shuffled(test::two_parts_and_loose_vertices());
+  std::vector<bool> used(static_cast<size_t>(t.points.cols()));
+  for (const Triangle& face : t.faces)
+    for (int v : face) used[static_cast<size_t>(v)] = true;
+  std::string loose;
+  for (size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) loose += (loose.empty() ? "" : ", ") + std::to_string(v);
+  prepare_mesh(folder / "m.off", test::to_mesh(t), "off").file.commit();
+  const LoadedMesh loaded = read_mesh(folder / "m.off");
+  ASSERT_EQ(loaded.warnings.size(), 1u);
+  EXPECT_TRUE(test::has(loaded.warnings[0].message, "vertices " + loose)) << loaded.warnings[0].message;
+}
+
+TEST(ReadMesh, GathersTheWarningsOfEachStep) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nvn 0 0 1\nf 1 2 3 4\n");
+  const LoadedMesh loaded = read_mesh(folder / "m.obj");
+  EXPECT_EQ(loaded.mesh.n_vertices(), 5u);
+  EXPECT_EQ(loaded.mesh.n_faces(), 2u);
+  std::vector<std::string> codes;
+  for (const Warning& warning : loaded.warnings) codes.push_back(warning.code);
+  EXPECT_EQ(codes,
+            (std::vector<std::string>{"attributes_not_kept", "polygons_triangulated", "isolated_vertices"}));
+}
+
+TEST(ReadMesh, ABadMeshIsNamedByTheLinesOfItsPolygons) {
+  const TemporaryFolder folder;
+  const auto path = folder / "m.obj";
+  write_text(path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n");
+  const std::string message = test::message_of<MeshError>([&] { read_mesh(path); });
+  EXPECT_TRUE(test::has(message, path.native() + ": ")) << message;
+  EXPECT_TRUE(test::has(message, "edges 0-1, faces 0 (line 6), 1 (line 7)")) << message;
+}
+
+TEST(ReadMesh, ErrorsOfEachKindKeepTheirKind) {
+  const TemporaryFolder folder;
+  write_text(folder / "points.obj", "v 0 0 0\n");
+  write_text(folder / "bad.obj", "v 0 0 x\n");
+  EXPECT_THROW(read_mesh(folder / "points.obj"), MeshError);
+  EXPECT_THROW(read_mesh(folder / "bad.obj"), InputError);
+  EXPECT_THROW(read_mesh(folder / "m.stl"), InputError);
+  EXPECT_THROW(mesh_bytes(test::to_mesh(test::sphere(0)), "stl"), Error);
+  EXPECT_THROW(prepare_mesh(folder / "no/m.obj", test::to_mesh(test::sphere(0)), "obj"), OutputError);
+}
+
+TEST(Sha256, AgreesWithTheStandardsExamples) {
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,58 @@
+#include "hooke/io/vertex_lists.h"
+
+#include <gtest/gtest.h>
+
+#include "hooke/core/error.h"
+#include "support/errors.h"
+#include "support/temporary_folder.h"
+
+namespace hooke {
+namespace {
+
+TEST(IdList, ReadsOneIdALine) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "ids", "# corners\n0\n\n  7 # the tip\n3\n");
+  EXPECT_EQ(read_id_list(folder / "ids", 8), (std::vector{0, 7, 3}));
+}
+
+TEST(IdList, NamesTheLineOfWhatIsNotAnId) {
+  const test::TemporaryFolder folder;
+  const auto read = [&](const char* text) {
+    test::write_text(folder / "ids", text);
+    return read_id_list(folder / "ids", 8);
+  };
+  const std::string name = (folder / "ids").string();
+  EXPECT_ERROR(InputError, name + ":2: vertex id 8; expected 0 to 7", read("1\n8\n"));
+  EXPECT_ERROR(InputError, name + ":1: vertex id -1; expected 0 to 7", read("-1\n"));
+  EXPECT_ERROR(InputError, name + ":1: more than one value", read("1 2\n"));
+  EXPECT_ERROR(InputError, name + ":3: ", read("1\n2\nx\n"));
+  EXPECT_ERROR(InputError, (folder / "none").string(), read_id_list(folder / "none", 8));
+}
+
+TEST(LengthList, ReadsOneLengthALine) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "lengths", "# m\n1\n\n  .25 # the tip\n3e-2\n");
+  EXPECT_EQ(read_length_list(folder / "lengths", 3), (std::vector{1., .25, .03}));
+}
+
+TEST(LengthList, NamesTheLineOfWhatIsNoLength) {
+  const test::TemporaryFolder folder;
+  const std::string name = (folder / "lengths").string();
+  const auto read = [&](const char* text) {
+    test::write_text(folder / "lengths", text);
+    return read_length_list(folder / "lengths", 3);
+  };
+  EXPECT_ERROR(InputError, name + ":2: length 0; expected a positive number", read("1\n0\n1\n"));
+  EXPECT_ERROR(InputError, name + ":1: length -1; expected a positive number", read("-1\n1\n1\n"));
+  for (const char* word : {"nan", "inf", "1e999", "x", "1,5"})
+    EXPECT_ERROR(InputError, name + ":3: ", read((std::string("1\n2\n") + word + "\n").c_str()));
+  EXPECT_ERROR(InputError, name + ":1: more than one value", read("1 2\n1\n1\n"));
+  EXPECT_ERROR(InputError, name + ":5: more than 3 lengths", read("1\n1\n1\n\n1\n"));
+  EXPECT_ERROR(InputError, name + ": 2 lengths for 3 vertices", read("1\n1\n"));
+  EXPECT_ERROR(InputError, name, read(""));
+  EXPECT_ERROR(InputError, (folder / "none").string(), read_length_list(folder / "none", 3));
+}
+
+}  // namespace
+
+}  // namespace hooke

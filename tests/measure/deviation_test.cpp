@@ -1,0 +1,170 @@
+#include "hooke/measure/deviation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hooke/core/parallel.h"
+#include "support/solids.h"
+
+namespace hooke {
+namespace {
+
+Deviation measure(const test::Triangles& reference, const test::Triangles& result) {
+  return measure_deviation(reference.points, test::connect(reference), result.points, test::connect(result));
+}
+
+test::Triangles shifted(test::Triangles t, const Vec3& by) {
+  t.points.colwise() += by;
+  return t;
+}
+
+TEST(Deviation, OfAMeshFromItselfIsZero) {
+  for (const test::Triangles& t : {test::sphere(3, .2), test::grid(8, test::paraboloid, .3), test::cube()}) {
+    const Deviation d = measure(t, t);
+    EXPECT_EQ(d.displacement->max, 0);
+    EXPECT_LT(d.to_reference.max, 1e-15);
+    EXPECT_LT(d.from_reference.max, 1e-15);
+    EXPECT_NEAR(d.normal_deviation.max, 0, 1e-6);
+    EXPECT_EQ(d.flipped_faces, 0u);
+    EXPECT_EQ(d.area_change, 0);
+  }
+}
+
+TEST(Deviation, OfAPlaneLiftedAlongItsNormalIsTheLift) {
+  const test::Triangles plane = test::grid(6, test::flat);
+  const Deviation d = measure(plane, shifted(plane, {0, 0, .25}));
+  EXPECT_DOUBLE_EQ(d.displacement->max, .25);
+  EXPECT_DOUBLE_EQ(d.displacement->rms, .25);
+  for (const MaxRms& m : {d.to_reference, d.from_reference}) {
+    EXPECT_DOUBLE_EQ(m.max, .25);
+    EXPECT_DOUBLE_EQ(m.rms, .25);
+  }
+  EXPECT_EQ(d.normal_deviation.max, 0);
+  EXPECT_DOUBLE_EQ(*d.boundary_to_reference, .25);
+  EXPECT_DOUBLE_EQ(*d.boundary_from_reference, .25);
+  EXPECT_DOUBLE_EQ(d.diagonal, std::numbers::sqrt2);
+  EXPECT_FALSE(d.volume_change);
+}
+
+TEST(Deviation, RmsIntegratesQuadraticsExactly) {
+  // The lift grows linearly from 0 at one corner to 3 at the opposite edge of a triangle: the square's mean
+  // over the area is 3^2 * (mean of (1 - s)^2) = 9 / 2.
+  const auto flat = test::triangles({{-90, -90, 0}, {90, -90, 0}, {0, 90, 0}}, {{0, 1, 2}});
+  const auto tilted = test::triangles({{0, 0, 0}, {1e-4, 0, 3}, {0, 1e-4, 3}}, {{0, 1, 2}});
+  EXPECT_NEAR(measure(flat, tilted).to_reference.rms, std::sqrt(4.5), 1e-12);
+  EXPECT_NEAR(measure(flat, tilted).to_reference.max, 3, 1e-12);
+}
+
+TEST(Deviation, OfConcentricSpheresIsTheGap) {
+  const test::Triangles inner = test::sphere(4);
+  test::Triangles outer = inner;
+  outer.points *= 1.5;
+  const Deviation d = measure(inner, outer);
+  EXPECT_NEAR(d.to_reference.max, .5, .01);
+  EXPECT_NEAR(d.from_reference.rms, .5, .01);
+  EXPECT_NEAR(*d.area_change, 1.25, 1e-12);
+  EXPECT_NEAR(*d.volume_change, 2.375, 1e-12);
+  EXPECT_FALSE(d.boundary_to_reference);
+}
+
+TEST(Deviation, WorksBetweenDifferentConnectivities) {
+  const Deviation d = measure(test::grid(3, test::flat), test::grid(10, test::flat, .3));
+  EXPECT_FALSE(d.displacement);
+  EXPECT_LT(d.to_reference.max, 1e-15);
+  EXPECT_LT(d.from_reference.max, 1e-15);
+  EXPECT_LT(*d.boundary_to_reference, 1e-15);
+  EXPECT_NEAR(*d.area_change, 0, 1e-14);
+  EXPECT_EQ(d.flipped_faces, 0u);
+}
+
+TEST(Deviation, DirectionsAreToldApart) {  // the small square lies in the large one, not the other way round
+  test::Triangles large = test::grid(4, test::flat);
+  large.points.topRows(2) *= 3;
+  const Deviation d = measure(large, test::grid(4, test::flat));
+  EXPECT_LT(d.to_reference.max, 1e-15);
+  EXPECT_DOUBLE_EQ(d.from_reference.max, 2 * std::numbers::sqrt2);
+  EXPECT_DOUBLE_EQ(*d.boundary_from_reference, 2 * std::numbers::sqrt2);
+  EXPECT_DOUBLE_EQ(*d.boundary_to_reference, 1);
+}
+
+TEST(Deviation, NormalDeviationIsTheTiltInDegrees) {
+  const auto flat = test::triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const double s = std::sin(std::numbers::pi / 6), c = std::cos(std::numbers::pi / 6);
+  const auto tilted = test::triangles({{0, 0, 0}, {1, 0, 0}, {0, c, s}}, {{0, 1, 2}});
+  EXPECT_NEAR(measure(flat, tilted).normal_deviation.max, 30, 1e-12);
+  EXPECT_NEAR(measure(flat, tilted).normal_deviation.rms, 30, 1e-12);
+}
+
+TEST(Deviation, FacesTurnedOverAreCounted) {
+  const test::Triangles t = test::grid(4, test::flat);
+  test::Triangles folded = t;
+  folded.points.col(12) += Vec3(.3, .0, 0);  // past its right neighbour
+  size_t expected = 0;
+  for (const Triangle& f : t.faces) {
+    const Vec3 a = folded.points.col(f[0]), b = folded.points.col(f[1]), c = folded.points.col(f[2]);
+    expected += (b - a).cross(c - a).z() < 0;
+  }
+  EXPECT_GT(expected, 0u);
+  EXPECT_EQ(measure(t, folded).flipped_faces, expected);
+  EXPECT_GE(measure(t, folded).opposing_faces.size(), expected);
+
+  test::Triangles inside_out = test::sphere(2);
+  for (Triangle& f : inside_out.faces) std::swap(f[0], f[1]);
+  EXPECT_EQ(measure(test::sphere(2), inside_out).flipped_faces, inside_out.faces.size());
+}
+
+TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {
+  // Its second face is folded back over the first; the result lies over it, the right way up.
+  const auto folded =
+      test::triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.1, .1, .1}}, {{0, 1, 2}, {2, 1, 3}});
+  const auto above = test::triangles({{.3, .3, .2}, {.5, .3, .2}, {.3, .5, .2}, {5, 0, 0}}, {{0, 1, 2}});
+  EXPECT_EQ(measure(folded, above).opposing_faces, std::vector<int>{0});
+  const test::Triangles t = test::grid(4, test::flat);
+  EXPECT_TRUE(measure(t, t).opposing_faces.empty());
+}
+
+TEST(Deviation, WhichOfTwoFacesAtAFoldIsTheCloserDoesNotMatter) {
+  // The reference is folded back along the y axis, and the result's face lies beyond that edge.
+  const auto beyond = test::triangles({{.1, 0, 0}, {.3, 0, 0}, {.2, .3, 0}}, {{0, 1, 2}});
+  for (const bool upper_first : {true, false}) {
+    test::Triangles folded =
+        test::triangles({{0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {-1, 0, -.2}}, {{0, 1, 2}, {1, 0, 3}});
+    if (!upper_first) std::swap(folded.faces[0], folded.faces[1]);
+    EXPECT_EQ(measure(folded, beyond).opposing_faces, std::vector<int>{0});
+  }
+}
+
+TEST(Deviation, RigidMotionOfBothChangesNothingAndScaleScales) {
+  const test::Triangles a = test::sphere(3, .1, 1), b = test::sphere(3, .3, 2);
+  const Deviation d = measure(a, b), e = measure(test::moved(a, 10), test::moved(b, 10));
+  EXPECT_NEAR(e.to_reference.max, 10 * d.to_reference.max, 1e-9);
+  EXPECT_NEAR(e.from_reference.rms, 10 * d.from_reference.rms, 1e-9);
+  EXPECT_NEAR(e.displacement->max, 10 * d.displacement->max, 1e-9);
+  EXPECT_NEAR(e.normal_deviation.rms, d.normal_deviation.rms, 1e-6);
+  EXPECT_NEAR(*e.volume_change, *d.volume_change, 1e-10);
+  EXPECT_EQ(e.flipped_faces, d.flipped_faces);
+}
+
+TEST(Deviation, ThreadsChangeNothing) {
+  const test::Triangles a = test::grid(40, test::paraboloid, .2), b = test::grid(40, test::paraboloid, .4, 2);
+  const Deviation many = measure(a, b);
+  const ThreadLimit one(1);
+  const Deviation single = measure(a, b);
+  EXPECT_EQ(single.to_reference.rms, many.to_reference.rms);
+  EXPECT_EQ(single.from_reference.max, many.from_reference.max);
+  EXPECT_EQ(single.normal_deviation.rms, many.normal_deviation.rms);
+  EXPECT_EQ(single.boundary_to_reference, many.boundary_to_reference);
+}
+
+TEST(Deviation, FromAnEmptyReferenceIsInfinite) {
+  const test::Triangles empty{Mat3X(3, 0), {}};
+  const Deviation d = measure(empty, test::cube());
+  EXPECT_TRUE(std::isinf(d.to_reference.max));
+  EXPECT_FALSE(d.displacement || d.area_change || d.volume_change);
+  EXPECT_EQ(d.flipped_faces, 0u);
+}
+
+}  // namespace
+}  // namespace hooke

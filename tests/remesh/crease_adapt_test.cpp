@@ -1,0 +1,156 @@
+// What mode adapt keeps of a solid with sharp edges.
+#include <gtest/gtest.h>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/measure/quality.h"
+#include "hooke/mesh/topology.h"
+#include "support/crease_outcome.h"
+
+namespace hooke {
+namespace {
+
+using test::natural, test::Outcome, test::remeshed;
+
+RemeshOptions adapting() {
+  RemeshOptions options;
+  options.connectivity = ConnectivityMode::adapt;
+  options.flips = flip_options(Effort::fast);
+  options.adaptation = adapt_options(Effort::fast);
+  options.map = true;
+  return options;
+}
+
+/// As many faces as the length asks for, and a sound surface.
+/// Right angles on round rims are some a little less.
+void expect_sound(const Outcome& o, double faces, bool round = false) {
+  EXPECT_NEAR(static_cast<double>(o.faces.size()), faces, std::max(2.5, .03 * faces));
+  const Connectivity c = make_connectivity(static_cast<int>(o.points.cols()), o.faces);
+  EXPECT_EQ(measure_topology(c).euler, 2);
+  const Quality quality = measure_quality(o.points, c, std::vector<double>(c.edges.size(), 1.));
+  if (!round) {
+    EXPECT_EQ(quality.folded_edges, 0u);
+  }
+  EXPECT_EQ(quality.self_intersections.value_or(1), 0u);
+  EXPECT_TRUE(o.result.folded_faces.empty());
+}
+
+TEST(CreaseAdapt, ACubeStaysACube) {
+  const test::Triangles t = test::irregular_cube(7);
+  for (double factor : {.35, 1., 3.}) {
+    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    expect_sound(o, static_cast<double>(t.faces.size()) / (factor * factor));
+    expect_flat_faces(t, o, 1e-9);
+    expect_same_creases(t, o, 1e-9);
+    EXPECT_EQ(o.result.creases.curves, 12);
+    EXPECT_EQ(o.result.creases.corners, 8);
+    EXPECT_EQ(o.result.creases.charts, 6);
+    EXPECT_GT(least_angle(o.points, o.faces), 30);
+  }
+}
+
+TEST(CreaseAdapt, AStepBlockKeepsItsConcaveEdge) {
+  const test::Triangles t = test::step_block(4);
+  for (double factor : {.5, 1., 2.}) {
+    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    expect_sound(o, static_cast<double>(t.faces.size()) / (factor * factor));
+    expect_flat_faces(t, o, 1e-9);
+    expect_same_creases(t, o, 1e-9);
+    EXPECT_EQ(o.result.creases.curves, 18);
+    EXPECT_EQ(o.result.creases.corners, 12);
+    EXPECT_EQ(o.result.creases.charts, 8);
+    EXPECT_GT(least_angle(o.points, o.faces), 28);
+  }
+}
+
+TEST(CreaseAdapt, ACubeOfTwelveFacesIsRefined) {
+  const test::Triangles t = test::cube();
+  const Outcome o = remeshed(t, .2 * natural(t), adapting());
+  expect_sound(o, 12 * 25);
+  expect_flat_faces(t, o, 1e-9);
+  expect_same_creases(t, o, 1e-9);
+  EXPECT_GT(least_angle(o.points, o.faces), 30);
+}
+
+TEST(CreaseAdapt, ACylinderStaysRoundUpToItsRims) {
+  const test::Triangles t = test::cylinder(40);
+  const double L = natural(t);
+  for (double factor : {.5, 1., 2.}) {
+    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    expect_sound(o, static_cast<double>(t.faces.size()) / (factor * factor), true);
+    EXPECT_EQ(o.result.creases.curves, 2);
+    EXPECT_EQ(o.result.creases.charts, 3);
+    EXPECT_EQ(o.result.creases.kept, o.result.creases.curve_vertices);
+    for (Eigen::Index v = 0; v < o.points.cols(); ++v) {
+      const Vec3 x = o.points.col(v);
+      const bool on_cap = std::min(std::abs(x[2]), std::abs(x[2] - 2)) < 1e-9 * L;
+      if (!on_cap) {
+        EXPECT_NEAR(std::hypot(x[0], x[1]), 1, 3e-3 * L);
+      }
+      EXPECT_LE(std::hypot(x[0], x[1]), 1 + 3e-3 * L);
+    }
+  }
+}
+
+TEST(CreaseAdapt, AnEvenRimStaysAsItIsUnlessItIsToHaveOtherEdges) {
+  const test::Triangles t = test::cylinder(40, .1);
+  for (double factor : {.5, 1., 2.}) {
+    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    EXPECT_NEAR(o.result.creases.edges, 80 / factor, .1 * 80 / factor);
+    double farthest = 0;  // of the input's rim from the nearest point of the result's
+    const auto rims = test::bent_edges(o.points, o.faces);
+    for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+      const Vec3 x = t.points.col(v);
+      if ((x[2] != 0 && x[2] != 2) || std::hypot(x[0], x[1]) < 1 - 1e-9) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto& [a, b] : rims)
+        nearest = std::min(nearest, distance_to_segment(x, o.points.col(a), o.points.col(b)));
+      farthest = std::max(farthest, nearest);
+    }
+    EXPECT_LT(farthest, factor == 1 ? 1e-12 : .1 * natural(t) * factor);
+  }
+}
+
+TEST(CreaseAdapt, TheMapReproducesThePointsOnCreases) {
+  const test::Triangles t = test::cylinder(30);
+  const double L = natural(t);
+  const Outcome o = remeshed(t, .7 * natural(t), adapting());
+  ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
+  int on_caps = 0;
+  for (size_t v = 0; v < o.result.map.size(); ++v) {
+    const Vec3 x = o.points.col(static_cast<Eigen::Index>(v));
+    if (std::min(std::abs(x[2]), std::abs(x[2] - 2)) > 1e-9 * L) continue;
+    const SurfacePoint& place = o.result.map[v].place;
+    Vec3 y = Vec3::Zero();
+    for (size_t k = 0; k < 3; ++k)
+      y += place.weights[static_cast<Eigen::Index>(k)] *
+           t.points.col(t.faces[static_cast<size_t>(place.face)][k]);
+    EXPECT_LT((x - y).norm(), 1e-9 * L);
+    ++on_caps;
+  }
+  EXPECT_GT(on_caps, 60);
+}
+
+TEST(CreaseAdapt, AScaleOfTwoChangesNothing) {
+  const test::Triangles t = test::step_block(3);
+  test::Triangles large = t;
+  large.points *= 4;
+  const Outcome one = remeshed(t, .8 * natural(t), adapting()),
+                four = remeshed(large, .8 * natural(large), adapting());
+  EXPECT_EQ(4 * one.points, four.points);
+  EXPECT_EQ(one.faces, four.faces);
+}
+
+TEST(CreaseAdapt, ThreadsChangeNothing) {
+  const test::Triangles t = test::irregular_cube(8);
+  std::vector<Outcome> outcomes;
+  for (int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    outcomes.push_back(remeshed(t, .8 * natural(t), adapting()));
+  }
+  EXPECT_EQ(outcomes[0].points, outcomes[1].points);
+  EXPECT_EQ(outcomes[0].faces, outcomes[1].faces);
+}
+
+}  // namespace
+}  // namespace hooke

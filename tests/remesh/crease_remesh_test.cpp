@@ -1,0 +1,166 @@
+// What remeshing keeps of a solid with sharp edges.
+#include <gtest/gtest.h>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "support/crease_outcome.h"
+
+namespace hooke {
+namespace {
+
+using test::Outcome, test::remeshed, test::natural, test::volume;
+
+RemeshOptions in_mode(ConnectivityMode mode) {
+  RemeshOptions options;
+  options.connectivity = mode;
+  options.flips = flip_options(Effort::fast);
+  return options;
+}
+
+constexpr ConnectivityMode both_modes[] = {ConnectivityMode::fixed, ConnectivityMode::flip};
+
+TEST(CreaseRemesh, ACubeStaysACube) {
+  const test::Triangles t = test::irregular_cube(7);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    expect_flat_faces(t, o, 1e-9);
+    expect_same_creases(t, o, 1e-9);
+    EXPECT_EQ(o.result.creases.curves, 12);
+    EXPECT_EQ(o.result.creases.corners, 8);
+    EXPECT_EQ(o.result.creases.charts, 6);
+    EXPECT_TRUE(o.result.folded_faces.empty());
+    EXPECT_GT(least_angle(o.points, o.faces), least_angle(t.points, t.faces) + 10);
+  }
+}
+
+TEST(CreaseRemesh, AStepBlockKeepsItsConcaveEdge) {
+  const test::Triangles t = test::step_block(4);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    expect_flat_faces(t, o, 1e-9);
+    expect_same_creases(t, o, 1e-9);
+    EXPECT_EQ(o.result.creases.curves, 18);
+    EXPECT_EQ(o.result.creases.corners, 12);
+    EXPECT_EQ(o.result.creases.charts, 8);
+  }
+}
+
+TEST(CreaseRemesh, NoCreaseBecomesAcute) {
+  const auto sharpest = [](const Mat3X& points, const std::vector<Triangle>& faces) {
+    const Connectivity c = make_connectivity(static_cast<int>(points.cols()), faces);
+    double least = 1;
+    for (const auto& [left, right] : c.edge_faces)
+      if (right >= 0)
+        least = std::min(least, cosine_between(points, faces[static_cast<size_t>(left)],
+                                               faces[static_cast<size_t>(right)]));
+    return least;
+  };
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const test::Triangles t =
+        test::shaken(test::irregular_cube(6, seed), .04, seed);  // rough, with jagged edges
+    for (ConnectivityMode mode : both_modes) {
+      const Outcome o = remeshed(t, in_mode(mode));
+      EXPECT_GT(sharpest(o.points, o.faces), std::min(sharpest(t.points, t.faces), -.1) - .03);
+    }
+  }
+}
+
+TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
+  const test::Triangles t = test::cylinder(40);
+  const double L = natural(t);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    EXPECT_EQ(o.result.creases.curves, 2);
+    EXPECT_EQ(o.result.creases.corners, 0);
+    EXPECT_EQ(o.result.creases.charts, 3);
+    EXPECT_EQ(o.result.creases.kept, 80);
+    int on_rims = 0;
+    for (Eigen::Index v = 0; v < o.points.cols(); ++v) {
+      const Vec3 x = o.points.col(v);
+      const double r = std::hypot(x[0], x[1]);
+      const bool on_cap = std::min(std::abs(x[2]), std::abs(x[2] - 2)) < 1e-9 * L;
+      if (!on_cap) {
+        EXPECT_NEAR(r, 1, 2e-3 * L);
+      }
+      EXPECT_LE(r, 1 + 2e-3 * L);
+      on_rims += on_cap && r > .98;  // rims are polygons of 40 sides
+    }
+    EXPECT_EQ(on_rims, 80);
+    EXPECT_TRUE(o.result.folded_faces.empty());
+    EXPECT_GT(least_angle(o.points, o.faces), least_angle(t.points, t.faces) + 5);
+  }
+}
+
+TEST(CreaseRemesh, AnEvenRimStaysAsItIs) {
+  const test::Triangles t = test::cylinder(40, .1);
+  const auto rims = test::bent_edges(t.points, t.faces);
+  for (ConnectivityMode mode : both_modes) {
+    const Outcome o = remeshed(t, in_mode(mode));
+    EXPECT_EQ(test::bent_edges(o.points, o.faces), rims);
+    for (const Edge& edge : rims)
+      for (int v : edge) EXPECT_EQ(o.points.col(v), t.points.col(v));
+  }
+}
+
+TEST(CreaseRemesh, WithoutCreasesACubeIsRounded) {
+  const test::Triangles t = test::irregular_cube(7);
+  RemeshOptions options;
+  options.constraints.features.angle = 180;
+  const Outcome o = remeshed(t, options);
+  EXPECT_EQ(o.result.creases.edges, 0);
+  EXPECT_GT(std::abs(volume(o.points, o.faces) / volume(t.points, t.faces) - 1), 1e-5);
+}
+
+TEST(CreaseRemesh, EveryFilterKeepsTheSidesFlat) {
+  const test::Triangles t = test::irregular_cube(4);
+  for (FilterKind kind : {FilterKind::local, FilterKind::global, FilterKind::closest}) {
+    RemeshOptions options;
+    options.filter.kind = kind;
+    const Outcome o = remeshed(t, options);
+    expect_flat_faces(t, o, 1e-6);
+    expect_same_creases(t, o, 1e-6);
+  }
+}
+
+TEST(CreaseRemesh, ThoroughFlipsKeepCreases) {
+  const test::Triangles t = test::irregular_cube(5);
+  RemeshOptions options = in_mode(ConnectivityMode::flip);
+  options.flips = flip_options(Effort::thorough);
+  options.flips.flow.rounds = 20;
+  options.flips.passes.passes = 2;
+  const Outcome o = remeshed(t, options);
+  expect_flat_faces(t, o, 1e-9);
+  expect_same_creases(t, o, 1e-9);
+}
+
+TEST(CreaseRemesh, ACubeOfTwelveFacesIsLeftAlone) {
+  const test::Triangles t = test::cube();
+  for (ConnectivityMode mode : both_modes) EXPECT_EQ(remeshed(t, in_mode(mode)).points, t.points);
+}
+
+TEST(CreaseRemesh, AScaleOfTwoChangesNothing) {
+  const test::Triangles t = test::step_block(3);
+  test::Triangles large = t;
+  large.points *= 4;
+  for (ConnectivityMode mode : both_modes)
+    EXPECT_EQ(remeshed(large, in_mode(mode)).points, 4 * remeshed(t, in_mode(mode)).points);
+}
+
+TEST(CreaseRemesh, ThreadsChangeNothing) {
+  const test::Triangles t = test::irregular_cube(8);
+  for (ConnectivityMode mode : both_modes) {
+    Mat3X one, two;
+    {
+      const ThreadLimit limit(1);
+      one = remeshed(t, in_mode(mode)).points;
+    }
+    {
+      const ThreadLimit limit(2);
+      two = remeshed(t, in_mode(mode)).points;
+    }
+    EXPECT_EQ(one, two);
+  }
+}
+
+}  // namespace
+}  // namespace hooke

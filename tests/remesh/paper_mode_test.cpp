@@ -1,0 +1,181 @@
+#include "hooke/remesh/paper_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
+#include "support/meshes.h"
+
+namespace hooke {
+namespace {
+
+using test::Triangles;
+
+TriMesh with_natural_length(const Triangles& t) {
+  TriMesh mesh = test::to_mesh(t);
+  set_vertex_values(mesh, target_length_property,
+                    natural_length(total_area(t.points, t.faces), t.faces.size()));
+  return mesh;
+}
+
+double edge_deviation(const TriMesh& mesh) {
+  const Connectivity c = make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
+  const TargetLengths targets = spread_target_lengths(c, vertex_values(mesh, target_length_property));
+  return relative_edge_deviation(positions(mesh), c.edges, targets);
+}
+
+PaperOptions short_run() {
+  PaperOptions options;
+  options.evolution.max_steps = 30;
+  options.max_outer = 2;
+  return options;
+}
+
+TEST(PaperMode, ImprovesAJitteredSphereAndStaysOnIt) {
+  TriMesh mesh = with_natural_length(test::sphere(2, .25));
+  const double before = edge_deviation(mesh);
+  PaperOptions options;
+  options.max_outer = 3;
+  const RemeshResult r = paper_remesh(mesh, options);
+  EXPECT_LT(edge_deviation(mesh), .8 * before);
+  EXPECT_TRUE(r.folded_faces.empty());
+  const auto X = positions(mesh);
+  for (Eigen::Index v = 0; v < X.cols(); ++v) EXPECT_NEAR(X.col(v).norm(), 1, .01);
+}
+
+TEST(PaperMode, ConvergesWhereAllEdgesAreEqual) {
+  const Triangles t = test::sphere(0);
+  TriMesh mesh = with_natural_length(t);
+  const RemeshResult r = paper_remesh(mesh, {});
+  EXPECT_EQ(r.reason, StopReason::converged);
+  ASSERT_EQ(r.iterations.size(), 1u);
+  EXPECT_EQ(r.iterations[0].steps, 0);
+  EXPECT_LT((positions(mesh) - t.points).norm(), 1e-9);
+}
+
+TEST(PaperMode, StopsAtTheOuterLimit) {
+  TriMesh mesh = with_natural_length(test::sphere(2, .3));
+  const RemeshResult r = paper_remesh(mesh, short_run());
+  EXPECT_EQ(r.reason, StopReason::step_limit);
+  ASSERT_EQ(r.iterations.size(), 2u);
+  EXPECT_EQ(r.iterations[0].steps, 30);
+  EXPECT_LT(r.iterations[1].energy, r.iterations[0].energy);
+}
+
+TEST(PaperMode, StallsWhenTheEnergyNoLongerFalls) {
+  TriMesh mesh = with_natural_length(test::sphere(2, .3));
+  PaperOptions options = short_run();
+  options.outer_drop = 1;  // no iteration lowers the energy by all of it
+  const RemeshResult r = paper_remesh(mesh, options);
+  EXPECT_EQ(r.reason, StopReason::stalled);
+  EXPECT_EQ(r.iterations.size(), 1u);
+}
+
+TEST(PaperMode, JamsWhereNoTimeStepPassesTheTestsAndSaysWhich) {
+  const Triangles t = test::sphere(1, .2);
+  TriMesh mesh = with_natural_length(t);
+  PaperOptions options;
+  options.evolution.time_step.area_bound = 10;  // larger than any face
+  const RemeshResult r = paper_remesh(mesh, options);
+  EXPECT_EQ(r.reason, StopReason::jammed);
+  EXPECT_EQ(r.iterations.size(), 1u);
+  EXPECT_TRUE(r.jam.area_bound);
+  EXPECT_LT((positions(mesh) - t.points).norm(), 1e-9);
+}
+
+TEST(PaperMode, StopsWhenTheObserverSaysSo) {
+  TriMesh mesh = with_natural_length(test::sphere(1, .3));
+  const RemeshResult r = paper_remesh(mesh, {}, [](const Progress& p) {
+    EXPECT_STREQ(p.stage, "paper");
+    return p.outer < 2 || p.step < 3;
+  });
+  EXPECT_EQ(r.reason, StopReason::interrupted);
+  ASSERT_EQ(r.iterations.size(), 2u);
+  EXPECT_EQ(r.iterations[1].steps, 3);
+}
+
+TEST(PaperMode, CountsTheTestThatBoundEveryStep) {
+  TriMesh mesh = with_natural_length(test::grid(8, test::paraboloid, .4));
+  const RemeshResult r = paper_remesh(mesh, short_run());
+  int steps = 0;
+  for (const IterationRecord& i : r.iterations) steps += i.steps;
+  EXPECT_LE(r.bound.none, steps);
+  EXPECT_GE(r.bound.angle + r.bound.expansion + r.bound.displacement + r.bound.area_bound + r.bound.none,
+            steps);
+}
+
+TEST(PaperMode, RefusesASplineBeyondTheMemoryLimit) {
+  const Triangles t = test::sphere(2, .3);
+  TriMesh mesh = with_natural_length(t);
+  PaperOptions options;
+  options.filter.memory_limit_bytes = 100000;
+  EXPECT_THROW(paper_remesh(mesh, options), LimitError);
+  EXPECT_EQ(positions(mesh), t.points);
+}
+
+TEST(PaperMode, NamesFoldedFaces) {
+  Triangles t = test::grid(8, test::flat);
+  t.points.col(40) = t.points.col(41) + Vec3(.1, .03, 0);  // the middle, beyond its right neighbour
+  TriMesh mesh = with_natural_length(t);
+  std::vector<int> inverted;
+  for (size_t f = 0; f < t.faces.size(); ++f) {
+    const Vec3 a = t.points.col(t.faces[f][0]);
+    const Vec3 n = (Vec3(t.points.col(t.faces[f][1])) - a).cross(Vec3(t.points.col(t.faces[f][2])) - a);
+    if (n.z() < 0) inverted.push_back(static_cast<int>(f));
+  }
+  ASSERT_FALSE(inverted.empty());
+  PaperOptions options;
+  options.max_outer = 0;
+  const RemeshResult r = paper_remesh(mesh, options);
+  EXPECT_EQ(r.folded_before, static_cast<int>(inverted.size()));
+  EXPECT_EQ(r.folded_faces, inverted);
+}
+
+TEST(PaperMode, BoundaryIsFreeUnlessToldOtherwise) {
+  const Triangles t = test::grid(8, test::paraboloid, .4);
+  const auto on_boundary = [&](Eigen::Index v) { return v % 9 == 0 || v % 9 == 8 || v < 9 || v >= 72; };
+  const auto greatest_move = [&](BoundaryRule rule) {
+    TriMesh mesh = with_natural_length(t);
+    PaperOptions options = short_run();
+    options.constraints.boundary = rule;
+    paper_remesh(mesh, options);
+    double across = 0, any = 0;  // across the sides of the square; anywhere
+    for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
+      if (!on_boundary(v)) continue;
+      const Vec3 move = positions(mesh).col(v) - t.points.col(v);
+      const bool upright = v % 9 == 0 || v % 9 == 8;
+      across = std::max(across, std::abs(upright ? move.x() : move.y()));
+      any = std::max(any, move.norm());
+    }
+    return std::pair(across, any);
+  };
+  EXPECT_GT(greatest_move(BoundaryRule::free).first, 1e-5);
+  EXPECT_LT(greatest_move(BoundaryRule::slide).first, 1e-12);
+  EXPECT_GT(greatest_move(BoundaryRule::slide).second, 1e-5);
+  EXPECT_EQ(greatest_move(BoundaryRule::fixed).second, 0);
+}
+
+TEST(PaperMode, DoesNotDependOnTheNumberOfThreads) {
+  const auto run = [](int threads) -> Mat3X {
+    const ThreadLimit limit(threads);
+    TriMesh mesh = with_natural_length(test::sphere(3, .3));
+    paper_remesh(mesh, short_run());
+    return positions(mesh);
+  };
+  EXPECT_EQ(run(1), run(2));
+}
+
+TEST(PaperMode, CommutesExactlyWithScalingByAPowerOfTwo) {
+  Triangles t = test::grid(8, test::paraboloid, .4);
+  TriMesh mesh = with_natural_length(t);
+  t.points *= 1024;
+  TriMesh large = with_natural_length(t);
+  paper_remesh(mesh, short_run());
+  paper_remesh(large, short_run());
+  EXPECT_EQ(positions(large), 1024 * positions(mesh));
+}
+
+}  // namespace
+}  // namespace hooke

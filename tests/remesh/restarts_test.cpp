@@ -1,0 +1,139 @@
+#include "hooke/remesh/restarts.h"
+
+#include <gtest/gtest.h>
+
+#include <string_view>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/self_intersection.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/measure/deviation.h"
+#include "hooke/remesh/options.h"
+#include "support/remeshed.h"
+#include "support/solids.h"
+
+namespace hooke {
+namespace {
+
+/// A coarse sheet closed on both sides, thinner than its edges are long.
+test::Triangles lens(unsigned seed) {
+  test::Triangles t = test::sphere(1, .4, seed);
+  t.points.row(2) *= .12;
+  return t;
+}
+
+RemeshOptions options_for(ConnectivityMode mode) {
+  RemeshOptions options;
+  options.connectivity = mode;
+  set_effort(options, Effort::standard);
+  options.mend.trials.sliver_angles = {30};  // each attempt is made quickly
+  options.mend.trials.rounds = options.mend.passes = 1;
+  return options;
+}
+
+test::Outcome remeshed(const test::Triangles& t, const RemeshOptions& options, const AttemptOptions& attempts,
+                       const Observer& observer = nullptr) {
+  test::Outcome o;
+  o.mesh = test::with_length(t, test::natural(t));
+  const Layout layout = lay_out(o.mesh);
+  o.result = remesh_in_attempts(o.mesh, layout, options, attempts, observer);
+  o.points = positions(o.mesh);
+  o.faces = triangles_of(o.mesh);
+  return o;
+}
+
+/// What attempts are judged by: flipped faces and crossings, and the least angle.
+std::pair<std::size_t, double> judged(const test::Triangles& before, const test::Outcome& after) {
+  const auto connectivity = [](const Mat3X& points, const std::vector<Triangle>& faces) {
+    return make_connectivity(static_cast<int>(points.cols()), faces);
+  };
+  const Deviation way = measure_deviation(before.points, connectivity(before.points, before.faces),
+                                          after.points, connectivity(after.points, after.faces));
+  return {way.flipped_faces + find_self_intersections(after.points, after.faces).size(),
+          least_angle(after.points, after.faces)};
+}
+
+TEST(Attempts, TheBestIsNoWorseThanTheFirstAndSomeAreBetter) {
+  int better = 0;
+  for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      const test::Triangles t = lens(seed);
+      const RemeshOptions options = options_for(mode);
+      const test::Outcome first = test::remeshed(t, options), best = remeshed(t, options, {.most = 4});
+      const auto [first_flaws, first_angle] = judged(t, first);
+      const auto [best_flaws, best_angle] = judged(t, best);
+      EXPECT_LE(best_flaws, first_flaws) << seed;
+      if (best_flaws == first_flaws) {
+        EXPECT_GE(best_angle, first_angle) << seed;
+      }
+      EXPECT_LE(best.result.attempts, 4);
+      EXPECT_LE(best.result.kept_attempt, best.result.attempts);
+      EXPECT_EQ(best.result.kept_attempt == 1, best.points == first.points);
+      better += best_flaws < first_flaws || best_angle > first_angle;
+    }
+  EXPECT_GE(better, 2);
+}
+
+TEST(Attempts, AGoodResultIsTheFirst) {
+  const test::Triangles t = test::sphere(2, .3, 1);
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    const RemeshOptions options = options_for(mode);
+    const test::Outcome once = test::remeshed(t, options), best = remeshed(t, options, {});
+    EXPECT_EQ(best.result.attempts, 1);
+    EXPECT_EQ(best.points, once.points);
+    EXPECT_EQ(best.faces, once.faces);
+  }
+}
+
+/// No attempt is made in vain: neither at a corner that no connectivity widens, nor where all end alike, nor
+/// beyond what is to be paid for.
+TEST(Attempts, ThereIsOneWhereMoreAreOfNoUse) {
+  const test::Triangles wedge =
+      test::triangles({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {2, .25, 0}}, {{0, 1, 3}, {1, 2, 3}});
+  EXPECT_EQ(remeshed(wedge, options_for(ConnectivityMode::adapt), {}).result.attempts, 1);
+  EXPECT_EQ(remeshed(lens(1), options_for(ConnectivityMode::fixed), {.good_angle = 60}).result.attempts, 1);
+  const RemeshOptions options = options_for(ConnectivityMode::adapt);
+  const double faces = static_cast<double>(lens(1).faces.size());
+  EXPECT_EQ(remeshed(lens(1), options, {.most_faces = 1.9 * faces, .good_angle = 60}).result.attempts, 1);
+  EXPECT_EQ(remeshed(lens(1), options, {.most_faces = 2.5 * faces, .good_angle = 60}).result.attempts, 2);
+  EXPECT_EQ(remeshed(lens(1), options, {.most = 3, .good_angle = 60}).result.attempts, 3);
+}
+
+TEST(Attempts, AreTheSameForAnyNumberOfThreads) {
+  const RemeshOptions options = options_for(ConnectivityMode::adapt);
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return remeshed(lens(2), options, {.most = 3, .good_angle = 60});
+  };
+  const test::Outcome one = run(1), two = run(2);
+  EXPECT_EQ(one.result.attempts, 3);
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.faces, two.faces);
+}
+
+TEST(Attempts, AnInterruptedOneCountsForNothing) {
+  const test::Triangles t = lens(1);
+  const RemeshOptions options = options_for(ConnectivityMode::adapt);
+  int of_first = 0;
+  const Observer count = [&](const Progress&) { return ++of_first > 0; };
+  const test::Outcome first = remeshed(t, options, {.most = 1}, count);
+  for (int more : {1, of_first / 2}) {
+    int calls = 0;
+    const test::Outcome stopped =
+        remeshed(t, options, {.good_angle = 60}, [&](const Progress&) { return ++calls < of_first + more; });
+    EXPECT_EQ(stopped.result.reason, StopReason::interrupted);
+    EXPECT_EQ(stopped.result.attempts, 1);
+    EXPECT_EQ(stopped.points, first.points);
+    EXPECT_EQ(stopped.faces, first.faces);
+    EXPECT_LE(calls, of_first + more);
+  }
+  int calls = 0;
+  const test::Outcome early =
+      remeshed(t, options, {}, [&](const Progress&) { return ++calls < of_first / 2; });
+  EXPECT_EQ(early.result.reason, StopReason::interrupted);
+  EXPECT_EQ(early.result.attempts, 1);
+}
+
+}  // namespace
+}  // namespace hooke

@@ -1,0 +1,157 @@
+#include "hooke/springs/sizing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "hooke/core/error.h"
+#include "support/errors.h"
+#include "support/solids.h"
+#include "support/temporary_folder.h"
+
+namespace hooke {
+namespace {
+
+std::vector<double> wild_lengths(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> exponent(-2, 1);
+  std::vector<double> lengths(static_cast<size_t>(count));
+  for (double& l : lengths) l = std::pow(10, exponent(random));
+  return lengths;
+}
+
+struct Limited {
+  test::Triangles t = test::sphere(3, .3, 7);
+  Connectivity c = test::connect(t);
+  std::vector<double> given = wild_lengths(c.vertex_count, 3), lengths = given;
+  double slope = .3;
+
+  Limited() { limit_gradation(t.points, c, slope, lengths); }
+
+  /// The most that the neighbour `from` leaves to `to`.
+  double most(int from, int to) const {
+    return lengths[static_cast<size_t>(from)] + slope * (t.points.col(to) - t.points.col(from)).norm();
+  }
+};
+
+TEST(Gradation, HoldsAlongEveryEdge) {
+  const Limited l;
+  for (const auto& [a, b] : l.c.edges) {
+    EXPECT_LE(l.lengths[static_cast<size_t>(b)], l.most(a, b));
+    EXPECT_LE(l.lengths[static_cast<size_t>(a)], l.most(b, a));
+  }
+}
+
+TEST(Gradation, LowersAsLittleAsItMust) {
+  const Limited l;
+  int lowered = 0;
+  for (int v = 0; v < l.c.vertex_count; ++v) {
+    const double given = l.given[static_cast<size_t>(v)], length = l.lengths[static_cast<size_t>(v)];
+    EXPECT_LE(length, given);
+    if (length == given) continue;
+    ++lowered;
+    const auto neighbours = l.c.vertex_neighbours[v];
+    EXPECT_TRUE(std::ranges::any_of(neighbours, [&](int w) { return l.most(w, v) == length; })) << v;
+  }
+  EXPECT_GT(lowered, l.c.vertex_count / 2);
+}
+
+TEST(Gradation, WhatObeysStays) {
+  const Limited l;
+  std::vector<double> again = l.lengths;
+  limit_gradation(l.t.points, l.c, l.slope, again);
+  EXPECT_EQ(again, l.lengths);
+  std::vector<double> free = l.given;
+  limit_gradation(l.t.points, l.c, std::numeric_limits<double>::infinity(), free);
+  EXPECT_EQ(free, l.given);
+}
+
+TEST(Gradation, APowerOfTwoScalesTheResultExactly) {
+  const Limited l;
+  std::vector<double> scaled = l.given;
+  for (double& x : scaled) x *= 8;
+  limit_gradation(8 * l.t.points, l.c, l.slope, scaled);
+  for (size_t v = 0; v < scaled.size(); ++v) EXPECT_EQ(scaled[v], 8 * l.lengths[v]);
+}
+
+using Kind = SizingSource::Kind;
+
+Layout layout_of(const test::Triangles& t) {
+  return lay_out(test::to_mesh(t));
+}
+
+TEST(SizingSource, MeansWhatItSays) {
+  EXPECT_EQ(parse_sizing("curvature").kind, Kind::curvature);
+  EXPECT_EQ(parse_sizing("./curvature").kind, Kind::file);
+  const SizingSource absolute = parse_sizing("curvature:.5"), percent = parse_sizing("curvature:2%");
+  EXPECT_EQ(absolute.chord_error, .5);
+  EXPECT_FALSE(absolute.percent);
+  EXPECT_EQ(percent.chord_error, 2);
+  EXPECT_TRUE(percent.percent);
+  EXPECT_EQ(parse_sizing("ply:size").kind, Kind::ply_property);
+  EXPECT_EQ(parse_sizing("ply:size").name, "size");
+  EXPECT_EQ(parse_sizing("a:b.txt").name, "a:b.txt");
+}
+
+TEST(SizingSource, RefusesWhatIsNone) {
+  for (const char* text : {"", "ply:", "curvature:", "curvature:0", "curvature:-1", "curvature:nan",
+                           "curvature:1x", "curvature:inf", "curvature:1 %"})
+    EXPECT_THROW(parse_sizing(text), Error) << text;
+}
+
+TEST(SizingSource, APropertyIsOfAPlyFileOnly) {
+  const test::Triangles t = test::tetrahedron();
+  EXPECT_ERROR(Error, "m.obj: sizing by the property 'size'",
+               read_sizing(parse_sizing("ply:size"), "m.obj", t.points, layout_of(t)));
+}
+
+TEST(SizingSource, AFileThatHasChangedInBetweenIsToldApart) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "m.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty float size\nend_header\n1\n");
+  const test::Triangles t = test::tetrahedron();
+  EXPECT_ERROR(InputError, (folder / "m.ply").string() + ": 1 vertices, and 4 when it was first read",
+               read_sizing(parse_sizing("ply:size"), folder / "m.ply", t.points, layout_of(t)));
+}
+
+TEST(SizingSource, AListFollowsTheMeshAndItsLengthsTheLayout) {
+  const test::TemporaryFolder folder;
+  const test::Triangles t = test::shuffled(test::sphere(1));
+  std::string lines;
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) lines += std::to_string(v + 1) + "\n";
+  test::write_text(folder / "lengths.txt", lines);
+  const Layout layout = layout_of(t);
+  const std::vector<double> lengths =
+      read_sizing(parse_sizing((folder / "lengths.txt").string()), "", t.points, layout);
+  ASSERT_EQ(lengths.size(), layout.order.old_vertex.size());
+  EXPECT_FALSE(std::ranges::is_sorted(lengths));
+  for (size_t v = 0; v < lengths.size(); ++v) EXPECT_EQ(lengths[v], layout.order.old_vertex[v] + 1);
+}
+
+TEST(SizingSource, CurvatureOfASphereGivesTheChordOfItsCircle) {
+  test::Triangles t = test::sphere(3, .3, 1);
+  t.points *= 3;
+  const double error = .05, expected = std::sqrt(8 * 3 * error - 4 * error * error);
+  const Layout layout = layout_of(t);
+  const Mat3X points = layout.order.in_new_order(t.points);
+  for (double l : read_sizing(parse_sizing("curvature:.05"), "", points, layout))
+    EXPECT_NEAR(l, std::min(expected, 1.0392), .03 * expected);
+}
+
+TEST(SizingSource, OnAPlaneNoLengthIsOverATenthOfTheDiagonal) {
+  const test::Triangles t = test::grid(5, test::flat);
+  const Layout layout = layout_of(t);
+  const Mat3X points = layout.order.in_new_order(t.points);
+  for (double l : read_sizing(parse_sizing("curvature"), "", points, layout))
+    EXPECT_DOUBLE_EQ(l, .1 * std::sqrt(2));
+}
+
+TEST(SizingSource, WithoutOneThereAreNoLengths) {
+  const test::Triangles t = test::grid(5, test::flat);
+  EXPECT_TRUE(read_sizing({}, "", t.points, layout_of(t)).empty());
+}
+
+}  // namespace
+
+}  // namespace hooke

@@ -1,0 +1,148 @@
+#include "hooke/springs/target_lengths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hooke/core/error.h"
+#include "support/solids.h"
+
+namespace hooke {
+namespace {
+
+double natural_length_of(const test::Triangles& t) {
+  return natural_length(total_area(t.points, t.faces), t.faces.size());
+}
+
+TEST(Sizing, AreasAreThoseOfGeometry) {
+  const test::Triangles cube = test::cube();
+  EXPECT_NEAR(total_area(cube.points, cube.faces), 6, 1e-14);
+  const test::Triangles grid = test::grid(7, test::flat, .3);
+  EXPECT_NEAR(total_area(grid.points, grid.faces), 1, 1e-13);
+  const test::Triangles turned = test::moved(cube, 3);
+  EXPECT_NEAR(total_area(turned.points, turned.faces), 54, 1e-12);
+}
+
+TEST(Sizing, EquilateralTrianglesHaveTheirEdgeAsNaturalLength) {
+  EXPECT_NEAR(natural_length_of(test::equilateral()), 1, 1e-15);
+  EXPECT_NEAR(natural_length_of(test::tetrahedron()), std::sqrt(8), 1e-14);
+}
+
+TEST(Sizing, AnEdgeIsTheMeanOfItsEndsAndAFaceOfItsEdges) {
+  const Connectivity c = make_connectivity(3, {{0, 1, 2}});
+  const TargetLengths targets = spread_target_lengths(c, {1, 2, 6});
+  const std::vector<double> expected = {1.5, 4, 3.5};
+  EXPECT_EQ(targets.edge.values(), expected);
+  EXPECT_DOUBLE_EQ(targets.face[0], 3);
+}
+
+TEST(Sizing, TargetsOfAFaceAlwaysFormATriangle) {
+  const Connectivity c = test::connect(test::sphere(2));
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> exponent(-6, 6);
+  std::vector<double> length(static_cast<size_t>(c.vertex_count));
+  for (double& l : length) l = std::pow(10, exponent(random));
+  const TargetLengths targets = spread_target_lengths(c, length);
+  for (const auto& edges : c.face_edges)
+    for (size_t k = 0; k < 3; ++k) {
+      const auto side = [&](size_t i) { return targets.edge[static_cast<size_t>(edges[(k + i) % 3])]; };
+      EXPECT_LE(side(0), (side(1) + side(2)) * (1 + 1e-15));
+    }
+}
+
+TEST(LengthSpec, MeansWhatItSays) {
+  const test::Triangles cube = test::cube();
+  const Connectivity c = test::connect(cube);
+  const auto length = [&](const char* text) { return resolve_length(parse_length(text), cube.points, c); };
+  EXPECT_DOUBLE_EQ(length("auto"), natural_length(6, 12));
+  EXPECT_DOUBLE_EQ(length("2x"), 2 * natural_length(6, 12));
+  EXPECT_DOUBLE_EQ(length("10%"), .1 * std::sqrt(3));
+  EXPECT_DOUBLE_EQ(length("1.5e-1"), .15);
+  EXPECT_DOUBLE_EQ(length("mean"), (12 + 6 * std::sqrt(2)) / 18);
+}
+
+TEST(LengthSpec, RefusesWhatIsNoLength) {
+  for (const char* text :
+       {"", "%", "x", "0", "-1", "nan", "inf", "1e999", "2 x", "2xx", "2%x", "two", "Auto"})
+    EXPECT_THROW(parse_length(text), Error) << text;
+}
+
+/// A sphere whose target lengths vary by 4.
+struct Graded {
+  test::Triangles t = test::sphere(3, .2, 6);
+  Connectivity c = test::connect(t);
+  Sizing sizing;
+
+  Graded() {
+    for (const auto p : t.points.colwise()) sizing.vertex_length.push_back(2.5 + 1.5 * p[2]);
+  }
+  std::vector<double> resolve(const char* length) const {
+    return resolve_vertex_lengths(parse_length(length), sizing, t.points, c);
+  }
+  TargetLengths targets(const char* length) const { return spread_target_lengths(c, resolve(length)); }
+};
+
+TEST(VertexLengths, ConstantOnesAreThoseWithoutASizingToTheLastBit) {
+  Graded g;
+  for (const char* length : {"auto", "mean", "1.3x", "7%", ".123"}) {
+    const std::vector<double> plain = resolve_vertex_lengths(parse_length(length), {}, g.t.points, g.c);
+    for (double constant : {1., .1, 7e5}) {
+      g.sizing.vertex_length.assign(plain.size(), constant);
+      EXPECT_EQ(g.resolve(length), plain) << length << " " << constant;
+    }
+  }
+}
+
+TEST(VertexLengths, AutoAsksForAsManyFacesAsThereAre) {
+  const Graded g;
+  const double natural = natural_length_of(g.t);
+  EXPECT_NEAR(covering_length(g.t.points, g.c, g.targets("auto")), natural, 2e-6 * natural);
+  EXPECT_NEAR(covering_length(g.t.points, g.c, g.targets("2x")), 2 * natural, 4e-6 * natural);
+  EXPECT_NEAR(mean_length(g.t.points, g.c, g.targets(".2")), .2, 4e-7);
+  const std::vector<double> lengths = g.resolve("auto");
+  for (size_t v = 0; v < lengths.size(); ++v)
+    EXPECT_NEAR(lengths[v] / lengths[0], g.sizing.vertex_length[v] / g.sizing.vertex_length[0], 1e-12);
+}
+
+TEST(VertexLengths, AutoCoversTheAreaAlsoWhereTheGradationHoldsLengthsBack) {
+  Graded g;
+  std::ranges::fill(g.sizing.vertex_length, 10);
+  g.sizing.vertex_length[0] = g.sizing.vertex_length[100] = 1;
+  g.sizing.gradation = .1;
+  const TargetLengths targets = g.targets("auto");
+  const double natural = natural_length_of(g.t);
+  EXPECT_NEAR(covering_length(g.t.points, g.c, targets), natural, 1e-5 * natural);
+  const std::vector<double> lengths = g.resolve("auto");
+  EXPECT_GT(lengths[0], .101 * *std::ranges::max_element(lengths));
+}
+
+TEST(VertexLengths, AreTakenAsTheyAreOnRequest) {
+  Graded g;
+  for (double& l : g.sizing.vertex_length) l *= .05;
+  EXPECT_EQ(g.resolve("sizing"), g.sizing.vertex_length);
+  g.sizing.vertex_length.clear();
+  EXPECT_THROW(g.resolve("sizing"), Error);
+}
+
+TEST(VertexLengths, APowerOfTwoScalesThemExactly) {
+  Graded g;
+  const std::vector<double> lengths = g.resolve("auto");
+  g.t.points *= .25;
+  for (double& l : g.sizing.vertex_length) l *= 1024;
+  const std::vector<double> scaled = g.resolve("auto");
+  for (size_t v = 0; v < lengths.size(); ++v) EXPECT_EQ(scaled[v], .25 * lengths[v]);
+}
+
+TEST(VertexLengths, FollowTheLeastRadiusOfCurvature) {
+  test::Triangles t = test::sphere(3, .2, 1);
+  const Connectivity c = test::connect(t);
+  const auto expected = [](double error) { return std::sqrt(8 * error - 4 * error * error); };
+  for (double error : {1e-4, .01, .3})
+    for (double l : curvature_lengths(t.points, c, error, 10)) EXPECT_NEAR(l, expected(error), .03 * l);
+  for (double l : curvature_lengths(t.points, c, 5, 100))
+    EXPECT_EQ(l, 10);  // a smaller radius does not count
+  for (double l : curvature_lengths(t.points, c, .3, .1)) EXPECT_EQ(l, .1);
+}
+
+}  // namespace
+}  // namespace hooke

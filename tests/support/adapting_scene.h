@@ -1,0 +1,22 @@
+// A mesh on a known surface with all that adaptation wants, for tests.
+#pragma once
+
+#include "hooke/working_mesh/vertex_table.h"
+#include "support/flipping_scene.h"
+
+namespace hooke::test {
+
+struct AdaptingScene : FlippingScene {
+  AdaptingScene(const Triangles& t, const Surface& surface, const std::vector<Edge>& creases = {})
+      : FlippingScene(t, surface, creases) {
+    count_curve_edges(adapting, .1);
+  }
+
+  CurveFinder finder{constraints.curves};
+  CurveEdges curve_edges;
+  std::vector<int> origins = std::vector<int>(vertex_length.size(), 0);
+  AdaptingMesh adapting{triangulation,   placement, retraction, constraints, vertex_length,
+                        corner_valences, origins,   finder,     curve_edges};
+};
+
+}  // namespace hooke::test

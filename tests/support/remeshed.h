@@ -1,0 +1,40 @@
+// A mesh before and after remeshing.
+#pragma once
+
+#include "hooke/remesh/remesh.h"
+#include "support/meshes.h"
+
+namespace hooke::test {
+
+/// Length with which the surface takes equilateral triangles as many as there are.
+inline double natural(const Triangles& t) {
+  return natural_length(total_area(t.points, t.faces), t.faces.size());
+}
+
+inline TriMesh with_length(const Triangles& t, double length) {
+  TriMesh mesh = to_mesh(t);
+  set_vertex_values(mesh, target_length_property, length);
+  return mesh;
+}
+
+struct Outcome {
+  Mat3X points;
+  std::vector<Triangle> faces;
+  RemeshResult result;
+  TriMesh mesh;
+};
+
+inline Outcome remeshed(const Triangles& t, double length, const RemeshOptions& options = {},
+                        const Observer& observer = nullptr) {
+  Outcome o;
+  o.mesh = with_length(t, length);
+  o.result = remesh(o.mesh, options, observer);
+  o.points = positions(o.mesh);
+  o.faces = triangles_of(o.mesh);
+  return o;
+}
+inline Outcome remeshed(const Triangles& t, const RemeshOptions& options = {}) {
+  return remeshed(t, natural(t), options);
+}
+
+}  // namespace hooke::test

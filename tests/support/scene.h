@@ -1,0 +1,106 @@
+// A mesh on a surface with all that a relaxation works on, and measures of what came out of it. For tests.
+#pragma once
+
+#include <algorithm>
+
+#include "hooke/integrator/relaxation.h"
+#include "support/solids.h"
+
+namespace hooke::test {
+
+inline Foot to_unit_sphere(const Vec3& x, int anchor, double) {
+  const Vec3 n = x.normalized();
+  return {n, n, anchor, FootStatus::converged, 1};
+}
+inline Foot to_ground(const Vec3& x, int anchor, double) {
+  return {Vec3(x[0], x[1], 0), Vec3::UnitZ(), anchor, FootStatus::converged, 1};
+}
+
+struct SceneOptions {
+  EnergyTerms terms;
+  ConstraintOptions constraints;
+  RetractionOptions retraction;
+  GuardOptions guards;
+};
+
+/// Every vertex wants the natural length of the mesh.
+struct Scene {
+  Connectivity connectivity;
+  SweepPlan sweeps;
+  std::vector<double> length;
+  TargetLengths targets;
+  Constraints constraints;
+  Energy energy;
+  Retraction retraction;
+  Guards guards;
+  Placement placement;
+
+  Scene(const Triangles& t, Surface surface, const SceneOptions& o = {})
+      : connectivity(connect(t)),
+        sweeps(plan_sweeps(connectivity)),
+        length(static_cast<size_t>(connectivity.vertex_count),
+               natural_length(total_area(t.points, t.faces), t.faces.size())),
+        targets(spread_target_lengths(connectivity, length)),
+        constraints(find_constraints(t.points, connectivity, o.constraints)),
+        energy(connectivity, targets, o.terms),
+        retraction(std::move(surface), constraints, o.retraction),
+        guards(connectivity, targets, o.guards) {
+    std::vector<int> anchors(length.size());
+    for (size_t v = 0; v < anchors.size(); ++v) anchors[v] = static_cast<int>(v);
+    placement = retraction.place(t.points, std::move(anchors), constraints.segment);
+  }
+  Scene(const Scene&) = delete;
+
+  double L() const { return length[0]; }
+
+  Relaxation relaxation() { return {connectivity, sweeps, length, energy, retraction, guards, placement}; }
+
+  /// Gradient of the energy in the directions that the vertices may move in.
+  Mat3X tangent_gradient() {
+    Mat3X gradient;
+    energy(placement, &gradient);
+    retraction.constrain(placement, gradient);
+    return gradient;
+  }
+};
+
+inline Scene sphere_scene(double jitter = .3, const SceneOptions& options = {}) {
+  return Scene(sphere(2, jitter, 5), to_unit_sphere, options);
+}
+inline Scene ground_scene(double jitter = .3, const SceneOptions& options = {}) {
+  return Scene(grid(8, flat, jitter, 3), to_ground, options);
+}
+
+/// Vectors drawn evenly from the cube [-size, size]^3.
+inline Mat3X random_vectors(Eigen::Index count, double size, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> draw(-size, size);
+  Mat3X u(3, count);
+  for (double& x : u.reshaped()) x = draw(random);
+  return u;
+}
+
+/// Every entry is the same to the last bit.
+inline bool same(const Placement& a, const Placement& b) {
+  return a.points == b.points && a.normals == b.normals && a.anchors == b.anchors &&
+         a.segments == b.segments && a.drift == b.drift;
+}
+
+/// Twice the area times the unit normal.
+inline Vec3 area_vector(const Mat3X& points, const Triangle& t) {
+  return (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0]));
+}
+
+/// Distance of x to the polyline, over all of its segments.
+inline double distance_to(const Curve& curve, const Vec3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int s = 0; s < curve.segment_count(); ++s) {
+    const Vec3 a = curve.points.col(s);
+    const Vec3 ab = curve.points.col((s + 1) % static_cast<int>(curve.points.cols())) - a;
+    const double t = std::clamp((x - a).dot(ab) / ab.squaredNorm(), 0., 1.);
+    least = std::min(least, (x - a - t * ab).norm());
+  }
+  return least;
+}
+
+}  // namespace hooke::test

@@ -1,0 +1,111 @@
+// Small solids with figures known by heart, and the motions that must not change them. For tests.
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "hooke/mesh/adjacency.h"
+#include "support/meshes.h"
+
+namespace hooke::test {
+
+inline Connectivity connect(const Triangles& t) {
+  return make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+}
+
+inline Triangles triangles(std::initializer_list<Vec3> points, std::vector<Triangle> faces) {
+  Triangles t{Mat3X(3, static_cast<Eigen::Index>(points.size())), std::move(faces)};
+  Eigen::Index i = 0;
+  for (const Vec3& p : points) t.points.col(i++) = p;
+  return t;
+}
+
+inline Triangles equilateral() {
+  return triangles({{0, 0, 0}, {1, 0, 0}, {.5, std::numbers::sqrt3 / 2, 0}}, {{0, 1, 2}});
+}
+
+/// Edge length sqrt(8).
+inline Triangles tetrahedron() {
+  return triangles({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                   {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+}
+
+/// [0, 1]^3, two triangles a side.
+inline Triangles cube() {
+  return triangles({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+                   {{0, 2, 1},
+                    {0, 3, 2},
+                    {4, 5, 6},
+                    {4, 6, 7},
+                    {0, 1, 5},
+                    {0, 5, 4},
+                    {1, 2, 6},
+                    {1, 6, 5},
+                    {2, 3, 7},
+                    {2, 7, 6},
+                    {3, 0, 4},
+                    {3, 4, 7}});
+}
+
+inline Triangles both(const Triangles& a, const Triangles& b) {
+  Triangles t{Mat3X(3, a.points.cols() + b.points.cols()), a.faces};
+  t.points << a.points, b.points;
+  const int shift = static_cast<int>(a.points.cols());
+  for (const Triangle& f : b.faces) t.faces.push_back({f[0] + shift, f[1] + shift, f[2] + shift});
+  return t;
+}
+
+inline Triangles moved(Triangles t, double scale = 1) {
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(1.1, Vec3(1, -2, 3).normalized()).toRotationMatrix();
+  t.points = (scale * (rotation * t.points)).eval();
+  t.points.colwise() += Vec3(.3, -7, 2) * scale;
+  return t;
+}
+
+/// The same with its vertices numbered at random.
+inline Triangles shuffled(const Triangles& t, unsigned seed = 2) {
+  std::vector<int> fresh(static_cast<size_t>(t.points.cols()));
+  std::iota(fresh.begin(), fresh.end(), 0);
+  std::mt19937 random(seed);
+  std::ranges::shuffle(fresh, random);
+  Triangles result{Mat3X(3, t.points.cols()), t.faces};
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    result.points.col(fresh[static_cast<size_t>(v)]) = t.points.col(v);
+  for (Triangle& face : result.faces)
+    for (int& v : face) v = fresh[static_cast<size_t>(v)];
+  return result;
+}
+
+/// A sphere and a piece of a plane with a boundary, and three vertices without faces.
+inline Triangles two_parts_and_loose_vertices() {
+  Triangles t = both(sphere(2), grid(9, flat));
+  t.points.conservativeResize(3, t.points.cols() + 3);
+  t.points.rightCols(3).setConstant(9);
+  return t;
+}
+
+/// Every coordinate shifted by up to `size`.
+inline Triangles shaken(Triangles t, double size, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-size, size);
+  for (double& x : t.points.reshaped()) x += shift(random);
+  return t;
+}
+
+/// Splits every `step`-th face from `first` on at its centre, which has valence 3 then.
+inline void split_at_centres(Triangles& t, size_t first, size_t step) {
+  const size_t count = t.faces.size();
+  for (size_t f = first; f < count; f += step) {
+    const auto [a, b, c] = t.faces[f];
+    const int centre = static_cast<int>(t.points.cols());
+    t.points.conservativeResize(3, centre + 1);
+    t.points.col(centre) = (t.points.col(a) + t.points.col(b) + t.points.col(c)) / 3;
+    t.faces[f] = {a, b, centre};
+    t.faces.push_back({b, c, centre});
+    t.faces.push_back({c, a, centre});
+  }
+}
+
+}  // namespace hooke::test
