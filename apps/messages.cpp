@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 #include "hooke/report/table.h"
 
 namespace hooke::app {

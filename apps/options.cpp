@@ -10,7 +10,7 @@
 
 #include "exit_codes.h"
 #include "hooke/core/error.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 #include "messages.h"
 #include "words.h"
 

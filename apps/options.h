@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "hooke/springs/sizing.h"
-#include "hooke/remesh/restarts.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/remesh/restarts.h"
+#include "hooke/springs/sizing.h"
 
 namespace hooke::app {
 

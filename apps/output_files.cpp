@@ -5,7 +5,8 @@
 #include <cstdio>
 
 #include "hooke/core/error.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
+#include "hooke/springs/sizing.h"
 
 namespace hooke::app {
 namespace {

@@ -8,6 +8,8 @@
 
 #include "messages.h"
 
+#include "hooke/springs/sizing.h"
+
 namespace hooke::app {
 namespace {
 

@@ -6,11 +6,34 @@
 #include <cmath>
 
 #include "hooke/core/error.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
+#include "hooke/io/files.h"
+#include "hooke/io/mesh_file.h"
+#include "hooke/io/ply.h"
+#include "hooke/io/vertex_lists.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/springs/sizing.h"
+#include "hooke/springs/target_lengths.h"
 #include "result_warnings.h"
 
 namespace hooke::app {
 namespace {
+
+constexpr double longest = .1;  // of the box's diagonal: beyond it a mesh hardly shows a shape
+
+std::vector<double> read_property(const std::string& property, const std::filesystem::path& mesh_file,
+                                  int count) {
+  const std::string name = printable(mesh_file.native());
+  if (input_format_of(mesh_file) != "ply")
+    throw Error(fmt::format("{}: sizing by the property {}; expected a PLY file; name a file of lengths",
+                            name, in_quotes(property)));
+  const FileBytes file = read_regular_file(mesh_file);
+  std::vector<double> lengths = read_ply_lengths(file.text(), name, property);
+  if (lengths.size() != static_cast<size_t>(count))
+    throw InputError(fmt::format("{}: {} vertices, and {} when it was first read; it has been changed", name,
+                                 lengths.size(), count));
+  return lengths;
+}
 
 /// Far from the natural length nothing sensible can come of it, and numbers overflow.
 void require_reasonable(const Settings& s, double least, double most, double natural) {
@@ -25,6 +48,25 @@ void require_reasonable(const Settings& s, double least, double most, double nat
 }
 
 }  // namespace
+
+std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
+                                const Mat3X& points, const Layout& layout) {
+  const Connectivity& c = *layout.connectivity;
+  switch (source.kind) {
+    case SizingSource::Kind::none:
+      break;
+    case SizingSource::Kind::file:
+      return layout.order.in_new_order(read_length_list(source.name, c.vertex_count));
+    case SizingSource::Kind::ply_property:
+      return layout.order.in_new_order(read_property(source.name, mesh_file, c.vertex_count));
+    case SizingSource::Kind::curvature: {
+      const double diagonal = box_diagonal(points);
+      const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
+      return curvature_lengths(points, c, error, longest * diagonal);
+    }
+  }
+  return {};
+}
 
 void set_target_lengths(const Settings& s, TriMesh& mesh, const Layout& layout, const Mat3X& points,
                         RunRecord& record) {

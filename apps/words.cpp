@@ -9,9 +9,10 @@
 #include <limits>
 
 #include "hooke/core/error.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/mesh_file.h"
-#include "hooke/io/printable.h"
 #include "hooke/remesh/options.h"
+#include "hooke/springs/sizing.h"
 
 namespace hooke::app {
 namespace {

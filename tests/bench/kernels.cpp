@@ -3,8 +3,13 @@
 
 #include <numeric>
 
+#include "hooke/filter/retraction.h"
 #include "hooke/filter/surface_field.h"
 #include "hooke/integrator/gauss_seidel.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/mesh/vertex_coloring.h"
+#include "hooke/springs/target_lengths.h"
 #include "support/meshes.h"
 
 namespace hooke {
@@ -45,7 +50,7 @@ void per_item(benchmark::State& state, size_t items) {
 void energy_and_gradient(benchmark::State& state) {
   Sphere s(static_cast<int>(state.range(0)));
   Mat3X gradient;
-  for (auto _ : state) benchmark::DoNotOptimize(s.energy(s.placement, &gradient));
+  for (auto _ : state) benchmark::DoNotOptimize(s.energy(s.placement.points, s.placement.normals, &gradient));
   per_item(state, s.connectivity->faces.size());
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "hooke/constraints/feature_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/geometry/triangle.h"

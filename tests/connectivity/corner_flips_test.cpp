@@ -4,6 +4,10 @@
 
 #include "support/flipping_scene.h"
 
+#include "hooke/connectivity/edge_flips.h"
+#include "hooke/constraints/constraints.h"
+#include "hooke/geometry/triangle.h"
+
 namespace hooke {
 namespace {
 

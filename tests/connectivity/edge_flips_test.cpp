@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/constraints/constraints.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
 #include "support/flipping_scene.h"
 

@@ -4,6 +4,10 @@
 
 #include "support/adapting_scene.h"
 
+#include "hooke/constraints/constraints.h"
+#include "hooke/constraints/feature_curves.h"
+#include "hooke/mesh/extent.h"
+
 namespace hooke {
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/mesh/topology.h"
 #include "support/adapting_scene.h"

@@ -5,6 +5,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/extent.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/remesh/remesh.h"
 #include "support/flipping_scene.h"

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/extent.h"
 #include "hooke/mesh/topology.h"
 #include "support/flipping_scene.h"
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/springs/target_lengths.h"
 #include "support/flipping_scene.h"
 
 namespace hooke {
@@ -11,7 +15,7 @@ namespace {
 double spring_energy(const test::FlippingScene& s, const EnergyTerms& terms = {}) {
   const Connectivity c = make_connectivity(static_cast<int>(s.vertex_length.size()), s.triangulation.faces());
   const TargetLengths targets = spread_target_lengths(c, s.vertex_length);
-  return Energy(c, targets, terms)(s.placement, nullptr);
+  return Energy(c, targets, terms)(s.placement.points, s.placement.normals, nullptr);
 }
 
 /// A pass over all edges.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/feature_curves.h"
 #include "hooke/mesh/wedges.h"
 #include "support/crease_solids.h"
 #include "support/remeshed.h"

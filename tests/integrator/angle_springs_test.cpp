@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/lbfgs.h"
+#include "hooke/springs/target_lengths.h"
 #include "support/scene.h"
 
 namespace hooke {

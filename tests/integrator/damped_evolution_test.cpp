@@ -7,7 +7,10 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/mesh/extent.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/springs/forces.h"
 #include "hooke/springs/hooke_law.h"
@@ -213,7 +216,7 @@ struct Bench {
 
   explicit Bench(const Triangles& t, const GuardOptions& guard_options = {},
                  FilterKind filter = FilterKind::local)
-      : work(with_natural_length(t), lay_out(test::to_mesh(t)), {}, {.kind = filter}, {}, guard_options),
+      : work(with_natural_length(t), lay_out(test::to_mesh(t)), {}, {.kind = filter}, {}),
         energy(*work.connectivity, work.targets, {}),
         guards(*work.connectivity, work.targets, guard_options),
         mesh(build_mesh(work.placement.points, *work.connectivity)) {}
@@ -306,7 +309,7 @@ TEST(DampedRelaxation, LeavesForcesOfTheFinalStateOnTheMesh) {
   Bench b(test::sphere(2, .4));
   b.damped({.max_steps = 40});
   Mat3X gradient, torque(3, b.work.placement.points.cols());
-  b.energy(b.work.placement, &gradient);
+  b.energy(b.work.placement.points, b.work.placement.normals, &gradient);
   torque_forces(b.work.placement.points, *b.work.connectivity, torque);
   Mat3X expected = -2 * gradient + torque;
   b.work.retraction->constrain(b.work.placement, expected);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/self_intersection.h"
 #include "support/scene.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "support/scene.h"
 
 namespace hooke {
@@ -47,12 +48,12 @@ TEST(LocalNewton, SweepsLowerTheEnergyOfAllAndKeepTheGuards) {
   for (double factor : {1., 1.5}) {
     test::Scene s = test::sphere_scene(.25);
     ASSERT_TRUE(s.guards.folded_faces(s.placement).empty());
-    const double start = s.energy(s.placement, nullptr);
+    const double start = s.energy(s.placement.points, s.placement.normals, nullptr);
     double energy = start;
     for (int sweep = 0; sweep < 5; ++sweep) {
       Relaxation r = s.relaxation();
       local_newton_sweep(r, {}, {.over_relaxation = factor});
-      const double now = s.energy(s.placement, nullptr);
+      const double now = s.energy(s.placement.points, s.placement.normals, nullptr);
       EXPECT_LT(now, energy);
       energy = now;
       EXPECT_TRUE(s.guards.folded_faces(s.placement).empty());

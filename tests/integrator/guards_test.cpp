@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/vertex_ring.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "support/scene.h"
 
 namespace hooke {
@@ -22,14 +23,14 @@ IntegrationResult relax(test::Scene& s, const IntegrationOptions& options = unti
 
 /// Guarded steps along the gradient; returns the least energy met.
 double descend(test::Scene& s, int steps) {
-  double energy = s.energy(s.placement, nullptr);
+  double energy = s.energy(s.placement.points, s.placement.normals, nullptr);
   double step = .1 * s.L() * s.L();
   for (int i = 0; i < steps; ++i) {
     Mat3X u = -step * s.tangent_gradient();
     cap_displacement(s.length, .3, u);
     Placement to;
     s.guards.step(s.retraction, s.placement, u, to);
-    const double now = s.energy(to, nullptr);
+    const double now = s.energy(to.points, to.normals, nullptr);
     step *= now < energy ? 1.1 : .5;
     if (now >= energy) continue;
     energy = now;
@@ -50,12 +51,13 @@ TEST(RelaxLbfgs, ComesToRestWhereTheGradientIsSmall) {
     test::Scene s = on_sphere ? test::sphere_scene(.35) : test::ground_scene(.4);
     ASSERT_TRUE(s.guards.folded_faces(s.placement).empty());  // they would block the way
     const double start = s.tangent_gradient().norm();
-    const double energy = s.energy(s.placement, nullptr);
+    const double energy = s.energy(s.placement.points, s.placement.normals, nullptr);
     const IntegrationResult result = relax(s);
     EXPECT_EQ(result.reason, StopReason::stalled);
     EXPECT_LT(s.tangent_gradient().norm(), 1e-3 * start);
     EXPECT_LT(result.energy, .5 * energy);
-    EXPECT_NEAR(s.energy(s.placement, nullptr), result.energy, 1e-12 * result.energy);
+    EXPECT_NEAR(s.energy(s.placement.points, s.placement.normals, nullptr), result.energy,
+                1e-12 * result.energy);
   }
 }
 
@@ -92,7 +94,7 @@ TEST(RelaxLbfgs, HasOnlySweepsWhereOneEvaluationIsAllowed) {
   IntegrationOptions once;
   once.max_steps = 1;
   test::Scene s = test::ground_scene(.4);
-  const double before = s.energy(s.placement, nullptr);
+  const double before = s.energy(s.placement.points, s.placement.normals, nullptr);
   const IntegrationResult result = relax(s, once);
   EXPECT_EQ(result.steps, 0);
   EXPECT_EQ(result.evaluations, 1);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "support/scene.h"
 

@@ -58,9 +58,9 @@ TEST_P(RingLaws, TheEnergyChangesAsThatOfTheWholeMesh) {
     const Vec3 y = x + .05 * s.L() * n.unitOrthogonal();
     ring.shape(x, n, here);
     ring.shape(y, n, there);
-    const double before = s.energy(s.placement, nullptr);
+    const double before = s.energy(s.placement.points, s.placement.normals, nullptr);
     s.placement.points.col(v) = y;
-    const double after = s.energy(s.placement, nullptr);
+    const double after = s.energy(s.placement.points, s.placement.normals, nullptr);
     s.placement.points.col(v) = x;
     EXPECT_NEAR(ring.energy(there, s.energy.terms) - ring.energy(here, s.energy.terms), after - before,
                 1e-10 * before);
@@ -70,7 +70,7 @@ TEST_P(RingLaws, TheEnergyChangesAsThatOfTheWholeMesh) {
 TEST_P(RingLaws, TheModelHasTheEnergyAndItsGradient) {
   for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
     Mat3X gradient;
-    s.energy(s.placement, &gradient);
+    s.energy(s.placement.points, s.placement.normals, &gradient);
     const Vec3 n = s.placement.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
     RingShape here;
     ring.shape(s.placement.points.col(v), n, here);

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "hooke/core/error.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/text.h"
 #include "support/errors.h"
 

@@ -8,6 +8,7 @@
 #include "hooke/core/error.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
+#include "hooke/mesh/extent.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/errors.h"

@@ -4,6 +4,8 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/remesh/options.h"
+#include "hooke/springs/sizing.h"
+#include "hooke/springs/target_lengths.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
 

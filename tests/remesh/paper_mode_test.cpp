@@ -6,6 +6,8 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/springs/target_lengths.h"
 #include "support/meshes.h"
 
 namespace hooke {

@@ -4,6 +4,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/springs/target_lengths.h"
 #include "support/remeshed.h"
 #include "support/scene.h"
 #include "support/solids.h"
@@ -125,8 +126,7 @@ double largest_move(const Mat3X& a, const Mat3X& b) {
 /// Largest distance of the points to the field that the input stands for, in target lengths.
 double off_the_field(const test::Triangles& t, const Mat3X& points, const RemeshOptions& options) {
   const TriMesh mesh = with_length(t, natural(t));
-  const Workspace w(mesh, lay_out(mesh), options.constraints, options.filter, options.retraction,
-                    options.guards);
+  const Workspace w(mesh, lay_out(mesh), options.constraints, options.filter, options.retraction);
   Mat3X x(3, points.cols());
   for (Eigen::Index v = 0; v < x.cols(); ++v)
     x.col(v) = (points.col(w.order.old_vertex[static_cast<size_t>(v)]) - w.normalisation.centre) /

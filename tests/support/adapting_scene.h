@@ -1,7 +1,9 @@
 // A mesh on a known surface with all that adaptation wants, for tests.
 #pragma once
 
-#include "hooke/working_mesh/vertex_table.h"
+#include "hooke/constraints/constraints.h"
+#include "hooke/constraints/feature_curves.h"
+#include "hooke/working_mesh/working_mesh.h"
 #include "support/flipping_scene.h"
 
 namespace hooke::test {

@@ -6,7 +6,10 @@
 #include <numbers>
 
 #include "hooke/connectivity/edge_flips.h"
+#include "hooke/constraints/constraints.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/extent.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/meshes.h"

@@ -1,6 +1,7 @@
 // A mesh before and after remeshing.
 #pragma once
 
+#include "hooke/mesh/extent.h"
 #include "hooke/remesh/remesh.h"
 #include "support/meshes.h"
 

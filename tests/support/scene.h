@@ -3,7 +3,13 @@
 
 #include <algorithm>
 
+#include "hooke/constraints/feature_curves.h"
+#include "hooke/filter/retraction.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/mesh/vertex_coloring.h"
+#include "hooke/springs/target_lengths.h"
 #include "support/solids.h"
 
 namespace hooke::test {
@@ -58,7 +64,7 @@ struct Scene {
   /// Gradient of the energy in the directions that the vertices may move in.
   Mat3X tangent_gradient() {
     Mat3X gradient;
-    energy(placement, &gradient);
+    energy(placement.points, placement.normals, &gradient);
     retraction.constrain(placement, gradient);
     return gradient;
   }

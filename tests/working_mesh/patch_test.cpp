@@ -4,6 +4,11 @@
 
 #include "support/flipping_scene.h"
 
+#include "hooke/connectivity/edge_flips.h"
+#include "hooke/connectivity/edge_trial.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/integrator/guards.h"
+
 namespace hooke {
 namespace {
 

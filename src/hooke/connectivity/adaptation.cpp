@@ -6,11 +6,15 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_splits.h"
 #include "hooke/connectivity/lloyd_flow.h"
 #include "hooke/core/parallel.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/integrator/lbfgs.h"
+#include "hooke/mesh/vertex_coloring.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 namespace {

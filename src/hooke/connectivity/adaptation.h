@@ -4,11 +4,13 @@
 #include <optional>
 
 #include "hooke/connectivity/collapse_passes.h"
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/face_count.h"
 #include "hooke/connectivity/flip_mode.h"
 #include "hooke/connectivity/valence_flips.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/integrator/untangle.h"
-#include "hooke/working_mesh/vertex_table.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 

@@ -9,6 +9,7 @@
 
 #include "hooke/connectivity/edge_queue.h"
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
 
 namespace hooke {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
 
@@ -144,34 +145,6 @@ class Corner {
 };
 
 }  // namespace
-
-std::vector<int> corner_valences(const Mat3X& points, const Connectivity& c, const Constraints& constraints,
-                                 double corner_angle) {
-  std::vector<int> borders(static_cast<size_t>(c.vertex_count), 0);
-  for (size_t e = 0; e < c.edges.size(); ++e)
-    if (c.is_border(static_cast<int>(e)))
-      for (int v : c.edges[e]) ++borders[static_cast<size_t>(v)];
-  const auto is_corner = [&](int v) {
-    return borders[static_cast<size_t>(v)] >= 2 &&
-           constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed;
-  };
-  std::vector<double> angles(static_cast<size_t>(c.side_count()), 0);  // degrees
-  for (size_t f = 0; f < c.faces.size(); ++f) {
-    const Triangle& t = c.faces[f];
-    for (size_t k = 0; k < 3; ++k) {
-      if (!is_corner(t[k])) continue;
-      const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(t[k]);
-      const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(t[k]);
-      angles[static_cast<size_t>(c.sides_of_faces()[f][k])] +=
-          std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
-    }
-  }
-  std::vector<int> wanted(angles.size(), 0);
-  for (size_t side = 0; side < angles.size(); ++side)
-    if (angles[side] > 0 && std::abs(180 - angles[side]) >= corner_angle)
-      wanted[side] = 1 + std::max(1, static_cast<int>(std::lround(angles[side] / 60)));
-  return wanted;
-}
 
 int force_corners(FlippingMesh& m, const FlipGuardOptions& options) {
   const int vertices = static_cast<int>(m.vertex_length.size());

@@ -6,12 +6,6 @@
 
 namespace hooke {
 
-/// Per side: the number of edges that each corner wants: 1 + max(1, round(angle / 60 degrees)), by the angle
-/// that its faces span. 0 for all others. A corner is a side, between two creases or boundary edges, of a
-/// vertex that stands still, where the faces span no straight angle to within `corner_angle` degrees.
-std::vector<int> corner_valences(const Mat3X& points, const Connectivity& connectivity,
-                                 const Constraints& constraints, double corner_angle);
-
 /// Flips edges at the corners that do not have the valence they want. Where a flip is not allowed it makes
 /// room: it gives an inner neighbour with three edges a fourth, else pushes the neighbour away from the
 /// corner, else slides the corner's neighbours on the boundary toward it. What brings nothing is undone.

@@ -6,6 +6,7 @@
 #include <span>
 #include <tuple>
 
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "hooke/working_mesh/vertex_table.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 

@@ -4,7 +4,9 @@
 #include <deque>
 #include <numbers>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
 
 namespace hooke {

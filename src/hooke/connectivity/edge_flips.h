@@ -3,8 +3,7 @@
 // "Delaunay mesh construction", 2007.
 #pragma once
 
-#include "hooke/filter/retraction.h"
-#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 
@@ -13,19 +12,6 @@ struct FlipGuardOptions {
   double alignment = .3;    // least cosine between a new face and the surface, unless an old one had less
   double fold = .1;         // least cosine between a new face and its neighbours, unless the old had less
   double sagitta = .2;  // greatest sagitta of the new edge over its target length, unless the old had more
-};
-
-/// A mesh whose edges are flipped and whose vertices move on the surface. All are references to objects that
-/// outlive it.
-struct FlippingMesh {
-  Triangulation& triangulation;
-  Placement& placement;
-  Retraction& retraction;
-  const Constraints& constraints;
-  const std::vector<double>& vertex_length;  // target length per vertex
-  const std::vector<int>& corner_valences;   // per side: wanted at corners, 0 elsewhere: corner_rule.h
-  /// Called when vertices have moved, so that their target lengths can become those of their new places.
-  std::function<void()> after_move = nullptr;
 };
 
 /// Sum of the two angles across an inner edge, radians; Delaunay up to pi.

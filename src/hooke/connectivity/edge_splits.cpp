@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_queue.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"

@@ -1,7 +1,8 @@
 // Edge splits: a new vertex in the middle of an edge that is too long.
 #pragma once
 
-#include "hooke/working_mesh/vertex_table.h"
+#include "hooke/connectivity/edge_flips.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 

@@ -5,9 +5,11 @@
 #include <limits>
 #include <numeric>
 
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/gauss_seidel.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/vertex_coloring.h"
 
 namespace hooke {
 namespace {
@@ -291,6 +293,25 @@ void ChangeTrials::finish(ChangeTrial& trial) const {
       before.area - after.area <= options_.area_loss * std::pow(mean_of(trial.patch.vertex_length), 2) &&
       is_no_worse(after.excess, before.excess) &&
       !folds_at_rim(trial.patch, trial.connectivity.faces, m_.flipping(), guards_);
+}
+
+bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippingMesh& m,
+                  const GuardOptions& guards) {
+  const Triangulation& t = m.triangulation;
+  const Mat3X& X = m.placement.points;
+  return std::ranges::any_of(patch.rim, [&](const PatchRim& rim) {
+    const Triangle& face = t.faces()[static_cast<size_t>(rim.half_edge / 3)];
+    const Triangle& beyond = t.faces()[static_cast<size_t>(t.twin(rim.half_edge) / 3)];
+    const double before = cosine_between(X, face, beyond);
+    const Triangle& changed = face_along(faces, rim.from, rim.to);
+    const Vec3 across =
+        rim.beyond[0] < 0
+            ? doubled_area_vector(X, beyond)
+            : doubled_area_vector(patch.placement.points, face_along(faces, rim.beyond[0], rim.beyond[1]));
+    const double after = cosine_between(doubled_area_vector(patch.placement.points, changed), across);
+    return t.is_constrained(rim.half_edge) ? crease_fold_breaks(guards, before, after)
+                                           : fold_breaks(guards, before, after);
+  });
 }
 
 }  // namespace hooke

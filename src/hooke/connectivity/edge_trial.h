@@ -3,9 +3,10 @@
 
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/angle_search.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/patch.h"
-#include "hooke/working_mesh/vertex_table.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 
@@ -133,5 +134,10 @@ class ChangeTrials {
   GuardOptions guards_;
   PatchLimits limits_{};
 };
+
+/// Would the patch, with these faces and its vertices where they are now, break the rule of folds with the
+/// faces across its rim?
+bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippingMesh& mesh,
+                  const GuardOptions& guards);
 
 }  // namespace hooke

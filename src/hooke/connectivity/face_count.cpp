@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hooke/connectivity/edge_queue.h"
+#include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
 
 namespace hooke {

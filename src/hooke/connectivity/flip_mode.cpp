@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/constraints/constraints.h"
+#include "hooke/integrator/guards.h"
+
 namespace hooke {
 namespace {
 

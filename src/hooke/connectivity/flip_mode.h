@@ -3,12 +3,14 @@
 // Vertices keep their ids, but travel: by one or two edge lengths, and more on uneven meshes.
 #pragma once
 
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/lloyd_flow.h"
 #include "hooke/connectivity/valence_flips.h"
 #include "hooke/integrator/angle_springs.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/integrator/lbfgs.h"
 #include "hooke/integrator/untangle.h"
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/core/parallel.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 namespace {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hooke/connectivity/corner_flips.h"
+#include "hooke/connectivity/edge_flips.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"

@@ -8,7 +8,8 @@
 #include "hooke/connectivity/face_count.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
-#include "hooke/working_mesh/vertex_table.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

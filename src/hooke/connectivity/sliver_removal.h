@@ -6,6 +6,7 @@
 
 #include "hooke/connectivity/edge_trial.h"
 #include "hooke/connectivity/flip_mode.h"
+#include "hooke/integrator/guards.h"
 
 namespace hooke {
 

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 
+#include "hooke/connectivity/edge_trial.h"
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/gauss_seidel.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/mesh/vertex_coloring.h"
+#include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/patch.h"
 
 namespace hooke {
@@ -46,7 +51,7 @@ struct Pair {
 
 double energy_of(const EdgePatch& patch, const Connectivity& connectivity, const EnergyTerms& terms) {
   const TargetLengths targets = spread_target_lengths(connectivity, patch.vertex_length);
-  return Energy(connectivity, targets, terms)(patch.placement, nullptr);
+  return Energy(connectivity, targets, terms)(patch.placement.points, patch.placement.normals, nullptr);
 }
 
 class FlipPass {
@@ -120,13 +125,15 @@ class FlipPass {
     const SweepPlan sweeps = plan_one_block(c);
     Relaxation r{c, sweeps, patch->vertex_length, energy, retraction, guards, patch->placement};
     LocalNewton newton(r);
-    const double before = energy(patch->placement, nullptr) - loss;
+    const double before = energy(patch->placement.points, patch->placement.normals, nullptr) - loss;
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
-      if (sweep > 0 && energy(patch->placement, nullptr) - before > options_.swept_hope * unit_)
+      if (sweep > 0 && energy(patch->placement.points, patch->placement.normals, nullptr) - before >
+                           options_.swept_hope * unit_)
         return std::nullopt;
       for (size_t v = 0; v < patch->movable; ++v) newton.improve(static_cast<int>(v), {});
     }
-    if (before - energy(patch->placement, nullptr) < options_.gain) return std::nullopt;
+    if (before - energy(patch->placement.points, patch->placement.normals, nullptr) < options_.gain)
+      return std::nullopt;
     return patch;
   }
 

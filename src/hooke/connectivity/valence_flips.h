@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
 
 namespace hooke {

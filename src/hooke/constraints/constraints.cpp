@@ -30,17 +30,6 @@ std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Connect
 
 namespace {
 
-CurveFoot foot_on_segment(const Curve& curve, const Vec3& x, int segment) {
-  const int next = (segment + 1) % static_cast<int>(curve.points.cols());
-  const Vec3 a = curve.points.col(segment);
-  const Vec3 ab = curve.points.col(next) - a;
-  const double length2 = ab.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
-  // Blended tangents let a vertex pass a point of the polyline without a kink in its direction.
-  const Vec3 tangent = (1 - t) * curve.tangents.col(segment) + t * curve.tangents.col(next);
-  return {t < 1 ? Vec3(a + t * ab) : Vec3(curve.points.col(next)), tangent.stableNormalized(), segment};
-}
-
 void set_tangents(Curve& curve) {
   const int n = static_cast<int>(curve.points.cols());
   curve.tangents = Mat3X::Zero(3, n);
@@ -217,29 +206,6 @@ void add_boundary(const Mat3X& points, const Connectivity& c, BoundaryRule rule,
 
 }  // namespace
 
-CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment) {
-  const int n = curve.segment_count();
-  CurveFoot best = foot_on_segment(curve, x, segment);
-  double best2 = (x - best.point).squaredNorm();
-  for (int direction : {1, -1}) {
-    // Two segments without gain end the walk: one may be hidden behind a reflex point.
-    for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n;
-         s += direction, ++steps) {
-      if (!curve.closed && (s < 0 || s >= n)) break;
-      const CurveFoot foot = foot_on_segment(curve, x, ((s % n) + n) % n);
-      const double distance2 = (x - foot.point).squaredNorm();
-      if (distance2 < best2) {
-        best = foot;
-        best2 = distance2;
-        misses = 0;
-      } else {
-        ++misses;
-      }
-    }
-  }
-  return best;
-}
-
 Constraints find_constraints(const Mat3X& points, const Connectivity& c, const ConstraintOptions& options) {
   Constraints result;
   const auto n = static_cast<size_t>(c.vertex_count);
@@ -259,6 +225,34 @@ Constraints find_constraints(const Mat3X& points, const Connectivity& c, const C
   result.creases = crease_edges(c);
   result.further_sides = c.further_sides;
   return result;
+}
+
+std::vector<int> corner_valences(const Mat3X& points, const Connectivity& c, const Constraints& constraints,
+                                 double corner_angle) {
+  std::vector<int> borders(static_cast<size_t>(c.vertex_count), 0);
+  for (size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_border(static_cast<int>(e)))
+      for (int v : c.edges[e]) ++borders[static_cast<size_t>(v)];
+  const auto is_corner = [&](int v) {
+    return borders[static_cast<size_t>(v)] >= 2 &&
+           constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed;
+  };
+  std::vector<double> angles(static_cast<size_t>(c.side_count()), 0);  // degrees
+  for (size_t f = 0; f < c.faces.size(); ++f) {
+    const Triangle& t = c.faces[f];
+    for (size_t k = 0; k < 3; ++k) {
+      if (!is_corner(t[k])) continue;
+      const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(t[k]);
+      const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(t[k]);
+      angles[static_cast<size_t>(c.sides_of_faces()[f][k])] +=
+          std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+    }
+  }
+  std::vector<int> wanted(angles.size(), 0);
+  for (size_t side = 0; side < angles.size(); ++side)
+    if (angles[side] > 0 && std::abs(180 - angles[side]) >= corner_angle)
+      wanted[side] = 1 + std::max(1, static_cast<int>(std::lround(angles[side] / 60)));
+  return wanted;
 }
 
 }  // namespace hooke

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hooke/constraints/crease_detection.h"
+#include "hooke/constraints/feature_curves.h"
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
@@ -27,25 +28,6 @@ struct ConstraintOptions {
   double crease_bend = .01;
   FeatureOptions features = {};
 };
-
-/// A polyline of the input along which vertices slide: open between two corners, or closed.
-struct Curve {
-  Mat3X points;
-  Mat3X tangents;  // unit, at the points; the mean of the segments that meet there
-  bool closed = false;
-
-  int segment_count() const { return static_cast<int>(points.cols()) - (closed ? 0 : 1); }
-};
-
-/// A place on a curve.
-struct CurveFoot {
-  Vec3 point;
-  Vec3 tangent;  // unit
-  int segment = 0;
-};
-
-/// Closest point of the curve to x, found by walking from `segment`.
-CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment);
 
 struct Constraints {
   std::vector<Freedom> freedom;  // per vertex
@@ -73,5 +55,11 @@ struct Constraints {
 /// those of coincident_boundary_vertices(), between which a gap would open.
 Constraints find_constraints(const Mat3X& points, const Connectivity& connectivity,
                              const ConstraintOptions& options);
+
+/// Per side: the number of edges that each corner wants: 1 + max(1, round(angle / 60 degrees)), by the angle
+/// that its faces span. 0 for all others. A corner is a side, between two creases or boundary edges, of a
+/// vertex that stands still, where the faces span no straight angle to within `corner_angle` degrees.
+std::vector<int> corner_valences(const Mat3X& points, const Connectivity& connectivity,
+                                 const Constraints& constraints, double corner_angle);
 
 }  // namespace hooke

@@ -17,6 +17,11 @@ double closest_parameter(const Vec3& a, const Vec3& b, const Vec3& x) {
   return length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
 }
 
+double cosine(const Vec3& a, const Vec3& b, double otherwise) {
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0 ? a.dot(b) / lengths : otherwise;
+}
+
 }  // namespace
 
 TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
@@ -121,6 +126,26 @@ double greatest_cotangent(const Mat3X& points, const std::vector<Triangle>& face
 
 double least_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
   return angle_with_cotangent(greatest_cotangent(points, faces));
+}
+
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
+                      const Triangle& sides) {
+  return cosine(doubled_area_vector(points, face),
+                Vec3(normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2])), 0);
+}
+
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides) {
+  const double c = std::clamp(normals.col(sides[0]).dot(normals.col(sides[1])), -1., 1.);
+  const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
+  return .5 * (points.col(edge[1]) - points.col(edge[0])).norm() * tan_quarter;
+}
+
+double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other) {
+  return cosine_between(doubled_area_vector(points, face), doubled_area_vector(points, other));
+}
+
+double cosine_between(const Vec3& area_vector, const Vec3& other) {
+  return cosine(area_vector, other, 1);
 }
 
 }  // namespace hooke

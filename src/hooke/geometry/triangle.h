@@ -76,4 +76,29 @@ inline FaceShape face_shape(const Eigen::Ref<const Mat3X>& points, const Triangl
   return shape;
 }
 
+// How a face and an edge lie on the surface whose normals are given, and faces to each other.
+
+/// Cosine between the face and the sum of the surface normals at its corners; 0 without area. `sides` are the
+/// columns of the corners' normals.
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face, const Triangle& sides);
+
+/// The same away from creases, where the corners are the columns.
+inline double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
+  return face_alignment(points, normals, face, face);
+}
+
+/// Sagitta (l / 2) tan(theta / 4) of a circular arc over a chord of length l whose ends' normals differ by
+/// theta. `sides` are the columns of the ends' normals.
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides);
+
+inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge) {
+  return edge_sagitta(points, normals, edge, edge);
+}
+
+/// Cosine between the normals of two faces; 1 where one has no area.
+double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
+
+/// The same from the vectors of their areas.
+double cosine_between(const Vec3& area_vector, const Vec3& other);
+
 }  // namespace hooke

@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/integrator/guards.h"
 
 namespace hooke {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
 #include "hooke/integrator/vertex_ring.h"
 

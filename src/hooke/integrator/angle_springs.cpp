@@ -5,8 +5,10 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/gauss_seidel.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hooke/integrator/relaxation.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 

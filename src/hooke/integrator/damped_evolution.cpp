@@ -8,6 +8,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/springs/forces.h"
 #include "hooke/springs/hooke_law.h"
@@ -151,7 +152,7 @@ struct Forces {
 };
 
 void compute(const Relaxation& r, const Placement& at, const DampedOptions& damped, Forces& forces) {
-  forces.energy = r.energy(at, &forces.total);
+  forces.energy = r.energy(at.points, at.normals, &forces.total);
   forces.total *= -damped.string;
   forces.torque.resize(3, at.points.cols());
   if (damped.torque != 0)

@@ -2,13 +2,25 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/self_intersection.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {
+
+constexpr double slack = .05;  // two fields of one surface differ a little, and that is no fold
+
+constexpr double area_ratio = .01;
+
+/// Steps keep this much from the least angle, in parts of its cotangent, so that the projection need not fall
+/// below it.
+constexpr double cotangent_reserve = 3e-3;
 
 std::vector<int> put_back(const Guards& guards, const Placement& from, std::vector<int> offending,
                           Placement& to) {
@@ -95,6 +107,61 @@ void settle(const Guards& guards, Retraction& retraction, Placement& placement) 
   Placement settled;
   settle(guards, retraction, placement, settled);
   placement = std::move(settled);
+}
+
+double cotangent_to_keep(const Mat3X& points, const std::vector<Triangle>& faces) {
+  return greatest_cotangent(points, faces) / (1 + cotangent_reserve);
+}
+
+FinalProjection::FinalProjection(Workspace& work, const GuardOptions& guards)
+    : work_(work), step_guards_(guards) {}
+
+Guards FinalProjection::guards() const {
+  GuardOptions options = step_guards_;
+  options.slack = slack;
+  options.area_ratio = area_ratio;
+  options.sagitta = std::numeric_limits<double>::infinity();
+  options.cotangent *= 1 + cotangent_reserve;
+  return {*work_.connectivity, work_.targets, options};
+}
+
+void FinalProjection::refit() {
+  if (!before_refit_) before_refit_ = {work_.placement, unprojected_};
+  work_.refit();
+}
+
+int FinalProjection::project() {
+  const Stage stage(work_.stopwatch, "land");
+  Placement projected = work_.project_to_input();
+  unprojected_ = put_back_offenders(guards(), work_.placement, projected);
+  work_.placement = std::move(projected);
+  took_back_ = false;
+  if (before_refit_) undo_crossings();
+  return static_cast<int>(unprojected_.size());
+}
+
+int FinalProjection::project(const std::vector<int>& vertices) {
+  const Stage stage(work_.stopwatch, "land");
+  const Placement before = work_.placement;
+  work_.to_input().settle(vertices, work_.placement);
+  std::erase_if(unprojected_, [&](int v) { return std::ranges::binary_search(vertices, v); });
+  const std::vector<int> stay = put_back_offenders(guards(), before, vertices, work_.placement);
+  unprojected_.insert(unprojected_.end(), stay.begin(), stay.end());
+  return static_cast<int>(unprojected_.size());
+}
+
+/// The vertices are all tracked on the input's field again.
+void FinalProjection::undo_crossings() {
+  const Stage stage(work_.stopwatch, "crossings");
+  const Projected before = *std::exchange(before_refit_, std::nullopt);
+  const std::vector<int> back =
+      put_back_crossings(guards(), *work_.connectivity, before.placement, work_.placement);
+  took_back_ = !back.empty();
+  if (!took_back_) return;
+  work_.track_on_input(work_.placement.anchors);
+  const auto is_back = [&](int v) { return std::ranges::binary_search(back, v); };
+  std::erase_if(unprojected_, is_back);
+  std::ranges::copy_if(before.unprojected, std::back_inserter(unprojected_), is_back);
 }
 
 }  // namespace hooke

@@ -1,7 +1,11 @@
 // Ways that end on the surface, taken back where a guard breaks on them or faces come to cross.
 #pragma once
 
+#include <optional>
+
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 
@@ -26,5 +30,46 @@ void settle(const Guards& guards, Retraction& retraction, const Placement& from,
 
 /// The same in place.
 void settle(const Guards& guards, Retraction& retraction, Placement& placement);
+
+/// The cotangent that guards have where no face's least angle may fall below the least of all as they are
+/// now, with room for the final projection.
+double cotangent_to_keep(const Mat3X& points, const std::vector<Triangle>& faces);
+
+/// Puts the vertices of a workspace on the field of the input, within guards that are looser than those of
+/// the steps. Keeps a reference to the workspace.
+class FinalProjection {
+ public:
+  /// `guards` are those of the steps.
+  FinalProjection(Workspace& work, const GuardOptions& guards);
+
+  /// Fits a new field to the vertices as they lie now, see Workspace::refit(). Fields fitted again and again
+  /// may let thin sheets drift through each other: project() takes that back.
+  void refit();
+
+  /// Projects the vertices. One whose way would break a guard stays where it is; returns their number. Faces
+  /// that have come to cross since refit() go back to where they were, see put_back_crossings().
+  int project();
+
+  /// Projects vertices, ascending, each named once, that have moved on the field of the input since, after
+  /// Workspace::return_to_input(); returns how many of all stay where they are.
+  int project(const std::vector<int>& vertices);
+
+  /// Did the last projection of all take crossings back?
+  bool took_back() const { return took_back_; }
+
+ private:
+  Guards guards() const;
+  void undo_crossings();
+
+  Workspace& work_;
+  GuardOptions step_guards_;
+  std::vector<int> unprojected_;  // vertices that stayed where they were
+  struct Projected {
+    Placement placement;
+    std::vector<int> unprojected;
+  };
+  std::optional<Projected> before_refit_;  // until the next projection
+  bool took_back_ = false;
+};
 
 }  // namespace hooke

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 
 namespace hooke {
 namespace {

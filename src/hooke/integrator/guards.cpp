@@ -71,25 +71,6 @@ bool sagitta_is_well(const GuardOptions& o, double target, const Vec3& edge, dou
 
 }  // namespace
 
-double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
-                      const Triangle& sides) {
-  return cosine(doubled_area_vector(points, face), sum_of_normals(normals, sides), 0);
-}
-
-double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides) {
-  const double c = std::clamp(normals.col(sides[0]).dot(normals.col(sides[1])), -1., 1.);
-  const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
-  return .5 * (points.col(edge[1]) - points.col(edge[0])).norm() * tan_quarter;
-}
-
-double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other) {
-  return cosine_between(doubled_area_vector(points, face), doubled_area_vector(points, other));
-}
-
-double cosine_between(const Vec3& area_vector, const Vec3& other) {
-  return cosine(area_vector, other, 1);
-}
-
 double Guards::alignment(const Placement& p, size_t face) const {
   return face_alignment(p.points, p.normals, connectivity_.faces[face], connectivity_.sides_of_faces()[face]);
 }

@@ -51,29 +51,6 @@ inline bool fold_breaks(const GuardOptions& o, double before, double after) {
 
 // Acceptance per vertex: what a step may do to each face and edge, and the step that obeys.
 
-/// Cosine between the face and the sum of the surface normals at its corners; 0 without area. `sides` are the
-/// columns of the corners' normals.
-double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face, const Triangle& sides);
-
-/// The same away from creases, where the corners are the columns.
-inline double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
-  return face_alignment(points, normals, face, face);
-}
-
-/// Sagitta (l / 2) tan(theta / 4) of a circular arc over a chord of length l whose ends' normals differ by
-/// theta. `sides` are the columns of the ends' normals.
-double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides);
-
-inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge) {
-  return edge_sagitta(points, normals, edge, edge);
-}
-
-/// Cosine between the normals of two faces; 1 where one has no area.
-double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
-
-/// The same from the vectors of their areas.
-double cosine_between(const Vec3& area_vector, const Vec3& other);
-
 /// Judges steps by what they do to each face and edge, each on its own side of a crease. Measures what it
 /// needs when it needs it: most steps stay within the absolute limits, whatever was before. Keeps references
 /// to the connectivity and the targets.

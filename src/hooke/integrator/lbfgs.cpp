@@ -5,6 +5,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/core/types.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/gauss_seidel.h"
 
@@ -174,7 +175,7 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
   }
   if (options.max_steps <= 1) {
-    result.energy = r.energy(r.placement, nullptr);
+    result.energy = r.energy(r.placement.points, r.placement.normals, nullptr);
     result.evaluations = 1;
     result.reason = StopReason::step_limit;
     return result;
@@ -188,7 +189,7 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
   std::vector<int> blocked;  // held in the last step: they sit out this one
   double max_move = options.max_move;
 
-  result.energy = r.energy(r.placement, &gradient);
+  result.energy = r.energy(r.placement.points, r.placement.normals, &gradient);
   result.evaluations = 1;
   r.retraction.constrain(r.placement, gradient);
   rest.at_rest(result.energy);
@@ -222,7 +223,8 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
       mended =
           !held.empty() && static_cast<double>(held.size()) <= lbfgs.mendable * r.connectivity.vertex_count;
       if (mended) timed(r.stopwatch, "mending", [&] { mend(r, held, lbfgs, trial); });
-      trial_energy = timed(r.stopwatch, "energy", [&] { return r.energy(trial, &trial_gradient); });
+      trial_energy = timed(r.stopwatch, "energy",
+                           [&] { return r.energy(trial.points, trial.normals, &trial_gradient); });
       ++result.evaluations;
       const double slope = dot_with_difference(gradient, trial.points, r.placement.points);
       accepted = trial_energy <= result.energy + lbfgs.armijo * std::min(0., slope);
@@ -269,7 +271,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   if (!lbfgs.settles) return result;
   settle(r.guards, r.retraction, r.placement, trial);
   std::swap(r.placement, trial);
-  result.energy = r.energy(r.placement, nullptr);
+  result.energy = r.energy(r.placement.points, r.placement.normals, nullptr);
   return result;
 }
 

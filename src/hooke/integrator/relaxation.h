@@ -3,8 +3,9 @@
 #pragma once
 
 #include "hooke/core/stopwatch.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
-#include "hooke/integrator/vertex_coloring.h"
+#include "hooke/mesh/vertex_coloring.h"
 #include "hooke/springs/energy.h"
 
 namespace hooke {

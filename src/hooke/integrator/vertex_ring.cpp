@@ -1,5 +1,6 @@
 #include "hooke/integrator/vertex_ring.h"
 
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/springs/ring_energy.h"
 

@@ -2,9 +2,11 @@
 // order, and what the guards ask of a move.
 #pragma once
 
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
-#include "hooke/integrator/vertex_coloring.h"
+#include "hooke/mesh/vertex_coloring.h"
 #include "hooke/springs/ring_energy.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 

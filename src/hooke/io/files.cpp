@@ -19,7 +19,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 
 namespace hooke {
 namespace {

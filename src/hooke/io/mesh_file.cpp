@@ -12,10 +12,10 @@
 #include <optional>
 
 #include "hooke/core/error.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
-#include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
 
 namespace hooke {

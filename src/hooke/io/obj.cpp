@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "hooke/core/error.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/obj_corner_data.h"
-#include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
 #include "hooke/io/text.h"
 

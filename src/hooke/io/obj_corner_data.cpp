@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "hooke/core/error.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 
 namespace hooke {
 namespace {

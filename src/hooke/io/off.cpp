@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/scanner.h"
 #include "hooke/io/text.h"
 

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "hooke/core/error.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/ply_format.h"
-#include "hooke/io/printable.h"
 #include "hooke/io/text.h"
 
 namespace hooke {

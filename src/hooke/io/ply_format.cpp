@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "hooke/core/error.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/scanner.h"
 
 namespace hooke {

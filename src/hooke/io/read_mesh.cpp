@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "hooke/core/parallel.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/files.h"
 #include "hooke/io/polygon_triangulation.h"
-#include "hooke/io/printable.h"
 #include "hooke/io/sha256.h"
 #include "hooke/mesh/validation.h"
 

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "hooke/core/error.h"
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 
 namespace hooke {
 namespace {

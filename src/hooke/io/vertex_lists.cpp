@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "hooke/core/error.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/files.h"
-#include "hooke/io/printable.h"
 #include "hooke/io/scanner.h"
 #include "hooke/io/text.h"
 

@@ -6,10 +6,10 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
-#include "hooke/io/printable.h"
 #include "hooke/io/sha256.h"
 
 namespace hooke {

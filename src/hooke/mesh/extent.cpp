@@ -9,6 +9,11 @@ namespace {
 
 constexpr size_t block = 4096;
 
+double face_area(const Mat3X& points, const Triangle& t) {
+  const Vec3 a = points.col(t[0]);
+  return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
+}
+
 /// Sums over the faces, block by block.
 struct Sums {
   double area = 0;
@@ -50,6 +55,18 @@ Extent measure_extent(const Mat3X& points, const Connectivity& connectivity) {
       std::ranges::none_of(connectivity.edge_faces, [](const auto& sides) { return sides[1] < 0; });
   if (closed) extent.volume = sums.volume;
   return extent;
+}
+
+double total_area(const Mat3X& points, const std::vector<Triangle>& faces) {
+  return parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t f = begin; f < end; ++f) sum += face_area(points, faces[f]);
+    return sum;
+  });
+}
+
+double box_diagonal(const Mat3X& points) {
+  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).stableNorm();
 }
 
 }  // namespace hooke

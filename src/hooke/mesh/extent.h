@@ -17,4 +17,10 @@ struct Extent {
 
 Extent measure_extent(const Mat3X& points, const Connectivity& connectivity);
 
+/// Sum of the areas of the faces.
+double total_area(const Mat3X& points, const std::vector<Triangle>& faces);
+
+/// Diagonal of the box of the points.
+double box_diagonal(const Mat3X& points);
+
 }  // namespace hooke

@@ -9,7 +9,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
-#include "hooke/springs/target_lengths.h"
+#include "hooke/mesh/extent.h"
 
 namespace hooke {
 namespace {

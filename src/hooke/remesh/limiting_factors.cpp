@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hooke/integrator/guards.h"
 #include "hooke/measure/quality.h"
 
 namespace hooke {

@@ -1,7 +1,8 @@
 // Why an angle is no larger: what holds the vertices of a result, and which of that bounds a face.
 #pragma once
 
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 

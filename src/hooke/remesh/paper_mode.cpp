@@ -4,6 +4,9 @@
 #include <chrono>
 #include <numeric>
 
+#include "hooke/filter/retraction.h"
+#include "hooke/integrator/guards.h"
+
 namespace hooke {
 namespace {
 
@@ -13,7 +16,7 @@ class PaperRun {
   PaperRun(const TriMesh& mesh, Layout layout, const PaperOptions& options, const Observer& observer)
       : options_(options),
         observer_(observer),
-        work_(mesh, std::move(layout), options.constraints, options.filter, options.retraction, {}),
+        work_(mesh, std::move(layout), options.constraints, options.filter, options.retraction),
         to_input_(*work_.retraction),
         strings_(*work_.connectivity, work_.targets, {.altitude = 0}),
         mesh_(build_mesh(*work_.start, *work_.connectivity)) {}
@@ -32,10 +35,10 @@ class PaperRun {
  private:
   void iterate() {
     if (outer_ > 1) work_.refit();  // psi of M_t
-    const double before = strings_(work_.placement, nullptr);
+    const double before = strings_(work_.placement.points, work_.placement.normals, nullptr);
     EvolutionResult evolved = optimize();  // M_{t+1}
     filter();                              // M*_{t+1}
-    evolved.energy = strings_(work_.placement, nullptr);
+    evolved.energy = strings_(work_.placement.points, work_.placement.normals, nullptr);
     record(evolved);
     const double worst =
         max_length_error(work_.placement.points, *work_.connectivity, work_.targets.edge.values());  // D

@@ -2,6 +2,7 @@
 // "Hooke's Optimization for 3D triangular mesh", section 4.6.
 #pragma once
 
+#include "hooke/filter/retraction.h"
 #include "hooke/remesh/remesh.h"
 
 namespace hooke {

@@ -6,8 +6,9 @@
 #include "hooke/core/error.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/final_projection.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/mesh/wedges.h"
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 namespace {
@@ -28,10 +29,11 @@ double spread_of_edges(const Workspace& work) {
 
 }  // namespace
 
-bool do_no_harm(Workspace& work, const HarmOptions& options) {
+bool do_no_harm(Workspace& work, const HarmOptions& options, GuardOptions& guards) {
   const bool near_regular = least_angle(*work.start, work.connectivity->faces) >= options.angle &&
                             spread_of_edges(work) <= options.deviation;
-  if (near_regular || !work.graded()) work.keep_angles();
+  if (near_regular || !work.graded())
+    guards.cotangent = cotangent_to_keep(work.placement.points, work.connectivity->faces);
   if (near_regular) {
     work.constraints.home = *work.start;
     for (double length : work.vertex_length) work.constraints.reach.push_back(options.reach * length);
@@ -51,7 +53,8 @@ class OuterIterations {
         observer_(observer),
         work_(work),
         energy_(*work_.connectivity, work_.targets, {.altitude = options.altitude}),
-        guards_(*work_.connectivity, work_.targets, work_.guards) {}
+        guards_(*work_.connectivity, work_.targets, options.guards),
+        projection_(work, options.guards) {}
 
   /// `flips` is what the mode has done before: nothing more is done if it was interrupted.
   RemeshResult run(const FlipResult& flips) {
@@ -81,7 +84,7 @@ class OuterIterations {
       settle_down();
     else
       search();
-    record("mend", {.energy = energy_(work_.placement, nullptr)});
+    record("mend", {.energy = energy_(work_.placement.points, work_.placement.normals, nullptr)});
     conclude();
     return std::move(result_);
   }
@@ -164,14 +167,15 @@ class OuterIterations {
 
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
-    if (refits() && outer_ > 1) work_.refit();
-    const double energy = energy_(work_.placement, nullptr);
+    if (refits() && outer_ > 1) projection_.refit();
+    const double energy = energy_(work_.placement.points, work_.placement.normals, nullptr);
     IntegrationResult relaxed = relax();
     held_back_ = relaxed.held_back > 0;
     unhindered_ = is_unhindered(relaxed);
     if (!goes_on() || relaxed.reason == StopReason::interrupted) {
       settle_down();
-      if (work_.took_back()) relaxed.energy = energy_(work_.placement, nullptr);
+      if (projection_.took_back())
+        relaxed.energy = energy_(work_.placement.points, work_.placement.normals, nullptr);
     } else {
       work_.resample_lengths();
     }
@@ -186,7 +190,7 @@ class OuterIterations {
 
   void raise_angles() {
     const Stage stage(work_.stopwatch, "polish");
-    if (refits()) work_.refit();
+    if (refits()) projection_.refit();
     {
       Relaxation r = relaxation();
       const PolishOptions& options =
@@ -199,7 +203,8 @@ class OuterIterations {
     } else {
       search();
     }
-    record("polish", {.steps = result_.polish.sweeps, .energy = energy_(work_.placement, nullptr)});
+    record("polish", {.steps = result_.polish.sweeps,
+                      .energy = energy_(work_.placement.points, work_.placement.normals, nullptr)});
   }
 
   /// On the field fitted last, where vertices can move that will not land; then, where landing has changed
@@ -211,7 +216,7 @@ class OuterIterations {
     }
     settle_down();
     work_.return_to_input();
-    result_.not_landed = work_.land(search_here());
+    result_.not_landed = projection_.project(search_here());
     work_.resample_lengths();
   }
 
@@ -224,7 +229,7 @@ class OuterIterations {
   }
 
   void settle_down() {
-    result_.not_landed = work_.land();
+    result_.not_landed = projection_.project();
     work_.resample_lengths();
   }
 
@@ -258,6 +263,7 @@ class OuterIterations {
   Workspace& work_;
   Energy energy_;
   Guards guards_;
+  FinalProjection projection_;
   RemeshResult result_;
   double seconds_before_ = 0;
   int outer_ = 0;
@@ -316,8 +322,7 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
 
 RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, const Observer& observer,
                     Stopwatch* stopwatch) {
-  Workspace work(mesh, std::move(layout), options.constraints, options.filter, options.retraction,
-                 options.guards, stopwatch);
+  Workspace work(mesh, std::move(layout), options.constraints, options.filter, options.retraction, stopwatch);
   const EnergyTerms terms{.altitude = options.altitude};
   const double corner_angle = options.constraints.corner_angle;
   AdaptResult adapted;
@@ -333,8 +338,9 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
       const FlipOptions then = flips_after(adapted, options.adaptation, options.flips);
       return flip_connectivity(work, then, terms, options.guards, corner_angle, observer);
     });
-  const bool near_regular = options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm);
   RemeshOptions then = options;
+  const bool near_regular =
+      options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm, then.guards);
   if (adapted.levels > 0 && options.polish_angles) then = relaxing_little(std::move(then));
   RemeshResult result = OuterIterations(work, then, observer).run(flips);
   result.near_regular = near_regular;

@@ -5,14 +5,16 @@
 #include "hooke/connectivity/adaptation.h"
 #include "hooke/connectivity/flip_mode.h"
 #include "hooke/connectivity/sliver_removal.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/angle_search.h"
 #include "hooke/integrator/angle_springs.h"
 #include "hooke/integrator/damped_evolution.h"
+#include "hooke/integrator/guards.h"
 #include "hooke/integrator/lbfgs.h"
 #include "hooke/integrator/untangle.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/result.h"
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 
@@ -22,10 +24,10 @@ struct HarmOptions {
   double reach = .19;      // of its target length, that a vertex of a near-regular mesh may travel
 };
 
-/// Keeps the least angle where all edges are to have one length or the mesh is near-regular, and the vertices
-/// of a near-regular mesh within reach. Returns whether it is near-regular. Pre-condition: no vertex has
-/// moved.
-bool do_no_harm(Workspace& work, const HarmOptions& options);
+/// Lets the guards keep the least angle where all edges are to have one length or the mesh is near-regular,
+/// and the vertices of a near-regular mesh within reach. Returns whether it is near-regular. Pre-condition:
+/// no vertex has moved.
+bool do_no_harm(Workspace& work, const HarmOptions& options, GuardOptions& guards);
 
 // Filtered Hooke's Optimization, Algorithm 1: relaxation and filtering by turns until the mesh is regular.
 // "Hooke's Optimization for 3D triangular mesh".

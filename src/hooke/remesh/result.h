@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hooke/integrator/relaxation.h"
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 

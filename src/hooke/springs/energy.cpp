@@ -7,7 +7,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/core/simd.h"
-#include "hooke/integrator/guards.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/springs/hooke_law.h"
 
 namespace hooke {
@@ -135,12 +135,13 @@ struct FaceFrame {
 };
 
 /// Sum of the surface normals at the corners, unit.
-Vec3 surface_normal(const Placement& at, const Triangle& sides) {
-  return (at.normals.col(sides[0]) + at.normals.col(sides[1]) + at.normals.col(sides[2])).stableNormalized();
+Vec3 surface_normal(const Mat3X& normals, const Triangle& sides) {
+  return (normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2])).stableNormalized();
 }
 
-FaceFrame frame_of(const Placement& at, const Triangle& t, const Triangle& sides, double target) {
-  const std::array<Vec3, 3> p = {at.points.col(t[0]), at.points.col(t[1]), at.points.col(t[2])};
+FaceFrame frame_of(const Mat3X& points, const Mat3X& normals, const Triangle& t, const Triangle& sides,
+                   double target) {
+  const std::array<Vec3, 3> p = {points.col(t[0]), points.col(t[1]), points.col(t[2])};
   FaceFrame f;
   for (size_t k = 0; k < 3; ++k) {
     f.opposite[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
@@ -152,7 +153,7 @@ FaceFrame frame_of(const Placement& at, const Triangle& t, const Triangle& sides
   if (f.doubled_area > floor) {
     f.normal /= f.doubled_area;
   } else {
-    f.normal = surface_normal(at, sides);
+    f.normal = surface_normal(normals, sides);
     f.doubled_area = floor;
   }
   return f;
@@ -231,11 +232,11 @@ Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
   corner_gradients_.resize(9 * std::min(size, faces.size()));
 }
 
-double Energy::face_energy(const Placement& at, size_t face, double* corner_gradients) const {
+double Energy::face_energy(const Points& at, size_t face, double* corner_gradients) const {
   const Triangle& t = connectivity_.faces[face];
   const double target = targets_.face[face];
   const Triangle& sides = connectivity_.sides_of_faces()[face];
-  const FaceFrame f = frame_of(at, t, sides, target);
+  const FaceFrame f = frame_of(at.points, at.normals, t, sides, target);
   double energy = 0;
   double by_area = 0;
   std::array<double, 3> by_length{};
@@ -250,7 +251,7 @@ double Energy::face_energy(const Placement& at, size_t face, double* corner_grad
     by_length[k] += terms.string * u.slope / (L * L);
   }
   if (terms.unfold > 0 && face_alignment(at.points, at.normals, t, sides) < terms.unfold_below) {
-    energy += unfold_energy(surface_normal(at, sides), f, terms, target, gradient);
+    energy += unfold_energy(surface_normal(at.normals, sides), f, terms, target, gradient);
   } else {
     if (terms.altitude > 0)
       energy += altitude_energy(f, terms.altitude, altitude_ratio * target, by_area, by_length);
@@ -269,7 +270,7 @@ double Energy::face_energy(const Placement& at, size_t face, double* corner_grad
 }
 
 /// Four faces from `face` on or as many as there are, together where nothing but springs acts on them.
-double Energy::energy_of_four(const Placement& at, size_t face, double* corner_gradients) const {
+double Energy::energy_of_four(const Points& at, size_t face, double* corner_gradients) const {
   const size_t count = std::min(lane_count, connectivity_.faces.size() - face);
   if (terms.unfold <= 0 && terms.angle <= 0) {
     FaceSprings four;
@@ -288,7 +289,7 @@ double Energy::energy_of_four(const Placement& at, size_t face, double* corner_g
   return energy;
 }
 
-void Energy::gather_faces(const Placement& at, size_t face, size_t count, FaceSprings& four) const {
+void Energy::gather_faces(const Points& at, size_t face, size_t count, FaceSprings& four) const {
   for (size_t i = 0; i < lane_count; ++i) {
     const size_t f = face + std::min(i, count - 1);
     const Triangle& t = connectivity_.faces[f];
@@ -322,7 +323,7 @@ void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
   });
 }
 
-double Energy::operator()(const Placement& at, Mat3X* gradient) {
+double Energy::operator()(const Mat3X& points, const Mat3X& normals, Mat3X* gradient) {
   if (gradient) gradient->setZero(3, connectivity_.vertex_count);
   std::vector<double> energies((connectivity_.faces.size() + block - 1) / block);
   for (const Part& part : parts_) {
@@ -330,8 +331,8 @@ double Energy::operator()(const Placement& at, Mat3X* gradient) {
     parallel_for(blocks, 1, [&](size_t begin, size_t end) {
       for (size_t b = begin; b < end; ++b)
         for (size_t f = b * block; f < std::min((b + 1) * block, part.end - part.begin); f += lane_count)
-          energies[part.begin / block + b] +=
-              energy_of_four(at, part.begin + f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
+          energies[part.begin / block + b] += energy_of_four(
+              {points, normals}, part.begin + f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
     });
     if (gradient) add_corner_gradients(part, *gradient);
   }

@@ -3,7 +3,6 @@
 
 #include "hooke/core/simd.h"
 #include "hooke/core/types.h"
-#include "hooke/filter/retraction.h"
 #include "hooke/springs/target_lengths.h"
 
 namespace hooke {
@@ -50,17 +49,22 @@ class Energy {
   /// Keeps references to the connectivity and the targets.
   Energy(const Connectivity& connectivity, const TargetLengths& targets, const EnergyTerms& terms);
 
-  /// Energy of the placement. The normals count as constant. With `gradient` also its gradient by the points.
-  double operator()(const Placement& at, Mat3X* gradient);
+  /// Energy of the vertices at these points, `normals` those of the surface there, per side: they count as
+  /// constant. With `gradient` also its gradient by the points.
+  double operator()(const Mat3X& points, const Mat3X& normals, Mat3X* gradient);
 
   const TargetLengths& targets() const { return targets_; }
 
   EnergyTerms terms;
 
  private:
-  double energy_of_four(const Placement& at, size_t face, double* corner_gradients) const;
-  void gather_faces(const Placement& at, size_t face, size_t count, FaceSprings& four) const;
-  double face_energy(const Placement& at, size_t face, double* corner_gradients) const;
+  struct Points {
+    const Mat3X& points;
+    const Mat3X& normals;
+  };
+  double energy_of_four(const Points& at, size_t face, double* corner_gradients) const;
+  void gather_faces(const Points& at, size_t face, size_t count, FaceSprings& four) const;
+  double face_energy(const Points& at, size_t face, double* corner_gradients) const;
 
   /// Faces whose gradients are added up together, and the vertices among which all their corners are.
   struct Part {

@@ -2,22 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <queue>
 
 #include "hooke/core/error.h"
-#include "hooke/io/files.h"
-#include "hooke/io/mesh_file.h"
-#include "hooke/io/ply.h"
-#include "hooke/io/printable.h"
-#include "hooke/io/vertex_lists.h"
+#include "hooke/core/printable.h"
+#include "hooke/mesh/curvature.h"
+#include "hooke/mesh/extent.h"
 #include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 namespace {
-
-constexpr double longest = .1;  // of the box's diagonal: beyond it a mesh hardly shows a shape
 
 SizingSource parse_curvature(std::string_view error) {
   SizingSource source{.kind = SizingSource::Kind::curvature, .name = {}};
@@ -34,21 +31,62 @@ SizingSource parse_curvature(std::string_view error) {
   return source;
 }
 
-std::vector<double> read_property(const std::string& property, const std::filesystem::path& mesh_file,
-                                  int count) {
-  const std::string name = printable(mesh_file.native());
-  if (input_format_of(mesh_file) != "ply")
-    throw Error(fmt::format("{}: sizing by the property {}; expected a PLY file; name a file of lengths",
-                            name, in_quotes(property)));
-  const FileBytes file = read_regular_file(mesh_file);
-  std::vector<double> lengths = read_ply_lengths(file.text(), name, property);
-  if (lengths.size() != static_cast<size_t>(count))
-    throw InputError(fmt::format("{}: {} vertices, and {} when it was first read; it has been changed", name,
-                                 lengths.size(), count));
-  return lengths;
+/// Finds the factor for which measure(factor), which grows with it, is the goal, by secants in logarithms.
+/// The last call of `measure` is with that factor.
+template <typename Measure>
+void scale_to(double goal, double factor, const Measure& measure) {
+  constexpr int tries = 20;
+  constexpr double close = 1e-6;
+  double slope = 1;  // d log(measure) / d log(factor): less where a limit holds lengths back
+  double reached = measure(factor);
+  for (int i = 0; i < tries && std::abs(reached / goal - 1) > close; ++i) {
+    const double next = factor * std::pow(goal / reached, 1 / slope);
+    const double after = measure(next);
+    slope = std::clamp(std::log(after / reached) / std::log(next / factor), .05, 1.);
+    factor = next;
+    reached = after;
+  }
 }
 
 }  // namespace
+
+LengthSpec parse_length(const std::string& text) {
+  if (text == "auto") return {};
+  if (text == "mean") return {LengthSpec::Kind::mean, 0};
+  if (text == "sizing") return {LengthSpec::Kind::as_given, 0};
+  LengthSpec spec{LengthSpec::Kind::absolute, 0};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, spec.value);
+  const std::string_view unit(rest, end);
+  if (unit == "%") spec.kind = LengthSpec::Kind::percent_of_diagonal;
+  if (unit == "x") spec.kind = LengthSpec::Kind::times_natural;
+  const bool known = unit.empty() || unit == "%" || unit == "x";
+  if (error != std::errc() || !known || !(spec.value > 0) || !std::isfinite(spec.value))
+    throw Error(
+        fmt::format("'{}'; expected auto, mean, sizing, or a positive number, alone or with % or x", text));
+  return spec;
+}
+
+double resolve_length(const LengthSpec& spec, const Mat3X& points, const Connectivity& c) {
+  const double natural = natural_length(total_area(points, c.faces), c.faces.size());
+  switch (spec.kind) {
+    case LengthSpec::Kind::natural:
+      return natural;
+    case LengthSpec::Kind::times_natural:
+      return spec.value * natural;
+    case LengthSpec::Kind::absolute:
+      return spec.value;
+    case LengthSpec::Kind::percent_of_diagonal:
+      return spec.value / 100 * box_diagonal(points);
+    case LengthSpec::Kind::as_given:
+      throw Error("length 'sizing' without a sizing; expected one; name it, or another length");
+    case LengthSpec::Kind::mean:
+      break;
+  }
+  double sum = 0;
+  for (const auto& [a, b] : c.edges) sum += (points.col(b) - points.col(a)).norm();
+  return sum / static_cast<double>(c.edges.size());
+}
 
 SizingSource parse_sizing(const std::string& text) {
   const std::string curvature = "curvature", ply = "ply:";
@@ -62,23 +100,42 @@ SizingSource parse_sizing(const std::string& text) {
   return {.kind = is_property ? SizingSource::Kind::ply_property : SizingSource::Kind::file, .name = name};
 }
 
-std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
-                                const Mat3X& points, const Layout& layout) {
-  const Connectivity& c = *layout.connectivity;
-  switch (source.kind) {
-    case SizingSource::Kind::none:
-      break;
-    case SizingSource::Kind::file:
-      return layout.order.in_new_order(read_length_list(source.name, c.vertex_count));
-    case SizingSource::Kind::ply_property:
-      return layout.order.in_new_order(read_property(source.name, mesh_file, c.vertex_count));
-    case SizingSource::Kind::curvature: {
-      const double diagonal = box_diagonal(points);
-      const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
-      return curvature_lengths(points, c, error, longest * diagonal);
-    }
+std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
+                                           const Connectivity& c) {
+  std::vector<double> lengths = sizing.vertex_length;
+  if (lengths.empty()) {
+    lengths.assign(static_cast<size_t>(c.vertex_count), resolve_length(spec, points, c));
+    return lengths;
   }
-  return {};
+  if (spec.kind == LengthSpec::Kind::as_given) {
+    limit_gradation(points, c, sizing.gradation, lengths);
+    return lengths;
+  }
+  const bool by_area = spec.kind == LengthSpec::Kind::natural || spec.kind == LengthSpec::Kind::times_natural;
+  const auto size_of = [&](const TargetLengths& t) {
+    return by_area ? covering_length(points, c, t) : mean_length(points, c, t);
+  };
+  // Over the greatest, so that equal lengths become exactly 1.
+  const double greatest = *std::ranges::max_element(lengths);
+  for (double& l : lengths) l /= greatest;
+  const std::vector<double> shares = lengths;
+  const double goal = resolve_length(spec, points, c);
+  scale_to(goal, goal / size_of(spread_target_lengths(c, shares)), [&](double factor) {
+    std::ranges::transform(shares, lengths.begin(), [&](double share) { return factor * share; });
+    limit_gradation(points, c, sizing.gradation, lengths);
+    return size_of(spread_target_lengths(c, lengths));
+  });
+  return lengths;
+}
+
+std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c, double chord_error,
+                                      double longest) {
+  std::vector<double> lengths = largest_curvatures(points, c);
+  for (double& l : lengths) {
+    const double radius = std::max(1 / l, chord_error);  // infinite where it is flat
+    l = std::min(std::sqrt((8 * radius - 4 * chord_error) * chord_error), longest);
+  }
+  return lengths;
 }
 
 void limit_gradation(const Mat3X& points, const Connectivity& c, double slope, std::vector<double>& length) {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "hooke/geometry/triangle.h"
-#include "hooke/integrator/guards.h"
+#include "hooke/filter/retraction.h"
 
 namespace hooke {
 namespace {
@@ -143,12 +142,6 @@ class PatchCutter {
   EdgePatch& patch_;
 };
 
-const Triangle& face_along(const std::vector<Triangle>& faces, int from, int to) {
-  return *std::ranges::find_if(faces, [&](const Triangle& t) {
-    return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
-  });
-}
-
 /// A face of the patch's edge, and its corner across.
 struct FaceOfEdge {
   size_t face;
@@ -178,6 +171,12 @@ EdgePatch cut_pair(const FlippingMesh& mesh, int half_edge) {
   EdgePatch pair;
   PatchCutter(mesh, pair).cut_pair(half_edge);
   return pair;
+}
+
+const Triangle& face_along(const std::vector<Triangle>& faces, int from, int to) {
+  return *std::ranges::find_if(faces, [&](const Triangle& t) {
+    return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
+  });
 }
 
 std::vector<Triangle> flipped_faces(const EdgePatch& patch) {
@@ -225,25 +224,6 @@ int append_vertex(EdgePatch& patch, int like) {
   p.drift.push_back(0);
   place.write_to(p, v);
   return v;
-}
-
-bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippingMesh& m,
-                  const GuardOptions& guards) {
-  const Triangulation& t = m.triangulation;
-  const Mat3X& X = m.placement.points;
-  return std::ranges::any_of(patch.rim, [&](const PatchRim& rim) {
-    const Triangle& face = t.faces()[static_cast<size_t>(rim.half_edge / 3)];
-    const Triangle& beyond = t.faces()[static_cast<size_t>(t.twin(rim.half_edge) / 3)];
-    const double before = cosine_between(X, face, beyond);
-    const Triangle& changed = face_along(faces, rim.from, rim.to);
-    const Vec3 across =
-        rim.beyond[0] < 0
-            ? doubled_area_vector(X, beyond)
-            : doubled_area_vector(patch.placement.points, face_along(faces, rim.beyond[0], rim.beyond[1]));
-    const double after = cosine_between(doubled_area_vector(patch.placement.points, changed), across);
-    return t.is_constrained(rim.half_edge) ? crease_fold_breaks(guards, before, after)
-                                           : fold_breaks(guards, before, after);
-  });
 }
 
 void move_vertices(const EdgePatch& patch, Placement& placement) {

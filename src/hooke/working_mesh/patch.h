@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "hooke/connectivity/edge_flips.h"
-#include "hooke/integrator/guards.h"
+#include "hooke/filter/retraction.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 
@@ -33,6 +33,9 @@ std::optional<EdgePatch> cut_patch(const FlippingMesh& mesh, int half_edge, int 
 /// Only the two faces of the edge, of which no vertex may move.
 EdgePatch cut_pair(const FlippingMesh& mesh, int half_edge);
 
+/// The one of these faces that runs along from one vertex to the other. Pre-condition: there is one.
+const Triangle& face_along(const std::vector<Triangle>& faces, int from, int to);
+
 /// The faces of the patch after the flip of its edge.
 std::vector<Triangle> flipped_faces(const EdgePatch& patch);
 
@@ -45,11 +48,6 @@ std::vector<Triangle> merged_faces(const EdgePatch& patch, int stays);
 /// Appends a vertex that is where another one is, free to move on the surface; the whole mesh has none for it
 /// yet. Its target length is that of the middle of the edge. Returns its id.
 int append_vertex(EdgePatch& patch, int like);
-
-/// Would the patch, with these faces and its vertices where they are now, break the rule of folds with the
-/// faces across its rim?
-bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippingMesh& mesh,
-                  const GuardOptions& guards);
 
 /// Moves the vertices of the mesh to where those of the patch are.
 void move_vertices(const EdgePatch& patch, Placement& placement);

@@ -1,337 +1,168 @@
 #include "hooke/working_mesh/working_mesh.h"
 
 #include <algorithm>
-#include <iterator>
-#include <limits>
+#include <cmath>
 #include <numeric>
-#include <utility>
 
-#include "hooke/core/parallel.h"
+#include "hooke/constraints/constraints.h"
+#include "hooke/constraints/feature_curves.h"
 #include "hooke/geometry/triangle.h"
-#include "hooke/integrator/final_projection.h"
-#include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {
 
-Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& lengths) {
-  Normalisation n;
-  n.centre = .5 * points.rowwise().minCoeff() + .5 * points.rowwise().maxCoeff();
-  n.unit = std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
-  return n;
+/// Room for so many ids, with room to spare: columns cost a copy of the matrix.
+void make_room(AdaptingMesh& m, size_t ids) {
+  Placement& p = m.placement;
+  if (p.drift.size() >= ids) return;
+  const size_t room = std::max<size_t>(16, 2 * p.anchors.size());
+  for (Mat3X* matrix : {&p.points, &p.normals})
+    matrix->conservativeResize(3, static_cast<Eigen::Index>(room));
+  p.anchors.resize(room, 0);
+  p.segments.resize(room, 0);
+  p.drift.resize(room, 0);
+  if (!p.other_side.empty()) p.other_side.resize(room, -1);
+  m.retraction.resize(room);
 }
 
-constexpr double landing_slack = .05;  // two fields of one surface differ a little, and that is no fold
+/// Gives the lists an entry for each of so many ids, or takes the last ones away.
+void resize_lists(AdaptingMesh& m, int ids) {
+  const auto n = static_cast<size_t>(ids);
+  m.constraints.freedom.resize(n, Freedom::fixed);
+  m.constraints.curve.resize(n, -1);
+  m.constraints.segment.resize(n, 0);
+  m.vertex_length.resize(n, 0);
+  m.corner_valences.resize(n, 0);
+  m.origins.resize(n, -1);
+}
 
-constexpr double landing_area_ratio = .01;
-
-/// Steps keep this much from the least angle, in parts of its cotangent, so that the landing need not fall
-/// below it.
-constexpr double landing_cotangent = 3e-3;
-
-constexpr double landing_tolerance = 1e-9;  // in mean target lengths
-
-std::vector<int> identity(int count) {
-  std::vector<int> ids(static_cast<size_t>(count));
-  std::iota(ids.begin(), ids.end(), 0);
-  return ids;
+template <typename T>
+void keep_only(std::vector<T>& values, const std::vector<int>& kept) {
+  std::vector<T> left(kept.size());
+  for (size_t i = 0; i < kept.size(); ++i) left[i] = values[static_cast<size_t>(kept[i])];
+  values = std::move(left);
 }
 
 }  // namespace
 
-Workspace::Workspace(const TriMesh& source, Layout layout, const ConstraintOptions& constraint_options,
-                     const FilterOptions& filter, const RetractionOptions& retraction_options,
-                     const GuardOptions& guard_options, Stopwatch* stopwatch_or_none)
-    : stopwatch(stopwatch_or_none),
-      guards(guard_options),
-      order(std::move(layout.order)),
-      filter_(filter),
-      retraction_options_(retraction_options) {
-  const std::vector<double> length = vertex_values(source, target_length_property);
-  normalisation = normalisation_of(positions(source), length);
-
-  Mat3X points = order.in_new_order(positions(source));
-  for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
-  vertex_length = order.in_new_order(length);
-  for (double& l : vertex_length) l /= normalisation.unit;
-  start = std::make_shared<const Mat3X>(std::move(points));
-  std::vector<Edge> creases;
-  for (int e : find_features(*start, *layout.connectivity, vertex_length, constraint_options.features))
-    creases.push_back(layout.connectivity->edges[static_cast<size_t>(e)]);
-  connect(std::move(layout.connectivity), creases);
-  start_length_ = vertex_length;
-  ConstraintOptions reordered = constraint_options;
-  reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  if (graded()) reordered.even_crease = 0;  // even edges are not what is asked for
-  constraints =
-      timed(stopwatch, "constraints", [&] { return find_constraints(*start, *connectivity, reordered); });
-  origins = identity(connectivity->vertex_count);
-  input_connectivity_ = connectivity;
-
-  const Stage stage(stopwatch, "fit");
-  const SurfaceField field = fit(start);
-  input_anchors_ = identity(connectivity->side_count());
-  to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
-                                           RetractionOptions{.tolerance = landing_tolerance});
-  retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  placement = retraction->place(*start, input_anchors_, constraints.segment);
+CurveFinder::Place curve_of(const AdaptingMesh& m, int h) {
+  const int a = m.triangulation.from(h), b = m.triangulation.to(h);
+  for (int v : {a, b})
+    if (const int curve = m.constraints.curve[static_cast<size_t>(v)]; curve >= 0)
+      return {curve, m.placement.segments[static_cast<size_t>(v)]};
+  return m.curve_finder.common(m.placement.points.col(a), m.placement.points.col(b));
 }
 
-void Workspace::connect(std::shared_ptr<const Connectivity> smooth, const std::vector<Edge>& creases) {
-  connectivity = std::move(smooth);
-  if (!creases.empty()) {
-    Connectivity parted = *connectivity;
-    part_at_creases(parted, creases);
-    connectivity = std::make_shared<const Connectivity>(std::move(parted));
+double relative_length(const AdaptingMesh& m, int h) {
+  const int a = m.triangulation.from(h), b = m.triangulation.to(h);
+  return (m.placement.points.col(b) - m.placement.points.col(a)).norm() / target_length(m, a, b);
+}
+
+void count_curve_edges(AdaptingMesh& m, double chord_error) {
+  const Triangulation& t = m.triangulation;
+  const size_t curves = m.constraints.curves.size();
+  std::vector<double> lengths(curves, 0);  // sum of the target lengths of its edges
+  m.curve_edges.present.assign(curves, 0);
+  m.curve_edges.wanted.assign(curves, 0);
+  for (int h = 0; h < t.half_edge_count(); ++h) {
+    if (t.is_gone(h / 3) || !is_rim(t, h) || t.twin(h) > h) continue;
+    const int curve = curve_of(m, h).curve;
+    if (curve < 0) continue;
+    lengths[static_cast<size_t>(curve)] += target_length(m, t.from(h), t.to(h));
+    ++m.curve_edges.present[static_cast<size_t>(curve)];
   }
-  sweeps = plan_sweeps(*connectivity);
-  targets = spread_target_lengths(*connectivity, vertex_length);
+  for (size_t c = 0; c < curves; ++c)
+    if (m.curve_edges.present[c] > 0)
+      m.curve_edges.wanted[c] =
+          wanted_edges(m.constraints.curves[c], lengths[c] / m.curve_edges.present[c], chord_error);
 }
 
-void Workspace::keep_angles() {
-  guards.cotangent = greatest_cotangent(placement.points, connectivity->faces) / (1 + landing_cotangent);
+VertexPlace middle_of(const AdaptingMesh& m, int h) {
+  const Triangulation& t = m.triangulation;
+  const int a = t.from(h), anchor = m.placement.anchors[static_cast<size_t>(t.side(h))];
+  const Vec3 half_way = .5 * (m.placement.points.col(t.to(h)) - m.placement.points.col(a));
+  return m.retraction.moved_copy(m.placement, a, anchor, half_way);
 }
 
-/// A field of which each side of a crease has its own. What it may swing out is counted in target lengths, or
-/// in those that are natural for these faces where targets are shorter: a coarse mesh of a round body is no
-/// polyhedron.
-SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> shared_points) const {
-  const Mat3X& points = *shared_points;
-  const double natural = natural_length(total_area(points, connectivity->faces), connectivity->faces.size());
-  std::vector<double> lengths(static_cast<size_t>(connectivity->side_count()));
-  for (size_t side = 0; side < lengths.size(); ++side)
-    lengths[side] = std::max(
-        natural, vertex_length[static_cast<size_t>(connectivity->vertex_of_side(static_cast<int>(side)))]);
-  if (connectivity->creases.empty())
-    return SurfaceField(std::move(shared_points), connectivity, filter_, {}, lengths);
-  const auto cut = std::make_shared<const Connectivity>(cut_open(*connectivity));
-  return SurfaceField(std::make_shared<const Mat3X>(side_points(points, *connectivity)), cut, filter_,
-                      label_components(*cut), lengths);
-}
+int add_vertex(AdaptingMesh& m, int h, const VertexPlace* middle) {
+  const Triangulation& t = m.triangulation;
+  const int a = t.from(h), b = t.to(h), v = t.id_count(), twin = t.twin(h);
+  const int other_side = t.is_constrained(h) ? v + 1 : -1;
+  const CurveFinder::Place on = is_rim(t, h) ? curve_of(m, h) : CurveFinder::Place{};
+  const int ids = std::max(v, other_side) + 1;
+  make_room(m, static_cast<size_t>(ids));
+  resize_lists(m, ids);
+  const auto i = static_cast<size_t>(v);
+  m.constraints.freedom[i] = on.curve >= 0 ? Freedom::curve : Freedom::surface;
+  m.constraints.curve[i] = on.curve;
+  m.constraints.segment[i] = on.segment;
+  m.vertex_length[i] = target_length(m, a, b);
 
-int Workspace::chart_count() const {
-  const Connectivity cut = cut_open(*connectivity);
-  return measure_topology(cut).components;
-}
-
-void Workspace::refit() {
-  const Stage stage(stopwatch, "fit");
-  refitted_ = true;
-  if (!before_refit_) before_refit_ = {placement, not_landed_};
-  const SurfaceField field = fit(std::make_shared<const Mat3X>(placement.points));
-  finished_ += retraction->counts();
-  retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  placement = retraction->place(placement.points, identity(connectivity->side_count()), placement.segments);
-}
-
-int Workspace::land() {
-  const Stage stage(stopwatch, "land");
-  if (!refitted_) input_anchors_ = placement.anchors;
-  Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
-  input_anchors_ = landed.anchors;
-  not_landed_ = put_back_offenders(landing_guards(), placement, landed);
-  placement = std::move(landed);
-  took_back_ = false;
-  if (before_refit_) undo_crossings();
-  return static_cast<int>(not_landed_.size());
-}
-
-int Workspace::land(const std::vector<int>& vertices) {
-  const Stage stage(stopwatch, "land");
-  const Placement before = placement;
-  to_input_->settle(vertices, placement);
-  std::erase_if(not_landed_, [&](int v) { return std::ranges::binary_search(vertices, v); });
-  const std::vector<int> stay = put_back_offenders(landing_guards(), before, vertices, placement);
-  not_landed_.insert(not_landed_.end(), stay.begin(), stay.end());
-  return static_cast<int>(not_landed_.size());
-}
-
-/// The anchors are all on the input's field again.
-void Workspace::undo_crossings() {
-  const Stage stage(stopwatch, "crossings");
-  const Landed before = *std::exchange(before_refit_, std::nullopt);
-  const std::vector<int> back =
-      put_back_crossings(landing_guards(), *connectivity, before.placement, placement);
-  took_back_ = !back.empty();
-  if (!took_back_) return;
-  input_anchors_ = placement.anchors;
-  const auto is_back = [&](int v) { return std::ranges::binary_search(back, v); };
-  std::erase_if(not_landed_, is_back);
-  std::ranges::copy_if(before.not_landed, std::back_inserter(not_landed_), is_back);
-}
-
-Guards Workspace::landing_guards() const {
-  GuardOptions options = guards;
-  options.slack = landing_slack;
-  options.area_ratio = landing_area_ratio;
-  options.sagitta = std::numeric_limits<double>::infinity();
-  options.cotangent *= 1 + landing_cotangent;
-  return {*connectivity, targets, options};
-}
-
-void Workspace::return_to_input() {
-  if (!refitted_) return;
-  refitted_ = false;
-  finished_ += retraction->counts();
-  retraction = std::make_unique<Retraction>(to_input_->surface(), constraints, retraction_options_);
-}
-
-void Workspace::replace_faces(std::vector<Triangle> faces) {
-  connect(
-      std::make_shared<const Connectivity>(make_connectivity(connectivity->vertex_count, std::move(faces))),
-      constraints.creases);
-  input_anchors_ = placement.anchors;  // vertices may be far from where they were
-  faces_replaced_ = true;
-}
-
-void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& sides,
-                             const std::vector<int>& before) {
-  const auto n = before.size();
-  std::vector<int> kept_as(order.old_vertex.size(), -1);  // by the ids of before
-  for (size_t v = 0; v < n; ++v)
-    if (before[v] >= 0)
-      kept_as[static_cast<size_t>(order.old_vertex[static_cast<size_t>(before[v])])] = static_cast<int>(v);
-  std::vector<int> by_id;  // in the order of the result
-  by_id.reserve(n);
-  std::ranges::copy_if(kept_as, std::back_inserter(by_id), [](int v) { return v >= 0; });
-  for (size_t v = 0; v < n; ++v)
-    if (before[v] < 0) by_id.push_back(static_cast<int>(v));
-  if (!input_order_) input_order_ = order;
-  std::vector<int> id(n);
-  for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
-  for (Triangle& t : faces)
-    for (int& v : t) v = id[static_cast<size_t>(v)];
-  const std::vector<int> local = locality_order(static_cast<int>(n), faces);
-  order = reorder(std::move(faces), local);
-
-  std::vector<int> source(n), place(n);  // where each vertex comes from, and goes to
-  for (size_t v = 0; v < n; ++v) {
-    source[v] = by_id[static_cast<size_t>(order.old_vertex[v])];
-    place[static_cast<size_t>(source[v])] = static_cast<int>(v);
+  Placement& p = m.placement;
+  if (middle) {
+    middle->write_to(p, v);
+    return v;
   }
-  const auto arrange = [&](auto& values) {
-    const auto old = values;
-    for (size_t v = 0; v < n; ++v) values[v] = old[static_cast<size_t>(source[v])];
-  };
-  placement.points = placement.points(Eigen::all, source).eval();
-  arrange(placement.segments);
-  arrange(placement.drift);
-  arrange(vertex_length);
-  arrange(constraints.freedom);
-  arrange(constraints.curve);
-  arrange(constraints.segment);
-  for (Edge& crease : constraints.creases)
-    for (int& v : crease) v = place[static_cast<size_t>(v)];
-  std::vector<int> from(n, -1);
-  for (size_t v = 0; v < n; ++v)
-    if (const int old = before[static_cast<size_t>(source[v])]; old >= 0)
-      from[v] = origins[static_cast<size_t>(old)];
-  origins = std::move(from);
-
-  connect(
-      std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(n), std::move(order.faces))),
-      constraints.creases);
-  if (!constraints.creases.empty()) {
-    std::vector<Triangle> moved;
-    for (int f : order.old_face) moved.push_back(sides[static_cast<size_t>(f)]);
-    source = sides_before(*connectivity, moved, source);
-    constraints.further_sides = connectivity->further_sides;
+  VertexPlace start(p, a);
+  start.segment = on.segment;
+  start.drift = 0;
+  start.anchor = p.anchors[static_cast<size_t>(t.side(h))];
+  start.other_side = other_side;
+  if (other_side >= 0) {
+    p.other_side[i] = other_side;
+    start.other_anchor = p.anchors[static_cast<size_t>(t.side(Triangulation::next(twin)))];
   }
-  placement.normals = placement.normals(Eigen::all, source).eval();
-  std::vector<int> anchors;
-  for (int side : source) anchors.push_back(placement.anchors[static_cast<size_t>(side)]);
-  placement.anchors = std::move(anchors);
-  placement.other_side = other_sides(n, constraints.further_sides);
-  input_anchors_ = placement.anchors;
-  retraction->resize(n);
-  to_input_->resize(n);
-  vertices_replaced_ = true;
+  start.write_to(p, v);
+  const Vec3 half_way = .5 * (p.points.col(b) - p.points.col(a));
+  m.retraction.moved(p, v, half_way).write_to(p, v);
+  return v;
 }
 
-SurfacePoint Workspace::place_on_input(int v) const {
-  const std::vector<int>& anchors = refitted_ ? input_anchors_ : placement.anchors;
-  return locate(*start, *input_connectivity_, placement.points.col(v),
-                input_connectivity_->vertex_of_side(anchors[static_cast<size_t>(v)]));
+void drop_vertex(AdaptingMesh& m) {
+  resize_lists(m, m.triangulation.id_count());
 }
 
-void Workspace::resample_lengths() {
-  if (!graded()) return;
-  vertex_length = input_lengths();
-  targets = spread_target_lengths(*connectivity, vertex_length);
-}
-
-bool Workspace::graded() const {
-  return start_length_.vary();
-}
-
-std::vector<double> Workspace::input_lengths() const {
-  std::vector<double> lengths = vertex_length;
-  parallel_for(lengths.size(), 256, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      const SurfacePoint place = place_on_input(static_cast<int>(v));
-      if (place.face < 0) continue;
-      lengths[v] = 0;
-      for (size_t k = 0; k < 3; ++k)
-        lengths[v] += place.weights[static_cast<Eigen::Index>(k)] *
-                      start_length_[static_cast<size_t>(
-                          input_connectivity_->faces[static_cast<size_t>(place.face)][k])];
-    }
-  });
-  return lengths;
-}
-
-int Workspace::vertex_of_input(int vertex) const {
-  const int origin = origins[static_cast<size_t>(vertex)];
-  return origin < 0 ? -1 : input_order().old_vertex[static_cast<size_t>(origin)];
-}
-
-std::vector<MapEntry> Workspace::map() const {
-  std::vector<MapEntry> entries(order.old_vertex.size());
-  parallel_for(entries.size(), 256, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      MapEntry& entry = entries[static_cast<size_t>(order.old_vertex[v])];
-      entry.place = place_on_input(static_cast<int>(v));
-      if (entry.place.face >= 0)
-        entry.place.face = input_order().old_face[static_cast<size_t>(entry.place.face)];
-      entry.vertex = vertex_of_input(static_cast<int>(v));
-    }
-  });
-  return entries;
-}
-
-Mat3X Workspace::copy_back(TriMesh& target) const {
-  Mat3X input = positions(target);
-  Mat3X points(3, placement.points.cols());
-  std::vector<double> lengths(vertex_length.size());
-  for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    const auto place = static_cast<size_t>(order.old_vertex[static_cast<size_t>(v)]);
-    const int origin = origins[static_cast<size_t>(v)];
-    const bool stayed = origin >= 0 && placement.points.col(v) == start->col(origin);
-    points.col(static_cast<Eigen::Index>(place)) =
-        stayed ? Vec3(input.col(input_order().old_vertex[static_cast<size_t>(origin)]))
-               : Vec3(normalisation.centre + normalisation.unit * placement.points.col(v));
-    lengths[place] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
+void compact(AdaptingMesh& m) {
+  Triangulation& t = m.triangulation;
+  const std::vector<int> kept = t.compact();
+  std::vector<int> sides = kept;
+  m.constraints.creases.clear();
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (t.is_constrained(h) && t.twin(h) < h) m.constraints.creases.push_back({t.from(h), t.to(h)});
+  if (!m.constraints.creases.empty()) {
+    Connectivity c = make_connectivity(static_cast<int>(kept.size()), t.faces());
+    part_at_creases(c, m.constraints.creases);
+    sides = sides_before(c, t.sides(), kept);
+    t.set_sides(c);
+    m.constraints.further_sides = c.further_sides;
   }
-  if (vertices_replaced_)
-    target = build_mesh(points, *connectivity, order.old_ids());
-  else if (faces_replaced_)
-    hooke::replace_faces(target, *connectivity, order.old_ids());
-  positions(target) = points;
-  if (graded() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
-  return input;
+  keep_only(m.constraints.freedom, kept);
+  keep_only(m.constraints.curve, kept);
+  keep_only(m.constraints.segment, kept);
+  keep_only(m.vertex_length, kept);
+  keep_only(m.corner_valences, sides);
+  keep_only(m.origins, kept);
+  Placement& p = m.placement;
+  p.points = p.points(Eigen::all, kept).eval();
+  p.normals = p.normals(Eigen::all, sides).eval();
+  keep_only(p.anchors, sides);
+  keep_only(p.segments, kept);
+  keep_only(p.drift, kept);
+  p.other_side = other_sides(kept.size(), m.constraints.further_sides);
+  m.retraction.resize(kept.size());
 }
 
-Layout Workspace::layout() const {
-  if (connectivity->creases.empty()) return {order, connectivity};
-  return {order, std::make_shared<const Connectivity>(without_creases(*connectivity))};
-}
-
-ProjectionCounts Workspace::projection_counts() const {
-  ProjectionCounts counts = finished_;
-  counts += retraction->counts();
-  counts += to_input_->counts();
-  return counts;
+AdaptingWork::AdaptingWork(Workspace& work, double corner_angle)
+    : work_(work),
+      triangulation_(*work.connectivity),
+      corner_valences_(
+          corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)),
+      origins_(work.vertex_length.size()),
+      curve_finder_(work.constraints.curves),
+      mesh_{triangulation_,   work.placement, *work.retraction, work.constraints, work.vertex_length,
+            corner_valences_, origins_,       curve_finder_,    curve_edges_} {
+  std::iota(origins_.begin(), origins_.end(), 0);
 }
 
 }  // namespace hooke

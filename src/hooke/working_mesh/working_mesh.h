@@ -1,141 +1,107 @@
-// The mesh as the optimizer works on it: normalised, in memory order, with its constraints and its surface.
+// A mesh whose vertices come and go: its triangles with all that belongs to each vertex, and what is to
+// become of its curves.
 #pragma once
 
-#include <memory>
-#include <optional>
-
 #include "hooke/constraints/constraints.h"
-#include "hooke/core/stopwatch.h"
-#include "hooke/filter/surface_field.h"
-#include "hooke/integrator/guards.h"
-#include "hooke/integrator/vertex_coloring.h"
-#include "hooke/mesh/mesh.h"
-#include "hooke/mesh/surface_point.h"
-#include "hooke/springs/target_lengths.h"
+#include "hooke/constraints/feature_curves.h"
+#include "hooke/filter/retraction.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 
-/// x = centre + unit * x'. The unit is the mean target length and the centre that of the bounding box, so
-/// that a mesh scaled by a power of two has the same normalised coordinates to the last bit.
-struct Normalisation {
-  Vec3 centre = Vec3::Zero();
-  double unit = 1;
+/// A mesh whose edges are flipped and whose vertices move on the surface. All are references to objects that
+/// outlive it.
+struct FlippingMesh {
+  Triangulation& triangulation;
+  Placement& placement;
+  Retraction& retraction;
+  const Constraints& constraints;
+  const std::vector<double>& vertex_length;  // target length per vertex
+  const std::vector<int>& corner_valences;   // per side: wanted at corners, 0 elsewhere: corner_rule.h
+  /// Called when vertices have moved, so that their target lengths can become those of their new places.
+  std::function<void()> after_move = nullptr;
 };
 
-struct Workspace {
-  /// Takes the target lengths from v:target_length. The layout is that of the mesh.
-  Workspace(const TriMesh& mesh, Layout layout, const ConstraintOptions& constraints,
-            const FilterOptions& filter, const RetractionOptions& retraction, const GuardOptions& guards,
-            Stopwatch* stopwatch = nullptr);
+/// All references are to objects that outlive it. Until compact() the arrays are by the ids of the
+/// triangulation, and may have room for more.
+struct AdaptingMesh {
+  Triangulation& triangulation;
+  Placement& placement;
+  Retraction& retraction;
+  Constraints& constraints;
+  std::vector<double>& vertex_length;
+  std::vector<int>& corner_valences;
+  std::vector<int>& origins;  // what the vertex was before vertices came and went: an id, -1 if it is new
+  const CurveFinder& curve_finder;
+  CurveEdges& curve_edges;
 
-  /// Fits a new field to the vertices as they lie now and makes it the one that moves are projected to.
-  /// [11]-[14]
-  void refit();
+  FlippingMesh flipping() const {
+    return {triangulation, placement, retraction, constraints, vertex_length, corner_valences};
+  }
+};
 
-  /// From now on no face's least angle falls below the least of all as they are now.
-  void keep_angles();
+/// Does the edge lie along a curve: a boundary or a crease?
+inline bool is_rim(const Triangulation& t, int h) {
+  return t.twin(h) < 0 || t.is_constrained(h);
+}
 
-  /// Projects the vertices to the field of the input, which is what they are to lie on in the end. A vertex
-  /// whose landing would break a guard stays where it is; returns their number. Fields fitted again and again
-  /// may let thin sheets drift through each other: faces that have come to cross since refit() go back to
-  /// where they were, see put_back_crossings().
-  int land();
+/// The curve along which the edge of a rim runs; curve -1 where none is known.
+CurveFinder::Place curve_of(const AdaptingMesh& mesh, int half_edge);
 
-  /// Lands vertices, ascending, each named once, that have moved on the field of the input since, after
-  /// return_to_input(); returns how many of all stay where they are.
-  int land(const std::vector<int>& vertices);
+/// Of an edge between the vertices.
+inline double target_length(const AdaptingMesh& m, int v, int w) {
+  return .5 * (m.vertex_length[static_cast<size_t>(v)] + m.vertex_length[static_cast<size_t>(w)]);
+}
 
-  /// Did the last landing of all take crossings back?
-  bool took_back() const { return took_back_; }
+/// Length of the edge over its target length.
+double relative_length(const AdaptingMesh& mesh, int half_edge);
 
-  /// Is the field fitted last another one than that of the input?
-  bool refitted() const { return refitted_; }
+/// Fills curve_edges: one edge per target length, and as many more as it takes to keep the chords within
+/// `chord_error` target lengths of the curve.
+void count_curve_edges(AdaptingMesh& mesh, double chord_error);
 
-  /// Takes back refit(): the vertices, which have landed, are tracked on the field of the input again.
-  void return_to_input();
+/// Adds what belongs to a vertex in the middle of the edge, on its curve or on the surface, and to its sides:
+/// the only place where a vertex is born. The triangles do not know it yet. Returns the id that a split of
+/// the edge will give it. `middle` is that of the edge if it is known, else null.
+int add_vertex(AdaptingMesh& mesh, int half_edge, const VertexPlace* middle = nullptr);
 
-  /// Gives the work other faces on the same vertices, whose ids go on to count as those of the input's faces.
-  /// The vertices must still be on the field of the input: before the first refit(), or after
-  /// return_to_input().
-  void replace_faces(std::vector<Triangle> faces);
+/// Where the middle of an edge that is no rim comes to lie on the surface; safe for different edges at once.
+VertexPlace middle_of(const AdaptingMesh& mesh, int half_edge);
 
-  /// Gives the work other vertices and faces. The caller has changed what the work holds per vertex and side
-  /// in public members, `faces` join the vertices as they stand there, `sides` are those of their corners,
-  /// and `origins` tells for each vertex which one it was before: -1 for a new one. All are put into memory
-  /// order; in the result the vertices that were there keep their order, and new ones follow. Pre-condition
-  /// as for replace_faces().
-  void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& sides,
-                    const std::vector<int>& origins);
+/// Takes back what was added last.
+void drop_vertex(AdaptingMesh& mesh);
 
-  /// Do target lengths vary?
-  bool graded() const;
+/// Gives up the ids that are unused, numbers the sides as part_at_creases() does, and writes the creases to
+/// the constraints.
+void compact(AdaptingMesh& mesh);
 
-  /// Target lengths of the input at the places of the vertices, linear in its faces.
-  std::vector<double> input_lengths() const;
+// The mesh of a work as one whose vertices come and go.
 
-  /// Gives the vertices the target lengths of the places they have come to, where these vary. The targets
-  /// change in place.
-  void resample_lengths();
+/// Pre-condition: the vertices lie on the field of the input, see Workspace::replace_faces().
+class AdaptingWork {
+ public:
+  /// Keeps a reference to the work. `corner_angle`: degrees, see corner_rule.h.
+  AdaptingWork(Workspace& work, double corner_angle);
+  AdaptingWork(const AdaptingWork&) = delete;
 
-  /// Writes the points of all vertices that moved back to the mesh it was made from, and v:target_length
-  /// where it varies; where they were replaced, the faces, or a new mesh. Returns the points that the mesh
-  /// had.
-  Mat3X copy_back(TriMesh& target) const;
+  AdaptingMesh& mesh() { return mesh_; }
+  const AdaptingMesh& mesh() const { return mesh_; }
 
-  /// That of the result.
-  Layout layout() const;
+  /// Gives the work the faces as they are now. Pre-condition: there were only flips.
+  void replace_faces() { work_.replace_faces(triangulation_.faces()); }
 
-  /// The id that a vertex of the work had in the mesh the work was made from; -1 for a new one.
-  int vertex_of_input(int vertex) const;
-
-  /// Where the vertices of the result, in their order there, lie on the mesh the work was made from.
-  std::vector<MapEntry> map() const;
-
-  ProjectionCounts projection_counts() const;
-
-  /// Smooth pieces of the surface: the components of the mesh cut open at its creases.
-  int chart_count() const;
-
-  Stopwatch* stopwatch;
-  GuardOptions guards;  // of all steps; landings have looser ones
-  Normalisation normalisation;
-  Reordered order;  // ids in the result, those of the input while its vertices stay; without its faces
-  std::shared_ptr<const Connectivity> connectivity;  // with its creases
-  SweepPlan sweeps;
-  std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
-  TargetLengths targets;
-  Constraints constraints;
-  std::shared_ptr<const Mat3X> start;      // the points of the input
-  std::vector<int> origins;                // per vertex: which of `start` it was, -1 for a new one
-  Placement placement;                     // of the vertices on the field fitted last
-  std::unique_ptr<Retraction> retraction;  // to that field
+  /// Gives the work the mesh as it is now, which ends this one. Pre-condition: it is compact.
+  void replace_mesh() { work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_); }
 
  private:
-  SurfacePoint place_on_input(int vertex) const;
-  const Reordered& input_order() const { return input_order_ ? *input_order_ : order; }
-  void connect(std::shared_ptr<const Connectivity> smooth, const std::vector<Edge>& creases);
-  SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
-  Guards landing_guards() const;
-  void undo_crossings();
-
-  FilterOptions filter_;
-  RetractionOptions retraction_options_;
-  bool faces_replaced_ = false;
-  bool vertices_replaced_ = false;
-  std::optional<Reordered> input_order_;                    // the ids in the input, once `order` has others
-  std::shared_ptr<const Connectivity> input_connectivity_;  // on `start`
-  Lengths start_length_;                                    // target lengths there
-  bool refitted_ = false;                                   // until then both fields are the same
-  std::vector<int> input_anchors_;                          // where each vertex is tracked on the input
-  std::unique_ptr<Retraction> to_input_;                    // to the field of the input
-  std::vector<int> not_landed_;                             // vertices that stayed where they were
-  struct Landed {
-    Placement placement;
-    std::vector<int> not_landed;
-  };
-  std::optional<Landed> before_refit_;  // until the next landing
-  bool took_back_ = false;
-  ProjectionCounts finished_;  // of the retractions that are gone
+  Workspace& work_;
+  Triangulation triangulation_;
+  std::vector<int> corner_valences_;
+  std::vector<int> origins_;
+  const CurveFinder curve_finder_;
+  CurveEdges curve_edges_;
+  AdaptingMesh mesh_;
 };
 
 }  // namespace hooke

@@ -1,4 +1,4 @@
-#include "hooke/integrator/vertex_coloring.h"
+#include "hooke/mesh/vertex_coloring.h"
 
 #include <algorithm>
 

@@ -1,8 +1,11 @@
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 #include <gtest/gtest.h>
 
 #include "hooke/core/error.h"
+#include "hooke/filter/retraction.h"
+#include "hooke/integrator/final_projection.h"
+#include "hooke/mesh/extent.h"
 #include "hooke/remesh/remesh.h"
 #include "support/scene.h"
 
@@ -25,7 +28,7 @@ test::Triangles wavy() {
 }
 
 Workspace on(const TriMesh& mesh, const FilterOptions& filter = {}) {
-  return Workspace(mesh, lay_out(mesh), {}, filter, {}, {});
+  return Workspace(mesh, lay_out(mesh), {}, filter, {});
 }
 
 /// Moves the vertices by up to a twentieth of a target length in each direction.
@@ -102,42 +105,44 @@ TEST(Workspace, UntouchedVerticesComeBackBitForBit) {
             1e-14);
 }
 
-TEST(Workspace, LandsOnTheFieldOfTheInput) {
+TEST(FinalProjection, EndsOnTheFieldOfTheInput) {
   const TriMesh mesh = with_natural_length(wavy());
   Workspace w = on(mesh);
+  FinalProjection projection(w, {});
   for (int turn = 0; turn < 3; ++turn) {
     shake(w);
-    w.land();
-    w.refit();
+    projection.project();
+    projection.refit();
     shake(w);
     EXPECT_GT(off_the_input(mesh, w.placement.points), 1e-4);  // the fields differ, or landing were idle
-    const int stay = w.land();
+    const int stay = projection.project();
     EXPECT_EQ(stay, 0);
     EXPECT_LT(off_the_input(mesh, w.placement.points), 1e-5);
   }
 }
 
-TEST(Workspace, LandsWhatMovedSince) {
+TEST(FinalProjection, TakesUpWhatMovedSince) {
   const TriMesh mesh = with_natural_length(wavy());
   Workspace w = on(mesh);
+  FinalProjection projection(w, {});
   shake(w);
-  w.refit();
+  projection.refit();
   EXPECT_TRUE(w.refitted());
-  w.land();
+  projection.project();
   w.return_to_input();
   EXPECT_FALSE(w.refitted());
   const Placement landed = w.placement;
   const std::vector<int> some = {30, 31, 40};  // of the inside
   w.retraction->step(landed, test::random_vectors(w.start->cols(), .05), some, w.placement);
   const Placement moved = w.placement;
-  EXPECT_EQ(w.land(some), 0);
+  EXPECT_EQ(projection.project(some), 0);
   for (int v = 0; v < w.connectivity->vertex_count; ++v) {
     const bool is_one = std::ranges::count(some, v) > 0;
     EXPECT_EQ(w.placement.points.col(v) == landed.points.col(v), !is_one) << v;
     EXPECT_LT((w.placement.points.col(v) - moved.points.col(v)).norm(), 1e-4);
   }
   const Mat3X points = w.placement.points;
-  w.land();  // is there already
+  projection.project();  // is there already
   EXPECT_LT((w.placement.points - points).colwise().norm().maxCoeff(), 1e-9);
 }
 
@@ -166,7 +171,7 @@ TEST(Workspace, ReturnsToTheFieldOfTheInput) {
   shake(w);
   w.refit();
   shake(w);
-  w.land();
+  w.placement = w.project_to_input();
   const long long calls = w.projection_counts().calls;
   w.return_to_input();
   EXPECT_EQ(w.projection_counts().calls, calls);
@@ -180,7 +185,7 @@ TEST(Workspace, CountsTheProjectionsOfAllFields) {
   EXPECT_EQ(calls, 81);
   shake(w);
   w.refit();
-  w.land();
+  w.placement = w.project_to_input();
   EXPECT_EQ(w.projection_counts().calls, calls + 77 + 81 + 81);  // the four corners do not move
 }
 

@@ -1,4 +1,4 @@
-#include "hooke/io/printable.h"
+#include "hooke/core/printable.h"
 
 #include <fmt/format.h>
 

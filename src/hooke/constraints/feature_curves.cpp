@@ -1,0 +1,118 @@
+#include "hooke/constraints/feature_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hooke/geometry/triangle.h"
+
+namespace hooke {
+namespace {
+
+CurveFoot foot_on_segment(const Curve& curve, const Vec3& x, int segment) {
+  const int next = (segment + 1) % static_cast<int>(curve.points.cols());
+  const Vec3 a = curve.points.col(segment);
+  const Vec3 ab = curve.points.col(next) - a;
+  const double length2 = ab.squaredNorm();
+  const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
+  // Blended tangents let a vertex pass a point of the polyline without a kink in its direction.
+  const Vec3 tangent = (1 - t) * curve.tangents.col(segment) + t * curve.tangents.col(next);
+  return {t < 1 ? Vec3(a + t * ab) : Vec3(curve.points.col(next)), tangent.stableNormalized(), segment};
+}
+
+std::array<double, 3> key_of(const Vec3& point) {
+  return {point[0], point[1], point[2]};
+}
+
+/// Lengths along the curve up to each of its points, the first again at the end of a closed one.
+std::vector<double> arc_lengths(const Curve& curve) {
+  const Eigen::Index n = curve.points.cols();
+  std::vector<double> lengths = {0};
+  for (int s = 0; s < curve.segment_count(); ++s)
+    lengths.push_back(lengths.back() + (curve.points.col((s + 1) % n) - curve.points.col(s)).norm());
+  return lengths;
+}
+
+/// Greatest distance of the curve from `count` chords of equal arcs.
+double chord_error_of(const Curve& curve, const std::vector<double>& arcs, int count) {
+  const Eigen::Index n = curve.points.cols();
+  const auto at = [&](double arc, size_t& s) -> Vec3 {
+    while (s + 2 < arcs.size() && arcs[s + 1] < arc) ++s;
+    const double length = arcs[s + 1] - arcs[s], t = length > 0 ? (arc - arcs[s]) / length : 0;
+    return (1 - t) * curve.points.col(static_cast<Eigen::Index>(s)) +
+           t * curve.points.col(static_cast<Eigen::Index>(s + 1) % n);
+  };
+  double worst = 0;
+  size_t segment = 0;
+  Vec3 a = at(0, segment);
+  for (int i = 0; i < count; ++i) {
+    const size_t first = segment + 1;
+    const Vec3 b = at(arcs.back() * (i + 1) / count, segment);
+    for (size_t s = first; s <= segment; ++s)
+      worst = std::max(worst, distance_to_segment(curve.points.col(static_cast<Eigen::Index>(s) % n), a, b));
+    a = b;
+  }
+  return worst;
+}
+
+}  // namespace
+
+CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment) {
+  const int n = curve.segment_count();
+  CurveFoot best = foot_on_segment(curve, x, segment);
+  double best2 = (x - best.point).squaredNorm();
+  for (int direction : {1, -1}) {
+    // Two segments without gain end the walk: one may be hidden behind a reflex point.
+    for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n;
+         s += direction, ++steps) {
+      if (!curve.closed && (s < 0 || s >= n)) break;
+      const CurveFoot foot = foot_on_segment(curve, x, ((s % n) + n) % n);
+      const double distance2 = (x - foot.point).squaredNorm();
+      if (distance2 < best2) {
+        best = foot;
+        best2 = distance2;
+        misses = 0;
+      } else {
+        ++misses;
+      }
+    }
+  }
+  return best;
+}
+
+int wanted_edges(const Curve& curve, double target, double chord_error) {
+  const std::vector<double> arcs = arc_lengths(curve);
+  const int most = std::max(curve.segment_count(), 3);
+  int count = std::max(curve.closed ? 3 : 1, static_cast<int>(std::lround(arcs.back() / target)));
+  while (count < most && chord_error_of(curve, arcs, count) > chord_error * target)
+    count = std::min(most, count + std::max(1, count / 16));
+  return count;
+}
+
+CurveFinder::CurveFinder(const std::vector<Curve>& curves) : curves_(&curves) {
+  for (size_t c = 0; c < curves.size(); ++c)
+    for (Eigen::Index i = 0; i < curves[c].points.cols(); ++i)
+      places_[key_of(curves[c].points.col(i))].push_back(
+          {static_cast<int>(c), std::min(static_cast<int>(i), curves[c].segment_count() - 1)});
+}
+
+CurveFinder::Place CurveFinder::common(const Vec3& a, const Vec3& b) const {
+  const auto at_a = places_.find(key_of(a)), at_b = places_.find(key_of(b));
+  if (at_a == places_.end() || at_b == places_.end()) return {};
+  const Vec3 middle = .5 * a + .5 * b;
+  Place best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Place& p : at_a->second)
+    for (const Place& q : at_b->second) {
+      if (p.curve != q.curve) continue;
+      const int halfway = (p.segment + q.segment) / 2;
+      const CurveFoot foot = project_to_curve((*curves_)[static_cast<size_t>(p.curve)], middle, halfway);
+      const double distance = (foot.point - middle).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      best = {p.curve, foot.segment};
+    }
+  return best;
+}
+
+}  // namespace hooke
