@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "hooke/core/printable.h"
+#include "hooke/remesh/result.h"
 #include "hooke/report/table.h"
 
 namespace hooke::app {

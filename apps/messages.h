@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "hooke/remesh/result.h"
 #include "hooke/report/report.h"
 #include "options.h"
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "exit_codes.h"
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "messages.h"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
 #include "hooke/remesh/restarts.h"
 #include "hooke/springs/sizing.h"

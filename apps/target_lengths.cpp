@@ -11,6 +11,7 @@
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
 #include "hooke/io/vertex_lists.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/springs/target_lengths.h"

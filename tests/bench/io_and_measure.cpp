@@ -12,6 +12,8 @@
 #include "hooke/io/write_mesh.h"
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/mesh.h"
 
 namespace hooke {
 namespace {

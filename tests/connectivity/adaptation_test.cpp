@@ -6,13 +6,19 @@
 #include <set>
 #include <string_view>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/mesh/topology.h"
+#include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
+#include "hooke/remesh/result.h"
+#include "hooke/working_mesh/working_mesh.h"
 #include "support/adapting_scene.h"
 #include "support/remeshed.h"
 #include "support/solids.h"

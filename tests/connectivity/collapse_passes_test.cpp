@@ -7,7 +7,10 @@
 #include "hooke/connectivity/edge_collapses.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/topology.h"
+#include "hooke/working_mesh/working_mesh.h"
 #include "support/adapting_scene.h"
 
 namespace hooke {

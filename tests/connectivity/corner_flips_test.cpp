@@ -7,6 +7,7 @@
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 namespace {

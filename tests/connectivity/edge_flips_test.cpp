@@ -9,6 +9,7 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "support/flipping_scene.h"
 
 namespace hooke {

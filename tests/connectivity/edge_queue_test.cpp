@@ -8,6 +8,8 @@
 
 #include "support/meshes.h"
 
+#include "hooke/mesh/halfedge_mesh.h"
+
 namespace hooke {
 namespace {
 

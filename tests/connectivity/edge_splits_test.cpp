@@ -7,6 +7,7 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

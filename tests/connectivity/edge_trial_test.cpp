@@ -4,7 +4,10 @@
 
 #include "hooke/constraints/constraints.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/topology.h"
+#include "hooke/springs/energy.h"
+#include "hooke/working_mesh/working_mesh.h"
 #include "support/adapting_scene.h"
 
 namespace hooke {

@@ -6,8 +6,11 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/mesh/topology.h"
+#include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
+#include "hooke/remesh/result.h"
 #include "support/flipping_scene.h"
 
 namespace hooke {

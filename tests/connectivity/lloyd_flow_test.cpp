@@ -9,6 +9,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/topology.h"
+#include "hooke/working_mesh/working_mesh.h"
 #include "support/flipping_scene.h"
 
 namespace hooke {

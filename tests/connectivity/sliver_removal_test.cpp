@@ -4,6 +4,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/topology.h"
 #include "support/adapting_scene.h"
 

@@ -5,7 +5,9 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/flipping_scene.h"
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "hooke/constraints/feature_curves.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/remesh/options.h"
 #include "support/crease_solids.h"
 #include "support/remeshed.h"
 #include "support/scene.h"

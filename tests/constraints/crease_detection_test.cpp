@@ -4,6 +4,8 @@
 
 #include "support/crease_solids.h"
 
+#include "hooke/mesh/adjacency.h"
+
 namespace hooke {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "support/meshes.h"
 #include "support/solids.h"

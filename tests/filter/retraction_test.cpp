@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/core/parallel.h"
 #include "support/scene.h"

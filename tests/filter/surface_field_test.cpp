@@ -8,6 +8,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/filter/partition_of_unity.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "support/meshes.h"
 #include "support/solids.h"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "support/scene.h"
 

@@ -6,6 +6,8 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/angle_springs.h"
 #include "hooke/integrator/lbfgs.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/remesh/options.h"
 #include "support/remeshed.h"
 #include "support/scene.h"
 

@@ -6,6 +6,8 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/lbfgs.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/scene.h"
 

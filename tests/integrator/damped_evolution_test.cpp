@@ -10,10 +10,16 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/forces.h"
 #include "hooke/springs/hooke_law.h"
+#include "hooke/working_mesh/workspace.h"
 #include "support/meshes.h"
 
 namespace hooke {

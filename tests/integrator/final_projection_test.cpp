@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/self_intersection.h"
 #include "support/scene.h"

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/vertex_ring.h"
 #include "support/scene.h"
 
 namespace hooke {

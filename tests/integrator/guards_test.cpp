@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"

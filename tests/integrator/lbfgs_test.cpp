@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
+#include "hooke/integrator/relaxation.h"
 #include "support/scene.h"
 
 namespace hooke {

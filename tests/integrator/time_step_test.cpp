@@ -8,6 +8,8 @@
 
 #include "support/meshes.h"
 
+#include "hooke/mesh/adjacency.h"
+
 namespace hooke {
 namespace {
 

@@ -5,6 +5,8 @@
 #include "support/named_terms.h"
 #include "support/scene.h"
 
+#include "hooke/springs/energy.h"
+
 namespace hooke {
 namespace {
 

@@ -8,6 +8,7 @@
 #include "hooke/core/error.h"
 #include "hooke/io/sha256.h"
 #include "hooke/io/write_mesh.h"
+#include "hooke/mesh/mesh.h"
 #include "support/errors.h"
 #include "support/meshes.h"
 #include "support/solids.h"

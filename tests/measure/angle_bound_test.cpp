@@ -4,6 +4,7 @@
 
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/adjacency.h"
 #include "support/solids.h"
 
 namespace hooke {

@@ -8,6 +8,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/curvature.h"
 #include "support/solids.h"
 

@@ -7,6 +7,8 @@
 #include "support/meshes.h"
 #include "support/solids.h"
 
+#include "hooke/mesh/mesh.h"
+
 namespace hooke {
 namespace {
 

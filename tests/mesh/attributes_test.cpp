@@ -9,6 +9,8 @@
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/errors.h"

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
 #include "support/crease_solids.h"

@@ -6,6 +6,8 @@
 
 #include "support/solids.h"
 
+#include "hooke/mesh/adjacency.h"
+
 namespace hooke {
 namespace {
 

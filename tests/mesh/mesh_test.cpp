@@ -5,7 +5,9 @@
 #include "hooke/core/error.h"
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/remesh/limiting_factors.h"
+#include "hooke/remesh/options.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
 

@@ -4,6 +4,7 @@
 
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/io/vertex_lists.h"
+#include "hooke/mesh/adjacency.h"
 #include "support/meshes.h"
 
 namespace hooke {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "hooke/constraints/crease_detection.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "support/crease_solids.h"
 

@@ -4,7 +4,9 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/topology.h"
+#include "hooke/remesh/options.h"
 #include "support/crease_outcome.h"
 
 namespace hooke {

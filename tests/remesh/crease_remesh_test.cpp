@@ -3,6 +3,8 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/remesh/options.h"
 #include "support/crease_outcome.h"
 
 namespace hooke {

@@ -4,6 +4,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/remesh/options.h"
 #include "support/remeshed.h"
 #include "support/solids.h"

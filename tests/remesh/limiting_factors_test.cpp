@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/measure/quality.h"
+#include "hooke/remesh/options.h"
 #include "support/crease_solids.h"
 #include "support/remeshed.h"
 #include "support/solids.h"

@@ -3,6 +3,8 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/remesh/options.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/springs/target_lengths.h"

@@ -4,9 +4,13 @@
 
 #include <cmath>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/result.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/meshes.h"
 

@@ -2,9 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
+#include "hooke/filter/surface_field.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/options.h"
+#include "hooke/remesh/result.h"
 #include "hooke/springs/target_lengths.h"
+#include "hooke/working_mesh/workspace.h"
 #include "support/remeshed.h"
 #include "support/scene.h"
 #include "support/solids.h"

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/springs/hooke_law.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/meshes.h"

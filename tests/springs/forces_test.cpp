@@ -7,6 +7,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/springs/hooke_law.h"
 #include "support/meshes.h"
 

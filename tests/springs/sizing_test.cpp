@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hooke/core/error.h"
+#include "hooke/mesh/adjacency.h"
 #include "support/solids.h"
 
 namespace hooke {

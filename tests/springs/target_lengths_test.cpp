@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hooke/core/error.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/springs/sizing.h"
 #include "support/solids.h"

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "support/solids.h"
 

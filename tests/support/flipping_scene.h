@@ -9,9 +9,12 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/target_lengths.h"
+#include "hooke/working_mesh/working_mesh.h"
 #include "support/meshes.h"
 
 namespace hooke::test {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
+#include "hooke/remesh/result.h"
 #include "support/meshes.h"
 
 namespace hooke::test {

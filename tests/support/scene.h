@@ -3,12 +3,15 @@
 
 #include <algorithm>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/vertex_coloring.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
 #include "support/solids.h"
 

@@ -6,8 +6,10 @@
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_trial.h"
+#include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
 
 namespace hooke {
 namespace {

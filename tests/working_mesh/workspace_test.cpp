@@ -4,8 +4,11 @@
 
 #include "hooke/core/error.h"
 #include "hooke/filter/retraction.h"
+#include "hooke/filter/surface_field.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "support/scene.h"
 

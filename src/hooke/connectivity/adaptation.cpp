@@ -6,18 +6,88 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/connectivity/corner_flips.h"
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_splits.h"
 #include "hooke/connectivity/lloyd_flow.h"
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
+#include "hooke/core/stopwatch.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/integrator/lbfgs.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/vertex_coloring.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
+#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 namespace {
+
+/// All leave a mesh of the same topology, with its boundary loops, creases, corners and fixed vertices. Keeps
+/// references to what it is given. After finish() nothing more may be called.
+class AdaptationSteps {
+ public:
+  /// `corner_angle`: degrees, see corner_rule.h. The observer is asked as by the steps that take one.
+  AdaptationSteps(Workspace& work, const StepOptions& options, const FlipGuardOptions& flip_guard,
+                  const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
+                  Observer observer);
+
+  /// Vertices at bends may move and go where a curve is to have other edges.
+  void release_bends();
+
+  /// Doubles the target lengths so many times; below zero they are halved.
+  void coarsen(int levels);
+
+  /// How often they may be doubled.
+  int bearable_levels(double wanted_faces, const CoarseLimits& limits) const;
+
+  /// Splits and collapses edges that are too long or too short, and gives curves as many as they want.
+  void change_lengths();
+
+  /// Brings the number of faces closer to what is wanted; false if nothing changes it.
+  bool change_count(double wanted_faces);
+
+  /// Flow, after which the mesh is Delaunay and its vertices lie on the surface, as far as guards let them.
+  void settle(int rounds);
+
+  /// Passes of springs and flips about irregular vertices, until one flips nothing.
+  void flip_irregular();
+
+  /// Every face becomes four.
+  void quadruple();
+
+  /// Gives the work the mesh as it is now.
+  void finish() { adapting_.replace_mesh(); }
+
+  double face_count() const { return static_cast<double>(m_.triangulation.faces().size()); }
+  const StepCounts& counts() const { return counts_; }
+  bool interrupted() const { return interrupted_; }
+
+ private:
+  void give_up_unused_ids();
+  void settle_springs();
+  int pass_over_irregular(std::vector<char>& lately_changed);
+  void resample_lengths();
+  void add(const CountChanges& changes);
+
+  Workspace& work_;
+  const StepOptions& options_;
+  const FlipGuardOptions& flip_guard_;
+  const EnergyTerms& terms_;
+  const GuardOptions& guards_;
+  const Observer observer_;
+  AdaptingWork adapting_;
+  AdaptingMesh& m_ = adapting_.mesh();
+  const bool graded_;
+  int level_ = 0;  // the target lengths are doubled so many times
+  StepCounts counts_;
+  bool interrupted_ = false;
+};
 
 /// How far the surface turns along an arc of the target length, radians, and how much of it is like that.
 struct Turn {

@@ -11,6 +11,8 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

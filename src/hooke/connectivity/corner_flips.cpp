@@ -4,8 +4,11 @@
 #include <numbers>
 
 #include "hooke/constraints/constraints.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

@@ -7,8 +7,11 @@
 #include <tuple>
 
 #include "hooke/connectivity/edge_flips.h"
+#include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

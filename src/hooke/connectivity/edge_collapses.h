@@ -5,9 +5,12 @@
 
 #include <optional>
 
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/filter/retraction.h"
 
 namespace hooke {
+
+struct AdaptingMesh;
+class Triangulation;
 
 /// The worst of what guards look at.
 struct WorstShape {

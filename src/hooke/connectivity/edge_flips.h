@@ -3,9 +3,12 @@
 // "Delaunay mesh construction", 2007.
 #pragma once
 
-#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
+
+struct FlippingMesh;
+class Triangulation;
 
 struct FlipGuardOptions {
   double area_share = .02;  // least part of the pair's area that each new face has

@@ -4,9 +4,13 @@
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_queue.h"
+#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

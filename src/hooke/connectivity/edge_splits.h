@@ -2,9 +2,11 @@
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
-#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
+
+struct AdaptingMesh;
+struct VertexPlace;
 
 struct SplitOptions {
   double longest = 4. / 3;  // of an edge over its target length

@@ -6,10 +6,16 @@
 #include <numeric>
 
 #include "hooke/connectivity/edge_flips.h"
+#include "hooke/constraints/constraints.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/gauss_seidel.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/vertex_coloring.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

@@ -1,14 +1,15 @@
 // How good the faces of a small mesh are, and what in it is beyond the limits of the guards.
 #pragma once
 
-#include "hooke/filter/retraction.h"
 #include "hooke/integrator/angle_search.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/patch.h"
-#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
+
+struct AdaptingMesh;
 
 struct PatchLimits {
   double fair_angle;  // degrees; a face with a smaller one costs the square of what it lacks

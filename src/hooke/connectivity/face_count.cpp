@@ -6,6 +6,8 @@
 #include "hooke/connectivity/edge_queue.h"
 #include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

@@ -4,7 +4,13 @@
 #include <cmath>
 
 #include "hooke/constraints/constraints.h"
+#include "hooke/core/stopwatch.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/springs/energy.h"
+#include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 namespace {

@@ -7,12 +7,12 @@
 #include "hooke/connectivity/lloyd_flow.h"
 #include "hooke/connectivity/valence_flips.h"
 #include "hooke/integrator/angle_springs.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/integrator/lbfgs.h"
 #include "hooke/integrator/untangle.h"
-#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
+
+struct Workspace;
 
 enum class ConnectivityMode {
   fixed,  // the faces stay

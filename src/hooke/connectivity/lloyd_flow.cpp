@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/connectivity/corner_flips.h"
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/final_projection.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/target_lengths.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

@@ -3,13 +3,13 @@
 // Gunzburger, "Centroidal Voronoi tessellations", 1999.
 #pragma once
 
-#include "hooke/connectivity/corner_flips.h"
 #include "hooke/connectivity/edge_flips.h"
-#include "hooke/filter/retraction.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
 
 namespace hooke {
+
+struct Connectivity;
+struct GuardOptions;
 
 struct LloydOptions {
   double over_relaxation = 1.3;      // of the way to the centroid

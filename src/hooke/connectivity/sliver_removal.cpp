@@ -9,7 +9,10 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/springs/energy.h"
 #include "hooke/working_mesh/working_mesh.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 namespace {

@@ -7,9 +7,12 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/gauss_seidel.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/vertex_coloring.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/patch.h"
+#include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {

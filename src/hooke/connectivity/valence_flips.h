@@ -3,10 +3,12 @@
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
+#include "hooke/springs/energy.h"
 
 namespace hooke {
+
+struct GuardOptions;
 
 struct FlipPassOptions {
   int passes = 2;      // at most; it stops when one changes nothing

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/mesh/wedges.h"

@@ -10,9 +10,40 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/vertex_ring.h"
+#include "hooke/mesh/vertex_coloring.h"
 
 namespace hooke {
 namespace {
+
+/// Works on one vertex at a time; made once for many, for its memory. Keeps references.
+class VertexSearch {
+ public:
+  VertexSearch(Relaxation& relaxation, const VertexSearchOptions& options, const GuardOptions& guards);
+
+  /// Moves the vertex, as far as the guards let it, until no cotangent about it is above the goal or it finds
+  /// nothing better. Returns whether it moved.
+  bool improve(int vertex, double goal);
+
+ private:
+  struct Side {
+    VertexRing ring;
+    RingShape before, after;
+  };
+
+  void look(int vertex);
+  double outcome(const VertexPlace& place);
+  bool may_go() const;
+  bool try_all(int vertex, double step);
+
+  Relaxation& r_;
+  const VertexSearchOptions& o_;
+  const GuardOptions& guards_;
+  std::vector<Eigen::Vector2d> directions_;
+  std::array<Side, 2> sides_;
+  int count_ = 1;     // of the sides
+  double worst_ = 0;  // greatest cotangent about the vertex
+};
 
 constexpr double far_off = 1.1;  // times the greatest cotangent: what the surface's bend may make of a place
 

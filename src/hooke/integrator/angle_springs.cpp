@@ -8,6 +8,8 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/gauss_seidel.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
 
 namespace hooke {

@@ -3,9 +3,10 @@
 #pragma once
 
 #include "hooke/integrator/relaxation.h"
-#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
+
+struct TargetLengths;
 
 struct PolishOptions {
   double first_threshold = 20;     // degrees; at least least angle + margin

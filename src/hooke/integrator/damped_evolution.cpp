@@ -10,6 +10,8 @@
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/final_projection.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/forces.h"
 #include "hooke/springs/hooke_law.h"
 

@@ -7,9 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "hooke/core/stopwatch.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 namespace {

@@ -5,6 +5,9 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/vertex_coloring.h"
+#include "hooke/springs/energy.h"
 
 namespace hooke {
 namespace {

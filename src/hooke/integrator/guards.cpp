@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "hooke/core/parallel.h"
+#include "hooke/core/stopwatch.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 namespace {

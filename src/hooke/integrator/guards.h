@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <limits>
 
-#include "hooke/core/stopwatch.h"
-#include "hooke/filter/retraction.h"
-#include "hooke/springs/target_lengths.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
+
+struct Connectivity;
+struct Placement;
+class Retraction;
+class Stopwatch;
+struct TargetLengths;
 
 struct GuardOptions {
   double area_ratio = .2;  // a face keeps at least this part of its area in a step

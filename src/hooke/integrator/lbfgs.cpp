@@ -4,13 +4,41 @@
 #include <utility>
 
 #include "hooke/core/parallel.h"
+#include "hooke/core/stopwatch.h"
 #include "hooke/core/types.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/gauss_seidel.h"
+#include "hooke/integrator/relaxation.h"
 
 namespace hooke {
 namespace {
+
+class LbfgsMemory {
+ public:
+  explicit LbfgsMemory(const LbfgsMemoryOptions& options) : options_(options), scale_(options.first_step) {}
+
+  bool empty() const { return pairs_.empty(); }
+  void clear();
+
+  /// Takes in a step and what it did to the gradient; not if the energy did not curve along it.
+  void push(const Relaxation& r, const Preconditioner& h0, const Mat3X& step, const Mat3X& gradient_change);
+
+  /// q = H q, H the inverse Hessian as far as it is known.
+  void apply(const Relaxation& r, const Preconditioner& h0, Mat3X& q) const;
+
+ private:
+  /// Directs the next steps and need not be exact: half the memory, half the time.
+  using Kept = Eigen::Matrix<float, 3, Eigen::Dynamic>;
+  struct Pair {
+    Kept s, y;
+    double rho = 0;  // 1 / s.y
+  };
+  LbfgsMemoryOptions options_;
+  std::deque<Pair> pairs_;
+  double scale_;
+  int pushed_ = 0;
+};
 
 // Arithmetic on matrices of one column per vertex, by all threads.
 

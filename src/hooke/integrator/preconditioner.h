@@ -5,6 +5,7 @@
 
 #include "hooke/core/symmetric_matrix.h"
 #include "hooke/core/types.h"
+#include "hooke/filter/retraction.h"
 #include "hooke/integrator/relaxation.h"
 
 namespace hooke {

@@ -2,13 +2,17 @@
 // the rest lengths of their springs.
 #pragma once
 
-#include "hooke/core/stopwatch.h"
-#include "hooke/filter/retraction.h"
-#include "hooke/integrator/guards.h"
-#include "hooke/mesh/vertex_coloring.h"
-#include "hooke/springs/energy.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
+
+struct Connectivity;
+class Energy;
+class Guards;
+struct Placement;
+class Retraction;
+class Stopwatch;
+struct SweepPlan;
 
 enum class StopReason {
   converged,    // every edge within the tolerance of its target length

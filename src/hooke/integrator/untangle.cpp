@@ -1,5 +1,9 @@
 #include "hooke/integrator/untangle.h"
 
+#include "hooke/integrator/gauss_seidel.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/springs/energy.h"
+
 namespace hooke {
 namespace {
 

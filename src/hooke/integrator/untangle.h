@@ -2,7 +2,7 @@
 // wrong way, so they first feel a spring on their signed area.
 #pragma once
 
-#include "hooke/integrator/gauss_seidel.h"
+#include "hooke/integrator/relaxation.h"
 
 namespace hooke {
 

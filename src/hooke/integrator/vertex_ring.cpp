@@ -2,6 +2,7 @@
 
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/springs/energy.h"
 #include "hooke/springs/ring_energy.h"
 
 namespace hooke {

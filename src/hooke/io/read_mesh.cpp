@@ -8,6 +8,7 @@
 #include "hooke/io/files.h"
 #include "hooke/io/polygon_triangulation.h"
 #include "hooke/io/sha256.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/validation.h"
 
 namespace hooke {

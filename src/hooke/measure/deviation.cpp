@@ -7,6 +7,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/closest_faces.h"
+#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 namespace {

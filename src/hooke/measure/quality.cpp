@@ -10,6 +10,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/curvature.h"
 
 namespace hooke {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <deque>
 
+#include "hooke/core/parallel.h"
+
 namespace hooke {
 namespace {
 

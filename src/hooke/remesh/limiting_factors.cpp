@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/adjacency.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 namespace {

@@ -1,10 +1,13 @@
 // Why an angle is no larger: what holds the vertices of a result, and which of that bounds a face.
 #pragma once
 
-#include "hooke/integrator/guards.h"
-#include "hooke/working_mesh/workspace.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
+
+struct ConstraintOptions;
+class Guards;
+struct Workspace;
 
 struct WorstFace;
 

@@ -6,6 +6,9 @@
 
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/springs/energy.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 namespace {

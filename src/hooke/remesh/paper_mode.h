@@ -2,8 +2,11 @@
 // "Hooke's Optimization for 3D triangular mesh", section 4.6.
 #pragma once
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/filter/retraction.h"
-#include "hooke/remesh/remesh.h"
+#include "hooke/filter/surface_field.h"
+#include "hooke/integrator/damped_evolution.h"
+#include "hooke/remesh/result.h"
 
 namespace hooke {
 

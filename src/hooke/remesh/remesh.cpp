@@ -4,10 +4,15 @@
 #include <chrono>
 
 #include "hooke/core/error.h"
+#include "hooke/core/stopwatch.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/relaxation.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/remesh/limiting_factors.h"
+#include "hooke/springs/energy.h"
 #include "hooke/working_mesh/workspace.h"
 
 namespace hooke {

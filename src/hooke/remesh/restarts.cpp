@@ -1,13 +1,17 @@
 #include "hooke/remesh/restarts.h"
 
+#include "hooke/remesh/remesh.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "hooke/core/stopwatch.h"
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
+#include "hooke/mesh/mesh.h"
 
 namespace hooke {
 namespace {

@@ -2,7 +2,8 @@
 // the start decide what becomes of the worst faces; what can be paid for is tried more than once.
 #pragma once
 
-#include "hooke/remesh/remesh.h"
+#include "hooke/remesh/options.h"
+#include "hooke/remesh/result.h"
 
 namespace hooke {
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 

@@ -1,10 +1,18 @@
-// The account of an outer iteration.
+// What a run has done: its outer iterations, and what became of the mesh.
 #pragma once
 
+#include "hooke/connectivity/adaptation.h"
+#include "hooke/connectivity/flip_mode.h"
+#include "hooke/filter/retraction.h"
+#include "hooke/integrator/angle_springs.h"
 #include "hooke/integrator/relaxation.h"
-#include "hooke/working_mesh/workspace.h"
+#include "hooke/integrator/time_step.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/mesh/surface_point.h"
 
 namespace hooke {
+
+struct Workspace;
 
 /// One outer iteration. Where the polish goes on from there on the same field, vertices have not landed yet.
 struct IterationRecord {
@@ -23,8 +31,6 @@ struct IterationRecord {
 /// The state of the work after `done`; all but the seconds.
 IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done);
 
-// What has become of the creases.
-
 /// What was found of creases, and what of it is left. Mode `adapt` gives creases other edges: then the edges
 /// are those of the result.
 struct CreaseCounts {
@@ -38,6 +44,31 @@ struct CreaseCounts {
 
 /// Of the creases of the work.
 CreaseCounts count_creases(const Workspace& work);
+
+struct RemeshResult {
+  StopReason reason = StopReason::stalled;
+  int attempts = 1;      // of which this is the best, see attempts.h ...
+  int kept_attempt = 1;  // ... by its number
+  int sliver_tries = 0;  // see sliver_trials.h
+  std::vector<IterationRecord> iterations;
+  Mat3X input_points;         // of the mesh as it was, to measure the result against
+  Layout layout;              // of the mesh as it is now
+  bool near_regular = false;  // in mode `fixed`: see do_no_harm.h
+  int folded_before = 0;
+  std::vector<int> folded_faces;  // still folded away from the surface, ids of the result
+  CreaseCounts creases;
+  std::vector<Edge> crease_edges;    // ids of the result
+  FlipResult flips;                  // in the modes `flip` and `adapt`
+  AdaptResult adaptation;            // in mode `adapt`
+  std::vector<MapEntry> map;         // per vertex of the result
+  std::vector<unsigned char> holds;  // per vertex of the result, see hindrances.h
+  int not_landed = 0;  // vertices that stay off the input's field, where landing would fold a face
+  PolishResult polish;
+  ProjectionCounts projection;
+  long long held_back = 0;  // vertex steps shortened by the guards
+  BoundCounts bound;        // time steps by the test that set them (paper_remesh only)
+  FailedTests jam;          // what no time step passed, when jammed there
+};
 
 /// The ids that these faces of the work have in the result, ascending.
 std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces);

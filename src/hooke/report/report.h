@@ -3,17 +3,19 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 
 #include "hooke/core/stopwatch.h"
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
-#include "hooke/remesh/paper_mode.h"
-#include "hooke/remesh/restarts.h"
+#include "hooke/remesh/result.h"
 
 namespace hooke {
+
+struct AttemptOptions;
+struct PaperOptions;
+struct RemeshOptions;
 
 /// {min, p01, p05, median, mean, p95, max, std, histogram: {edges, counts}, non_finite}; the figures and the
 /// histogram are null when there was no finite number.

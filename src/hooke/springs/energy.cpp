@@ -8,6 +8,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/core/simd.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/springs/hooke_law.h"
 
 namespace hooke {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "hooke/constraints/constraints.h"
 #include "hooke/filter/retraction.h"
+#include "hooke/mesh/halfedge_mesh.h"
 
 namespace hooke {
 namespace {

@@ -7,7 +7,9 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
 namespace {
@@ -163,6 +165,14 @@ AdaptingWork::AdaptingWork(Workspace& work, double corner_angle)
       mesh_{triangulation_,   work.placement, *work.retraction, work.constraints, work.vertex_length,
             corner_valences_, origins_,       curve_finder_,    curve_edges_} {
   std::iota(origins_.begin(), origins_.end(), 0);
+}
+
+void AdaptingWork::replace_faces() {
+  work_.replace_faces(triangulation_.faces());
+}
+
+void AdaptingWork::replace_mesh() {
+  work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_);
 }
 
 }  // namespace hooke

@@ -6,9 +6,10 @@
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/mesh/halfedge_mesh.h"
-#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
+
+struct Workspace;
 
 /// A mesh whose edges are flipped and whose vertices move on the surface. All are references to objects that
 /// outlive it.
@@ -89,10 +90,10 @@ class AdaptingWork {
   const AdaptingMesh& mesh() const { return mesh_; }
 
   /// Gives the work the faces as they are now. Pre-condition: there were only flips.
-  void replace_faces() { work_.replace_faces(triangulation_.faces()); }
+  void replace_faces();
 
   /// Gives the work the mesh as it is now, which ends this one. Pre-condition: it is compact.
-  void replace_mesh() { work_.replace_mesh(triangulation_.faces(), triangulation_.sides(), origins_); }
+  void replace_mesh();
 
  private:
   Workspace& work_;

@@ -9,6 +9,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
