@@ -7,9 +7,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
-#include "hooke/filter/surface_field.h"
+#include "hooke/measure/statistics.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
 #include "hooke/remesh/restarts.h"

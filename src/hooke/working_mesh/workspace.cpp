@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/constraints/crease_detection.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
