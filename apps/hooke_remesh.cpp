@@ -50,21 +50,22 @@ bool keeps_faces(const Settings& s) {
 /// The mesh of the input, for the result to be measured against.
 struct Original {
   Mat3X points;  // as the layout has them
-  Layout layout;
+  MemoryOrder memory_order;
   std::vector<int> tree_order;  // in which its tree holds the faces
 };
 
 /// What the input told of its vertices, for those of the result: the same while vertices stay what they were,
 /// else the values at their places. Normals are always those of the result.
 VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
-                          const Mat3X& points, const Layout& layout, RunRecord& run) {
+                          const Mat3X& points, const MemoryOrder& memory_order, RunRecord& run) {
   const bool to_other_places = !keeps_faces(s) && !loaded.vertex_data.empty();
-  VertexData data = to_other_places
-                        ? carry_over(loaded.vertex_data, run.result->map,
-                                     original.layout.order.in_old_order(original.layout.connectivity->faces))
-                        : loaded.vertex_data;
+  VertexData data =
+      to_other_places
+          ? interpolate(loaded.vertex_data, run.result->map,
+                        original.memory_order.order.scatter(original.memory_order.adjacency->faces))
+          : loaded.vertex_data;
   if (has_normals(data))
-    set_normals(data, layout.order.in_old_order(vertex_normals(points, *layout.connectivity)));
+    set_normals(data, memory_order.order.scatter(vertex_normals(points, *memory_order.adjacency)));
   FormatData carried = data_for_format(data, loaded.format, s.format);
   if (!carried.left_out.empty())
     run.warnings.push_back({"attributes_not_kept",
@@ -73,18 +74,19 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Ori
   return std::move(carried.data);
 }
 
-MeasuredSurface surface_of(Mat3X points, const Layout& layout, Stopwatch& stopwatch,
+MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwatch& stopwatch,
                            const std::vector<int>& tree_order = {}) {
   return timed(&stopwatch, "tree", [&] {
-    return MeasuredSurface(std::move(points), *layout.connectivity, layout.order.old_ids(), tree_order);
+    return MeasuredSurface(std::move(points), *memory_order.adjacency, memory_order.order.old_ids(),
+                           tree_order);
   });
 }
 
 /// Against the target lengths that the vertices have now.
-Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Reordered& order,
+Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
                 Stopwatch& stopwatch) {
-  const std::vector<double> lengths = order.in_new_order(vertex_values(mesh, target_length_property));
-  return measure_quality(surface, spread_target_lengths(surface.connectivity, lengths).edge, {}, &stopwatch);
+  const std::vector<double> lengths = order.gather(vertex_values(mesh, target_length_property));
+  return measure_quality(surface, spread_target_lengths(surface.adjacency, lengths).edge, {}, &stopwatch);
 }
 
 /// What `work` returns; its errors get the name of the input.
@@ -101,15 +103,16 @@ auto in_the_name_of(const std::string& name, const Work& work) {
   }
 }
 
-RemeshResult optimize(const Settings& s, TriMesh& mesh, Layout layout, Stopwatch& stopwatch) {
+RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order, Stopwatch& stopwatch) {
   ProgressLine line(s);
   const Observer observer = [&](const Progress& p) {
     line.show(p);
     return caught_signal() == 0;
   };
   return in_the_name_of(name_of_input(s), [&] {
-    return s.paper ? paper_remesh(mesh, std::move(layout), s.paper_options, observer)
-                   : remesh_in_attempts(mesh, std::move(layout), s.remesh, s.attempts, observer, &stopwatch);
+    return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, observer)
+                   : remesh_with_restarts(mesh, std::move(memory_order), s.remesh, s.restarts, observer,
+                                          &stopwatch);
   });
 }
 
@@ -117,21 +120,21 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, Layout layout, Stopwatch
 std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord& record,
                                Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
-  const Layout& layout = loaded.layout;
-  Mat3X points = layout.order.in_new_order(positions(mesh));
+  const MemoryOrder& memory_order = loaded.memory_order;
+  Mat3X points = memory_order.order.gather(vertex_points(mesh));
   if (!s.check)
-    warn_of_coincident_boundary(coincident_boundary_vertices(points, *layout.connectivity).size(), record);
-  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, layout, points, record); });
-  const MeasuredSurface surface = surface_of(std::move(points), layout, stopwatch);
+    warn_of_coincident_boundary(coincident_boundary_vertices(points, *memory_order.adjacency).size(), record);
+  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, points, record); });
+  const MeasuredSurface surface = surface_of(std::move(points), memory_order, stopwatch);
   record.before =
-      timed(&stopwatch, "before", [&] { return measure(surface, mesh, layout.order, stopwatch); });
+      timed(&stopwatch, "before", [&] { return measure(surface, mesh, memory_order.order, stopwatch); });
   return surface.tree.order();
 }
 
 void measure_way(const Original& original, const MeasuredSurface& result, RunRecord& record,
                  Stopwatch& stopwatch) {
   const MeasuredSurface reference =
-      surface_of(original.points, original.layout, stopwatch, original.tree_order);
+      surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
   if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
@@ -141,25 +144,28 @@ void measure_way(const Original& original, const MeasuredSurface& result, RunRec
 void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
                  OutputFiles& files, Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
-  if (!keeps_faces(s)) original.layout = loaded.layout;
-  record.result =
-      timed(&stopwatch, "remesh", [&] { return optimize(s, mesh, std::move(loaded.layout), stopwatch); });
+  if (!keeps_faces(s)) original.memory_order = loaded.memory_order;
+  record.result = timed(&stopwatch, "remesh",
+                        [&] { return optimize(s, mesh, std::move(loaded.memory_order), stopwatch); });
   return_free_memory();
   RemeshResult& done = *record.result;
-  const Layout layout = std::move(done.layout);
-  if (keeps_faces(s)) original.layout = layout;
-  original.points = original.layout.order.in_new_order(std::exchange(done.input_points, {}));
-  if (!positions(mesh).allFinite())
+  const MemoryOrder memory_order = std::move(done.memory_order);
+  if (keeps_faces(s)) original.memory_order = memory_order;
+  original.points = original.memory_order.order.gather(std::exchange(done.input_points, {}));
+  if (!vertex_points(mesh).allFinite())
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", record.input.path));
   record.status = status_of(done.reason);
-  const MeasuredSurface result = surface_of(layout.order.in_new_order(positions(mesh)), layout, stopwatch,
-                                            keeps_faces(s) ? original.tree_order : std::vector<int>());
-  record.after = timed(&stopwatch, "after", [&] { return measure(result, mesh, layout.order, stopwatch); });
+  const MeasuredSurface result =
+      surface_of(memory_order.order.gather(vertex_points(mesh)), memory_order, stopwatch,
+                 keeps_faces(s) ? original.tree_order : std::vector<int>());
+  record.after =
+      timed(&stopwatch, "after", [&] { return measure(result, mesh, memory_order.order, stopwatch); });
   bound_between_creases(record.after->worst_faces, result, done.crease_edges);
-  if (!done.holds.empty())
-    for (WorstFace& face : record.after->worst_faces) face.reasons = hindrances(face, done.holds);
+  if (!done.vertex_limits.empty())
+    for (WorstFace& face : record.after->worst_faces)
+      face.reasons = limiting_factors(face, done.vertex_limits);
   measure_way(original, result, record, stopwatch);
-  const VertexData data = data_of_result(s, loaded, original, result.points, layout, record);
+  const VertexData data = data_of_result(s, loaded, original, result.points, memory_order, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
   });
@@ -188,7 +194,7 @@ int run(Settings s) {
   LoadedMesh loaded = timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch); });
   if (!s.fix.empty())
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
-        read_id_list(s.fix, loaded.layout.connectivity->vertex_count);
+        read_id_list(s.fix, loaded.memory_order.adjacency->vertex_count);
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
@@ -197,7 +203,7 @@ int run(Settings s) {
   record.warnings = loaded.warnings;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters =
-      s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.attempts, s.effort);
+      s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.restarts, s.effort);
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
 

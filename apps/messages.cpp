@@ -41,7 +41,7 @@ void print_iterations(const RemeshResult& r) {
       "max error", "least angle");
   for (const IterationRecord& i : r.iterations)
     say("{:<10}{:>7}{:>8}{:>14.6g}{:>12.4f}{:>12.4f}{:>12.3f}\n", i.stage, i.steps, i.evaluations, i.energy,
-        i.rms_length_error, i.max_length_error, i.least_angle);
+        i.rms_length_error, i.max_length_error, i.min_angle);
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ void print_summary(const Settings& s, const RunRecord& run) {
   say("\n{}\n", reason_in_words(run));
   if (run.result->near_regular)
     say("the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
-  if (run.result->attempts > 1) say("the best of {} attempts\n", run.result->attempts);
+  if (run.result->restarts > 1) say("the best of {} attempts\n", run.result->restarts);
   const FlipResult& f = run.result->flips;
   const AdaptResult& a = run.result->adaptation;
   if (a.rounds > 0)

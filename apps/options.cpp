@@ -25,22 +25,22 @@ using Choices = std::vector<std::pair<const char*, T>>;
 template <typename Value, typename T>
 CLI::Option* add_choice(CLI::App& app, const char* name, Value& value, const char* help,
                         const Choices<T>& choices) {
-  std::string words;
-  for (const auto& choice : choices) words += (words.empty() ? "" : "|") + std::string(choice.first);
-  const auto choose = [&value, name, words, choices](const std::string& text) {
+  std::string raw;
+  for (const auto& choice : choices) raw += (raw.empty() ? "" : "|") + std::string(choice.first);
+  const auto choose = [&value, name, raw, choices](const std::string& text) {
     for (const auto& [word, meaning] : choices)
       if (text == word) {
         value = meaning;
         return;
       }
-    throw CLI::ValidationError(name, in_quotes(text) + "; expected " + words);
+    throw CLI::ValidationError(name, in_quotes(text) + "; expected " + raw);
   };
-  return app.add_option_function<std::string>(name, choose, help)->type_name(words);
+  return app.add_option_function<std::string>(name, choose, help)->type_name(raw);
 }
 
 /// Which numbers an option takes.
 struct Range {
-  const char* words;
+  const char* raw;
   bool (*holds)(double);  // of finite numbers
 };
 constexpr Range positive{"a positive number", [](double x) { return x > 0; }};
@@ -57,7 +57,7 @@ CLI::Option* add_number(CLI::App& app, const char* name, Value& value, const cha
     const auto [rest, error] = std::from_chars(text.data(), end, number);
     if (error != std::errc() || rest != end || !std::isfinite(static_cast<double>(number)) ||
         !range.holds(static_cast<double>(number)))
-      throw CLI::ValidationError(name, fmt::format("{}; expected {}", in_quotes(text), range.words));
+      throw CLI::ValidationError(name, fmt::format("{}; expected {}", in_quotes(text), range.raw));
     value = number;
   };
   return app.add_option_function<std::string>(name, read, help)
@@ -81,7 +81,7 @@ CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& fi
   return app.add_option(name, file, help)->check(file_name())->type_name("FILE");
 }
 
-void add_target(CLI::App& app, Settings& s, Words& words) {
+void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option(
          "-L,--length", s.length_text,
          "Target edge length: auto = sqrt(4 A / (sqrt 3 F)), mean = mean edge length, X in file units, "
@@ -96,7 +96,7 @@ void add_target(CLI::App& app, Settings& s, Words& words) {
       ->check(file_name())
       ->type_name("FILE|ply:PROPERTY|curvature[:ERROR]")
       ->default_str("off");
-  app.add_option("--gradation", words.gradation,
+  app.add_option("--gradation", raw.gradation,
                  "Greatest change of a sizing's lengths along an edge, over the edge's length")
       ->type_name("X|off")
       ->default_str("0.3");
@@ -112,7 +112,7 @@ void add_target(CLI::App& app, Settings& s, Words& words) {
            "of the input and three weights of that face's corners");
 }
 
-void add_method(CLI::App& app, Settings& s, Words& words) {
+void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
   add_choice(
       app, "--effort", s.effort, "How long to go on for better triangles",
       Choices<Effort>{{"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}})
@@ -145,16 +145,15 @@ void add_method(CLI::App& app, Settings& s, Words& words) {
       ->default_str("each");
   add_number(app, "--altitude", s.remesh.altitude, "Weight of the altitude springs against the strings",
              not_negative);
-  add_number<double>(app, "--rho", words.rho, "Offset of the field's second points, over the edge length",
+  add_number<double>(app, "--rho", raw.rho, "Offset of the field's second points, over the edge length",
                      positive)
       ->default_str("0.3; 0.02 with --paper");
-  app.add_option("--tolerance", words.tolerance,
-                 "Converged when every edge is this near to the target length")
+  app.add_option("--tolerance", raw.tolerance, "Converged when every edge is this near to the target length")
       ->type_name("X%")
       ->capture_default_str();
-  add_number<int>(app, "--max-outer", words.max_outer, "Outer iterations: relaxation and filtering", count)
+  add_number<int>(app, "--max-outer", raw.max_outer, "Outer iterations: relaxation and filtering", count)
       ->default_str("6; 10 with --paper");
-  add_number<int>(app, "--max-steps", words.max_steps, "Steps per outer iteration", count)
+  add_number<int>(app, "--max-steps", raw.max_steps, "Steps per outer iteration", count)
       ->default_str("2000; 400 with --paper");
 }
 
@@ -174,15 +173,15 @@ void add_motion(CLI::App& app, Settings& s) {
              "Least area of a face after a time step, over the squared target length (paper)", not_negative);
 }
 
-void add_constraints(CLI::App& app, Settings& s, Words& words) {
+void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
   add_choice(
-      app, "--boundary", words.boundary,
+      app, "--boundary", raw.boundary,
       "Boundary vertices slide along the input's boundary, stay fixed, or are free on the surface",
       Choices<BoundaryRule>{
           {"slide", BoundaryRule::slide}, {"fixed", BoundaryRule::fixed}, {"free", BoundaryRule::free}})
       ->default_str("slide; free with --paper");
   app.add_option(
-         "--feature-angle", words.feature_angle,
+         "--feature-angle", raw.feature_angle,
          "Faces that meet at more degrees make a crease: its vertices slide along it, and the surface is "
          "smooth on either side only")
       ->type_name("DEG|off")
@@ -215,18 +214,18 @@ void add_run(CLI::App& app, Settings& s) {
       ->default_str("auto");
 }
 
-void add_options(CLI::App& app, Settings& s, Words& words) {
+void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option("INPUT", s.input, "Mesh to read: .obj, .ply or .off")->required()->type_name("");
   add_file(app, "-o,--output", s.output, "Mesh to write; required unless --check");
   add_choice(app, "--format", s.format, "Format of the output (default: by extension)",
              Choices<std::string>{{"obj", "obj"}, {"ply", "ply"}, {"off", "off"}});
   app.option_defaults()->group("Target");
-  add_target(app, s, words);
+  add_target(app, s, raw);
   app.option_defaults()->group("Method");
-  add_method(app, s, words);
+  add_method(app, s, raw);
   add_motion(app, s);
   app.option_defaults()->group("Constraints");
-  add_constraints(app, s, words);
+  add_constraints(app, s, raw);
   app.option_defaults()->group("Measuring and reports");
   add_reports(app, s);
   app.option_defaults()->group("Running");
@@ -251,12 +250,12 @@ Parsed parse_command_line(int argc, char** argv) {
       "hooke-remesh");
   app.get_formatter()->column_width(34);
   Settings settings;
-  Words words;
-  words.given = [&app](const char* option) { return app.count(option) > 0; };
-  add_options(app, settings, words);
+  RawOptions raw;
+  raw.given = [&app](const char* option) { return app.count(option) > 0; };
+  add_options(app, settings, raw);
   try {
     app.parse(argc, argv);
-    settle(settings, words);
+    resolve(settings, raw);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return {std::nullopt, print_wanted(app, e)};
     print_error(e.what() + std::string("; see hooke-remesh --help"));

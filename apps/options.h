@@ -28,7 +28,7 @@ struct Settings {
   Effort effort = Effort::standard;
   std::filesystem::path map;  // empty without
   RemeshOptions remesh;
-  AttemptOptions attempts;
+  RestartOptions restarts;
   PaperOptions paper_options;
   std::filesystem::path fix;    // file of vertex ids that stay; empty without
   std::string report;           // path, "-" for standard output, empty without

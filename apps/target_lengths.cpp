@@ -51,15 +51,15 @@ void require_reasonable(const Settings& s, double least, double most, double nat
 }  // namespace
 
 std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
-                                const Mat3X& points, const Layout& layout) {
-  const Connectivity& c = *layout.connectivity;
+                                const Mat3X& points, const MemoryOrder& memory_order) {
+  const Adjacency& c = *memory_order.adjacency;
   switch (source.kind) {
     case SizingSource::Kind::none:
       break;
     case SizingSource::Kind::file:
-      return layout.order.in_new_order(read_length_list(source.name, c.vertex_count));
+      return memory_order.order.gather(read_length_list(source.name, c.vertex_count));
     case SizingSource::Kind::ply_property:
-      return layout.order.in_new_order(read_property(source.name, mesh_file, c.vertex_count));
+      return memory_order.order.gather(read_property(source.name, mesh_file, c.vertex_count));
     case SizingSource::Kind::curvature: {
       const double diagonal = box_diagonal(points);
       const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
@@ -69,18 +69,18 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
   return {};
 }
 
-void set_target_lengths(const Settings& s, TriMesh& mesh, const Layout& layout, const Mat3X& points,
-                        RunRecord& record) {
-  const Connectivity& connectivity = *layout.connectivity;
-  const Sizing sizing{read_sizing(s.sizing, s.input, points, layout), s.gradation};
-  const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, connectivity);
-  const double natural = resolve_length({}, points, connectivity);
+void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& memory_order,
+                        const Mat3X& points, RunRecord& record) {
+  const Adjacency& adjacency = *memory_order.adjacency;
+  const Sizing sizing{read_sizing(s.sizing, s.input, points, memory_order), s.gradation};
+  const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
+  const double natural = resolve_length({}, points, adjacency);
   const auto [least, most] = std::ranges::minmax_element(lengths);
   require_reasonable(s, *least, *most, natural);
-  set_vertex_values(mesh, target_length_property, layout.order.in_old_order(lengths));
+  set_vertex_values(mesh, target_length_property, memory_order.order.scatter(lengths));
 
-  const TargetLengths targets = spread_target_lengths(connectivity, lengths);
-  record.parameters.update({{"L", mean_length(points, connectivity, targets)},
+  const TargetLengths targets = spread_target_lengths(adjacency, lengths);
+  record.parameters.update({{"L", mean_length(points, adjacency, targets)},
                             {"L_min", *least},
                             {"L_max", *most},
                             {"L_spec", printable(s.length_text)},
@@ -89,7 +89,7 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const Layout& layout, 
   const bool limited = s.sizing.kind != SizingSource::Kind::none && std::isfinite(s.gradation);
   record.parameters["gradation"] = limited ? nlohmann::ordered_json(s.gradation) : nlohmann::ordered_json();
   if (!s.check && s.remesh.connectivity != ConnectivityMode::adapt)
-    warn_of_length(s, covering_length(points, connectivity, targets), natural, record);
+    warn_of_length(s, covering_length(points, adjacency, targets), natural, record);
 }
 
 }  // namespace hooke::app

@@ -83,21 +83,21 @@ int threads_of_environment() {
   return 0;
 }
 
-void settle_sizing(Settings& s, const Words& words) {
+void resolve_sizing(Settings& s, const RawOptions& raw) {
   const bool sized = s.sizing_text != "off";
   if (sized) s.sizing = parsed("--sizing", parse_sizing, s.sizing_text);
-  if (!words.gradation.empty()) s.gradation = parse_gradation(words.gradation);
+  if (!raw.gradation.empty()) s.gradation = parse_gradation(raw.gradation);
   if (sized) return;
-  if (!words.gradation.empty()) throw Error("--gradation is of --sizing; leave it out, or name a sizing");
+  if (!raw.gradation.empty()) throw Error("--gradation is of --sizing; leave it out, or name a sizing");
   if (s.length.kind == LengthSpec::Kind::as_given)
     throw Error("--length sizing without --sizing; name a sizing, or another length");
 }
 
 /// What would do nothing is refused: who says it expects something of it.
-void refuse_idle(const Settings& s, const Words& words) {
+void refuse_idle(const Settings& s, const RawOptions& raw) {
   const auto refuse = [&](bool idle, std::initializer_list<const char*> options, const char* why) {
     for (const char* option : options)
-      if (idle && words.given(option)) throw Error(fmt::format("{} {}; leave it out", option, why));
+      if (idle && raw.given(option)) throw Error(fmt::format("{} {}; leave it out", option, why));
   };
   refuse(s.paper,
          {"--effort", "--feature-angle", "--map", "--integrator", "--polish", "--altitude", "--refit"},
@@ -118,25 +118,25 @@ void refuse_idle(const Settings& s, const Words& words) {
 
 }  // namespace
 
-void settle(Settings& s, const Words& words) {
+void resolve(Settings& s, const RawOptions& raw) {
   s.length = parsed("--length", parse_length, s.length_text);
-  settle_sizing(s, words);
-  refuse_idle(s, words);
-  s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(words.tolerance);
+  resolve_sizing(s, raw);
+  refuse_idle(s, raw);
+  s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
-  s.attempts = attempt_options(s.effort);
+  s.restarts = restart_options(s.effort);
   s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
-  if (words.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
-  if (words.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*words.feature_angle);
-  if (words.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *words.rho;
-  if (words.max_outer)
-    s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *words.max_outer;
-  if (words.max_steps) {
-    s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *words.max_steps;
-    s.remesh.adaptation.last_steps = *words.max_steps;
+  if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
+  if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
+  if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
+  if (raw.max_outer)
+    s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *raw.max_outer;
+  if (raw.max_steps) {
+    s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *raw.max_steps;
+    s.remesh.adaptation.last_steps = *raw.max_steps;
   }
-  if (words.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *words.boundary;
+  if (raw.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *raw.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");

@@ -10,7 +10,7 @@
 namespace hooke::app {
 
 /// What was said, before it is given its meaning.
-struct Words {
+struct RawOptions {
   std::string tolerance = "0.1%";
   std::string gradation;
   std::optional<std::string> feature_angle;
@@ -21,6 +21,6 @@ struct Words {
 };
 
 /// Gives the words their meaning and checks what belongs together. Throws Error that names the option.
-void settle(Settings& settings, const Words& words);
+void resolve(Settings& settings, const RawOptions& raw);
 
 }  // namespace hooke::app

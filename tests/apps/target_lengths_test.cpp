@@ -13,8 +13,8 @@
 namespace hooke::app {
 namespace {
 
-Layout layout_of(const test::Triangles& t) {
-  return lay_out(test::to_mesh(t));
+MemoryOrder layout_of(const test::Triangles& t) {
+  return find_memory_order(test::to_mesh(t));
 }
 
 TEST(ReadSizing, APropertyIsOfAPlyFileOnly) {
@@ -38,29 +38,29 @@ TEST(ReadSizing, AListFollowsTheMeshAndItsLengthsTheLayout) {
   std::string lines;
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) lines += std::to_string(v + 1) + "\n";
   test::write_text(folder / "lengths.txt", lines);
-  const Layout layout = layout_of(t);
+  const MemoryOrder memory_order = layout_of(t);
   const std::vector<double> lengths =
-      read_sizing(parse_sizing((folder / "lengths.txt").string()), "", t.points, layout);
-  ASSERT_EQ(lengths.size(), layout.order.old_vertex.size());
+      read_sizing(parse_sizing((folder / "lengths.txt").string()), "", t.points, memory_order);
+  ASSERT_EQ(lengths.size(), memory_order.order.old_vertex.size());
   EXPECT_FALSE(std::ranges::is_sorted(lengths));
-  for (size_t v = 0; v < lengths.size(); ++v) EXPECT_EQ(lengths[v], layout.order.old_vertex[v] + 1);
+  for (size_t v = 0; v < lengths.size(); ++v) EXPECT_EQ(lengths[v], memory_order.order.old_vertex[v] + 1);
 }
 
 TEST(ReadSizing, CurvatureOfASphereGivesTheChordOfItsCircle) {
   test::Triangles t = test::sphere(3, .3, 1);
   t.points *= 3;
   const double error = .05, expected = std::sqrt(8 * 3 * error - 4 * error * error);
-  const Layout layout = layout_of(t);
-  const Mat3X points = layout.order.in_new_order(t.points);
-  for (double l : read_sizing(parse_sizing("curvature:.05"), "", points, layout))
+  const MemoryOrder memory_order = layout_of(t);
+  const Mat3X points = memory_order.order.gather(t.points);
+  for (double l : read_sizing(parse_sizing("curvature:.05"), "", points, memory_order))
     EXPECT_NEAR(l, std::min(expected, 1.0392), .03 * expected);
 }
 
 TEST(ReadSizing, OnAPlaneNoLengthIsOverATenthOfTheDiagonal) {
   const test::Triangles t = test::grid(5, test::flat);
-  const Layout layout = layout_of(t);
-  const Mat3X points = layout.order.in_new_order(t.points);
-  for (double l : read_sizing(parse_sizing("curvature"), "", points, layout))
+  const MemoryOrder memory_order = layout_of(t);
+  const Mat3X points = memory_order.order.gather(t.points);
+  for (double l : read_sizing(parse_sizing("curvature"), "", points, memory_order))
     EXPECT_DOUBLE_EQ(l, .1 * std::sqrt(2));
 }
 

@@ -21,7 +21,7 @@ namespace {
 struct Scene {
   Mat3X points, moved;
   std::vector<Triangle> faces;
-  Connectivity connectivity;
+  Adjacency adjacency;
 };
 
 Vec3 on_torus(double u, double v) {
@@ -55,7 +55,7 @@ Scene make_scene(int vertices) {
       s.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   std::shuffle(s.faces.begin(), s.faces.end(), random);
-  s.connectivity = make_connectivity(static_cast<int>(s.points.cols()), s.faces);
+  s.adjacency = make_adjacency(static_cast<int>(s.points.cols()), s.faces);
   return s;
 }
 
@@ -78,7 +78,7 @@ constexpr Format formats[] = {{".obj", PlyEncoding::ascii},
 
 void write(benchmark::State& state, const Format& format) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
-  const TriMesh mesh = build_mesh(s.points, s.connectivity);
+  const TriMesh mesh = build_mesh(s.points, s.adjacency);
   const TemporaryFile file(format.ending);
   for (auto _ : state) prepare_mesh(file.path, mesh, format_of(file.path), format.encoding).file.commit();
 }
@@ -86,32 +86,31 @@ void write(benchmark::State& state, const Format& format) {
 void read(benchmark::State& state, const Format& format) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
   const TemporaryFile file(format.ending);
-  prepare_mesh(file.path, build_mesh(s.points, s.connectivity), format_of(file.path), format.encoding)
+  prepare_mesh(file.path, build_mesh(s.points, s.adjacency), format_of(file.path), format.encoding)
       .file.commit();
   for (auto _ : state) benchmark::DoNotOptimize(read_mesh(file.path));
 }
 
-void connectivity(benchmark::State& state) {
+void adjacency(benchmark::State& state) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
-  for (auto _ : state)
-    benchmark::DoNotOptimize(make_connectivity(static_cast<int>(s.points.cols()), s.faces));
+  for (auto _ : state) benchmark::DoNotOptimize(make_adjacency(static_cast<int>(s.points.cols()), s.faces));
 }
 
 void tree(benchmark::State& state) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(BoundingVolumeTree(s.points, s.faces));
+  for (auto _ : state) benchmark::DoNotOptimize(AabbTree(s.points, s.faces));
 }
 
 void quality(benchmark::State& state, bool self_intersections) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
-  const MeasuredSurface surface(s.points, s.connectivity);
+  const MeasuredSurface surface(s.points, s.adjacency);
   for (auto _ : state)
     benchmark::DoNotOptimize(measure_quality(surface, {}, {.self_intersections = self_intersections}));
 }
 
 void deviation(benchmark::State& state) {
   const Scene s = make_scene(static_cast<int>(state.range(0)));
-  const MeasuredSurface before(s.points, s.connectivity), after(s.moved, s.connectivity);
+  const MeasuredSurface before(s.points, s.adjacency), after(s.moved, s.adjacency);
   for (auto _ : state) benchmark::DoNotOptimize(measure_deviation(before, after));
 }
 
@@ -128,7 +127,7 @@ BENCHMARK_CAPTURE(write, obj, formats[0])->Apply(with_sizes);
 BENCHMARK_CAPTURE(write, off, formats[1])->Apply(with_sizes);
 BENCHMARK_CAPTURE(write, ply_ascii, formats[2])->Apply(with_sizes);
 BENCHMARK_CAPTURE(write, ply_binary, formats[3])->Apply(with_sizes);
-BENCHMARK(connectivity)->Apply(with_sizes);
+BENCHMARK(adjacency)->Apply(with_sizes);
 BENCHMARK(tree)->Apply(with_sizes);
 BENCHMARK_CAPTURE(quality, without_self_intersections, false)->Apply(with_sizes);
 BENCHMARK_CAPTURE(quality, with_self_intersections, true)->Apply(with_sizes);

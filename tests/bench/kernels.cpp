@@ -23,28 +23,28 @@ namespace {
 struct Sphere {
   explicit Sphere(int levels)
       : start(test::sphere(levels, .35, 7)),
-        connectivity(std::make_shared<const Connectivity>(
-            make_connectivity(static_cast<int>(start.points.cols()), start.faces))),
+        adjacency(std::make_shared<const Adjacency>(
+            make_adjacency(static_cast<int>(start.points.cols()), start.faces))),
         length(start.points.cols(),
                natural_length(total_area(start.points, start.faces), start.faces.size())) {
-    std::vector<int> anchors(length.size());
-    std::iota(anchors.begin(), anchors.end(), 0);
-    placement = retraction.place(start.points, anchors, constraints.segment);
+    std::vector<int> hints(length.size());
+    std::iota(hints.begin(), hints.end(), 0);
+    positions = retraction.place(start.points, hints, constraints.segment);
   }
 
-  Relaxation relaxation() { return {*connectivity, sweeps, length, energy, retraction, guards, placement}; }
+  Relaxation relaxation() { return {*adjacency, coloring, length, energy, retraction, guards, positions}; }
 
   test::Triangles start;
-  std::shared_ptr<const Connectivity> connectivity;
+  std::shared_ptr<const Adjacency> adjacency;
   std::vector<double> length;
-  SweepPlan sweeps = plan_sweeps(*connectivity);
-  TargetLengths targets = spread_target_lengths(*connectivity, length);
-  Constraints constraints = find_constraints(start.points, *connectivity, {});
-  SurfaceField field{std::make_shared<const Mat3X>(start.points), connectivity};
+  VertexColoring coloring = color_vertices(*adjacency);
+  TargetLengths targets = spread_target_lengths(*adjacency, length);
+  Constraints constraints = find_constraints(start.points, *adjacency, {});
+  SurfaceField field{std::make_shared<const Mat3X>(start.points), adjacency};
   Retraction retraction{field.surface(), constraints, {}};
-  Energy energy{*connectivity, targets, {}};
-  Guards guards{*connectivity, targets, {}};
-  Placement placement;
+  Energy energy{*adjacency, targets, {}};
+  Guards guards{*adjacency, targets, {}};
+  SurfacePositions positions;
 };
 
 void per_item(benchmark::State& state, size_t items) {
@@ -54,14 +54,14 @@ void per_item(benchmark::State& state, size_t items) {
 void energy_and_gradient(benchmark::State& state) {
   Sphere s(static_cast<int>(state.range(0)));
   Mat3X gradient;
-  for (auto _ : state) benchmark::DoNotOptimize(s.energy(s.placement.points, s.placement.normals, &gradient));
-  per_item(state, s.connectivity->faces.size());
+  for (auto _ : state) benchmark::DoNotOptimize(s.energy(s.positions.points, s.positions.normals, &gradient));
+  per_item(state, s.adjacency->faces.size());
 }
 
 void guards_of_all(benchmark::State& state) {
   Sphere s(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(s.guards.offenders(s.placement, s.placement));
-  per_item(state, s.connectivity->faces.size());
+  for (auto _ : state) benchmark::DoNotOptimize(s.guards.offenders(s.positions, s.positions));
+  per_item(state, s.adjacency->faces.size());
 }
 
 void ring_curvature(benchmark::State& state) {
@@ -69,16 +69,16 @@ void ring_curvature(benchmark::State& state) {
   Relaxation r = s.relaxation();
   LocalNewton newton(r);
   for (auto _ : state)
-    for (int v = 0; v < s.connectivity->vertex_count; ++v) benchmark::DoNotOptimize(newton.curvature(v));
+    for (int v = 0; v < s.adjacency->vertex_count; ++v) benchmark::DoNotOptimize(newton.curvature(v));
   per_item(state, s.length.size());
 }
 
 void newton_sweep(benchmark::State& state) {
   Sphere s(static_cast<int>(state.range(0)));
-  const Placement start = s.placement;
+  const SurfacePositions start = s.positions;
   Relaxation r = s.relaxation();
   for (auto _ : state) {
-    s.placement = start;
+    s.positions = start;
     benchmark::DoNotOptimize(local_newton_sweep(r, {}, {}));
   }
   per_item(state, s.length.size());
@@ -87,7 +87,7 @@ void newton_sweep(benchmark::State& state) {
 void projection(benchmark::State& state) {
   const Sphere s(static_cast<int>(state.range(0)));
   for (auto _ : state)
-    for (int v = 0; v < s.connectivity->vertex_count; ++v)
+    for (int v = 0; v < s.adjacency->vertex_count; ++v)
       benchmark::DoNotOptimize(s.field.project(1.01 * s.start.points.col(v), v, 1e-6 * s.length[0]));
   per_item(state, s.length.size());
 }
@@ -95,13 +95,13 @@ void projection(benchmark::State& state) {
 void field_fit(benchmark::State& state) {
   const Sphere s(static_cast<int>(state.range(0)));
   const auto points = std::make_shared<const Mat3X>(s.start.points);
-  for (auto _ : state) benchmark::DoNotOptimize(SurfaceField(points, s.connectivity));
+  for (auto _ : state) benchmark::DoNotOptimize(SurfaceField(points, s.adjacency));
   per_item(state, s.length.size());
 }
 
 void sweep_plan(benchmark::State& state) {
   const Sphere s(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(plan_sweeps(*s.connectivity));
+  for (auto _ : state) benchmark::DoNotOptimize(color_vertices(*s.adjacency));
   per_item(state, s.length.size());
 }
 

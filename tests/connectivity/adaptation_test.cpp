@@ -19,9 +19,9 @@
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
 #include "hooke/working_mesh/working_mesh.h"
-#include "support/adapting_scene.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
+#include "support/working_scene.h"
 
 namespace hooke {
 namespace {
@@ -45,7 +45,7 @@ test::Triangles with_holes(double (*height)(double, double)) {
 struct Outcome {
   RemeshResult result;
   Mat3X points;
-  Connectivity connectivity;
+  Adjacency adjacency;
 };
 
 RemeshOptions adapting(Effort effort = Effort::fast) {
@@ -64,8 +64,8 @@ Outcome adapted(const test::Triangles& t, const RemeshOptions& options, const st
   for (const auto v : mesh.vertices()) length[v] = lengths[static_cast<size_t>(v.idx())];
   Outcome o;
   o.result = remesh(mesh, options, observer);
-  o.points = positions(mesh);
-  o.connectivity = make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
+  o.points = vertex_points(mesh);
+  o.adjacency = make_adjacency(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
   return o;
 }
 
@@ -76,15 +76,15 @@ Outcome adapted(const test::Triangles& t, double length, const RemeshOptions& op
 
 /// The same topology, no face against its neighbours, no crossing.
 void expect_sound(const test::Triangles& t, const Outcome& o) {
-  const Topology before = measure_topology(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
-  const Topology after = measure_topology(o.connectivity);
+  const Topology before = measure_topology(make_adjacency(static_cast<int>(t.points.cols()), t.faces));
+  const Topology after = measure_topology(o.adjacency);
   EXPECT_EQ(after.euler, before.euler);
   EXPECT_EQ(after.boundary_loops, before.boundary_loops);
   EXPECT_EQ(after.components, before.components);
   EXPECT_EQ(after.isolated_vertices, before.isolated_vertices);
   EXPECT_TRUE(o.points.allFinite());
   const Quality quality =
-      measure_quality(o.points, o.connectivity, std::vector<double>(o.connectivity.edges.size(), 1.));
+      measure_quality(o.points, o.adjacency, std::vector<double>(o.adjacency.edges.size(), 1.));
   EXPECT_EQ(quality.folded_edges, 0u);
   EXPECT_EQ(quality.self_intersections.value_or(1), 0u);
 }
@@ -94,7 +94,7 @@ TEST(Adaptation, HasAsManyFacesAsTheLengthAsksFor) {
     for (double factor : {.3, 1., 3.}) {
       const Outcome o = adapted(t, factor * natural(t));
       const double wanted = static_cast<double>(t.faces.size()) / (factor * factor);
-      EXPECT_NEAR(static_cast<double>(o.connectivity.faces.size()), wanted, std::max(2.5, .03 * wanted));
+      EXPECT_NEAR(static_cast<double>(o.adjacency.faces.size()), wanted, std::max(2.5, .03 * wanted));
       EXPECT_NEAR(o.result.adaptation.wanted_faces, wanted, .001 * wanted);
       expect_sound(t, o);
     }
@@ -108,11 +108,11 @@ TEST(Adaptation, KeepsHolesEvenWhereTheyAreSmallForTheLength) {
 TEST(Adaptation, MakesGoodTriangles) {
   const test::Triangles t = test::sphere(3, .45, 4);
   const Outcome o = adapted(t, natural(t), adapting(Effort::standard));
-  EXPECT_GT(least_angle(o.points, o.connectivity.faces), 44);
-  EXPECT_LT(least_angle(t.points, t.faces), 15);
+  EXPECT_GT(min_angle(o.points, o.adjacency.faces), 44);
+  EXPECT_LT(min_angle(t.points, t.faces), 15);
 }
 
-double irregular_share(const Connectivity& c) {
+double irregular_share(const Adjacency& c) {
   int irregular = 0;
   for (int v = 0; v < c.vertex_count; ++v) irregular += c.vertex_edges[v].size() != 6;
   return static_cast<double>(irregular) / c.vertex_count;
@@ -125,8 +125,8 @@ TEST(Adaptation, ACoarserMeshFirstLeavesFewIrregularVertices) {
   const Outcome with = adapted(t, natural(t), coarse), without = adapted(t, natural(t), none);
   EXPECT_EQ(with.result.adaptation.levels, 1);
   EXPECT_EQ(without.result.adaptation.levels, 0);
-  EXPECT_LT(irregular_share(with.connectivity), .5 * irregular_share(without.connectivity));
-  EXPECT_GT(least_angle(with.points, with.connectivity.faces), 44);
+  EXPECT_LT(irregular_share(with.adjacency), .5 * irregular_share(without.adjacency));
+  EXPECT_GT(min_angle(with.points, with.adjacency.faces), 44);
   expect_sound(t, with);
 }
 
@@ -144,7 +144,7 @@ TEST(Adaptation, InterruptedAtACoarserMeshItStillHasTheLengthsAskedFor) {
     });
     EXPECT_EQ(o.result.reason, StopReason::interrupted);
     EXPECT_GT(o.result.adaptation.levels, 0);
-    EXPECT_NEAR(static_cast<double>(o.connectivity.faces.size()) / wanted, 1, .35) << calls;
+    EXPECT_NEAR(static_cast<double>(o.adjacency.faces.size()) / wanted, 1, .35) << calls;
     expect_sound(t, o);
   }
 }
@@ -152,24 +152,23 @@ TEST(Adaptation, InterruptedAtACoarserMeshItStillHasTheLengthsAskedFor) {
 /// On the faces of the input, where any drift shows.
 TEST(Adaptation, AllVerticesLandInterruptedOrNot) {
   const test::Triangles t = test::sphere(4, .3, 4);
-  const BoundingVolumeTree input(t.points, t.faces);
+  const AabbTree input(t.points, t.faces);
   RemeshOptions options = adapting();
   options.filter.kind = FilterKind::closest;
   int all = 0;
-  const auto greatest_distance = [&](const Outcome& o) {
+  const auto max_distance = [&](const Outcome& o) {
     double greatest = 0;
     for (const auto& x : o.points.colwise())
       greatest = std::max(greatest, input.closest(Vec3(x)).squared_distance);
     return std::sqrt(greatest);
   };
-  EXPECT_LT(greatest_distance(adapted(t, natural(t), options, [&](const Progress&) { return ++all > 0; })),
-            1e-9);
+  EXPECT_LT(max_distance(adapted(t, natural(t), options, [&](const Progress&) { return ++all > 0; })), 1e-9);
   ASSERT_GT(all, 12);
   for (int calls = 1; calls < all; calls += all / 8) {
     int left = calls;
     const Outcome o = adapted(t, natural(t), options, [&](const Progress&) { return --left > 0; });
     EXPECT_EQ(o.result.reason, StopReason::interrupted);
-    EXPECT_LT(greatest_distance(o), 1e-9) << calls;
+    EXPECT_LT(max_distance(o), 1e-9) << calls;
   }
 }
 
@@ -180,11 +179,11 @@ TEST(Adaptation, ACoarserMeshHonoursASizing) {
   const Outcome o = adapted(t, adapting(), lengths);
   EXPECT_GT(o.result.adaptation.levels, 0);
   double error = 0;
-  for (const auto& [a, b] : o.connectivity.edges) {
+  for (const auto& [a, b] : o.adjacency.edges) {
     const double z = .5 * (o.points(2, a) + o.points(2, b)), l = (o.points.col(a) - o.points.col(b)).norm();
     error += std::pow(l / (natural(t) * (1 + .4 * z)) - 1, 2);
   }
-  EXPECT_LT(std::sqrt(error / static_cast<double>(o.connectivity.edges.size())), .1);
+  EXPECT_LT(std::sqrt(error / static_cast<double>(o.adjacency.edges.size())), .1);
   expect_sound(t, o);
 }
 
@@ -193,7 +192,7 @@ TEST(Adaptation, ARegularMeshKeepsItsVertices) {
   const Outcome o = adapted(t, natural(t), adapting(Effort::standard));
   EXPECT_EQ(o.result.adaptation.levels, 0);
   for (size_t v = 0; v < o.result.map.size(); ++v) EXPECT_EQ(o.result.map[v].vertex, static_cast<int>(v));
-  EXPECT_EQ(o.connectivity.faces.size(), t.faces.size());
+  EXPECT_EQ(o.adjacency.faces.size(), t.faces.size());
 }
 
 TEST(Adaptation, ARoughSurfaceHasNoCoarserMesh) {
@@ -221,10 +220,10 @@ TEST(Adaptation, CornersAndGivenVerticesStayBitForBit) {
 
 TEST(Adaptation, TheRimStaysOnItsPolyline) {
   const test::Triangles t = with_holes(test::flat);
-  const Connectivity input = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  const Adjacency input = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
   const Constraints rim = find_constraints(t.points, input, {});
   const Outcome o = adapted(t, .7 * natural(t));
-  const std::vector<char> boundary = boundary_vertices(o.connectivity);
+  const std::vector<char> boundary = boundary_vertices(o.adjacency);
   for (size_t v = 0; v < boundary.size(); ++v) {
     if (!boundary[v]) continue;
     const Vec3 x = o.points.col(static_cast<Eigen::Index>(v));
@@ -249,7 +248,7 @@ TEST(Adaptation, TheMapReproducesThePoints) {
       EXPECT_EQ(vertex, -1) << "old vertices come first";
     else
       EXPECT_LT(std::exchange(last, vertex), vertex) << "in their old order";
-    if (o.connectivity.vertex_faces[static_cast<int>(v)].empty()) continue;
+    if (o.adjacency.vertex_faces[static_cast<int>(v)].empty()) continue;
     EXPECT_NEAR(place.weights.sum(), 1, 1e-12);
     EXPECT_GE(place.weights.minCoeff(), 0);
     Vec3 x = Vec3::Zero();
@@ -289,7 +288,7 @@ TEST(Adaptation, OneThreadAndTwoGiveTheSameBits) {
     outcomes.push_back(adapted(t, .8 * natural(t)));
   }
   EXPECT_EQ(outcomes[0].points, outcomes[1].points);
-  EXPECT_EQ(outcomes[0].connectivity.faces, outcomes[1].connectivity.faces);
+  EXPECT_EQ(outcomes[0].adjacency.faces, outcomes[1].adjacency.faces);
 }
 
 TEST(Adaptation, APowerOfTwoScalesTheResultExactly) {
@@ -299,7 +298,7 @@ TEST(Adaptation, APowerOfTwoScalesTheResultExactly) {
   const double L = 1.2 * natural(t);
   const Outcome one = adapted(t, L), eight = adapted(large, 8 * L);
   EXPECT_EQ(8 * one.points, eight.points);
-  EXPECT_EQ(one.connectivity.faces, eight.connectivity.faces);
+  EXPECT_EQ(one.adjacency.faces, eight.adjacency.faces);
 }
 
 TEST(Adaptation, StopsWithAValidMeshWheneverTheObserverSaysSo) {
@@ -324,9 +323,9 @@ TEST(Adaptation, SmallMeshesSurvive) {
     for (double factor : {.5, 1., 5.}) {
       const Outcome o = adapted(t, factor * natural(t));
       EXPECT_TRUE(o.points.allFinite());
-      const Topology before = measure_topology(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
-      EXPECT_EQ(measure_topology(o.connectivity).euler, before.euler);
-      EXPECT_GE(o.connectivity.faces.size(), factor < 1 ? 2 * t.faces.size() : t.faces.size() / 2);
+      const Topology before = measure_topology(make_adjacency(static_cast<int>(t.points.cols()), t.faces));
+      EXPECT_EQ(measure_topology(o.adjacency).euler, before.euler);
+      EXPECT_GE(o.adjacency.faces.size(), factor < 1 ? 2 * t.faces.size() : t.faces.size() / 2);
     }
 }
 
@@ -336,7 +335,7 @@ TEST(Adaptation, EdgesFollowGradedTargets) {
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) lengths.push_back(natural(t) * (.6 + t.points(0, v)));
   const Outcome o = adapted(t, adapting(), lengths);
   double left = 0, right = 0, lefts = 0, rights = 0;
-  for (const auto& [a, b] : o.connectivity.edges) {
+  for (const auto& [a, b] : o.adjacency.edges) {
     const double x = .5 * (o.points(0, a) + o.points(0, b)), l = (o.points.col(a) - o.points.col(b)).norm();
     if (x < .2) left += l, ++lefts;
     if (x > .8) right += l, ++rights;
@@ -353,50 +352,50 @@ std::vector<Edge> middle_row() {
   return row;
 }
 
-struct CreasedScene : test::AdaptingScene {
-  CreasedScene() : AdaptingScene(test::grid(cells, test::flat), test::plane(), middle_row()) {}
+struct CreasedScene : test::WorkingScene {
+  CreasedScene() : WorkingScene(test::grid(cells, test::flat), test::plane(), middle_row()) {}
 };
 
-TEST(AdaptingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
+TEST(WorkingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
   for (double factor : {.4, 2.5}) {
     CreasedScene s;
     for (double& length : s.vertex_length) length *= factor;
     for (int round = 0; round < 4; ++round) {
       count_curve_edges(s.adapting, .1);
       split_long_edges(s.adapting, {});
-      FlippingMesh flipping = s.adapting.flipping();
+      FlippableMesh flipping = s.adapting.flipping();
       flip_to_delaunay(flipping, {});
       collapse_short_edges(s.adapting, {});
-      settle_curves(s.adapting, {});
+      match_curve_edges(s.adapting, {});
       compact(s.adapting);
     }
     const double wanted = std::lround(1 / s.vertex_length[0]);
     EXPECT_NEAR(static_cast<double>(s.constraints.creases.size()), wanted, 1);
     double length = 0;
     for (const auto& [a, b] : s.constraints.creases) {
-      EXPECT_NEAR(s.placement.points(1, a), .5, 1e-12);
-      length += (s.placement.points.col(a) - s.placement.points.col(b)).norm();
+      EXPECT_NEAR(s.positions.points(1, a), .5, 1e-12);
+      length += (s.positions.points.col(a) - s.positions.points.col(b)).norm();
     }
     EXPECT_NEAR(length, 1, 1e-9);
   }
 }
 
 /// Limited by the surface only.
-constexpr CoarseLimits any_number{.levels = 10, .least_faces = 0, .rim_share = 9, .irregular_share = -1};
+constexpr CoarseLimits any_number{.levels = 10, .min_faces = 0, .rim_share = 9, .irregular_share = -1};
 
-int levels_of(const test::AdaptingScene& s, const CoarseLimits& limits = any_number) {
-  return coarse_levels(s.adapting, static_cast<double>(s.connectivity.faces.size()), limits);
+int levels_of(const test::WorkingScene& s, const CoarseLimits& limits = any_number) {
+  return coarse_levels(s.adapting, static_cast<double>(s.adjacency.faces.size()), limits);
 }
 
 TEST(CoarseLevels, GrowByOneWhereTheMeshIsTwiceAsFine) {
-  const test::AdaptingScene coarse(test::sphere(3, .2, 3), test::unit_sphere());
-  const test::AdaptingScene fine(test::sphere(4, .2, 3), test::unit_sphere());
+  const test::WorkingScene coarse(test::sphere(3, .2, 3), test::unit_sphere());
+  const test::WorkingScene fine(test::sphere(4, .2, 3), test::unit_sphere());
   EXPECT_GE(levels_of(coarse), 1);
   EXPECT_EQ(levels_of(fine), levels_of(coarse) + 1);
 }
 
 TEST(CoarseLevels, AreThoseThatTheSagittaAllows) {
-  const test::AdaptingScene s(test::sphere(4, 0, 3), test::unit_sphere());
+  const test::WorkingScene s(test::sphere(4, 0, 3), test::unit_sphere());
   for (double sagitta : {.02, .05, .1}) {
     CoarseLimits limits = any_number;
     limits.sagitta = sagitta;
@@ -410,27 +409,27 @@ TEST(CoarseLevels, AreThoseThatTheSagittaAllows) {
 }
 
 TEST(CoarseLevels, AreLimited) {
-  const test::AdaptingScene s(test::sphere(4, .2, 3), test::unit_sphere());
+  const test::WorkingScene s(test::sphere(4, .2, 3), test::unit_sphere());
   CoarseLimits limits = any_number;
   for (int levels : {0, 1}) {
     limits.levels = levels;
     EXPECT_EQ(levels_of(s, limits), levels);
   }
-  const double faces = static_cast<double>(s.connectivity.faces.size());
+  const double faces = static_cast<double>(s.adjacency.faces.size());
   limits.levels = 3;
-  limits.least_faces = .9 * faces / 4;
+  limits.min_faces = .9 * faces / 4;
   EXPECT_EQ(levels_of(s, limits), 1);
-  limits.least_faces = 1.1 * faces / 4;
+  limits.min_faces = 1.1 * faces / 4;
   EXPECT_EQ(levels_of(s, limits), 0);
 }
 
 TEST(CoarseLevels, AMeshThatIsRegularAlreadyHasNone) {
-  const test::AdaptingScene regular(test::sphere(4), test::unit_sphere());
+  const test::WorkingScene regular(test::sphere(4), test::unit_sphere());
   EXPECT_EQ(levels_of(regular, {}), 0);
-  test::AdaptingScene too_fine(test::sphere(4), test::unit_sphere());
+  test::WorkingScene too_fine(test::sphere(4), test::unit_sphere());
   for (double& length : too_fine.vertex_length) length *= 1.5;
   EXPECT_EQ(levels_of(too_fine, {}), 1);
-  EXPECT_EQ(levels_of(test::AdaptingScene(test::sphere(4, .3, 3), test::unit_sphere()), {}), 1);
+  EXPECT_EQ(levels_of(test::WorkingScene(test::sphere(4, .3, 3), test::unit_sphere()), {}), 1);
 }
 
 TEST(CoarseLevels, AreThoseOfTheSurfaceHoweverFinelyItIsMeshed) {
@@ -440,11 +439,11 @@ TEST(CoarseLevels, AreThoseOfTheSurfaceHoweverFinelyItIsMeshed) {
   flat.points *= 2;
   bent.points.row(0).array() += 5;
   const test::Triangles t = test::both(flat, bent);
-  const Surface both = [](const Vec3& x, int anchor, double) {
+  const Surface both = [](const Vec3& x, int hint, double) {
     const Vec3 centre(x[0] > 3 ? 5 : 0, 0, 0), n = (x - centre).normalized();
-    return Foot{centre + (x[0] > 3 ? 1 : 2) * n, n, anchor, FootStatus::converged, 1};
+    return Projection{centre + (x[0] > 3 ? 1 : 2) * n, n, hint, ProjectionStatus::converged, 1};
   };
-  test::AdaptingScene s(t, both);
+  test::WorkingScene s(t, both);
   for (double& length : s.vertex_length) length = .3;
   CoarseLimits limits = any_number;
   const double round = .5 * std::tan(.3 / 4);  // sagitta of an edge of the small sphere over its length
@@ -459,12 +458,12 @@ TEST(CoarseLevels, ThereAreNoneBetweenCreases) {
   std::vector<Edge> crease;
   for (int v = width / 2 * (width + 1); crease.size() < width; ++v) crease.push_back({v, v + 1});
   const test::Triangles t = test::grid(width, test::flat, .1);
-  EXPECT_GT(levels_of(test::AdaptingScene(t, test::plane())), 0);
-  EXPECT_EQ(levels_of(test::AdaptingScene(t, test::plane(), crease)), 0);
+  EXPECT_GT(levels_of(test::WorkingScene(t, test::plane())), 0);
+  EXPECT_EQ(levels_of(test::WorkingScene(t, test::plane(), crease)), 0);
 }
 
 TEST(CoarseLevels, ARimTakesNoMoreThanItsShare) {
-  const test::AdaptingScene s(test::grid(24, test::flat, .1), test::plane());
+  const test::WorkingScene s(test::grid(24, test::flat, .1), test::plane());
   CoarseLimits limits = any_number;
   // At level 1 about 44 of 144 vertices are on the rim and its corners stand still, at level 2 22 of 36.
   for (const auto& [share, levels] : {std::pair(.25, 0), std::pair(.45, 1), std::pair(.8, 2)}) {
@@ -474,7 +473,7 @@ TEST(CoarseLevels, ARimTakesNoMoreThanItsShare) {
 }
 
 TEST(CoarseLevels, VerticesThatStandStillDoNotGetFewer) {
-  test::AdaptingScene s(test::sphere(4, .2, 3), test::unit_sphere());
+  test::WorkingScene s(test::sphere(4, .2, 3), test::unit_sphere());
   CoarseLimits limits = any_number;
   limits.rim_share = .25;
   EXPECT_GE(levels_of(s, limits), 2);

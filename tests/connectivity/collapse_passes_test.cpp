@@ -11,39 +11,39 @@
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/working_mesh/working_mesh.h"
-#include "support/adapting_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke {
 namespace {
 
 constexpr int fine_cells = 24;
-constexpr int side = fine_cells + 1;
-constexpr BlockOptions blocks{.vertices = 5 * side, .passes = 1};  // of five rows
+constexpr int wedge = fine_cells + 1;
+constexpr BlockOptions blocks{.vertices = 5 * wedge, .passes = 1};  // of five rows
 
 /// A grid that is far too fine.
-struct FineGrid : test::AdaptingScene {
-  explicit FineGrid(double times = 5) : AdaptingScene(test::grid(fine_cells, test::flat, .3), test::plane()) {
+struct FineGrid : test::WorkingScene {
+  explicit FineGrid(double times = 5) : WorkingScene(test::grid(fine_cells, test::flat, .3), test::plane()) {
     for (double& length : vertex_length) length *= times;
     count_curve_edges(adapting, .1);
   }
 };
 
 int rows_from_other_blocks(int vertex) {
-  const int row = vertex / side % 5;
-  return std::min(vertex / side < 5 ? 5 : row, vertex / side >= fine_cells / 5 * 5 ? 5 : 4 - row);
+  const int row = vertex / wedge % 5;
+  return std::min(vertex / wedge < 5 ? 5 : row, vertex / wedge >= fine_cells / 5 * 5 ? 5 : 4 - row);
 }
 
 TEST(BlockCollapses, LeaveWhatLiesAboutOtherBlocks) {
   FineGrid s;
-  const Mat3X before = s.placement.points;
+  const Mat3X before = s.positions.points;
   const int collapses = collapse_in_blocks(s.adapting, {}, blocks);
   EXPECT_GT(collapses, fine_cells);
   int gone = 0;
-  for (int v = 0; v < side * side; ++v) {
-    gone += s.triangulation.valence(v) < 0;
+  for (int v = 0; v < wedge * wedge; ++v) {
+    gone += s.halfedges.valence(v) < 0;
     if (rows_from_other_blocks(v) >= 2) continue;
-    EXPECT_GT(s.triangulation.valence(v), 0) << v;
-    EXPECT_EQ(Vec3(s.placement.points.col(v)), Vec3(before.col(v))) << v;
+    EXPECT_GT(s.halfedges.valence(v), 0) << v;
+    EXPECT_EQ(Vec3(s.positions.points.col(v)), Vec3(before.col(v))) << v;
   }
   EXPECT_EQ(gone, collapses);
 }
@@ -60,13 +60,12 @@ TEST(BlockCollapses, KeepTopologyBoundaryAndLengthsThatMayStay) {
   BlockOptions more = blocks;
   more.passes = 3;
   collapse_in_blocks(s.adapting, {}, more);
-  for (int v = 0; v < side * side; ++v)
-    if (v % side == 0 || v % side == fine_cells || v < side || v >= fine_cells * side) {
-      EXPECT_GT(s.triangulation.valence(v), 0) << v;
+  for (int v = 0; v < wedge * wedge; ++v)
+    if (v % wedge == 0 || v % wedge == fine_cells || v < wedge || v >= fine_cells * wedge) {
+      EXPECT_GT(s.halfedges.valence(v), 0) << v;
     }
   compact(s.adapting);
-  const Connectivity c =
-      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces());
+  const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces());
   EXPECT_EQ(measure_topology(c).euler, 1);
   EXPECT_EQ(measure_topology(c).components, 1);
 
@@ -78,16 +77,17 @@ TEST(BlockCollapses, KeepTopologyBoundaryAndLengthsThatMayStay) {
 /// Of triangles with two equal sides: an inner edge may come to lie on the boundary and be as long as before.
 TEST(BlockCollapses, LeaveCurvesTheirEdges) {
   test::Triangles even = test::grid(fine_cells, test::flat);
-  for (int v = 0; v < side * side; ++v) even.points.col(v) = Vec3(v % side - .5 * (v / side), v / side, 0);
-  test::AdaptingScene s(even, test::plane());
+  for (int v = 0; v < wedge * wedge; ++v)
+    even.points.col(v) = Vec3(v % wedge - .5 * (v / wedge), v / wedge, 0);
+  test::WorkingScene s(even, test::plane());
   for (double& length : s.vertex_length) length *= 5;
   count_curve_edges(s.adapting, .1);
   const std::vector<int> present = s.curve_edges.present;
-  EXPECT_GT(collapse_in_blocks(s.adapting, {.valence = 12}, {.vertices = 12 * side}), fine_cells);
+  EXPECT_GT(collapse_in_blocks(s.adapting, {.valence = 12}, {.vertices = 12 * wedge}), fine_cells);
   EXPECT_EQ(s.curve_edges.present, present);
-  for (int v = 0; v < side * side; ++v)
-    if (v % side == 0 || v % side == fine_cells || v < side || v >= fine_cells * side) {
-      EXPECT_GT(s.triangulation.valence(v), 0) << v;
+  for (int v = 0; v < wedge * wedge; ++v)
+    if (v % wedge == 0 || v % wedge == fine_cells || v < wedge || v >= fine_cells * wedge) {
+      EXPECT_GT(s.halfedges.valence(v), 0) << v;
     }
 }
 
@@ -100,8 +100,8 @@ TEST(BlockCollapses, DoNotDependOnThreads) {
     BlockOptions more = blocks;
     more.passes = 3;
     collapse_in_blocks(s.adapting, {}, more);
-    points.push_back(s.placement.points);
-    faces.push_back(s.triangulation.faces());
+    points.push_back(s.positions.points);
+    faces.push_back(s.halfedges.faces());
   }
   EXPECT_EQ(points[0], points[1]);
   EXPECT_EQ(faces[0], faces[1]);
@@ -109,7 +109,7 @@ TEST(BlockCollapses, DoNotDependOnThreads) {
 
 TEST(BlockCollapses, AreForManyShortEdgesOnly) {
   FineGrid small, few;
-  EXPECT_EQ(collapse_in_blocks(small.adapting, {}, {.vertices = side * side}), 0);
+  EXPECT_EQ(collapse_in_blocks(small.adapting, {}, {.vertices = wedge * wedge}), 0);
   EXPECT_EQ(collapse_in_blocks(few.adapting, {}, {.vertices = blocks.vertices, .share = 1.01}), 0);
 }
 
@@ -120,7 +120,7 @@ test::Triangles rough() {
 }
 
 /// Half-edges of edges with both ends inside.
-std::vector<int> inner_edges(const Triangulation& t) {
+std::vector<int> inner_edges(const HalfedgeMesh& t) {
   std::vector<int> edges;
   for (int h = 0; h < t.half_edge_count(); ++h)
     if (t.twin(h) > h && !t.on_boundary(t.from(h)) && !t.on_boundary(t.to(h))) edges.push_back(h);
@@ -128,33 +128,33 @@ std::vector<int> inner_edges(const Triangulation& t) {
 }
 
 /// Of the edges at the vertex.
-double longest_at(const AdaptingMesh& m, int v) {
+double longest_at(const WorkingMesh& m, int v) {
   double longest = 0;
-  for (int h : m.triangulation.outgoing(v)) longest = std::max(longest, relative_length(m, h));
+  for (int h : m.halfedges.outgoing(v)) longest = std::max(longest, relative_length(m, h));
   return longest;
 }
 
 TEST(CollapseTrial, LeavesTheMeshAlone) {
-  test::AdaptingScene s(rough(), test::plane());
-  const Mat3X points = s.placement.points, normals = s.placement.normals;
-  const std::vector<Triangle> faces = s.triangulation.faces();
+  test::WorkingScene s(rough(), test::plane());
+  const Mat3X points = s.positions.points, normals = s.positions.normals;
+  const std::vector<Triangle> faces = s.halfedges.faces();
   int allowed = 0;
-  for (int h : inner_edges(s.triangulation)) allowed += try_collapse(s.adapting, h, {}).has_value();
+  for (int h : inner_edges(s.halfedges)) allowed += find_collapse(s.adapting, h, {}).has_value();
   EXPECT_GT(allowed, 0);
-  EXPECT_EQ(s.placement.points, points);
-  EXPECT_EQ(s.placement.normals, normals);
-  EXPECT_EQ(s.triangulation.faces(), faces);
+  EXPECT_EQ(s.positions.points, points);
+  EXPECT_EQ(s.positions.normals, normals);
+  EXPECT_EQ(s.halfedges.faces(), faces);
 }
 
 TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
   for (int k = 0; k < 200; k += 7) {
-    test::AdaptingScene s(rough(), test::plane());
-    const int h = inner_edges(s.triangulation)[static_cast<size_t>(k)];
-    const std::optional<Collapse> trial = try_collapse(s.adapting, h, {});
+    test::WorkingScene s(rough(), test::plane());
+    const int h = inner_edges(s.halfedges)[static_cast<size_t>(k)];
+    const std::optional<Collapse> trial = find_collapse(s.adapting, h, {});
     EXPECT_EQ(collapse_edge(s.adapting, h, {}), trial ? trial->stays : -1);
     if (trial) {
-      EXPECT_EQ(Vec3(s.placement.points.col(trial->stays)), trial->place.point);
-      EXPECT_TRUE(s.triangulation.is_gone(h / 3));
+      EXPECT_EQ(Vec3(s.positions.points.col(trial->stays)), trial->place.point);
+      EXPECT_TRUE(s.halfedges.is_gone(h / 3));
     }
   }
 }
@@ -162,11 +162,11 @@ TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
 TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
   constexpr double longest = 1.1;
   int allowed = 0, refused = 0;
-  for (size_t k = 0; k < inner_edges(test::AdaptingScene(rough(), test::plane()).triangulation).size(); ++k) {
-    test::AdaptingScene s(rough(), test::plane());
-    const int h = inner_edges(s.triangulation)[k];
-    const double before = std::max(longest_at(s.adapting, s.triangulation.from(h)),
-                                   longest_at(s.adapting, s.triangulation.to(h)));
+  for (size_t k = 0; k < inner_edges(test::WorkingScene(rough(), test::plane()).halfedges).size(); ++k) {
+    test::WorkingScene s(rough(), test::plane());
+    const int h = inner_edges(s.halfedges)[k];
+    const double before =
+        std::max(longest_at(s.adapting, s.halfedges.from(h)), longest_at(s.adapting, s.halfedges.to(h)));
     const int v = collapse_edge(s.adapting, h, {.longest = longest});
     (v < 0 ? refused : allowed)++;
     if (v >= 0) {
@@ -178,20 +178,20 @@ TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
 }
 
 /// Of the faces at the vertex, their edges there and what is across their sides.
-WorstShape worst_at(const AdaptingMesh& m, int v) {
-  const Triangulation& t = m.triangulation;
-  const Mat3X &X = m.placement.points, &N = m.placement.normals;
+WorstShape worst_at(const WorkingMesh& m, int v) {
+  const HalfedgeMesh& t = m.halfedges;
+  const Mat3X &X = m.positions.points, &N = m.positions.normals;
   WorstShape worst;
   for (int spoke : t.outgoing(v)) {
     const auto f = static_cast<size_t>(spoke / 3);
-    worst.cotangent = std::max(worst.cotangent, greatest_cotangent(X, t.faces()[f]));
-    worst.alignment = std::min(worst.alignment, face_alignment(X, N, t.faces()[f], t.sides()[f]));
-    for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)}) {
-      const Edge edge = {t.from(h), t.to(h)}, sides = {t.side(h), t.side(Triangulation::next(h))};
+    worst.cotangent = std::max(worst.cotangent, max_cotangent(X, t.faces()[f]));
+    worst.alignment = std::min(worst.alignment, face_alignment(X, N, t.faces()[f], t.wedges()[f]));
+    for (int h : {spoke, HalfedgeMesh::next(spoke), HalfedgeMesh::previous(spoke)}) {
+      const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
       if (edge[0] == v || edge[1] == v)
         worst.sagitta =
-            std::max(worst.sagitta, edge_sagitta(X, N, edge, sides) / target_length(m, edge[0], edge[1]));
-      if (!t.is_border(h))
+            std::max(worst.sagitta, edge_sagitta(X, N, edge, wedges) / target_length(m, edge[0], edge[1]));
+      if (!t.is_feature_edge(h))
         worst.fold = std::min(worst.fold,
                               cosine_between(X, t.faces()[f], t.faces()[static_cast<size_t>(t.twin(h) / 3)]));
     }
@@ -203,11 +203,11 @@ WorstShape worst_at(const AdaptingMesh& m, int v) {
 template <typename MakeScene>
 void expect_rings_to_foresee(const MakeScene& make_scene, int every) {
   int collapses = 0;
-  for (int h = 0; h < make_scene()->triangulation.half_edge_count(); h += every) {
+  for (int h = 0; h < make_scene()->halfedges.half_edge_count(); h += every) {
     const auto s = make_scene();
-    const std::optional<Collapse> trial = try_collapse(s->adapting, h, {.longest = 3});
+    const std::optional<Collapse> trial = find_collapse(s->adapting, h, {.longest = 3});
     if (!trial) continue;
-    const WorstShape foreseen = MergedRing(s->adapting, h, trial->stays).worst(trial->place);
+    const WorstShape foreseen = CollapsedRing(s->adapting, h, trial->stays).worst(trial->place);
     ASSERT_EQ(collapse_edge(s->adapting, h, {.longest = 3}), trial->stays);
     const WorstShape seen = worst_at(s->adapting, trial->stays);
     EXPECT_NEAR(foreseen.cotangent, seen.cotangent, 1e-12);
@@ -219,17 +219,17 @@ void expect_rings_to_foresee(const MakeScene& make_scene, int every) {
   EXPECT_GT(collapses, 5);
 }
 
-TEST(MergedRing, ForeseesWhatIsThereAfterwards) {
-  expect_rings_to_foresee([] { return std::make_unique<test::AdaptingScene>(rough(), test::plane()); }, 11);
+TEST(CollapsedRing, ForeseesWhatIsThereAfterwards) {
+  expect_rings_to_foresee([] { return std::make_unique<test::WorkingScene>(rough(), test::plane()); }, 11);
   expect_rings_to_foresee(
-      [] { return std::make_unique<test::AdaptingScene>(test::sphere(2, .2), test::unit_sphere()); }, 11);
+      [] { return std::make_unique<test::WorkingScene>(test::sphere(2, .2), test::unit_sphere()); }, 11);
 }
 
-TEST(MergedRing, ForeseesItOnBothSidesOfACrease) {
+TEST(CollapsedRing, ForeseesItOnBothSidesOfACrease) {
   std::vector<Edge> row;
   for (int v = cells / 2 * (cells + 1); row.size() < cells; ++v) row.push_back({v, v + 1});
   const auto creased = [&] {
-    auto s = std::make_unique<test::AdaptingScene>(test::grid(cells, test::flat), test::plane(), row);
+    auto s = std::make_unique<test::WorkingScene>(test::grid(cells, test::flat), test::plane(), row);
     for (int& wanted : s->curve_edges.wanted) wanted = 1;
     return s;
   };
@@ -241,14 +241,14 @@ TEST(EdgeCollapses, DoNotDependOnThreads) {
   std::vector<std::vector<Triangle>> faces;
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    test::AdaptingScene s(rough(), test::plane());
+    test::WorkingScene s(rough(), test::plane());
     for (double& length : s.vertex_length) length *= 1.5;
     count_curve_edges(s.adapting, .1);
     EXPECT_GT(collapse_short_edges(s.adapting, {}), cells);
     compact(s.adapting);
-    points.push_back(s.placement.points);
-    faces.push_back(s.triangulation.faces());
-    const Connectivity c = make_connectivity(static_cast<int>(s.placement.points.cols()), faces.back());
+    points.push_back(s.positions.points);
+    faces.push_back(s.halfedges.faces());
+    const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), faces.back());
     EXPECT_EQ(measure_topology(c).euler, 1);
   }
   EXPECT_EQ(points[0], points[1]);
@@ -258,9 +258,9 @@ TEST(EdgeCollapses, DoNotDependOnThreads) {
 /// Though many edges of a curve that has a few too many are tried at once.
 TEST(EdgeCollapses, LeaveCurvesTheEdgesTheyWant) {
   constexpr int n = 40;
-  test::AdaptingScene s(test::grid(n, test::flat), test::plane());
+  test::WorkingScene s(test::grid(n, test::flat), test::plane());
   for (size_t v = 0; v < s.vertex_length.size(); ++v)
-    s.vertex_length[v] = (s.triangulation.on_boundary(static_cast<int>(v)) ? 1.1 : 1.) / n;
+    s.vertex_length[v] = (s.halfedges.on_boundary(static_cast<int>(v)) ? 1.1 : 1.) / n;
   count_curve_edges(s.adapting, .1);
   EXPECT_GT(collapse_short_edges(s.adapting, {.shortest = .95, .longest = 10}), 0);
   ASSERT_EQ(s.curve_edges.wanted.size(), 4u);
@@ -283,41 +283,40 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
 /// Of the faces that are left.
 struct Look {
   int faces = 0;
-  double least_alignment = 1;
+  double min_alignment = 1;
 };
 
-Look look_at(const AdaptingMesh& m) {
+Look look_at(const WorkingMesh& m) {
   Look look;
-  for (size_t f = 0; f < m.triangulation.faces().size(); ++f) {
-    if (m.triangulation.is_gone(static_cast<int>(f))) continue;
-    const Triangle& t = m.triangulation.faces()[f];
+  for (size_t f = 0; f < m.halfedges.faces().size(); ++f) {
+    if (m.halfedges.is_gone(static_cast<int>(f))) continue;
+    const Triangle& t = m.halfedges.faces()[f];
     ++look.faces;
-    look.least_alignment =
-        std::min(look.least_alignment, face_alignment(m.placement.points, m.placement.normals, t));
+    look.min_alignment =
+        std::min(look.min_alignment, face_alignment(m.positions.points, m.positions.normals, t));
   }
   return look;
 }
 
-void expect_a_disk(test::AdaptingScene& s) {
+void expect_a_disk(test::WorkingScene& s) {
   compact(s.adapting);
-  const Connectivity c =
-      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces());
+  const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces());
   EXPECT_EQ(measure_topology(c).euler, 1);
   EXPECT_EQ(measure_topology(c).boundary_loops, 1);
 }
 
 TEST(FaceCollapses, TakeOutFoldedFaces) {
-  test::AdaptingScene s(with_moved_middle(1.4, 0), test::plane());
-  ASSERT_LT(look_at(s.adapting).least_alignment, 0);
+  test::WorkingScene s(with_moved_middle(1.4, 0), test::plane());
+  ASSERT_LT(look_at(s.adapting).min_alignment, 0);
   EXPECT_GE(collapse_folded_faces(s.adapting, folded_face_options()), 1);
   const Look after = look_at(s.adapting);
-  EXPECT_GT(after.least_alignment, .99);
+  EXPECT_GT(after.min_alignment, .99);
   EXPECT_GE(after.faces, 2 * fold_cells * fold_cells - 4);
   expect_a_disk(s);
 }
 
 TEST(FaceCollapses, LeaveGoodFacesAlone) {
-  test::AdaptingScene s(test::grid(fold_cells, test::flat), test::plane());
+  test::WorkingScene s(test::grid(fold_cells, test::flat), test::plane());
   EXPECT_EQ(collapse_folded_faces(s.adapting, folded_face_options()), 0);
   EXPECT_EQ(look_at(s.adapting).faces, 2 * fold_cells * fold_cells);
 }

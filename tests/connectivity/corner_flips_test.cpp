@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/flipping_scene.h"
+#include "support/flippable_scene.h"
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/constraints/constraints.h"
@@ -14,7 +14,7 @@ namespace {
 
 int wanted_at_tip(double angle) {
   const test::Triangles t = test::wedge(angle, 4);
-  const Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
   return corner_valences(t.points, c, find_constraints(t.points, c, {}), 35)[0];
 }
 
@@ -29,11 +29,11 @@ TEST(CornerRule, ACornerWantsFacesOfAboutSixtyDegrees) {
 TEST(CornerRule, OnlyCornersOfTheBoundaryWantAnything) {
   EXPECT_EQ(wanted_at_tip(170), 0);  // nearly straight
   const test::Triangles t = test::grid(4, test::flat);
-  const Connectivity c = make_connectivity(25, t.faces);
+  const Adjacency c = make_adjacency(25, t.faces);
   const std::vector<int> wanted = corner_valences(t.points, c, find_constraints(t.points, c, {}), 35);
   EXPECT_EQ(std::count(wanted.begin(), wanted.end(), 0), 21);
   const test::Triangles ball = test::sphere(1);
-  const Connectivity closed = make_connectivity(42, ball.faces);
+  const Adjacency closed = make_adjacency(42, ball.faces);
   for (int v : corner_valences(ball.points, closed, find_constraints(ball.points, closed, {}), 35))
     EXPECT_EQ(v, 0);
 }
@@ -46,53 +46,53 @@ class CornerIsForced : public testing::TestWithParam<Wedge> {};
 
 TEST_P(CornerIsForced, ToTheValenceItWantsAndStaysThere) {
   const test::Triangles t = test::wedge(GetParam().angle, GetParam().spokes);
-  test::FlippingScene s(t, test::plane());
-  s.corner_valences = corner_valences(t.points, s.connectivity, s.constraints, 35);
-  const Vec3 tip = s.placement.points.col(0);
-  EXPECT_GT(force_corners(s.mesh, {}), 0);
-  EXPECT_EQ(s.triangulation.valence(0), s.corner_valences[0]);
-  EXPECT_EQ(Vec3(s.placement.points.col(0)), tip);
+  test::FlippableScene s(t, test::plane());
+  s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  const Vec3 tip = s.positions.points.col(0);
+  EXPECT_GT(flip_corners_to_valence(s.mesh, {}), 0);
+  EXPECT_EQ(s.halfedges.valence(0), s.corner_valences[0]);
+  EXPECT_EQ(Vec3(s.positions.points.col(0)), tip);
   flip_to_delaunay(s.mesh, {});
-  EXPECT_EQ(s.triangulation.valence(0), s.corner_valences[0]);
-  for (const Triangle& f : s.triangulation.faces())
-    EXPECT_GE(face_alignment(s.placement.points, s.placement.normals, f), .3);
+  EXPECT_EQ(s.halfedges.valence(0), s.corner_valences[0]);
+  for (const Triangle& f : s.halfedges.faces())
+    EXPECT_GE(face_alignment(s.positions.points, s.positions.normals, f), .3);
   const int n = static_cast<int>(t.points.cols());
-  EXPECT_EQ(test::boundary_edges(n, s.triangulation.faces()), test::boundary_edges(n, t.faces));
+  EXPECT_EQ(test::boundary_edges(n, s.halfedges.faces()), test::boundary_edges(n, t.faces));
 }
 INSTANTIATE_TEST_SUITE_P(Wedges, CornerIsForced,
                          testing::Values(Wedge{42, 3}, Wedge{42, 4}, Wedge{90, 5}, Wedge{130, 7}));
 
 TEST(CornerRule, ACornerCutOffByOneFaceIsOpened) {
   const test::Triangles t = test::grid(4, test::flat);
-  test::FlippingScene s(t, test::plane());
-  s.corner_valences = corner_valences(t.points, s.connectivity, s.constraints, 35);
-  for (int corner : {4, 20}) ASSERT_EQ(s.triangulation.valence(corner), 2);
-  EXPECT_EQ(force_corners(s.mesh, {}), 2);
-  for (int corner : {0, 4, 20, 24}) EXPECT_EQ(s.triangulation.valence(corner), 3);
-  EXPECT_EQ(s.placement.points, t.points);
+  test::FlippableScene s(t, test::plane());
+  s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  for (int corner : {4, 20}) ASSERT_EQ(s.halfedges.valence(corner), 2);
+  EXPECT_EQ(flip_corners_to_valence(s.mesh, {}), 2);
+  for (int corner : {0, 4, 20, 24}) EXPECT_EQ(s.halfedges.valence(corner), 3);
+  EXPECT_EQ(s.positions.points, t.points);
 }
 
 TEST(CornerRule, AnInnerNeighbourDeepInTheEarIsMovedOutOfIt) {
   test::Triangles t = test::wedge(42, 3);
   t.points.col(2) *=
       .6;  // behind the line between its neighbours: the spoke to it cannot be flipped as it is
-  test::FlippingScene s(t, test::plane());
-  s.corner_valences = corner_valences(t.points, s.connectivity, s.constraints, 35);
-  ASSERT_FALSE(may_flip(s.mesh, test::half_edge(s.triangulation, 0, 2), {}));
-  force_corners(s.mesh, {});
-  EXPECT_EQ(s.triangulation.valence(0), 2);
+  test::FlippableScene s(t, test::plane());
+  s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  ASSERT_FALSE(may_flip(s.mesh, test::half_edge(s.halfedges, 0, 2), {}));
+  flip_corners_to_valence(s.mesh, {});
+  EXPECT_EQ(s.halfedges.valence(0), 2);
 }
 
 TEST(CornerRule, WhatBringsNothingIsUndone) {
   // The neighbour of the tip has no room: its ring is one face behind it.
   const test::Triangles t{(Mat3X(3, 4) << 0, 1, .4, 0, 0, 0, .4, 1, 0, 0, 0, 0).finished(),
                           {{0, 1, 2}, {0, 2, 3}}};
-  test::FlippingScene s(t, test::plane());
+  test::FlippableScene s(t, test::plane());
   s.constraints.freedom.assign(4, Freedom::fixed);
   s.corner_valences = {2, 2, 3, 2};
-  EXPECT_EQ(force_corners(s.mesh, {}), 0);
-  EXPECT_EQ(s.placement.points, t.points);
-  EXPECT_EQ(s.triangulation.faces(), t.faces);
+  EXPECT_EQ(flip_corners_to_valence(s.mesh, {}), 0);
+  EXPECT_EQ(s.positions.points, t.points);
+  EXPECT_EQ(s.halfedges.faces(), t.faces);
 }
 
 }  // namespace

@@ -10,12 +10,12 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/mesh/halfedge_mesh.h"
-#include "support/flipping_scene.h"
+#include "support/flippable_scene.h"
 
 namespace hooke {
 namespace {
 
-double worst_opposite_angles(const Triangulation& t, const Mat3X& points) {
+double worst_opposite_angles(const HalfedgeMesh& t, const Mat3X& points) {
   double worst = 0;
   for (int h = 0; h < t.half_edge_count(); ++h)
     if (t.twin(h) >= 0) worst = std::max(worst, opposite_angles(t, points, h));
@@ -47,59 +47,59 @@ test::Triangles fan_in_square(const Vec3& inner) {
 TEST(EdgeFlips, APlaneMeshBecomesDelaunay) {
   test::Triangles t = test::grid(8, test::flat, .45, 5);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) t.points(0, v) *= 3;  // stretched: many flips to do
-  test::FlippingScene s(t, test::plane());
-  ASSERT_GT(worst_opposite_angles(s.triangulation, t.points), std::numbers::pi + .1);
+  test::FlippableScene s(t, test::plane());
+  ASSERT_GT(worst_opposite_angles(s.halfedges, t.points), std::numbers::pi + .1);
   EXPECT_GT(flip_to_delaunay(s.mesh, {}), 0);
-  EXPECT_LE(worst_opposite_angles(s.triangulation, t.points), std::numbers::pi + 1e-9);
+  EXPECT_LE(worst_opposite_angles(s.halfedges, t.points), std::numbers::pi + 1e-9);
   EXPECT_EQ(flip_to_delaunay(s.mesh, {}), 0);
 }
 
 TEST(EdgeFlips, BoundaryEdgesStay) {
   const test::Triangles t = test::grid(8, test::paraboloid, .45, 6);
-  test::FlippingScene s(t, test::plane());
+  test::FlippableScene s(t, test::plane());
   ASSERT_GT(flip_to_delaunay(s.mesh, {}), 0);
   const int n = static_cast<int>(t.points.cols());
-  EXPECT_EQ(test::boundary_edges(n, s.triangulation.faces()), test::boundary_edges(n, t.faces));
-  for (int h = 0; h < s.triangulation.half_edge_count(); ++h)
-    EXPECT_FALSE(s.triangulation.twin(h) < 0 && may_flip(s.mesh, h, {}));
+  EXPECT_EQ(test::boundary_edges(n, s.halfedges.faces()), test::boundary_edges(n, t.faces));
+  for (int h = 0; h < s.halfedges.half_edge_count(); ++h)
+    EXPECT_FALSE(s.halfedges.twin(h) < 0 && may_flip(s.mesh, h, {}));
 }
 
 TEST(EdgeFlips, NoFaceFoldsAndNoVertexLosesItsThirdEdgeOnASphere) {
   const test::Triangles t = test::sphere(2, .35, 2);
-  test::FlippingScene s(t, test::unit_sphere());
+  test::FlippableScene s(t, test::unit_sphere());
   ASSERT_GT(flip_to_delaunay(s.mesh, {}), 0);
-  for (const Triangle& f : s.triangulation.faces())
-    EXPECT_GE(face_alignment(s.placement.points, s.placement.normals, f), .3);
-  for (int v = 0; v < t.points.cols(); ++v) EXPECT_GE(s.triangulation.valence(v), 3);
+  for (const Triangle& f : s.halfedges.faces())
+    EXPECT_GE(face_alignment(s.positions.points, s.positions.normals, f), .3);
+  for (int v = 0; v < t.points.cols(); ++v) EXPECT_GE(s.halfedges.valence(v), 3);
 }
 
 TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
   test::Triangles t = test::sphere(2, .35, 2);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v)
     t.points.col(v) *= 1 + .35 * std::sin(static_cast<double>(7 * v));
-  const Surface rough = [](const Vec3& x, int anchor, double) {
-    return Foot{x, x.normalized(), anchor, FootStatus::converged, 1};
+  const Surface rough = [](const Vec3& x, int hint, double) {
+    return Projection{x, x.normalized(), hint, ProjectionStatus::converged, 1};
   };
-  test::FlippingScene s(t, rough);
+  test::FlippableScene s(t, rough);
   const FlipGuardOptions folds_only{.area_share = 0, .alignment = -2, .fold = .1, .sagitta = 99};
   const auto cosine = [&](int a, int b) {
-    const int h = test::half_edge(s.triangulation, a, b);
-    return cosine_between(s.placement.points, s.triangulation.faces()[static_cast<size_t>(h / 3)],
-                          s.triangulation.faces()[static_cast<size_t>(s.triangulation.twin(h) / 3)]);
+    const int h = test::half_edge(s.halfedges, a, b);
+    return cosine_between(s.positions.points, s.halfedges.faces()[static_cast<size_t>(h / 3)],
+                          s.halfedges.faces()[static_cast<size_t>(s.halfedges.twin(h) / 3)]);
   };
   int allowed = 0, beside_folds = 0;
-  for (int h = 0; h < s.triangulation.half_edge_count(); ++h) {
-    const int a = s.triangulation.from(h), b = s.triangulation.to(h), c = s.triangulation.apex(h),
-              d = s.triangulation.apex(s.triangulation.twin(h));
+  for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
+    const int a = s.halfedges.from(h), b = s.halfedges.to(h), c = s.halfedges.opposite_vertex(h),
+              d = s.halfedges.opposite_vertex(s.halfedges.twin(h));
     if (!may_flip(s.mesh, h, folds_only)) continue;
     const std::array<Edge, 4> rim = {Edge{b, c}, Edge{c, a}, Edge{a, d}, Edge{d, b}};
     std::vector<double> before = {cosine(a, b)};
     for (const auto& [from, to] : rim) before.push_back(cosine(from, to));
-    const Triangulation kept = s.triangulation;
-    s.triangulation.flip(h);
+    const HalfedgeMesh kept = s.halfedges;
+    s.halfedges.flip(h);
     std::vector<double> after = {cosine(c, d)};
     for (const auto& [from, to] : rim) after.push_back(cosine(from, to));
-    s.triangulation = kept;
+    s.halfedges = kept;
     for (size_t i = 0; i < before.size(); ++i) EXPECT_GE(after[i], std::min(folds_only.fold, before[i]));
     ++allowed;
     beside_folds += *std::ranges::min_element(before) < folds_only.fold;
@@ -109,19 +109,19 @@ TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
 }
 
 TEST(EdgeFlips, AConvexQuadMayFlipAndADentedOneMayNot) {
-  test::FlippingScene convex(quad(Vec3(1, 1, 0)), test::plane());
+  test::FlippableScene convex(quad(Vec3(1, 1, 0)), test::plane());
   convex.corner_valences = {2, 2, 3, 3};  // vertices 0 and 2 have three edges
-  EXPECT_FALSE(may_flip(convex.mesh, test::half_edge(convex.triangulation, 0, 2), {}));
+  EXPECT_FALSE(may_flip(convex.mesh, test::half_edge(convex.halfedges, 0, 2), {}));
   convex.corner_valences = {2, 3, 2, 3};
-  EXPECT_TRUE(may_flip(convex.mesh, test::half_edge(convex.triangulation, 0, 2), {}));
+  EXPECT_TRUE(may_flip(convex.mesh, test::half_edge(convex.halfedges, 0, 2), {}));
 
-  test::FlippingScene dented(quad(Vec3(.3, .3, 0)), test::plane());
+  test::FlippableScene dented(quad(Vec3(.3, .3, 0)), test::plane());
   dented.corner_valences = {2, 3, 2, 3};
-  EXPECT_FALSE(may_flip(dented.mesh, test::half_edge(dented.triangulation, 0, 2), {}));
-  test::FlippingScene sliver(quad(Vec3(.501, .501, 0)), test::plane());
+  EXPECT_FALSE(may_flip(dented.mesh, test::half_edge(dented.halfedges, 0, 2), {}));
+  test::FlippableScene sliver(quad(Vec3(.501, .501, 0)), test::plane());
   sliver.corner_valences = {2, 3, 2, 3};
-  EXPECT_FALSE(may_flip(sliver.mesh, test::half_edge(sliver.triangulation, 0, 2), {}));
-  EXPECT_TRUE(may_flip(sliver.mesh, test::half_edge(sliver.triangulation, 0, 2), {.area_share = 1e-4}));
+  EXPECT_FALSE(may_flip(sliver.mesh, test::half_edge(sliver.halfedges, 0, 2), {}));
+  EXPECT_TRUE(may_flip(sliver.mesh, test::half_edge(sliver.halfedges, 0, 2), {.area_share = 1e-4}));
 }
 
 TEST(EdgeFlips, NoEdgeIsDoubled) {
@@ -129,36 +129,35 @@ TEST(EdgeFlips, NoEdgeIsDoubled) {
   t.points.resize(3, 4);
   t.points << 1, -1, -1, 1, 1, -1, 1, -1, 1, 1, -1, -1;
   t.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-  test::FlippingScene s(t, test::unit_sphere());
+  test::FlippableScene s(t, test::unit_sphere());
   for (int h = 0; h < 12; ++h) {
     s.corner_valences.assign(4,
                              4);  // valences forbid nothing: the ends may lose an edge, the others gain one
-    for (int end : {s.triangulation.from(h), s.triangulation.to(h)})
-      s.corner_valences[static_cast<size_t>(end)] = 2;
+    for (int end : {s.halfedges.from(h), s.halfedges.to(h)}) s.corner_valences[static_cast<size_t>(end)] = 2;
     EXPECT_FALSE(may_flip(s.mesh, h, {.area_share = 0, .alignment = -1, .sagitta = 9}));
   }
 }
 
 TEST(EdgeFlips, AVertexKeepsThreeEdges) {
-  test::FlippingScene s(fan_in_square(Vec3(.6, .55, 0)), test::plane());
-  ASSERT_EQ(s.triangulation.valence(4), 4);
-  for (int h : s.triangulation.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // the ends have three
+  test::FlippableScene s(fan_in_square(Vec3(.6, .55, 0)), test::plane());
+  ASSERT_EQ(s.halfedges.valence(4), 4);
+  for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // the ends have three
   s.corner_valences = {2, 2, 2, 2, 0};
-  for (int h : s.triangulation.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // corners want no more
+  for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // corners want no more
   s.corner_valences = {2, 4, 2, 4, 0};
-  EXPECT_TRUE(may_flip(s.mesh, test::half_edge(s.triangulation, 4, 0), {}));
-  s.triangulation.flip(test::half_edge(s.triangulation, 4, 0));
-  ASSERT_EQ(s.triangulation.valence(4), 3);
-  for (int h : s.triangulation.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));
+  EXPECT_TRUE(may_flip(s.mesh, test::half_edge(s.halfedges, 4, 0), {}));
+  s.halfedges.flip(test::half_edge(s.halfedges, 4, 0));
+  ASSERT_EQ(s.halfedges.valence(4), 3);
+  for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));
 }
 
 TEST(EdgeFlips, AnEdgeDoesNotCutThroughASharpBend) {
-  test::FlippingScene s(quad(Vec3(1, 1, 0)), test::plane());
+  test::FlippableScene s(quad(Vec3(1, 1, 0)), test::plane());
   s.corner_valences = {2, 3, 2, 3};
-  const int h = test::half_edge(s.triangulation, 0, 2);
+  const int h = test::half_edge(s.halfedges, 0, 2);
   ASSERT_TRUE(may_flip(s.mesh, h, {}));
-  s.placement.normals.col(1) = Vec3(.8, -.6, .1).normalized();  // the new edge would join 1 and 3
-  s.placement.normals.col(3) = Vec3(-.6, .8, .1).normalized();
+  s.positions.normals.col(1) = Vec3(.8, -.6, .1).normalized();  // the new edge would join 1 and 3
+  s.positions.normals.col(3) = Vec3(-.6, .8, .1).normalized();
   EXPECT_FALSE(may_flip(s.mesh, h, {}));
   EXPECT_TRUE(may_flip(s.mesh, h, {.sagitta = 10}));
 }

@@ -15,18 +15,18 @@ namespace {
 
 constexpr int cells = 12;
 
-Triangulation grid() {
+HalfedgeMesh grid() {
   const test::Triangles t = test::grid(cells, test::flat);
-  return Triangulation(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+  return HalfedgeMesh(make_adjacency(static_cast<int>(t.points.cols()), t.faces));
 }
 
 /// Of an edge, by either of its half-edges: a number between -.2 and .8 without a pattern.
-double urgency(const Triangulation& t, int h) {
+double urgency(const HalfedgeMesh& t, int h) {
   const int a = std::min(t.from(h), t.to(h)), b = std::max(t.from(h), t.to(h));
   return static_cast<double>((a * 7919 + b * 104729) % 1009) / 1009 - .2;
 }
 
-std::set<int> vertices_about(const Triangulation& t, int h) {
+std::set<int> vertices_about(const HalfedgeMesh& t, int h) {
   std::set<int> about;
   for (int end : {t.from(h), t.to(h)}) {
     about.insert(end);
@@ -42,7 +42,7 @@ bool meet(const std::set<int>& a, const std::set<int>& b) {
 constexpr auto any = [](int) { return true; };
 
 /// All edges with their batch, in the order in which they come.
-std::vector<std::pair<int, int>> batches_of(const Triangulation& t, size_t most) {
+std::vector<std::pair<int, int>> batches_of(const HalfedgeMesh& t, size_t most) {
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   std::vector<std::pair<int, int>> edges;
   int batch = 0;
@@ -52,7 +52,7 @@ std::vector<std::pair<int, int>> batches_of(const Triangulation& t, size_t most)
 }
 
 TEST(EdgeQueue, ComesOutByUrgencyWithoutThoseThatAreNotUrgent) {
-  const Triangulation t = grid();
+  const HalfedgeMesh t = grid();
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   double last = 1;
   int count = 0, urgent = 0;
@@ -66,7 +66,7 @@ TEST(EdgeQueue, ComesOutByUrgencyWithoutThoseThatAreNotUrgent) {
 }
 
 TEST(EdgeQueue, BatchesHaveEveryUrgentEdgeOnce) {
-  const Triangulation t = grid();
+  const HalfedgeMesh t = grid();
   std::set<int> urgent, found;
   for (int h = 0; h < t.half_edge_count(); ++h)
     if (t.twin(h) < h && urgency(t, h) > 0) urgent.insert(h);
@@ -75,7 +75,7 @@ TEST(EdgeQueue, BatchesHaveEveryUrgentEdgeOnce) {
 }
 
 TEST(EdgeQueue, EdgesOfABatchHaveNoNeighbourInCommon) {
-  const Triangulation t = grid();
+  const HalfedgeMesh t = grid();
   std::map<int, std::vector<std::set<int>>> about;  // by batch
   for (const auto& [h, batch] : batches_of(t, 50)) {
     const std::set<int> vertices = vertices_about(t, h);
@@ -87,7 +87,7 @@ TEST(EdgeQueue, EdgesOfABatchHaveNoNeighbourInCommon) {
 }
 
 TEST(EdgeQueue, AnEdgeNeverComesBeforeAMoreUrgentOneThatItMeets) {
-  const Triangulation t = grid();
+  const HalfedgeMesh t = grid();
   const auto edges = batches_of(t, 50);
   for (size_t i = 0; i < edges.size(); ++i)
     for (size_t j = i + 1; j < edges.size(); ++j)
@@ -97,7 +97,7 @@ TEST(EdgeQueue, AnEdgeNeverComesBeforeAMoreUrgentOneThatItMeets) {
 }
 
 TEST(EdgeQueue, ABatchOfOneIsTheNextEdge) {
-  const Triangulation t = grid();
+  const HalfedgeMesh t = grid();
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   for (const auto& [h, batch] : batches_of(t, 1)) EXPECT_EQ(h, queue.pop());
   EXPECT_EQ(queue.pop(), -1);
@@ -105,7 +105,7 @@ TEST(EdgeQueue, ABatchOfOneIsTheNextEdge) {
 
 TEST(EdgeQueue, AlwaysGivesTheMostUrgentOfManyThatChange) {
   const test::Triangles large = test::grid(60, test::flat);  // more edges than are sorted at a time
-  const Triangulation t(make_connectivity(static_cast<int>(large.points.cols()), large.faces));
+  const HalfedgeMesh t(make_adjacency(static_cast<int>(large.points.cols()), large.faces));
   std::map<int, double> urgencies;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any_urgency(-.3, 1);
@@ -130,7 +130,7 @@ TEST(EdgeQueue, AlwaysGivesTheMostUrgentOfManyThatChange) {
 }
 
 /// What is left in the queue after changes: each of these edges once, the most urgent first.
-void expect_all_of(const Triangulation& t, EdgeQueue& queue, const std::set<int>& wanted) {
+void expect_all_of(const HalfedgeMesh& t, EdgeQueue& queue, const std::set<int>& wanted) {
   const auto name = [&](int h) { return std::max(h, t.twin(h)); };
   std::set<int> found;
   double last = 1;
@@ -142,7 +142,7 @@ void expect_all_of(const Triangulation& t, EdgeQueue& queue, const std::set<int>
   EXPECT_EQ(found, wanted);
 }
 
-std::set<int> urgent_edges(const Triangulation& t) {
+std::set<int> urgent_edges(const HalfedgeMesh& t) {
   std::set<int> urgent;
   for (int h = 0; h < t.half_edge_count(); ++h)
     if (!t.is_gone(h / 3) && t.twin(h) < h && urgency(t, h) > 0) urgent.insert(h);
@@ -151,7 +151,7 @@ std::set<int> urgent_edges(const Triangulation& t) {
 
 TEST(EdgeQueue, LosesNoEdgeWhereOthersAreSplit) {
   const test::Triangles large = test::grid(40, test::flat);  // more edges than are sorted at a time
-  Triangulation t(make_connectivity(static_cast<int>(large.points.cols()), large.faces));
+  HalfedgeMesh t(make_adjacency(static_cast<int>(large.points.cols()), large.faces));
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   for (int k = 0; k < 300; ++k) queue.push_about(t.split(queue.pop()));
   expect_all_of(t, queue, urgent_edges(t));
@@ -159,7 +159,7 @@ TEST(EdgeQueue, LosesNoEdgeWhereOthersAreSplit) {
 
 TEST(EdgeQueue, LosesNoEdgeWhereOthersCollapse) {
   const test::Triangles large = test::grid(40, test::flat);
-  Triangulation t(make_connectivity(static_cast<int>(large.points.cols()), large.faces));
+  HalfedgeMesh t(make_adjacency(static_cast<int>(large.points.cols()), large.faces));
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   std::vector<int> refused;
   for (int k = 0; k < 300; ++k) {
@@ -177,7 +177,7 @@ TEST(EdgeQueue, LosesNoEdgeWhereOthersCollapse) {
 }
 
 TEST(EdgeQueue, DropsWhatIsNotWanted) {
-  const Triangulation t = grid();
+  const HalfedgeMesh t = grid();
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   const auto inside = [&](int h) { return !t.on_boundary(t.from(h)) && !t.on_boundary(t.to(h)); };
   int count = 0, wanted = 0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/adapting_scene.h"
+#include "support/working_scene.h"
 
 #include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
@@ -14,90 +14,90 @@ namespace {
 
 constexpr int cells = 6;
 
-int quadrupled(test::AdaptingScene& s) {
+int quadrupled(test::WorkingScene& s) {
   const int splits = subdivide(s.adapting, {}, {});
   compact(s.adapting);
   return splits;
 }
 
 TEST(Subdivision, EveryFaceBecomesFour) {
-  test::AdaptingScene s(test::sphere(2, .2, 3), test::unit_sphere());
-  const size_t faces = s.connectivity.faces.size();
-  EXPECT_EQ(quadrupled(s), static_cast<int>(s.connectivity.edges.size()));
-  EXPECT_EQ(s.triangulation.faces().size(), 4 * faces);
+  test::WorkingScene s(test::sphere(2, .2, 3), test::unit_sphere());
+  const size_t faces = s.adjacency.faces.size();
+  EXPECT_EQ(quadrupled(s), static_cast<int>(s.adjacency.edges.size()));
+  EXPECT_EQ(s.halfedges.faces().size(), 4 * faces);
 }
 
 TEST(Subdivision, NewVerticesAreRegularAndOldOnesKeepTheirEdges) {
-  test::AdaptingScene s(test::grid(cells, test::flat, .2), test::plane());
+  test::WorkingScene s(test::grid(cells, test::flat, .2), test::plane());
   for (size_t v = 0; v < s.origins.size(); ++v) s.origins[v] = static_cast<int>(v);
   for (int corner : {0, cells, cells * (cells + 1), (cells + 1) * (cells + 1) - 1})
-    s.corner_valences[static_cast<size_t>(corner)] = s.triangulation.valence(corner);
+    s.corner_valences[static_cast<size_t>(corner)] = s.halfedges.valence(corner);
   std::vector<int> valences;
-  for (int v = 0; v < s.connectivity.vertex_count; ++v) valences.push_back(s.triangulation.valence(v));
+  for (int v = 0; v < s.adjacency.vertex_count; ++v) valences.push_back(s.halfedges.valence(v));
   quadrupled(s);
   int fresh = 0;
   for (size_t i = 0; i < s.origins.size(); ++i) {
     const int v = static_cast<int>(i), origin = s.origins[i];
     if (origin >= 0) {
-      EXPECT_EQ(s.triangulation.valence(v), valences[static_cast<size_t>(origin)]);
+      EXPECT_EQ(s.halfedges.valence(v), valences[static_cast<size_t>(origin)]);
     } else {
-      EXPECT_EQ(s.triangulation.valence(v), s.triangulation.on_boundary(v) ? 4 : 6);
+      EXPECT_EQ(s.halfedges.valence(v), s.halfedges.on_boundary(v) ? 4 : 6);
       ++fresh;
     }
   }
-  EXPECT_EQ(fresh, static_cast<int>(s.connectivity.edges.size()));
+  EXPECT_EQ(fresh, static_cast<int>(s.adjacency.edges.size()));
 }
 
 TEST(Subdivision, FacesHaveTheirOldSize) {
   const test::Triangles t = test::grid(cells, test::flat, .2);
-  test::AdaptingScene s(t, test::plane());
+  test::WorkingScene s(t, test::plane());
   const double area = total_area(t.points, t.faces);
   std::vector<double> quarters;
   for (const Triangle& f : t.faces) quarters.push_back(total_area(t.points, {f}) / 4);
   quadrupled(s);
-  EXPECT_NEAR(total_area(s.placement.points, s.triangulation.faces()), area, 1e-12);
-  for (const Triangle& f : s.triangulation.faces()) {
-    const double own = total_area(s.placement.points, {f});
+  EXPECT_NEAR(total_area(s.positions.points, s.halfedges.faces()), area, 1e-12);
+  for (const Triangle& f : s.halfedges.faces()) {
+    const double own = total_area(s.positions.points, {f});
     EXPECT_TRUE(std::ranges::any_of(quarters, [&](double q) { return std::abs(own - q) < 1e-12; })) << own;
   }
 }
 
 TEST(Subdivision, NewVerticesLieOnTheSurface) {
-  test::AdaptingScene s(test::sphere(2, .2, 3), test::unit_sphere());
+  test::WorkingScene s(test::sphere(2, .2, 3), test::unit_sphere());
   quadrupled(s);
-  for (const auto& x : s.placement.points.colwise()) EXPECT_NEAR(x.norm(), 1, 1e-9);
+  for (const auto& x : s.positions.points.colwise()) EXPECT_NEAR(x.norm(), 1, 1e-9);
 }
 
 TEST(Subdivision, CurvesAndCreasesAreHalved) {
   std::vector<Edge> crease;
   for (int v = cells / 2 * (cells + 1); crease.size() < cells; ++v) crease.push_back({v, v + 1});
-  test::AdaptingScene s(test::grid(cells, test::flat), test::plane(), crease);
+  test::WorkingScene s(test::grid(cells, test::flat), test::plane(), crease);
   const std::vector<int> before = s.curve_edges.present;
   quadrupled(s);
   for (size_t c = 0; c < before.size(); ++c) EXPECT_EQ(s.curve_edges.present[c], 2 * before[c]);
   EXPECT_EQ(s.constraints.creases.size(), 2 * crease.size());
   for (const auto& [a, b] : s.constraints.creases) {
-    EXPECT_NEAR(s.placement.points(1, a), .5, 1e-12);
-    EXPECT_NEAR(s.placement.points(1, b), .5, 1e-12);
+    EXPECT_NEAR(s.positions.points(1, a), .5, 1e-12);
+    EXPECT_NEAR(s.positions.points(1, b), .5, 1e-12);
   }
 }
 
 TEST(Subdivision, ABoundaryThatStandsStillStaysWhole) {
   const test::Triangles t = test::grid(cells, test::flat, .2);
-  test::AdaptingScene s(t, test::plane());
+  test::WorkingScene s(t, test::plane());
   for (size_t v = 0; v < s.constraints.freedom.size(); ++v)
-    if (s.triangulation.on_boundary(static_cast<int>(v))) {
+    if (s.halfedges.on_boundary(static_cast<int>(v))) {
       s.constraints.freedom[v] = Freedom::fixed;
       s.constraints.curve[v] = -1;
     }
   s.constraints.curves.clear();
   const CurveFinder none(s.constraints.curves);
-  AdaptingMesh still{s.triangulation,   s.placement, s.retraction, s.constraints, s.vertex_length,
-                     s.corner_valences, s.origins,   none,         s.curve_edges};
+  WorkingMesh still{s.halfedges,       s.positions, s.retraction, s.constraints, s.vertex_length,
+                    s.corner_valences, s.origins,   none,         s.curve_edges};
   const int boundary = 4 * cells;
-  EXPECT_EQ(subdivide(still, {}, {}), static_cast<int>(s.connectivity.edges.size()) - boundary);
+  EXPECT_EQ(subdivide(still, {}, {}), static_cast<int>(s.adjacency.edges.size()) - boundary);
   compact(still);
-  EXPECT_NEAR(total_area(s.placement.points, s.triangulation.faces()), total_area(t.points, t.faces), 1e-12);
+  EXPECT_NEAR(total_area(s.positions.points, s.halfedges.faces()), total_area(t.points, t.faces), 1e-12);
 }
 
 }  // namespace

@@ -8,17 +8,17 @@
 #include "hooke/mesh/topology.h"
 #include "hooke/springs/energy.h"
 #include "hooke/working_mesh/working_mesh.h"
-#include "support/adapting_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke {
 namespace {
 
 constexpr double sliver_angle = 35;
 
-std::vector<EdgeChange> changes_of(const test::AdaptingScene& s) {
+std::vector<EdgeChange> changes_of(const test::WorkingScene& s) {
   std::vector<EdgeChange> changes;
-  for (int h = 0; h < s.triangulation.half_edge_count(); ++h) {
-    if (s.triangulation.twin(h) > h || is_rim(s.triangulation, h)) continue;
+  for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
+    if (s.halfedges.twin(h) > h || is_feature_edge(s.halfedges, h)) continue;
     const std::vector<EdgeChange> allowed = allowed_changes(s.adapting, h, {});
     changes.insert(changes.end(), allowed.begin(), allowed.end());
   }
@@ -26,63 +26,63 @@ std::vector<EdgeChange> changes_of(const test::AdaptingScene& s) {
 }
 
 /// The trials that are worth keeping.
-std::vector<ChangeTrial> kept(const test::AdaptingScene& s, const ChangeTrialOptions& options) {
+std::vector<EdgeCandidate> kept(const test::WorkingScene& s, const EdgeTrialOptions& options) {
   const EnergyTerms terms;
-  ChangeTrials trials(s.adapting, terms, options, {});
+  EdgeTrials trials(s.adapting, terms, options, {});
   trials.begin_with(sliver_angle);
-  std::vector<ChangeTrial> kept;
+  std::vector<EdgeCandidate> kept;
   for (const EdgeChange& change : changes_of(s)) {
-    ChangeTrial trial = trials.begin(change);
-    if (!trial.is_hopeful) continue;
+    EdgeCandidate trial = trials.begin(change);
+    if (!trial.is_viable) continue;
     trials.finish(trial);
-    if (trial.is_hopeful) kept.push_back(std::move(trial));
+    if (trial.is_viable) kept.push_back(std::move(trial));
   }
   return kept;
 }
 
-PatchLook look_after(const ChangeTrial& trial, const ChangeTrialOptions& o) {
+PatchQuality look_after(const EdgeCandidate& trial, const EdgeTrialOptions& o) {
   const GuardOptions guards;
-  return look_at(trial.patch.placement, trial.connectivity, trial.targets,
+  return look_at(trial.patch.positions, trial.adjacency, trial.targets,
                  {sliver_angle + o.fair_margin, guards.alignment, guards.fold, o.sagitta, o.longest});
 }
 
-test::AdaptingScene rough_sphere() {
+test::WorkingScene rough_sphere() {
   return {test::sphere(2, .4), test::unit_sphere()};
 }
 
-TEST(ChangeTrial, LeavesTheMeshAlone) {
-  const test::AdaptingScene s = rough_sphere();
-  const Mat3X points = s.placement.points;
-  const std::vector<Triangle> faces = s.triangulation.faces();
+TEST(EdgeCandidate, LeavesTheMeshAlone) {
+  const test::WorkingScene s = rough_sphere();
+  const Mat3X points = s.positions.points;
+  const std::vector<Triangle> faces = s.halfedges.faces();
   EXPECT_FALSE(kept(s, {}).empty());
-  EXPECT_EQ(s.placement.points, points);
-  EXPECT_EQ(s.triangulation.faces(), faces);
+  EXPECT_EQ(s.positions.points, points);
+  EXPECT_EQ(s.halfedges.faces(), faces);
 }
 
-TEST(ChangeTrial, WhatIsKeptGainsAndKeepsTheLeastAngle) {
-  const ChangeTrialOptions options;
-  for (const ChangeTrial& trial : kept(rough_sphere(), options)) {
+TEST(EdgeCandidate, WhatIsKeptGainsAndKeepsTheLeastAngle) {
+  const EdgeTrialOptions options;
+  for (const EdgeCandidate& trial : kept(rough_sphere(), options)) {
     EXPECT_GE(trial.gain, options.gain);
     EXPECT_LE(look_after(trial, options).cotangent, trial.before.cotangent);
   }
 }
 
 /// Of a rough sphere most changes cover more: here they have to.
-TEST(ChangeTrial, LosesNoMoreSurfaceThanItMay) {
-  const test::AdaptingScene s = rough_sphere();
-  const ChangeTrialOptions any, more{.area_loss = -.1};
-  const std::vector<ChangeTrial> all = kept(s, any), covering = kept(s, more);
+TEST(EdgeCandidate, LosesNoMoreSurfaceThanItMay) {
+  const test::WorkingScene s = rough_sphere();
+  const EdgeTrialOptions any, more{.area_loss = -.1};
+  const std::vector<EdgeCandidate> all = kept(s, any), covering = kept(s, more);
   EXPECT_LT(covering.size(), all.size());
   EXPECT_FALSE(covering.empty());
-  for (const ChangeTrial& trial : covering) {
+  for (const EdgeCandidate& trial : covering) {
     const double length = trial.patch.vertex_length[0];
     EXPECT_GE(look_after(trial, more).area, trial.before.area + .1 * length * length - 1e-12);
   }
 }
 
-TEST(ChangeTrial, IsOverWithoutHope) {
-  const test::AdaptingScene s = rough_sphere();
-  EXPECT_TRUE(kept(s, {.hope = -1e9}).empty());
+TEST(EdgeCandidate, IsOverWithoutHope) {
+  const test::WorkingScene s = rough_sphere();
+  EXPECT_TRUE(kept(s, {.max_energy_rise = -1e9}).empty());
   EXPECT_TRUE(kept(s, {.most = 1}).empty());
 }
 
@@ -93,32 +93,31 @@ int face_at(int column, int row) {
 }
 
 /// Of the mesh without what is gone.
-Topology topology_of(test::AdaptingScene& s) {
+Topology topology_of(test::WorkingScene& s) {
   compact(s.adapting);
-  return measure_topology(
-      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces()));
+  return measure_topology(make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces()));
 }
 
-std::vector<EdgeChange> changes_about(const AdaptingMesh& m, int face, const ChangeRules& rules) {
+std::vector<EdgeChange> changes_about(const WorkingMesh& m, int face, const ChangeRules& rules) {
   std::vector<EdgeChange> all;
-  for (int h : inner_edges_about(m.triangulation, face))
+  for (int h : inner_edges_about(m.halfedges, face))
     for (const EdgeChange& change : allowed_changes(m, h, rules)) all.push_back(change);
   return all;
 }
 
-EdgePatch cut(const test::AdaptingScene& s, const EdgeChange& change) {
+EdgePatch cut(const test::WorkingScene& s, const EdgeChange& change) {
   return *cut_patch(s.adapting.flipping(), change.half_edge, 2, 200);
 }
 
 TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
   const test::Triangles grid = test::grid(cells, test::flat, .3, 5);
-  const test::AdaptingScene first(grid, test::plane());
+  const test::WorkingScene first(grid, test::plane());
   const std::vector<EdgeChange> changes = changes_about(first.adapting, face_at(4, 4), {});
   std::array<int, 3> kinds = {};
   for (const EdgeChange& change : changes) {
     ++kinds[static_cast<size_t>(change.kind)];
-    test::AdaptingScene s(grid, test::plane());
-    const Topology before = measure_topology(s.connectivity);
+    test::WorkingScene s(grid, test::plane());
+    const Topology before = measure_topology(s.adjacency);
     EdgePatch patch = cut(s, change);
     const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
     change_mesh(s.adapting, change, patch);
@@ -126,12 +125,12 @@ TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
       const auto in_mesh = [&](int k) {
         return patch.vertices[static_cast<size_t>(face[static_cast<size_t>(k)])];
       };
-      const int h = test::half_edge(s.triangulation, in_mesh(0), in_mesh(1));
+      const int h = test::half_edge(s.halfedges, in_mesh(0), in_mesh(1));
       ASSERT_GE(h, 0);
-      EXPECT_EQ(s.triangulation.apex(h), in_mesh(2));
+      EXPECT_EQ(s.halfedges.opposite_vertex(h), in_mesh(2));
       for (int k : {0, 1, 2})
-        EXPECT_EQ(s.placement.points.col(in_mesh(k)),
-                  patch.placement.points.col(face[static_cast<size_t>(k)]));
+        EXPECT_EQ(s.positions.points.col(in_mesh(k)),
+                  patch.positions.points.col(face[static_cast<size_t>(k)]));
     }
     const Topology after = topology_of(s);
     EXPECT_EQ(after.euler, before.euler);
@@ -143,38 +142,38 @@ TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
 }
 
 TEST(EdgeChanges, OnlyThoseThatAreAskedFor) {
-  const test::AdaptingScene s(test::grid(cells, test::flat, .3, 5), test::plane());
+  const test::WorkingScene s(test::grid(cells, test::flat, .3, 5), test::plane());
   const auto all = changes_about(s.adapting, face_at(4, 4), {});
-  const auto flips = changes_about(s.adapting, face_at(4, 4), {.splits = false, .merges = false});
+  const auto flips = changes_about(s.adapting, face_at(4, 4), {.splits = false, .collapses = false});
   EXPECT_FALSE(flips.empty());
   EXPECT_LT(flips.size(), all.size());
   for (const EdgeChange& change : flips) EXPECT_EQ(change.kind, ChangeKind::flip);
 }
 
 TEST(EdgeChanges, LeaveTheBoundaryAlone) {
-  const test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
-  const Triangulation& t = s.triangulation;
-  int merges = 0;
+  const test::WorkingScene s(test::grid(cells, test::flat), test::plane());
+  const HalfedgeMesh& t = s.halfedges;
+  int collapses = 0;
   for (int row : {0, 1}) {
     for (const EdgeChange& change : changes_about(s.adapting, face_at(3, row), {})) {
       EXPECT_GE(t.twin(change.half_edge), 0);
-      if (change.kind != ChangeKind::merge) continue;
-      ++merges;
+      if (change.kind != ChangeKind::collapse) continue;
+      ++collapses;
       EXPECT_FALSE(t.on_boundary(change.stays == 0 ? t.to(change.half_edge) : t.from(change.half_edge)));
     }
   }
-  EXPECT_GT(merges, 0);
+  EXPECT_GT(collapses, 0);
 }
 
 TEST(EdgeChanges, LeaveCreasesAlone) {
   std::vector<Edge> creases;
   for (int i = 0; i < cells; ++i) creases.push_back({4 * across + i, 4 * across + i + 1});
-  const test::AdaptingScene s(test::grid(cells, test::flat), test::plane(), creases);
-  const Triangulation& t = s.triangulation;
+  const test::WorkingScene s(test::grid(cells, test::flat), test::plane(), creases);
+  const HalfedgeMesh& t = s.halfedges;
   int beside = 0;
   for (const EdgeChange& change : changes_about(s.adapting, face_at(3, 3), {})) {
-    EXPECT_FALSE(t.is_constrained(change.half_edge));
-    if (change.kind != ChangeKind::merge) continue;
+    EXPECT_FALSE(t.is_crease(change.half_edge));
+    if (change.kind != ChangeKind::collapse) continue;
     const int a = t.from(change.half_edge), b = t.to(change.half_edge);
     EXPECT_FALSE(t.on_crease(change.stays == 0 ? b : a));
     beside += t.on_crease(a) || t.on_crease(b);
@@ -183,28 +182,28 @@ TEST(EdgeChanges, LeaveCreasesAlone) {
 }
 
 TEST(EdgeChanges, AFreeBoundaryStaysWhereItIs) {
-  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   for (Freedom& freedom : s.constraints.freedom) freedom = Freedom::surface;
-  int merges = 0;
+  int collapses = 0;
   for (const EdgeChange& change : changes_about(s.adapting, face_at(3, 0), {})) {
-    if (change.kind != ChangeKind::merge) continue;
+    if (change.kind != ChangeKind::collapse) continue;
     EdgePatch patch = cut(s, change);
-    const Mat3X before = patch.placement.points;
+    const Mat3X before = patch.positions.points;
     change_patch(patch, change, test::plane(), {});
     for (size_t i = 0; i < patch.vertices.size(); ++i) {
-      if (!s.triangulation.on_boundary(patch.vertices[i])) continue;
-      merges += static_cast<int>(i) == change.stays;
-      EXPECT_EQ(patch.placement.points.col(static_cast<Eigen::Index>(i)),
+      if (!s.halfedges.on_boundary(patch.vertices[i])) continue;
+      collapses += static_cast<int>(i) == change.stays;
+      EXPECT_EQ(patch.positions.points.col(static_cast<Eigen::Index>(i)),
                 before.col(static_cast<Eigen::Index>(i)));
     }
   }
-  EXPECT_GT(merges, 0);
+  EXPECT_GT(collapses, 0);
 }
 
 TEST(EdgeChanges, CornersKeepToTheEdgesTheyWant) {
   // The tip of a wedge has the four edges it wants: none may be flipped away from it, and nothing may merge
   // into it that brings more.
-  test::AdaptingScene s(test::wedge(90, 4), test::plane());
+  test::WorkingScene s(test::wedge(90, 4), test::plane());
   s.corner_valences[0] = 4;
   int seen = 0;
   for (const EdgeChange& change : changes_about(s.adapting, 0, {})) {
@@ -222,24 +221,24 @@ TEST(EdgeChanges, CornersKeepToTheEdgesTheyWant) {
 }
 
 TEST(EdgeChanges, GiveNoVertexTooManyEdges) {
-  const test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
-  EXPECT_TRUE(changes_about(s.adapting, face_at(4, 4), {.valence = 6, .merges = false}).empty());
+  const test::WorkingScene s(test::grid(cells, test::flat), test::plane());
+  EXPECT_TRUE(changes_about(s.adapting, face_at(4, 4), {.valence = 6, .collapses = false}).empty());
 }
 
 TEST(EdgeChanges, APatchCutAfterASplitOfACreasedMeshKnowsItsVertices) {
   std::vector<Edge> creases;
   for (int i = 0; i < cells; ++i) creases.push_back({4 * across + i, 4 * across + i + 1});
-  test::AdaptingScene s(test::grid(cells, test::flat), test::plane(), creases);
-  const EdgeChange split{test::half_edge(s.triangulation, 2 * across + 3, 2 * across + 4), ChangeKind::split};
+  test::WorkingScene s(test::grid(cells, test::flat), test::plane(), creases);
+  const EdgeChange split{test::half_edge(s.halfedges, 2 * across + 3, 2 * across + 4), ChangeKind::split};
   EdgePatch patch = cut(s, split);
   change_patch(patch, split, test::plane(), {});
   change_mesh(s.adapting, split, patch);
-  const int beyond = test::half_edge(s.triangulation, 5 * across + 3, 5 * across + 4);
+  const int beyond = test::half_edge(s.halfedges, 5 * across + 3, 5 * across + 4);
   const EdgePatch other = *cut_patch(s.adapting.flipping(), beyond, 2, 200);
   for (size_t i = 0; i < other.vertices.size(); ++i) {
-    EXPECT_GE(s.triangulation.valence(other.vertices[i]), 0);  // no further side
-    EXPECT_EQ(other.placement.points.col(static_cast<Eigen::Index>(i)),
-              s.placement.points.col(other.vertices[i]));
+    EXPECT_GE(s.halfedges.valence(other.vertices[i]), 0);  // no further side
+    EXPECT_EQ(other.positions.points.col(static_cast<Eigen::Index>(i)),
+              s.positions.points.col(other.vertices[i]));
   }
 }
 

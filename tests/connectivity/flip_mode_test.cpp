@@ -11,7 +11,7 @@
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
-#include "support/flipping_scene.h"
+#include "support/flippable_scene.h"
 
 namespace hooke {
 namespace {
@@ -41,10 +41,10 @@ TEST_P(FlipEfforts, GiveGoodTrianglesOnTheSameSurfaceAndKeepTheBoundary) {
   TriMesh mesh = with_target(t);
   const RemeshResult result = remesh(mesh, flipping(GetParam()));
   const std::vector<Triangle> faces = triangles_of(mesh);
-  const Mat3X points = positions(mesh);
+  const Mat3X points = vertex_points(mesh);
   const int n = static_cast<int>(points.cols());
-  EXPECT_GT(least_angle(points, faces), 30);
-  EXPECT_LT(least_angle(t.points, t.faces), 10);
+  EXPECT_GT(min_angle(points, faces), 30);
+  EXPECT_LT(min_angle(t.points, t.faces), 10);
   EXPECT_TRUE(result.folded_faces.empty());
   EXPECT_EQ(faces.size(), t.faces.size());
   EXPECT_EQ(test::boundary_edges(n, faces), test::boundary_edges(n, t.faces));
@@ -60,7 +60,7 @@ TEST(FlipConnectivity, TellsHowFarVerticesTravelled) {
   TriMesh mesh = with_target(t);
   const double L = natural_length(total_area(t.points, t.faces), t.faces.size());
   const RemeshResult result = remesh(mesh, flipping(Effort::fast));
-  const Mat3X moved = positions(mesh) - t.points;
+  const Mat3X moved = vertex_points(mesh) - t.points;
   EXPECT_NEAR(result.flips.max_travel, moved.colwise().norm().maxCoeff() / L, 1e-9);
   EXPECT_NEAR(result.flips.rms_travel, moved.norm() / std::sqrt(double(t.points.cols())) / L, 1e-9);
   EXPECT_GT(result.flips.flips, 0);
@@ -106,7 +106,7 @@ TEST(FlipConnectivity, OneThreadAndTwoGiveTheSameBits) {
     ThreadLimit limit(2);
     remesh(two, flipping(Effort::thorough));
   }
-  EXPECT_EQ(positions(one), positions(two));
+  EXPECT_EQ(vertex_points(one), vertex_points(two));
   EXPECT_EQ(triangles_of(one), triangles_of(two));
 }
 
@@ -119,9 +119,9 @@ TEST(FlipConnectivity, AnInterruptedRunLeavesAValidMesh) {
         remesh(mesh, flipping(Effort::standard), [&](const Progress&) { return left-- > 0; });
     EXPECT_EQ(result.reason, StopReason::interrupted) << calls;
     const int n = static_cast<int>(t.points.cols());
-    EXPECT_EQ(measure_topology(make_connectivity(n, triangles_of(mesh))).euler, 1);
+    EXPECT_EQ(measure_topology(make_adjacency(n, triangles_of(mesh))).euler, 1);
     EXPECT_TRUE(result.folded_faces.empty());
-    EXPECT_TRUE(positions(mesh).allFinite());
+    EXPECT_TRUE(vertex_points(mesh).allFinite());
   }
 }
 

@@ -6,7 +6,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/topology.h"
-#include "support/adapting_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke {
 namespace {
@@ -21,85 +21,84 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
   return t;
 }
 
-SliverChanges change(test::AdaptingScene& s, const FaceCountLimits& limits = any_count,
+SliverChanges change(test::WorkingScene& s, const FaceCountLimits& limits = any_count,
                      const SliverTrialOptions& options = {}, const Observer& observer = nullptr) {
   return change_slivers(s.adapting, {}, options, {}, limits, observer);
 }
 
-std::vector<Triangle> faces_of(const test::AdaptingScene& s) {
-  std::vector<Triangle> left = s.triangulation.faces();
+std::vector<Triangle> faces_of(const test::WorkingScene& s) {
+  std::vector<Triangle> left = s.halfedges.faces();
   std::erase_if(left, [](const Triangle& t) { return t[0] < 0; });
   return left;
 }
 
-double least_angle_of(const test::AdaptingScene& s) {
-  return least_angle(s.placement.points, faces_of(s));
+double min_angle_of(const test::WorkingScene& s) {
+  return min_angle(s.positions.points, faces_of(s));
 }
 
-auto folded_faces_of(const test::AdaptingScene& s) {
+auto folded_faces_of(const test::WorkingScene& s) {
   return std::ranges::count_if(faces_of(s), [&](const Triangle& t) {
-    return face_alignment(s.placement.points, s.placement.normals, t) < 0;
+    return face_alignment(s.positions.points, s.positions.normals, t) < 0;
   });
 }
 
-void expect_a_disk(test::AdaptingScene& s) {
+void expect_a_disk(test::WorkingScene& s) {
   compact(s.adapting);
-  const Topology t = measure_topology(
-      make_connectivity(static_cast<int>(s.placement.points.cols()), s.triangulation.faces()));
+  const Topology t =
+      measure_topology(make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces()));
   EXPECT_EQ(t.euler, 1);
   EXPECT_EQ(t.boundary_loops, 1);
 }
 
 /// A grid with a vertex of 12 edges, which no motion mends.
-void crowd(test::AdaptingScene& s) {
+void crowd(test::WorkingScene& s) {
   const int hub = cells / 2 * (cells + 2);
   for (int extra = 0; extra < 6; ++extra)
-    for (int spoke : s.triangulation.outgoing(hub)) {
-      const int h = Triangulation::next(spoke), g = s.triangulation.twin(h);
-      if (g < 0 || s.triangulation.adjacent(hub, s.triangulation.apex(g)) ||
-          s.triangulation.valence(s.triangulation.from(h)) <= 4 ||
-          s.triangulation.valence(s.triangulation.to(h)) <= 4)
+    for (int spoke : s.halfedges.outgoing(hub)) {
+      const int h = HalfedgeMesh::next(spoke), g = s.halfedges.twin(h);
+      if (g < 0 || s.halfedges.adjacent(hub, s.halfedges.opposite_vertex(g)) ||
+          s.halfedges.valence(s.halfedges.from(h)) <= 4 || s.halfedges.valence(s.halfedges.to(h)) <= 4)
         continue;
-      s.triangulation.flip(h);
+      s.halfedges.flip(h);
       break;
     }
 }
 
-void expect_mended(test::AdaptingScene& s) {
-  ASSERT_LT(least_angle_of(s), 20);
+void expect_mended(test::WorkingScene& s) {
+  ASSERT_LT(min_angle_of(s), 20);
   EXPECT_GE(change(s).count(), 1);
-  EXPECT_GT(least_angle_of(s), 30);
+  EXPECT_GT(min_angle_of(s), 30);
   expect_a_disk(s);
 }
 
 TEST(SliverTrials, MendWhatAMovedVertexLeaves) {
-  test::AdaptingScene s(with_moved_middle(.7, .1), test::plane());
+  test::WorkingScene s(with_moved_middle(.7, .1), test::plane());
   expect_mended(s);
 }
 
 TEST(SliverTrials, MendCrowdedVertices) {
-  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   crowd(s);
-  ASSERT_GE(s.triangulation.valence(cells / 2 * (cells + 2)), 11);
+  ASSERT_GE(s.halfedges.valence(cells / 2 * (cells + 2)), 11);
   expect_mended(s);
 }
 
 TEST(SliverTrials, WhereTheCountIsToStayThereAreOnlyFlips) {
-  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
+  test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   crowd(s);
-  const double before = least_angle_of(s);
+  const double before = min_angle_of(s);
   const SliverChanges changes = change(s, same_count);
   EXPECT_GE(changes.flips, 1);
   EXPECT_EQ(changes.count(), changes.flips);
-  EXPECT_GT(least_angle_of(s), before);
-  EXPECT_EQ(s.triangulation.id_count(), (cells + 1) * (cells + 1));
+  EXPECT_GT(min_angle_of(s), before);
+  EXPECT_EQ(s.halfedges.id_count(), (cells + 1) * (cells + 1));
   EXPECT_EQ(std::ssize(faces_of(s)), faces);
 }
 
 TEST(SliverTrials, KeepTheCountWithinItsLimits) {
   for (const FaceCountLimits& limits :
        {FaceCountLimits{faces - 2, faces}, FaceCountLimits{faces, faces + 2}}) {
-    test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
+    test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
     EXPECT_GT(change(s, limits, {.sliver_angles = {40}}).count(), 0);
     const auto count = static_cast<double>(faces_of(s).size());
     EXPECT_GE(count, limits.least);
@@ -110,26 +109,26 @@ TEST(SliverTrials, KeepTheCountWithinItsLimits) {
 TEST(SliverTrials, NeverLowerTheLeastAngleNorFoldAFace) {
   SliverChanges all;
   for (unsigned seed = 1; seed <= 12; ++seed) {
-    test::AdaptingScene s(test::grid(cells, test::flat, .45, seed), test::plane());
-    const double before = least_angle_of(s);
+    test::WorkingScene s(test::grid(cells, test::flat, .45, seed), test::plane());
+    const double before = min_angle_of(s);
     const auto folded_before = folded_faces_of(s);
     const SliverChanges changes = change(s);
     all.flips += changes.flips;
     all.splits += changes.splits;
-    all.merges += changes.merges;
-    EXPECT_GE(least_angle_of(s), before - 1e-12) << seed;
-    EXPECT_EQ(std::ssize(faces_of(s)), faces + 2 * (changes.splits - changes.merges)) << seed;
+    all.collapses += changes.collapses;
+    EXPECT_GE(min_angle_of(s), before - 1e-12) << seed;
+    EXPECT_EQ(std::ssize(faces_of(s)), faces + 2 * (changes.splits - changes.collapses)) << seed;
     EXPECT_LE(folded_faces_of(s), folded_before) << seed;
     expect_a_disk(s);
   }
   EXPECT_GT(all.flips, 0);
-  EXPECT_GT(all.merges, 0);
+  EXPECT_GT(all.collapses, 0);
 }
 
 TEST(SliverTrials, AddNothingBeyondTheLimits) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    test::AdaptingScene s(test::sphere(2, .4, seed), test::unit_sphere());
-    const ChangeTrialOptions options;
+    test::WorkingScene s(test::sphere(2, .4, seed), test::unit_sphere());
+    const EdgeTrialOptions options;
     const auto worst = [&](const auto& measure) {
       double most = 0;
       for (const Triangle& t : faces_of(s))
@@ -137,10 +136,10 @@ TEST(SliverTrials, AddNothingBeyondTheLimits) {
       return most;
     };
     const auto length = [&](const Edge& e) {
-      return (s.placement.points.col(e[0]) - s.placement.points.col(e[1])).norm() / s.vertex_length[0];
+      return (s.positions.points.col(e[0]) - s.positions.points.col(e[1])).norm() / s.vertex_length[0];
     };
     const auto sagitta = [&](const Edge& e) {
-      return edge_sagitta(s.placement.points, s.placement.normals, e) / s.vertex_length[0];
+      return edge_sagitta(s.positions.points, s.positions.normals, e) / s.vertex_length[0];
     };
     const double longest = std::max(options.longest, worst(length));
     const double deepest = std::max(options.sagitta, worst(sagitta));
@@ -156,18 +155,18 @@ TEST(SliverTrials, LeaveCreasesWhereTheyAre) {
   for (int i = 0; i < cells; ++i) creases.push_back({middle + i, middle + i + 1});
   SliverChanges all;
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    test::AdaptingScene s(test::grid(cells, test::flat, .4, seed), test::plane(), creases);
-    const Mat3X before = s.placement.points;
+    test::WorkingScene s(test::grid(cells, test::flat, .4, seed), test::plane(), creases);
+    const Mat3X before = s.positions.points;
     const SliverChanges changes = change(s);
     all.splits += changes.splits;
-    all.merges += changes.merges;
+    all.collapses += changes.collapses;
     for (int i = 0; i <= cells; ++i)
-      EXPECT_EQ(s.placement.points.col(middle + i), before.col(middle + i)) << seed;
+      EXPECT_EQ(s.positions.points.col(middle + i), before.col(middle + i)) << seed;
     compact(s.adapting);
     EXPECT_EQ(s.constraints.creases.size(), creases.size()) << seed;
     expect_a_disk(s);
   }
-  EXPECT_GT(all.splits + all.merges, 0);
+  EXPECT_GT(all.splits + all.collapses, 0);
 }
 
 TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
@@ -177,7 +176,7 @@ TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
   t.points.conservativeResize(3, tip + 1);
   t.points.col(tip) = Vec3(4.5 / cells, -3. / cells, 0);
   t.faces.push_back({5, 4, static_cast<int>(tip)});
-  test::AdaptingScene s(t, test::plane());
+  test::WorkingScene s(t, test::plane());
   int calls = 0;
   const auto count = [&](const Progress&) { return ++calls > 0; };
   const SliverTrialOptions options{.sliver_angles = {30}, .change = {.gain = 1e9}};
@@ -187,8 +186,8 @@ TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
 
 TEST(SliverTrials, ThereAreNoMoreTriesThanAllowed) {
   const auto tries = [](int most) {
-    test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
-    return change(s, any_count, {.share_in_all = 0, .least_in_all = most}).tries;
+    test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
+    return change(s, any_count, {.share_in_all = 0, .min_in_all = most}).tries;
   };
   EXPECT_EQ(tries(0), 0);
   EXPECT_EQ(tries(3), 3);
@@ -196,7 +195,7 @@ TEST(SliverTrials, ThereAreNoMoreTriesThanAllowed) {
 
 TEST(SliverTrials, KeepNothingThatIsNotTriedToTheEnd) {
   const auto changes = [](size_t searched) {
-    test::AdaptingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
+    test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
     return change(s, any_count, {.searched = searched}).count();
   };
   EXPECT_EQ(changes(0), 0);
@@ -204,25 +203,25 @@ TEST(SliverTrials, KeepNothingThatIsNotTriedToTheEnd) {
 }
 
 TEST(SliverTrials, LeaveGoodFacesAlone) {
-  test::AdaptingScene s(test::grid(cells, test::flat), test::plane());
-  const Mat3X before = s.placement.points;
+  test::WorkingScene s(test::grid(cells, test::flat), test::plane());
+  const Mat3X before = s.positions.points;
   EXPECT_EQ(change(s).count(), 0);
-  EXPECT_EQ(s.placement.points, before);
+  EXPECT_EQ(s.positions.points, before);
 }
 
 TEST(SliverTrials, ThreadsChangeNothing) {
   const auto result = [](int threads) {
     const ThreadLimit limit(threads);
-    test::AdaptingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
+    test::WorkingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
     EXPECT_GT(change(s).count(), 0);
     compact(s.adapting);
-    return std::pair(s.triangulation.faces(), s.placement.points);
+    return std::pair(s.halfedges.faces(), s.positions.points);
   };
   EXPECT_EQ(result(1), result(2));
 }
 
 TEST(SliverTrials, StopWhenTheObserverSaysSo) {
-  test::AdaptingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
+  test::WorkingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
   int calls = 0;
   const SliverChanges changes = change(s, any_count, {}, [&](const Progress&) { return ++calls < 2; });
   EXPECT_EQ(calls, 2);

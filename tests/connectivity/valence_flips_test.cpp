@@ -9,51 +9,51 @@
 #include "hooke/mesh/extent.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
-#include "support/flipping_scene.h"
+#include "support/flippable_scene.h"
 
 namespace hooke {
 namespace {
 
-double spring_energy(const test::FlippingScene& s, const EnergyTerms& terms = {}) {
-  const Connectivity c = make_connectivity(static_cast<int>(s.vertex_length.size()), s.triangulation.faces());
+double spring_energy(const test::FlippableScene& s, const EnergyTerms& terms = {}) {
+  const Adjacency c = make_adjacency(static_cast<int>(s.vertex_length.size()), s.halfedges.faces());
   const TargetLengths targets = spread_target_lengths(c, s.vertex_length);
-  return Energy(c, targets, terms)(s.placement.points, s.placement.normals, nullptr);
+  return Energy(c, targets, terms)(s.positions.points, s.positions.normals, nullptr);
 }
 
 /// A pass over all edges.
-int flip_all(test::FlippingScene& s, const FlipPassOptions& options = {}) {
+int flip_all(test::FlippableScene& s, const FlipPassOptions& options = {}) {
   std::vector<char> near;
   return flip_irregular_edges(s.mesh, {}, options, {}, {}, near, nullptr);
 }
 
 /// Least cosine between two neighbouring faces.
-double least_fold(const test::FlippingScene& s) {
-  const Connectivity c = make_connectivity(static_cast<int>(s.vertex_length.size()), s.triangulation.faces());
+double min_fold(const test::FlippableScene& s) {
+  const Adjacency c = make_adjacency(static_cast<int>(s.vertex_length.size()), s.halfedges.faces());
   double least = 1;
   for (const auto& [f, g] : c.edge_faces)
     if (g >= 0)
-      least = std::min(least, cosine_between(s.placement.points, c.faces[static_cast<size_t>(f)],
+      least = std::min(least, cosine_between(s.positions.points, c.faces[static_cast<size_t>(f)],
                                              c.faces[static_cast<size_t>(g)]));
   return least;
 }
 
 TEST(FlipPass, EveryFlipKeptLowersTheEnergyByItsGain) {
-  test::FlippingScene s(test::sphere(3, .4, 5), test::unit_sphere());
+  test::FlippableScene s(test::sphere(3, .4, 5), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
   const double before = spring_energy(s);
   const FlipPassOptions options{.gain = 1e-3};
   const int flips = flip_all(s, options);
   EXPECT_GT(flips, 10);
   EXPECT_LE(spring_energy(s), before - flips * options.gain);
-  for (const Triangle& f : s.triangulation.faces())
-    EXPECT_GE(face_alignment(s.placement.points, s.placement.normals, f), .3);
-  EXPECT_GE(least_fold(s), .1);
+  for (const Triangle& f : s.halfedges.faces())
+    EXPECT_GE(face_alignment(s.positions.points, s.positions.normals, f), .3);
+  EXPECT_GE(min_fold(s), .1);
 }
 
 TEST(FlipPass, HopeLosesHardlyAnyGain) {
   for (double altitude : {0., 1., 10.}) {
     const auto gain = [altitude](const FlipPassOptions& options) {
-      test::FlippingScene s(test::sphere(4, .4, 7), test::unit_sphere());
+      test::FlippableScene s(test::sphere(4, .4, 7), test::unit_sphere());
       flip_to_delaunay(s.mesh, {});
       const EnergyTerms terms{.altitude = altitude};
       const double before = spring_energy(s, terms);
@@ -61,19 +61,19 @@ TEST(FlipPass, HopeLosesHardlyAnyGain) {
       flip_irregular_edges(s.mesh, terms, options, {}, {}, near, nullptr);
       return before - spring_energy(s, terms);
     };
-    const double all = gain({.rounds = 1, .hope = 1e9, .swept_hope = 1e9});
+    const double all = gain({.rounds = 1, .max_energy_rise = 1e9, .max_rise_after_relaxation = 1e9});
     EXPECT_GT(gain({.rounds = 1}), .95 * all) << altitude;
-    EXPECT_LT(gain({.rounds = 1, .hope = -1e9}), 1e-9 * all) << altitude;
+    EXPECT_LT(gain({.rounds = 1, .max_energy_rise = -1e9}), 1e-9 * all) << altitude;
   }
 }
 
 TEST(FlipPass, LooksOnlyWhereThereIsSomethingNew) {
-  test::FlippingScene s(test::sphere(3, .4, 5), test::unit_sphere());
+  test::FlippableScene s(test::sphere(3, .4, 5), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
-  const std::vector<Triangle> faces = s.triangulation.faces();
+  const std::vector<Triangle> faces = s.halfedges.faces();
   std::vector<char> near(s.vertex_length.size(), 0);
   EXPECT_EQ(flip_irregular_edges(s.mesh, {}, {}, {}, {}, near, nullptr), 0);
-  EXPECT_EQ(s.triangulation.faces(), faces);
+  EXPECT_EQ(s.halfedges.faces(), faces);
   near.clear();
   EXPECT_GT(flip_irregular_edges(s.mesh, {}, {.rounds = 1}, {}, {}, near, nullptr), 0);
   EXPECT_EQ(near.size(), s.vertex_length.size());
@@ -81,7 +81,7 @@ TEST(FlipPass, LooksOnlyWhereThereIsSomethingNew) {
 }
 
 TEST(FlipPass, NoEdgeIsTriedAmongTooManyVertices) {
-  test::FlippingScene s(test::sphere(3, .4, 5), test::unit_sphere());
+  test::FlippableScene s(test::sphere(3, .4, 5), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
   EXPECT_EQ(flip_all(s, {.most = 8}), 0);  // two rings have more
 }
@@ -89,10 +89,10 @@ TEST(FlipPass, NoEdgeIsTriedAmongTooManyVertices) {
 TEST(FlipPass, ThreadsChangeNothing) {
   const auto result = [](int threads) {
     const ThreadLimit limit(threads);
-    test::FlippingScene s(test::sphere(4, .4, 3), test::unit_sphere());
+    test::FlippableScene s(test::sphere(4, .4, 3), test::unit_sphere());
     flip_to_delaunay(s.mesh, {});
     EXPECT_GT(flip_all(s), 10);
-    return std::pair(s.triangulation.faces(), s.placement.points);
+    return std::pair(s.halfedges.faces(), s.positions.points);
   };
   const auto one = result(1), two = result(2);
   EXPECT_EQ(one.first, two.first);
@@ -100,7 +100,7 @@ TEST(FlipPass, ThreadsChangeNothing) {
 }
 
 TEST(FlipPass, StopsWithAValidMeshWhenTheObserverSaysSo) {
-  test::FlippingScene s(test::sphere(4, .4, 3), test::unit_sphere());
+  test::FlippableScene s(test::sphere(4, .4, 3), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
   const double before = spring_energy(s);
   std::vector<char> near;
@@ -113,19 +113,19 @@ TEST(FlipPass, StopsWithAValidMeshWhenTheObserverSaysSo) {
 }
 
 TEST(FlipPass, ARegularMeshHasNothingToFlip) {
-  test::FlippingScene s(test::grid(6, test::flat), test::plane());
-  for (int v : {0, 6, 42, 48}) s.corner_valences[static_cast<size_t>(v)] = s.triangulation.valence(v);
+  test::FlippableScene s(test::grid(6, test::flat), test::plane());
+  for (int v : {0, 6, 42, 48}) s.corner_valences[static_cast<size_t>(v)] = s.halfedges.valence(v);
   EXPECT_EQ(flip_all(s), 0);
 }
 
 TEST(FlipPass, KeepsTheBoundary) {
   const test::Triangles t = test::grid(8, test::flat, .4, 3);
-  test::FlippingScene s(t, test::plane());
+  test::FlippableScene s(t, test::plane());
   flip_to_delaunay(s.mesh, {});
   EXPECT_GT(flip_all(s), 0);
   const int n = static_cast<int>(t.points.cols());
-  EXPECT_EQ(test::boundary_edges(n, s.triangulation.faces()), test::boundary_edges(n, t.faces));
-  EXPECT_NEAR(total_area(s.placement.points, s.triangulation.faces()), 1, 1e-12);
+  EXPECT_EQ(test::boundary_edges(n, s.halfedges.faces()), test::boundary_edges(n, t.faces));
+  EXPECT_NEAR(total_area(s.positions.points, s.halfedges.faces()), 1, 1e-12);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(CoincidentBoundary, KeepsItsVerticesInModeAdaptAndNewOnesLieBetweenThem) {
       return (o.points.colwise() - place).colwise().squaredNorm().minCoeff() == 0;
     };
     for (int v : seam) EXPECT_TRUE(is_there(t.points.col(v))) << v;
-    const Connectivity c = make_connectivity(static_cast<int>(o.points.cols()), o.faces);
+    const Adjacency c = make_adjacency(static_cast<int>(o.points.cols()), o.faces);
     for (size_t e = 0; e < c.edges.size(); ++e) {
       const Vec3 a = o.points.col(c.edges[e][0]);
       if (!c.is_boundary_edge(static_cast<int>(e)) || std::abs(a.x() - 1) > 1e-9) continue;
@@ -95,12 +95,12 @@ long count_of(const Constraints& c, Freedom freedom) {
 }
 
 /// A disk of `sides` triangles about vertex 0, its rim on the unit circle.
-test::Triangles disk(int sides) {
-  test::Triangles t{Mat3X::Zero(3, sides + 1), {}};
-  for (int i = 0; i < sides; ++i) {
-    const double angle = 2 * std::numbers::pi * i / sides;
+test::Triangles disk(int wedges) {
+  test::Triangles t{Mat3X::Zero(3, wedges + 1), {}};
+  for (int i = 0; i < wedges; ++i) {
+    const double angle = 2 * std::numbers::pi * i / wedges;
     t.points.col(i + 1) = Vec3(std::cos(angle), std::sin(angle), 0);
-    t.faces.push_back({0, i + 1, (i + 1) % sides + 1});
+    t.faces.push_back({0, i + 1, (i + 1) % wedges + 1});
   }
   return t;
 }
@@ -227,12 +227,12 @@ void expect_closest(const Curve& curve, double distance) {
     const int start = i % n;
     const int near = curve.closed ? (start + i % 5 - 2 + n) % n : std::clamp(start + i % 5 - 2, 0, n - 1);
     const Vec3 x = curve.points.col(near) + shift.col(i);
-    const CurveFoot foot = project_to_curve(curve, x, start);
-    EXPECT_NEAR((foot.point - x).norm(), test::distance_to(curve, x), 1e-13) << i;
-    EXPECT_LT(test::distance_to(curve, foot.point), 1e-14) << i;
-    EXPECT_NEAR(foot.tangent.norm(), 1, 1e-14);
-    EXPECT_GE(foot.segment, 0);
-    EXPECT_LT(foot.segment, n);
+    const CurveProjection projection = project_to_curve(curve, x, start);
+    EXPECT_NEAR((projection.point - x).norm(), test::distance_to(curve, x), 1e-13) << i;
+    EXPECT_LT(test::distance_to(curve, projection.point), 1e-14) << i;
+    EXPECT_NEAR(projection.tangent.norm(), 1, 1e-14);
+    EXPECT_GE(projection.segment, 0);
+    EXPECT_LT(projection.segment, n);
   }
 }
 
@@ -247,8 +247,8 @@ TEST(ProjectToCurve, TangentsTurnWithoutAJumpAtThePoints) {
   const Curve& curve = constraints.curves[0];
   const Vec3 along = (curve.points.col(4) - curve.points.col(2)).normalized();
   for (double step : {-1e-9, 0., 1e-9}) {
-    const CurveFoot foot = project_to_curve(curve, curve.points.col(3) + step * along, 3);
-    EXPECT_LT((foot.tangent - along).norm(), 1e-7);
+    const CurveProjection projection = project_to_curve(curve, curve.points.col(3) + step * along, 3);
+    EXPECT_LT((projection.tangent - along).norm(), 1e-7);
   }
 }
 
@@ -262,8 +262,8 @@ TEST(ProjectToCurve, StaysWithinAnOpenCurve) {
 }
 
 Constraints creased(const test::Triangles& t) {
-  Connectivity c = test::connect(t);
-  part_at_creases(c, test::bent_edges(t.points, t.faces));
+  Adjacency c = test::connect(t);
+  split_wedges(c, test::bent_edges(t.points, t.faces));
   return find_constraints(t.points, c, {});
 }
 

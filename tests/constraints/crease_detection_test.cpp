@@ -9,11 +9,11 @@
 namespace hooke {
 namespace {
 
-std::vector<Edge> features_of(const test::Triangles& t, const FeatureOptions& options = {}) {
-  const Connectivity c = test::connect(t);
+std::vector<Edge> features_of(const test::Triangles& t, const CreaseOptions& options = {}) {
+  const Adjacency c = test::connect(t);
   const std::vector<double> length(static_cast<size_t>(c.vertex_count), 1);
   std::vector<Edge> edges;
-  for (int e : find_features(t.points, c, length, options)) edges.push_back(c.edges[static_cast<size_t>(e)]);
+  for (int e : detect_creases(t.points, c, length, options)) edges.push_back(c.edges[static_cast<size_t>(e)]);
   return edges;
 }
 
@@ -61,7 +61,7 @@ test::Triangles fading_sheet() {
 }
 
 TEST(Features, AWeakerEdgeGoesOnFromASharpOne) {
-  const auto edges = [](const FeatureOptions& options) {
+  const auto edges = [](const CreaseOptions& options) {
     return static_cast<double>(features_of(fading_sheet(), options).size());
   };
   EXPECT_NEAR(edges({}), 36, 1);           // to 24 degrees
@@ -70,8 +70,8 @@ TEST(Features, AWeakerEdgeGoesOnFromASharpOne) {
 
 TEST(Features, AChainWithALooseEndIsLong) {
   EXPECT_FALSE(features_of(fading_sheet()).empty());
-  EXPECT_TRUE(features_of(fading_sheet(), {.least_edges = 40}).empty());
-  EXPECT_TRUE(features_of(fading_sheet(), {.least_length = 40}).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.min_edges = 40}).empty());
+  EXPECT_TRUE(features_of(fading_sheet(), {.min_length = 40}).empty());
   EXPECT_TRUE(features_of(fading_sheet(), {.sharp_share = .7}).empty());
 }
 
@@ -102,7 +102,7 @@ TEST(Features, AShortFoldFromBoundaryToBoundaryIsOneBetweenFlatSides) {
   // Ears that are folded up by chance, of a piece that is rough elsewhere too, are none.
   for (unsigned seed = 1; seed <= 30; ++seed) {
     test::Triangles t = test::grid(12, test::paraboloid, .4, seed);
-    const Connectivity c = test::connect(t);
+    const Adjacency c = test::connect(t);
     for (int v = 0; v < c.vertex_count;
          ++v)  // corners of faces that have two boundary edges, and their neighbours
       if (c.vertex_faces[v].size() <= 2) t.points(2, v) += .3;

@@ -20,17 +20,17 @@ TEST(IntLists, AreInvertedAlikeByAnyNumberOfThreads) {
     for (int i : rows[r]) expected[static_cast<size_t>(i)].push_back(static_cast<int>(r));
   for (int threads : {1, 0}) {
     const ThreadLimit limit(threads);
-    const IntLists lists = invert(count, rows);
+    const IntLists lists = inverse(count, rows);
     for (int i = 0; i < count; ++i)
       ASSERT_TRUE(std::ranges::equal(lists[i], expected[static_cast<size_t>(i)])) << i;
   }
 }
 
 TEST(IntLists, IndicesThatNoRowNamesHaveEmptyLists) {
-  const IntLists lists = invert(3, std::vector<Edge>{{2, 0}, {0, 2}});
+  const IntLists lists = inverse(3, std::vector<Edge>{{2, 0}, {0, 2}});
   EXPECT_EQ(lists.first, (std::vector<int>{0, 2, 2, 4}));
   EXPECT_EQ(lists.items, (std::vector<int>{0, 1, 0, 1}));
-  EXPECT_EQ(invert(0, std::vector<Edge>()).first, std::vector<int>{0});
+  EXPECT_EQ(inverse(0, std::vector<Edge>()).first, std::vector<int>{0});
 }
 
 }  // namespace

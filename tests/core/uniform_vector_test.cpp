@@ -5,10 +5,10 @@
 namespace hooke {
 namespace {
 
-TEST(Lengths, AreThoseThatWereGivenWhetherTheyVaryOrNot) {
+TEST(UniformVector, AreThoseThatWereGivenWhetherTheyVaryOrNot) {
   for (const std::vector<double>& given :
        {std::vector<double>{}, {2}, {2, 2, 2}, {2, 2, 3}, {3, 2, 2}, std::vector<double>(100, .1)}) {
-    const Lengths lengths(given);
+    const UniformVector lengths(given);
     EXPECT_EQ(lengths.size(), given.size());
     EXPECT_EQ(lengths.empty(), given.empty());
     EXPECT_EQ(lengths.values(), given);
@@ -16,12 +16,12 @@ TEST(Lengths, AreThoseThatWereGivenWhetherTheyVaryOrNot) {
   }
 }
 
-TEST(Lengths, VaryWhereTwoDiffer) {
-  EXPECT_FALSE(Lengths().vary());
-  EXPECT_FALSE(Lengths(std::vector<double>{2}).vary());
-  EXPECT_FALSE(Lengths(std::vector<double>{2, 2}).vary());
-  EXPECT_TRUE(Lengths(std::vector<double>{2, 2, 2.0000000001}).vary());
-  EXPECT_EQ(Lengths(3, 2.), Lengths(std::vector<double>(3, 2.)));
+TEST(UniformVector, VaryWhereTwoDiffer) {
+  EXPECT_FALSE(UniformVector().vary());
+  EXPECT_FALSE(UniformVector(std::vector<double>{2}).vary());
+  EXPECT_FALSE(UniformVector(std::vector<double>{2, 2}).vary());
+  EXPECT_TRUE(UniformVector(std::vector<double>{2, 2, 2.0000000001}).vary());
+  EXPECT_EQ(UniformVector(3, 2.), UniformVector(std::vector<double>(3, 2.)));
 }
 
 }  // namespace

@@ -15,14 +15,12 @@ namespace {
 
 struct Covered {
   test::Triangles mesh;
-  Connectivity connectivity = test::connect(mesh);
-  Mat3X normals = vertex_normals(mesh.points, connectivity);
-  Eigen::VectorXd edge_lengths = mean_edge_lengths(mesh.points, connectivity);
-  std::vector<char> unfolded = std::vector<char>(static_cast<size_t>(connectivity.vertex_count), 1);
+  Adjacency adjacency = test::connect(mesh);
+  Mat3X normals = vertex_normals(mesh.points, adjacency);
+  Eigen::VectorXd edge_lengths = mean_edge_lengths(mesh.points, adjacency);
+  std::vector<char> unfolded = std::vector<char>(static_cast<size_t>(adjacency.vertex_count), 1);
 
-  PatchCover cover() const {
-    return PatchCover(mesh.points, connectivity, normals, edge_lengths, unfolded, {});
-  }
+  PatchCover cover() const { return PatchCover(mesh.points, adjacency, normals, edge_lengths, unfolded, {}); }
 };
 
 TEST(PatchCover, EveryVertexIsWellInsideAPatch) {
@@ -65,7 +63,7 @@ TEST(PatchCover, FoldedVerticesAreCentresOnlyWhereNothingElseCoversThem) {
 
 TEST(PatchGrower, FindsTheNearestVerticesAndThoseThatTie) {
   const auto t = test::sphere(3);
-  const Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
   const std::vector<char> unfolded(static_cast<size_t>(c.vertex_count), 1);
   PatchGrower grower(t.points, c, t.points, unfolded);
   for (int centre : {0, 17, 400}) {
@@ -86,7 +84,7 @@ TEST(PatchGrower, DoesNotCrossAKnifeEdge) {
   // Two sheets that share a rim: the vertices 0 and 1; each sheet has a vertex of its own.
   Mat3X points(3, 4);
   points << 0, 1, .5, .5, 0, 0, 1, 1, 0, 0, .01, -.01;
-  const Connectivity c = make_connectivity(4, {{0, 1, 2}, {1, 0, 3}});
+  const Adjacency c = make_adjacency(4, {{0, 1, 2}, {1, 0, 3}});
   Mat3X normals(3, 4);
   normals << 0, 0, 0, 0, -1, -1, 0, 0, 0, 0, 1, -1;
   const std::vector<char> unfolded = {0, 0, 1, 1};

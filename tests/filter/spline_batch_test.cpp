@@ -38,7 +38,7 @@ std::vector<double> solution(const SplineGroup& group, const SplineGroup::Data& 
 }
 
 constexpr SplineGroup::Flags all = {true, true, true, true};
-constexpr double least_distance = 1e-6;
+constexpr double min_distance = 1e-6;
 
 class GroupOfEachKernel : public testing::TestWithParam<Kernel> {};
 INSTANTIATE_TEST_SUITE_P(SplineGroup, GroupOfEachKernel, testing::Values(Kernel::r2logr, Kernel::r3));
@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(SplineGroup, GroupOfEachKernel, testing::Values(Kernel:
 TEST_P(GroupOfEachKernel, FindsTheSplinesThatFitSplineFinds) {
   const SplineGroup::Data data = sheets();
   SplineGroup group;
-  ASSERT_EQ(group.fit(data, all, GetParam(), least_distance), all);
+  ASSERT_EQ(group.fit(data, all, GetParam(), min_distance), all);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const SplineData& one = data[lane];
     const std::vector<double> together = solution(group, data, lane);
@@ -64,7 +64,7 @@ TEST_P(GroupOfEachKernel, FindsTheSplinesThatFitSplineFinds) {
 TEST_P(GroupOfEachKernel, ASplineDoesNotKnowWhichOthersAreInItsGroup) {
   const SplineGroup::Data data = sheets();
   SplineGroup group;
-  group.fit(data, all, GetParam(), least_distance);
+  group.fit(data, all, GetParam(), min_distance);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const std::vector<double> together = solution(group, data, lane);
     SplineGroup::Data moved;
@@ -72,7 +72,7 @@ TEST_P(GroupOfEachKernel, ASplineDoesNotKnowWhichOthersAreInItsGroup) {
     SplineGroup::Flags wanted{};
     wanted[3 - lane] = true;
     SplineGroup other;
-    ASSERT_EQ(other.fit(moved, wanted, GetParam(), least_distance), wanted);
+    ASSERT_EQ(other.fit(moved, wanted, GetParam(), min_distance), wanted);
     EXPECT_EQ(solution(other, moved, 3 - lane), together);
   }
 }
@@ -83,11 +83,11 @@ TEST(SplineGroup, TellsWhichDataDoNotDetermineASpline) {
   data[2].centres.col(17) = data[2].centres.col(3);  // one place twice
   SplineGroup group;
   const SplineGroup::Flags expected = {false, true, false, true};
-  EXPECT_EQ(group.fit(data, all, Kernel::r3, least_distance), expected);
+  EXPECT_EQ(group.fit(data, all, Kernel::r3, min_distance), expected);
 
   const SplineGroup::Data few = {sheet(9, 1), sheet(9, 2), sheet(9, 3), sheet(9, 4)};
-  EXPECT_EQ(group.fit(few, all, Kernel::r3, least_distance), SplineGroup::Flags{});
-  EXPECT_EQ(group.fit(data, {}, Kernel::r3, least_distance), SplineGroup::Flags{});
+  EXPECT_EQ(group.fit(few, all, Kernel::r3, min_distance), SplineGroup::Flags{});
+  EXPECT_EQ(group.fit(data, {}, Kernel::r3, min_distance), SplineGroup::Flags{});
 }
 
 TEST(SplineData, DropsWhatRepeatsAPlaceAndKeepsTheFirst) {

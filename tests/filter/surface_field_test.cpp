@@ -46,17 +46,17 @@ TEST(NearFaces, NoFaceAboutTheAnchorIsCloser) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
   for (const test::Triangles& t : {hub(60), hub(5), test::shaken(test::grid(2, test::flat), .2)}) {
-    const Connectivity c = test::connect(t);
+    const Adjacency c = test::connect(t);
     const Mat3X normals = vertex_normals(t.points, c);
     const NearFaces faces{t.points, normals, c};
     for (int round = 0; round < 300; ++round) {
       const Vec3 x(coordinate(random), coordinate(random), coordinate(random));
       // All faces of a cone are about its tip or a neighbour of it; so are those of a grid of two by two.
-      const int anchor = t.faces.size() == 8 ? 4 : 0;
-      const Foot foot = faces.closest_point(x, anchor);
-      EXPECT_EQ(foot.status, FootStatus::converged);
-      EXPECT_NEAR((foot.point - x).squaredNorm(), squared_distance_to_all(t, x), 1e-12);
-      EXPECT_NEAR(foot.normal.norm(), 1, 1e-12);
+      const int hint = t.faces.size() == 8 ? 4 : 0;
+      const Projection projection = faces.closest_point(x, hint);
+      EXPECT_EQ(projection.status, ProjectionStatus::converged);
+      EXPECT_NEAR((projection.point - x).squaredNorm(), squared_distance_to_all(t, x), 1e-12);
+      EXPECT_NEAR(projection.normal.norm(), 1, 1e-12);
     }
   }
 }
@@ -65,16 +65,16 @@ TEST(NearFaces, AFaceWithinADistanceIsNoFartherThanTheClosestOne) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> coordinate(-1.5, 1.5);
   const test::Triangles t = test::shaken(test::grid(4, test::flat), .1);
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const Mat3X normals = vertex_normals(t.points, c);
   const NearFaces faces{t.points, normals, c};
   int within = 0;
   for (int round = 0; round < 300; ++round) {
     const Vec3 x(coordinate(random), coordinate(random), .1 * coordinate(random));
-    const Foot foot = faces.closest_point(x, 12);
-    const double distance = (foot.point - x).norm();
+    const Projection projection = faces.closest_point(x, 12);
+    const double distance = (projection.point - x).norm();
     EXPECT_FALSE(faces.has_face_within(x, 12, .999 * distance));
-    within += faces.has_face_within(x, foot.anchor, 1.001 * distance);  // the foot is on one of its faces
+    within += faces.has_face_within(x, projection.hint, 1.001 * distance);  // the foot is on one of its faces
   }
   EXPECT_EQ(within, 300);
 }
@@ -83,15 +83,15 @@ TEST(NearFaces, AnAnchorWithoutFacesHasNoFoot) {
   test::Triangles t = test::equilateral();
   t.points.conservativeResize(3, 4);
   t.points.col(3) = Vec3(5, 5, 5);
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const Mat3X normals = vertex_normals(t.points, c);
-  const Foot foot = NearFaces{t.points, normals, c}.closest_point(Vec3(1, 2, 3), 3);
-  EXPECT_EQ(foot.status, FootStatus::no_cover);
-  EXPECT_EQ(foot.point, Vec3(1, 2, 3));
+  const Projection projection = NearFaces{t.points, normals, c}.closest_point(Vec3(1, 2, 3), 3);
+  EXPECT_EQ(projection.status, ProjectionStatus::no_cover);
+  EXPECT_EQ(projection.point, Vec3(1, 2, 3));
 }
 
-std::shared_ptr<const Connectivity> shared_connectivity(const test::Triangles& t) {
-  return std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(t.points.cols()), t.faces));
+std::shared_ptr<const Adjacency> shared_connectivity(const test::Triangles& t) {
+  return std::make_shared<const Adjacency>(make_adjacency(static_cast<int>(t.points.cols()), t.faces));
 }
 
 SurfaceField field_of(const test::Triangles& t, const FilterOptions& options = {}) {
@@ -100,7 +100,7 @@ SurfaceField field_of(const test::Triangles& t, const FilterOptions& options = {
 
 struct Start {
   Vec3 point;
-  int anchor;
+  int hint;
 };
 
 /// Random places of the faces, moved along the face normals by up to `off`.
@@ -162,12 +162,12 @@ TEST_P(EveryField, FindsTheSphereBetweenItsVertices) {
   double sum = 0;
   const auto starts = starts_near(t, .2 * h);
   for (const Start& s : starts) {
-    const Foot foot = field.project(s.point, s.anchor, 1e-8 * h);
-    ASSERT_EQ(foot.status, FootStatus::converged);
-    EXPECT_LT(std::abs(field.sample(foot.point, foot.anchor).value), 2e-8 * h);
-    EXPECT_NEAR(foot.normal.dot(foot.point), 1, 1e-3);
-    EXPECT_LT((foot.point - s.point.normalized()).norm(), .01 * h);
-    sum += std::pow(foot.point.norm() - 1, 2);
+    const Projection projection = field.project(s.point, s.hint, 1e-8 * h);
+    ASSERT_EQ(projection.status, ProjectionStatus::converged);
+    EXPECT_LT(std::abs(field.sample(projection.point, projection.hint).value), 2e-8 * h);
+    EXPECT_NEAR(projection.normal.dot(projection.point), 1, 1e-3);
+    EXPECT_LT((projection.point - s.point.normalized()).norm(), .01 * h);
+    sum += std::pow(projection.point.norm() - 1, 2);
   }
   EXPECT_LT(std::sqrt(sum / static_cast<double>(starts.size())), 5e-4 * h);
 }
@@ -176,10 +176,10 @@ TEST_P(EveryField, FindsAPlaneExactly) {
   const auto t = test::grid(10, test::flat, .4);
   const SurfaceField field = field_of(t, GetParam());
   for (const Start& s : starts_near(t, .02)) {
-    const Foot foot = field.project(s.point, s.anchor, 1e-14);
-    EXPECT_EQ(foot.status, FootStatus::converged);
-    EXPECT_LT((foot.point - Vec3(s.point[0], s.point[1], 0)).norm(), 1e-11);
-    EXPECT_LT((foot.normal - Vec3::UnitZ()).norm(), 1e-9);
+    const Projection projection = field.project(s.point, s.hint, 1e-14);
+    EXPECT_EQ(projection.status, ProjectionStatus::converged);
+    EXPECT_LT((projection.point - Vec3(s.point[0], s.point[1], 0)).norm(), 1e-11);
+    EXPECT_LT((projection.normal - Vec3::UnitZ()).norm(), 1e-9);
   }
 }
 
@@ -190,10 +190,11 @@ TEST_P(EveryField, HasSaneFeetAtOpenRims) {
   for (int i = 0; i < n; ++i) {
     const double along = (i + .5) / n;
     const Vec3 x(along, 0, test::paraboloid(along, 0) + .3 / n);
-    const Foot foot = field.project(x, i, 1e-9);
-    EXPECT_EQ(foot.status, FootStatus::converged);
-    EXPECT_LT(std::abs(foot.point[2] - test::paraboloid(foot.point[0], foot.point[1])), .02 / n);
-    EXPECT_GT(foot.normal.dot(Vec3(-x[0], 0, 1).normalized()), .99);
+    const Projection projection = field.project(x, i, 1e-9);
+    EXPECT_EQ(projection.status, ProjectionStatus::converged);
+    EXPECT_LT(std::abs(projection.point[2] - test::paraboloid(projection.point[0], projection.point[1])),
+              .02 / n);
+    EXPECT_GT(projection.normal.dot(Vec3(-x[0], 0, 1).normalized()), .99);
   }
 }
 
@@ -205,10 +206,10 @@ TEST_P(EveryField, MovesAndTurnsWithTheMesh) {
     moved.points = (turn * t.points).colwise() + shift;
     const SurfaceField field = field_of(t, GetParam()), moved_field = field_of(moved, GetParam());
     for (const Start& s : starts_near(t, .02)) {
-      const Foot foot = field.project(s.point, s.anchor, 1e-12);
-      const Foot there = moved_field.project(turn * s.point + shift, s.anchor, 1e-12);
-      EXPECT_LT((turn * foot.point + shift - there.point).norm(), 1e-9);
-      EXPECT_LT((turn * foot.normal - there.normal).norm(), 1e-8);
+      const Projection projection = field.project(s.point, s.hint, 1e-12);
+      const Projection there = moved_field.project(turn * s.point + shift, s.hint, 1e-12);
+      EXPECT_LT((turn * projection.point + shift - there.point).norm(), 1e-9);
+      EXPECT_LT((turn * projection.normal - there.normal).norm(), 1e-8);
     }
   }
 }
@@ -220,24 +221,24 @@ TEST_P(EveryField, ScalesExactlyByPowersOfTwo) {
     scaled.points *= scale;
     const SurfaceField field = field_of(t, GetParam()), scaled_field = field_of(scaled, GetParam());
     for (const Start& s : starts_near(t, .02)) {
-      const Foot foot = field.project(s.point, s.anchor, 1e-7);
-      const Foot there = scaled_field.project(scale * s.point, s.anchor, scale * 1e-7);
-      EXPECT_EQ(there.point, scale * foot.point);
-      EXPECT_EQ(there.normal, foot.normal);
+      const Projection projection = field.project(s.point, s.hint, 1e-7);
+      const Projection there = scaled_field.project(scale * s.point, s.hint, scale * 1e-7);
+      EXPECT_EQ(there.point, scale * projection.point);
+      EXPECT_EQ(there.normal, projection.normal);
     }
   }
 }
 
 TEST_P(EveryField, DoesNotDependOnTheNumberOfThreads) {
   const auto t = test::sphere(3, .3);
-  const auto feet = [&](int threads) {
+  const auto projections = [&](int threads) {
     const ThreadLimit limit(threads);
     const SurfaceField field = field_of(t, GetParam());
-    std::vector<Foot> result;
-    for (const Start& s : starts_near(t, .02)) result.push_back(field.project(s.point, s.anchor, 1e-7));
+    std::vector<Projection> result;
+    for (const Start& s : starts_near(t, .02)) result.push_back(field.project(s.point, s.hint, 1e-7));
     return result;
   };
-  const auto one = feet(1), many = feet(4);
+  const auto one = projections(1), many = projections(4);
   for (size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].point, many[i].point);
     EXPECT_EQ(one[i].normal, many[i].normal);
@@ -254,12 +255,12 @@ TEST(SurfaceField, KeepsCloseSheetsApart) {
   const SurfaceField field = field_of(t);
   const int on_lower = static_cast<int>(lower.points.cols());
   for (const Start& s : starts_near(t, .25 * h, 3)) {
-    const bool is_lower = s.anchor < on_lower;
-    const Foot foot = field.project(s.point, s.anchor, 1e-6 * h);
-    EXPECT_EQ(foot.anchor < on_lower, is_lower);
-    const double height = foot.point[2] - test::paraboloid(foot.point[0], foot.point[1]);
+    const bool is_lower = s.hint < on_lower;
+    const Projection projection = field.project(s.point, s.hint, 1e-6 * h);
+    EXPECT_EQ(projection.hint < on_lower, is_lower);
+    const double height = projection.point[2] - test::paraboloid(projection.point[0], projection.point[1]);
     EXPECT_NEAR(height, is_lower ? 0 : .3 * h, .03 * h);
-    EXPECT_GT((is_lower ? 1 : -1) * foot.normal[2], 0);
+    EXPECT_GT((is_lower ? 1 : -1) * projection.normal[2], 0);
   }
 }
 
@@ -274,22 +275,22 @@ TEST(SurfaceField, WorksOnTheSmallestComponents) {
   const SurfaceField field = field_of(t);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const Vec3 p = t.points.col(v);
-    const Foot foot = field.project(p, static_cast<int>(v), 1e-9);
-    EXPECT_LT((foot.point - p).norm(), 1e-9) << v;
+    const Projection projection = field.project(p, static_cast<int>(v), 1e-9);
+    EXPECT_LT((projection.point - p).norm(), 1e-9) << v;
   }
-  const Foot foot = field.project({.3, .3, .1}, 0, 1e-12);
-  EXPECT_LT((foot.point - Vec3(.3, .3, 0)).norm(), 1e-12);
+  const Projection projection = field.project({.3, .3, .1}, 0, 1e-12);
+  EXPECT_LT((projection.point - Vec3(.3, .3, 0)).norm(), 1e-12);
 }
 
 TEST(SurfaceField, OfDegenerateFacesFallsBackToTheFacesThemselves) {
   test::Triangles t{Mat3X(3, 5), {{0, 1, 2}, {0, 2, 3}}};
   t.points << 0, 1, 2, 3, 9, 0, 0, 0, 0, 9, 0, 0, 0, 0, 9;  // all faces on a line; vertex 4 has none
   const SurfaceField field = field_of(t);
-  const Foot foot = field.project({.5, 1, 0}, 0, 1e-9);
-  EXPECT_NE(foot.status, FootStatus::converged);
-  EXPECT_LT((foot.point - Vec3(.5, 0, 0)).norm(), 1e-15);
-  const Foot lonely = field.project({9, 9, 8}, 4, 1e-9);
-  EXPECT_EQ(lonely.status, FootStatus::no_cover);
+  const Projection projection = field.project({.5, 1, 0}, 0, 1e-9);
+  EXPECT_NE(projection.status, ProjectionStatus::converged);
+  EXPECT_LT((projection.point - Vec3(.5, 0, 0)).norm(), 1e-15);
+  const Projection lonely = field.project({9, 9, 8}, 4, 1e-9);
+  EXPECT_EQ(lonely.status, ProjectionStatus::no_cover);
   EXPECT_EQ(lonely.point, Vec3(9, 9, 8));
   EXPECT_TRUE(lonely.normal.isZero(0));
 }
@@ -302,20 +303,21 @@ TEST(SurfaceField, SurvivesDoubledVerticesAndFoldedFaces) {
   const double h = 1 / 12.;
   const SurfaceField field = field_of(t);
   for (const Start& s : starts_near(test::grid(12, test::paraboloid, .3), .1 * h)) {
-    const Foot foot = field.project(s.point, s.anchor, 1e-6 * h);
-    EXPECT_LT(std::abs(foot.point[2] - test::paraboloid(foot.point[0], foot.point[1])), .05 * h);
-    EXPECT_GT(foot.normal[2], 0);
+    const Projection projection = field.project(s.point, s.hint, 1e-6 * h);
+    EXPECT_LT(std::abs(projection.point[2] - test::paraboloid(projection.point[0], projection.point[1])),
+              .05 * h);
+    EXPECT_GT(projection.normal[2], 0);
   }
 }
 
 TEST(SurfaceField, FarFromTheSurfaceAnswersWithTheClosestPointAndSaysSo) {
   const auto t = test::sphere(2, .2);
-  const Foot foot = field_of(t).project({3, .2, .1}, 0, 1e-9);
-  EXPECT_EQ(foot.status, FootStatus::no_cover);
-  const Foot closest = field_of(t, {.kind = FilterKind::closest}).project({3, .2, .1}, 0, 1e-9);
-  EXPECT_EQ(foot.point, closest.point);
-  EXPECT_EQ(foot.normal, closest.normal);
-  EXPECT_NEAR(foot.normal.norm(), 1, 1e-12);
+  const Projection projection = field_of(t).project({3, .2, .1}, 0, 1e-9);
+  EXPECT_EQ(projection.status, ProjectionStatus::no_cover);
+  const Projection closest = field_of(t, {.kind = FilterKind::closest}).project({3, .2, .1}, 0, 1e-9);
+  EXPECT_EQ(projection.point, closest.point);
+  EXPECT_EQ(projection.normal, closest.normal);
+  EXPECT_NEAR(projection.normal.norm(), 1, 1e-12);
 }
 
 TEST(SurfaceField, ClosestIsThatOfAllFaces) {
@@ -327,54 +329,57 @@ TEST(SurfaceField, ClosestIsThatOfAllFaces) {
       least = std::min(least,
                        closest_point_on_triangle(t.points.col(a), t.points.col(b), t.points.col(c), s.point)
                            .squared_distance);
-    const Foot foot = field.project(s.point, 0, 1e-9);  // whatever the anchor it comes from
-    EXPECT_NEAR((foot.point - s.point).norm(), std::sqrt(least), 1e-12);
-    EXPECT_EQ(foot.status, FootStatus::converged);
-    EXPECT_NEAR(field.sample(s.point, foot.anchor).value,
-                (foot.point.dot(foot.normal) < s.point.dot(foot.normal) ? 1 : -1) * std::sqrt(least), 1e-12);
+    const Projection projection = field.project(s.point, 0, 1e-9);  // whatever the hint it comes from
+    EXPECT_NEAR((projection.point - s.point).norm(), std::sqrt(least), 1e-12);
+    EXPECT_EQ(projection.status, ProjectionStatus::converged);
+    EXPECT_NEAR(field.sample(s.point, projection.hint).value,
+                (projection.point.dot(projection.normal) < s.point.dot(projection.normal) ? 1 : -1) *
+                    std::sqrt(least),
+                1e-12);
   }
 }
 
 /// A sphere whose cap is cut off and closed by long triangles about one vertex.
 test::Triangles capped_sphere() {
   test::Triangles t = test::sphere(3);
-  const int apex = 0;
+  const int opposite_vertex = 0;
   const double height = .6;
   const auto gone = [&](int v) { return t.points(2, v) > height; };
-  t.points.col(apex) = Vec3(0, 0, 1);
+  t.points.col(opposite_vertex) = Vec3(0, 0, 1);
   std::vector<Triangle> faces;
   for (Triangle face : t.faces) {
     const auto of_cap = std::ranges::count_if(face, gone);
     if (of_cap > 1) continue;
     for (int& v : face)
-      if (gone(v)) v = apex;
+      if (gone(v)) v = opposite_vertex;
     faces.push_back(face);
   }
-  t.points.col(apex) = Vec3(0, 0, height);
+  t.points.col(opposite_vertex) = Vec3(0, 0, height);
   return {t.points, faces};
 }
 
 TEST(SurfaceField, StaysWithinReachOfTheFaces) {
   const auto t = capped_sphere();
-  const double h = mean_edge(t), reach = .3 * h;
-  const SurfaceField free = field_of(t), limited = field_of(t, {.reach = reach});
+  const double h = mean_edge(t), max_deviation = .3 * h;
+  const SurfaceField free = field_of(t), limited = field_of(t, {.max_deviation = max_deviation});
   const SurfaceField faces = field_of(t, {.kind = FilterKind::closest});
-  const auto height = [&](const Foot& f) {
-    return (faces.project(f.point, f.anchor, 1e-9).point - f.point).norm();
+  const auto height = [&](const Projection& f) {
+    return (faces.project(f.point, f.hint, 1e-9).point - f.point).norm();
   };
   int beyond = 0;
   for (const Start& s : starts_near(t, .01 * h, 20)) {
-    const Foot as_fitted = free.project(s.point, s.anchor, 1e-9),
-               foot = limited.project(s.point, s.anchor, 1e-9);
-    EXPECT_LE(height(foot), (1 + 1e-6) * reach);
-    if (height(as_fitted) <= reach) {
-      EXPECT_EQ(foot.point, as_fitted.point);
+    const Projection as_fitted = free.project(s.point, s.hint, 1e-9),
+                     projection = limited.project(s.point, s.hint, 1e-9);
+    EXPECT_LE(height(projection), (1 + 1e-6) * max_deviation);
+    if (height(as_fitted) <= max_deviation) {
+      EXPECT_EQ(projection.point, as_fitted.point);
       continue;
     }
     ++beyond;
-    EXPECT_NEAR(height(foot), reach, 1e-6 * reach);
-    EXPECT_GT(foot.normal.dot(faces.project(foot.point, foot.anchor, 1e-9).normal), 0);
-    EXPECT_LT((limited.project(foot.point, foot.anchor, 1e-9).point - foot.point).norm(), 1e-6 * h);
+    EXPECT_NEAR(height(projection), max_deviation, 1e-6 * max_deviation);
+    EXPECT_GT(projection.normal.dot(faces.project(projection.point, projection.hint, 1e-9).normal), 0);
+    EXPECT_LT((limited.project(projection.point, projection.hint, 1e-9).point - projection.point).norm(),
+              1e-6 * h);
   }
   EXPECT_GT(beyond, 50);
 }
@@ -383,19 +388,19 @@ TEST(SurfaceField, ReachCountsInTheLengthsOfTheVertices) {
   const auto t = capped_sphere();
   const double h = mean_edge(t);
   const std::vector<double> lengths(static_cast<std::size_t>(t.points.cols()), h);
-  const SurfaceField a = field_of(t, {.reach = .5 * h});
-  const SurfaceField b(std::make_shared<const Mat3X>(t.points), shared_connectivity(t), {.reach = .5}, {},
-                       lengths);
+  const SurfaceField a = field_of(t, {.max_deviation = .5 * h});
+  const SurfaceField b(std::make_shared<const Mat3X>(t.points), shared_connectivity(t), {.max_deviation = .5},
+                       {}, lengths);
   for (const Start& s : starts_near(t, .01 * h))
-    EXPECT_LT((a.project(s.point, s.anchor, 1e-9).point - b.project(s.point, s.anchor, 1e-9).point).norm(),
+    EXPECT_LT((a.project(s.point, s.hint, 1e-9).point - b.project(s.point, s.hint, 1e-9).point).norm(),
               1e-6 * h);
 }
 
 TEST(SurfaceField, NoneLeavesPointsAlone) {
   const SurfaceField field = field_of(test::sphere(1), {.kind = FilterKind::none});
-  const Foot foot = field.project({0, 0, 1.5}, 0, 1e-9);
-  EXPECT_EQ(foot.point, Vec3(0, 0, 1.5));
-  EXPECT_GT(foot.normal[2], .8);
+  const Projection projection = field.project({0, 0, 1.5}, 0, 1e-9);
+  EXPECT_EQ(projection.point, Vec3(0, 0, 1.5));
+  EXPECT_GT(projection.normal[2], .8);
 }
 
 TEST(SurfaceField, GlobalRefusesWhatItCannotDo) {

@@ -9,61 +9,61 @@
 namespace hooke {
 namespace {
 
-std::vector<SurfaceBend> bends_of(const test::Triangles& t) {
-  const Connectivity c = test::connect(t);
-  return surface_bends(t.points, vertex_normals(t.points, c), c);
+std::vector<ShapeOperator> bends_of(const test::Triangles& t) {
+  const Adjacency c = test::connect(t);
+  return shape_operators(t.points, vertex_normals(t.points, c), c);
 }
 
-TEST(SurfaceBend, ASphereTurnsByTheWayOverItsRadius) {
+TEST(ShapeOperator, ASphereTurnsByTheWayOverItsRadius) {
   for (double jitter : {0., .3}) {
     test::Triangles t = test::sphere(3, jitter, 2);
     t.points *= 5;
-    const std::vector<SurfaceBend> bends = bends_of(t);
-    for (size_t v = 0; v < bends.size(); ++v) {
+    const std::vector<ShapeOperator> shape_operators = bends_of(t);
+    for (size_t v = 0; v < shape_operators.size(); ++v) {
       const Vec3 n = t.points.col(static_cast<Eigen::Index>(v)).normalized();
       const Vec3 way = n.unitOrthogonal();
-      EXPECT_LT((bends[v].shape * way - way / 5).norm(), 1e-3 / 5);
-      EXPECT_LT((bends[v].shape * n).norm(), 1e-6);
-      EXPECT_LT(bends[v].change, .02 / 5);
+      EXPECT_LT((shape_operators[v].shape * way - way / 5).norm(), 1e-3 / 5);
+      EXPECT_LT((shape_operators[v].shape * n).norm(), 1e-6);
+      EXPECT_LT(shape_operators[v].change, .02 / 5);
     }
   }
 }
 
-TEST(SurfaceBend, ACylinderBendsAcrossItsAxisOnly) {
+TEST(ShapeOperator, ACylinderBendsAcrossItsAxisOnly) {
   test::Triangles t = test::grid(24, test::flat);
   for (auto p : t.points.colwise()) p = Vec3(.5 * std::sin(2 * p[0]), p[1], .5 * std::cos(2 * p[0]));
-  const Connectivity c = test::connect(t);
-  const std::vector<SurfaceBend> bends = bends_of(t);
+  const Adjacency c = test::connect(t);
+  const std::vector<ShapeOperator> shape_operators = bends_of(t);
   for (int v = 0; v < c.vertex_count; ++v) {
     if (c.vertex_faces[v].size() != c.vertex_neighbours[v].size()) continue;  // on the boundary
     const Vec3 p = t.points.col(v), across(2 * p[2], 0, -2 * p[0]);
-    EXPECT_LT((bends[static_cast<size_t>(v)].shape * Vec3::UnitY()).norm(), .1 * 2);
-    EXPECT_LT((bends[static_cast<size_t>(v)].shape * across - 2 * across).norm(), .3 * 2);
+    EXPECT_LT((shape_operators[static_cast<size_t>(v)].shape * Vec3::UnitY()).norm(), .1 * 2);
+    EXPECT_LT((shape_operators[static_cast<size_t>(v)].shape * across - 2 * across).norm(), .3 * 2);
   }
 }
 
-TEST(SurfaceBend, APlaneDoesNotBendAndALoneVertexSaysNothing) {
+TEST(ShapeOperator, APlaneDoesNotBendAndALoneVertexSaysNothing) {
   test::Triangles t = test::moved(test::grid(6, test::flat, .4));
   t.points.conservativeResize(3, t.points.cols() + 1);
   t.points.rightCols(1).setConstant(7);
-  std::vector<SurfaceBend> bends = bends_of(t);
-  EXPECT_TRUE(std::isinf(bends.back().change));
-  bends.pop_back();
-  for (const SurfaceBend& b : bends) {
+  std::vector<ShapeOperator> shape_operators = bends_of(t);
+  EXPECT_TRUE(std::isinf(shape_operators.back().change));
+  shape_operators.pop_back();
+  for (const ShapeOperator& b : shape_operators) {
     EXPECT_LT((b.shape * Vec3(1, 2, 3)).norm(), 1e-12);
     EXPECT_LT(b.change, 1e-12);
   }
 }
 
-TEST(SurfaceBend, SaysNothingWhereEdgesDoNotSpanAPlane) {
+TEST(ShapeOperator, SaysNothingWhereEdgesDoNotSpanAPlane) {
   test::Triangles t = test::grid(6, test::paraboloid);
   t.points.row(0) *= 100;
-  for (const SurfaceBend& b : bends_of(t)) EXPECT_TRUE(std::isinf(b.change));
+  for (const ShapeOperator& b : bends_of(t)) EXPECT_TRUE(std::isinf(b.change));
 }
 
-TEST(SurfaceBend, IsOneOverTheLength) {
+TEST(ShapeOperator, IsOneOverTheLength) {
   const test::Triangles t = test::grid(8, test::paraboloid, .3);
-  const std::vector<SurfaceBend> once = bends_of(t), twice = bends_of({2 * t.points, t.faces});
+  const std::vector<ShapeOperator> once = bends_of(t), twice = bends_of({2 * t.points, t.faces});
   for (size_t v = 0; v < once.size(); ++v) {
     EXPECT_EQ(twice[v].shape.xx, once[v].shape.xx / 2);
     EXPECT_EQ(twice[v].change, once[v].change / 2);

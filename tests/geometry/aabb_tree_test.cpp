@@ -61,9 +61,9 @@ TEST(Barycentric, WeightsRebuildThePoint) {
   EXPECT_EQ(barycentric(b, a, b, c), Vec3(0, 1, 0));
 }
 
-TEST(BoundingVolumeTree, ClosestPointEqualsBruteForce) {
+TEST(AabbTree, ClosestPointEqualsBruteForce) {
   const test::Triangles t = test::shaken(test::sphere(2), .1);
-  const BoundingVolumeTree tree(t.points, t.faces);
+  const AabbTree tree(t.points, t.faces);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-2, 2);
   for (int i = 0; i < 1000; ++i) {
@@ -83,17 +83,17 @@ TEST(BoundingVolumeTree, ClosestPointEqualsBruteForce) {
   }
 }
 
-TEST(BoundingVolumeTree, PointOnAVertexHasDistanceZero) {
+TEST(AabbTree, PointOnAVertexHasDistanceZero) {
   const test::Triangles t = test::sphere(3, .2);
-  const BoundingVolumeTree tree(t.points, t.faces);
+  const AabbTree tree(t.points, t.faces);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v)
     EXPECT_LT(tree.closest(t.points.col(v)).squared_distance, 1e-30);
 }
 
-TEST(BoundingVolumeTree, PairsOfBoxesThatMeetAreAllVisitedOnce) {
+TEST(AabbTree, PairsOfBoxesThatMeetAreAllVisitedOnce) {
   const test::Triangles t = test::shaken(test::sphere(2), .3);
-  const BoundingVolumeTree tree(t.points, t.faces);
-  using Face = BoundingVolumeTree::Face;
+  const AabbTree tree(t.points, t.faces);
+  using Face = AabbTree::Face;
   std::multiset<std::array<int, 2>> visited, expected;
   const auto visit = [&](const Face& f, const Face& g) {
     visited.insert({std::min(f.id, g.id), std::max(f.id, g.id)});
@@ -107,12 +107,12 @@ TEST(BoundingVolumeTree, PairsOfBoxesThatMeetAreAllVisitedOnce) {
   EXPECT_EQ(visited, expected);
 }
 
-TEST(BoundingVolumeTree, FacesInItsOrderAreThoseItWasMadeOf) {
+TEST(AabbTree, FacesInItsOrderAreThoseItWasMadeOf) {
   const test::Triangles t = test::sphere(3, .2);
-  const BoundingVolumeTree tree(t.points, t.faces);
+  const AabbTree tree(t.points, t.faces);
   ASSERT_EQ(tree.faces().size(), t.faces.size());
   std::set<int> ids;
-  for (const BoundingVolumeTree::Face& face : tree.faces()) {
+  for (const AabbTree::Face& face : tree.faces()) {
     ids.insert(face.id);
     EXPECT_EQ(face.vertices, t.faces[static_cast<size_t>(face.id)]);
     for (size_t k = 0; k < 3; ++k) EXPECT_EQ(face.corners[k], t.points.col(face.vertices[k]));
@@ -120,10 +120,10 @@ TEST(BoundingVolumeTree, FacesInItsOrderAreThoseItWasMadeOf) {
   EXPECT_EQ(ids.size(), t.faces.size());
 }
 
-TEST(BoundingVolumeTree, OrderOfFacesCanBeGivenAndChangesNoAnswer) {
+TEST(AabbTree, OrderOfFacesCanBeGivenAndChangesNoAnswer) {
   const test::Triangles t = test::shaken(test::sphere(3), .1), moved = test::shaken(test::sphere(3), .2);
-  const std::vector<int> order = BoundingVolumeTree(t.points, t.faces).order();
-  const BoundingVolumeTree own(moved.points, moved.faces), given(moved.points, moved.faces, order);
+  const std::vector<int> order = AabbTree(t.points, t.faces).order();
+  const AabbTree own(moved.points, moved.faces), given(moved.points, moved.faces, order);
   EXPECT_EQ(given.order(), order);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(-2, 2);
@@ -134,15 +134,15 @@ TEST(BoundingVolumeTree, OrderOfFacesCanBeGivenAndChangesNoAnswer) {
   }
 }
 
-TEST(BoundingVolumeTree, SegmentsAreTrianglesThatRepeatAVertex) {
+TEST(AabbTree, SegmentsAreTrianglesThatRepeatAVertex) {
   const test::Triangles t = test::triangles({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}}, {{0, 1, 1}, {1, 2, 2}});
-  const BoundingVolumeTree tree(t.points, t.faces);
+  const AabbTree tree(t.points, t.faces);
   EXPECT_EQ(tree.closest({1, 3, 0}).point, Vec3(2, 2, 0));
   EXPECT_EQ(tree.closest({1, -1, 0}).point, Vec3(1, 0, 0));
 }
 
-TEST(BoundingVolumeTree, EmptyTreeFindsNothing) {
-  const BoundingVolumeTree tree(Mat3X(3, 0), {});
+TEST(AabbTree, EmptyTreeFindsNothing) {
+  const AabbTree tree(Mat3X(3, 0), {});
   EXPECT_TRUE(tree.empty());
   EXPECT_EQ(tree.closest({0, 0, 0}).face, -1);
   EXPECT_EQ(tree.closest({0, 0, 0}).squared_distance, std::numeric_limits<double>::infinity());

@@ -21,19 +21,18 @@ std::vector<Vec3> cluster(std::mt19937& random, size_t count, double reach, doub
 }
 
 /// Squared distance by looking at all faces.
-double least_of_all(const BoundingVolumeTree& tree, const Vec3& x) {
+double min_of_all(const AabbTree& tree, const Vec3& x) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [corners, vertices, id] : tree.faces())
     least = std::min(least, closest_point(x, corners[0], corners[1], corners[2]).squared_distance);
   return least;
 }
 
-void expect_nearest_of_all(const BoundingVolumeTree& tree, const std::vector<Vec3>& points,
-                           NearestFaceSearch& find) {
+void expect_nearest_of_all(const AabbTree& tree, const std::vector<Vec3>& points, NearestFaceSearch& find) {
   std::vector<NearestFace> found(points.size());
   find(points, found);
   for (size_t i = 0; i < points.size(); ++i) {
-    ASSERT_NEAR(found[i].squared_distance, least_of_all(tree, points[i]), 1e-30);
+    ASSERT_NEAR(found[i].squared_distance, min_of_all(tree, points[i]), 1e-30);
     const auto& [a, b, c] = tree.faces()[static_cast<size_t>(found[i].place)].corners;
     ASSERT_EQ(found[i].squared_distance, closest_point(points[i], a, b, c).squared_distance);
   }
@@ -43,7 +42,7 @@ TEST(NearestFaces, AreThoseOfAllFacesToTheLastBit) {
   std::mt19937 random(7);
   for (double shake : {0., .1, .5}) {  // the last one has slivers and folds
     const test::Triangles t = test::shaken(test::sphere(3), shake);
-    const BoundingVolumeTree tree(t.points, t.faces);
+    const AabbTree tree(t.points, t.faces);
     NearestFaceSearch find(tree);
     for (double spread : {0., .01, .1, 1.})
       for (size_t count : {1, 4, 5, 11, 170})
@@ -54,10 +53,10 @@ TEST(NearestFaces, AreThoseOfAllFacesToTheLastBit) {
 TEST(NearestFaces, AreFoundFarAwayAndOnTheFacesThemselves) {
   std::mt19937 random(8);
   const test::Triangles t = test::shaken(test::sphere(2), .1);
-  const BoundingVolumeTree tree(t.points, t.faces);
+  const AabbTree tree(t.points, t.faces);
   NearestFaceSearch find(tree);
   expect_nearest_of_all(tree, cluster(random, 50, 100, .1), find);
-  for (const BoundingVolumeTree::Face& face : tree.faces().first(20))
+  for (const AabbTree::Face& face : tree.faces().first(20))
     expect_nearest_of_all(tree, {face.corners.begin(), face.corners.end()}, find);
 }
 
@@ -65,13 +64,13 @@ TEST(NearestFaces, TakeFacesWithoutAreaAsTheirEdges) {
   std::mt19937 random(9);
   const test::Triangles t = test::triangles({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {3, 3, 3}},
                                             {{0, 1, 3}, {1, 2, 2}, {4, 4, 4}});
-  const BoundingVolumeTree tree(t.points, t.faces);
+  const AabbTree tree(t.points, t.faces);
   NearestFaceSearch find(tree);
   for (int i = 0; i < 20; ++i) expect_nearest_of_all(tree, cluster(random, 9, 3, .5), find);
 }
 
 TEST(NearestFaces, AreNoneInAnEmptyTree) {
-  const BoundingVolumeTree tree(Mat3X(3, 0), {});
+  const AabbTree tree(Mat3X(3, 0), {});
   NearestFaceSearch find(tree);
   std::vector<NearestFace> found(7);
   find(std::vector<Vec3>(7, Vec3::Ones()), found);

@@ -32,19 +32,19 @@ Outcome search(const test::Triangles& t, const AngleSearchOptions& options = {})
   test::Scene s(t, test::to_ground);
   Relaxation r = s.relaxation();
   relax_lbfgs(r, {}, {}, nullptr);
-  const auto angle = [&] { return least_angle(s.placement.points, t.faces); };
+  const auto angle = [&] { return min_angle(s.positions.points, t.faces); };
   const auto error = [&] {
-    return relative_edge_deviation(s.placement.points, s.connectivity.edges, s.targets);
+    return relative_edge_deviation(s.positions.points, s.adjacency.edges, s.targets);
   };
   Outcome o;
   o.angle_before = angle();
   o.error_before = error();
-  o.points_before = s.placement.points;
+  o.points_before = s.positions.points;
   o.result = search_angles(r, options);
   o.angle_after = angle();
   o.error_after = error();
-  for (const Triangle& f : t.faces) o.upside_down += test::area_vector(s.placement.points, f)[2] <= 0;
-  o.points = s.placement.points;
+  for (const Triangle& f : t.faces) o.upside_down += test::area_vector(s.positions.points, f)[2] <= 0;
+  o.points = s.positions.points;
   return o;
 }
 
@@ -101,17 +101,17 @@ TEST(AngleSearch, SagittasMayGrowWhereThatIsWorthIt) {
       test::SceneOptions tight;
       tight.guards.sagitta = .05;
       test::Scene s(test::sphere(2, .4, seed), test::to_unit_sphere, tight);
-      const auto greatest_sagitta = [&] {
+      const auto max_sagitta = [&] {
         double greatest = 0;
-        for (const Edge& e : s.connectivity.edges)
-          greatest = std::max(greatest, edge_sagitta(s.placement.points, s.placement.normals, e) / s.L());
+        for (const Edge& e : s.adjacency.edges)
+          greatest = std::max(greatest, edge_sagitta(s.positions.points, s.positions.normals, e) / s.L());
         return greatest;
       };
-      const double before = greatest_sagitta();
+      const double before = max_sagitta();
       Relaxation r = s.relaxation();
       search_angles(r, {.edge_error_limit = 1.1, .sagitta = sagitta});
-      EXPECT_LE(greatest_sagitta(), std::max(sagitta, before) + 1e-6);
-      return least_angle(s.placement.points, s.connectivity.faces);
+      EXPECT_LE(max_sagitta(), std::max(sagitta, before) + 1e-6);
+      return min_angle(s.positions.points, s.adjacency.faces);
     };
     const double within = with(0), beyond = with(.15);
     EXPECT_GE(beyond, within);

@@ -20,9 +20,10 @@ void relax(test::Scene& s) {
   relax_lbfgs(r, IntegrationOptions{}, LbfgsOptions{}, nullptr);
 }
 
-PolishResult polished(test::Scene& s, const PolishOptions& options = {}, const Observer& observer = nullptr) {
+AngleSpringResult polished(test::Scene& s, const AngleSpringOptions& options = {},
+                           const Observer& observer = nullptr) {
   Relaxation r = s.relaxation();
-  return polish(r, s.targets, options, observer);
+  return raise_angles(r, s.targets, options, observer);
 }
 
 /// Irregular connectivity, whose springs rest with small angles: a disk of triangles with a vertex of valence
@@ -34,39 +35,39 @@ test::Triangles irregular(unsigned seed = 11) {
 }
 
 double angle_of(const test::Scene& s) {
-  return least_angle(s.placement.points, s.connectivity.faces);
+  return min_angle(s.positions.points, s.adjacency.faces);
 }
 /// Of a mesh on the unit sphere.
 int inward_faces(const test::Scene& s) {
-  return static_cast<int>(std::ranges::count_if(s.connectivity.faces, [&](const Triangle& t) {
-    return test::area_vector(s.placement.points, t).dot(s.placement.points.col(t[0])) <= 0;
+  return static_cast<int>(std::ranges::count_if(s.adjacency.faces, [&](const Triangle& t) {
+    return test::area_vector(s.positions.points, t).dot(s.positions.points.col(t[0])) <= 0;
   }));
 }
 double deviation_of(const test::Scene& s) {
-  return relative_edge_deviation(s.placement.points, s.connectivity.edges, s.targets);
+  return relative_edge_deviation(s.positions.points, s.adjacency.edges, s.targets);
 }
 
 TEST(LeastAngle, IsThatOfGeometry) {
   const test::Triangles e = test::equilateral();
-  EXPECT_NEAR(least_angle(e.points, e.faces), 60, 1e-12);
+  EXPECT_NEAR(min_angle(e.points, e.faces), 60, 1e-12);
   const test::Triangles c = test::moved(test::cube(), 7);
-  for (const Triangle& t : c.faces) EXPECT_NEAR(greatest_cotangent(c.points, t), 1, 1e-14);
+  for (const Triangle& t : c.faces) EXPECT_NEAR(max_cotangent(c.points, t), 1, 1e-14);
   const test::Triangles sliver = test::triangles({{0, 0, 0}, {1, 0, 0}, {.5, 0, 0}}, {{0, 1, 2}});
-  EXPECT_EQ(least_angle(sliver.points, sliver.faces), 0);
+  EXPECT_EQ(min_angle(sliver.points, sliver.faces), 0);
 }
 
 TEST(RelativeEdgeDeviation, IsTheStandardDeviationInPartsOfTheTargets) {
   const test::Triangles c = test::cube();
-  const Connectivity connectivity = test::connect(c);
-  TargetLengths targets = spread_target_lengths(connectivity, std::vector<double>(8, 2));
+  const Adjacency adjacency = test::connect(c);
+  TargetLengths targets = spread_target_lengths(adjacency, std::vector<double>(8, 2));
   const double mean = (12 + 6 * std::sqrt(2)) / 18;
   const double variance = (12 * (1 - mean) * (1 - mean) + 6 * std::pow(std::sqrt(2) - mean, 2)) / 18;
-  EXPECT_NEAR(relative_edge_deviation(c.points, connectivity.edges, targets), std::sqrt(variance) / 2, 1e-14);
+  EXPECT_NEAR(relative_edge_deviation(c.points, adjacency.edges, targets), std::sqrt(variance) / 2, 1e-14);
   std::vector<double> lengths;
-  for (const auto& [a, b] : connectivity.edges)
+  for (const auto& [a, b] : adjacency.edges)
     lengths.push_back(3 * (c.points.col(a) - c.points.col(b)).norm());
   targets.edge = lengths;
-  EXPECT_NEAR(relative_edge_deviation(c.points, connectivity.edges, targets), 0, 1e-15);
+  EXPECT_NEAR(relative_edge_deviation(c.points, adjacency.edges, targets), 0, 1e-15);
 }
 
 TEST(Polish, RaisesTheLeastAngleAndNeverTheEdgeDeviation) {
@@ -74,17 +75,17 @@ TEST(Polish, RaisesTheLeastAngleAndNeverTheEdgeDeviation) {
   relax(s);
   const double angle = angle_of(s), deviation = deviation_of(s);
   ASSERT_LT(angle, 30);
-  const PolishResult result = polished(s);
-  EXPECT_EQ(result.least_angle_before, angle);
+  const AngleSpringResult result = polished(s);
+  EXPECT_EQ(result.min_angle_before, angle);
   EXPECT_EQ(result.edge_error_before, deviation);
-  EXPECT_EQ(result.least_angle_after, angle_of(s));
+  EXPECT_EQ(result.min_angle_after, angle_of(s));
   EXPECT_EQ(result.edge_error_after, deviation_of(s));
-  EXPECT_GT(result.least_angle_after, angle + 1);
+  EXPECT_GT(result.min_angle_after, angle + 1);
   EXPECT_LE(result.edge_error_after, deviation);
 }
 
 TEST(Polish, IsNeverWorseThanItsStart) {
-  PolishOptions options;
+  AngleSpringOptions options;
   options.keep_within = 90;  // so that only the start bounds what is kept
   for (unsigned seed = 1; seed <= 20; ++seed)
     for (bool at_rest : {true, false}) {
@@ -96,12 +97,12 @@ TEST(Polish, IsNeverWorseThanItsStart) {
       EXPECT_GE(angle_of(s), angle) << seed;
       EXPECT_LE(deviation_of(s), deviation) << seed;
       EXPECT_LE(inward_faces(s), folded) << seed;
-      EXPECT_LT((s.placement.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+      EXPECT_LT((s.positions.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
     }
 }
 
 TEST(Polish, IsNeverWorseThanItsStartWhereConnectivityBinds) {
-  PolishOptions high;  // thresholds that cannot be reached: corners pay for each other
+  AngleSpringOptions high;  // thresholds that cannot be reached: corners pay for each other
   high.first_threshold = 45;
   high.last_threshold = 50;
   high.keep_within = 90;
@@ -109,7 +110,7 @@ TEST(Polish, IsNeverWorseThanItsStartWhereConnectivityBinds) {
     test::Scene s(irregular(seed), test::to_ground);
     relax(s);
     const double angle = angle_of(s);
-    EXPECT_GE(polished(s, high).least_angle_after, angle);
+    EXPECT_GE(polished(s, high).min_angle_after, angle);
     EXPECT_GE(angle_of(s), angle);
     polished(s, high);
     EXPECT_GE(angle_of(s), angle);
@@ -118,9 +119,9 @@ TEST(Polish, IsNeverWorseThanItsStartWhereConnectivityBinds) {
 
 TEST(Polish, GoodAnglesAreLeftAlone) {
   test::Scene s = test::sphere_scene(0);
-  const Placement before = s.placement;
+  const SurfacePositions before = s.positions;
   EXPECT_EQ(polished(s).stages, 0);
-  EXPECT_TRUE(test::same(s.placement, before));
+  EXPECT_TRUE(test::same(s.positions, before));
 }
 
 TEST(Polish, MovesOnlyWhatLiesAroundBadFaces) {
@@ -131,7 +132,7 @@ TEST(Polish, MovesOnlyWhatLiesAroundBadFaces) {
   polished(s);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v)
     if (t.points(0, v) > .6 || t.points(1, v) > .6) {
-      EXPECT_EQ(s.placement.points.col(v), t.points.col(v));
+      EXPECT_EQ(s.positions.points.col(v), t.points.col(v));
     }
   EXPECT_GT(angle_of(s), 20);
 }
@@ -140,7 +141,7 @@ TEST(Polish, PutsTheEnergyBackAndStopsWhenAskedTo) {
   test::Scene s(irregular(), test::to_ground);
   relax(s);
   const double angle = angle_of(s), deviation = deviation_of(s);
-  const PolishResult result = polished(s, {}, [](const Progress& p) { return p.step < 3; });
+  const AngleSpringResult result = polished(s, {}, [](const Progress& p) { return p.step < 3; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_LE(result.sweeps, 5);
   EXPECT_EQ(s.energy.terms.angle, 0);
@@ -150,13 +151,13 @@ TEST(Polish, PutsTheEnergyBackAndStopsWhenAskedTo) {
 }
 
 TEST(Polish, OneThreadAndTwoGiveTheSameBits) {
-  std::vector<Placement> results;
+  std::vector<SurfacePositions> results;
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     test::Scene s(irregular(), test::to_ground);
     relax(s);
     polished(s);
-    results.push_back(s.placement);
+    results.push_back(s.positions);
   }
   EXPECT_TRUE(test::same(results[0], results[1]));
 }

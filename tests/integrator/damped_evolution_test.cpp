@@ -30,12 +30,12 @@ using test::Triangles;
 /// A mesh with its connectivity, scaled so that the target length 1 is its mean edge length.
 struct Body {
   TriMesh mesh;
-  Connectivity connectivity;
+  Adjacency adjacency;
   std::vector<double> lengths;
 };
 
 Body body(Triangles t) {
-  Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
   double sum = 0;
   for (const auto& [i, j] : c.edges) sum += (t.points.col(j) - t.points.col(i)).norm();
   t.points *= double(c.edges.size()) / sum;
@@ -44,10 +44,10 @@ Body body(Triangles t) {
 }
 
 double string_energy(const Body& b) {
-  const auto X = positions(b.mesh);
+  const auto X = vertex_points(b.mesh);
   double sum = 0;
   for (size_t e = 0; e < b.lengths.size(); ++e) {
-    const auto [i, j] = b.connectivity.edges[e];
+    const auto [i, j] = b.adjacency.edges[e];
     sum += spring_potential((X.col(j) - X.col(i)).norm(), b.lengths[e]).value;
   }
   return sum;
@@ -60,7 +60,7 @@ TEST(DampedEvolution, VelocityDecaysExactlyWithoutForce) {
   motion.velocities.colwise() = Vec3(1, 2, 3);
   const Mat3X start = motion.points;
   const EvolutionOptions free{.damped = {.string = 0, .torque = 0}};
-  const EvolutionStep step = evolution_step(motion, b.connectivity, b.lengths, free, nullptr, first_factor);
+  const EvolutionStep step = evolution_step(motion, b.adjacency, b.lengths, free, nullptr, first_factor);
   const double decay = std::exp(-free.damped.friction * step.adapted.time);
   ASSERT_GT(step.adapted.time, 0);
   for (Eigen::Index v = 0; v < start.cols(); ++v) {
@@ -76,9 +76,9 @@ TEST(DampedEvolution, StartsFromRest) {
   motion.velocities.setConstant(9);
   motion.forces.setConstant(9);
   const EvolutionOptions options{.tolerance = 0, .max_steps = 20};
-  evolve_damped(fresh.mesh, fresh.connectivity, fresh.lengths, options);
-  evolve_damped(stale.mesh, stale.connectivity, stale.lengths, options);
-  EXPECT_EQ(positions(fresh.mesh), positions(stale.mesh));
+  evolve_damped(fresh.mesh, fresh.adjacency, fresh.lengths, options);
+  evolve_damped(stale.mesh, stale.adjacency, stale.lengths, options);
+  EXPECT_EQ(vertex_points(fresh.mesh), vertex_points(stale.mesh));
 }
 
 TEST(DampedEvolution, OneTriangleRelaxesToItsRestLength) {
@@ -86,10 +86,10 @@ TEST(DampedEvolution, OneTriangleRelaxesToItsRestLength) {
   t.points << 0, 1.2, .3, 0, 0, .5, 0, 0, .1;
   Body b = body(t);
   const EvolutionResult r =
-      evolve_damped(b.mesh, b.connectivity, b.lengths, {.tolerance = .02, .max_steps = 4000});
+      evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = .02, .max_steps = 4000});
   EXPECT_EQ(r.reason, StopReason::converged);
   EXPECT_LT(r.max_length_error, .02);
-  EXPECT_GT(face_shape(positions(b.mesh), {0, 1, 2}).area, .41);  // sqrt(3) / 4 = .433
+  EXPECT_GT(face_shape(vertex_points(b.mesh), {0, 1, 2}).area, .41);  // sqrt(3) / 4 = .433
 }
 
 TEST(DampedEvolution, LosesEnergyByFriction) {
@@ -102,7 +102,7 @@ TEST(DampedEvolution, LosesEnergyByFriction) {
   come_to_rest(motion);
   const double start = total();
   double last = start;
-  evolve_damped(b.mesh, b.connectivity, b.lengths, options, nullptr, [&](const Progress& step) {
+  evolve_damped(b.mesh, b.adjacency, b.lengths, options, nullptr, [&](const Progress& step) {
     // The first step starts from rest: friction has nothing to take yet, and [22] keeps the energy to first
     // order in dt.
     EXPECT_LT(total(), step.step == 1 ? 1.001 * last : last) << "step " << step.step;
@@ -114,15 +114,15 @@ TEST(DampedEvolution, LosesEnergyByFriction) {
 
 TEST(DampedEvolution, EveryAcceptedStepPassesTheFourTests) {
   Body b = body(test::grid(8, test::paraboloid, .4));
-  Mat3X before = positions(b.mesh);
+  Mat3X before = vertex_points(b.mesh);
   const EvolutionOptions options{.tolerance = 0, .max_steps = 100};
   const auto check = [&](const Progress&) {
-    const Mat3X after = positions(b.mesh);
+    const Mat3X after = vertex_points(b.mesh);
     double shortest = 1e9;
-    for (const auto& [i, j] : b.connectivity.edges)
+    for (const auto& [i, j] : b.adjacency.edges)
       shortest = std::min(shortest, (before.col(j) - before.col(i)).norm());
     EXPECT_LT((after - before).colwise().norm().maxCoeff(), .01 * shortest);
-    for (const Triangle& f : b.connectivity.faces) {
+    for (const Triangle& f : b.adjacency.faces) {
       const FaceShape was = face_shape(before, f), is = face_shape(after, f);
       EXPECT_GT(was.normal.dot(is.normal), .9);
       EXPECT_GT(is.area, 0);
@@ -131,7 +131,7 @@ TEST(DampedEvolution, EveryAcceptedStepPassesTheFourTests) {
     before = after;
     return true;
   };
-  const EvolutionResult r = evolve_damped(b.mesh, b.connectivity, b.lengths, options, nullptr, check);
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, options, nullptr, check);
   EXPECT_EQ(r.reason, StopReason::step_limit);
   EXPECT_EQ(r.steps, 100);
   EXPECT_GE(r.bound.angle + r.bound.expansion + r.bound.displacement + r.bound.area_bound + r.bound.none,
@@ -140,25 +140,26 @@ TEST(DampedEvolution, EveryAcceptedStepPassesTheFourTests) {
 
 TEST(DampedEvolution, ReportsAJamAndLeavesTheMeshAlone) {
   Body b = body(test::sphere(1, .2));
-  const Mat3X before = positions(b.mesh);
+  const Mat3X before = vertex_points(b.mesh);
   EvolutionOptions options;
   options.time_step.area_bound = 10;  // larger than any face
-  const EvolutionResult r = evolve_damped(b.mesh, b.connectivity, b.lengths, options);
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, options);
   EXPECT_EQ(r.reason, StopReason::jammed);
   EXPECT_EQ(r.steps, 0);
   EXPECT_GT(r.evaluations, 0);
   EXPECT_TRUE(r.jam.area_bound);
-  EXPECT_EQ(positions(b.mesh), before);
+  EXPECT_EQ(vertex_points(b.mesh), before);
 }
 
 TEST(DampedEvolution, WalksOnWithAZeroAreaFaceInTheInput) {
   Triangles t = test::grid(4, test::flat);
   t.points.col(1) = .5 * (t.points.col(0) + t.points.col(6));  // face 0 1 6 has no area
   Body b = body(t);
-  const auto degenerate = [&] { return face_shape(positions(b.mesh), b.connectivity.faces[0]).degenerate(); };
+  const auto degenerate = [&] {
+    return face_shape(vertex_points(b.mesh), b.adjacency.faces[0]).degenerate();
+  };
   ASSERT_TRUE(degenerate());
-  const EvolutionResult r =
-      evolve_damped(b.mesh, b.connectivity, b.lengths, {.tolerance = 0, .max_steps = 20});
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0, .max_steps = 20});
   EXPECT_EQ(r.steps, 20);
   EXPECT_FALSE(degenerate());
 }
@@ -166,23 +167,23 @@ TEST(DampedEvolution, WalksOnWithAZeroAreaFaceInTheInput) {
 TEST(DampedEvolution, IsAtRestWithoutForces) {
   Body b = body(test::sphere(1, .2));
   const Restraint nothing_pulls = [](Mat3X& forces) { forces.setZero(); };
-  const EvolutionResult r = evolve_damped(b.mesh, b.connectivity, b.lengths, {.tolerance = 0}, nothing_pulls);
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0}, nothing_pulls);
   EXPECT_EQ(r.reason, StopReason::stalled);
   EXPECT_EQ(r.steps, 0);
 }
 
 TEST(DampedEvolution, LeavesAFinishedMeshAlone) {
   Body b = body(test::sphere(0));  // all edges are equal
-  const Mat3X before = positions(b.mesh);
-  const EvolutionResult r = evolve_damped(b.mesh, b.connectivity, b.lengths, {});
+  const Mat3X before = vertex_points(b.mesh);
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, {});
   EXPECT_EQ(r.reason, StopReason::converged);
   EXPECT_EQ(r.steps, 0);
-  EXPECT_EQ(positions(b.mesh), before);
+  EXPECT_EQ(vertex_points(b.mesh), before);
 }
 
 TEST(DampedEvolution, StopsWhenTheObserverSaysSo) {
   Body b = body(test::sphere(1, .2));
-  const EvolutionResult r = evolve_damped(b.mesh, b.connectivity, b.lengths, {.tolerance = 0}, nullptr,
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0}, nullptr,
                                           [](const Progress& step) { return step.step < 3; });
   EXPECT_EQ(r.reason, StopReason::interrupted);
   EXPECT_EQ(r.steps, 3);
@@ -190,16 +191,16 @@ TEST(DampedEvolution, StopsWhenTheObserverSaysSo) {
 
 TEST(DampedEvolution, RefusesConstantsThatAreNotPositive) {
   Body b = body(test::sphere(1, .2));
-  EXPECT_THROW(evolve_damped(b.mesh, b.connectivity, b.lengths, {.damped = {.friction = 0}}), Error);
-  EXPECT_THROW(evolve_damped(b.mesh, b.connectivity, b.lengths, {.damped = {.string = 0}}), Error);
+  EXPECT_THROW(evolve_damped(b.mesh, b.adjacency, b.lengths, {.damped = {.friction = 0}}), Error);
+  EXPECT_THROW(evolve_damped(b.mesh, b.adjacency, b.lengths, {.damped = {.string = 0}}), Error);
 }
 
 TEST(DampedEvolution, DoesNotDependOnTheNumberOfThreads) {
   const auto run = [](int threads) -> Mat3X {
     const ThreadLimit limit(threads);
     Body b = body(test::sphere(4, .2));
-    evolve_damped(b.mesh, b.connectivity, b.lengths, {.tolerance = 0, .max_steps = 20});
-    return positions(b.mesh);
+    evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0, .max_steps = 20});
+    return vertex_points(b.mesh);
   };
   EXPECT_EQ(run(1), run(2));
 }
@@ -222,14 +223,14 @@ struct Bench {
 
   explicit Bench(const Triangles& t, const GuardOptions& guard_options = {},
                  FilterKind filter = FilterKind::local)
-      : work(with_natural_length(t), lay_out(test::to_mesh(t)), {}, {.kind = filter}, {}),
-        energy(*work.connectivity, work.targets, {}),
-        guards(*work.connectivity, work.targets, guard_options),
-        mesh(build_mesh(work.placement.points, *work.connectivity)) {}
+      : work(with_natural_length(t), find_memory_order(test::to_mesh(t)), {}, {.kind = filter}, {}),
+        energy(*work.adjacency, work.targets, {}),
+        guards(*work.adjacency, work.targets, guard_options),
+        mesh(build_mesh(work.positions.points, *work.adjacency)) {}
 
   Relaxation relaxation() {
-    return {*work.connectivity, work.sweeps, work.vertex_length, energy,
-            *work.retraction,   guards,      work.placement};
+    return {*work.adjacency,  work.coloring, work.vertex_length, energy,
+            *work.retraction, guards,        work.positions};
   }
   IntegrationResult damped(const IntegrationOptions& options = {}, const DampedOptions& constants = {},
                            const Observer& observer = nullptr) {
@@ -241,7 +242,7 @@ struct Bench {
     return as_matrix(mesh, values);
   }
   double deviation() const {
-    return relative_edge_deviation(work.placement.points, work.connectivity->edges, work.targets);
+    return relative_edge_deviation(work.positions.points, work.adjacency->edges, work.targets);
   }
 };
 
@@ -264,7 +265,7 @@ TEST_P(DampedEquilibrium, IsThatOfTheEnergyWithinFivePercentOfEdgeDeviation) {
   EXPECT_LT(result.steps, 2000);
   EXPECT_LT(damped.deviation(), .7 * start);
   EXPECT_NEAR(damped.deviation() / minimised.deviation(), 1, .05);
-  EXPECT_TRUE(damped.guards.folded_faces(damped.work.placement).empty());
+  EXPECT_TRUE(damped.guards.folded_faces(damped.work.positions).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, DampedEquilibrium,
@@ -290,21 +291,21 @@ TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
   b.energy.terms.altitude = 0;  // stiff: they would reject the second step
   const DampedOptions constants{.string = 3, .friction = 400};
   const double m = 1. / 81, dt = .5 * std::sqrt(m / 3), tau = 400;
-  const Mat3X X0 = b.work.placement.points;
+  const Mat3X X0 = b.work.positions.points;
   b.damped({.max_steps = 1}, constants);  // one look at the forces, no step
   const Mat3X F0 = b.property(force_property);
   ASSERT_GT(F0.norm(), .1);
-  EXPECT_EQ(positions(b.mesh), X0);
+  EXPECT_EQ(vertex_points(b.mesh), X0);
 
   Mat3X X1, X2, U1, F1;
   const auto look = [&](const Progress& p) {
-    (p.step == 1 ? X1 : X2) = positions(b.mesh);
+    (p.step == 1 ? X1 : X2) = vertex_points(b.mesh);
     if (p.step == 1) U1 = b.property(velocity_property), F1 = b.property(force_property);
     return true;
   };
   const IntegrationResult result = b.damped({.max_steps = 3}, constants, look);
   ASSERT_EQ(result.steps, 2);
-  ASSERT_EQ(result.held_back, 0);
+  ASSERT_EQ(result.limited_steps, 0);
   EXPECT_TRUE((X1 - X0).isApprox(F0 * dt * dt / (2 * m), 1e-10));  // [22]
   EXPECT_TRUE(U1.isApprox(F0 * dt / m, 1e-10));
   const double dt2 = 1.1 * dt;
@@ -314,13 +315,13 @@ TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
 TEST(DampedRelaxation, LeavesForcesOfTheFinalStateOnTheMesh) {
   Bench b(test::sphere(2, .4));
   b.damped({.max_steps = 40});
-  Mat3X gradient, torque(3, b.work.placement.points.cols());
-  b.energy(b.work.placement.points, b.work.placement.normals, &gradient);
-  torque_forces(b.work.placement.points, *b.work.connectivity, torque);
+  Mat3X gradient, torque(3, b.work.positions.points.cols());
+  b.energy(b.work.positions.points, b.work.positions.normals, &gradient);
+  torque_forces(b.work.positions.points, *b.work.adjacency, torque);
   Mat3X expected = -2 * gradient + torque;
-  b.work.retraction->constrain(b.work.placement, expected);
+  b.work.retraction->constrain(b.work.positions, expected);
   EXPECT_TRUE(b.property(force_property).isApprox(expected, 1e-12));
-  EXPECT_EQ(positions(b.mesh), b.work.placement.points);
+  EXPECT_EQ(vertex_points(b.mesh), b.work.positions.points);
 }
 
 TEST(DampedRelaxation, VelocitiesLieInTheTangentSpace) {
@@ -328,7 +329,7 @@ TEST(DampedRelaxation, VelocitiesLieInTheTangentSpace) {
   b.damped({.max_steps = 20}, {}, [&](const Progress&) {
     const Mat3X velocities = b.property(velocity_property);
     Mat3X tangential = velocities;
-    b.work.retraction->constrain(b.work.placement, tangential);
+    b.work.retraction->constrain(b.work.positions, tangential);
     EXPECT_GT(velocities.norm(), 0);
     EXPECT_LT((velocities - tangential).norm(), 1e-12 * velocities.norm());
     return true;
@@ -341,15 +342,15 @@ TEST(DampedRelaxation, StartsFromRest) {
   motion.velocities.setConstant(9);
   fresh.damped({.max_steps = 20});
   stale.damped({.max_steps = 20});
-  EXPECT_EQ(fresh.work.placement.points, stale.work.placement.points);
+  EXPECT_EQ(fresh.work.positions.points, stale.work.positions.points);
 }
 
 TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
   Bench b(test::sphere(1, .3), {.area_ratio = 1e9});  // no step is short enough
-  const Mat3X before = b.work.placement.points;
+  const Mat3X before = b.work.positions.points;
   const IntegrationResult result = b.damped({.max_steps = 20});
-  EXPECT_GT(result.held_back, 0);
-  EXPECT_EQ(b.work.placement.points, before);
+  EXPECT_GT(result.limited_steps, 0);
+  EXPECT_EQ(b.work.positions.points, before);
   EXPECT_EQ(b.property(velocity_property), Mat3X::Zero(3, before.cols()));
 }
 
@@ -357,17 +358,17 @@ TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
   const GuardOptions none{
       .area_ratio = 0, .alignment = -2, .fold = -2, .sagitta = 1e9};  // they would hold it back
   Bench b(test::grid(4, test::flat, .2), none, FilterKind::none);
-  const Surface runs_away = [](const Vec3& x, int anchor, double) {
-    return Foot{.point = 2 * x, .normal = Vec3::UnitZ(), .anchor = anchor};
+  const Surface runs_away = [](const Vec3& x, int hint, double) {
+    return Projection{.point = 2 * x, .normal = Vec3::UnitZ(), .hint = hint};
   };
   Retraction retraction(runs_away, b.work.constraints, {});
-  const Mat3X before = b.work.placement.points;
-  Relaxation r{*b.work.connectivity, b.work.sweeps, b.work.vertex_length, b.energy,
-               retraction,           b.guards,      b.work.placement};
+  const Mat3X before = b.work.positions.points;
+  Relaxation r{*b.work.adjacency, b.work.coloring, b.work.vertex_length, b.energy,
+               retraction,        b.guards,        b.work.positions};
   const IntegrationResult result = relax_damped(r, b.mesh, {}, {}, nullptr);
   EXPECT_EQ(result.reason, StopReason::jammed);
   EXPECT_EQ(result.steps, 0);
-  EXPECT_EQ(b.work.placement.points, before);
+  EXPECT_EQ(b.work.positions.points, before);
 }
 
 TEST(DampedRelaxation, RefusesForcesThatAreNotFinite) {
@@ -406,7 +407,7 @@ TEST(DampedRelaxation, DoesNotDependOnTheNumberOfThreads) {
     const ThreadLimit limit(threads);
     TriMesh mesh = with_natural_length(test::sphere(4, .3));
     remesh(mesh, short_damped_run());
-    return positions(mesh);
+    return vertex_points(mesh);
   };
   EXPECT_EQ(run(1), run(2));
 }
@@ -414,13 +415,13 @@ TEST(DampedRelaxation, DoesNotDependOnTheNumberOfThreads) {
 TEST(DampedRelaxation, CommutesExactlyWithScalingByAPowerOfTwo) {
   Triangles t = test::grid(10, test::paraboloid, .4);
   TriMesh mesh = with_natural_length(t);
-  const Mat3X before = positions(mesh);
+  const Mat3X before = vertex_points(mesh);
   t.points *= 1024;
   TriMesh large = with_natural_length(t);
   remesh(mesh, short_damped_run());
   remesh(large, short_damped_run());
-  EXPECT_NE(positions(mesh), before);
-  EXPECT_EQ(positions(large), 1024 * positions(mesh));
+  EXPECT_NE(vertex_points(mesh), before);
+  EXPECT_EQ(vertex_points(large), 1024 * vertex_points(mesh));
 }
 
 }  // namespace

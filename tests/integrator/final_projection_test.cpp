@@ -18,15 +18,16 @@ constexpr double height = .05;  // of the upper sheet; edges are .125 long
 struct Sheets {
   test::Triangles lower = test::grid(8, test::flat, .2, 3);
   test::Scene scene;
-  Placement to = scene.placement;
+  SurfacePositions to = scene.positions;
   std::vector<int> inner;  // vertices that are not on a boundary
 
   Sheets()
       : scene(test::both(lower, raised(lower)),
               Surface([n = lower.points.cols()](const Vec3& x, int v, double) {
-                return Foot{Vec3(x[0], x[1], v < n ? 0 : height), Vec3::UnitZ(), v, FootStatus::converged, 1};
+                return Projection{Vec3(x[0], x[1], v < n ? 0 : height), Vec3::UnitZ(), v,
+                                  ProjectionStatus::converged, 1};
               })) {
-    for (int v = 0; v < scene.connectivity.vertex_count; ++v)
+    for (int v = 0; v < scene.adjacency.vertex_count; ++v)
       if (scene.constraints.freedom[static_cast<size_t>(v)] == Freedom::surface) inner.push_back(v);
   }
 
@@ -36,60 +37,60 @@ struct Sheets {
   }
 
   /// A vertex of the upper sheet goes through the lower one.
-  int push_through(Placement& p) const {
+  int push_through(SurfacePositions& p) const {
     const int v = inner.back() - 20;
     p.points(2, v) -= 2 * height;
     return v;
   }
 
-  std::vector<std::array<int, 2>> pairs(const Placement& p) const {
-    return find_self_intersections(p.points, scene.connectivity.faces);
+  std::vector<std::array<int, 2>> pairs(const SurfacePositions& p) const {
+    return find_self_intersections(p.points, scene.adjacency.faces);
   }
-  size_t crossings(const Placement& p) const { return pairs(p).size(); }
+  size_t crossings(const SurfacePositions& p) const { return pairs(p).size(); }
 };
 
 TEST(Landing, WhatCrossesGoesBackAndNothingFarFromIt) {
   Sheets s;
-  const Placement& from = s.scene.placement;
+  const SurfacePositions& from = s.scene.positions;
   for (int v : s.inner) {
     s.to.points.col(v) += Vec3(.01, -.01, 0);
-    s.to.anchors[static_cast<size_t>(v)] += 1;
+    s.to.hints[static_cast<size_t>(v)] += 1;
   }
-  const Placement moved = s.to;
+  const SurfacePositions moved = s.to;
   const int v = s.push_through(s.to);
   ASSERT_EQ(s.crossings(from), 0u);
   ASSERT_GT(s.crossings(s.to), 0u);
 
-  const std::vector<int> back = put_back_crossings(s.scene.guards, s.scene.connectivity, from, s.to);
+  const std::vector<int> back = revert_crossings(s.scene.guards, s.scene.adjacency, from, s.to);
   EXPECT_EQ(s.crossings(s.to), 0u);
   EXPECT_NE(std::ranges::find(back, v), back.end());
   EXPECT_LT(back.size(), s.inner.size() / 2);
   for (int w : s.inner) {
     const bool is_back = std::ranges::find(back, w) != back.end();
-    const Placement& expected = is_back ? from : moved;
+    const SurfacePositions& expected = is_back ? from : moved;
     EXPECT_EQ(s.to.points.col(w), expected.points.col(w)) << w;
-    EXPECT_EQ(s.to.anchors[static_cast<size_t>(w)], expected.anchors[static_cast<size_t>(w)]) << w;
+    EXPECT_EQ(s.to.hints[static_cast<size_t>(w)], expected.hints[static_cast<size_t>(w)]) << w;
   }
 }
 
 TEST(Landing, WhatCrossedBeforeMayGoOnToAndSlide) {
   Sheets s;
-  const int through = s.push_through(s.scene.placement);
-  s.to = s.scene.placement;
+  const int through = s.push_through(s.scene.positions);
+  s.to = s.scene.positions;
   s.to.points.col(s.inner[3]) += Vec3(.01, 0, 0);
   s.to.points.col(through) += Vec3(.04, .03, 0);
-  const Placement moved = s.to;
+  const SurfacePositions moved = s.to;
   ASSERT_GT(s.crossings(s.to), 0u);
-  ASSERT_NE(s.pairs(s.to), s.pairs(s.scene.placement));
-  EXPECT_TRUE(put_back_crossings(s.scene.guards, s.scene.connectivity, s.scene.placement, s.to).empty());
+  ASSERT_NE(s.pairs(s.to), s.pairs(s.scene.positions));
+  EXPECT_TRUE(revert_crossings(s.scene.guards, s.scene.adjacency, s.scene.positions, s.to).empty());
   EXPECT_TRUE(test::same(s.to, moved));
 }
 
 TEST(Landing, WhereNothingCrossesNothingGoesBack) {
   Sheets s;
   for (int v : s.inner) s.to.points.col(v) += Vec3(.01, .01, 0);
-  const Placement moved = s.to;
-  EXPECT_TRUE(put_back_crossings(s.scene.guards, s.scene.connectivity, s.scene.placement, s.to).empty());
+  const SurfacePositions moved = s.to;
+  EXPECT_TRUE(revert_crossings(s.scene.guards, s.scene.adjacency, s.scene.positions, s.to).empty());
   EXPECT_TRUE(test::same(s.to, moved));
 }
 

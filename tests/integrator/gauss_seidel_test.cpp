@@ -13,10 +13,10 @@ namespace hooke {
 namespace {
 
 double energy_around(test::Scene& s, int vertex) {
-  VertexRing ring(s.sweeps.spokes, s.targets);
+  VertexRing ring(s.coloring.rings, s.targets);
   RingShape shape;
-  ring.gather(s.placement, vertex);
-  ring.shape(s.placement.points.col(vertex), s.placement.normals.col(vertex), shape);
+  ring.gather(s.positions, vertex);
+  ring.shape(s.positions.points.col(vertex), s.positions.normals.col(vertex), shape);
   return ring.energy(shape, s.energy.terms);
 }
 
@@ -32,37 +32,37 @@ TEST(LocalNewton, NeverRaisesTheEnergyAroundAVertex) {
     const Relaxation r = s->relaxation();
     Relaxation moving = r;
     int fell = 0;
-    for (int v = 0; v < s->connectivity.vertex_count; ++v) {
+    for (int v = 0; v < s->adjacency.vertex_count; ++v) {
       const double before = energy_around(*s, v);
-      const Mat3X points = s->placement.points;
+      const Mat3X points = s->positions.points;
       local_newton_sweep(moving, only(*s, v), {.over_relaxation = 1.5});
       EXPECT_LE(energy_around(*s, v), before);
       fell += energy_around(*s, v) < before;
-      for (int w = 0; w < s->connectivity.vertex_count; ++w)
+      for (int w = 0; w < s->adjacency.vertex_count; ++w)
         if (w != v) {
-          EXPECT_EQ(s->placement.points.col(w), points.col(w));
+          EXPECT_EQ(s->positions.points.col(w), points.col(w));
         }
     }
-    EXPECT_GT(fell, s->connectivity.vertex_count / 2);
+    EXPECT_GT(fell, s->adjacency.vertex_count / 2);
   }
 }
 
 TEST(LocalNewton, SweepsLowerTheEnergyOfAllAndKeepTheGuards) {
   for (double factor : {1., 1.5}) {
     test::Scene s = test::sphere_scene(.25);
-    ASSERT_TRUE(s.guards.folded_faces(s.placement).empty());
-    const double start = s.energy(s.placement.points, s.placement.normals, nullptr);
+    ASSERT_TRUE(s.guards.folded_faces(s.positions).empty());
+    const double start = s.energy(s.positions.points, s.positions.normals, nullptr);
     double energy = start;
     for (int sweep = 0; sweep < 5; ++sweep) {
       Relaxation r = s.relaxation();
       local_newton_sweep(r, {}, {.over_relaxation = factor});
-      const double now = s.energy(s.placement.points, s.placement.normals, nullptr);
+      const double now = s.energy(s.positions.points, s.positions.normals, nullptr);
       EXPECT_LT(now, energy);
       energy = now;
-      EXPECT_TRUE(s.guards.folded_faces(s.placement).empty());
+      EXPECT_TRUE(s.guards.folded_faces(s.positions).empty());
     }
     EXPECT_LT(energy, .5 * start);
-    EXPECT_LT((s.placement.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+    EXPECT_LT((s.positions.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
   }
 }
 
@@ -82,10 +82,10 @@ TEST(LocalNewton, FindsTheMinimumAroundAVertexInAFewSteps) {
 
 TEST(LocalNewton, ReportsTheLargestMoveAndKeepsToTheCap) {
   test::Scene s = test::sphere_scene(.4);
-  const Mat3X start = s.placement.points;
+  const Mat3X start = s.positions.points;
   Relaxation r = s.relaxation();
   const double move = std::ranges::max(local_newton_sweep(r, {}, {.max_move = .05}));
-  EXPECT_NEAR(move, (s.placement.points - start).colwise().norm().maxCoeff() / s.L(), 1e-12);
+  EXPECT_NEAR(move, (s.positions.points - start).colwise().norm().maxCoeff() / s.L(), 1e-12);
   EXPECT_LE(move, .05);
   EXPECT_GT(move, .04);
 }
@@ -96,15 +96,15 @@ TEST(LocalNewton, WhatStandsStillStandsStill) {
   t.points.rightCols(2).setConstant(.4);
   test::Scene s(t, test::to_ground);
   Relaxation r = s.relaxation();
-  const Mat3X start = s.placement.points;
+  const Mat3X start = s.positions.points;
   local_newton_sweep(r, {}, {});
   for (size_t v = 0; v < s.length.size(); ++v) {
     const auto i = static_cast<Eigen::Index>(v);
     if (s.constraints.freedom[v] == Freedom::fixed) {
-      EXPECT_EQ(s.placement.points.col(i), start.col(i)) << v;
+      EXPECT_EQ(s.positions.points.col(i), start.col(i)) << v;
     }
   }
-  EXPECT_NE(s.placement.points, start);
+  EXPECT_NE(s.positions.points, start);
 }
 
 TEST(LocalNewton, CurvatureIsThatOfTheTangentSpaceAndAlwaysDescends) {
@@ -113,29 +113,29 @@ TEST(LocalNewton, CurvatureIsThatOfTheTangentSpaceAndAlwaysDescends) {
     Relaxation r = s->relaxation();
     LocalNewton newton(r);
     const Mat3X gradient = s->tangent_gradient();
-    const Placement before = s->placement;
-    for (int v = 0; v < s->connectivity.vertex_count; ++v) {
+    const SurfacePositions before = s->positions;
+    for (int v = 0; v < s->adjacency.vertex_count; ++v) {
       const LocalCurvature c = newton.curvature(v);
       const double size = c.inverse.norm();
       EXPECT_LE((c.inverse - c.inverse.transpose()).norm(), 1e-14 * size);
-      EXPECT_LE((c.inverse * s->placement.normals.col(v)).norm(), 1e-12 * size);
+      EXPECT_LE((c.inverse * s->positions.normals.col(v)).norm(), 1e-12 * size);
       EXPECT_GE(gradient.col(v).dot(c.inverse * gradient.col(v)), 0);
       EXPECT_EQ(c.mean > 0, s->constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed);
-      const Vec3 tangent = s->retraction.tangent(s->placement, v);
+      const Vec3 tangent = s->retraction.tangent(s->positions, v);
       if (!tangent.isZero()) {
         EXPECT_LT((c.inverse - size * tangent * tangent.transpose()).norm(), 1e-12 * size);
       }
     }
-    EXPECT_TRUE(test::same(s->placement, before));
+    EXPECT_TRUE(test::same(s->positions, before));
   }
 }
 
 TEST(LocalNewton, WhatIsAtRestStays) {
   test::Scene s = test::sphere_scene(.4);
-  const Placement before = s.placement;
+  const SurfacePositions before = s.positions;
   Relaxation r = s.relaxation();
   local_newton_sweep(r, {}, {.rest = 10});
-  EXPECT_TRUE(test::same(s.placement, before));
+  EXPECT_TRUE(test::same(s.positions, before));
 }
 
 TEST(LocalNewton, AVertexWithoutFacesHasNoCurvature) {
@@ -144,13 +144,13 @@ TEST(LocalNewton, AVertexWithoutFacesHasNoCurvature) {
   t.points.rightCols(1) = Vec3::UnitX();
   test::Scene s(t, test::to_unit_sphere);
   Relaxation r = s.relaxation();
-  const LocalCurvature c = LocalNewton(r).curvature(s.connectivity.vertex_count - 1);
+  const LocalCurvature c = LocalNewton(r).curvature(s.adjacency.vertex_count - 1);
   EXPECT_EQ(c.mean, 0);
   EXPECT_TRUE(c.inverse.isZero(0));
 }
 
 TEST(LocalNewton, OneThreadAndTwoGiveTheSameBits) {
-  std::vector<Placement> results;
+  std::vector<SurfacePositions> results;
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     test::Scene s(test::sphere(3, .35), test::to_unit_sphere);
@@ -158,7 +158,7 @@ TEST(LocalNewton, OneThreadAndTwoGiveTheSameBits) {
       Relaxation r = s.relaxation();
       local_newton_sweep(r, {}, {.over_relaxation = 1.5});
     }
-    results.push_back(s.placement);
+    results.push_back(s.positions);
   }
   EXPECT_TRUE(test::same(results[0], results[1]));
 }

@@ -72,10 +72,10 @@ test::Triangles folded_grid(double pull) {
 }
 
 /// The rules, written down once more from measures taken here. Returns what breaks.
-std::string broken_rule(const test::Scene& s, const Placement& from, const Placement& to,
+std::string broken_rule(const test::Scene& s, const SurfacePositions& from, const SurfacePositions& to,
                         const GuardOptions& o = {}) {
-  for (const Triangle& t : s.connectivity.faces) {
-    const auto alignment = [&](const Placement& p) {
+  for (const Triangle& t : s.adjacency.faces) {
+    const auto alignment = [&](const SurfacePositions& p) {
       const Vec3 n = test::area_vector(p.points, t);
       return n.normalized().dot(
           (p.normals.col(t[0]) + p.normals.col(t[1]) + p.normals.col(t[2])).normalized());
@@ -84,14 +84,14 @@ std::string broken_rule(const test::Scene& s, const Placement& from, const Place
     const bool was_folded = alignment(from) < o.alignment;
     if (!was_folded && ratio < o.area_ratio * (1 - 1e-9)) return "area";
     if (!was_folded && alignment(to) < o.alignment - 1e-12) return "alignment";
-    const double cotangent = greatest_cotangent(to.points, t);
-    if (!was_folded && cotangent > std::max(greatest_cotangent(from.points, t), o.cotangent) * (1 + 1e-12))
+    const double cotangent = max_cotangent(to.points, t);
+    if (!was_folded && cotangent > std::max(max_cotangent(from.points, t), o.cotangent) * (1 + 1e-12))
       return "angle";
     if (was_folded && alignment(to) < alignment(from) - 1.1e-7) return "turned away";
   }
-  for (size_t e = 0; e < s.connectivity.edges.size(); ++e) {
-    const auto [a, b] = s.connectivity.edges[e];
-    const auto sagitta = [&](const Placement& p) {
+  for (size_t e = 0; e < s.adjacency.edges.size(); ++e) {
+    const auto [a, b] = s.adjacency.edges[e];
+    const auto sagitta = [&](const SurfacePositions& p) {
       const Vec3 n = p.normals.col(a), m = p.normals.col(b);
       const double theta = std::atan2(n.cross(m).norm(), n.dot(m));
       return .5 * (p.points.col(a) - p.points.col(b)).norm() * std::tan(.25 * theta);
@@ -124,19 +124,19 @@ TEST(Guards, SagittaIsThatOfACircle) {
 
 TEST(Guards, VerticesThatDriftedSettleButWhereThatWouldFoldAFace) {
   constexpr int wild = 40;  // the middle of a grid of eight cells a side; its foot lies three cells away
-  const Surface surface = [](const Vec3& x, int anchor, double) {
-    const double jump = anchor == wild ? 3. / 8 : 0;
-    return Foot{Vec3(x[0] + jump, x[1], 0), Vec3::UnitZ(), anchor, FootStatus::converged, 1};
+  const Surface surface = [](const Vec3& x, int hint, double) {
+    const double jump = hint == wild ? 3. / 8 : 0;
+    return Projection{Vec3(x[0] + jump, x[1], 0), Vec3::UnitZ(), hint, ProjectionStatus::converged, 1};
   };
   test::Scene s(test::grid(8, test::flat), test::to_ground);
   Retraction retraction(surface, s.constraints, {});
-  Placement drifted = s.placement, settled;
+  SurfacePositions drifted = s.positions, settled;
   for (size_t v = 0; v < drifted.drift.size(); ++v)
     if (s.constraints.freedom[v] == Freedom::surface) {
       drifted.points(2, static_cast<Eigen::Index>(v)) = 1e-3;
       drifted.drift[v] = .01;
     }
-  settle(s.guards, retraction, drifted, settled);
+  project_drifted(s.guards, retraction, drifted, settled);
   EXPECT_EQ(settled.points.col(wild), drifted.points.col(wild));
   EXPECT_EQ(settled.drift[wild], .01);
   int landed = 0;
@@ -152,24 +152,24 @@ TEST(Guards, VerticesThatDriftedSettleButWhereThatWouldFoldAFace) {
 TEST(Guards, WhatIsKnownToHaveMovedIsPutBackLikeAll) {
   test::Scene s = test::sphere_scene(.4);
   const std::vector<int> some = {3, 4, 20, 35, 36};
-  size_t put_back = 0;
+  size_t revert = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    Mat3X u = test::random_vectors(s.placement.points.cols(), .8 * s.L(), seed);
-    s.retraction.constrain(s.placement, u);
-    Placement to = s.placement;
-    s.retraction.step(s.placement, u, some, to);
-    Placement again = to;
-    std::vector<int> back = put_back_offenders(s.guards, s.placement, to);
-    std::vector<int> known = put_back_offenders(s.guards, s.placement, some, again);
-    put_back += back.size();
+    Mat3X u = test::random_vectors(s.positions.points.cols(), .8 * s.L(), seed);
+    s.retraction.constrain(s.positions, u);
+    SurfacePositions to = s.positions;
+    s.retraction.step(s.positions, u, some, to);
+    SurfacePositions again = to;
+    std::vector<int> back = revert_offenders(s.guards, s.positions, to);
+    std::vector<int> known = revert_offenders(s.guards, s.positions, some, again);
+    revert += back.size();
     EXPECT_EQ(to.points, again.points);
     EXPECT_EQ(to.normals, again.normals);
     std::ranges::sort(back);
     std::ranges::sort(known);
     EXPECT_EQ(back, known);
-    EXPECT_TRUE(s.guards.offenders(s.placement, to).empty());
+    EXPECT_TRUE(s.guards.offenders(s.positions, to).empty());
   }
-  EXPECT_GT(put_back, 0u);
+  EXPECT_GT(revert, 0u);
 }
 
 TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
@@ -180,20 +180,20 @@ TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
       options.guards = guards;
       test::Scene sphere = test::sphere_scene(.4, options), ground = test::ground_scene(.4, options);
       for (test::Scene* s : {&sphere, &ground}) {
-        Mat3X u = test::random_vectors(s->placement.points.cols(), .8 * s->L(), seed);
-        s->retraction.constrain(s->placement, u);
+        Mat3X u = test::random_vectors(s->positions.points.cols(), .8 * s->L(), seed);
+        s->retraction.constrain(s->positions, u);
         const Mat3X wanted = u;
-        Placement to;
-        EXPECT_FALSE(s->guards.step(s->retraction, s->placement, u, to).empty());
-        EXPECT_EQ(broken_rule(*s, s->placement, to, guards), "");
-        EXPECT_GT((to.points - s->placement.points).norm(), 0);
+        SurfacePositions to;
+        EXPECT_FALSE(s->guards.step(s->retraction, s->positions, u, to).empty());
+        EXPECT_EQ(broken_rule(*s, s->positions, to, guards), "");
+        EXPECT_GT((to.points - s->positions.points).norm(), 0);
         for (Eigen::Index v = 0; v < u.cols(); ++v) {
           double part = 1;
           for (int k = 0; k <= 8 && u.col(v) != part * wanted.col(v); ++k) part *= .5;
           EXPECT_TRUE(u.col(v).isZero(0) || u.col(v) == part * wanted.col(v));
         }
-        Placement again;
-        s->retraction.step(s->placement, u, again);
+        SurfacePositions again;
+        s->retraction.step(s->positions, u, again);
         EXPECT_TRUE(test::same(again, to));
       }
     }
@@ -201,36 +201,36 @@ TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
 
 TEST(Guards, TheUnguardedStepWouldHaveBrokenThem) {
   test::Scene s = test::sphere_scene(.4);
-  Mat3X u = test::random_vectors(s.placement.points.cols(), .8 * s.L());
-  s.retraction.constrain(s.placement, u);
-  Placement to;
-  s.retraction.step(s.placement, u, to);
-  EXPECT_NE(broken_rule(s, s.placement, to), "");
+  Mat3X u = test::random_vectors(s.positions.points.cols(), .8 * s.L());
+  s.retraction.constrain(s.positions, u);
+  SurfacePositions to;
+  s.retraction.step(s.positions, u, to);
+  EXPECT_NE(broken_rule(s, s.positions, to), "");
 }
 
 TEST(Guards, AStepOfZeroAndASmallStepAreTakenAsTheyAre) {
   test::Scene s = test::sphere_scene(.2);
   for (double size : {0., 1e-3}) {
-    Mat3X u = size * s.L() * test::random_vectors(s.placement.points.cols(), 1);
+    Mat3X u = size * s.L() * test::random_vectors(s.positions.points.cols(), 1);
     const Mat3X wanted = u;
-    Placement to, unguarded;
-    EXPECT_TRUE(s.guards.step(s.retraction, s.placement, u, to).empty());
+    SurfacePositions to, unguarded;
+    EXPECT_TRUE(s.guards.step(s.retraction, s.positions, u, to).empty());
     EXPECT_EQ(u, wanted);
-    s.retraction.step(s.placement, u, unguarded);
+    s.retraction.step(s.positions, u, unguarded);
     EXPECT_TRUE(test::same(to, unguarded));
   }
 }
 
 std::vector<int> folded_faces_of(const test::Scene& s) {
-  return s.guards.folded_faces(s.placement);
+  return s.guards.folded_faces(s.positions);
 }
 
 TEST(Guards, NamesFoldedFaces) {
   EXPECT_TRUE(folded_faces_of(test::ground_scene()).empty());
   const test::Scene s(folded_grid(1.5), test::to_ground);
   std::vector<int> folded;
-  for (size_t f = 0; f < s.connectivity.faces.size(); ++f)
-    if (test::area_vector(s.placement.points, s.connectivity.faces[f])[2] <= 0)
+  for (size_t f = 0; f < s.adjacency.faces.size(); ++f)
+    if (test::area_vector(s.positions.points, s.adjacency.faces[f])[2] <= 0)
       folded.push_back(static_cast<int>(f));
   ASSERT_FALSE(folded.empty());
   EXPECT_EQ(folded_faces_of(s), folded);
@@ -240,9 +240,9 @@ TEST(Guards, AFoldedFaceMayOnlyTurnTheRightWay) {
   // The face 0 1 2 on a bent surface leans away; its vertex 2 may lean back but not further away.
   const test::Triangles t = test::equilateral();
   for (double lean : {-.05, .05}) {
-    const auto leaning = [&](const Vec3& x, int anchor, double) {
+    const auto leaning = [&](const Vec3& x, int hint, double) {
       const double angle = 1.5 - (x[1] - .5) * 1.0;  // between the surface's normal and the face
-      return Foot{x, Vec3(0, -std::sin(angle), std::cos(angle)), anchor, FootStatus::converged, 1};
+      return Projection{x, Vec3(0, -std::sin(angle), std::cos(angle)), hint, ProjectionStatus::converged, 1};
     };
     test::SceneOptions options;
     options.constraints.boundary = BoundaryRule::free;
@@ -251,9 +251,9 @@ TEST(Guards, AFoldedFaceMayOnlyTurnTheRightWay) {
     ASSERT_EQ(folded_faces_of(s), std::vector<int>{0});
     Mat3X u = Mat3X::Zero(3, 3);
     u(1, 2) = lean;
-    Placement to;
-    EXPECT_EQ(s.guards.step(s.retraction, s.placement, u, to).size(), lean > 0 ? 0u : 1u);
-    EXPECT_EQ(broken_rule(s, s.placement, to), "");
+    SurfacePositions to;
+    EXPECT_EQ(s.guards.step(s.retraction, s.positions, u, to).size(), lean > 0 ? 0u : 1u);
+    EXPECT_EQ(broken_rule(s, s.positions, to), "");
   }
 }
 
@@ -262,27 +262,27 @@ TEST(Guards, AFoldedFaceMayPassThroughZeroArea) {
   ASSERT_FALSE(folded_faces_of(s).empty());
   Mat3X u = Mat3X::Zero(3, 25);
   u(0, 12) = -1.5 / 4;
-  Placement to;
-  EXPECT_TRUE(s.guards.step(s.retraction, s.placement, u, to).empty());
+  SurfacePositions to;
+  EXPECT_TRUE(s.guards.step(s.retraction, s.positions, u, to).empty());
   EXPECT_TRUE(s.guards.folded_faces(to).empty());
 }
 
 /// Moves each vertex alone by a random vector; returns how many the guards held back.
 int moves_refused(test::Scene& s) {
-  const Mat3X wanted = test::random_vectors(s.placement.points.cols(), .6 * s.L());
-  VertexRing ring(s.sweeps.spokes, s.targets);
+  const Mat3X wanted = test::random_vectors(s.positions.points.cols(), .6 * s.L());
+  VertexRing ring(s.coloring.rings, s.targets);
   RingShape before, after;
   int refused = 0;
-  for (int v = 0; v < s.connectivity.vertex_count; ++v) {
+  for (int v = 0; v < s.adjacency.vertex_count; ++v) {
     Mat3X u = Mat3X::Zero(3, wanted.cols());
     u.col(v) = wanted.col(v);
-    ring.gather(s.placement, v);
-    ring.shape(s.placement.points.col(v), s.placement.normals.col(v), before);
-    Placement to;
-    s.retraction.step(s.placement, u, to);
+    ring.gather(s.positions, v);
+    ring.shape(s.positions.points.col(v), s.positions.normals.col(v), before);
+    SurfacePositions to;
+    s.retraction.step(s.positions, u, to);
     ring.shape(to.points.col(v), to.normals.col(v), after);
     const bool obeys = ring.obeys(before, after, s.guards.options());
-    EXPECT_EQ(s.guards.step(s.retraction, s.placement, u, to).empty(), obeys) << v;
+    EXPECT_EQ(s.guards.step(s.retraction, s.positions, u, to).empty(), obeys) << v;
     refused += !obeys;
   }
   return refused;
@@ -295,18 +295,18 @@ TEST(Guards, OneVertexAloneIsJudgedLikeAStepOfAll) {
                           test::Scene(folded_grid(1.5), test::to_ground)};
   for (test::Scene& s : scenes) {
     const int refused = moves_refused(s);
-    EXPECT_GT(refused, s.connectivity.vertex_count / 20);
-    EXPECT_LT(refused, s.connectivity.vertex_count - 2);
+    EXPECT_GT(refused, s.adjacency.vertex_count / 20);
+    EXPECT_LT(refused, s.adjacency.vertex_count - 2);
   }
 }
 
 TEST(Guards, OneThreadAndTwoGiveTheSameBits) {
-  std::vector<Placement> to(2);
+  std::vector<SurfacePositions> to(2);
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     test::Scene s(test::sphere(4, .4), test::to_unit_sphere);  // more than one block of faces
-    Mat3X u = test::random_vectors(s.placement.points.cols(), .8 * s.L());
-    EXPECT_FALSE(s.guards.step(s.retraction, s.placement, u, to[static_cast<size_t>(threads - 1)]).empty());
+    Mat3X u = test::random_vectors(s.positions.points.cols(), .8 * s.L());
+    EXPECT_FALSE(s.guards.step(s.retraction, s.positions, u, to[static_cast<size_t>(threads - 1)]).empty());
   }
   EXPECT_TRUE(test::same(to[0], to[1]));
 }

@@ -25,18 +25,18 @@ IntegrationResult relax(test::Scene& s, const IntegrationOptions& options = unti
 
 /// Guarded steps along the gradient; returns the least energy met.
 double descend(test::Scene& s, int steps) {
-  double energy = s.energy(s.placement.points, s.placement.normals, nullptr);
+  double energy = s.energy(s.positions.points, s.positions.normals, nullptr);
   double step = .1 * s.L() * s.L();
   for (int i = 0; i < steps; ++i) {
     Mat3X u = -step * s.tangent_gradient();
     cap_displacement(s.length, .3, u);
-    Placement to;
-    s.guards.step(s.retraction, s.placement, u, to);
+    SurfacePositions to;
+    s.guards.step(s.retraction, s.positions, u, to);
     const double now = s.energy(to.points, to.normals, nullptr);
     step *= now < energy ? 1.1 : .5;
     if (now >= energy) continue;
     energy = now;
-    s.placement = to;
+    s.positions = to;
   }
   return energy;
 }
@@ -51,14 +51,14 @@ TEST(RelaxLbfgs, GetsLowerThanGradientSteps) {
 TEST(RelaxLbfgs, ComesToRestWhereTheGradientIsSmall) {
   for (bool on_sphere : {true, false}) {
     test::Scene s = on_sphere ? test::sphere_scene(.35) : test::ground_scene(.4);
-    ASSERT_TRUE(s.guards.folded_faces(s.placement).empty());  // they would block the way
+    ASSERT_TRUE(s.guards.folded_faces(s.positions).empty());  // they would block the way
     const double start = s.tangent_gradient().norm();
-    const double energy = s.energy(s.placement.points, s.placement.normals, nullptr);
+    const double energy = s.energy(s.positions.points, s.positions.normals, nullptr);
     const IntegrationResult result = relax(s);
     EXPECT_EQ(result.reason, StopReason::stalled);
     EXPECT_LT(s.tangent_gradient().norm(), 1e-3 * start);
     EXPECT_LT(result.energy, .5 * energy);
-    EXPECT_NEAR(s.energy(s.placement.points, s.placement.normals, nullptr), result.energy,
+    EXPECT_NEAR(s.energy(s.positions.points, s.positions.normals, nullptr), result.energy,
                 1e-12 * result.energy);
   }
 }
@@ -68,24 +68,24 @@ TEST(RelaxLbfgs, KeepsEveryVertexOnTheSurfaceAndNoFaceFolds) {
     test::SceneOptions options;
     options.retraction.lazy = lazy;
     test::Scene s = test::sphere_scene(.35, options);
-    ASSERT_TRUE(s.guards.folded_faces(s.placement).empty());  // what is folded at the start may stay so
+    ASSERT_TRUE(s.guards.folded_faces(s.positions).empty());  // what is folded at the start may stay so
     relax(s);
-    EXPECT_LT((s.placement.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
-    for (const Triangle& t : s.connectivity.faces)
-      EXPECT_GT(test::area_vector(s.placement.points, t).dot(s.placement.points.col(t[0])), 0);
+    EXPECT_LT((s.positions.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+    for (const Triangle& t : s.adjacency.faces)
+      EXPECT_GT(test::area_vector(s.positions.points, t).dot(s.positions.points.col(t[0])), 0);
   }
 }
 
 TEST(RelaxLbfgs, DriftsNoFartherThanItMayUnlessItSettles) {
   test::SceneOptions options;
   options.retraction.lazy = .01;
-  const auto drift = [&](bool settles) {
+  const auto drift = [&](bool projects_at_end) {
     test::Scene s = test::sphere_scene(.35, options);
     Relaxation r = s.relaxation();
     LbfgsOptions lbfgs;
-    lbfgs.settles = settles;
+    lbfgs.projects_at_end = projects_at_end;
     relax_lbfgs(r, until_rest(), lbfgs, nullptr);
-    return (s.placement.points.colwise().norm().array() - 1).abs().maxCoeff();
+    return (s.positions.points.colwise().norm().array() - 1).abs().maxCoeff();
   };
   EXPECT_LT(drift(true), 1e-15);
   EXPECT_GT(drift(false), 1e-12);
@@ -96,7 +96,7 @@ TEST(RelaxLbfgs, HasOnlySweepsWhereOneEvaluationIsAllowed) {
   IntegrationOptions once;
   once.max_steps = 1;
   test::Scene s = test::ground_scene(.4);
-  const double before = s.energy(s.placement.points, s.placement.normals, nullptr);
+  const double before = s.energy(s.positions.points, s.positions.normals, nullptr);
   const IntegrationResult result = relax(s, once);
   EXPECT_EQ(result.steps, 0);
   EXPECT_EQ(result.evaluations, 1);
@@ -108,13 +108,13 @@ TEST(RelaxLbfgs, KeepsCornersAndCurves) {
   test::Triangles t = test::moved(test::grid(8, test::flat, .4));
   const Vec3 normal = test::area_vector(t.points, t.faces[0]).normalized();
   const Vec3 origin = t.points.col(0);
-  const auto plane = [&](const Vec3& x, int anchor, double) {
-    return Foot{x - normal * normal.dot(x - origin), normal, anchor, FootStatus::converged, 1};
+  const auto plane = [&](const Vec3& x, int hint, double) {
+    return Projection{x - normal * normal.dot(x - origin), normal, hint, ProjectionStatus::converged, 1};
   };
   test::Scene s(t, plane);
   relax(s);
   for (size_t v = 0; v < s.length.size(); ++v) {
-    const Vec3 x = s.placement.points.col(static_cast<Eigen::Index>(v));
+    const Vec3 x = s.positions.points.col(static_cast<Eigen::Index>(v));
     if (s.constraints.freedom[v] == Freedom::fixed) {
       EXPECT_EQ(x, t.points.col(static_cast<Eigen::Index>(v)));
     }
@@ -159,7 +159,7 @@ TEST(RelaxLbfgs, LongWavesDoNotBreakOnVerticesThatStand) {
   };
   const IntegrationResult breaking = relaxed(2), whole = relaxed(LbfgsOptions{}.carried);
   EXPECT_LT(whole.energy, .9 * breaking.energy);
-  EXPECT_LT(whole.held_back, breaking.held_back);
+  EXPECT_LT(whole.limited_steps, breaking.limited_steps);
 }
 
 TEST(RelaxLbfgs, SaysWhyItStops) {
@@ -179,18 +179,18 @@ TEST(RelaxLbfgs, SaysWhyItStops) {
 TEST(RelaxLbfgs, WhatIsAtRestHardlyMoves) {
   test::Scene s = test::sphere_scene(.3);
   relax(s);
-  const Mat3X rest = s.placement.points;
+  const Mat3X rest = s.positions.points;
   relax(s);
-  EXPECT_LT((s.placement.points - rest).colwise().norm().maxCoeff(), 1e-2 * s.L());
+  EXPECT_LT((s.positions.points - rest).colwise().norm().maxCoeff(), 1e-2 * s.L());
 }
 
 TEST(RelaxLbfgs, OneThreadAndTwoGiveTheSameBits) {
-  std::vector<Placement> results;
+  std::vector<SurfacePositions> results;
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     test::Scene s(test::grid(70, test::flat, .35), test::to_ground);  // more than one block in every loop
     relax(s, IntegrationOptions{});
-    results.push_back(s.placement);
+    results.push_back(s.positions);
   }
   EXPECT_TRUE(test::same(results[0], results[1]));
 }

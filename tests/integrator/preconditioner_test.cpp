@@ -10,8 +10,8 @@ namespace {
 
 /// A wavy sheet, 31 cells of the finest grid wide.
 Mat3X sheet() {
-  const auto wave = [](double x, double y) { return .1 * std::sin(9 * x) * std::cos(7 * y); };
-  return test::grid(60, wave, .3).points;
+  const auto color = [](double x, double y) { return .1 * std::sin(9 * x) * std::cos(7 * y); };
+  return test::grid(60, color, .3).points;
 }
 constexpr double cell = 1. / 31;
 
@@ -73,9 +73,9 @@ TEST(GridHierarchy, MovesAlikeWhatLiesInOnePlace) {
 TEST(GridHierarchy, PassesLongWavesAndDampsShortOnes) {
   const Mat3X points = sheet();
   const GridHierarchy grids(points, cell);
-  const auto gain = [&](double waves) {
+  const auto gain = [&](double colors) {
     Mat3X x = Mat3X::Zero(3, points.cols());
-    x.row(0) = (2 * std::numbers::pi * waves * points.row(1)).array().sin();
+    x.row(0) = (2 * std::numbers::pi * colors * points.row(1)).array().sin();
     return dot(x, applied(grids, x)) / dot(x, x);
   };
   EXPECT_GT(gain(1), 5 * gain(8));

@@ -17,7 +17,7 @@ using test::Triangles;
 
 /// One right triangle with legs of length 1 in the plane z = 0.
 const Mat3X corner = (Mat3X(3, 3) << 0, 1, 0, 0, 0, 1, 0, 0, 0).finished();
-const Connectivity one_face = make_connectivity(3, {{0, 1, 2}});
+const Adjacency one_face = make_adjacency(3, {{0, 1, 2}});
 
 /// All tests but the chosen one are out of reach.
 TimeStepOptions loose() {
@@ -40,7 +40,7 @@ TEST(BaseStep, HasItsLimitsWithoutVelocityOrForce) {
 
 TEST(StepScales, AreTheExtremesAndSkipEdgesOfLengthZero) {
   Triangles t = test::grid(2, test::flat);
-  const Connectivity c = make_connectivity(9, t.faces);
+  const Adjacency c = make_adjacency(9, t.faces);
   Mat3X u = Mat3X::Zero(3, 9), f = Mat3X::Zero(3, 9);
   u.col(4) = Vec3(3, 0, 4);
   f.col(7) = Vec3(0, -2, 0);

@@ -20,7 +20,7 @@ test::Triangles folded_grid() {
 
 int downward_faces(const test::Scene& s) {
   int count = 0;
-  for (const Triangle& t : s.connectivity.faces) count += test::area_vector(s.placement.points, t)[2] <= 0;
+  for (const Triangle& t : s.adjacency.faces) count += test::area_vector(s.positions.points, t)[2] <= 0;
   return count;
 }
 
@@ -42,11 +42,11 @@ TEST(Untangle, UnfoldsOnASphere) {
   const int neighbour = test::connect(t).vertex_neighbours[60][0];
   t.points.col(60) = (2.2 * t.points.col(neighbour) - 1.2 * t.points.col(60)).normalized();
   test::Scene s(t, test::to_unit_sphere);
-  ASSERT_FALSE(s.guards.folded_faces(s.placement).empty());
+  ASSERT_FALSE(s.guards.folded_faces(s.positions).empty());
   Relaxation r = s.relaxation();
   EXPECT_TRUE(untangle(r, {}, nullptr).folded.empty());
   for (const Triangle& face : t.faces)
-    EXPECT_GT(test::area_vector(s.placement.points, face).dot(s.placement.points.col(face[0])), 0);
+    EXPECT_GT(test::area_vector(s.positions.points, face).dot(s.positions.points.col(face[0])), 0);
 }
 
 TEST(Untangle, OpensASliverThatHardlyLiesOutsideTheRim) {
@@ -56,17 +56,17 @@ TEST(Untangle, OpensASliverThatHardlyLiesOutsideTheRim) {
   ASSERT_GT(downward_faces(s), 0);
   Relaxation r = s.relaxation();
   EXPECT_TRUE(untangle(r, {}, nullptr).folded.empty());
-  EXPECT_GT(least_angle(s.placement.points, t.faces), 2);
+  EXPECT_GT(min_angle(s.positions.points, t.faces), 2);
 }
 
 TEST(Untangle, AMeshWithoutFoldsIsLeftAlone) {
   test::Scene s = test::ground_scene(.3);
-  const Placement before = s.placement;
+  const SurfacePositions before = s.positions;
   Relaxation r = s.relaxation();
   const UntangleResult result = untangle(r, {}, nullptr);
   EXPECT_EQ(result.folded_before, 0);
   EXPECT_EQ(result.sweeps, 0);
-  EXPECT_TRUE(test::same(s.placement, before));
+  EXPECT_TRUE(test::same(s.positions, before));
 }
 
 TEST(Untangle, PutsTheEnergyBackAsItWas) {
@@ -101,7 +101,7 @@ TEST(Untangle, NamesWhatItCannotUnfold) {
   EXPECT_FALSE(result.folded.empty());
   EXPECT_LE(static_cast<int>(result.folded.size()), result.folded_before);
   for (int f : result.folded)
-    EXPECT_LT(test::area_vector(s.placement.points, t.faces[static_cast<size_t>(f)])[2], 1e-2);
+    EXPECT_LT(test::area_vector(s.positions.points, t.faces[static_cast<size_t>(f)])[2], 1e-2);
 }
 
 }  // namespace

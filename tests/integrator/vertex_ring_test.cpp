@@ -13,10 +13,10 @@ namespace {
 /// The corner angles of the faces of a vertex.
 std::vector<double> angles_about(const test::Scene& s, int vertex) {
   std::vector<double> angles;
-  for (int f : s.connectivity.vertex_faces[vertex])
+  for (int f : s.adjacency.vertex_faces[vertex])
     for (size_t k = 0; k < 3; ++k) {
       const auto corner = [&](size_t i) {
-        return Vec3(s.placement.points.col(s.connectivity.faces[static_cast<size_t>(f)][(k + i) % 3]));
+        return Vec3(s.positions.points.col(s.adjacency.faces[static_cast<size_t>(f)][(k + i) % 3]));
       };
       const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0);
       angles.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));
@@ -38,9 +38,9 @@ class RingLaws : public testing::TestWithParam<test::NamedTerms> {
   template <class Law>
   void for_each_ring(const Law& law) {
     for (test::Scene* s : {&sphere_, &ground_}) {
-      VertexRing ring(s->sweeps.spokes, s->targets);
-      for (int v = 0; v < s->connectivity.vertex_count; ++v) {
-        ring.gather(s->placement, v);
+      VertexRing ring(s->coloring.rings, s->targets);
+      for (int v = 0; v < s->adjacency.vertex_count; ++v) {
+        ring.gather(s->positions, v);
         law(*s, ring, v);
       }
     }
@@ -48,22 +48,22 @@ class RingLaws : public testing::TestWithParam<test::NamedTerms> {
   static RingModel model(const test::Scene& s, const VertexRing& ring, int v, const Vec3& x, const Vec3& a,
                          const Vec3& b) {
     RingShape shape;
-    ring.shape(x, s.placement.normals.col(v), shape);
+    ring.shape(x, s.positions.normals.col(v), shape);
     return ring.model(shape, s.energy.terms, a, b);
   }
 };
 
 TEST_P(RingLaws, TheEnergyChangesAsThatOfTheWholeMesh) {
   for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
-    const Vec3 x = s.placement.points.col(v), n = s.placement.normals.col(v);
+    const Vec3 x = s.positions.points.col(v), n = s.positions.normals.col(v);
     RingShape here, there;
     const Vec3 y = x + .05 * s.L() * n.unitOrthogonal();
     ring.shape(x, n, here);
     ring.shape(y, n, there);
-    const double before = s.energy(s.placement.points, s.placement.normals, nullptr);
-    s.placement.points.col(v) = y;
-    const double after = s.energy(s.placement.points, s.placement.normals, nullptr);
-    s.placement.points.col(v) = x;
+    const double before = s.energy(s.positions.points, s.positions.normals, nullptr);
+    s.positions.points.col(v) = y;
+    const double after = s.energy(s.positions.points, s.positions.normals, nullptr);
+    s.positions.points.col(v) = x;
     EXPECT_NEAR(ring.energy(there, s.energy.terms) - ring.energy(here, s.energy.terms), after - before,
                 1e-10 * before);
   });
@@ -72,10 +72,10 @@ TEST_P(RingLaws, TheEnergyChangesAsThatOfTheWholeMesh) {
 TEST_P(RingLaws, TheModelHasTheEnergyAndItsGradient) {
   for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
     Mat3X gradient;
-    s.energy(s.placement.points, s.placement.normals, &gradient);
-    const Vec3 n = s.placement.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
+    s.energy(s.positions.points, s.positions.normals, &gradient);
+    const Vec3 n = s.positions.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
     RingShape here;
-    ring.shape(s.placement.points.col(v), n, here);
+    ring.shape(s.positions.points.col(v), n, here);
     const RingModel m = ring.model(here, s.energy.terms, a, b);
     EXPECT_NEAR(m.energy, ring.energy(here, s.energy.terms), 1e-13 * m.energy);
     EXPECT_NEAR(m.gradient[0], gradient.col(v).dot(a), 1e-10 * (1 + gradient.col(v).norm()));
@@ -88,10 +88,10 @@ TEST_P(RingLaws, TheHessianEqualsDifferencesOfTheGradient) {
     const double t = s.energy.terms.angle > 0 ? s.energy.terms.angle_threshold : 0;
     if (std::ranges::any_of(angles_about(s, v), [t](double a) { return a >= t && a <= angle_felt * t; }))
       return;
-    const Vec3 x = s.placement.points.col(v);
+    const Vec3 x = s.positions.points.col(v);
     const Vec3 a =
-        (s.placement.normals.col(v).unitOrthogonal() + .2 * s.placement.normals.col(v)).normalized();
-    const Vec3 b = s.placement.normals.col(v).cross(a).normalized();
+        (s.positions.normals.col(v).unitOrthogonal() + .2 * s.positions.normals.col(v)).normalized();
+    const Vec3 b = s.positions.normals.col(v).cross(a).normalized();
     const double h = 1e-6 * s.L();
     Eigen::Matrix2d differences;
     for (int k = 0; k < 2; ++k) {
@@ -109,9 +109,9 @@ TEST_P(RingLaws, TheHessianEqualsDifferencesOfTheGradient) {
 TEST_P(RingLaws, TheHessianDoesNotLeapWhereAnglesReachTheirThreshold) {
   const EnergyTerms terms = GetParam().terms;
   for_each_ring([&terms](test::Scene& s, const VertexRing& ring, int v) {
-    const Vec3 n = s.placement.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
+    const Vec3 n = s.positions.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
     RingShape here;
-    ring.shape(s.placement.points.col(v), n, here);
+    ring.shape(s.positions.points.col(v), n, here);
     const auto hessian = [&](double threshold) {
       EnergyTerms moved = terms;
       moved.angle_threshold = threshold;
@@ -150,10 +150,10 @@ TEST(VertexRing, AFaceWithoutAreaHasAFiniteModel) {
   const test::Scene s(
       test::triangles({{0, 0, 0}, {1, 0, 0}, {.5, 0, 0}, {.5, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}),
       test::to_ground);
-  VertexRing ring(s.sweeps.spokes, s.targets);
+  VertexRing ring(s.coloring.rings, s.targets);
   RingShape shape;
-  ring.gather(s.placement, 2);
-  ring.shape(s.placement.points.col(2), Vec3::UnitZ(), shape);
+  ring.gather(s.positions, 2);
+  ring.shape(s.positions.points.col(2), Vec3::UnitZ(), shape);
   const RingModel m = ring.model(shape, s.energy.terms, Vec3::UnitX(), Vec3::UnitY());
   EXPECT_TRUE(std::isfinite(m.energy) && m.gradient.allFinite() && m.hessian.allFinite());
   EXPECT_LT(m.gradient[1], 0);  // pushed open

@@ -33,7 +33,7 @@ test::Triangles awkward() {
 
 void expect_same_bits(const TriMesh& mesh, const test::Triangles& t) {
   EXPECT_EQ(triangles_of(mesh), t.faces);
-  const auto points = positions(mesh);
+  const auto points = vertex_points(mesh);
   ASSERT_EQ(points.cols(), t.points.cols());
   for (Eigen::Index k = 0; k < points.size(); ++k)
     EXPECT_EQ(std::bit_cast<std::uint64_t>(points.data()[k]),
@@ -71,11 +71,11 @@ TEST(ReadMesh, LaysTheMeshOut) {
   const test::Triangles t = test::shuffled(test::sphere(2));
   prepare_mesh(folder / "m.off", test::to_mesh(t), "off").file.commit();
   const LoadedMesh loaded = read_mesh(folder / "m.off");
-  const Layout expected = lay_out(loaded.mesh);
-  EXPECT_EQ(loaded.layout.order.old_vertex, expected.order.old_vertex);
-  EXPECT_EQ(loaded.layout.order.old_face, expected.order.old_face);
-  EXPECT_EQ(loaded.layout.connectivity->faces, expected.connectivity->faces);
-  EXPECT_EQ(loaded.layout.connectivity->edges, expected.connectivity->edges);
+  const MemoryOrder expected = find_memory_order(loaded.mesh);
+  EXPECT_EQ(loaded.memory_order.order.old_vertex, expected.order.old_vertex);
+  EXPECT_EQ(loaded.memory_order.order.old_face, expected.order.old_face);
+  EXPECT_EQ(loaded.memory_order.adjacency->faces, expected.adjacency->faces);
+  EXPECT_EQ(loaded.memory_order.adjacency->edges, expected.adjacency->edges);
   EXPECT_EQ(loaded.connectivity_sha256, connectivity_sha256(t.faces));
 }
 

@@ -40,7 +40,7 @@ TEST(AngleBound, ACornerCutIntoThreeLeavesAThirdOfItsAngle) {
 TEST(AngleBound, WhatIsThereIsPossible) {
   for (unsigned seed = 1; seed < 6; ++seed) {
     const test::Triangles t = test::sphere(1, .3, seed);
-    const double least = least_angle(t.points, t.faces);
+    const double least = min_angle(t.points, t.faces);
     for (int f = 0; f < static_cast<int>(t.faces.size()); f += 7)
       EXPECT_GE(bound(t, f, 20).degrees, least - 2e-3);
   }
@@ -73,12 +73,12 @@ std::vector<Edge> edges_of_cube(const test::Triangles& cube) {
 }
 
 std::vector<WorstFace> all_faces(const MeasuredSurface& surface) {
-  return measure_quality(surface, {}, {.worst_faces = surface.connectivity.faces.size()}).worst_faces;
+  return measure_quality(surface, {}, {.worst_faces = surface.adjacency.faces.size()}).worst_faces;
 }
 
 TEST(CreaseBound, SectorsOfACornerKeepTheirOwnAngles) {
   const test::Triangles cube = test::cube();
-  const Connectivity c = test::connect(cube);
+  const Adjacency c = test::connect(cube);
   const MeasuredSurface surface(cube.points, c);
   std::vector<WorstFace> faces = all_faces(surface);
   const auto above_45 = [](const WorstFace& f) { return f.bound.degrees > 46; };
@@ -94,7 +94,7 @@ TEST(CreaseBound, SectorsOfACornerKeepTheirOwnAngles) {
 
 TEST(CreaseBound, WithoutCreasesNothingChanges) {
   const test::Triangles cube = test::cube();
-  const Connectivity c = test::connect(cube);
+  const Adjacency c = test::connect(cube);
   const MeasuredSurface surface(cube.points, c);
   std::vector<WorstFace> faces = all_faces(surface);
   const std::vector<WorstFace> before = faces;
@@ -110,7 +110,7 @@ test::Triangles roof() {
 
 TEST(CreaseBound, AFaceAloneInItsSectorHasItsAngle) {
   const test::Triangles t = roof();
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const MeasuredSurface surface(t.points, c);
   std::vector<WorstFace> faces = all_faces(surface);
   bound_between_creases(faces, surface, {{1, 0}});
@@ -121,7 +121,7 @@ TEST(CreaseBound, AFaceAloneInItsSectorHasItsAngle) {
 
 TEST(CreaseBound, SpeaksInTheIdsOfTheSurface) {
   const test::Triangles t = roof();
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const std::vector<int> vertices = {4, 3, 2, 1, 0}, faces_there = {2, 0, 1};
   const MeasuredSurface surface(t.points, c, {vertices, faces_there});
   std::vector<WorstFace> faces = all_faces(surface);

@@ -157,7 +157,7 @@ TEST(Quality, ThreadsChangeNothing) {
 }
 
 TEST(Quality, OfAMeshWithoutFacesIsEmpty) {
-  const Quality q = measure_quality(Mat3X::Zero(3, 4), make_connectivity(4, {}), {});
+  const Quality q = measure_quality(Mat3X::Zero(3, 4), make_adjacency(4, {}), {});
   EXPECT_EQ(q.min_angle.count, 0u);
   EXPECT_EQ(q.self_intersections, 0u);
   EXPECT_TRUE(q.worst_faces.empty());
@@ -173,7 +173,7 @@ TEST(Curvature, OfASphereIsOneOverTheRadius) {
   EXPECT_NEAR(q.mean_curvature.min, q.mean_curvature.max, .02);
 }
 
-double angle_defect(const test::Triangles& t, const Connectivity& c, int v) {
+double angle_defect(const test::Triangles& t, const Adjacency& c, int v) {
   double defect = 2 * std::numbers::pi;
   for (int f : c.vertex_faces[v]) {
     const Triangle& s = c.faces[static_cast<size_t>(f)];
@@ -203,7 +203,7 @@ test::Triangles ruffle(int rim) {
 TEST(Curvature, MixedAreasCoverTheSurfaceOnce) {
   for (const test::Triangles& t :
        {test::sphere(3, .35), ruffle(16), ruffle(5000)}) {  // with obtuse triangles too
-    const Connectivity c = test::connect(t);
+    const Adjacency c = test::connect(t);
     const VertexCurvature k = measure_curvature(t.points, c);
     double area = 0, total = 0;
     for (int v = 0; v < c.vertex_count; ++v) {
@@ -218,7 +218,7 @@ TEST(Curvature, MixedAreasCoverTheSurfaceOnce) {
 
 TEST(Curvature, AnglesBeyondAFullTurnAreAllCounted) {
   const test::Triangles t = ruffle(16);
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   EXPECT_LT(angle_defect(t, c, 16), -4 * std::numbers::pi);
   EXPECT_LT(measure_curvature(t.points, c).gaussian[16], 0);
 }

@@ -12,16 +12,16 @@
 namespace hooke {
 namespace {
 
-TEST(Connectivity, EulerCharacteristicOfASphereIsTwo) {
+TEST(Adjacency, EulerCharacteristicOfASphereIsTwo) {
   const auto t = test::sphere(2);
-  const Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
   EXPECT_EQ(c.vertex_count - static_cast<int>(c.edges.size()) + static_cast<int>(c.faces.size()), 2);
   for (size_t e = 0; e < c.edges.size(); ++e) EXPECT_FALSE(c.is_boundary_edge(static_cast<int>(e)));
 }
 
-TEST(Connectivity, EdgesKnowTheirFacesAndFacesTheirEdges) {
+TEST(Adjacency, EdgesKnowTheirFacesAndFacesTheirEdges) {
   const auto t = test::grid(5, test::flat);
-  const Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+  const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
   int boundary = 0;
   for (size_t e = 0; e < c.edges.size(); ++e) boundary += c.is_boundary_edge(static_cast<int>(e));
   EXPECT_EQ(boundary, 4 * 5);
@@ -39,7 +39,7 @@ TEST(Mesh, KeepsIdsAndPointsOfTheArraysItWasBuiltFrom) {
   const auto t = test::sphere(1, .2);
   TriMesh mesh = test::to_mesh(t);
   EXPECT_EQ(triangles_of(mesh), t.faces);
-  EXPECT_EQ(positions(mesh), t.points);
+  EXPECT_EQ(vertex_points(mesh), t.points);
   VProp<Vec3> velocity(mesh, velocity_property);
   as_matrix(mesh, velocity).setConstant(3);
   EXPECT_EQ(velocity[mesh.vertex_handle(5)], Vec3(3, 3, 3));

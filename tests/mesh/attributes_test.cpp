@@ -75,7 +75,7 @@ TEST(VertexData, IsLinearInTheFaces) {
   const std::vector<Triangle> faces = {{0, 1, 2}, {2, 1, 3}};
   const std::vector<MapEntry> map = {
       {0, {0, Vec3(1, 0, 0)}}, {-1, {0, Vec3(.5, .25, .25)}}, {-1, {1, Vec3(.5, .5, 0)}}, {3, {}}};
-  const VertexData carried = carry_over(data, map, faces);
+  const VertexData carried = interpolate(data, map, faces);
   EXPECT_EQ(carried[0].values[0], 1);
   EXPECT_EQ(carried[0].values[1], 2);
   EXPECT_EQ(carried[0].values[2], 3) << "the corner without weight does not count";
@@ -94,7 +94,7 @@ TEST(VertexData, AValueIsNeverBeyondThoseOfTheCorners) {
     const double a = k / 300., b = std::sqrt(k) / 20;
     map.push_back({-1, {0, Vec3(a, b, 1 - a - b)}});
   }
-  const VertexData carried = carry_over(data, map, faces);
+  const VertexData carried = interpolate(data, map, faces);
   for (size_t v = 0; v < map.size(); ++v) {
     EXPECT_EQ(carried[0].values[v], .1);
     EXPECT_EQ(carried[1].values[v], inf);
@@ -114,8 +114,8 @@ TEST(VertexData, ALinearFieldOnAPlaneGoesWithAnAdaptedMesh) {
   RemeshOptions options;
   options.connectivity = ConnectivityMode::adapt;
   options.map = true;
-  const VertexData carried = carry_over(data, remesh(mesh, options).map, t.faces);
-  const Mat3X points = positions(mesh);
+  const VertexData carried = interpolate(data, remesh(mesh, options).map, t.faces);
+  const Mat3X points = vertex_points(mesh);
   ASSERT_EQ(carried[0].values.size(), static_cast<size_t>(points.cols()));
   for (Eigen::Index v = 0; v < points.cols(); ++v)
     EXPECT_NEAR(carried[0].values[static_cast<size_t>(v)], 3 * points(0, v) - points(1, v), 1e-9);

@@ -45,7 +45,7 @@ TEST(PrincipalCurvature, IsDefinedOnTheSmallestMeshesAndWithoutFaces) {
   for (double k : curvatures(test::tetrahedron())) EXPECT_TRUE(std::isfinite(k));
   for (double k : curvatures(test::equilateral())) EXPECT_NEAR(k, 0, 1e-12);
   const Mat3X one = Mat3X::Zero(3, 4);
-  EXPECT_EQ(largest_curvatures(one, make_connectivity(4, {}))[3], 0);
+  EXPECT_EQ(largest_curvatures(one, make_adjacency(4, {}))[3], 0);
 }
 
 }  // namespace

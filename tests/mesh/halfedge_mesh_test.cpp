@@ -11,24 +11,24 @@
 #include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
 #include "support/crease_solids.h"
-#include "support/flipping_scene.h"
+#include "support/flippable_scene.h"
 
 namespace hooke {
 namespace {
 
-Triangulation triangulate(const test::Triangles& t, const std::vector<Edge>& creases = {}) {
-  Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
-  part_at_creases(c, creases);
-  return Triangulation(c);
+HalfedgeMesh triangulate(const test::Triangles& t, const std::vector<Edge>& creases = {}) {
+  Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
+  split_wedges(c, creases);
+  return HalfedgeMesh(c);
 }
 
-std::multiset<std::set<int>> corner_sets(const Triangulation& t) {
+std::multiset<std::set<int>> corner_sets(const HalfedgeMesh& t) {
   std::multiset<std::set<int>> sets;
   for (const Triangle& f : t.faces()) sets.insert(std::set<int>(f.begin(), f.end()));
   return sets;
 }
 
-void expect_sound(const Triangulation& t, int vertices) {
+void expect_sound(const HalfedgeMesh& t, int vertices) {
   for (int h = 0; h < t.half_edge_count(); ++h) {
     const int twin = t.twin(h);
     if (twin < 0) continue;
@@ -36,7 +36,7 @@ void expect_sound(const Triangulation& t, int vertices) {
     EXPECT_EQ(t.from(twin), t.to(h));
     EXPECT_EQ(t.to(twin), t.from(h));
   }
-  const Connectivity c = make_connectivity(vertices, t.faces());
+  const Adjacency c = make_adjacency(vertices, t.faces());
   for (int v = 0; v < vertices; ++v) {
     EXPECT_EQ(t.valence(v), static_cast<int>(c.vertex_edges[v].size()));
     std::set<int> faces;
@@ -49,15 +49,15 @@ void expect_sound(const Triangulation& t, int vertices) {
   }
 }
 
-TEST(Triangulation, StaysSoundUnderAnyFlips) {
+TEST(HalfedgeMesh, StaysSoundUnderAnyFlips) {
   const test::Triangles grid = test::grid(6, test::flat);
   const int n = static_cast<int>(grid.points.cols());
-  Triangulation t = triangulate(grid);
+  HalfedgeMesh t = triangulate(grid);
   std::mt19937 random(3);
   int flips = 0;
   for (int i = 0; i < 500; ++i) {
     const int h = static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count()));
-    if (t.twin(h) < 0 || t.adjacent(t.apex(h), t.apex(t.twin(h)))) continue;
+    if (t.twin(h) < 0 || t.adjacent(t.opposite_vertex(h), t.opposite_vertex(t.twin(h)))) continue;
     t.flip(h);
     ++flips;
   }
@@ -67,17 +67,17 @@ TEST(Triangulation, StaysSoundUnderAnyFlips) {
   EXPECT_NO_THROW(build_mesh(grid.points, t.faces()));
 }
 
-TEST(Triangulation, TwoFlipsOfAnEdgeGiveTheSameFaces) {
+TEST(HalfedgeMesh, TwoFlipsOfAnEdgeGiveTheSameFaces) {
   const test::Triangles ball = test::sphere(1);
-  Triangulation t = triangulate(ball);
+  HalfedgeMesh t = triangulate(ball);
   const auto before = corner_sets(t);
   t.flip(10);
   EXPECT_NE(corner_sets(t), before);
-  t.flip(Triangulation::flipped(10));
+  t.flip(HalfedgeMesh::flipped(10));
   EXPECT_EQ(corner_sets(t), before);
 }
 
-TEST(Triangulation, FlipsAroundKeepConstrainedEdges) {
+TEST(HalfedgeMesh, FlipsAroundKeepConstrainedEdges) {
   const test::Triangles grid = test::grid(6, test::flat);
   std::mt19937 random(5);
   std::vector<Edge> creases;
@@ -85,28 +85,29 @@ TEST(Triangulation, FlipsAroundKeepConstrainedEdges) {
     const Triangle& face = grid.faces[random() % grid.faces.size()];
     creases.push_back({face[0], face[1]});
   }
-  Triangulation t = triangulate(grid, creases);
+  HalfedgeMesh t = triangulate(grid, creases);
   const auto any = [&] { return static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count())); };
   const auto constrained = [&] {
     std::multiset<std::set<int>> edges;
     for (int h = 0; h < t.half_edge_count(); ++h)
-      if (t.is_constrained(h)) edges.insert({t.from(h), t.to(h)});
+      if (t.is_crease(h)) edges.insert({t.from(h), t.to(h)});
     return edges;
   };
   const auto before = constrained();
   EXPECT_GE(before.size(), 20u);
   for (int i = 0; i < 500; ++i) {
     const int h = any();
-    if (t.twin(h) < 0 || t.is_constrained(h) || t.adjacent(t.apex(h), t.apex(t.twin(h)))) continue;
+    if (t.twin(h) < 0 || t.is_crease(h) || t.adjacent(t.opposite_vertex(h), t.opposite_vertex(t.twin(h))))
+      continue;
     t.flip(h);
-    for (int side : {Triangulation::flipped(h), t.twin(Triangulation::flipped(h))})
-      EXPECT_FALSE(t.is_constrained(side));
+    for (int wedge : {HalfedgeMesh::flipped(h), t.twin(HalfedgeMesh::flipped(h))})
+      EXPECT_FALSE(t.is_crease(wedge));
   }
   EXPECT_EQ(constrained(), before);
 }
 
 /// Splits and collapses at random, then closes the gaps.
-Triangulation shaken(Triangulation t, int steps, unsigned seed) {
+HalfedgeMesh shaken(HalfedgeMesh t, int steps, unsigned seed) {
   std::mt19937 random(seed);
   for (int i = 0; i < steps; ++i) {
     const int h = static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count()));
@@ -120,14 +121,14 @@ Triangulation shaken(Triangulation t, int steps, unsigned seed) {
   return t;
 }
 
-TEST(Triangulation, SplitsAndCollapsesKeepTheTopology) {
+TEST(HalfedgeMesh, SplitsAndCollapsesKeepTheTopology) {
   for (const test::Triangles& start : {test::grid(6, test::flat), test::sphere(2)}) {
     const Topology before =
-        measure_topology(make_connectivity(static_cast<int>(start.points.cols()), start.faces));
+        measure_topology(make_adjacency(static_cast<int>(start.points.cols()), start.faces));
     for (unsigned seed = 1; seed <= 4; ++seed) {
-      const Triangulation t = shaken(triangulate(start), 3000, seed);
+      const HalfedgeMesh t = shaken(triangulate(start), 3000, seed);
       expect_sound(t, t.id_count());
-      const Topology after = measure_topology(make_connectivity(t.id_count(), t.faces()));
+      const Topology after = measure_topology(make_adjacency(t.id_count(), t.faces()));
       EXPECT_EQ(after.euler, before.euler);
       EXPECT_EQ(after.boundary_loops, before.boundary_loops);
       EXPECT_EQ(after.components, before.components);
@@ -137,16 +138,16 @@ TEST(Triangulation, SplitsAndCollapsesKeepTheTopology) {
 }
 
 /// May the end of h go without a crease losing its way? Those that slide along the crease may.
-bool is_free_to_go(const Triangulation& t, int h, int end) {
+bool is_free_to_go(const HalfedgeMesh& t, int h, int end) {
   int creases = 0;
-  for (int spoke : t.outgoing(end)) creases += t.is_constrained(spoke);
-  return creases == 0 || (creases == 2 && t.is_constrained(h));
+  for (int spoke : t.outgoing(end)) creases += t.is_crease(spoke);
+  return creases == 0 || (creases == 2 && t.is_crease(h));
 }
 
-TEST(Triangulation, SplitsAndCollapsesKeepTheSidesOfCreases) {
+TEST(HalfedgeMesh, SplitsAndCollapsesKeepTheSidesOfCreases) {
   const test::Triangles cube = test::irregular_cube(4);
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    Triangulation t = triangulate(cube, test::bent_edges(cube.points, cube.faces));
+    HalfedgeMesh t = triangulate(cube, test::bent_edges(cube.points, cube.faces));
     std::mt19937 random(seed);
     int collapses = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -163,48 +164,48 @@ TEST(Triangulation, SplitsAndCollapsesKeepTheSidesOfCreases) {
     const int vertices = static_cast<int>(t.compact().size());
     std::vector<Edge> creases;
     for (int h = 0; h < t.half_edge_count(); ++h)
-      if (t.is_constrained(h)) creases.push_back({t.from(h), t.to(h)});
-    Connectivity c = make_connectivity(vertices, t.faces());
-    part_at_creases(c, creases);
+      if (t.is_crease(h)) creases.push_back({t.from(h), t.to(h)});
+    Adjacency c = make_adjacency(vertices, t.faces());
+    split_wedges(c, creases);
     EXPECT_EQ(measure_topology(cut_open(c)).components, 6);
     std::map<int, int> numbers;  // of the sides, where there and here are one to one
     std::set<int> there;
     for (size_t f = 0; f < c.faces.size(); ++f)
       for (size_t k = 0; k < 3; ++k) {
-        const auto [side, fresh] = numbers.emplace(t.sides()[f][k], c.side_faces[f][k]);
-        EXPECT_EQ(side->second, c.side_faces[f][k]);
+        const auto [wedge, fresh] = numbers.emplace(t.wedges()[f][k], c.side_faces[f][k]);
+        EXPECT_EQ(wedge->second, c.side_faces[f][k]);
         if (fresh) {
-          EXPECT_TRUE(there.insert(side->second).second);
+          EXPECT_TRUE(there.insert(wedge->second).second);
         }
       }
-    EXPECT_EQ(static_cast<int>(there.size()), c.side_count());
+    EXPECT_EQ(static_cast<int>(there.size()), c.wedge_count());
   }
 }
 
-TEST(Triangulation, ATriangleAndATetrahedronDoNotCollapse) {
-  const Triangulation triangle(make_connectivity(3, {{0, 1, 2}}));
-  const Triangulation tetrahedron(make_connectivity(4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}));
-  for (const Triangulation* t : {&triangle, &tetrahedron})
+TEST(HalfedgeMesh, ATriangleAndATetrahedronDoNotCollapse) {
+  const HalfedgeMesh triangle(make_adjacency(3, {{0, 1, 2}}));
+  const HalfedgeMesh tetrahedron(make_adjacency(4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}));
+  for (const HalfedgeMesh* t : {&triangle, &tetrahedron})
     for (int h = 0; h < t->half_edge_count(); ++h) EXPECT_FALSE(t->may_collapse(h));
 }
 
-TEST(Triangulation, BothHalvesOfAConstrainedEdgeAreConstrained) {
+TEST(HalfedgeMesh, BothHalvesOfAConstrainedEdgeAreConstrained) {
   const test::Triangles ball = test::sphere(1);
   const int a = ball.faces[3][1], b = ball.faces[3][2];
-  Triangulation t = triangulate(ball, {{a, b}});
+  HalfedgeMesh t = triangulate(ball, {{a, b}});
   const int h = 10;
-  ASSERT_TRUE(t.is_constrained(h));
+  ASSERT_TRUE(t.is_crease(h));
   const int v = t.split(h);
   for (const auto& [from, to] : {std::pair(a, v), std::pair(v, b), std::pair(v, a), std::pair(b, v)})
-    EXPECT_TRUE(t.is_constrained(test::half_edge(t, from, to)));
-  EXPECT_EQ(std::ranges::count_if(t.outgoing(v), [&](int s) { return t.is_constrained(s); }), 2);
+    EXPECT_TRUE(t.is_crease(test::half_edge(t, from, to)));
+  EXPECT_EQ(std::ranges::count_if(t.outgoing(v), [&](int s) { return t.is_crease(s); }), 2);
   t.collapse(test::half_edge(t, v, a), a);
-  EXPECT_TRUE(t.is_constrained(test::half_edge(t, a, b)));
+  EXPECT_TRUE(t.is_crease(test::half_edge(t, a, b)));
   EXPECT_EQ(t.compact().size(), 42u);
 }
 
-TEST(Triangulation, CompactKeepsWhatHasNoFaces) {
-  Triangulation t(make_connectivity(7, {{1, 2, 3}, {3, 2, 5}, {2, 4, 5}}));
+TEST(HalfedgeMesh, CompactKeepsWhatHasNoFaces) {
+  HalfedgeMesh t(make_adjacency(7, {{1, 2, 3}, {3, 2, 5}, {2, 4, 5}}));
   const int h = test::half_edge(t, 2, 5);
   ASSERT_FALSE(t.may_collapse(h));
   std::vector<int> kept = t.compact();
@@ -212,30 +213,31 @@ TEST(Triangulation, CompactKeepsWhatHasNoFaces) {
   EXPECT_EQ(kept, (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
 }
 
-TEST(Triangulation, AFlipJoinsTheCornersAcross) {
-  Triangulation t = triangulate(test::sphere(1));
-  const int h = 7, a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));
+TEST(HalfedgeMesh, AFlipJoinsTheCornersAcross) {
+  HalfedgeMesh t = triangulate(test::sphere(1));
+  const int h = 7, a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), d = t.opposite_vertex(t.twin(h));
   t.flip(h);
   EXPECT_FALSE(t.adjacent(a, b));
   EXPECT_TRUE(t.adjacent(c, d));
-  const int f = Triangulation::flipped(h);
+  const int f = HalfedgeMesh::flipped(h);
   EXPECT_EQ((std::set{t.from(f), t.to(f)}), (std::set{c, d}));
 }
 
-TEST(Triangulation, SpokesRunFromOneBoundaryEdgeToTheOther) {
+TEST(HalfedgeMesh, SpokesRunFromOneBoundaryEdgeToTheOther) {
   const test::Triangles grid = test::grid(2, test::flat);
-  const Triangulation t = triangulate(grid);
+  const HalfedgeMesh t = triangulate(grid);
   for (int v = 0; v < 9; ++v) {
     const ShortList spokes = t.outgoing(v);
-    for (size_t i = 0; i + 1 < spokes.size(); ++i) EXPECT_EQ(t.apex(spokes[i]), t.to(spokes[i + 1]));
+    for (size_t i = 0; i + 1 < spokes.size(); ++i)
+      EXPECT_EQ(t.opposite_vertex(spokes[i]), t.to(spokes[i + 1]));
     if (!t.on_boundary(v)) continue;
     EXPECT_EQ(t.twin(spokes.front()), -1);
-    EXPECT_EQ(t.twin(Triangulation::previous(spokes.back())), -1);
+    EXPECT_EQ(t.twin(HalfedgeMesh::previous(spokes.back())), -1);
   }
 }
 
-TEST(Triangulation, AVertexWithoutFacesHasNoSpokes) {
-  const Triangulation t(make_connectivity(4, {{0, 1, 2}}));
+TEST(HalfedgeMesh, AVertexWithoutFacesHasNoSpokes) {
+  const HalfedgeMesh t(make_adjacency(4, {{0, 1, 2}}));
   EXPECT_TRUE(t.outgoing(3).empty());
   EXPECT_EQ(t.valence(3), 0);
 }

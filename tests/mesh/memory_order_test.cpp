@@ -22,22 +22,22 @@ std::vector<int> sorted(std::vector<int> ids) {
   return ids;
 }
 
-double mean_edge_span(const Connectivity& c) {
+double mean_edge_span(const Adjacency& c) {
   double sum = 0;
   for (const auto& [a, b] : c.edges) sum += std::abs(a - b);
   return sum / static_cast<double>(c.edges.size());
 }
 
 TEST(Ordering, IsAPermutationOfAllVerticesAndFaces) {
-  const Connectivity c = test::connect(test::two_parts_and_loose_vertices());
-  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
+  const Adjacency c = test::connect(test::two_parts_and_loose_vertices());
+  const Permutation r = reorder(c.faces, bfs_cluster_order(c.vertex_count, c.faces));
   EXPECT_EQ(sorted(r.old_vertex), numbers(static_cast<size_t>(c.vertex_count)));
   EXPECT_EQ(sorted(r.old_face), numbers(c.faces.size()));
 }
 
 TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
-  const Connectivity c = test::connect(test::shuffled(test::two_parts_and_loose_vertices()));
-  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
+  const Adjacency c = test::connect(test::shuffled(test::two_parts_and_loose_vertices()));
+  const Permutation r = reorder(c.faces, bfs_cluster_order(c.vertex_count, c.faces));
   ASSERT_EQ(r.faces.size(), c.faces.size());
   for (size_t f = 0; f < r.faces.size(); ++f) {
     Triangle old;
@@ -47,8 +47,8 @@ TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
 }
 
 TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
-  const Connectivity c = test::connect(test::two_parts_and_loose_vertices());
-  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
+  const Adjacency c = test::connect(test::two_parts_and_loose_vertices());
+  const Permutation r = reorder(c.faces, bfs_cluster_order(c.vertex_count, c.faces));
   const std::vector<int> old = {7, 0, 100};
   const std::vector<int> fresh = r.new_vertices(old);
   ASSERT_EQ(fresh.size(), old.size());
@@ -57,20 +57,20 @@ TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
 }
 
 TEST(Ordering, FacesFollowTheirSmallestVertex) {
-  const Connectivity c = test::connect(test::shuffled(test::sphere(3)));
-  const Reordered r = reorder(c.faces, locality_order(c.vertex_count, c.faces));
+  const Adjacency c = test::connect(test::shuffled(test::sphere(3)));
+  const Permutation r = reorder(c.faces, bfs_cluster_order(c.vertex_count, c.faces));
   EXPECT_TRUE(std::ranges::is_sorted(r.faces, {}, [](const Triangle& t) { return std::ranges::min(t); }));
 }
 
 TEST(Ordering, BringsNeighboursTogether) {
-  const Connectivity c = test::connect(test::shuffled(test::grid(40, test::flat)));
-  const Connectivity ordered =
-      make_connectivity(c.vertex_count, reorder(c.faces, locality_order(c.vertex_count, c.faces)).faces);
+  const Adjacency c = test::connect(test::shuffled(test::grid(40, test::flat)));
+  const Adjacency ordered =
+      make_adjacency(c.vertex_count, reorder(c.faces, bfs_cluster_order(c.vertex_count, c.faces)).faces);
   EXPECT_LT(mean_edge_span(ordered), .2 * mean_edge_span(c));
 }
 
 TEST(Ordering, NothingComesOutOfNothing) {
-  EXPECT_TRUE(locality_order(0, {}).empty());
+  EXPECT_TRUE(bfs_cluster_order(0, {}).empty());
   EXPECT_TRUE(reorder({}, {}).faces.empty());
 }
 

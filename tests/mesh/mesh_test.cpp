@@ -19,8 +19,8 @@ const test::Triangles& scattered() {
   return t;
 }
 
-MeasuredSurface measured(const Mat3X& points, const Layout& layout) {
-  return {layout.order.in_new_order(points), *layout.connectivity, layout.order.old_ids()};
+MeasuredSurface measured(const Mat3X& points, const MemoryOrder& memory_order) {
+  return {memory_order.order.gather(points), *memory_order.adjacency, memory_order.order.old_ids()};
 }
 
 /// Neighbours, counter-clockwise from the least, or from where a boundary begins.
@@ -31,33 +31,34 @@ std::vector<int> ring_of(const TriMesh& mesh, OpenMesh::VertexHandle v) {
   return ring;
 }
 
-TEST(Layout, IsTheMeshInMemoryOrder) {
+TEST(MemoryOrder, IsTheMeshInMemoryOrder) {
   const TriMesh mesh = test::to_mesh(scattered());
-  const Layout layout = lay_out(mesh);
-  EXPECT_NE(layout.connectivity->faces, scattered().faces);
-  EXPECT_EQ(layout.order.in_old_order(layout.connectivity->faces), scattered().faces);
-  EXPECT_EQ(layout.order.old_vertex, locality_order(static_cast<int>(mesh.n_vertices()), scattered().faces));
+  const MemoryOrder memory_order = find_memory_order(mesh);
+  EXPECT_NE(memory_order.adjacency->faces, scattered().faces);
+  EXPECT_EQ(memory_order.order.scatter(memory_order.adjacency->faces), scattered().faces);
+  EXPECT_EQ(memory_order.order.old_vertex,
+            bfs_cluster_order(static_cast<int>(mesh.n_vertices()), scattered().faces));
 }
 
-TEST(Layout, ValuesGoThereAndBack) {
-  const Layout layout = lay_out(test::to_mesh(scattered()));
-  const Mat3X fresh = layout.order.in_new_order(scattered().points);
+TEST(MemoryOrder, ValuesGoThereAndBack) {
+  const MemoryOrder memory_order = find_memory_order(test::to_mesh(scattered()));
+  const Mat3X fresh = memory_order.order.gather(scattered().points);
   EXPECT_NE(fresh, scattered().points);
-  EXPECT_EQ(layout.order.in_old_order(fresh), scattered().points);
-  std::vector<double> values(layout.order.old_vertex.size());
+  EXPECT_EQ(memory_order.order.scatter(fresh), scattered().points);
+  std::vector<double> values(memory_order.order.old_vertex.size());
   for (size_t v = 0; v < values.size(); ++v) values[v] = fresh(0, static_cast<Eigen::Index>(v));
-  const std::vector<double> old = layout.order.in_old_order(values);
+  const std::vector<double> old = memory_order.order.scatter(values);
   for (size_t v = 0; v < old.size(); ++v)
     EXPECT_EQ(old[v], scattered().points(0, static_cast<Eigen::Index>(v)));
-  EXPECT_EQ(layout.order.in_new_order(old), values);
+  EXPECT_EQ(memory_order.order.gather(old), values);
 }
 
-TEST(Layout, AMeshBuiltFromItIsTheSameMesh) {
+TEST(MemoryOrder, AMeshBuiltFromItIsTheSameMesh) {
   const TriMesh mesh = test::to_mesh(scattered());
-  const Layout layout = lay_out(mesh);
-  const TriMesh built = build_mesh(scattered().points, *layout.connectivity, layout.order.old_ids());
+  const MemoryOrder memory_order = find_memory_order(mesh);
+  const TriMesh built = build_mesh(scattered().points, *memory_order.adjacency, memory_order.order.old_ids());
   EXPECT_EQ(triangles_of(built), scattered().faces);
-  EXPECT_EQ(positions(built), scattered().points);
+  EXPECT_EQ(vertex_points(built), scattered().points);
   ASSERT_EQ(built.n_edges(), mesh.n_edges());
   for (const auto v : mesh.vertices()) {
     EXPECT_EQ(built.is_isolated(v), mesh.is_isolated(v));
@@ -67,12 +68,12 @@ TEST(Layout, AMeshBuiltFromItIsTheSameMesh) {
   }
 }
 
-TEST(Layout, MeasuresNameTheIdsOfTheMesh) {
+TEST(MemoryOrder, MeasuresNameTheIdsOfTheMesh) {
   const test::Triangles regular = test::shuffled(test::grid(12, test::flat));  // many angles are the same
   int bounded = 0;
   for (const test::Triangles& t : {test::shaken(regular, .02), regular}) {
     const Quality expected = measure_quality(t.points, test::connect(t), {});
-    const Quality found = measure_quality(measured(t.points, lay_out(test::to_mesh(t))), {});
+    const Quality found = measure_quality(measured(t.points, find_memory_order(test::to_mesh(t))), {});
     ASSERT_EQ(found.worst_faces.size(), expected.worst_faces.size());
     for (size_t i = 0; i < found.worst_faces.size(); ++i) {
       EXPECT_EQ(found.worst_faces[i].face, expected.worst_faces[i].face);
@@ -85,20 +86,21 @@ TEST(Layout, MeasuresNameTheIdsOfTheMesh) {
   EXPECT_GT(bounded, 0);
 }
 
-TEST(Layout, DeviationsNameTheIdsOfTheMesh) {
+TEST(MemoryOrder, DeviationsNameTheIdsOfTheMesh) {
   const test::Triangles t = test::shuffled(test::grid(12, test::flat));
-  const Layout layout = lay_out(test::to_mesh(t));
-  const Connectivity plain = test::connect(t);
+  const MemoryOrder memory_order = find_memory_order(test::to_mesh(t));
+  const Adjacency plain = test::connect(t);
   Mat3X folded = t.points;
   const auto inner = static_cast<Eigen::Index>(t.faces[40][0]);
   folded.col(inner) += Vec3(.3, .2, 0);
   const Deviation far = measure_deviation(t.points, plain, folded, plain);
   EXPECT_FALSE(far.opposing_faces.empty());
-  EXPECT_EQ(measure_deviation(measured(t.points, layout), measured(folded, layout)).opposing_faces,
-            far.opposing_faces);
+  EXPECT_EQ(
+      measure_deviation(measured(t.points, memory_order), measured(folded, memory_order)).opposing_faces,
+      far.opposing_faces);
 }
 
-TEST(Layout, OfAResultIsThatOfTheMeshAsItIs) {
+TEST(MemoryOrder, OfAResultIsThatOfTheMeshAsItIs) {
   for (const ConnectivityMode mode :
        {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
     const test::Triangles t = test::shuffled(test::both(test::shaken(test::sphere(2), .04), test::cube()));
@@ -106,23 +108,24 @@ TEST(Layout, OfAResultIsThatOfTheMeshAsItIs) {
     options.connectivity = mode;
     options.constraints.features.angle = 60;
     const test::Outcome o = test::remeshed(t, options);
-    const Layout& layout = o.result.layout;
-    EXPECT_EQ(layout.order.in_old_order(layout.connectivity->faces), o.faces);
+    const MemoryOrder& memory_order = o.result.memory_order;
+    EXPECT_EQ(memory_order.order.scatter(memory_order.adjacency->faces), o.faces);
     EXPECT_GT(o.result.creases.edges, 0);
-    EXPECT_TRUE(layout.connectivity->creases.empty());
-    EXPECT_TRUE(layout.connectivity->further_sides.empty());
+    EXPECT_TRUE(memory_order.adjacency->creases.empty());
+    EXPECT_TRUE(memory_order.adjacency->extra_wedges.empty());
   }
 }
 
-TEST(Layout, WhatBoundsTheWorstFacesIsTheSameInAnyOrder) {
+TEST(MemoryOrder, WhatBoundsTheWorstFacesIsTheSameInAnyOrder) {
   test::Triangles t = test::both(test::shaken(test::sphere(2), .04), test::cube());
   RemeshOptions options;
   options.constraints.features.angle = 60;
   const auto reasons = [&](const test::Triangles& mesh) {
     const test::Outcome o = test::remeshed(mesh, options);
-    Quality q = measure_quality(measured(o.points, o.result.layout), {}, {.worst_faces = mesh.faces.size()});
+    Quality q =
+        measure_quality(measured(o.points, o.result.memory_order), {}, {.worst_faces = mesh.faces.size()});
     std::vector<std::vector<std::string>> all;
-    for (const WorstFace& face : q.worst_faces) all.push_back(hindrances(face, o.result.holds));
+    for (const WorstFace& face : q.worst_faces) all.push_back(limiting_factors(face, o.result.vertex_limits));
     std::ranges::sort(all);
     return all;
   };
@@ -132,14 +135,14 @@ TEST(Layout, WhatBoundsTheWorstFacesIsTheSameInAnyOrder) {
   EXPECT_EQ(std::ranges::count(reasons(test::shuffled(t)), std::vector<std::string>{"corner", "crease"}), 12);
 }
 
-TEST(Layout, DisplacementsAreThoseOfTheSameVertices) {
+TEST(MemoryOrder, DisplacementsAreThoseOfTheSameVertices) {
   const test::Triangles t = test::shuffled(test::grid(12, test::flat));
   const Mat3X moved = test::shaken(t, .01).points;
-  const Connectivity plain = test::connect(t);
-  const Layout layout = lay_out(test::to_mesh(t));
+  const Adjacency plain = test::connect(t);
+  const MemoryOrder memory_order = find_memory_order(test::to_mesh(t));
   const MaxRms expected = *measure_deviation(t.points, plain, moved, plain).displacement;
   const MaxRms found =
-      *measure_deviation(MeasuredSurface(t.points, plain), measured(moved, layout)).displacement;
+      *measure_deviation(MeasuredSurface(t.points, plain), measured(moved, memory_order)).displacement;
   EXPECT_EQ(found.max, expected.max);
   EXPECT_DOUBLE_EQ(found.rms, expected.rms);
 }
@@ -148,21 +151,21 @@ TEST(MeshFoundation, TrianglesComeBackAsTheyWentIn) {
   for (const test::Triangles& t : {test::cube(), test::tetrahedron(), test::grid(3, test::flat)}) {
     const TriMesh mesh = test::to_mesh(t);
     EXPECT_EQ(triangles_of(mesh), t.faces);
-    EXPECT_EQ(positions(mesh), t.points);
+    EXPECT_EQ(vertex_points(mesh), t.points);
   }
 }
 
 TEST(MeshFoundation, PositionsAreTheMeshsOwnStorage) {
   TriMesh mesh = test::to_mesh(test::cube());
-  positions(mesh).col(3) = Vec3(7, 8, 9);
+  vertex_points(mesh).col(3) = Vec3(7, 8, 9);
   EXPECT_EQ(mesh.point(mesh.vertex_handle(3)), Vec3(7, 8, 9));
   mesh.set_point(mesh.vertex_handle(0), Vec3(-1, -2, -3));
-  EXPECT_EQ(positions(mesh).col(0), Vec3(-1, -2, -3));
+  EXPECT_EQ(vertex_points(mesh).col(0), Vec3(-1, -2, -3));
 }
 
 TEST(MeshFoundation, AnEmptyMeshHasEmptyMatrices) {
   TriMesh mesh;
-  EXPECT_EQ(positions(mesh).cols(), 0);
+  EXPECT_EQ(vertex_points(mesh).cols(), 0);
   VProp<Vec3> velocity(mesh, velocity_property);
   EXPECT_EQ(as_matrix(mesh, velocity).cols(), 0);
   EXPECT_TRUE(triangles_of(mesh).empty());

@@ -12,8 +12,8 @@ namespace {
 
 TEST(SurfacePoint, WalksToTheClosestPoint) {
   const test::Triangles t = test::grid(10, test::paraboloid, .3);
-  const Connectivity c = make_connectivity(static_cast<int>(t.points.cols()), t.faces);
-  const BoundingVolumeTree tree(t.points, t.faces);
+  const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
+  const AabbTree tree(t.points, t.faces);
   for (int from : {0, 60, 120})
     for (const Vec3& x : {Vec3(.31, .72, .4), Vec3(.9, .15, .3), Vec3(.5, .5, 0)}) {
       const SurfacePoint found = locate(t.points, c, x, from);
@@ -28,7 +28,7 @@ TEST(SurfacePoint, WalksToTheClosestPoint) {
 
 TEST(SurfacePoint, AVertexWithoutFacesLiesOnNone) {
   const Mat3X points{{0, 1, 0, 5}, {0, 0, 1, 5}, {0, 0, 0, 5}};
-  EXPECT_EQ(locate(points, make_connectivity(4, {{0, 1, 2}}), points.col(3), 3).face, -1);
+  EXPECT_EQ(locate(points, make_adjacency(4, {{0, 1, 2}}), points.col(3), 3).face, -1);
 }
 
 TEST(MapText, HasALinePerVertex) {

@@ -44,7 +44,7 @@ TEST(Topology, IsolatedVerticesBelongToNoComponent) {
 }
 
 TEST(Topology, OfNothing) {
-  const Topology t = measure_topology(make_connectivity(0, {}));
+  const Topology t = measure_topology(make_adjacency(0, {}));
   EXPECT_EQ(t.components + t.boundary_loops + t.euler, 0);
   EXPECT_FALSE(t.closed());
 }

@@ -13,7 +13,7 @@
 namespace hooke {
 namespace {
 
-std::vector<Connectivity> meshes() {
+std::vector<Adjacency> meshes() {
   const auto connect = [](const test::Triangles& t) { return test::connect(t); };
   test::Triangles bow_tie =
       test::triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
@@ -22,12 +22,12 @@ std::vector<Connectivity> meshes() {
           connect(bow_tie)};
 }
 
-TEST(SweepPlan, SpokesNameEveryEdgeAndFaceOfAVertexOnce) {
-  for (const Connectivity& c : meshes()) {
-    const SweepPlan plan = plan_sweeps(c);
+TEST(VertexColoring, SpokesNameEveryEdgeAndFaceOfAVertexOnce) {
+  for (const Adjacency& c : meshes()) {
+    const VertexColoring plan = color_vertices(c);
     for (int v = 0; v < c.vertex_count; ++v) {
       std::multiset<int> edges, faces;
-      for (const Spoke& s : plan.spokes[v]) {
+      for (const RingEntry& s : plan.rings[v]) {
         edges.insert(s.edge);
         if (s.face >= 0) faces.insert(s.face);
       }
@@ -37,11 +37,11 @@ TEST(SweepPlan, SpokesNameEveryEdgeAndFaceOfAVertexOnce) {
   }
 }
 
-TEST(SweepPlan, AFaceLiesBetweenItsSpokeAndTheNext) {
-  for (const Connectivity& c : meshes()) {
-    const SweepPlan plan = plan_sweeps(c);
+TEST(VertexColoring, AFaceLiesBetweenItsSpokeAndTheNext) {
+  for (const Adjacency& c : meshes()) {
+    const VertexColoring plan = color_vertices(c);
     for (int v = 0; v < c.vertex_count; ++v) {
-      const auto ring = plan.spokes[v];
+      const auto ring = plan.rings[v];
       for (size_t i = 0; i < ring.size(); ++i) {
         const Edge& e = c.edges[static_cast<size_t>(ring[i].edge)];
         EXPECT_EQ(e[0] + e[1], v + ring[i].neighbour);
@@ -59,9 +59,9 @@ TEST(SweepPlan, AFaceLiesBetweenItsSpokeAndTheNext) {
   }
 }
 
-TEST(SweepPlan, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
-  for (const Connectivity& c : meshes()) {
-    const SweepPlan plan = plan_sweeps(c);
+TEST(VertexColoring, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
+  for (const Adjacency& c : meshes()) {
+    const VertexColoring plan = color_vertices(c);
     std::vector<int> swept(static_cast<size_t>(c.vertex_count), 0);
     std::mutex mutex;
     for_each_block(plan, [&](int begin, int end) {
@@ -69,11 +69,11 @@ TEST(SweepPlan, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
       for (int v = begin; v < end; ++v) ++swept[static_cast<size_t>(v)];
     });
     for (int times : swept) EXPECT_EQ(times, 1);
-    for (const std::vector<int>& wave : plan.waves) {
-      const std::set<int> blocks(wave.begin(), wave.end());
+    for (const std::vector<int>& color : plan.colors) {
+      const std::set<int> blocks(color.begin(), color.end());
       for (int v = 0; v < c.vertex_count; ++v) {
         if (!blocks.contains(v / plan.block)) continue;
-        for (const Spoke& s : plan.spokes[v])
+        for (const RingEntry& s : plan.rings[v])
           for (int w : {s.neighbour, s.across}) {
             const bool elsewhere = w >= 0 && w / plan.block != v / plan.block;
             EXPECT_FALSE(elsewhere && blocks.contains(w / plan.block));
@@ -83,9 +83,9 @@ TEST(SweepPlan, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
   }
 }
 
-TEST(SweepPlan, OneBlockSweepsAllVerticesInOrderOverTheSameSpokes) {
-  for (const Connectivity& c : meshes()) {
-    const SweepPlan one = plan_one_block(c), many = plan_sweeps(c);
+TEST(VertexColoring, OneBlockSweepsAllVerticesInOrderOverTheSameSpokes) {
+  for (const Adjacency& c : meshes()) {
+    const VertexColoring one = color_as_one_block(c), many = color_vertices(c);
     std::vector<int> swept, all(static_cast<size_t>(c.vertex_count));
     std::iota(all.begin(), all.end(), 0);
     for_each_block(one, [&](int begin, int end) {
@@ -93,7 +93,7 @@ TEST(SweepPlan, OneBlockSweepsAllVerticesInOrderOverTheSameSpokes) {
     });
     EXPECT_EQ(swept, all);
     for (int v = 0; v < c.vertex_count; ++v)
-      EXPECT_TRUE(std::ranges::equal(one.spokes[v], many.spokes[v], {}, &Spoke::edge, &Spoke::edge));
+      EXPECT_TRUE(std::ranges::equal(one.rings[v], many.rings[v], {}, &RingEntry::edge, &RingEntry::edge));
   }
 }
 

@@ -27,7 +27,7 @@ RemeshOptions adapting() {
 /// Right angles on round rims are some a little less.
 void expect_sound(const Outcome& o, double faces, bool round = false) {
   EXPECT_NEAR(static_cast<double>(o.faces.size()), faces, std::max(2.5, .03 * faces));
-  const Connectivity c = make_connectivity(static_cast<int>(o.points.cols()), o.faces);
+  const Adjacency c = make_adjacency(static_cast<int>(o.points.cols()), o.faces);
   EXPECT_EQ(measure_topology(c).euler, 2);
   const Quality quality = measure_quality(o.points, c, std::vector<double>(c.edges.size(), 1.));
   if (!round) {
@@ -47,7 +47,7 @@ TEST(CreaseAdapt, ACubeStaysACube) {
     EXPECT_EQ(o.result.creases.curves, 12);
     EXPECT_EQ(o.result.creases.corners, 8);
     EXPECT_EQ(o.result.creases.charts, 6);
-    EXPECT_GT(least_angle(o.points, o.faces), 30);
+    EXPECT_GT(min_angle(o.points, o.faces), 30);
   }
 }
 
@@ -61,7 +61,7 @@ TEST(CreaseAdapt, AStepBlockKeepsItsConcaveEdge) {
     EXPECT_EQ(o.result.creases.curves, 18);
     EXPECT_EQ(o.result.creases.corners, 12);
     EXPECT_EQ(o.result.creases.charts, 8);
-    EXPECT_GT(least_angle(o.points, o.faces), 28);
+    EXPECT_GT(min_angle(o.points, o.faces), 28);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(CreaseAdapt, ACubeOfTwelveFacesIsRefined) {
   expect_sound(o, 12 * 25);
   expect_flat_faces(t, o, 1e-9);
   expect_same_creases(t, o, 1e-9);
-  EXPECT_GT(least_angle(o.points, o.faces), 30);
+  EXPECT_GT(min_angle(o.points, o.faces), 30);
 }
 
 TEST(CreaseAdapt, ACylinderStaysRoundUpToItsRims) {

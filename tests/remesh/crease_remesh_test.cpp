@@ -31,7 +31,7 @@ TEST(CreaseRemesh, ACubeStaysACube) {
     EXPECT_EQ(o.result.creases.corners, 8);
     EXPECT_EQ(o.result.creases.charts, 6);
     EXPECT_TRUE(o.result.folded_faces.empty());
-    EXPECT_GT(least_angle(o.points, o.faces), least_angle(t.points, t.faces) + 10);
+    EXPECT_GT(min_angle(o.points, o.faces), min_angle(t.points, t.faces) + 10);
   }
 }
 
@@ -49,7 +49,7 @@ TEST(CreaseRemesh, AStepBlockKeepsItsConcaveEdge) {
 
 TEST(CreaseRemesh, NoCreaseBecomesAcute) {
   const auto sharpest = [](const Mat3X& points, const std::vector<Triangle>& faces) {
-    const Connectivity c = make_connectivity(static_cast<int>(points.cols()), faces);
+    const Adjacency c = make_adjacency(static_cast<int>(points.cols()), faces);
     double least = 1;
     for (const auto& [left, right] : c.edge_faces)
       if (right >= 0)
@@ -89,7 +89,7 @@ TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
     }
     EXPECT_EQ(on_rims, 80);
     EXPECT_TRUE(o.result.folded_faces.empty());
-    EXPECT_GT(least_angle(o.points, o.faces), least_angle(t.points, t.faces) + 5);
+    EXPECT_GT(min_angle(o.points, o.faces), min_angle(t.points, t.faces) + 5);
   }
 }
 

@@ -92,8 +92,8 @@ void PrintTo(const Place& place, std::ostream* out) {
 }
 
 Quality quality_of(const TriMesh& mesh) {
-  const Mat3X points = positions(mesh);
-  return measure_quality(points, make_connectivity(static_cast<int>(points.cols()), triangles_of(mesh)), {});
+  const Mat3X points = vertex_points(mesh);
+  return measure_quality(points, make_adjacency(static_cast<int>(points.cols()), triangles_of(mesh)), {});
 }
 
 class HardPlaces : public testing::TestWithParam<std::tuple<Place, ConnectivityMode>> {
@@ -134,7 +134,7 @@ TEST(HardPlaces, OtherEdgesMendTheSliversThatSpringsLeave) {
       options.connectivity = mode;
       set_effort(options, Effort::standard);
       const Quality mended = quality_of(test::remeshed(lens, options).mesh);
-      options.mend.trials.rounds = 0;
+      options.slivers.trials.rounds = 0;
       const Quality left = quality_of(test::remeshed(lens, options).mesh);
       EXPECT_GE(mended.min_angle.min, left.min_angle.min - 1e-9) << seed;
       EXPECT_LE(mended.folded_edges, left.folded_edges) << seed;
@@ -154,7 +154,7 @@ TEST(HardPlaces, MendingIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
     RemeshOptions options;
     options.connectivity = mode;
     set_effort(options, Effort::standard);
-    options.mend.trials.sliver_angles = {33};
+    options.slivers.trials.sliver_angles = {33};
     int slivers = 0;
     const auto run = [&](int threads, int stop_at) {
       const ThreadLimit limit(threads);

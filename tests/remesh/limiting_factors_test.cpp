@@ -23,10 +23,14 @@ WorstFace face_with(double angle, double bound, std::vector<int> bound_vertices)
 }
 
 TEST(Hindrances, AreWhatSetsTheBoundWhereItIsReached) {
-  const std::vector<unsigned char> holds = {
-      0, held_by_boundary, held_by_crease, held_at_corner | held_by_boundary, held_by_request, held_by_guard};
+  const std::vector<unsigned char> vertex_limits = {0,
+                                                    limited_by_boundary,
+                                                    limited_by_crease,
+                                                    limited_at_corner | limited_by_boundary,
+                                                    limited_by_request,
+                                                    limited_by_guard};
   const auto named = [&](std::vector<int> vertices) {
-    return hindrances(face_with(29.5, 30, std::move(vertices)), holds);
+    return limiting_factors(face_with(29.5, 30, std::move(vertices)), vertex_limits);
   };
   EXPECT_EQ(named({0}), Names{"valence"});
   EXPECT_EQ(named({1}), Names{"boundary"});
@@ -38,31 +42,32 @@ TEST(Hindrances, AreWhatSetsTheBoundWhereItIsReached) {
 }
 
 TEST(Hindrances, AreWhatHoldsTheFacesOwnVerticesElsewhere) {
-  const auto named = [](const std::vector<unsigned char>& holds) {
-    return hindrances(face_with(20, 30, {0}), holds);
+  const auto named = [](const std::vector<unsigned char>& vertex_limits) {
+    return limiting_factors(face_with(20, 30, {0}), vertex_limits);
   };
   EXPECT_EQ(named({0, 0, 0}), Names{"lengths"});
-  EXPECT_EQ(named({held_by_guard, 0, 0}), Names{"guard"});
-  EXPECT_EQ(named({held_by_guard, held_by_boundary, held_by_request}), (Names{"fixed", "boundary", "guard"}));
+  EXPECT_EQ(named({limited_by_guard, 0, 0}), Names{"guard"});
+  EXPECT_EQ(named({limited_by_guard, limited_by_boundary, limited_by_request}),
+            (Names{"fixed", "boundary", "guard"}));
 }
 
 /// What the vertices of a remeshed mesh are held by.
 std::vector<unsigned char> holds_of(const test::Triangles& t, const RemeshOptions& options = {}) {
-  return test::remeshed(t, options).result.holds;
+  return test::remeshed(t, options).result.vertex_limits;
 }
 
 TEST(Hindrances, HoldsAreThoseOfTheInputsVertices) {
   const test::Triangles t = test::grid(6, test::flat, .2, 3);
   RemeshOptions options;
   options.constraints.fixed_vertices = {24, 16};
-  const auto holds = holds_of(t, options);
-  ASSERT_EQ(std::ssize(holds), t.points.cols());
+  const auto vertex_limits = holds_of(t, options);
+  ASSERT_EQ(std::ssize(vertex_limits), t.points.cols());
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto on_end = [](double x) { return x == 0 || x == 1; };
     const bool x = on_end(t.points(0, v)), y = on_end(t.points(1, v));
-    EXPECT_EQ((holds[static_cast<size_t>(v)] & held_by_boundary) != 0, x || y) << v;
-    EXPECT_EQ((holds[static_cast<size_t>(v)] & held_at_corner) != 0, x && y) << v;
-    EXPECT_EQ((holds[static_cast<size_t>(v)] & held_by_request) != 0, v == 16 || v == 24) << v;
+    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_by_boundary) != 0, x || y) << v;
+    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_at_corner) != 0, x && y) << v;
+    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_by_request) != 0, v == 16 || v == 24) << v;
   }
 }
 
@@ -70,22 +75,23 @@ TEST(Hindrances, AFixedBoundaryIsARequest) {
   const test::Triangles t = test::grid(6, test::flat, .2, 3);
   RemeshOptions options;
   options.constraints.boundary = BoundaryRule::fixed;
-  const auto holds = holds_of(t, options);
+  const auto vertex_limits = holds_of(t, options);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto on_end = [](double x) { return x == 0 || x == 1; };
     const bool rim = on_end(t.points(0, v)) || on_end(t.points(1, v));
-    EXPECT_EQ(holds[static_cast<size_t>(v)] & ~held_by_guard, rim ? held_by_request | held_by_boundary : 0)
+    EXPECT_EQ(vertex_limits[static_cast<size_t>(v)] & ~limited_by_guard,
+              rim ? limited_by_request | limited_by_boundary : 0)
         << v;
   }
 }
 
 TEST(Hindrances, CreasesHoldTheirVertices) {
   const test::Triangles t = test::irregular_cube(4);
-  const auto holds = holds_of(t);
+  const auto vertex_limits = holds_of(t);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto planes = (t.points.col(v).array() == 0 || t.points.col(v).array() == 4).count();
-    EXPECT_EQ((holds[static_cast<size_t>(v)] & held_at_corner) != 0, planes == 3) << v;
-    EXPECT_EQ((holds[static_cast<size_t>(v)] & held_by_crease) != 0, planes >= 2) << v;
+    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_at_corner) != 0, planes == 3) << v;
+    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_by_crease) != 0, planes >= 2) << v;
   }
 }
 

@@ -42,8 +42,8 @@ RemeshOptions in_mode(ConnectivityMode mode, Effort effort = Effort::standard) {
 }
 
 double rms_length_error(const TriMesh& mesh) {
-  const Mat3X points = positions(mesh);
-  const Connectivity c = make_connectivity(static_cast<int>(points.cols()), triangles_of(mesh));
+  const Mat3X points = vertex_points(mesh);
+  const Adjacency c = make_adjacency(static_cast<int>(points.cols()), triangles_of(mesh));
   const TargetLengths targets = spread_target_lengths(c, vertex_values(mesh, target_length_property));
   double sum = 0;
   for (size_t e = 0; e < c.edges.size(); ++e) {
@@ -62,7 +62,7 @@ TEST(RemeshToSizing, EdgesFollowTargetsThatVary) {
   EXPECT_LT(rms_length_error(flip), .12);
   for (const TriMesh* mesh : {&fixed, &flip}) {  // the targets are those of the places
     const std::vector<double> lengths = vertex_values(*mesh, target_length_property);
-    const auto points = positions(*mesh);
+    const auto points = vertex_points(*mesh);
     const double scale = lengths[0] / (2.5 + 1.5 * points(2, 0));
     for (size_t v = 0; v < lengths.size(); ++v)
       EXPECT_NEAR(lengths[v] / scale, 2.5 + 1.5 * points(2, static_cast<Eigen::Index>(v)), .05);
@@ -76,7 +76,7 @@ TEST(RemeshToSizing, OneThreadAndTwoFollowThemWithTheSameBits) {
       const ThreadLimit limit(threads);
       remesh(meshes[threads - 1], in_mode(mode, Effort::fast));
     }
-    EXPECT_EQ(positions(meshes[0]), positions(meshes[1]));
+    EXPECT_EQ(vertex_points(meshes[0]), vertex_points(meshes[1]));
     EXPECT_EQ(triangles_of(meshes[0]), triangles_of(meshes[1]));
   }
 }
@@ -85,7 +85,7 @@ TEST(RemeshRefit, WhereNothingHindersOneFieldAndOneIterationDo) {
   const test::Triangles t = test::sphere(3, .25, 4);
   RemeshOptions once, stubborn;
   once.refit = Refit::once;
-  stubborn.hindered = -1;  // whatever is held back is too much
+  stubborn.guard_limited = -1;  // whatever is held back is too much
   const Outcome o = remeshed(t), same = remeshed(t, once), more = remeshed(t, stubborn);
   EXPECT_EQ(o.points, same.points);
   EXPECT_EQ(o.result.reason, StopReason::stalled);
@@ -106,7 +106,7 @@ TEST(RemeshEffort, RaisesTheLeastAngle) {
   double before = 0;
   for (const Effort effort : {Effort::fast, Effort::standard, Effort::thorough}) {
     const Outcome o = remeshed(jittered_grid(), in_mode(ConnectivityMode::fixed, effort));
-    const double angle = least_angle(o.points, jittered_grid().faces);
+    const double angle = min_angle(o.points, jittered_grid().faces);
     EXPECT_GE(angle, before);
     before = angle;
   }

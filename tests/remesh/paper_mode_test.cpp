@@ -27,9 +27,9 @@ TriMesh with_natural_length(const Triangles& t) {
 }
 
 double edge_deviation(const TriMesh& mesh) {
-  const Connectivity c = make_connectivity(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
+  const Adjacency c = make_adjacency(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
   const TargetLengths targets = spread_target_lengths(c, vertex_values(mesh, target_length_property));
-  return relative_edge_deviation(positions(mesh), c.edges, targets);
+  return relative_edge_deviation(vertex_points(mesh), c.edges, targets);
 }
 
 PaperOptions short_run() {
@@ -47,7 +47,7 @@ TEST(PaperMode, ImprovesAJitteredSphereAndStaysOnIt) {
   const RemeshResult r = paper_remesh(mesh, options);
   EXPECT_LT(edge_deviation(mesh), .8 * before);
   EXPECT_TRUE(r.folded_faces.empty());
-  const auto X = positions(mesh);
+  const auto X = vertex_points(mesh);
   for (Eigen::Index v = 0; v < X.cols(); ++v) EXPECT_NEAR(X.col(v).norm(), 1, .01);
 }
 
@@ -58,7 +58,7 @@ TEST(PaperMode, ConvergesWhereAllEdgesAreEqual) {
   EXPECT_EQ(r.reason, StopReason::converged);
   ASSERT_EQ(r.iterations.size(), 1u);
   EXPECT_EQ(r.iterations[0].steps, 0);
-  EXPECT_LT((positions(mesh) - t.points).norm(), 1e-9);
+  EXPECT_LT((vertex_points(mesh) - t.points).norm(), 1e-9);
 }
 
 TEST(PaperMode, StopsAtTheOuterLimit) {
@@ -88,7 +88,7 @@ TEST(PaperMode, JamsWhereNoTimeStepPassesTheTestsAndSaysWhich) {
   EXPECT_EQ(r.reason, StopReason::jammed);
   EXPECT_EQ(r.iterations.size(), 1u);
   EXPECT_TRUE(r.jam.area_bound);
-  EXPECT_LT((positions(mesh) - t.points).norm(), 1e-9);
+  EXPECT_LT((vertex_points(mesh) - t.points).norm(), 1e-9);
 }
 
 TEST(PaperMode, StopsWhenTheObserverSaysSo) {
@@ -118,7 +118,7 @@ TEST(PaperMode, RefusesASplineBeyondTheMemoryLimit) {
   PaperOptions options;
   options.filter.memory_limit_bytes = 100000;
   EXPECT_THROW(paper_remesh(mesh, options), LimitError);
-  EXPECT_EQ(positions(mesh), t.points);
+  EXPECT_EQ(vertex_points(mesh), t.points);
 }
 
 TEST(PaperMode, NamesFoldedFaces) {
@@ -142,7 +142,7 @@ TEST(PaperMode, NamesFoldedFaces) {
 TEST(PaperMode, BoundaryIsFreeUnlessToldOtherwise) {
   const Triangles t = test::grid(8, test::paraboloid, .4);
   const auto on_boundary = [&](Eigen::Index v) { return v % 9 == 0 || v % 9 == 8 || v < 9 || v >= 72; };
-  const auto greatest_move = [&](BoundaryRule rule) {
+  const auto max_move = [&](BoundaryRule rule) {
     TriMesh mesh = with_natural_length(t);
     PaperOptions options = short_run();
     options.constraints.boundary = rule;
@@ -150,17 +150,17 @@ TEST(PaperMode, BoundaryIsFreeUnlessToldOtherwise) {
     double across = 0, any = 0;  // across the sides of the square; anywhere
     for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
       if (!on_boundary(v)) continue;
-      const Vec3 move = positions(mesh).col(v) - t.points.col(v);
+      const Vec3 move = vertex_points(mesh).col(v) - t.points.col(v);
       const bool upright = v % 9 == 0 || v % 9 == 8;
       across = std::max(across, std::abs(upright ? move.x() : move.y()));
       any = std::max(any, move.norm());
     }
     return std::pair(across, any);
   };
-  EXPECT_GT(greatest_move(BoundaryRule::free).first, 1e-5);
-  EXPECT_LT(greatest_move(BoundaryRule::slide).first, 1e-12);
-  EXPECT_GT(greatest_move(BoundaryRule::slide).second, 1e-5);
-  EXPECT_EQ(greatest_move(BoundaryRule::fixed).second, 0);
+  EXPECT_GT(max_move(BoundaryRule::free).first, 1e-5);
+  EXPECT_LT(max_move(BoundaryRule::slide).first, 1e-12);
+  EXPECT_GT(max_move(BoundaryRule::slide).second, 1e-5);
+  EXPECT_EQ(max_move(BoundaryRule::fixed).second, 0);
 }
 
 TEST(PaperMode, DoesNotDependOnTheNumberOfThreads) {
@@ -168,7 +168,7 @@ TEST(PaperMode, DoesNotDependOnTheNumberOfThreads) {
     const ThreadLimit limit(threads);
     TriMesh mesh = with_natural_length(test::sphere(3, .3));
     paper_remesh(mesh, short_run());
-    return positions(mesh);
+    return vertex_points(mesh);
   };
   EXPECT_EQ(run(1), run(2));
 }
@@ -180,7 +180,7 @@ TEST(PaperMode, CommutesExactlyWithScalingByAPowerOfTwo) {
   TriMesh large = with_natural_length(t);
   paper_remesh(mesh, short_run());
   paper_remesh(large, short_run());
-  EXPECT_EQ(positions(large), 1024 * positions(mesh));
+  EXPECT_EQ(vertex_points(large), 1024 * vertex_points(mesh));
 }
 
 }  // namespace

@@ -55,16 +55,16 @@ TEST(DoNoHarm, NearRegularMeshesKeepTheirLeastAngleAndTheirPlaces) {
         ellipsoid(3, .05), equilateral_grid(9, wave, .1), equilateral_grid(12, test::flat, .08),
         test::grid(8, test::flat, .05), test::cube()}) {
     const Outcome o = remeshed(t);
-    SCOPED_TRACE(least_angle(t.points, t.faces));
+    SCOPED_TRACE(min_angle(t.points, t.faces));
     EXPECT_TRUE(o.result.near_regular);
-    EXPECT_GE(least_angle(o.points, t.faces), least_angle(t.points, t.faces));
+    EXPECT_GE(min_angle(o.points, t.faces), min_angle(t.points, t.faces));
     EXPECT_LT(largest_move(t, o), .2 * natural(t));
   }
 }
 
 TEST(DoNoHarm, NearRegularMeshesStillGetMoreEqualEdges) {
   const test::Triangles t = test::sphere(3, .08, 3);
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const TargetLengths targets = spread_target_lengths(c, std::vector<double>(t.points.cols(), 1));
   EXPECT_LT(relative_edge_deviation(remeshed(t).points, c.edges, targets),
             .9 * relative_edge_deviation(t.points, c.edges, targets));
@@ -75,8 +75,8 @@ TEST(DoNoHarm, NoLeastAngleFalls) {
     for (const test::Triangles& t : {test::grid(12, mountain, .1, seed), test::grid(12, mountain, .3, seed),
                                      test::sphere(2, .35, seed)}) {
       const Outcome o = remeshed(t);
-      EXPECT_FALSE(o.result.near_regular && least_angle(t.points, t.faces) < 35);
-      EXPECT_GE(least_angle(o.points, t.faces), least_angle(t.points, t.faces));
+      EXPECT_FALSE(o.result.near_regular && min_angle(t.points, t.faces) < 35);
+      EXPECT_GE(min_angle(o.points, t.faces), min_angle(t.points, t.faces));
     }
 }
 
@@ -86,8 +86,8 @@ TEST(DoNoHarm, AnglesAreSpentWhereLengthsAreToDiffer) {
   VProp<double> length(mesh, target_length_property);
   for (const auto v : mesh.vertices()) length[v] *= 2.5 + 1.5 * mesh.point(v)[2];
   EXPECT_FALSE(remesh(mesh, {}).near_regular);
-  EXPECT_LT(least_angle(positions(mesh), t.faces), least_angle(t.points, t.faces) - 1);
-  EXPECT_GT((positions(mesh) - t.points).colwise().norm().maxCoeff(), natural(t));
+  EXPECT_LT(min_angle(vertex_points(mesh), t.faces), min_angle(t.points, t.faces) - 1);
+  EXPECT_GT((vertex_points(mesh) - t.points).colwise().norm().maxCoeff(), natural(t));
 }
 
 using test::natural, test::Outcome, test::remeshed, test::with_length;
@@ -107,9 +107,9 @@ test::Triangles equilateral_grid(int n) {
 
 /// The outward normals must not be hidden by the surface: here the input's own say where outside is.
 int flipped_faces(const test::Triangles& before, const Mat3X& after) {
-  const Connectivity c = test::connect(before);
+  const Adjacency c = test::connect(before);
   const auto surface =
-      SurfaceField(std::make_shared<const Mat3X>(before.points), std::make_shared<const Connectivity>(c))
+      SurfaceField(std::make_shared<const Mat3X>(before.points), std::make_shared<const Adjacency>(c))
           .surface();
   int count = 0;
   for (const Triangle& t : before.faces) {
@@ -121,7 +121,7 @@ int flipped_faces(const test::Triangles& before, const Mat3X& after) {
 }
 
 double deviation(const test::Triangles& t, const Mat3X& points) {
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const std::vector<double> one(static_cast<size_t>(c.vertex_count), 1);
   return relative_edge_deviation(points, c.edges, spread_target_lengths(c, one));
 }
@@ -133,12 +133,12 @@ double largest_move(const Mat3X& a, const Mat3X& b) {
 /// Largest distance of the points to the field that the input stands for, in target lengths.
 double off_the_field(const test::Triangles& t, const Mat3X& points, const RemeshOptions& options) {
   const TriMesh mesh = with_length(t, natural(t));
-  const Workspace w(mesh, lay_out(mesh), options.constraints, options.filter, options.retraction);
+  const Workspace w(mesh, find_memory_order(mesh), options.constraints, options.filter, options.retraction);
   Mat3X x(3, points.cols());
   for (Eigen::Index v = 0; v < x.cols(); ++v)
     x.col(v) = (points.col(w.order.old_vertex[static_cast<size_t>(v)]) - w.normalisation.centre) /
                w.normalisation.unit;
-  return largest_move(w.retraction->place(x, w.placement.anchors, w.placement.segments).points, x);
+  return largest_move(w.retraction->place(x, w.positions.hints, w.positions.segments).points, x);
 }
 
 double off_the_faces(const test::Triangles& t, const Mat3X& points) {
@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(On, RemeshLaws, testing::Values(true, false),
 
 TEST_P(RemeshLaws, TrianglesGetBetterAndNoneFlips) {
   const Outcome o = remeshed(input_);
-  EXPECT_GT(least_angle(o.points, input_.faces), least_angle(input_.points, input_.faces) + 5);
+  EXPECT_GT(min_angle(o.points, input_.faces), min_angle(input_.points, input_.faces) + 5);
   EXPECT_LT(deviation(input_, o.points), .5 * deviation(input_, input_.points));
   EXPECT_EQ(flipped_faces(input_, o.points), 0);
   EXPECT_TRUE(o.result.folded_faces.empty());
@@ -230,7 +230,7 @@ TEST_P(RemeshLaws, EveryVertexLiesOnTheFieldOfTheInput) {
         options.retraction.lazy = lazy;
         const Outcome o = remeshed(input_, options);
         EXPECT_LT(off_the_field(input_, o.points, options), 1e-5);
-        EXPECT_GT(least_angle(o.points, input_.faces), least_angle(input_.points, input_.faces) + 5);
+        EXPECT_GT(min_angle(o.points, input_.faces), min_angle(input_.points, input_.faces) + 5);
         if (kind == FilterKind::global) break;  // dense fits take their time
       }
 }
@@ -288,7 +288,7 @@ TEST_P(RemeshLaws, TheObserverIsToldWhereTheWorkStands) {
   ASSERT_FALSE(o.result.iterations.empty());
   const IterationRecord& last = o.result.iterations.back();
   EXPECT_STREQ(last.stage, "polish");
-  EXPECT_NEAR(last.least_angle, least_angle(o.points, input_.faces), 1e-6);
+  EXPECT_NEAR(last.min_angle, min_angle(o.points, input_.faces), 1e-6);
   EXPECT_GT(last.field_evaluations, 0);
   for (const IterationRecord& record : o.result.iterations)
     EXPECT_GE(record.max_length_error, record.rms_length_error);
@@ -312,10 +312,10 @@ TEST_P(RemeshLaws, EdgesFollowGradedTargets) {
   VProp<double> length(mesh, target_length_property);
   const double low = input_.points.row(0).minCoeff(), high = input_.points.row(0).maxCoeff();
   for (const auto v : mesh.vertices()) length[v] = L_ * (.8 + .4 * (mesh.point(v)[0] - low) / (high - low));
-  const Connectivity c = test::connect(input_);
+  const Adjacency c = test::connect(input_);
   const TargetLengths targets = spread_target_lengths(c, vertex_values(mesh, target_length_property));
   remesh(mesh, {});
-  EXPECT_LT(relative_edge_deviation(positions(mesh), c.edges, targets),
+  EXPECT_LT(relative_edge_deviation(vertex_points(mesh), c.edges, targets),
             relative_edge_deviation(remeshed(input_).points, c.edges, targets));
 }
 
@@ -324,7 +324,7 @@ TEST(Remesh, PerfectMeshesHardlyMove) {
        {equilateral_grid(6), test::equilateral(), test::tetrahedron(), test::sphere(0)}) {
     const Outcome o = remeshed(t);
     EXPECT_LT(largest_move(o.points, t.points), 1e-5 * natural(t));
-    EXPECT_GT(least_angle(o.points, t.faces), least_angle(t.points, t.faces) - 1e-9);
+    EXPECT_GT(min_angle(o.points, t.faces), min_angle(t.points, t.faces) - 1e-9);
     EXPECT_EQ(o.result.folded_before, 0);
   }
 }
@@ -340,7 +340,7 @@ TEST(Remesh, HandsBackThePointsOfTheInput) {
     options.connectivity = mode;
     const RemeshResult result = remesh(mesh, options);
     EXPECT_EQ(result.input_points, t.points);
-    EXPECT_NE(positions(mesh).leftCols(20), t.points.leftCols(20));
+    EXPECT_NE(vertex_points(mesh).leftCols(20), t.points.leftCols(20));
   }
 }
 
@@ -390,7 +390,7 @@ TEST(Remesh, ComponentsDoNotFeelEachOther) {
   const test::Triangles two = test::both(jittered_grid(), sphere);
   const Outcome o = remeshed(two);
   EXPECT_EQ(flipped_faces(two, o.points), 0);
-  EXPECT_GT(least_angle(o.points, two.faces), least_angle(two.points, two.faces) + 3);
+  EXPECT_GT(min_angle(o.points, two.faces), min_angle(two.points, two.faces) + 3);
   EXPECT_LT(off_the_field(two, o.points, {}), 1e-5);
 }
 
@@ -429,11 +429,11 @@ TEST(Remesh, FacesWithoutAreaAreOpened) {
   test::Triangles t = test::grid(8, test::flat, .1);
   const auto [a, b, c] = t.faces[60];
   t.points.col(c) = .5 * (t.points.col(a) + t.points.col(b));
-  ASSERT_LT(least_angle(t.points, t.faces), 1e-6);
+  ASSERT_LT(min_angle(t.points, t.faces), 1e-6);
   const Outcome o = remeshed(t);
   EXPECT_TRUE(o.result.folded_faces.empty());
   EXPECT_GT(o.result.folded_before, 0);
-  EXPECT_GT(least_angle(o.points, t.faces), 25);
+  EXPECT_GT(min_angle(o.points, t.faces), 25);
   for (const Triangle& face : t.faces) EXPECT_GT(test::area_vector(o.points, face)[2], 0);
 }
 
@@ -442,7 +442,7 @@ TEST(Remesh, VerticesInOnePlacePart) {
   t.points.col(40) = t.points.col(41);
   const Outcome o = remeshed(t);
   EXPECT_TRUE(o.result.folded_faces.empty());
-  EXPECT_GT(least_angle(o.points, t.faces), 25);
+  EXPECT_GT(min_angle(o.points, t.faces), 25);
 }
 
 TEST(Remesh, ConvergesWhereEveryEdgeCanHaveItsLength) {

@@ -26,34 +26,34 @@ RemeshOptions options_for(ConnectivityMode mode) {
   RemeshOptions options;
   options.connectivity = mode;
   set_effort(options, Effort::standard);
-  options.mend.trials.sliver_angles = {30};  // each attempt is made quickly
-  options.mend.trials.rounds = options.mend.passes = 1;
+  options.slivers.trials.sliver_angles = {30};  // each attempt is made quickly
+  options.slivers.trials.rounds = options.slivers.passes = 1;
   return options;
 }
 
-test::Outcome remeshed(const test::Triangles& t, const RemeshOptions& options, const AttemptOptions& attempts,
+test::Outcome remeshed(const test::Triangles& t, const RemeshOptions& options, const RestartOptions& restarts,
                        const Observer& observer = nullptr) {
   test::Outcome o;
   o.mesh = test::with_length(t, test::natural(t));
-  const Layout layout = lay_out(o.mesh);
-  o.result = remesh_in_attempts(o.mesh, layout, options, attempts, observer);
-  o.points = positions(o.mesh);
+  const MemoryOrder memory_order = find_memory_order(o.mesh);
+  o.result = remesh_with_restarts(o.mesh, memory_order, options, restarts, observer);
+  o.points = vertex_points(o.mesh);
   o.faces = triangles_of(o.mesh);
   return o;
 }
 
 /// What attempts are judged by: flipped faces and crossings, and the least angle.
 std::pair<std::size_t, double> judged(const test::Triangles& before, const test::Outcome& after) {
-  const auto connectivity = [](const Mat3X& points, const std::vector<Triangle>& faces) {
-    return make_connectivity(static_cast<int>(points.cols()), faces);
+  const auto adjacency = [](const Mat3X& points, const std::vector<Triangle>& faces) {
+    return make_adjacency(static_cast<int>(points.cols()), faces);
   };
-  const Deviation way = measure_deviation(before.points, connectivity(before.points, before.faces),
-                                          after.points, connectivity(after.points, after.faces));
+  const Deviation way = measure_deviation(before.points, adjacency(before.points, before.faces), after.points,
+                                          adjacency(after.points, after.faces));
   return {way.flipped_faces + find_self_intersections(after.points, after.faces).size(),
-          least_angle(after.points, after.faces)};
+          min_angle(after.points, after.faces)};
 }
 
-TEST(Attempts, TheBestIsNoWorseThanTheFirstAndSomeAreBetter) {
+TEST(Restarts, TheBestIsNoWorseThanTheFirstAndSomeAreBetter) {
   int better = 0;
   for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt})
     for (unsigned seed = 1; seed <= 4; ++seed) {
@@ -66,21 +66,21 @@ TEST(Attempts, TheBestIsNoWorseThanTheFirstAndSomeAreBetter) {
       if (best_flaws == first_flaws) {
         EXPECT_GE(best_angle, first_angle) << seed;
       }
-      EXPECT_LE(best.result.attempts, 4);
-      EXPECT_LE(best.result.kept_attempt, best.result.attempts);
-      EXPECT_EQ(best.result.kept_attempt == 1, best.points == first.points);
+      EXPECT_LE(best.result.restarts, 4);
+      EXPECT_LE(best.result.kept_run, best.result.restarts);
+      EXPECT_EQ(best.result.kept_run == 1, best.points == first.points);
       better += best_flaws < first_flaws || best_angle > first_angle;
     }
   EXPECT_GE(better, 2);
 }
 
-TEST(Attempts, AGoodResultIsTheFirst) {
+TEST(Restarts, AGoodResultIsTheFirst) {
   const test::Triangles t = test::sphere(2, .3, 1);
   for (const ConnectivityMode mode :
        {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
     const RemeshOptions options = options_for(mode);
     const test::Outcome once = test::remeshed(t, options), best = remeshed(t, options, {});
-    EXPECT_EQ(best.result.attempts, 1);
+    EXPECT_EQ(best.result.restarts, 1);
     EXPECT_EQ(best.points, once.points);
     EXPECT_EQ(best.faces, once.faces);
   }
@@ -88,31 +88,31 @@ TEST(Attempts, AGoodResultIsTheFirst) {
 
 /// No attempt is made in vain: neither at a corner that no connectivity widens, nor where all end alike, nor
 /// beyond what is to be paid for.
-TEST(Attempts, ThereIsOneWhereMoreAreOfNoUse) {
+TEST(Restarts, ThereIsOneWhereMoreAreOfNoUse) {
   const test::Triangles wedge =
       test::triangles({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {2, .25, 0}}, {{0, 1, 3}, {1, 2, 3}});
-  EXPECT_EQ(remeshed(wedge, options_for(ConnectivityMode::adapt), {}).result.attempts, 1);
-  EXPECT_EQ(remeshed(lens(1), options_for(ConnectivityMode::fixed), {.good_angle = 60}).result.attempts, 1);
+  EXPECT_EQ(remeshed(wedge, options_for(ConnectivityMode::adapt), {}).result.restarts, 1);
+  EXPECT_EQ(remeshed(lens(1), options_for(ConnectivityMode::fixed), {.good_angle = 60}).result.restarts, 1);
   const RemeshOptions options = options_for(ConnectivityMode::adapt);
   const double faces = static_cast<double>(lens(1).faces.size());
-  EXPECT_EQ(remeshed(lens(1), options, {.most_faces = 1.9 * faces, .good_angle = 60}).result.attempts, 1);
-  EXPECT_EQ(remeshed(lens(1), options, {.most_faces = 2.5 * faces, .good_angle = 60}).result.attempts, 2);
-  EXPECT_EQ(remeshed(lens(1), options, {.most = 3, .good_angle = 60}).result.attempts, 3);
+  EXPECT_EQ(remeshed(lens(1), options, {.max_faces = 1.9 * faces, .good_angle = 60}).result.restarts, 1);
+  EXPECT_EQ(remeshed(lens(1), options, {.max_faces = 2.5 * faces, .good_angle = 60}).result.restarts, 2);
+  EXPECT_EQ(remeshed(lens(1), options, {.most = 3, .good_angle = 60}).result.restarts, 3);
 }
 
-TEST(Attempts, AreTheSameForAnyNumberOfThreads) {
+TEST(Restarts, AreTheSameForAnyNumberOfThreads) {
   const RemeshOptions options = options_for(ConnectivityMode::adapt);
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
     return remeshed(lens(2), options, {.most = 3, .good_angle = 60});
   };
   const test::Outcome one = run(1), two = run(2);
-  EXPECT_EQ(one.result.attempts, 3);
+  EXPECT_EQ(one.result.restarts, 3);
   EXPECT_EQ(one.points, two.points);
   EXPECT_EQ(one.faces, two.faces);
 }
 
-TEST(Attempts, AnInterruptedOneCountsForNothing) {
+TEST(Restarts, AnInterruptedOneCountsForNothing) {
   const test::Triangles t = lens(1);
   const RemeshOptions options = options_for(ConnectivityMode::adapt);
   int of_first = 0;
@@ -123,7 +123,7 @@ TEST(Attempts, AnInterruptedOneCountsForNothing) {
     const test::Outcome stopped =
         remeshed(t, options, {.good_angle = 60}, [&](const Progress&) { return ++calls < of_first + more; });
     EXPECT_EQ(stopped.result.reason, StopReason::interrupted);
-    EXPECT_EQ(stopped.result.attempts, 1);
+    EXPECT_EQ(stopped.result.restarts, 1);
     EXPECT_EQ(stopped.points, first.points);
     EXPECT_EQ(stopped.faces, first.faces);
     EXPECT_LE(calls, of_first + more);
@@ -132,7 +132,7 @@ TEST(Attempts, AnInterruptedOneCountsForNothing) {
   const test::Outcome early =
       remeshed(t, options, {}, [&](const Progress&) { return ++calls < of_first / 2; });
   EXPECT_EQ(early.result.reason, StopReason::interrupted);
-  EXPECT_EQ(early.result.attempts, 1);
+  EXPECT_EQ(early.result.restarts, 1);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(QualityJson, GeometryTellsDistancesAndChanges) {
   const test::Triangles t = test::cube();
   test::Triangles larger = t;
   larger.points *= 2;
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const Json json = to_json(measure_deviation(t.points, c, larger.points, c));
   EXPECT_EQ(keys(json), (std::vector<std::string>{"displacement", "distance_to_input", "distance_from_input",
                                                   "normal_deviation", "area_change", "volume_change",
@@ -88,7 +88,7 @@ TEST(QualityJson, GeometryTellsDistancesAndChanges) {
 TEST(QualityJson, InfiniteDistancesAreNull) {
   const test::Triangles t = test::cube();
   const Json json =
-      to_json(measure_deviation(Mat3X(3, 0), make_connectivity(0, {}), t.points, test::connect(t)));
+      to_json(measure_deviation(Mat3X(3, 0), make_adjacency(0, {}), t.points, test::connect(t)));
   EXPECT_TRUE(json["displacement"].is_null());
   EXPECT_TRUE(json["distance_to_input"]["max"].is_null());
   EXPECT_TRUE(json["distance_to_input"]["max_over_diagonal"].is_null());
@@ -96,7 +96,7 @@ TEST(QualityJson, InfiniteDistancesAreNull) {
 
 TEST(QualityJson, MeshFacts) {
   const test::Triangles t = test::cube();
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const Json json = to_json(measure_topology(c), measure_extent(t.points, c));
   EXPECT_EQ(json["vertices"], 8);
   EXPECT_EQ(json["euler"], 2);

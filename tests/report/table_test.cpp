@@ -29,7 +29,7 @@ void expect_narrow(const std::string& table) {
 
 TEST(QualityTable, ShowsBothSidesWithin80Columns) {
   const test::Triangles a = test::sphere(2, .3), b = test::sphere(2);
-  const Connectivity c = test::connect(a);
+  const Adjacency c = test::connect(a);
   const std::string table =
       quality_table(quality_of(a), quality_of(b), measure_deviation(a.points, c, b.points, c));
   expect_narrow(table);

@@ -31,7 +31,7 @@ Placed on_unit_sphere(const Mat3X& points) {
 class EnergyLaws : public testing::TestWithParam<test::NamedTerms> {
  protected:
   test::Triangles mesh_ = test::sphere(2, .35, 7);
-  Connectivity c_ = make_connectivity(static_cast<int>(mesh_.points.cols()), mesh_.faces);
+  Adjacency c_ = make_adjacency(static_cast<int>(mesh_.points.cols()), mesh_.faces);
   TargetLengths targets_ = spread_target_lengths(c_, lengths());
   Energy energy_{c_, targets_, GetParam().terms};
 
@@ -71,7 +71,7 @@ TEST_P(EnergyLaws, TheOrderOfTheFacesDoesNotMatter) {
   const test::Triangles t = test::grid(150, test::paraboloid, .3, 3);
   std::vector<Triangle> reversed(t.faces.rbegin(), t.faces.rend());
   const int n = static_cast<int>(t.points.cols());
-  const Connectivity forwards = make_connectivity(n, t.faces), back = make_connectivity(n, reversed);
+  const Adjacency forwards = make_adjacency(n, t.faces), back = make_adjacency(n, reversed);
   const std::vector<double> lengths(static_cast<size_t>(n), 1. / 150);
   const TargetLengths targets = spread_target_lengths(forwards, lengths),
                       targets_back = spread_target_lengths(back, lengths);
@@ -120,7 +120,7 @@ TEST(Energy, VanishesOnEquilateralTrianglesOfTheTargetLength) {
   p.points.col(1) = Vec3(2, 0, 0);
   p.points.col(2) = Vec3(1, std::sqrt(3.), 0);
   p.normals = Vec3::UnitZ().replicate(1, 3);
-  const Connectivity c = make_connectivity(3, {{0, 1, 2}});
+  const Adjacency c = make_adjacency(3, {{0, 1, 2}});
   const TargetLengths targets = spread_target_lengths(c, {2, 2, 2});
   Mat3X gradient;
   EXPECT_NEAR(Energy(c, targets, EnergyTerms{})(p.points, p.normals, &gradient), 0,
@@ -135,7 +135,7 @@ TEST(Energy, AFaceWithoutAreaIsPushedOpenAlongTheSurface) {
   p.points.col(1) = Vec3(1, 0, 0);
   p.points.col(2) = Vec3(.5, 0, 0);  // on the edge; to its left (+y) the face is the right way round
   p.normals = Vec3::UnitZ().replicate(1, 3);
-  const Connectivity c = make_connectivity(3, {{0, 1, 2}});
+  const Adjacency c = make_adjacency(3, {{0, 1, 2}});
   const TargetLengths targets = spread_target_lengths(c, {1, 1, 1});
   Mat3X gradient;
   EXPECT_TRUE(std::isfinite(Energy(c, targets, EnergyTerms{})(p.points, p.normals, &gradient)));

@@ -16,30 +16,30 @@ namespace {
 
 using test::Triangles;
 
-Connectivity connect(const Triangles& t) {
-  return make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+Adjacency connect(const Triangles& t) {
+  return make_adjacency(static_cast<int>(t.points.cols()), t.faces);
 }
 
 /// Target lengths that differ from edge to edge, around `mean`: some edges push and some pull.
-std::vector<double> uneven_lengths(const Connectivity& c, double mean) {
+std::vector<double> uneven_lengths(const Adjacency& c, double mean) {
   std::vector<double> lengths(c.edges.size());
   for (size_t e = 0; e < lengths.size(); ++e) lengths[e] = mean * (1 + .3 * std::sin(double(e)));
   return lengths;
 }
 
-Mat3X strings(const Mat3X& points, const Connectivity& c, const std::vector<double>& lengths) {
+Mat3X strings(const Mat3X& points, const Adjacency& c, const std::vector<double>& lengths) {
   Mat3X forces(3, points.cols());
   string_forces(points, c, lengths, forces);
   return forces;
 }
 
-Mat3X torques(const Mat3X& points, const Connectivity& c) {
+Mat3X torques(const Mat3X& points, const Adjacency& c) {
   Mat3X forces(3, points.cols());
   torque_forces(points, c, forces);
   return forces;
 }
 
-double energy(const Mat3X& points, const Connectivity& c, const std::vector<double>& lengths) {
+double energy(const Mat3X& points, const Adjacency& c, const std::vector<double>& lengths) {
   double sum = 0;
   for (size_t e = 0; e < c.edges.size(); ++e)
     sum += spring_potential((points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm(), lengths[e]).value;
@@ -67,7 +67,7 @@ Eigen::Matrix3d some_rotation() {
 
 TEST(StringForces, AreMinusTheGradientOfTheEnergy) {
   const Triangles t = test::sphere(1, .2);
-  const Connectivity c = connect(t);
+  const Adjacency c = connect(t);
   const auto lengths = uneven_lengths(c, .55);
   const Mat3X forces = strings(t.points, c, lengths);
   const double h = 1e-6;
@@ -82,7 +82,7 @@ TEST(StringForces, AreMinusTheGradientOfTheEnergy) {
 
 TEST(StringForces, OfOneEdgeFollowTheModifiedLaw) {
   const Triangles t = hinge(0);
-  const Connectivity c = connect(t);
+  const Adjacency c = connect(t);
   std::vector<double> lengths(c.edges.size());
   for (size_t e = 0; e < lengths.size(); ++e)
     lengths[e] = (t.points.col(c.edges[e][1]) - t.points.col(c.edges[e][0])).norm();
@@ -95,7 +95,7 @@ TEST(StringForces, OfOneEdgeFollowTheModifiedLaw) {
 
 TEST(StringForces, SumToZeroAndExertNoMoment) {
   const Triangles t = test::sphere(2, .3);
-  const Connectivity c = connect(t);
+  const Adjacency c = connect(t);
   const Mat3X forces = strings(t.points, c, uneven_lengths(c, .3));
   Vec3 moment = Vec3::Zero();
   for (Eigen::Index v = 0; v < forces.cols(); ++v) moment += Vec3(t.points.col(v)).cross(Vec3(forces.col(v)));
@@ -107,13 +107,13 @@ TEST(StringForces, SumToZeroAndExertNoMoment) {
 TEST(StringForces, OfAnEdgeOfLengthZeroAreLeftOut) {
   Triangles t = hinge(0);
   t.points.col(1) = t.points.col(0);
-  const Connectivity c = connect(t);
+  const Adjacency c = connect(t);
   EXPECT_TRUE(strings(t.points, c, uneven_lengths(c, 1)).allFinite());
 }
 
 TEST(StringForces, CommuteWithRigidMotionAndScale) {
   const Triangles t = test::sphere(2, .3);
-  const Connectivity c = connect(t);
+  const Adjacency c = connect(t);
   auto lengths = uneven_lengths(c, .3);
   const Mat3X forces = strings(t.points, c, lengths);
   const Mat3X moved = ((7 * some_rotation()) * t.points).colwise() + Vec3(3, -2, 5);
@@ -175,7 +175,7 @@ TEST(TorqueForces, DoNotDependOnTheSideOfTheNormals) {
 
 TEST(TorqueForces, CommuteWithRigidMotionAndIgnoreScale) {
   const Triangles t = test::sphere(2, .3);
-  const Connectivity c = connect(t);
+  const Adjacency c = connect(t);
   const Mat3X forces = torques(t.points, c);
   const Mat3X moved = ((7 * some_rotation()) * t.points).colwise() + Vec3(3, -2, 5);
   EXPECT_LT((torques(moved, c) - some_rotation() * forces).norm(), 1e-11 * forces.norm());
@@ -183,7 +183,7 @@ TEST(TorqueForces, CommuteWithRigidMotionAndIgnoreScale) {
 
 TEST(Forces, DoNotDependOnTheNumberOfThreads) {
   const Triangles t = test::sphere(4, .2);
-  const Connectivity c = connect(t);
+  const Adjacency c = connect(t);
   const auto lengths = uneven_lengths(c, .07);
   const auto both = [&](int threads) {
     const ThreadLimit limit(threads);

@@ -22,7 +22,7 @@ std::vector<double> wild_lengths(int count, unsigned seed) {
 
 struct Limited {
   test::Triangles t = test::sphere(3, .3, 7);
-  Connectivity c = test::connect(t);
+  Adjacency c = test::connect(t);
   std::vector<double> given = wild_lengths(c.vertex_count, 3), lengths = given;
   double slope = .3;
 

@@ -32,7 +32,7 @@ TEST(Sizing, EquilateralTrianglesHaveTheirEdgeAsNaturalLength) {
 }
 
 TEST(Sizing, AnEdgeIsTheMeanOfItsEndsAndAFaceOfItsEdges) {
-  const Connectivity c = make_connectivity(3, {{0, 1, 2}});
+  const Adjacency c = make_adjacency(3, {{0, 1, 2}});
   const TargetLengths targets = spread_target_lengths(c, {1, 2, 6});
   const std::vector<double> expected = {1.5, 4, 3.5};
   EXPECT_EQ(targets.edge.values(), expected);
@@ -40,7 +40,7 @@ TEST(Sizing, AnEdgeIsTheMeanOfItsEndsAndAFaceOfItsEdges) {
 }
 
 TEST(Sizing, TargetsOfAFaceAlwaysFormATriangle) {
-  const Connectivity c = test::connect(test::sphere(2));
+  const Adjacency c = test::connect(test::sphere(2));
   std::mt19937 random(4);
   std::uniform_real_distribution<double> exponent(-6, 6);
   std::vector<double> length(static_cast<size_t>(c.vertex_count));
@@ -55,7 +55,7 @@ TEST(Sizing, TargetsOfAFaceAlwaysFormATriangle) {
 
 TEST(LengthSpec, MeansWhatItSays) {
   const test::Triangles cube = test::cube();
-  const Connectivity c = test::connect(cube);
+  const Adjacency c = test::connect(cube);
   const auto length = [&](const char* text) { return resolve_length(parse_length(text), cube.points, c); };
   EXPECT_DOUBLE_EQ(length("auto"), natural_length(6, 12));
   EXPECT_DOUBLE_EQ(length("2x"), 2 * natural_length(6, 12));
@@ -73,7 +73,7 @@ TEST(LengthSpec, RefusesWhatIsNoLength) {
 /// A sphere whose target lengths vary by 4.
 struct Graded {
   test::Triangles t = test::sphere(3, .2, 6);
-  Connectivity c = test::connect(t);
+  Adjacency c = test::connect(t);
   Sizing sizing;
 
   Graded() {
@@ -138,7 +138,7 @@ TEST(VertexLengths, APowerOfTwoScalesThemExactly) {
 
 TEST(VertexLengths, FollowTheLeastRadiusOfCurvature) {
   test::Triangles t = test::sphere(3, .2, 1);
-  const Connectivity c = test::connect(t);
+  const Adjacency c = test::connect(t);
   const auto expected = [](double error) { return std::sqrt(8 * error - 4 * error * error); };
   for (double error : {1e-4, .01, .3})
     for (double l : curvature_lengths(t.points, c, error, 10)) EXPECT_NEAR(l, expected(error), .03 * l);

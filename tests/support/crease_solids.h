@@ -113,7 +113,7 @@ inline Triangles cylinder(int around, double jitter = .3, unsigned seed = 2) {
 
 /// The edges between faces that meet at more than 60 degrees.
 inline std::vector<Edge> bent_edges(const Mat3X& X, const std::vector<Triangle>& faces) {
-  const Connectivity c = make_connectivity(static_cast<int>(X.cols()), faces);
+  const Adjacency c = make_adjacency(static_cast<int>(X.cols()), faces);
   const Mat3X normals = face_normals(X, c);
   std::vector<Edge> edges;
   for (size_t e = 0; e < c.edges.size(); ++e)

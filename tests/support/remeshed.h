@@ -33,7 +33,7 @@ inline Outcome remeshed(const Triangles& t, double length, const RemeshOptions& 
   Outcome o;
   o.mesh = with_length(t, length);
   o.result = remesh(o.mesh, options, observer);
-  o.points = positions(o.mesh);
+  o.points = vertex_points(o.mesh);
   o.faces = triangles_of(o.mesh);
   return o;
 }

@@ -17,12 +17,12 @@
 
 namespace hooke::test {
 
-inline Foot to_unit_sphere(const Vec3& x, int anchor, double) {
+inline Projection to_unit_sphere(const Vec3& x, int hint, double) {
   const Vec3 n = x.normalized();
-  return {n, n, anchor, FootStatus::converged, 1};
+  return {n, n, hint, ProjectionStatus::converged, 1};
 }
-inline Foot to_ground(const Vec3& x, int anchor, double) {
-  return {Vec3(x[0], x[1], 0), Vec3::UnitZ(), anchor, FootStatus::converged, 1};
+inline Projection to_ground(const Vec3& x, int hint, double) {
+  return {Vec3(x[0], x[1], 0), Vec3::UnitZ(), hint, ProjectionStatus::converged, 1};
 }
 
 struct SceneOptions {
@@ -34,41 +34,41 @@ struct SceneOptions {
 
 /// Every vertex wants the natural length of the mesh.
 struct Scene {
-  Connectivity connectivity;
-  SweepPlan sweeps;
+  Adjacency adjacency;
+  VertexColoring coloring;
   std::vector<double> length;
   TargetLengths targets;
   Constraints constraints;
   Energy energy;
   Retraction retraction;
   Guards guards;
-  Placement placement;
+  SurfacePositions positions;
 
   Scene(const Triangles& t, Surface surface, const SceneOptions& o = {})
-      : connectivity(connect(t)),
-        sweeps(plan_sweeps(connectivity)),
-        length(static_cast<size_t>(connectivity.vertex_count),
+      : adjacency(connect(t)),
+        coloring(color_vertices(adjacency)),
+        length(static_cast<size_t>(adjacency.vertex_count),
                natural_length(total_area(t.points, t.faces), t.faces.size())),
-        targets(spread_target_lengths(connectivity, length)),
-        constraints(find_constraints(t.points, connectivity, o.constraints)),
-        energy(connectivity, targets, o.terms),
+        targets(spread_target_lengths(adjacency, length)),
+        constraints(find_constraints(t.points, adjacency, o.constraints)),
+        energy(adjacency, targets, o.terms),
         retraction(std::move(surface), constraints, o.retraction),
-        guards(connectivity, targets, o.guards) {
-    std::vector<int> anchors(length.size());
-    for (size_t v = 0; v < anchors.size(); ++v) anchors[v] = static_cast<int>(v);
-    placement = retraction.place(t.points, std::move(anchors), constraints.segment);
+        guards(adjacency, targets, o.guards) {
+    std::vector<int> hints(length.size());
+    for (size_t v = 0; v < hints.size(); ++v) hints[v] = static_cast<int>(v);
+    positions = retraction.place(t.points, std::move(hints), constraints.segment);
   }
   Scene(const Scene&) = delete;
 
   double L() const { return length[0]; }
 
-  Relaxation relaxation() { return {connectivity, sweeps, length, energy, retraction, guards, placement}; }
+  Relaxation relaxation() { return {adjacency, coloring, length, energy, retraction, guards, positions}; }
 
   /// Gradient of the energy in the directions that the vertices may move in.
   Mat3X tangent_gradient() {
     Mat3X gradient;
-    energy(placement.points, placement.normals, &gradient);
-    retraction.constrain(placement, gradient);
+    energy(positions.points, positions.normals, &gradient);
+    retraction.constrain(positions, gradient);
     return gradient;
   }
 };
@@ -90,9 +90,9 @@ inline Mat3X random_vectors(Eigen::Index count, double size, unsigned seed = 1) 
 }
 
 /// Every entry is the same to the last bit.
-inline bool same(const Placement& a, const Placement& b) {
-  return a.points == b.points && a.normals == b.normals && a.anchors == b.anchors &&
-         a.segments == b.segments && a.drift == b.drift;
+inline bool same(const SurfacePositions& a, const SurfacePositions& b) {
+  return a.points == b.points && a.normals == b.normals && a.hints == b.hints && a.segments == b.segments &&
+         a.drift == b.drift;
 }
 
 /// Twice the area times the unit normal.

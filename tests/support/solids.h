@@ -11,8 +11,8 @@
 
 namespace hooke::test {
 
-inline Connectivity connect(const Triangles& t) {
-  return make_connectivity(static_cast<int>(t.points.cols()), t.faces);
+inline Adjacency connect(const Triangles& t) {
+  return make_adjacency(static_cast<int>(t.points.cols()), t.faces);
 }
 
 inline Triangles triangles(std::initializer_list<Vec3> points, std::vector<Triangle> faces) {

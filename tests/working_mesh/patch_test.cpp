@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/flipping_scene.h"
+#include "support/flippable_scene.h"
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_trial.h"
@@ -23,64 +23,64 @@ std::vector<Triangle> sorted(std::vector<Triangle> faces) {
 
 std::vector<Triangle> in_mesh(const EdgePatch& patch, std::vector<Triangle> faces) {
   for (Triangle& f : faces)
-    for (int& v : f) v = patch.sides[static_cast<size_t>(v)];
+    for (int& v : f) v = patch.wedges[static_cast<size_t>(v)];
   return sorted(faces);
 }
 
 TEST(EdgePatch, HoldsAllFacesOfItsMovableVertices) {
-  test::FlippingScene s(test::sphere(3, .3, 2), test::unit_sphere());
+  test::FlippableScene s(test::sphere(3, .3, 2), test::unit_sphere());
   const int h = 3 * 100;
   const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
-  EXPECT_EQ(patch.sides[0], s.triangulation.from(h));
-  EXPECT_EQ(patch.sides[1], s.triangulation.to(h));
+  EXPECT_EQ(patch.wedges[0], s.halfedges.from(h));
+  EXPECT_EQ(patch.wedges[1], s.halfedges.to(h));
   std::vector<Triangle> faces;
-  for (const Triangle& f : s.triangulation.faces())
+  for (const Triangle& f : s.halfedges.faces())
     if (std::ranges::any_of(f, [&](int v) {
-          const auto at = std::ranges::find(patch.sides, v) - patch.sides.begin();
+          const auto at = std::ranges::find(patch.wedges, v) - patch.wedges.begin();
           return at < static_cast<std::ptrdiff_t>(patch.movable);
         }))
       faces.push_back(f);
   EXPECT_EQ(in_mesh(patch, patch.faces), sorted(faces));
-  for (size_t i = 0; i < patch.sides.size(); ++i)
-    EXPECT_EQ(patch.placement.points.col(static_cast<Eigen::Index>(i)),
-              s.placement.points.col(patch.sides[i]));
+  for (size_t i = 0; i < patch.wedges.size(); ++i)
+    EXPECT_EQ(patch.positions.points.col(static_cast<Eigen::Index>(i)),
+              s.positions.points.col(patch.wedges[i]));
 }
 
 TEST(EdgePatch, FlippedFacesAreThoseOfTheFlippedMesh) {
   for (int rings : {-1, 1, 2}) {
-    test::FlippingScene s(test::sphere(2, .3, 2), test::unit_sphere());
-    const int h = 3 * 17 + 1, twin = s.triangulation.twin(h);
+    test::FlippableScene s(test::sphere(2, .3, 2), test::unit_sphere());
+    const int h = 3 * 17 + 1, twin = s.halfedges.twin(h);
     const EdgePatch patch = rings < 0 ? cut_pair(s.mesh, h) : *cut_patch(s.mesh, h, rings, 200);
-    s.triangulation.flip(h);
-    std::vector<Triangle> pair = {s.triangulation.faces()[static_cast<size_t>(h / 3)],
-                                  s.triangulation.faces()[static_cast<size_t>(twin / 3)]};
+    s.halfedges.flip(h);
+    std::vector<Triangle> pair = {s.halfedges.faces()[static_cast<size_t>(h / 3)],
+                                  s.halfedges.faces()[static_cast<size_t>(twin / 3)]};
     const std::vector<Triangle> flipped = in_mesh(patch, flipped_faces(patch));
     EXPECT_TRUE(std::ranges::includes(flipped, sorted(pair)));
     EXPECT_EQ(flipped.size(), patch.faces.size());
-    const std::vector<Triangle> all = sorted(s.triangulation.faces());
+    const std::vector<Triangle> all = sorted(s.halfedges.faces());
     EXPECT_TRUE(std::ranges::includes(all, flipped));
   }
 }
 
 /// Without those that are gone.
-std::vector<Triangle> faces_of(const Triangulation& t) {
+std::vector<Triangle> faces_of(const HalfedgeMesh& t) {
   std::vector<Triangle> faces = t.faces();
   std::erase_if(faces, [](const Triangle& f) { return f[0] < 0; });
   return sorted(faces);
 }
 
 TEST(EdgePatch, HalvedFacesAreThoseOfTheSplitMesh) {
-  test::FlippingScene s(test::sphere(2, .3, 2), test::unit_sphere());
+  test::FlippableScene s(test::sphere(2, .3, 2), test::unit_sphere());
   const int h = 3 * 17 + 1;
   EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
   const int middle = append_vertex(patch, 0);
-  EXPECT_EQ(middle, static_cast<int>(patch.sides.size()) - 1);
-  EXPECT_EQ(patch.placement.points.col(middle), patch.placement.points.col(0));
-  const std::vector<Triangle> old = sorted(s.triangulation.faces());
-  patch.sides.back() = s.triangulation.split(h);
-  const std::vector<Triangle> halved = in_mesh(patch, halved_faces(patch, middle));
+  EXPECT_EQ(middle, static_cast<int>(patch.wedges.size()) - 1);
+  EXPECT_EQ(patch.positions.points.col(middle), patch.positions.points.col(0));
+  const std::vector<Triangle> old = sorted(s.halfedges.faces());
+  patch.wedges.back() = s.halfedges.split(h);
+  const std::vector<Triangle> halved = in_mesh(patch, split_faces(patch, middle));
   EXPECT_EQ(halved.size(), patch.faces.size() + 2);
-  const std::vector<Triangle> all = faces_of(s.triangulation);
+  const std::vector<Triangle> all = faces_of(s.halfedges);
   EXPECT_TRUE(std::ranges::includes(all, halved));
   std::vector<Triangle> rest = in_mesh(patch, patch.faces), both;
   std::ranges::set_difference(old, rest, std::back_inserter(both));
@@ -90,13 +90,13 @@ TEST(EdgePatch, HalvedFacesAreThoseOfTheSplitMesh) {
 
 TEST(EdgePatch, MergedFacesAreThoseOfTheCollapsedMesh) {
   for (int stays : {0, 1}) {
-    test::FlippingScene s(test::sphere(2, .3, 2), test::unit_sphere());
+    test::FlippableScene s(test::sphere(2, .3, 2), test::unit_sphere());
     const int h = 3 * 17 + 1;
     const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
-    s.triangulation.collapse(h, stays == 0 ? s.triangulation.from(h) : s.triangulation.to(h));
-    const std::vector<Triangle> merged = in_mesh(patch, merged_faces(patch, stays));
+    s.halfedges.collapse(h, stays == 0 ? s.halfedges.from(h) : s.halfedges.to(h));
+    const std::vector<Triangle> merged = in_mesh(patch, collapsed_faces(patch, stays));
     EXPECT_EQ(merged.size(), patch.faces.size() - 2);
-    EXPECT_TRUE(std::ranges::includes(faces_of(s.triangulation), merged));
+    EXPECT_TRUE(std::ranges::includes(faces_of(s.halfedges), merged));
   }
 }
 
@@ -105,12 +105,12 @@ TEST(EdgePatch, EndsAtCreases) {
   const int n = 6, middle = 3 * (n + 1);
   std::vector<Edge> creases;
   for (int i = 0; i < n; ++i) creases.push_back({middle + i, middle + i + 1});
-  test::FlippingScene s(test::grid(n, test::flat), test::plane(), creases);
-  const int h = test::half_edge(s.triangulation, 2 * (n + 1) + 3, 2 * (n + 1) + 4);
+  test::FlippableScene s(test::grid(n, test::flat), test::plane(), creases);
+  const int h = test::half_edge(s.halfedges, 2 * (n + 1) + 3, 2 * (n + 1) + 4);
   ASSERT_GE(h, 0);
   const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
-  for (size_t i = 0; i < patch.sides.size(); ++i) {
-    const double y = patch.placement.points(1, static_cast<Eigen::Index>(i));
+  for (size_t i = 0; i < patch.wedges.size(); ++i) {
+    const double y = patch.positions.points(1, static_cast<Eigen::Index>(i));
     EXPECT_LE(y, .5 + 1e-12);
     if (y > .5 - 1e-12 && i < patch.movable) {
       EXPECT_EQ(patch.constraints.freedom[i], Freedom::fixed);
@@ -119,13 +119,13 @@ TEST(EdgePatch, EndsAtCreases) {
 }
 
 TEST(EdgePatch, FoldsAtItsRimAreSeen) {
-  test::FlippingScene s(test::grid(8, test::flat), test::plane());
-  const int h = test::half_edge(s.triangulation, 4 * 9 + 3, 4 * 9 + 4);
+  test::FlippableScene s(test::grid(8, test::flat), test::plane());
+  const int h = test::half_edge(s.halfedges, 4 * 9 + 3, 4 * 9 + 4);
   EdgePatch patch = *cut_patch(s.mesh, h, 1, 200);
   EXPECT_FALSE(patch.rim.empty());
   EXPECT_FALSE(folds_at_rim(patch, flipped_faces(patch), s.mesh, {}));
   for (size_t i = 0; i < patch.movable; ++i)  // turned over, beyond the rim
-    patch.placement.points.col(static_cast<Eigen::Index>(i)) += Vec3(2, 0, .1);
+    patch.positions.points.col(static_cast<Eigen::Index>(i)) += Vec3(2, 0, .1);
   EXPECT_TRUE(folds_at_rim(patch, flipped_faces(patch), s.mesh, {}));
 }
 
@@ -147,8 +147,8 @@ test::Triangles wheel(int spokes) {
 }
 
 TEST(EdgePatch, IsNotCutWhereAVertexThatWouldMoveHasTooManyEdges) {
-  test::FlippingScene s(wheel(60), test::plane());
-  const int h = test::half_edge(s.triangulation, 1, 61);  // the hub is a neighbour of its first end
+  test::FlippableScene s(wheel(60), test::plane());
+  const int h = test::half_edge(s.halfedges, 1, 61);  // the hub is a neighbour of its first end
   EXPECT_TRUE(cut_patch(s.mesh, h, 1, 60).has_value());
   EXPECT_FALSE(cut_patch(s.mesh, h, 1, 59).has_value());
 }
@@ -159,9 +159,9 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
   const int middle = n / 2 * (n + 1);
   std::vector<Edge> creases;
   for (int i = 0; i < n; ++i) creases.push_back({middle + i, middle + i + 1});
-  const Surface rough = [](const Vec3& x, int anchor, double) {
+  const Surface rough = [](const Vec3& x, int hint, double) {
     const Vec3 up = x[1] < .5 ? Vec3(Vec3::UnitZ()) : Vec3(0, -.9945, .1045);
-    return Foot{x, up, anchor, FootStatus::converged, 1};
+    return Projection{x, up, hint, ProjectionStatus::converged, 1};
   };
   int breaks = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -175,29 +175,28 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
       else if (y < .5 - 1e-9)
         t.points(2, v) = noise;
     }
-    test::FlippingScene s(t, rough, creases);
+    test::FlippableScene s(t, rough, creases);
     const GuardOptions guards{.fold = .12};
-    for (int h = 0; h < s.triangulation.half_edge_count(); ++h) {
-      if (s.triangulation.twin(h) < h || s.triangulation.is_constrained(h) || !may_flip(s.mesh, h, {}))
-        continue;
+    for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
+      if (s.halfedges.twin(h) < h || s.halfedges.is_crease(h) || !may_flip(s.mesh, h, {})) continue;
       const auto patch = cut_patch(s.mesh, h, 1, 200);
       bool broken = false;
       const auto folds = [&] {
         std::vector<double> cosines;
         for (const Edge& e : creases) {
-          const int side = test::half_edge(s.triangulation, e[0], e[1]);
+          const int wedge = test::half_edge(s.halfedges, e[0], e[1]);
           cosines.push_back(
-              cosine_between(s.placement.points, s.triangulation.faces()[static_cast<size_t>(side / 3)],
-                             s.triangulation.faces()[static_cast<size_t>(s.triangulation.twin(side) / 3)]));
+              cosine_between(s.positions.points, s.halfedges.faces()[static_cast<size_t>(wedge / 3)],
+                             s.halfedges.faces()[static_cast<size_t>(s.halfedges.twin(wedge) / 3)]));
         }
         return cosines;
       };
       const bool seen = folds_at_rim(*patch, flipped_faces(*patch), s.mesh, guards);
-      Triangulation before = s.triangulation;
+      HalfedgeMesh before = s.halfedges;
       const std::vector<double> old = folds();
-      s.triangulation.flip(h);
+      s.halfedges.flip(h);
       const std::vector<double> now = folds();
-      s.triangulation = before;
+      s.halfedges = before;
       for (size_t i = 0; i < now.size(); ++i) broken |= crease_fold_breaks(guards, old[i], now[i]);
       breaks += broken;
       EXPECT_EQ(seen, broken);
@@ -207,7 +206,7 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
 }
 
 TEST(EdgePatch, IsNotCutWhereTooManyVerticesWouldMove) {
-  test::FlippingScene s(test::sphere(3, .3, 2), test::unit_sphere());
+  test::FlippableScene s(test::sphere(3, .3, 2), test::unit_sphere());
   const size_t movable = cut_patch(s.mesh, 0, 2, 200)->movable;
   EXPECT_TRUE(cut_patch(s.mesh, 0, 2, movable).has_value());
   EXPECT_FALSE(cut_patch(s.mesh, 0, 2, movable - 1).has_value());

@@ -31,22 +31,22 @@ test::Triangles wavy() {
 }
 
 Workspace on(const TriMesh& mesh, const FilterOptions& filter = {}) {
-  return Workspace(mesh, lay_out(mesh), {}, filter, {});
+  return Workspace(mesh, find_memory_order(mesh), {}, filter, {});
 }
 
 /// Moves the vertices by up to a twentieth of a target length in each direction.
 void shake(Workspace& w) {
   Mat3X u = test::random_vectors(w.start->cols(), .05);
-  w.retraction->constrain(w.placement, u);
-  Placement to;
-  w.retraction->step(w.placement, u, to);
-  w.placement = to;
+  w.retraction->constrain(w.positions, u);
+  SurfacePositions to;
+  w.retraction->step(w.positions, u, to);
+  w.positions = to;
 }
 
 /// Largest distance of the points to the field of the input.
 double off_the_input(const TriMesh& input, const Mat3X& points) {
   const Workspace w = on(input);
-  const Placement p = w.retraction->place(points, w.placement.anchors, w.placement.segments);
+  const SurfacePositions p = w.retraction->place(points, w.positions.hints, w.positions.segments);
   return (p.points - points).colwise().norm().maxCoeff();
 }
 
@@ -60,10 +60,9 @@ TEST(Workspace, IsCentredAndHasAMeanTargetLengthOfOne) {
 TEST(Workspace, TheMeshIsTheInputInAnotherOrder) {
   const test::Triangles t = test::moved(wavy());
   const Workspace w = on(with_natural_length(t));
-  for (size_t f = 0; f < w.connectivity->faces.size(); ++f)
+  for (size_t f = 0; f < w.adjacency->faces.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
-      const int fresh = w.connectivity->faces[f][k],
-                old = t.faces[static_cast<size_t>(w.order.old_face[f])][k];
+      const int fresh = w.adjacency->faces[f][k], old = t.faces[static_cast<size_t>(w.order.old_face[f])][k];
       EXPECT_EQ(w.order.old_vertex[static_cast<size_t>(fresh)], old);
       const Vec3 x = w.normalisation.centre + w.normalisation.unit * w.start->col(fresh);
       EXPECT_LT((x - t.points.col(old)).norm(), 1e-14);
@@ -75,7 +74,7 @@ TEST(Workspace, APowerOfTwoChangesNoBit) {
   large.points *= 1024;
   const Workspace a = on(with_length(wavy(), .125)), b = on(with_length(large, 128));
   EXPECT_EQ(*a.start, *b.start);
-  EXPECT_TRUE(test::same(a.placement, b.placement));
+  EXPECT_TRUE(test::same(a.positions, b.positions));
 }
 
 TEST(Workspace, TheOrderDoesNotDependOnCoordinates) {
@@ -88,7 +87,7 @@ TEST(Workspace, TheOrderDoesNotDependOnCoordinates) {
 TEST(Workspace, VerticesOfTheInputLieOnItsField) {
   for (const test::Triangles& t : {wavy(), test::sphere(2, .2)}) {
     const Workspace w = on(with_natural_length(t));
-    EXPECT_LT((w.placement.points - *w.start).colwise().norm().maxCoeff(), 1e-6);
+    EXPECT_LT((w.positions.points - *w.start).colwise().norm().maxCoeff(), 1e-6);
   }
 }
 
@@ -96,16 +95,17 @@ TEST(Workspace, UntouchedVerticesComeBackBitForBit) {
   const test::Triangles t = test::moved(wavy(), 1. / 3);
   TriMesh mesh = with_natural_length(t);
   Workspace w = on(mesh);
-  w.placement.points = *w.start;
-  w.placement.points.col(17) += Vec3(1, 2, 3);
+  w.positions.points = *w.start;
+  w.positions.points.col(17) += Vec3(1, 2, 3);
   w.copy_back(mesh);
   const int moved = w.order.old_vertex[17];
   for (int v = 0; v < t.points.cols(); ++v)
     if (v != moved) {
-      EXPECT_EQ(positions(mesh).col(v), t.points.col(v));
+      EXPECT_EQ(vertex_points(mesh).col(v), t.points.col(v));
     }
-  EXPECT_LT((positions(mesh).col(moved) - t.points.col(moved) - w.normalisation.unit * Vec3(1, 2, 3)).norm(),
-            1e-14);
+  EXPECT_LT(
+      (vertex_points(mesh).col(moved) - t.points.col(moved) - w.normalisation.unit * Vec3(1, 2, 3)).norm(),
+      1e-14);
 }
 
 TEST(FinalProjection, EndsOnTheFieldOfTheInput) {
@@ -117,10 +117,10 @@ TEST(FinalProjection, EndsOnTheFieldOfTheInput) {
     projection.project();
     projection.refit();
     shake(w);
-    EXPECT_GT(off_the_input(mesh, w.placement.points), 1e-4);  // the fields differ, or landing were idle
+    EXPECT_GT(off_the_input(mesh, w.positions.points), 1e-4);  // the fields differ, or landing were idle
     const int stay = projection.project();
     EXPECT_EQ(stay, 0);
-    EXPECT_LT(off_the_input(mesh, w.placement.points), 1e-5);
+    EXPECT_LT(off_the_input(mesh, w.positions.points), 1e-5);
   }
 }
 
@@ -134,28 +134,28 @@ TEST(FinalProjection, TakesUpWhatMovedSince) {
   projection.project();
   w.return_to_input();
   EXPECT_FALSE(w.refitted());
-  const Placement landed = w.placement;
+  const SurfacePositions projected = w.positions;
   const std::vector<int> some = {30, 31, 40};  // of the inside
-  w.retraction->step(landed, test::random_vectors(w.start->cols(), .05), some, w.placement);
-  const Placement moved = w.placement;
+  w.retraction->step(projected, test::random_vectors(w.start->cols(), .05), some, w.positions);
+  const SurfacePositions moved = w.positions;
   EXPECT_EQ(projection.project(some), 0);
-  for (int v = 0; v < w.connectivity->vertex_count; ++v) {
+  for (int v = 0; v < w.adjacency->vertex_count; ++v) {
     const bool is_one = std::ranges::count(some, v) > 0;
-    EXPECT_EQ(w.placement.points.col(v) == landed.points.col(v), !is_one) << v;
-    EXPECT_LT((w.placement.points.col(v) - moved.points.col(v)).norm(), 1e-4);
+    EXPECT_EQ(w.positions.points.col(v) == projected.points.col(v), !is_one) << v;
+    EXPECT_LT((w.positions.points.col(v) - moved.points.col(v)).norm(), 1e-4);
   }
-  const Mat3X points = w.placement.points;
+  const Mat3X points = w.positions.points;
   projection.project();  // is there already
-  EXPECT_LT((w.placement.points - points).colwise().norm().maxCoeff(), 1e-9);
+  EXPECT_LT((w.positions.points - points).colwise().norm().maxCoeff(), 1e-9);
 }
 
 TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
   const auto t = test::sphere(1);
   const double natural = natural_length(total_area(t.points, t.faces), t.faces.size());
   Workspace w = on(with_length(t, .1 * natural), RemeshOptions{}.filter);
-  for (const Triangle& f : w.connectivity->faces) {
+  for (const Triangle& f : w.adjacency->faces) {
     const Vec3 centre = (w.start->col(f[0]) + w.start->col(f[1]) + w.start->col(f[2])) / 3;
-    const VertexPlace place = w.retraction->moved(w.placement, f[0], centre - w.start->col(f[0]));
+    const SurfacePosition place = w.retraction->moved(w.positions, f[0], centre - w.start->col(f[0]));
     EXPECT_NEAR((w.normalisation.centre + w.normalisation.unit * place.point).norm(), 1, .02);
   }
 }
@@ -163,9 +163,9 @@ TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
 TEST(Workspace, RefittingMovesNothing) {
   Workspace w = on(with_natural_length(test::sphere(2, .2)));
   shake(w);
-  const Mat3X before = w.placement.points;
+  const Mat3X before = w.positions.points;
   w.refit();
-  EXPECT_LT((w.placement.points - before).colwise().norm().maxCoeff(), 1e-6);
+  EXPECT_LT((w.positions.points - before).colwise().norm().maxCoeff(), 1e-6);
 }
 
 TEST(Workspace, ReturnsToTheFieldOfTheInput) {
@@ -174,12 +174,12 @@ TEST(Workspace, ReturnsToTheFieldOfTheInput) {
   shake(w);
   w.refit();
   shake(w);
-  w.placement = w.project_to_input();
+  w.positions = w.project_to_input();
   const long long calls = w.projection_counts().calls;
   w.return_to_input();
   EXPECT_EQ(w.projection_counts().calls, calls);
   shake(w);
-  EXPECT_LT(off_the_input(mesh, w.placement.points), 1e-5);
+  EXPECT_LT(off_the_input(mesh, w.positions.points), 1e-5);
 }
 
 TEST(Workspace, CountsTheProjectionsOfAllFields) {
@@ -188,7 +188,7 @@ TEST(Workspace, CountsTheProjectionsOfAllFields) {
   EXPECT_EQ(calls, 81);
   shake(w);
   w.refit();
-  w.placement = w.project_to_input();
+  w.positions = w.project_to_input();
   EXPECT_EQ(w.projection_counts().calls, calls + 77 + 81 + 81);  // the four corners do not move
 }
 
@@ -208,7 +208,7 @@ TEST(Workspace, VerticesTakeUpTheTargetLengthsOfTheirPlaces) {
   w.resample_lengths();
   w.copy_back(mesh);
   const std::vector<double> resampled = vertex_values(mesh, target_length_property);
-  const auto points = positions(mesh);
+  const auto points = vertex_points(mesh);
   EXPECT_NE(resampled, lengths);
   for (size_t v = 0; v < resampled.size(); ++v)
     EXPECT_NEAR(resampled[v], length(points.col(static_cast<Eigen::Index>(v))), 1e-9);

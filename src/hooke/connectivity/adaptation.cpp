@@ -53,24 +53,24 @@ class AdaptationSteps {
   bool change_count(double wanted_faces);
 
   /// Flow, after which the mesh is Delaunay and its vertices lie on the surface, as far as guards let them.
-  void settle(int rounds);
+  void lloyd_flow(int rounds);
 
   /// Passes of springs and flips about irregular vertices, until one flips nothing.
   void flip_irregular();
 
   /// Every face becomes four.
-  void quadruple();
+  void subdivide();
 
   /// Gives the work the mesh as it is now.
   void finish() { adapting_.replace_mesh(); }
 
-  double face_count() const { return static_cast<double>(m_.triangulation.faces().size()); }
+  double face_count() const { return static_cast<double>(m_.halfedges.faces().size()); }
   const StepCounts& counts() const { return counts_; }
   bool interrupted() const { return interrupted_; }
 
  private:
   void give_up_unused_ids();
-  void settle_springs();
+  void relax_springs();
   int pass_over_irregular(std::vector<char>& lately_changed);
   void resample_lengths();
   void add(const CountChanges& changes);
@@ -81,8 +81,8 @@ class AdaptationSteps {
   const EnergyTerms& terms_;
   const GuardOptions& guards_;
   const Observer observer_;
-  AdaptingWork adapting_;
-  AdaptingMesh& m_ = adapting_.mesh();
+  WorkspaceEdit adapting_;
+  WorkingMesh& m_ = adapting_.mesh();
   const bool graded_;
   int level_ = 0;  // the target lengths are doubled so many times
   StepCounts counts_;
@@ -95,15 +95,15 @@ struct Turn {
 };
 
 /// Per half-edge; without weight where the edge has had its turn.
-std::vector<Turn> turns(const AdaptingMesh& m) {
-  const Triangulation& t = m.triangulation;
-  const Mat3X& N = m.placement.normals;
+std::vector<Turn> turns(const WorkingMesh& m) {
+  const HalfedgeMesh& t = m.halfedges;
+  const Mat3X& N = m.positions.normals;
   std::vector<Turn> turns(static_cast<size_t>(t.half_edge_count()), Turn{0, 0});
   parallel_for(turns.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int h = static_cast<int>(i);
       if (t.twin(h) > h) continue;
-      const Vec3 a = N.col(t.side(h)), b = N.col(t.side(Triangulation::next(h)));
+      const Vec3 a = N.col(t.wedge(h)), b = N.col(t.wedge(HalfedgeMesh::next(h)));
       const double length = relative_length(m, h);
       if (length > 0) turns[i] = {std::atan2(a.cross(b).norm(), a.dot(b)) / length, length * length};
     }
@@ -132,8 +132,8 @@ double count_of(int count, const auto& is_such) {
   });
 }
 
-bool is_regular(const AdaptingMesh& m, const CoarseLimits& limits) {
-  const Triangulation& t = m.triangulation;
+bool is_regular(const WorkingMesh& m, const CoarseLimits& limits) {
+  const HalfedgeMesh& t = m.halfedges;
   const auto is_inner = [&](int v) { return t.valence(v) > 0 && !t.on_boundary(v); };
   const auto is_edge = [&](int h) { return t.twin(h) <= h; };
   const auto is_misfit = [&](int h) {
@@ -154,7 +154,7 @@ double relative_sagitta(double turn) {
 
 }  // namespace
 
-int coarse_levels(const AdaptingMesh& m, double wanted_faces, const CoarseLimits& limits) {
+int coarse_levels(const WorkingMesh& m, double wanted_faces, const CoarseLimits& limits) {
   if (!m.constraints.creases.empty() || is_regular(m, limits)) return 0;
   const double turn = exceeded_by(limits.bent_share, turns(m));
   const auto still = static_cast<double>(std::ranges::count(m.constraints.freedom, Freedom::fixed));
@@ -162,7 +162,7 @@ int coarse_levels(const AdaptingMesh& m, double wanted_faces, const CoarseLimits
   const double on_curves = std::accumulate(wanted.begin(), wanted.end(), 0.);
   const auto bears = [&](int level) {
     const double scale = std::pow(2, level), faces = wanted_faces / (scale * scale), vertices = .5 * faces;
-    return faces >= limits.least_faces && relative_sagitta(scale * turn) <= limits.sagitta &&
+    return faces >= limits.min_faces && relative_sagitta(scale * turn) <= limits.sagitta &&
            still + on_curves / scale <= limits.rim_share * vertices;
   };
   int level = 0;
@@ -209,7 +209,7 @@ void AdaptationSteps::change_lengths() {
   if (const int splits =
           timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, options_.split); })) {
     counts_.splits += splits;
-    FlippingMesh flipping = m_.flipping();
+    FlippableMesh flipping = m_.flipping();
     counts_.flips += flip_to_delaunay(flipping, flip_guard_);
   }
   {
@@ -217,26 +217,26 @@ void AdaptationSteps::change_lengths() {
     counts_.collapses += collapse_short_edges(m_, options_.collapse);
     counts_.collapses += collapse_folded_faces(m_, options_.folded);
   }
-  add(settle_curves(m_, options_.count));
+  add(match_curve_edges(m_, options_.count));
   give_up_unused_ids();
 }
 
 bool AdaptationSteps::change_count(double wanted_faces) {
   count_curve_edges(m_, options_.chord_error);
-  add(settle_curves(m_, options_.count));
+  add(match_curve_edges(m_, options_.count));
   const CountChanges inner = approach_count(m_, wanted_faces, options_.count);
   give_up_unused_ids();
   add(inner);
   return inner.splits + inner.collapses > 0;
 }
 
-void AdaptationSteps::settle(int rounds) {
+void AdaptationSteps::lloyd_flow(int rounds) {
   const Stage stage(work_.stopwatch, "flow");
-  FlippingMesh flipping = m_.flipping();
-  counts_.flips += flip_to_delaunay(flipping, flip_guard_) + force_corners(flipping, flip_guard_);
-  FlowOptions options;
+  FlippableMesh flipping = m_.flipping();
+  counts_.flips += flip_to_delaunay(flipping, flip_guard_) + flip_corners_to_valence(flipping, flip_guard_);
+  LloydFlowOptions options;
   options.rounds = rounds;
-  const FlowResult flowed = flow(flipping, options, flip_guard_, guards_, observer_);
+  const LloydFlowResult flowed = flow(flipping, options, flip_guard_, guards_, observer_);
   counts_.flips += flowed.flips;
   interrupted_ = flowed.interrupted;
   resample_lengths();
@@ -245,7 +245,7 @@ void AdaptationSteps::settle(int rounds) {
 void AdaptationSteps::flip_irregular() {
   std::vector<char> lately_changed;
   for (int pass = 0; pass < options_.irregular.passes && !interrupted_; ++pass) {
-    settle_springs();
+    relax_springs();
     if (interrupted_ || pass_over_irregular(lately_changed) == 0) return;
   }
 }
@@ -256,7 +256,7 @@ int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
     interrupted_ = observer_ && !observer_(p);
     return !interrupted_;
   };
-  FlippingMesh flipping = m_.flipping();
+  FlippableMesh flipping = m_.flipping();
   const int flips =
       flip_irregular_edges(flipping, terms_, options_.irregular, flip_guard_, guards_, lately_changed, watch);
   resample_lengths();
@@ -264,10 +264,10 @@ int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
   return flips;
 }
 
-void AdaptationSteps::quadruple() {
+void AdaptationSteps::subdivide() {
   const Stage stage(work_.stopwatch, "quadruple");
   count_curve_edges(m_, options_.chord_error);
-  counts_.splits += subdivide(m_, options_.split, flip_guard_);
+  counts_.splits += hooke::subdivide(m_, options_.split, flip_guard_);
   give_up_unused_ids();
   coarsen(-1);
 }
@@ -277,20 +277,20 @@ void AdaptationSteps::give_up_unused_ids() {
   compact(m_);
 }
 
-void AdaptationSteps::settle_springs() {
+void AdaptationSteps::relax_springs() {
   const Stage stage(work_.stopwatch, "springs");
-  Connectivity c = connectivity_of(m_.triangulation, static_cast<int>(m_.placement.points.cols()));
-  part_at_creases(c, m_.constraints.creases);
-  const SweepPlan sweeps = plan_sweeps(c);
+  Adjacency c = connectivity_of(m_.halfedges, static_cast<int>(m_.positions.points.cols()));
+  split_wedges(c, m_.constraints.creases);
+  const VertexColoring coloring = color_vertices(c);
   const TargetLengths targets = spread_target_lengths(c, m_.vertex_length);
   Energy energy(c, targets, terms_);
   Guards guards(c, targets, guards_);
-  Relaxation r{c, sweeps, m_.vertex_length, energy, m_.retraction, guards, m_.placement, work_.stopwatch};
+  Relaxation r{c, coloring, m_.vertex_length, energy, m_.retraction, guards, m_.positions, work_.stopwatch};
   IntegrationOptions integration;
   integration.max_steps = options_.spring_steps;
   LbfgsOptions lbfgs;
   lbfgs.sweeps = 0;  // flow has left no slivers for them
-  lbfgs.settles = false;
+  lbfgs.projects_at_end = false;
   interrupted_ = relax_lbfgs(r, integration, lbfgs, observer_).reason == StopReason::interrupted;
   resample_lengths();
 }
@@ -317,7 +317,7 @@ class Adaptation {
         observer_(observer),
         steps_(work, options.steps, flip_guard, terms, guards, corner_angle, watch()) {
     result_.wanted_faces =
-        wanted_face_count(work.placement.points, work.connectivity->faces, work.vertex_length);
+        wanted_face_count(work.positions.points, work.adjacency->faces, work.vertex_length);
   }
 
   /// `folded`: are there faces that lie against the surface? Flow would carry them along where splits and
@@ -340,7 +340,7 @@ class Adaptation {
  private:
   /// Without a coarser mesh first.
   void adapt_at_once(bool folded) {
-    if (!folded) steps_.settle(options_.first_flow);
+    if (!folded) steps_.lloyd_flow(options_.first_flow);
     change_lengths(options_.rounds, options_.flow_rounds);
     approach(result_.wanted_faces, options_.count_slack);
   }
@@ -350,9 +350,9 @@ class Adaptation {
     change_lengths(options_.rounds, options_.coarse_flow);
     approach(result_.wanted_faces / std::pow(4, result_.levels), options_.count_slack);
     for (int level = result_.levels; level > 0; --level) {
-      if (level < result_.levels) settle(options_.coarse_flow);
+      if (level < result_.levels) lloyd_flow(options_.coarse_flow);
       if (!steps_.interrupted()) steps_.flip_irregular();
-      steps_.quadruple();  // interrupted or not: the target lengths are to be those that were asked for
+      steps_.subdivide();  // interrupted or not: the target lengths are to be those that were asked for
     }
     change_lengths(options_.fine_rounds, options_.fine_flow);
     approach(result_.wanted_faces, options_.fine_count_slack * result_.wanted_faces);
@@ -362,7 +362,7 @@ class Adaptation {
     for (int i = 0; i < rounds && !steps_.interrupted(); ++i) {
       steps_.change_lengths();
       ++result_.rounds;
-      settle(flow_rounds);
+      lloyd_flow(flow_rounds);
     }
   }
 
@@ -371,12 +371,12 @@ class Adaptation {
       if (std::abs(steps_.face_count() - wanted_faces) <= slack) return;
       if (!steps_.change_count(wanted_faces)) return;
       ++result_.count_rounds;
-      settle(options_.count_flow);
+      lloyd_flow(options_.count_flow);
     }
   }
 
-  void settle(int rounds) {
-    if (!steps_.interrupted()) steps_.settle(rounds);
+  void lloyd_flow(int rounds) {
+    if (!steps_.interrupted()) steps_.lloyd_flow(rounds);
   }
 
   Observer watch() const {
@@ -396,10 +396,10 @@ class Adaptation {
 
 UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOptions& guard_options,
                       const Observer& observer) {
-  Energy energy(*work.connectivity, work.targets, terms);
-  Guards guards(*work.connectivity, work.targets, guard_options);
-  Relaxation r{*work.connectivity, work.sweeps, work.vertex_length, energy,
-               *work.retraction,   guards,      work.placement};
+  Energy energy(*work.adjacency, work.targets, terms);
+  Guards guards(*work.adjacency, work.targets, guard_options);
+  Relaxation r{*work.adjacency,  work.coloring, work.vertex_length, energy,
+               *work.retraction, guards,        work.positions};
   return untangle(r, UntangleOptions{}, observer);
 }
 
@@ -429,8 +429,8 @@ AdaptOptions adapt_options(Effort effort) {
       options.coarse_flow = options.fine_flow = 20;
       options.steps.irregular.passes = 8;
       options.steps.irregular.sweeps = 6;
-      options.steps.irregular.hope = .6;
-      options.steps.irregular.swept_hope = .2;
+      options.steps.irregular.max_energy_rise = .6;
+      options.steps.irregular.max_rise_after_relaxation = .2;
       options.last_flow = 20;
       options.last_passes = 8;
       break;

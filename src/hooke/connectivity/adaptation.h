@@ -10,11 +10,11 @@
 
 namespace hooke {
 
-struct AdaptingMesh;
+struct WorkingMesh;
 
 struct CoarseLimits {
   int levels = 1;           // times the target lengths are doubled, at most
-  double least_faces = 80;  // of the coarsest mesh
+  double min_faces = 80;    // of the coarsest mesh
   double sagitta = .07;     // greatest of an edge of the coarsest mesh over its length ...
   double bent_share = .01;  // ... but for this part of them
   double rim_share = .25;   // greatest part of the coarsest mesh's vertices that lie on curves or stand still
@@ -28,7 +28,7 @@ struct CoarseLimits {
 /// how its normals turn along the edges there are; each stands for as many edges of the target length as
 /// cover its square. None where there are creases: the narrow faces between them want the lengths that were
 /// asked for. Pre-condition: the edges of the curves are counted.
-int coarse_levels(const AdaptingMesh& mesh, double wanted_faces, const CoarseLimits& limits);
+int coarse_levels(const WorkingMesh& mesh, double wanted_faces, const CoarseLimits& limits);
 
 // What the adaptation of a mesh is made of, step by step; their order is that of adaptation.h.
 
@@ -40,14 +40,15 @@ struct StepOptions {
   CollapseOptions collapse;
   CollapseOptions folded = folded_face_options();
   CountOptions count;
-  FlipPassOptions irregular{.passes = 3, .rings = 3, .sweeps = 4, .hope = .5, .swept_hope = .15};
+  FlipPassOptions irregular{
+      .passes = 3, .rings = 3, .sweeps = 4, .max_energy_rise = .5, .max_rise_after_relaxation = .15};
 };
 
 struct StepCounts {
   long long splits = 0, collapses = 0, flips = 0;
 };
 
-// Connectivity mode `adapt`: edges are split and collapsed too, until there are as many faces of the target
+// Adjacency mode `adapt`: edges are split and collapsed too, until there are as many faces of the target
 // length as the surface takes. What follows is that of mode `flip`: see flip_connectivity.h.
 // After M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004. Where the surface
 // is smooth a coarser mesh is made first and every face of it becomes four: all new vertices are regular, so

@@ -23,7 +23,7 @@ struct Blocks {
   std::vector<int> first;  // id of each block, and one past the last
 };
 
-Blocks cut_into_blocks(const Triangulation& t, int vertices, int offset) {
+Blocks cut_into_blocks(const HalfedgeMesh& t, int vertices, int offset) {
   Blocks blocks{std::vector<int>(static_cast<size_t>(t.id_count())), {0}};
   int in_block = offset;
   for (int v = 0; v < t.id_count(); ++v) {
@@ -40,7 +40,7 @@ Blocks cut_into_blocks(const Triangulation& t, int vertices, int offset) {
 /// How far each vertex lies from the other blocks: at 0 a neighbour is in one, at 1 a neighbour is at 0. A
 /// collapse of an inner edge between vertices at 2 reads and writes its own block alone, and leaves them
 /// at 2. Edges of rims count in what the mesh knows of their curves.
-std::vector<char> depths_in(const Blocks& blocks, const Triangulation& t) {
+std::vector<char> depths_in(const Blocks& blocks, const HalfedgeMesh& t) {
   std::vector<char> depths(static_cast<size_t>(t.id_count()), 2);
   const auto lower = [&](char depth, const auto& is_so_deep) {
     for (const Triangle& face : t.faces()) {
@@ -61,9 +61,9 @@ std::vector<char> depths_in(const Blocks& blocks, const Triangulation& t) {
 
 class BlockCollapses {
  public:
-  BlockCollapses(AdaptingMesh& mesh, const CollapseOptions& options, double shortest,
+  BlockCollapses(WorkingMesh& mesh, const CollapseOptions& options, double shortest,
                  const std::vector<char>& depths)
-      : m_(mesh), t_(mesh.triangulation), options_(options), shortest_(shortest), depths_(depths) {}
+      : m_(mesh), t_(mesh.halfedges), options_(options), shortest_(shortest), depths_(depths) {}
 
   int run(int first_vertex, int end_vertex) {
     for (int v = first_vertex; v < end_vertex; ++v) {
@@ -85,7 +85,7 @@ class BlockCollapses {
   bool is_deep(int v) const { return depths_[static_cast<size_t>(v)] == 2; }
 
   void push(int h) {
-    if (!is_deep(t_.from(h)) || !is_deep(t_.to(h)) || is_rim(t_, h)) return;
+    if (!is_deep(t_.from(h)) || !is_deep(t_.to(h)) || is_feature_edge(t_, h)) return;
     if (const double length = relative_length(m_, h); length < shortest_) waiting_.emplace(length, h);
   }
 
@@ -95,28 +95,28 @@ class BlockCollapses {
     while (!waiting_.empty()) {
       const auto [length, h] = waiting_.top();
       waiting_.pop();
-      if (!t_.is_gone(h / 3) && !is_rim(t_, h) && relative_length(m_, h) == length) return h;
+      if (!t_.is_gone(h / 3) && !is_feature_edge(t_, h) && relative_length(m_, h) == length) return h;
     }
     return -1;
   }
 
-  AdaptingMesh& m_;
-  const Triangulation& t_;
+  WorkingMesh& m_;
+  const HalfedgeMesh& t_;
   const CollapseOptions& options_;
   double shortest_;
   const std::vector<char>& depths_;
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> waiting_;
 };
 
-int vertex_count(const Triangulation& t) {
+int vertex_count(const HalfedgeMesh& t) {
   int count = 0;
   for (int v = 0; v < t.id_count(); ++v) count += t.valence(v) > 0;
   return count;
 }
 
 /// Of all half-edges, the part that is shorter than this.
-double share_of_shorter(const AdaptingMesh& m, double length) {
-  const Triangulation& t = m.triangulation;
+double share_of_shorter(const WorkingMesh& m, double length) {
+  const HalfedgeMesh& t = m.halfedges;
   const auto count = [&](const auto& counts) {
     return parallel_sum(static_cast<size_t>(t.half_edge_count()), 4096, [&](size_t begin, size_t end) {
       double sum = 0;
@@ -130,8 +130,8 @@ double share_of_shorter(const AdaptingMesh& m, double length) {
   return count([&](int h) { return relative_length(m, h) < length; }) / count([](int) { return true; });
 }
 
-int collapse_in(const Blocks& blocks, AdaptingMesh& m, const CollapseOptions& options, double shortest) {
-  const std::vector<char> depths = depths_in(blocks, m.triangulation);
+int collapse_in(const Blocks& blocks, WorkingMesh& m, const CollapseOptions& options, double shortest) {
+  const std::vector<char> depths = depths_in(blocks, m.halfedges);
   std::vector<int> collapses(blocks.first.size() - 1, 0);
   parallel_for(collapses.size(), 1, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b)
@@ -142,8 +142,8 @@ int collapse_in(const Blocks& blocks, AdaptingMesh& m, const CollapseOptions& op
 
 }  // namespace
 
-int collapse_in_blocks(AdaptingMesh& m, const CollapseOptions& options, const BlockOptions& o) {
-  const Triangulation& t = m.triangulation;
+int collapse_in_blocks(WorkingMesh& m, const CollapseOptions& options, const BlockOptions& o) {
+  const HalfedgeMesh& t = m.halfedges;
   const double shortest = o.part * options.shortest;
   if (t.id_count() < 2 * o.vertices || share_of_shorter(m, shortest) < o.share) return 0;
   int collapses = 0;
@@ -157,24 +157,24 @@ int collapse_in_blocks(AdaptingMesh& m, const CollapseOptions& options, const Bl
 namespace {
 
 /// Of edges that are tried at the same time, against the mesh as it was before.
-constexpr size_t most_edges = 1024;
+constexpr size_t max_edges = 1024;
 
-std::vector<std::optional<Collapse>> try_all(const AdaptingMesh& m, const std::vector<int>& edges,
+std::vector<std::optional<Collapse>> try_all(const WorkingMesh& m, const std::vector<int>& edges,
                                              const CollapseOptions& options) {
   std::vector<std::optional<Collapse>> trials(edges.size());
   parallel_for(edges.size(), 16, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) trials[i] = try_collapse(m, edges[i], options);
+    for (size_t i = begin; i < end; ++i) trials[i] = find_collapse(m, edges[i], options);
   });
   return trials;
 }
 
 }  // namespace
 
-int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
+int collapse_short_edges(WorkingMesh& m, const CollapseOptions& options) {
   int collapses = collapse_in_blocks(m, options, {});
-  EdgeQueue queue(m.triangulation, [&](int h) { return options.shortest - relative_length(m, h); });
+  EdgeQueue queue(m.halfedges, [&](int h) { return options.shortest - relative_length(m, h); });
   const auto next_edges = [&] {
-    return queue.pop_apart(most_edges, [&](int h) { return valence_after(m, h) <= options.valence; });
+    return queue.pop_apart(max_edges, [&](int h) { return valence_after(m, h) <= options.valence; });
   };
   for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
     for (const std::optional<Collapse>& trial : try_all(m, edges, options)) {
@@ -190,8 +190,8 @@ int collapse_short_edges(AdaptingMesh& m, const CollapseOptions& options) {
 namespace {
 
 /// Collapses the first edge that may, of the face or at its corners.
-bool collapse_about(AdaptingMesh& m, int face, const CollapseOptions& options) {
-  const Triangulation& t = m.triangulation;
+bool collapse_about(WorkingMesh& m, int face, const CollapseOptions& options) {
+  const HalfedgeMesh& t = m.halfedges;
   for (int h = 3 * face; h < 3 * face + 3; ++h)
     if (collapse_edge(m, h, options) >= 0) return true;
   for (int corner : t.faces()[static_cast<size_t>(face)])
@@ -202,11 +202,11 @@ bool collapse_about(AdaptingMesh& m, int face, const CollapseOptions& options) {
 
 }  // namespace
 
-int collapse_folded_faces(AdaptingMesh& m, const CollapseOptions& options) {
-  const Triangulation& t = m.triangulation;
+int collapse_folded_faces(WorkingMesh& m, const CollapseOptions& options) {
+  const HalfedgeMesh& t = m.halfedges;
   const auto is_folded = [&](int f) {
     const auto face = static_cast<size_t>(f);
-    return face_alignment(m.placement.points, m.placement.normals, t.faces()[face], t.sides()[face]) <
+    return face_alignment(m.positions.points, m.positions.normals, t.faces()[face], t.wedges()[face]) <
            options.alignment;
   };
   const int count = t.half_edge_count() / 3;

@@ -16,13 +16,13 @@ struct BlockOptions {
 /// edges of another block stays, and so do edges that are not much too short: for those the order matters
 /// across the blocks. Nothing in a mesh of fewer than two blocks. Returns the number of collapses.
 /// Projections are not counted.
-int collapse_in_blocks(AdaptingMesh& mesh, const CollapseOptions& options, const BlockOptions& blocks);
+int collapse_in_blocks(WorkingMesh& mesh, const CollapseOptions& options, const BlockOptions& blocks);
 
 // Edge collapses: an edge that is too short becomes a vertex.
 
 /// Collapses edges until none is too short or no more may be: many at a time, the shortest first but for
 /// those that come to be shorter meanwhile. Returns the number of collapses.
-int collapse_short_edges(AdaptingMesh& mesh, const CollapseOptions& options);
+int collapse_short_edges(WorkingMesh& mesh, const CollapseOptions& options);
 
 // Collapses about folded faces, which no motion mends.
 
@@ -33,6 +33,6 @@ inline CollapseOptions folded_face_options() {
 
 /// Where a face lies against the surface (alignment below the limit), collapses an edge of it or at its
 /// corners, if the options allow it. Returns the number of collapses.
-int collapse_folded_faces(AdaptingMesh& mesh, const CollapseOptions& options);
+int collapse_folded_faces(WorkingMesh& mesh, const CollapseOptions& options);
 
 }  // namespace hooke

@@ -10,6 +10,6 @@ namespace hooke {
 /// room: it gives an inner neighbour with three edges a fourth, else pushes the neighbour away from the
 /// corner, else slides the corner's neighbours on the boundary toward it. What brings nothing is undone.
 /// Returns the number of flips.
-int force_corners(FlippingMesh& mesh, const FlipGuardOptions& options);
+int flip_corners_to_valence(FlippableMesh& mesh, const FlipGuardOptions& options);
 
 }  // namespace hooke

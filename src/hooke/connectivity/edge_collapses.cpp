@@ -22,22 +22,22 @@ Triangle corners_of(size_t face) {
   return {first, first + 1, first + 2};
 }
 
-void look_at_face(const AdaptingMesh& m, size_t face, WorstShape& worst) {
-  const Mat3X& X = m.placement.points;
-  const Triangle& corners = m.triangulation.faces()[face];
-  const Triangle& sides = m.triangulation.sides()[face];
-  worst.cotangent = std::max(worst.cotangent, greatest_cotangent(X, corners));
-  worst.alignment = std::min(worst.alignment, face_alignment(X, m.placement.normals, corners, sides));
+void look_at_face(const WorkingMesh& m, size_t face, WorstShape& worst) {
+  const Mat3X& X = m.positions.points;
+  const Triangle& corners = m.halfedges.faces()[face];
+  const Triangle& wedges = m.halfedges.wedges()[face];
+  worst.cotangent = std::max(worst.cotangent, max_cotangent(X, corners));
+  worst.alignment = std::min(worst.alignment, face_alignment(X, m.positions.normals, corners, wedges));
 }
 
 /// The edge of h, and the fold there. Creases are folds that shall be.
-void look_at_edge(const AdaptingMesh& m, int h, WorstShape& worst) {
-  const Triangulation& t = m.triangulation;
-  const Mat3X& X = m.placement.points;
-  const Edge edge = {t.from(h), t.to(h)}, sides = {t.side(h), t.side(Triangulation::next(h))};
-  const double sagitta = edge_sagitta(X, m.placement.normals, edge, sides);
+void look_at_edge(const WorkingMesh& m, int h, WorstShape& worst) {
+  const HalfedgeMesh& t = m.halfedges;
+  const Mat3X& X = m.positions.points;
+  const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
+  const double sagitta = edge_sagitta(X, m.positions.normals, edge, wedges);
   worst.sagitta = std::max(worst.sagitta, sagitta / target_length(m, edge[0], edge[1]));
-  if (t.is_border(h)) return;
+  if (t.is_feature_edge(h)) return;
   const auto face = static_cast<size_t>(h / 3), across = static_cast<size_t>(t.twin(h) / 3);
   worst.fold = std::min(worst.fold, cosine_between(X, t.faces()[face], t.faces()[across]));
 }
@@ -54,20 +54,20 @@ bool is_within(const WorstShape& w, const WorstShape& limits) {
          w.sagitta <= limits.sagitta;
 }
 
-WorstShape worst_about(const AdaptingMesh& m, int half_edge) {
-  const Triangulation& t = m.triangulation;
+WorstShape worst_about(const WorkingMesh& m, int half_edge) {
+  const HalfedgeMesh& t = m.halfedges;
   WorstShape worst;
   for (int end : {t.from(half_edge), t.to(half_edge)})
     for (int spoke : t.outgoing(end)) {
       look_at_face(m, static_cast<size_t>(spoke / 3), worst);
-      for (int h : {spoke, Triangulation::next(spoke), Triangulation::previous(spoke)})
+      for (int h : {spoke, HalfedgeMesh::next(spoke), HalfedgeMesh::previous(spoke)})
         look_at_edge(m, h, worst);
     }
   return worst;
 }
 
-MergedRing::MergedRing(const AdaptingMesh& mesh, int half_edge, int stays)
-    : m_(mesh), t_(mesh.triangulation), stays_(stays) {
+CollapsedRing::CollapsedRing(const WorkingMesh& mesh, int half_edge, int stays)
+    : m_(mesh), t_(mesh.halfedges), stays_(stays) {
   const int twin = t_.twin(half_edge);
   const int dying[] = {half_edge / 3, twin < 0 ? -1 : twin / 3};
   for (int v : {t_.from(half_edge), t_.to(half_edge)})
@@ -78,59 +78,58 @@ MergedRing::MergedRing(const AdaptingMesh& mesh, int half_edge, int stays)
   copy_corners();
 }
 
-void MergedRing::add_face(int spoke, int side) {
-  const int next = Triangulation::next(spoke), previous = Triangulation::previous(spoke);
+void CollapsedRing::add_face(int spoke, int wedge) {
+  const int next = HalfedgeMesh::next(spoke), previous = HalfedgeMesh::previous(spoke);
   Face face{.spoke = spoke,
-            .side = side,
+            .wedge = wedge,
             .first_target = target_length(m_, stays_, t_.from(next)),
             .last_target = target_length(m_, stays_, t_.from(previous)),
-            .has_beyond = !t_.is_border(next),
+            .has_beyond = !t_.is_feature_edge(next),
             .beyond = Vec3::Zero(),
             .next = -1};
   if (face.has_beyond) {
     const auto across = static_cast<size_t>(t_.twin(next) / 3);
-    face.beyond = doubled_area_vector(m_.placement.points, t_.faces()[across]);
+    face.beyond = doubled_area_vector(m_.positions.points, t_.faces()[across]);
   }
   faces_.push_back(face);
 }
 
 /// The face after it about the vertex that stays, also where two edges have become one.
-int MergedRing::face_after(const Face& face) const {
-  const int last = Triangulation::previous(face.spoke);
+int CollapsedRing::face_after(const Face& face) const {
+  const int last = HalfedgeMesh::previous(face.spoke);
   const auto found =
       std::ranges::find_if(faces_, [&](const Face& other) { return t_.to(other.spoke) == t_.from(last); });
-  if (found == faces_.end() || t_.is_constrained(last) || t_.is_constrained(found->spoke)) return -1;
+  if (found == faces_.end() || t_.is_crease(last) || t_.is_crease(found->spoke)) return -1;
   return static_cast<int>(found - faces_.begin());
 }
 
-void MergedRing::copy_corners() {
+void CollapsedRing::copy_corners() {
   const auto columns = static_cast<Eigen::Index>(3 * faces_.size());
   points_.resize(3, columns);
   normals_.resize(3, columns);
   areas_.resize(faces_.size());
   for (size_t f = 0; f < faces_.size(); ++f) {
-    const int next = Triangulation::next(faces_[f].spoke),
-              previous = Triangulation::previous(faces_[f].spoke);
+    const int next = HalfedgeMesh::next(faces_[f].spoke), previous = HalfedgeMesh::previous(faces_[f].spoke);
     const auto [first, second, third] = corners_of(f);
-    points_.col(second) = m_.placement.points.col(t_.from(next));
-    points_.col(third) = m_.placement.points.col(t_.from(previous));
-    normals_.col(first) = m_.placement.normals.col(faces_[f].side);  // put() knows two sides
-    normals_.col(second) = m_.placement.normals.col(t_.side(next));
-    normals_.col(third) = m_.placement.normals.col(t_.side(previous));
+    points_.col(second) = m_.positions.points.col(t_.from(next));
+    points_.col(third) = m_.positions.points.col(t_.from(previous));
+    normals_.col(first) = m_.positions.normals.col(faces_[f].wedge);  // put() knows two sides
+    normals_.col(second) = m_.positions.normals.col(t_.wedge(next));
+    normals_.col(third) = m_.positions.normals.col(t_.wedge(previous));
   }
 }
 
-void MergedRing::put(const VertexPlace& place) {
+void CollapsedRing::put(const SurfacePosition& place) {
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Triangle corners = corners_of(f);
     points_.col(corners[0]) = place.point;
-    if (faces_[f].side == stays_) normals_.col(corners[0]) = place.normal;
-    if (faces_[f].side == place.other_side) normals_.col(corners[0]) = place.other_normal;
+    if (faces_[f].wedge == stays_) normals_.col(corners[0]) = place.normal;
+    if (faces_[f].wedge == place.other_wedge) normals_.col(corners[0]) = place.other_normal;
     areas_[f] = doubled_area_vector(points_, corners);
   }
 }
 
-WorstShape MergedRing::worst(const VertexPlace& place) {
+WorstShape CollapsedRing::worst(const SurfacePosition& place) {
   put(place);
   WorstShape worst;
   for (size_t f = 0; f < faces_.size(); ++f) {
@@ -145,14 +144,14 @@ WorstShape MergedRing::worst(const VertexPlace& place) {
   return worst;
 }
 
-void MergedRing::look_at_face(size_t face, WorstShape& worst) const {
+void CollapsedRing::look_at_face(size_t face, WorstShape& worst) const {
   const Triangle corners = corners_of(face);
-  worst.cotangent = std::max(worst.cotangent, greatest_cotangent(points_, corners));
+  worst.cotangent = std::max(worst.cotangent, max_cotangent(points_, corners));
   worst.alignment = std::min(worst.alignment, face_alignment(points_, normals_, corners));
 }
 
 /// The edge from the first corner to another one.
-void MergedRing::look_at_edge(size_t face, int corner, double target, WorstShape& worst) const {
+void CollapsedRing::look_at_edge(size_t face, int corner, double target, WorstShape& worst) const {
   const int first = corners_of(face)[0];
   const double sagitta = edge_sagitta(points_, normals_, {first, first + corner});
   worst.sagitta = std::max(worst.sagitta, sagitta / target);
@@ -166,9 +165,9 @@ WorstShape limits_of(const CollapseOptions& o) {
 
 class Trial {
  public:
-  Trial(const AdaptingMesh& mesh, int half_edge, const CollapseOptions& options)
+  Trial(const WorkingMesh& mesh, int half_edge, const CollapseOptions& options)
       : m_(mesh),
-        t_(mesh.triangulation),
+        t_(mesh.halfedges),
         options_(options),
         h_(half_edge),
         a_(t_.from(half_edge)),
@@ -179,14 +178,14 @@ class Trial {
     if (!is_welcome() || !t_.may_collapse(h_)) return std::nullopt;
     const Rings rings = {t_.neighbours(a_), t_.neighbours(b_)};
     const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
-    const VertexPlace here(m_.placement, stays);
-    const Vec3 way = m_.placement.points.col(goes) - here.point;
-    std::optional<MergedRing> ring;
+    const SurfacePosition here(m_.positions, stays);
+    const Vec3 way = m_.positions.points.col(goes) - here.point;
+    std::optional<CollapsedRing> ring;
     std::optional<WorstShape> looser;
     for (double part : parts(stays, goes)) {
       if (leaves_long_edges(rings, stays, here.point + part * way)) continue;
       if (!ring) ring.emplace(m_, h_, stays);
-      const VertexPlace there = part > 0 ? m_.retraction.moved(m_.placement, stays, part * way) : here;
+      const SurfacePosition there = part > 0 ? m_.retraction.moved(m_.positions, stays, part * way) : here;
       const WorstShape after = ring->worst(there), limits = limits_of(options_);
       if (is_within(after, limits)) return Collapse{h_, stays, there};
       if (!looser) looser = loosened(limits);
@@ -205,16 +204,16 @@ class Trial {
   bool may_vanish(int v) const {
     if (freedom(v) == Freedom::fixed) return false;
     if (freedom(v) == Freedom::surface && !t_.on_boundary(v)) return true;
-    return is_rim(t_, h_);
+    return is_feature_edge(t_, h_);
   }
 
   /// Does the valence stay fair, and do curve and corners keep what they want?
   bool is_welcome() const {
     if (valence_after(m_, h_) > options_.valence) return false;
-    for (int side : {h_, t_.twin(h_)}) {
-      if (side < 0) continue;
-      const CornerValence apex = corner_valence(m_.flipping(), Triangulation::previous(side));
-      if (apex.has <= apex.wanted) return false;
+    for (int wedge : {h_, t_.twin(h_)}) {
+      if (wedge < 0) continue;
+      const CornerValence opposite_vertex = corner_valence(m_.flipping(), HalfedgeMesh::previous(wedge));
+      if (opposite_vertex.has <= opposite_vertex.wanted) return false;
     }
     return curve_may_lose(m_, h_);
   }
@@ -246,7 +245,7 @@ class Trial {
     return longest;
   }
 
-  double length(const Vec3& point, int v) const { return (m_.placement.points.col(v) - point).norm(); }
+  double length(const Vec3& point, int v) const { return (m_.positions.points.col(v) - point).norm(); }
 
   /// Would an edge come to be longer than allowed, and than every edge at the ends is now?
   bool leaves_long_edges(const Rings& rings, int stays, const Vec3& point) const {
@@ -254,7 +253,7 @@ class Trial {
     if (longest <= options_.longest) return false;
     const auto has_as_long = [&](int end, const ShortList& ring) {
       return std::ranges::any_of(ring, [&](int v) {
-        return length(m_.placement.points.col(end), v) / target_length(m_, end, v) >= longest;
+        return length(m_.positions.points.col(end), v) / target_length(m_, end, v) >= longest;
       });
     };
     return !has_as_long(a_, rings.a) && !has_as_long(b_, rings.b);
@@ -267,39 +266,39 @@ class Trial {
     return loose;
   }
 
-  const AdaptingMesh& m_;
-  const Triangulation& t_;
+  const WorkingMesh& m_;
+  const HalfedgeMesh& t_;
   const CollapseOptions& options_;
   int h_, a_, b_;
 };
 
 }  // namespace
 
-int valence_after(const AdaptingMesh& m, int half_edge) {
-  const Triangulation& t = m.triangulation;
+int valence_after(const WorkingMesh& m, int half_edge) {
+  const HalfedgeMesh& t = m.halfedges;
   return t.valence(t.from(half_edge)) + t.valence(t.to(half_edge)) - (t.twin(half_edge) < 0 ? 3 : 4);
 }
 
-std::optional<Collapse> try_collapse(const AdaptingMesh& m, int half_edge, const CollapseOptions& options) {
+std::optional<Collapse> find_collapse(const WorkingMesh& m, int half_edge, const CollapseOptions& options) {
   return Trial(m, half_edge, options).run();
 }
 
-void make_collapse(AdaptingMesh& m, const Collapse& c) {
-  const int curve = is_rim(m.triangulation, c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
+void make_collapse(WorkingMesh& m, const Collapse& c) {
+  const int curve = is_feature_edge(m.halfedges, c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
   if (curve >= 0) --m.curve_edges.present[static_cast<size_t>(curve)];
-  m.triangulation.collapse(c.half_edge, c.stays);
-  c.place.write_to(m.placement, c.stays);
+  m.halfedges.collapse(c.half_edge, c.stays);
+  c.place.write_to(m.positions, c.stays);
 }
 
-int collapse_edge(AdaptingMesh& m, int half_edge, const CollapseOptions& options) {
-  const std::optional<Collapse> trial = try_collapse(m, half_edge, options);
+int collapse_edge(WorkingMesh& m, int half_edge, const CollapseOptions& options) {
+  const std::optional<Collapse> trial = find_collapse(m, half_edge, options);
   if (!trial) return -1;
   make_collapse(m, *trial);
   return trial->stays;
 }
 
-bool curve_may_lose(const AdaptingMesh& m, int half_edge) {
-  if (!is_rim(m.triangulation, half_edge)) return true;
+bool curve_may_lose(const WorkingMesh& m, int half_edge) {
+  if (!is_feature_edge(m.halfedges, half_edge)) return true;
   const int curve = curve_of(m, half_edge).curve;
   if (curve < 0) return true;
   const auto c = static_cast<size_t>(curve);

@@ -9,8 +9,8 @@
 
 namespace hooke {
 
-struct AdaptingMesh;
-class Triangulation;
+struct WorkingMesh;
+class HalfedgeMesh;
 
 /// The worst of what guards look at.
 struct WorstShape {
@@ -24,36 +24,36 @@ WorstShape worse_of(const WorstShape& a, const WorstShape& b);
 bool is_within(const WorstShape& worst, const WorstShape& limits);
 
 /// Of the faces at both ends of the edge, their edges and what is across these.
-WorstShape worst_about(const AdaptingMesh& mesh, int half_edge);
+WorstShape worst_about(const WorkingMesh& mesh, int half_edge);
 
 /// The faces that stay when the edge collapses, as they will be about the vertex that stays: each with
 /// columns of its own for its corners, of which that vertex is the first. Keeps a reference to the mesh.
-class MergedRing {
+class CollapsedRing {
  public:
-  MergedRing(const AdaptingMesh& mesh, int half_edge, int stays);
+  CollapsedRing(const WorkingMesh& mesh, int half_edge, int stays);
 
   /// Of these faces with the vertex at the place, their edges there and what is across their sides.
-  WorstShape worst(const VertexPlace& place);
+  WorstShape worst(const SurfacePosition& place);
 
  private:
   struct Face {
     int spoke;                         // half-edge of the mesh from the first corner
-    int side;                          // of the first corner
+    int wedge;                         // of the first corner
     double first_target, last_target;  // lengths, of the edges to the second corner and from the third
     bool has_beyond;                   // is there a face across from the first corner, and no crease between?
     Vec3 beyond;                       // its doubled area vector
     int next;                          // the face that shares the last edge; -1 if a crease parts them
   };
 
-  void add_face(int spoke, int side);
+  void add_face(int spoke, int wedge);
   void copy_corners();
-  void put(const VertexPlace& place);
+  void put(const SurfacePosition& place);
   int face_after(const Face& face) const;
   void look_at_face(size_t face, WorstShape& worst) const;
   void look_at_edge(size_t face, int corner, double target, WorstShape& worst) const;
 
-  const AdaptingMesh& m_;
-  const Triangulation& t_;
+  const WorkingMesh& m_;
+  const HalfedgeMesh& t_;
   int stays_;
   boost::container::small_vector<Face, 16> faces_;
   boost::container::small_vector<Vec3, 16> areas_;  // doubled area vectors
@@ -77,12 +77,12 @@ struct CollapseOptions {
 
 struct Collapse {
   int half_edge;
-  int stays;          // the vertex of the edge that does
-  VertexPlace place;  // where
+  int stays;              // the vertex of the edge that does
+  SurfacePosition place;  // where
 };
 
 /// Of the vertex that stays.
-int valence_after(const AdaptingMesh& mesh, int half_edge);
+int valence_after(const WorkingMesh& mesh, int half_edge);
 
 /// Nothing where the edge may not collapse: where that changes the topology, where a guard forbids it, where
 /// it takes a vertex off its curve or an edge from a curve that has no more than it wants. A vertex that is
@@ -92,15 +92,15 @@ int valence_after(const AdaptingMesh& mesh, int half_edge);
 /// neighbour in common all may be made that pass, but for what their curves want. Projections are not
 /// counted.
 /// Pre-condition: the edges of the curves are counted.
-std::optional<Collapse> try_collapse(const AdaptingMesh& mesh, int half_edge, const CollapseOptions& options);
+std::optional<Collapse> find_collapse(const WorkingMesh& mesh, int half_edge, const CollapseOptions& options);
 
 /// Makes a collapse that has passed its trial.
-void make_collapse(AdaptingMesh& mesh, const Collapse& collapse);
+void make_collapse(WorkingMesh& mesh, const Collapse& collapse);
 
 /// Both: merges the ends of the edge and returns the vertex that stays, -1 where that is not allowed.
-int collapse_edge(AdaptingMesh& mesh, int half_edge, const CollapseOptions& options);
+int collapse_edge(WorkingMesh& mesh, int half_edge, const CollapseOptions& options);
 
 /// The curve of the edge has more edges than it wants, or the edge has no curve.
-bool curve_may_lose(const AdaptingMesh& mesh, int half_edge);
+bool curve_may_lose(const WorkingMesh& mesh, int half_edge);
 
 }  // namespace hooke

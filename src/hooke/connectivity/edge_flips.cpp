@@ -28,12 +28,12 @@ double area(const Mat3X& points, const Triangle& t) {
 }
 
 /// Lowering the valence at the corner where h leaves by one: does its vertex stay fair?
-bool may_lose_an_edge(const FlippingMesh& m, int h) {
+bool may_lose_an_edge(const FlippableMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
   return corner.has > (corner.wanted > 0 ? std::max(2, corner.wanted) : 3);
 }
 
-bool may_gain_an_edge(const FlippingMesh& m, int h) {
+bool may_gain_an_edge(const FlippableMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
   return corner.wanted == 0 || corner.has < corner.wanted;
 }
@@ -50,19 +50,19 @@ bool clearly_delaunay(const Mat3X& points, int a, int b, int c, int d) {
 }
 
 /// Do the angles across the edge fall when it is flipped?
-bool improves(const Triangulation& t, const Mat3X& points, int h) {
-  const int a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(t.twin(h));
+bool improves(const HalfedgeMesh& t, const Mat3X& points, int h) {
+  const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), d = t.opposite_vertex(t.twin(h));
   if (clearly_delaunay(points, a, b, c, d)) return false;
   const double old_angles = opposite_angles(t, points, h);
   return old_angles > delaunay && angle_at(points, a, c, d) + angle_at(points, b, c, d) < old_angles;
 }
 
-std::deque<int> improvable_edges(const Triangulation& t, const Mat3X& points) {
+std::deque<int> improvable_edges(const HalfedgeMesh& t, const Mat3X& points) {
   std::vector<char> wanted(static_cast<size_t>(t.half_edge_count()), 0);
   parallel_for(wanted.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int h = static_cast<int>(i);
-      wanted[i] = t.twin(h) > h && !t.is_constrained(h) && improves(t, points, h);
+      wanted[i] = t.twin(h) > h && !t.is_crease(h) && improves(t, points, h);
     }
   });
   std::deque<int> queue;
@@ -73,56 +73,56 @@ std::deque<int> improvable_edges(const Triangulation& t, const Mat3X& points) {
 
 /// Does the flip of h fold the faces about it? A fold that is there is no leave for another: each edge is
 /// judged by what it was, the new one by the one it takes the place of.
-bool folds(const FlippingMesh& m, int h, double limit) {
-  const Triangulation& t = m.triangulation;
-  const Mat3X& X = m.placement.points;
-  const int a = t.from(h), b = t.to(h), c = t.apex(h), g = t.twin(h), d = t.apex(g);
+bool folds(const FlippableMesh& m, int h, double limit) {
+  const HalfedgeMesh& t = m.halfedges;
+  const Mat3X& X = m.positions.points;
+  const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), g = t.twin(h), d = t.opposite_vertex(g);
   const Triangle left = {c, a, d}, right = {d, b, c};
   const auto breaks = [&](double before, double after) { return after < std::min(limit, before); };
-  const auto breaks_across = [&](int side, const Triangle& before, const Triangle& after) {
-    const int twin = t.twin(side);
-    if (twin < 0 || t.is_constrained(side)) return false;
+  const auto breaks_across = [&](int wedge, const Triangle& before, const Triangle& after) {
+    const int twin = t.twin(wedge);
+    if (twin < 0 || t.is_crease(wedge)) return false;
     const Triangle& beyond = t.faces()[static_cast<size_t>(twin / 3)];
     return breaks(cosine_between(X, before, beyond), cosine_between(X, after, beyond));
   };
   const Triangle of_h = {a, b, c}, of_g = {b, a, d};
   return breaks(cosine_between(X, of_h, of_g), cosine_between(X, left, right)) ||
-         breaks_across(Triangulation::previous(h), of_h, left) ||
-         breaks_across(Triangulation::next(g), of_g, left) ||
-         breaks_across(Triangulation::next(h), of_h, right) ||
-         breaks_across(Triangulation::previous(g), of_g, right);
+         breaks_across(HalfedgeMesh::previous(h), of_h, left) ||
+         breaks_across(HalfedgeMesh::next(g), of_g, left) ||
+         breaks_across(HalfedgeMesh::next(h), of_h, right) ||
+         breaks_across(HalfedgeMesh::previous(g), of_g, right);
 }
 
 }  // namespace
 
-double opposite_angles(const Triangulation& t, const Mat3X& points, int h) {
+double opposite_angles(const HalfedgeMesh& t, const Mat3X& points, int h) {
   const int a = t.from(h), b = t.to(h);
-  return angle_at(points, t.apex(h), a, b) + angle_at(points, t.apex(t.twin(h)), a, b);
+  return angle_at(points, t.opposite_vertex(h), a, b) + angle_at(points, t.opposite_vertex(t.twin(h)), a, b);
 }
 
-CornerValence corner_valence(const FlippingMesh& m, int h) {
-  const Triangulation& t = m.triangulation;
-  const int wanted = m.corner_valences[static_cast<size_t>(t.side(h))];
+CornerValence corner_valence(const FlippableMesh& m, int h) {
+  const HalfedgeMesh& t = m.halfedges;
+  const int wanted = m.corner_valences[static_cast<size_t>(t.wedge(h))];
   return {wanted, wanted > 0 ? static_cast<int>(t.sector(h).size()) + 1 : t.valence(t.from(h))};
 }
 
-bool may_flip(const FlippingMesh& m, int h, const FlipGuardOptions& o) {
-  const Triangulation& t = m.triangulation;
-  if (t.twin(h) < 0 || t.is_constrained(h)) return false;
-  const int g = t.twin(h), apex_h = Triangulation::previous(h), apex_g = Triangulation::previous(g);
+bool may_flip(const FlippableMesh& m, int h, const FlipGuardOptions& o) {
+  const HalfedgeMesh& t = m.halfedges;
+  if (t.twin(h) < 0 || t.is_crease(h)) return false;
+  const int g = t.twin(h), apex_h = HalfedgeMesh::previous(h), apex_g = HalfedgeMesh::previous(g);
   if (!may_lose_an_edge(m, h) || !may_lose_an_edge(m, g)) return false;
   if (!may_gain_an_edge(m, apex_h) || !may_gain_an_edge(m, apex_g)) return false;
 
-  const Mat3X& X = m.placement.points;
-  const Mat3X& N = m.placement.normals;
-  const int a = t.from(h), b = t.to(h), c = t.apex(h), d = t.apex(g);
-  const int sa = t.side(h), sb = t.side(g), sc = t.side(apex_h), sd = t.side(apex_g);
+  const Mat3X& X = m.positions.points;
+  const Mat3X& N = m.positions.normals;
+  const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), d = t.opposite_vertex(g);
+  const int sa = t.wedge(h), sb = t.wedge(g), sc = t.wedge(apex_h), sd = t.wedge(apex_g);
   const double pair = area(X, {a, b, c}) + area(X, {b, a, d});
   const double c_old =
       std::min(face_alignment(X, N, {a, b, c}, {sa, sb, sc}), face_alignment(X, N, {b, a, d}, {sb, sa, sd}));
-  const auto is_fair = [&](const Triangle& f, const Triangle& sides) {
+  const auto is_fair = [&](const Triangle& f, const Triangle& wedges) {
     return area(X, f) >= o.area_share * pair &&
-           face_alignment(X, N, f, sides) >= std::min(o.alignment, c_old);
+           face_alignment(X, N, f, wedges) >= std::min(o.alignment, c_old);
   };
   if (!is_fair({c, a, d}, {sc, sa, sd}) || !is_fair({d, b, c}, {sd, sb, sc})) return false;
   const double length =
@@ -132,22 +132,21 @@ bool may_flip(const FlippingMesh& m, int h, const FlipGuardOptions& o) {
   return !t.adjacent(c, d) && !folds(m, h, o.fold);
 }
 
-int flip_to_delaunay(FlippingMesh& m, const FlipGuardOptions& options) {
-  Triangulation& t = m.triangulation;
-  std::deque<int> queue = improvable_edges(t, m.placement.points);
+int flip_to_delaunay(FlippableMesh& m, const FlipGuardOptions& options) {
+  HalfedgeMesh& t = m.halfedges;
+  std::deque<int> queue = improvable_edges(t, m.positions.points);
   const int limit = 10 * t.half_edge_count();  // on a curved surface flips may go round in circles
   int flips = 0;
   while (!queue.empty() && flips < limit) {
     const int h = queue.front();
     queue.pop_front();
-    if (t.twin(h) < 0 || t.is_constrained(h) || !improves(t, m.placement.points, h) ||
-        !may_flip(m, h, options))
+    if (t.twin(h) < 0 || t.is_crease(h) || !improves(t, m.positions.points, h) || !may_flip(m, h, options))
       continue;
     t.flip(h);
     ++flips;
-    const int other = t.twin(Triangulation::flipped(h));
-    for (int side : {Triangulation::flipped(h), other})
-      for (int around : {Triangulation::next(side), Triangulation::previous(side)}) queue.push_back(around);
+    const int other = t.twin(HalfedgeMesh::flipped(h));
+    for (int wedge : {HalfedgeMesh::flipped(h), other})
+      for (int around : {HalfedgeMesh::next(wedge), HalfedgeMesh::previous(wedge)}) queue.push_back(around);
   }
   return flips;
 }

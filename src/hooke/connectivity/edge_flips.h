@@ -7,8 +7,8 @@
 
 namespace hooke {
 
-struct FlippingMesh;
-class Triangulation;
+struct FlippableMesh;
+class HalfedgeMesh;
 
 struct FlipGuardOptions {
   double area_share = .02;  // least part of the pair's area that each new face has
@@ -18,7 +18,7 @@ struct FlipGuardOptions {
 };
 
 /// Sum of the two angles across an inner edge, radians; Delaunay up to pi.
-double opposite_angles(const Triangulation& triangulation, const Mat3X& points, int half_edge);
+double opposite_angles(const HalfedgeMesh& halfedges, const Mat3X& points, int half_edge);
 
 /// The edges that the corner wants at which h leaves, and those it has: between the creases about h's face,
 /// or in all where it wants none (0).
@@ -26,16 +26,16 @@ struct CornerValence {
   int wanted;
   int has;
 };
-CornerValence corner_valence(const FlippingMesh& mesh, int half_edge);
+CornerValence corner_valence(const FlippableMesh& mesh, int half_edge);
 
 /// May the edge be flipped? It may not on the boundary or on a crease; where the new edge exists already;
 /// where a vertex comes to have fewer than 3 edges (2 at a corner) or a corner moves away from the valence it
 /// wants; where a new face is a sliver, lies against the surface or its neighbours, or the new edge cuts deep
 /// into it (see the options).
-bool may_flip(const FlippingMesh& mesh, int half_edge, const FlipGuardOptions& options);
+bool may_flip(const FlippableMesh& mesh, int half_edge, const FlipGuardOptions& options);
 
 /// Flips edges whose opposite angles exceed pi by more than 1e-9, first come first served, as long as that
 /// lowers the sum of the angles and the guard allows it. Returns the number of flips.
-int flip_to_delaunay(FlippingMesh& mesh, const FlipGuardOptions& options);
+int flip_to_delaunay(FlippableMesh& mesh, const FlipGuardOptions& options);
 
 }  // namespace hooke

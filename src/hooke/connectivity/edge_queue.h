@@ -16,8 +16,8 @@ class EdgeQueue {
  public:
   /// `urgency` of an edge, by one of its half-edges: the greatest comes first, and none that is not positive.
   /// It is asked for several edges at once.
-  EdgeQueue(const Triangulation& triangulation, std::function<double(int half_edge)> urgency)
-      : t_(triangulation), urgency_(std::move(urgency)) {
+  EdgeQueue(const HalfedgeMesh& halfedges, std::function<double(int half_edge)> urgency)
+      : t_(halfedges), urgency_(std::move(urgency)) {
     queued_.resize(static_cast<size_t>(t_.half_edge_count()), 0);
     parallel_for(queued_.size(), 4096, [this](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
@@ -41,8 +41,8 @@ class EdgeQueue {
   void push_about(int vertex) {
     for (int h : t_.outgoing(vertex)) {
       push(h);
-      push(Triangulation::next(h));
-      if (t_.twin(Triangulation::previous(h)) < 0) push(Triangulation::previous(h));
+      push(HalfedgeMesh::next(h));
+      if (t_.twin(HalfedgeMesh::previous(h)) < 0) push(HalfedgeMesh::previous(h));
     }
   }
 
@@ -109,7 +109,7 @@ class EdgeQueue {
     return free;
   }
 
-  const Triangulation& t_;
+  const HalfedgeMesh& t_;
   std::function<double(int)> urgency_;
   std::priority_queue<std::pair<double, int>> entries_;
   double horizon_ = std::numeric_limits<double>::infinity();  // edges less urgent than this wait

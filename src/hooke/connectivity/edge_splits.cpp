@@ -16,50 +16,50 @@ namespace hooke {
 namespace {
 
 /// May vertex v, of which the face of h sees `side`, halve that face?
-bool may_halve(const AdaptingMesh& m, int h, int v, int side, const SplitOptions& o) {
-  const Triangulation& t = m.triangulation;
-  const Mat3X& X = m.placement.points;
-  const Mat3X& N = m.placement.normals;
-  const Triangle old = {t.from(h), t.to(h), t.apex(h)};
-  const Triangle seen = {t.side(h), t.side(Triangulation::next(h)), t.side(Triangulation::previous(h))};
-  const double least_area = o.area_share * face_shape(X, old).area;
-  const double least_alignment = std::min(o.alignment, face_alignment(X, N, old, seen));
+bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge, const SplitOptions& o) {
+  const HalfedgeMesh& t = m.halfedges;
+  const Mat3X& X = m.positions.points;
+  const Mat3X& N = m.positions.normals;
+  const Triangle old = {t.from(h), t.to(h), t.opposite_vertex(h)};
+  const Triangle seen = {t.wedge(h), t.wedge(HalfedgeMesh::next(h)), t.wedge(HalfedgeMesh::previous(h))};
+  const double min_area = o.area_share * face_shape(X, old).area;
+  const double min_alignment = std::min(o.alignment, face_alignment(X, N, old, seen));
   for (size_t k : {0, 1}) {  // the corner that the vertex replaces
     Triangle half = old, half_seen = seen;
     half[k] = v;
-    half_seen[k] = side;
-    if (face_shape(X, half).area < least_area || face_alignment(X, N, half, half_seen) < least_alignment)
+    half_seen[k] = wedge;
+    if (face_shape(X, half).area < min_area || face_alignment(X, N, half, half_seen) < min_alignment)
       return false;
   }
   return true;
 }
 
 /// The ends of an edge that stands still, because its boundary does.
-bool stands_still(const AdaptingMesh& m, int h) {
-  const Triangulation& t = m.triangulation;
+bool stands_still(const WorkingMesh& m, int h) {
+  const HalfedgeMesh& t = m.halfedges;
   const auto fixed = [&](int v) { return m.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed; };
-  return is_rim(t, h) && fixed(t.from(h)) && fixed(t.to(h)) && curve_of(m, h).curve < 0;
+  return is_feature_edge(t, h) && fixed(t.from(h)) && fixed(t.to(h)) && curve_of(m, h).curve < 0;
 }
 
 /// Would a split leave all new edges shorter than the old one? Else splits might go on for ever where the
 /// longest edge of a flat face may not be split.
-bool shortens(const AdaptingMesh& m, int h) {
-  const Triangulation& t = m.triangulation;
-  const Mat3X& X = m.placement.points;
+bool shortens(const WorkingMesh& m, int h) {
+  const HalfedgeMesh& t = m.halfedges;
+  const Mat3X& X = m.positions.points;
   const Vec3 a = X.col(t.from(h)), b = X.col(t.to(h)), middle = .5 * a + .5 * b;
-  const auto shorter = [&](int side) {
-    return (middle - X.col(t.apex(side))).squaredNorm() < (b - a).squaredNorm();
+  const auto shorter = [&](int wedge) {
+    return (middle - X.col(t.opposite_vertex(wedge))).squaredNorm() < (b - a).squaredNorm();
   };
   return shorter(h) && (t.twin(h) < 0 || shorter(t.twin(h)));
 }
 
 }  // namespace
 
-int split_edge(AdaptingMesh& m, int h, const SplitOptions& options, const VertexPlace* middle) {
-  Triangulation& t = m.triangulation;
+int split_edge(WorkingMesh& m, int h, const SplitOptions& options, const SurfacePosition* middle) {
+  HalfedgeMesh& t = m.halfedges;
   if (stands_still(m, h)) return -1;
-  const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_constrained(h) ? v + 1 : v;
-  if (!may_halve(m, h, v, v, options) || (twin >= 0 && !may_halve(m, twin, v, right, options))) {
+  const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_crease(h) ? v + 1 : v;
+  if (!may_split_edge(m, h, v, v, options) || (twin >= 0 && !may_split_edge(m, twin, v, right, options))) {
     drop_vertex(m);
     return -1;
   }
@@ -69,8 +69,8 @@ int split_edge(AdaptingMesh& m, int h, const SplitOptions& options, const Vertex
   return v;
 }
 
-int split_long_edges(AdaptingMesh& m, const SplitOptions& options) {
-  EdgeQueue queue(m.triangulation, [&](int h) { return relative_length(m, h) - options.longest; });
+int split_long_edges(WorkingMesh& m, const SplitOptions& options) {
+  EdgeQueue queue(m.halfedges, [&](int h) { return relative_length(m, h) - options.longest; });
   int splits = 0;
   for (int h = queue.pop(); h >= 0; h = queue.pop()) {
     if (!shortens(m, h)) continue;
@@ -86,20 +86,20 @@ int split_long_edges(AdaptingMesh& m, const SplitOptions& options) {
 namespace {
 
 /// The half-edge that runs from one vertex to the other, -1 if there is none.
-int half_edge_between(const Triangulation& t, int from, int to) {
+int half_edge_between(const HalfedgeMesh& t, int from, int to) {
   for (int h : t.outgoing(from))
     if (t.to(h) == to) return h;
   return -1;
 }
 
 struct EdgeToSplit {
-  Edge ends;                          // as a face runs through it
-  std::optional<VertexPlace> middle;  // of an edge that is no rim
+  Edge ends;                              // as a face runs through it
+  std::optional<SurfacePosition> middle;  // of an edge that is no rim
 };
 
 /// Each edge once. The middles are looked for at the same time: no split moves a vertex.
-std::vector<EdgeToSplit> all_edges(const AdaptingMesh& m) {
-  const Triangulation& t = m.triangulation;
+std::vector<EdgeToSplit> all_edges(const WorkingMesh& m) {
+  const HalfedgeMesh& t = m.halfedges;
   std::vector<int> half_edges;
   for (int h = 0; h < t.half_edge_count(); ++h)
     if (t.twin(h) < h) half_edges.push_back(h);
@@ -108,7 +108,7 @@ std::vector<EdgeToSplit> all_edges(const AdaptingMesh& m) {
     for (size_t i = begin; i < end; ++i) {
       const int h = half_edges[i];
       edges[i].ends = {t.from(h), t.to(h)};
-      if (!is_rim(t, h)) edges[i].middle = middle_of(m, h);
+      if (!is_feature_edge(t, h)) edges[i].middle = middle_of(m, h);
     }
   });
   return edges;
@@ -116,8 +116,8 @@ std::vector<EdgeToSplit> all_edges(const AdaptingMesh& m) {
 
 class Subdivision {
  public:
-  Subdivision(AdaptingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard)
-      : m_(mesh), t_(mesh.triangulation), options_(options), guard_(flip_guard), ends_(ids(), Edge{-1, -1}) {}
+  Subdivision(WorkingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard)
+      : m_(mesh), t_(mesh.halfedges), options_(options), guard_(flip_guard), ends_(ids(), Edge{-1, -1}) {}
 
   int run() {
     int splits = 0;
@@ -142,17 +142,17 @@ class Subdivision {
   /// The first split of a face joins the new vertex to the corner across. That edge has a middle on either
   /// side in the end, which are to be joined instead.
   bool is_between_middles(int h) const {
-    if (t_.twin(h) < 0 || t_.is_constrained(h)) return false;
+    if (t_.twin(h) < 0 || t_.is_crease(h)) return false;
     const int a = t_.from(h), b = t_.to(h);
     const auto& [first, second] = ends_[static_cast<size_t>(a)];
-    return is_middle(a) && !is_middle(b) && b != first && b != second && is_middle(t_.apex(h)) &&
-           is_middle(t_.apex(t_.twin(h)));
+    return is_middle(a) && !is_middle(b) && b != first && b != second && is_middle(t_.opposite_vertex(h)) &&
+           is_middle(t_.opposite_vertex(t_.twin(h)));
   }
 
   /// All are judged by the faces as the splits have left them. No face that was quartered has more than one
   /// such edge: a flip leaves the other edges in their places.
   void join_middles() {
-    const FlippingMesh flipping = m_.flipping();
+    const FlippableMesh flipping = m_.flipping();
     std::vector<char> joins(static_cast<size_t>(t_.half_edge_count()), 0);
     parallel_for(joins.size(), 1024, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
@@ -163,8 +163,8 @@ class Subdivision {
       if (joins[h]) t_.flip(static_cast<int>(h));
   }
 
-  AdaptingMesh& m_;
-  Triangulation& t_;
+  WorkingMesh& m_;
+  HalfedgeMesh& t_;
   const SplitOptions& options_;
   const FlipGuardOptions& guard_;
   std::vector<Edge> ends_;  // per id: of the edge in whose middle the vertex is; -1 for all others
@@ -172,7 +172,7 @@ class Subdivision {
 
 }  // namespace
 
-int subdivide(AdaptingMesh& m, const SplitOptions& options, const FlipGuardOptions& flip_guard) {
+int subdivide(WorkingMesh& m, const SplitOptions& options, const FlipGuardOptions& flip_guard) {
   return Subdivision(m, options, flip_guard).run();
 }
 

@@ -5,8 +5,8 @@
 
 namespace hooke {
 
-struct AdaptingMesh;
-struct VertexPlace;
+struct WorkingMesh;
+struct SurfacePosition;
 
 struct SplitOptions {
   double longest = 4. / 3;  // of an edge over its target length
@@ -16,11 +16,11 @@ struct SplitOptions {
 
 /// Splits one edge and returns the new vertex; -1 where a guard forbids it, or where the edge joins two
 /// vertices of a boundary that stands still. `middle`: see add_vertex().
-int split_edge(AdaptingMesh& mesh, int half_edge, const SplitOptions& options,
-               const VertexPlace* middle = nullptr);
+int split_edge(WorkingMesh& mesh, int half_edge, const SplitOptions& options,
+               const SurfacePosition* middle = nullptr);
 
 /// Splits edges, the longest first, until none is too long. Returns the number of splits.
-int split_long_edges(AdaptingMesh& mesh, const SplitOptions& options);
+int split_long_edges(WorkingMesh& mesh, const SplitOptions& options);
 
 // Subdivision: every face becomes four of half its size, whose new vertices are regular.
 
@@ -29,6 +29,6 @@ int split_long_edges(AdaptingMesh& mesh, const SplitOptions& options);
 /// edge that may not be split (see split_edge()) stays whole, and flips that the guard forbids are left out.
 /// Target lengths stay as they are. Returns the number of splits. Pre-condition: no id is unused, and the
 /// edges of the curves are counted.
-int subdivide(AdaptingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard);
+int subdivide(WorkingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard);
 
 }  // namespace hooke

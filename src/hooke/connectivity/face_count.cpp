@@ -12,16 +12,16 @@
 namespace hooke {
 namespace {
 
-int face_count(const Triangulation& t) {
+int face_count(const HalfedgeMesh& t) {
   int count = 0;
   for (int f = 0; f < t.half_edge_count() / 3; ++f) count += !t.is_gone(f);
   return count;
 }
 
 /// How many edges more than six, four on a boundary, where h leaves; corners have what they want.
-int excess(const AdaptingMesh& m, int h) {
-  const Triangulation& t = m.triangulation;
-  if (m.corner_valences[static_cast<size_t>(t.side(h))] > 0) return 0;
+int excess(const WorkingMesh& m, int h) {
+  const HalfedgeMesh& t = m.halfedges;
+  if (m.corner_valences[static_cast<size_t>(t.wedge(h))] > 0) return 0;
   return t.valence(t.from(h)) - (t.on_boundary(t.from(h)) ? 4 : 6);
 }
 
@@ -34,14 +34,14 @@ struct Candidate {
 };
 
 /// Inner edges, the best for a split or a collapse first; at least `count` of them are sorted.
-std::vector<Candidate> candidates(const AdaptingMesh& m, bool split, size_t count, double weight) {
-  const Triangulation& t = m.triangulation;
+std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count, double weight) {
+  const HalfedgeMesh& t = m.halfedges;
   std::vector<Candidate> edges;
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.is_gone(h / 3) || is_rim(t, h) || t.twin(h) > h) continue;
+    if (t.is_gone(h / 3) || is_feature_edge(t, h) || t.twin(h) > h) continue;
     const int twin = t.twin(h);
     const int ends = excess(m, h) + excess(m, twin);
-    const int apexes = excess(m, Triangulation::previous(h)) + excess(m, Triangulation::previous(twin));
+    const int apexes = excess(m, HalfedgeMesh::previous(h)) + excess(m, HalfedgeMesh::previous(twin));
     const double l = relative_length(m, h);
     edges.push_back({split ? -l + weight * apexes : l + weight * (ends - apexes), h});
   }
@@ -64,17 +64,17 @@ double wanted_face_count(const Mat3X& points, const std::vector<Triangle>& faces
   return count;
 }
 
-CountChanges settle_curves(AdaptingMesh& m, const CountOptions& options) {
+CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
   CountChanges changes;
   if (m.constraints.curves.empty()) return changes;
-  const Triangulation& t = m.triangulation;
+  const HalfedgeMesh& t = m.halfedges;
   const auto lacking = [&](int h) {  // edges on the curve of h
-    const int curve = is_rim(t, h) ? curve_of(m, h).curve : -1;
+    const int curve = is_feature_edge(t, h) ? curve_of(m, h).curve : -1;
     if (curve < 0) return 0;
     return m.curve_edges.wanted[static_cast<size_t>(curve)] -
            m.curve_edges.present[static_cast<size_t>(curve)];
   };
-  const auto rim_length = [&](int h) { return is_rim(t, h) ? relative_length(m, h) : 0; };
+  const auto rim_length = [&](int h) { return is_feature_edge(t, h) ? relative_length(m, h) : 0; };
 
   EdgeQueue longest(t, rim_length);
   for (int h = longest.pop(); h >= 0; h = longest.pop()) {
@@ -84,7 +84,8 @@ CountChanges settle_curves(AdaptingMesh& m, const CountOptions& options) {
     longest.push_about(v);
     ++changes.splits;
   }
-  EdgeQueue shortest(t, [&](int h) { return is_rim(t, h) ? 1 / (1e-9 + relative_length(m, h)) : 0; });
+  EdgeQueue shortest(t,
+                     [&](int h) { return is_feature_edge(t, h) ? 1 / (1e-9 + relative_length(m, h)) : 0; });
   for (int h = shortest.pop(); h >= 0; h = shortest.pop()) {
     if (lacking(h) >= 0) continue;
     const int v = collapse_edge(m, h, options.collapse);
@@ -96,9 +97,9 @@ CountChanges settle_curves(AdaptingMesh& m, const CountOptions& options) {
   return changes;
 }
 
-CountChanges approach_count(AdaptingMesh& m, double wanted, const CountOptions& options) {
+CountChanges approach_count(WorkingMesh& m, double wanted, const CountOptions& options) {
   CountChanges changes;
-  Triangulation& t = m.triangulation;
+  HalfedgeMesh& t = m.halfedges;
   const int faces = face_count(t);
   const double missing = (wanted - faces) / 2;  // a split adds two faces, a collapse removes two
   const bool split = missing > 0;

@@ -24,10 +24,10 @@ struct CountChanges {
 };
 
 /// Splits the longest and collapses the shortest edges of each curve until it has as many as it wants.
-CountChanges settle_curves(AdaptingMesh& mesh, const CountOptions& options);
+CountChanges match_curve_edges(WorkingMesh& mesh, const CountOptions& options);
 
 /// Brings the number of faces closer to `wanted` by splits or collapses of inner edges that are far apart:
 /// those that are the longest or shortest and leave the best valences.
-CountChanges approach_count(AdaptingMesh& mesh, double wanted, const CountOptions& options);
+CountChanges approach_count(WorkingMesh& mesh, double wanted, const CountOptions& options);
 
 }  // namespace hooke

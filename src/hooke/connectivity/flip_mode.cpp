@@ -25,7 +25,7 @@ class FlipMode {
         guards_(guards),
         observer_(observer),
         corner_valences_(
-            corner_valences(work.placement.points, *work.connectivity, work.constraints, corner_angle)) {}
+            corner_valences(work.positions.points, *work.adjacency, work.constraints, corner_angle)) {}
 
   FlipResult run() {
     unfold();
@@ -40,26 +40,26 @@ class FlipMode {
   /// Calls what relaxes with the parts it wants, made for the faces as they are now.
   template <typename Relax>
   auto relax(const Relax& body) {
-    Energy energy(*work_.connectivity, work_.targets, terms_);
-    Guards guards(*work_.connectivity, work_.targets, guards_);
-    Relaxation r{*work_.connectivity, work_.sweeps, work_.vertex_length, energy,
-                 *work_.retraction,   guards,       work_.placement,     work_.stopwatch};
+    Energy energy(*work_.adjacency, work_.targets, terms_);
+    Guards guards(*work_.adjacency, work_.targets, guards_);
+    Relaxation r{*work_.adjacency,  work_.coloring, work_.vertex_length, energy,
+                 *work_.retraction, guards,         work_.positions,     work_.stopwatch};
     return body(r);
   }
 
   /// Calls what flips, and takes over its faces when it says that it flipped.
   template <typename Flips>
   long long flip(const Flips& body) {
-    Triangulation triangulation(*work_.connectivity);
-    FlippingMesh m{triangulation,
-                   work_.placement,
-                   *work_.retraction,
-                   work_.constraints,
-                   work_.vertex_length,
-                   corner_valences_,
-                   [this] { work_.resample_lengths(); }};
+    HalfedgeMesh halfedges(*work_.adjacency);
+    FlippableMesh m{halfedges,
+                    work_.positions,
+                    *work_.retraction,
+                    work_.constraints,
+                    work_.vertex_length,
+                    corner_valences_,
+                    [this] { work_.resample_lengths(); }};
     const long long flips = body(m);
-    if (flips > 0) work_.replace_faces(triangulation.faces());
+    if (flips > 0) work_.replace_faces(halfedges.faces());
     result_.flips += flips;
     return flips;
   }
@@ -80,21 +80,21 @@ class FlipMode {
 
   void flow_vertices() {
     const Stage stage(work_.stopwatch, "flow");
-    flip([&](FlippingMesh& m) {
+    flip([&](FlippableMesh& m) {
       result_.flow = flow(m, options_.flow, options_.guard, guards_, observer_);
       return result_.flow.flips;
     });
     result_.interrupted = result_.flow.interrupted;
-    note_hindrance(result_.flow.held_back, result_.flow.rounds);
+    note_hindrance(result_.flow.limited_steps, result_.flow.rounds);
   }
 
-  void note_hindrance(long long held_back, int steps) {
-    const double share = options_.hindered * work_.connectivity->vertex_count;
-    hindered_ = static_cast<double>(held_back) > share * steps;
+  void note_hindrance(long long limited_steps, int steps) {
+    const double share = options_.guard_limited * work_.adjacency->vertex_count;
+    hindered_ = static_cast<double>(limited_steps) > share * steps;
   }
 
   /// Sweeps loosen what guards hold; elsewhere flow has left no slivers for them.
-  void settle_springs() {
+  void relax_springs() {
     const Stage stage(work_.stopwatch, "springs");
     IntegrationOptions integration;
     integration.max_steps = options_.spring_steps;
@@ -102,7 +102,7 @@ class FlipMode {
     if (!hindered_) lbfgs.sweeps = 0;
     const IntegrationResult relaxed =
         relax([&](Relaxation& r) { return relax_lbfgs(r, integration, lbfgs, watch("springs")); });
-    note_hindrance(relaxed.held_back, relaxed.evaluations);
+    note_hindrance(relaxed.limited_steps, relaxed.evaluations);
     work_.resample_lengths();
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
@@ -110,18 +110,18 @@ class FlipMode {
 
   void flip_and_relax() {
     for (int round = 0; round < options_.spring_rounds && !result_.interrupted; ++round) {
-      settle_springs();
+      relax_springs();
       ++result_.spring_rounds;
-      if (flip([&](FlippingMesh& m) { return flip_to_delaunay(m, options_.guard); }) <= few_flips()) break;
+      if (flip([&](FlippableMesh& m) { return flip_to_delaunay(m, options_.guard); }) <= few_flips()) break;
     }
   }
 
   long long few_flips() const {
-    return static_cast<long long>(options_.few_flips * static_cast<double>(work_.connectivity->edges.size()));
+    return static_cast<long long>(options_.few_flips * static_cast<double>(work_.adjacency->edges.size()));
   }
 
   bool improve_flips() {
-    settle_springs();
+    relax_springs();
     if (result_.interrupted) return false;
     ++result_.passes;
     const Stage stage(work_.stopwatch, "irregular");
@@ -129,7 +129,7 @@ class FlipMode {
       result_.interrupted = watched && !watched(p);
       return !result_.interrupted;
     };
-    return flip([&](FlippingMesh& m) {
+    return flip([&](FlippableMesh& m) {
              return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_, lately_changed_,
                                          watching);
            }) > 0;
@@ -157,8 +157,8 @@ FlipOptions flip_options(Effort effort) {
       options.spring_steps = 8;
       options.passes.passes = 0;
       options.energy_drop = 1e-2;
-      options.polish.last_threshold = 36;
-      options.polish.sweeps = 4;
+      options.angle_springs.last_threshold = 36;
+      options.angle_springs.sweeps = 4;
       break;
     case Effort::standard:
       break;
@@ -168,8 +168,8 @@ FlipOptions flip_options(Effort effort) {
       options.passes.passes = 8;
       options.passes.rings = 3;
       options.passes.sweeps = 6;
-      options.passes.hope = .6;
-      options.passes.swept_hope = .2;
+      options.passes.max_energy_rise = .6;
+      options.passes.max_rise_after_relaxation = .2;
       break;
   }
   return options;
@@ -183,7 +183,7 @@ FlipResult flip_connectivity(Workspace& work, const FlipOptions& options, const 
 void measure_travel(const Workspace& work, FlipResult& result) {
   double sum2 = 0;
   for (Eigen::Index v = 0; v < work.start->cols(); ++v) {
-    const double travel = (work.placement.points.col(v) - work.start->col(v)).norm() /
+    const double travel = (work.positions.points.col(v) - work.start->col(v)).norm() /
                           work.vertex_length[static_cast<size_t>(v)];
     result.max_travel = std::max(result.max_travel, travel);
     sum2 += travel * travel;

@@ -1,4 +1,4 @@
-// Connectivity mode `flip`: the same vertices, joined by better triangles. Flow first, springs second, polish
+// Adjacency mode `flip`: the same vertices, joined by better triangles. Flow first, springs second, polish
 // last: springs with flips alone lock at edges that vary by 13-18 %.
 // Vertices keep their ids, but travel: by one or two edge lengths, and more on uneven meshes.
 #pragma once
@@ -24,16 +24,16 @@ enum class ConnectivityMode {
 enum class Effort { fast, standard, thorough };
 
 struct FlipOptions {
-  FlowOptions flow;
-  int spring_rounds = 8;    // of springs and Delaunay flips after the flow, at most ...
-  double few_flips = 1e-3;  // ... while more than this part of the edges flips
-  int spring_steps = 15;    // evaluations of the springs' energy per round
-  double hindered = 2e-3;   // part of the vertices; if guards hold back more in a step, sweeps go first
+  LloydFlowOptions flow;
+  int spring_rounds = 8;        // of springs and Delaunay flips after the flow, at most ...
+  double few_flips = 1e-3;      // ... while more than this part of the edges flips
+  int spring_steps = 15;        // evaluations of the springs' energy per round
+  double guard_limited = 2e-3;  // part of the vertices; if guards hold back more in a step, sweeps go first
   FlipPassOptions passes;
   double energy_drop = 2e-3;  // see IntegrationOptions; of the relaxation that follows
   FlipGuardOptions guard;
   /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.
-  PolishOptions polish{
+  AngleSpringOptions angle_springs{
       .first_threshold = 0, .margin = 3, .last_threshold = 60, .rest = 3e-3, .edge_error_limit = 1.05};
 };
 
@@ -42,7 +42,7 @@ FlipOptions flip_options(Effort effort);
 
 struct FlipResult {
   UntangleResult untangle;
-  FlowResult flow;
+  LloydFlowResult flow;
   int spring_rounds = 0;
   long long flips = 0;  // in all
   int passes = 0;

@@ -48,28 +48,29 @@ FaceCell cell_of(const Mat3X& points, const Triangle& t) {
 
 /// Edges across which Voronoi cells are not made of kites: the angles across from them make more than pi. A
 /// crease bounds the cells on either side.
-std::vector<char> crooked_edges(const std::vector<FaceCell>& cells, const Connectivity& c) {
+std::vector<char> crooked_edges(const std::vector<FaceCell>& cells, const Adjacency& c) {
   constexpr double least = -1e-9;
   std::vector<char> crooked(c.edges.size());
   parallel_for(c.edges.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       std::array<double, 2> cotangent = {0, 0};  // of a right angle
-      for (size_t side = 0; side < 2; ++side) {
-        if (c.edge_faces[e][side] < 0) continue;
-        const auto face = static_cast<size_t>(c.edge_faces[e][side]);
+      for (size_t wedge = 0; wedge < 2; ++wedge) {
+        if (c.edge_faces[e][wedge] < 0) continue;
+        const auto face = static_cast<size_t>(c.edge_faces[e][wedge]);
         const Triangle& edges = c.face_edges[face];
         const Eigen::Index k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
-        cotangent[side] = cells[face].cotangent[k];
+        cotangent[wedge] = cells[face].cotangent[k];
       }
-      const bool straight = c.is_border(static_cast<int>(e)) ? std::min(cotangent[0], cotangent[1]) >= least
-                                                             : cotangent[0] + cotangent[1] >= least;
+      const bool straight = c.is_feature_edge(static_cast<int>(e))
+                                ? std::min(cotangent[0], cotangent[1]) >= least
+                                : cotangent[0] + cotangent[1] >= least;
       crooked[e] = !straight;
     }
   });
   return crooked;
 }
 
-std::vector<FaceCell> cells_of(const Mat3X& points, const Connectivity& c) {
+std::vector<FaceCell> cells_of(const Mat3X& points, const Adjacency& c) {
   std::vector<FaceCell> cells(c.faces.size());
   parallel_for(cells.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) cells[f] = cell_of(points, c.faces[f]);
@@ -79,7 +80,7 @@ std::vector<FaceCell> cells_of(const Mat3X& points, const Connectivity& c) {
 
 class Lloyd {
  public:
-  Lloyd(const Placement& at, const Connectivity& c, const std::vector<double>& length,
+  Lloyd(const SurfacePositions& at, const Adjacency& c, const std::vector<double>& length,
         const LloydOptions& options)
       : X_(at.points),
         c_(c),
@@ -91,8 +92,8 @@ class Lloyd {
 
   Vec3 step(int v) const {
     if (c_.vertex_faces[v].empty()) return Vec3::Zero();
-    const std::array<int, 2> sides = border_neighbours(v);
-    if (sides[1] >= 0) return boundary_step(v, sides[0], sides[1]);
+    const std::array<int, 2> wedges = border_neighbours(v);
+    if (wedges[1] >= 0) return boundary_step(v, wedges[0], wedges[1]);
     Moments cell = has_straight_cell(v) ? voronoi_cell(v) : Moments{};
     if (!(cell.mass > 0)) cell = faces_about(v);
     if (!(cell.mass > 0)) return Vec3::Zero();
@@ -102,11 +103,11 @@ class Lloyd {
  private:
   /// -1 for an inner vertex.
   std::array<int, 2> border_neighbours(int v) const {
-    std::array<int, 2> sides = {-1, -1};
+    std::array<int, 2> wedges = {-1, -1};
     size_t count = 0;
     for (int e : c_.vertex_edges[v])
-      if (count < 2 && c_.is_border(e)) sides[count++] = c_.other_end(e, v);
-    return sides;
+      if (count < 2 && c_.is_feature_edge(e)) wedges[count++] = c_.other_end(e, v);
+    return wedges;
   }
 
   Vec3 boundary_step(int v, int a, int b) const {
@@ -171,7 +172,7 @@ class Lloyd {
   double length(int v) const { return length_[static_cast<size_t>(v)]; }
 
   const Mat3X& X_;
-  const Connectivity& c_;
+  const Adjacency& c_;
   const std::vector<double>& length_;
   const LloydOptions& options_;
   bool even_;  // the same target length everywhere
@@ -181,10 +182,10 @@ class Lloyd {
 
 }  // namespace
 
-Mat3X lloyd_step(const Placement& placement, const Connectivity& connectivity,
+Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
                  const std::vector<double>& vertex_length, const LloydOptions& options) {
-  const Lloyd lloyd(placement, connectivity, vertex_length, options);
-  Mat3X step(3, placement.points.cols());
+  const Lloyd lloyd(positions, adjacency, vertex_length, options);
+  Mat3X step(3, positions.points.cols());
   parallel_for(static_cast<size_t>(step.cols()), 512, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
       step.col(static_cast<Eigen::Index>(v)) = lloyd.step(static_cast<int>(v));
@@ -195,44 +196,44 @@ Mat3X lloyd_step(const Placement& placement, const Connectivity& connectivity,
 namespace {
 
 /// One guarded Lloyd step. Returns the number of vertices held back.
-int move_vertices(FlippingMesh& m, const Connectivity& connectivity, const LloydOptions& options,
+int move_vertices(FlippableMesh& m, const Adjacency& adjacency, const LloydOptions& options,
                   const GuardOptions& guard_options) {
-  const TargetLengths targets = spread_target_lengths(connectivity, m.vertex_length);
-  Mat3X step = lloyd_step(m.placement, connectivity, m.vertex_length, options);
-  m.retraction.constrain(m.placement, step);
+  const TargetLengths targets = spread_target_lengths(adjacency, m.vertex_length);
+  Mat3X step = lloyd_step(m.positions, adjacency, m.vertex_length, options);
+  m.retraction.constrain(m.positions, step);
   cap_displacement(m.vertex_length, options.max_move, step);
-  const Guards guards(connectivity, targets, guard_options);
-  Placement moved;
-  const auto held_back = guards.step(m.retraction, m.placement, step, moved).size();
-  m.placement = std::move(moved);
-  return static_cast<int>(held_back);
+  const Guards guards(adjacency, targets, guard_options);
+  SurfacePositions moved;
+  const auto limited_steps = guards.step(m.retraction, m.positions, step, moved).size();
+  m.positions = std::move(moved);
+  return static_cast<int>(limited_steps);
 }
 
 }  // namespace
 
-FlowResult flow(FlippingMesh& m, const FlowOptions& options, const FlipGuardOptions& flip_guard,
-                const GuardOptions& guards, const Observer& observer) {
-  FlowResult result;
+LloydFlowResult flow(FlippableMesh& m, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
+                     const GuardOptions& guards, const Observer& observer) {
+  LloydFlowResult result;
   result.interrupted = observer && !observer({.stage = "flow"});
   const auto connect = [&m] {
-    Connectivity c = connectivity_of(m.triangulation, static_cast<int>(m.placement.points.cols()));
-    part_at_creases(c, m.constraints.creases);
+    Adjacency c = connectivity_of(m.halfedges, static_cast<int>(m.positions.points.cols()));
+    split_wedges(c, m.constraints.creases);
     return c;
   };
-  Connectivity connectivity = connect();
+  Adjacency adjacency = connect();
   while (result.rounds < options.rounds && !result.interrupted) {
     int flips = flip_to_delaunay(m, flip_guard);
     if (result.rounds >= options.rounds / 4 && result.rounds % options.corner_every == 0)
-      flips += force_corners(m, flip_guard);
-    if (flips > 0) connectivity = connect();
-    result.held_back += move_vertices(m, connectivity, options.lloyd, guards);
+      flips += flip_corners_to_valence(m, flip_guard);
+    if (flips > 0) adjacency = connect();
+    result.limited_steps += move_vertices(m, adjacency, options.lloyd, guards);
     if (m.after_move) m.after_move();
     result.flips += flips;
     ++result.rounds;
     result.interrupted = observer && !observer({.stage = "flow", .step = result.rounds});
   }
-  const TargetLengths targets = spread_target_lengths(connectivity, m.vertex_length);
-  settle(Guards(connectivity, targets, guards), m.retraction, m.placement);
+  const TargetLengths targets = spread_target_lengths(adjacency, m.vertex_length);
+  project_drifted(Guards(adjacency, targets, guards), m.retraction, m.positions);
   result.flips += flip_to_delaunay(m, flip_guard);
   return result;
 }

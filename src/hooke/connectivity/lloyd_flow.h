@@ -8,7 +8,7 @@
 
 namespace hooke {
 
-struct Connectivity;
+struct Adjacency;
 struct GuardOptions;
 
 struct LloydOptions {
@@ -23,28 +23,28 @@ struct LloydOptions {
 /// boundary edge that faces an obtuse angle, has no such cell and takes the centroid of its faces. Vertices
 /// on the boundary or a crease go along the line between their neighbours to where the two edges have the
 /// ratio of their target lengths.
-Mat3X lloyd_step(const Placement& placement, const Connectivity& connectivity,
+Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
                  const std::vector<double>& vertex_length, const LloydOptions& options);
 
 // Flow: over-relaxed Lloyd steps between Delaunay flips. It carries the vertices to where a regular mesh has
 // them; springs with flips alone lock long before.
 
-struct FlowOptions {
+struct LloydFlowOptions {
   int rounds = 32;       // of flips and one step
   int corner_every = 5;  // rounds between two looks at the corners, after the first quarter of the rounds
   LloydOptions lloyd{};
 };
 
-struct FlowResult {
+struct LloydFlowResult {
   int rounds = 0;
   long long flips = 0;
-  long long held_back = 0;  // vertex steps shortened by the guards
+  long long limited_steps = 0;  // vertex steps shortened by the guards
   bool interrupted = false;
 };
 
 /// Ends with flips: the mesh is Delaunay as far as the guards allow. The observer is asked beforehand, and
 /// after each round.
-FlowResult flow(FlippingMesh& mesh, const FlowOptions& options, const FlipGuardOptions& flip_guard,
-                const GuardOptions& guards, const Observer& observer);
+LloydFlowResult flow(FlippableMesh& mesh, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
+                     const GuardOptions& guards, const Observer& observer);
 
 }  // namespace hooke

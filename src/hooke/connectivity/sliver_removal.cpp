@@ -19,15 +19,15 @@ namespace {
 
 class SliverTrials {
  public:
-  SliverTrials(AdaptingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
+  SliverTrials(WorkingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
                const GuardOptions& guards, const FaceCountLimits& limits)
       : m_(mesh),
-        t_(mesh.triangulation),
+        t_(mesh.halfedges),
         options_(options),
         trials_(mesh, terms, options.change, guards),
         limits_(limits),
         faces_(static_cast<double>(t_.faces().size())),
-        most_tries_(std::max(options.least_in_all, static_cast<int>(options.share_in_all * faces_))) {}
+        max_tries_(std::max(options.min_in_all, static_cast<int>(options.share_in_all * faces_))) {}
 
   SliverChanges run(const Observer& observer) {
     for (double angle : options_.sliver_angles) {
@@ -49,8 +49,8 @@ class SliverTrials {
   /// One round. False if there was nothing to try, or if it was interrupted.
   bool try_slivers(const Observer& observer) {
     const int most = std::min(
-        std::clamp(static_cast<int>(options_.share * faces_), options_.least_tries, options_.most_tries),
-        most_tries_ - changes_.tries);
+        std::clamp(static_cast<int>(options_.share * faces_), options_.min_tries, options_.max_tries),
+        max_tries_ - changes_.tries);
     int tries = most;
     for (int f : slivers()) {
       if (tries == 0) break;
@@ -61,13 +61,13 @@ class SliverTrials {
       if (interrupted_) return false;
       --tries;
       ++changes_.tries;
-      if (std::optional<ChangeTrial> best = best_trial(edges)) keep(*best);
+      if (std::optional<EdgeCandidate> best = best_trial(edges)) keep(*best);
     }
     return tries < most;
   }
 
   double cotangent(int f) const {
-    return greatest_cotangent(m_.placement.points, t_.faces()[static_cast<size_t>(f)]);
+    return max_cotangent(m_.positions.points, t_.faces()[static_cast<size_t>(f)]);
   }
 
   bool is_sliver(int f) const { return !t_.is_gone(f) && cotangent(f) > sliver_cotangent_; }
@@ -97,7 +97,7 @@ class SliverTrials {
   std::vector<EdgeChange> changes_of(const std::vector<int>& edges) {
     const ChangeRules rules{.valence = options_.valence,
                             .splits = faces_ + 2 <= limits_.most,
-                            .merges = faces_ - 2 >= limits_.least};
+                            .collapses = faces_ - 2 >= limits_.least};
     std::vector<EdgeChange> changes;
     for (int h : edges) {
       const std::vector<EdgeChange> allowed = allowed_changes(m_, h, rules);
@@ -108,38 +108,38 @@ class SliverTrials {
   }
 
   /// Of those that are as good at the end, the one that was best before the search.
-  std::optional<ChangeTrial> best_trial(const std::vector<int>& edges) {
+  std::optional<EdgeCandidate> best_trial(const std::vector<int>& edges) {
     const std::vector<EdgeChange> changes = changes_of(edges);
-    std::vector<ChangeTrial> trials(changes.size());
+    std::vector<EdgeCandidate> trials(changes.size());
     parallel_for(trials.size(), 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) trials[i] = trials_.begin(changes[i]);
     });
-    const auto is_hopeless = [](const ChangeTrial& trial) { return !trial.is_hopeful; };
+    const auto is_hopeless = [](const EdgeCandidate& trial) { return !trial.is_viable; };
     std::erase_if(trials, is_hopeless);
-    std::ranges::stable_sort(trials, std::ranges::greater(), &ChangeTrial::gain);
+    std::ranges::stable_sort(trials, std::ranges::greater(), &EdgeCandidate::gain);
     if (trials.size() > options_.searched) trials.resize(options_.searched);
     parallel_for(trials.size(), 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) trials_.finish(trials[i]);
     });
     std::erase_if(trials, is_hopeless);
-    const auto best = std::ranges::max_element(trials, {}, &ChangeTrial::gain);
+    const auto best = std::ranges::max_element(trials, {}, &EdgeCandidate::gain);
     return best == trials.end() ? std::nullopt : std::optional(std::move(*best));
   }
 
   /// The corners of the faces of its edge, what a merge joins anew, and those that have come so far, all in
   /// all, that it is noticed.
-  std::vector<int> vertices_changed_by(const ChangeTrial& trial) {
+  std::vector<int> vertices_changed_by(const EdgeCandidate& trial) {
     const int h = trial.change.half_edge;
-    std::vector<int> vertices = {t_.from(h), t_.to(h), t_.apex(h), t_.apex(t_.twin(h))};
-    if (trial.change.kind == ChangeKind::merge)
+    std::vector<int> vertices = {t_.from(h), t_.to(h), t_.opposite_vertex(h), t_.opposite_vertex(t_.twin(h))};
+    if (trial.change.kind == ChangeKind::collapse)
       for (int end : {t_.from(h), t_.to(h)})
         for (int v : t_.neighbours(end)) vertices.push_back(v);
     unnoticed_.resize(static_cast<size_t>(t_.id_count()), 0);
-    for (Eigen::Index i = 0; i < trial.patch.placement.points.cols(); ++i) {
+    for (Eigen::Index i = 0; i < trial.patch.positions.points.cols(); ++i) {
       const int v = trial.patch.vertices[static_cast<size_t>(i)];
       if (v < 0) continue;  // is to come
       double& moved = unnoticed_[static_cast<size_t>(v)];
-      moved += (trial.patch.placement.points.col(i) - m_.placement.points.col(v)).norm();
+      moved += (trial.patch.positions.points.col(i) - m_.positions.points.col(v)).norm();
       if (moved <= options_.noticed * m_.vertex_length[static_cast<size_t>(v)]) continue;
       moved = 0;
       vertices.push_back(v);
@@ -147,7 +147,7 @@ class SliverTrials {
     return vertices;
   }
 
-  void keep(ChangeTrial& trial) {
+  void keep(EdgeCandidate& trial) {
     std::vector<int> changed = vertices_changed_by(trial);
     change_mesh(m_, trial.change, trial.patch);
     switch (trial.change.kind) {
@@ -159,8 +159,8 @@ class SliverTrials {
         changed.push_back(trial.patch.vertices.back());
         faces_ += 2;
         break;
-      case ChangeKind::merge:
-        ++changes_.merges;
+      case ChangeKind::collapse:
+        ++changes_.collapses;
         faces_ -= 2;
         break;
     }
@@ -168,13 +168,13 @@ class SliverTrials {
     for (int v : changed) changed_at_[static_cast<size_t>(v)] = changes_.count();
   }
 
-  AdaptingMesh& m_;
-  Triangulation& t_;
+  WorkingMesh& m_;
+  HalfedgeMesh& t_;
   const SliverTrialOptions& options_;
-  ChangeTrials trials_;
+  EdgeTrials trials_;
   FaceCountLimits limits_;
   double faces_;
-  const int most_tries_;
+  const int max_tries_;
   double sliver_cotangent_ = 0;
   std::vector<int> tried_at_;      // per half-edge that stands for its edge: changes so far; -1 for never
   std::vector<int> changed_at_;    // per id: changes so far, when the last one changed what is about it
@@ -185,7 +185,7 @@ class SliverTrials {
 
 }  // namespace
 
-SliverChanges change_slivers(AdaptingMesh& m, const EnergyTerms& terms, const SliverTrialOptions& options,
+SliverChanges change_slivers(WorkingMesh& m, const EnergyTerms& terms, const SliverTrialOptions& options,
                              const GuardOptions& guards, const FaceCountLimits& limits,
                              const Observer& observer) {
   return SliverTrials(m, terms, options, guards, limits).run(observer);
@@ -195,22 +195,21 @@ namespace {
 
 /// In mode `flip` their number stays.
 FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double share) {
-  const auto& faces = work.connectivity->faces;
+  const auto& faces = work.adjacency->faces;
   const auto count = static_cast<double>(faces.size());
   if (mode == ConnectivityMode::flip) return {count, count};
-  const double wanted = wanted_face_count(work.placement.points, faces, work.vertex_length);
+  const double wanted = wanted_face_count(work.positions.points, faces, work.vertex_length);
   return {(1 - share) * wanted, (1 + share) * wanted};
 }
 
 }  // namespace
 
-SliverChanges mend_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
-                           const MendOptions& options, const GuardOptions& guards, double corner_angle,
-                           const Observer& observer) {
+SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
+                             const SliverRemovalOptions& options, const GuardOptions& guards,
+                             double corner_angle, const Observer& observer) {
   const std::vector<double>& angles = options.trials.sliver_angles;
-  if (angles.empty() || least_angle(work.placement.points, work.connectivity->faces) >= angles.back())
-    return {};
-  AdaptingWork adapting(work, corner_angle);
+  if (angles.empty() || min_angle(work.positions.points, work.adjacency->faces) >= angles.back()) return {};
+  WorkspaceEdit adapting(work, corner_angle);
   const SliverChanges changes = change_slivers(adapting.mesh(), terms, options.trials, guards,
                                                limits_of(work, mode, options.count_share), observer);
   if (changes.count() == 0) return changes;

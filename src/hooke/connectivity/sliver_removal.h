@@ -16,14 +16,14 @@ struct SliverTrialOptions {
   std::vector<double> sliver_angles = {25, 30, 35, 40};
   int rounds = 6;            // over the slivers that are left, for each of these angles
   double share = .01;        // of the faces: so many slivers are tried in a round, the worst first,
-  int least_tries = 10;      // but so many in any case,
-  int most_tries = 200;      // and no more than these
+  int min_tries = 10;        // but so many in any case,
+  int max_tries = 200;       // and no more than these
   double share_in_all = .1;  // of the faces: no more tries than so many in all rounds and stages, but ...
-  int least_in_all = 60;     // ... so many in any case
+  int min_in_all = 60;       // ... so many in any case
   double noticed = .03;      // in target lengths; shorter moves are no reason to try edges again
   int valence = 9;           // of a vertex that gains edges
   size_t searched = 10;      // changes about a sliver, the best by then, that are tried to the end
-  ChangeTrialOptions change{};
+  EdgeTrialOptions change{};
 };
 
 /// How many faces there may be in all.
@@ -32,23 +32,23 @@ struct FaceCountLimits {
 };
 
 struct SliverChanges {
-  int flips = 0, splits = 0, merges = 0;
+  int flips = 0, splits = 0, collapses = 0;
   int tries = 0;  // slivers whose edges were tried
 
-  int count() const { return flips + splits + merges; }
+  int count() const { return flips + splits + collapses; }
 };
 
 /// Every change lowers what its patch costs, keeps the least angle there, and adds nothing to what is beyond
 /// the limits of alignment, folds and sagittas; no edge gets longer than the limit, or than the longest was.
 /// An edge is tried again only when something has changed noticeably about it. The observer is called before
 /// each sliver that is tried. Projections of trials are not counted. The mesh is not compact afterwards.
-SliverChanges change_slivers(AdaptingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
+SliverChanges change_slivers(WorkingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
                              const GuardOptions& guards, const FaceCountLimits& limits,
                              const Observer& observer);
 
 // Modes `flip` and `adapt`, last: slivers that are left are mended by other edges.
 
-struct MendOptions {
+struct SliverRemovalOptions {
   int passes = 3;  // the vertices land after each, which may make slivers again
   SliverTrialOptions trials;
   double count_share = .02;  // of the wanted faces, by which their number may miss it in mode `adapt`
@@ -57,8 +57,8 @@ struct MendOptions {
 /// Changes the connectivity of the work about its slivers: in mode `flip` by flips only. Their neighbourhoods
 /// settle; nothing else moves. Pre-condition: the vertices lie on the field of the input, see
 /// Workspace::return_to_input().
-SliverChanges mend_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
-                           const MendOptions& options, const GuardOptions& guards, double corner_angle,
-                           const Observer& observer);
+SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
+                             const SliverRemovalOptions& options, const GuardOptions& guards,
+                             double corner_angle, const Observer& observer);
 
 }  // namespace hooke

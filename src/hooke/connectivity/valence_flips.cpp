@@ -20,18 +20,18 @@ namespace {
 // Edges of a batch are tried at the same time, against the mesh as it was before. They lie far apart: a batch
 // takes every so many-th of the candidates, which follow the mesh.
 constexpr size_t edges_of_batch = 512;
-constexpr size_t least_batches = 16;
+constexpr size_t min_batches = 16;
 
 /// Of the corner where h leaves.
-int irregularity(const FlippingMesh& m, int h) {
+int irregularity(const FlippableMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
   if (corner.wanted > 0) return corner.has - corner.wanted;
-  return corner.has - (m.triangulation.on_boundary(m.triangulation.from(h)) ? 4 : 6);
+  return corner.has - (m.halfedges.on_boundary(m.halfedges.from(h)) ? 4 : 6);
 }
 
 /// Two or more irregular vertices about the edge, and no more irregularity after the flip.
-bool worth_a_try(const FlippingMesh& m, int h) {
-  const int g = m.triangulation.twin(h);
+bool worth_a_try(const FlippableMesh& m, int h) {
+  const int g = m.halfedges.twin(h);
   int irregular = 0, before = 0, after = 0;
   const auto look = [&](int corner, int change) {
     const int i = irregularity(m, corner);
@@ -41,28 +41,28 @@ bool worth_a_try(const FlippingMesh& m, int h) {
   };
   look(h, -1);
   look(g, -1);
-  look(Triangulation::previous(h), 1);
-  look(Triangulation::previous(g), 1);
+  look(HalfedgeMesh::previous(h), 1);
+  look(HalfedgeMesh::previous(g), 1);
   return irregular >= 2 && after <= before;
 }
 
 /// Of a patch of an edge's two faces, before and after its flip.
 struct Pair {
-  Connectivity before = make_connectivity(4, {{0, 1, 2}, {1, 0, 3}});
-  Connectivity after = make_connectivity(4, {{2, 0, 3}, {3, 1, 2}});
+  Adjacency before = make_adjacency(4, {{0, 1, 2}, {1, 0, 3}});
+  Adjacency after = make_adjacency(4, {{2, 0, 3}, {3, 1, 2}});
 };
 
-double energy_of(const EdgePatch& patch, const Connectivity& connectivity, const EnergyTerms& terms) {
-  const TargetLengths targets = spread_target_lengths(connectivity, patch.vertex_length);
-  return Energy(connectivity, targets, terms)(patch.placement.points, patch.placement.normals, nullptr);
+double energy_of(const EdgePatch& patch, const Adjacency& adjacency, const EnergyTerms& terms) {
+  const TargetLengths targets = spread_target_lengths(adjacency, patch.vertex_length);
+  return Energy(adjacency, targets, terms)(patch.positions.points, patch.positions.normals, nullptr);
 }
 
 class FlipPass {
  public:
-  FlipPass(FlippingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
+  FlipPass(FlippableMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
            const FlipGuardOptions& flip_guard, const GuardOptions& guards, std::vector<char>& near)
       : m_(mesh),
-        t_(mesh.triangulation),
+        t_(mesh.halfedges),
         terms_(terms),
         options_(options),
         flip_guard_(flip_guard),
@@ -76,7 +76,7 @@ class FlipPass {
       const std::vector<int> edges = candidates();
       if (edges.empty()) break;
       near_.assign(batch_of_.size(), 0);
-      const size_t batches = std::max(least_batches, (edges.size() + edges_of_batch - 1) / edges_of_batch);
+      const size_t batches = std::max(min_batches, (edges.size() + edges_of_batch - 1) / edges_of_batch);
       for (size_t i = 0; i < batches; ++i) {
         std::vector<int> batch;
         for (size_t k = i; k < edges.size(); k += batches) batch.push_back(edges[k]);
@@ -90,13 +90,13 @@ class FlipPass {
 
  private:
   bool is_candidate(int h) const {
-    return t_.twin(h) >= 0 && !t_.is_constrained(h) && worth_a_try(m_, h) && may_flip(m_, h, flip_guard_);
+    return t_.twin(h) >= 0 && !t_.is_crease(h) && worth_a_try(m_, h) && may_flip(m_, h, flip_guard_);
   }
 
   bool is_near(int h) const {
     const auto near = [this](int v) { return near_[static_cast<size_t>(v)] != 0; };
-    return near_.empty() || near(t_.from(h)) || near(t_.to(h)) || near(t_.apex(h)) ||
-           near(t_.apex(t_.twin(h)));
+    return near_.empty() || near(t_.from(h)) || near(t_.to(h)) || near(t_.opposite_vertex(h)) ||
+           near(t_.opposite_vertex(t_.twin(h)));
   }
 
   std::vector<int> candidates() const {
@@ -117,25 +117,25 @@ class FlipPass {
   std::optional<EdgePatch> try_flip(int h) const {
     if (!is_candidate(h)) return std::nullopt;
     const double loss = loss_before_settling(h);
-    if (loss > options_.hope * unit_) return std::nullopt;
+    if (loss > options_.max_energy_rise * unit_) return std::nullopt;
     std::optional<EdgePatch> patch = cut_patch(m_, h, options_.rings, options_.most);
     if (!patch) return std::nullopt;
-    const Connectivity c = make_connectivity(static_cast<int>(patch->sides.size()), flipped_faces(*patch));
+    const Adjacency c = make_adjacency(static_cast<int>(patch->wedges.size()), flipped_faces(*patch));
     const TargetLengths targets = spread_target_lengths(c, patch->vertex_length);
     Energy energy(c, targets, terms_);
     Guards guards(c, targets, guards_);
     Retraction retraction(m_.retraction.surface(), patch->constraints, m_.retraction.options());
-    const SweepPlan sweeps = plan_one_block(c);
-    Relaxation r{c, sweeps, patch->vertex_length, energy, retraction, guards, patch->placement};
+    const VertexColoring coloring = color_as_one_block(c);
+    Relaxation r{c, coloring, patch->vertex_length, energy, retraction, guards, patch->positions};
     LocalNewton newton(r);
-    const double before = energy(patch->placement.points, patch->placement.normals, nullptr) - loss;
+    const double before = energy(patch->positions.points, patch->positions.normals, nullptr) - loss;
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
-      if (sweep > 0 && energy(patch->placement.points, patch->placement.normals, nullptr) - before >
-                           options_.swept_hope * unit_)
+      if (sweep > 0 && energy(patch->positions.points, patch->positions.normals, nullptr) - before >
+                           options_.max_rise_after_relaxation * unit_)
         return std::nullopt;
       for (size_t v = 0; v < patch->movable; ++v) newton.improve(static_cast<int>(v), {});
     }
-    if (before - energy(patch->placement.points, patch->placement.normals, nullptr) < options_.gain)
+    if (before - energy(patch->positions.points, patch->positions.normals, nullptr) < options_.gain)
       return std::nullopt;
     return patch;
   }
@@ -177,14 +177,14 @@ class FlipPass {
 
   void keep(int edge, const EdgePatch& patch) {
     t_.flip(edge);
-    move_vertices(patch, m_.placement);
+    move_vertices(patch, m_.positions);
     for (size_t id = 0; id < patch.movable; ++id) batch_of_[static_cast<size_t>(patch.vertices[id])] = batch_;
     look_again_near(patch, patch.movable);
     ++flips_;
   }
 
-  FlippingMesh& m_;
-  Triangulation& t_;
+  FlippableMesh& m_;
+  HalfedgeMesh& t_;
   const EnergyTerms& terms_;
   const FlipPassOptions& options_;
   const FlipGuardOptions& flip_guard_;
@@ -199,7 +199,7 @@ class FlipPass {
 
 }  // namespace
 
-int flip_irregular_edges(FlippingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
+int flip_irregular_edges(FlippableMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
                          const FlipGuardOptions& flip_guard, const GuardOptions& guards,
                          std::vector<char>& near, const Observer& observer) {
   return FlipPass(m, terms, options, flip_guard, guards, near).run(observer);

@@ -19,7 +19,7 @@ struct FlipPassOptions {
   double gain = 1e-4;  // least fall of the energy for a flip to be kept
   /// Greatest rise of the energy by the flip alone, and after the first sweep, for a trial to go on; in parts
   /// of the greater of the weights of strings and altitudes.
-  double hope = .35, swept_hope = .07;
+  double max_energy_rise = .35, max_rise_after_relaxation = .07;
 };
 
 /// One pass over the edges with two or more irregular vertices among the four about them. An inner vertex is
@@ -28,7 +28,7 @@ struct FlipPassOptions {
 /// tried of which one of the four is there. Empty: all are. It comes back with what the last round has
 /// changed. The observer is called after every few hundred edges or less. Projections of trials are not
 /// counted. Returns the number of flips kept.
-int flip_irregular_edges(FlippingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
+int flip_irregular_edges(FlippableMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
                          const FlipGuardOptions& flip_guard, const GuardOptions& guards,
                          std::vector<char>& near, const Observer& observer);
 

@@ -11,7 +11,7 @@
 
 namespace hooke {
 
-std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Connectivity& c) {
+std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Adjacency& c) {
   std::vector<int> boundary;
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.is_boundary_edge(static_cast<int>(e))) boundary.push_back(c.edges[e][0]);
@@ -43,7 +43,7 @@ void set_tangents(Curve& curve) {
 }
 
 /// The vertex after each boundary vertex along its loop, -1 elsewhere.
-std::vector<int> boundary_successors(const Connectivity& c) {
+std::vector<int> boundary_successors(const Adjacency& c) {
   std::vector<int> next(static_cast<size_t>(c.vertex_count), -1);
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.is_boundary_edge(static_cast<int>(e))) next[static_cast<size_t>(c.edges[e][0])] = c.edges[e][1];
@@ -96,8 +96,8 @@ void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corn
 /// The crease edges, traced from corner to corner.
 class CreaseTracer {
  public:
-  CreaseTracer(const Mat3X& points, const Connectivity& c, double cos_corner,
-               const ConstraintOptions& options, Constraints& result)
+  CreaseTracer(const Mat3X& points, const Adjacency& c, double cos_corner, const ConstraintOptions& options,
+               Constraints& result)
       : points_(points),
         c_(c),
         options_(options),
@@ -116,7 +116,7 @@ class CreaseTracer {
   }
 
   /// Vertices where curves of creases end.
-  static std::vector<char> crease_breaks(const Mat3X& points, const Connectivity& c, double cos_corner) {
+  static std::vector<char> crease_breaks(const Mat3X& points, const Adjacency& c, double cos_corner) {
     std::vector<char> breaks(static_cast<size_t>(c.vertex_count), 0);
     if (c.creases.empty()) return breaks;
     for (int v = 0; v < c.vertex_count; ++v) {
@@ -178,14 +178,14 @@ class CreaseTracer {
   }
 
   const Mat3X& points_;
-  const Connectivity& c_;
+  const Adjacency& c_;
   const ConstraintOptions& options_;
   Constraints& result_;
   std::vector<char> breaks_;
   std::vector<char> traced_;
 };
 
-void add_boundary(const Mat3X& points, const Connectivity& c, BoundaryRule rule, double cos_corner,
+void add_boundary(const Mat3X& points, const Adjacency& c, BoundaryRule rule, double cos_corner,
                   Constraints& result) {
   const std::vector<int> next = boundary_successors(c);
   const std::vector<char> breaks = CreaseTracer::crease_breaks(points, c, cos_corner);
@@ -206,7 +206,7 @@ void add_boundary(const Mat3X& points, const Connectivity& c, BoundaryRule rule,
 
 }  // namespace
 
-Constraints find_constraints(const Mat3X& points, const Connectivity& c, const ConstraintOptions& options) {
+Constraints find_constraints(const Mat3X& points, const Adjacency& c, const ConstraintOptions& options) {
   Constraints result;
   const auto n = static_cast<size_t>(c.vertex_count);
   result.freedom.assign(n, Freedom::surface);
@@ -223,35 +223,35 @@ Constraints find_constraints(const Mat3X& points, const Connectivity& c, const C
   if (options.boundary != BoundaryRule::free) add_boundary(points, c, options.boundary, cos_corner, result);
   if (!c.creases.empty()) CreaseTracer(points, c, cos_corner, options, result).run();
   result.creases = crease_edges(c);
-  result.further_sides = c.further_sides;
+  result.extra_wedges = c.extra_wedges;
   return result;
 }
 
-std::vector<int> corner_valences(const Mat3X& points, const Connectivity& c, const Constraints& constraints,
+std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const Constraints& constraints,
                                  double corner_angle) {
   std::vector<int> borders(static_cast<size_t>(c.vertex_count), 0);
   for (size_t e = 0; e < c.edges.size(); ++e)
-    if (c.is_border(static_cast<int>(e)))
+    if (c.is_feature_edge(static_cast<int>(e)))
       for (int v : c.edges[e]) ++borders[static_cast<size_t>(v)];
   const auto is_corner = [&](int v) {
     return borders[static_cast<size_t>(v)] >= 2 &&
            constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed;
   };
-  std::vector<double> angles(static_cast<size_t>(c.side_count()), 0);  // degrees
+  std::vector<double> angles(static_cast<size_t>(c.wedge_count()), 0);  // degrees
   for (size_t f = 0; f < c.faces.size(); ++f) {
     const Triangle& t = c.faces[f];
     for (size_t k = 0; k < 3; ++k) {
       if (!is_corner(t[k])) continue;
       const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(t[k]);
       const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(t[k]);
-      angles[static_cast<size_t>(c.sides_of_faces()[f][k])] +=
+      angles[static_cast<size_t>(c.wedges_of_faces()[f][k])] +=
           std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
     }
   }
   std::vector<int> wanted(angles.size(), 0);
-  for (size_t side = 0; side < angles.size(); ++side)
-    if (angles[side] > 0 && std::abs(180 - angles[side]) >= corner_angle)
-      wanted[side] = 1 + std::max(1, static_cast<int>(std::lround(angles[side] / 60)));
+  for (size_t wedge = 0; wedge < angles.size(); ++wedge)
+    if (angles[wedge] > 0 && std::abs(180 - angles[wedge]) >= corner_angle)
+      wanted[wedge] = 1 + std::max(1, static_cast<int>(std::lround(angles[wedge] / 60)));
   return wanted;
 }
 

@@ -10,7 +10,7 @@
 namespace hooke {
 
 /// Ids, ascending, of boundary vertices that have exactly the coordinates of another boundary vertex.
-std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Connectivity& connectivity);
+std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Adjacency& adjacency);
 
 // What a vertex may do: move on the surface, slide along a curve of the input, or stand still.
 
@@ -26,7 +26,7 @@ struct ConstraintOptions {
   // at bends: where they stand farther off the chord past them than this part of a mean edge.
   double even_crease = 1.5;
   double crease_bend = .01;
-  FeatureOptions features = {};
+  CreaseOptions features = {};
 };
 
 struct Constraints {
@@ -34,13 +34,13 @@ struct Constraints {
   std::vector<int> curve;        // per vertex: index into curves, -1 without
   std::vector<int> segment;      // per vertex: where on its curve it starts
   std::vector<Curve> curves;
-  std::vector<Edge> creases;       // edges, by their vertices, that no change of the connectivity may lose
-  std::vector<int> further_sides;  // of vertices on creases, see connectivity.h; each has a normal of its own
-  int crease_curves = 0;           // of the curves: the last ones
+  std::vector<Edge> creases;      // edges, by their vertices, that no change of the connectivity may lose
+  std::vector<int> extra_wedges;  // of vertices on creases, see connectivity.h; each has a normal of its own
+  int crease_curves = 0;          // of the curves: the last ones
 
   // How far each vertex may go from its home; both are empty where there is no limit.
-  Mat3X home;
-  std::vector<double> reach;
+  Mat3X rest_position;
+  std::vector<double> max_travel;
 
   /// Does the vertex stand still at a bend of the curve that it is on?
   bool at_bend(int vertex) const {
@@ -53,13 +53,13 @@ struct Constraints {
 /// of them meet or one ends, and where a crease meets the boundary: such vertices stand still. So do those at
 /// the bends of even creases (see the options), though the curve goes on there; vertices without faces; and
 /// those of coincident_boundary_vertices(), between which a gap would open.
-Constraints find_constraints(const Mat3X& points, const Connectivity& connectivity,
+Constraints find_constraints(const Mat3X& points, const Adjacency& adjacency,
                              const ConstraintOptions& options);
 
 /// Per side: the number of edges that each corner wants: 1 + max(1, round(angle / 60 degrees)), by the angle
 /// that its faces span. 0 for all others. A corner is a side, between two creases or boundary edges, of a
 /// vertex that stands still, where the faces span no straight angle to within `corner_angle` degrees.
-std::vector<int> corner_valences(const Mat3X& points, const Connectivity& connectivity,
+std::vector<int> corner_valences(const Mat3X& points, const Adjacency& adjacency,
                                  const Constraints& constraints, double corner_angle);
 
 }  // namespace hooke

@@ -17,7 +17,7 @@ size_t idx(int i) {
 
 /// Degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces without
 /// area.
-std::vector<double> edge_angles(const Mat3X& points, const Connectivity& c) {
+std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
   const Mat3X normals = face_normals(points, c);
   std::vector<double> angles(c.edges.size(), 0);
   parallel_for(angles.size(), 4096, [&](size_t begin, size_t end) {
@@ -32,8 +32,8 @@ std::vector<double> edge_angles(const Mat3X& points, const Connectivity& c) {
 
 class FeatureSearch {
  public:
-  FeatureSearch(const Mat3X& points, const Connectivity& c, const std::vector<double>& length,
-                const FeatureOptions& o)
+  FeatureSearch(const Mat3X& points, const Adjacency& c, const std::vector<double>& length,
+                const CreaseOptions& o)
       : X_(points),
         c_(c),
         length_(length),
@@ -67,8 +67,8 @@ class FeatureSearch {
     return worst / angle_[idx(edge)];
   }
 
-  bool may_belong(int edge, double least_angle) const {
-    return angle_[idx(edge)] > least_angle && bend(edge) <= o_.bend;
+  bool may_belong(int edge, double min_angle) const {
+    return angle_[idx(edge)] > min_angle && bend(edge) <= o_.bend;
   }
 
   int other_end(int edge, int vertex) const {
@@ -168,7 +168,7 @@ class FeatureSearch {
       if (on_boundary(chain.last) && median_bend(chain.edges, true) <= o_.flat_bend) return true;
     }
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
-    return edges >= o_.least_edges && sum >= o_.least_length && sharp >= o_.sharp_share * edges &&
+    return edges >= o_.min_edges && sum >= o_.min_length && sharp >= o_.sharp_share * edges &&
            bend <= (is_lone ? o_.flat_bend : o_.chain_bend);
   }
 
@@ -214,17 +214,16 @@ class FeatureSearch {
     for (size_t e = 0; e < kept_.size(); ++e) {
       if (!kept_[e] || seen[e]) continue;
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
-      const bool short_curves =
-          2 * static_cast<double>(network.size()) < o_.least_curve * curve_ends(network);
+      const bool short_curves = 2 * static_cast<double>(network.size()) < o_.min_curve * curve_ends(network);
       if (short_curves && median_bend(network) > o_.flat_bend)
         for (int i : network) kept_[idx(i)] = 0;
     }
   }
 
   const Mat3X& X_;
-  const Connectivity& c_;
+  const Adjacency& c_;
   const std::vector<double>& length_;
-  const FeatureOptions& o_;
+  const CreaseOptions& o_;
   std::vector<double> angle_;
   std::vector<char> kept_;
   double cos_turn_;
@@ -232,10 +231,10 @@ class FeatureSearch {
 
 }  // namespace
 
-std::vector<int> find_features(const Mat3X& points, const Connectivity& connectivity,
-                               const std::vector<double>& vertex_length, const FeatureOptions& options) {
+std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
+                                const std::vector<double>& vertex_length, const CreaseOptions& options) {
   if (options.angle >= 180) return {};
-  return FeatureSearch(points, connectivity, vertex_length, options).run();
+  return FeatureSearch(points, adjacency, vertex_length, options).run();
 }
 
 }  // namespace hooke

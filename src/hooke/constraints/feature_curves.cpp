@@ -9,7 +9,7 @@
 namespace hooke {
 namespace {
 
-CurveFoot foot_on_segment(const Curve& curve, const Vec3& x, int segment) {
+CurveProjection foot_on_segment(const Curve& curve, const Vec3& x, int segment) {
   const int next = (segment + 1) % static_cast<int>(curve.points.cols());
   const Vec3 a = curve.points.col(segment);
   const Vec3 ab = curve.points.col(next) - a;
@@ -24,7 +24,7 @@ std::array<double, 3> key_of(const Vec3& point) {
   return {point[0], point[1], point[2]};
 }
 
-/// Lengths along the curve up to each of its points, the first again at the end of a closed one.
+/// UniformVector along the curve up to each of its points, the first again at the end of a closed one.
 std::vector<double> arc_lengths(const Curve& curve) {
   const Eigen::Index n = curve.points.cols();
   std::vector<double> lengths = {0};
@@ -57,19 +57,19 @@ double chord_error_of(const Curve& curve, const std::vector<double>& arcs, int c
 
 }  // namespace
 
-CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment) {
+CurveProjection project_to_curve(const Curve& curve, const Vec3& x, int segment) {
   const int n = curve.segment_count();
-  CurveFoot best = foot_on_segment(curve, x, segment);
+  CurveProjection best = foot_on_segment(curve, x, segment);
   double best2 = (x - best.point).squaredNorm();
   for (int direction : {1, -1}) {
     // Two segments without gain end the walk: one may be hidden behind a reflex point.
     for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n;
          s += direction, ++steps) {
       if (!curve.closed && (s < 0 || s >= n)) break;
-      const CurveFoot foot = foot_on_segment(curve, x, ((s % n) + n) % n);
-      const double distance2 = (x - foot.point).squaredNorm();
+      const CurveProjection projection = foot_on_segment(curve, x, ((s % n) + n) % n);
+      const double distance2 = (x - projection.point).squaredNorm();
       if (distance2 < best2) {
-        best = foot;
+        best = projection;
         best2 = distance2;
         misses = 0;
       } else {
@@ -106,11 +106,12 @@ CurveFinder::Place CurveFinder::common(const Vec3& a, const Vec3& b) const {
     for (const Place& q : at_b->second) {
       if (p.curve != q.curve) continue;
       const int halfway = (p.segment + q.segment) / 2;
-      const CurveFoot foot = project_to_curve((*curves_)[static_cast<size_t>(p.curve)], middle, halfway);
-      const double distance = (foot.point - middle).squaredNorm();
+      const CurveProjection projection =
+          project_to_curve((*curves_)[static_cast<size_t>(p.curve)], middle, halfway);
+      const double distance = (projection.point - middle).squaredNorm();
       if (distance >= least) continue;
       least = distance;
-      best = {p.curve, foot.segment};
+      best = {p.curve, projection.segment};
     }
   return best;
 }

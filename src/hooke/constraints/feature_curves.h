@@ -19,14 +19,14 @@ struct Curve {
 };
 
 /// A place on a curve.
-struct CurveFoot {
+struct CurveProjection {
   Vec3 point;
   Vec3 tangent;  // unit
   int segment = 0;
 };
 
 /// Closest point of the curve to x, found by walking from `segment`.
-CurveFoot project_to_curve(const Curve& curve, const Vec3& x, int segment);
+CurveProjection project_to_curve(const Curve& curve, const Vec3& x, int segment);
 
 /// The curves of the input by the points they pass through: an edge between two corners does not say along
 /// which curve it runs.

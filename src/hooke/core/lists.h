@@ -25,7 +25,7 @@ struct IntLists {
 };
 
 /// What the lists of these indices hold, each once, ascending.
-inline std::vector<int> united(const IntLists& lists, const std::vector<int>& indices) {
+inline std::vector<int> sorted_union(const IntLists& lists, const std::vector<int>& indices) {
   std::vector<int> all;
   for (int i : indices) all.insert(all.end(), lists[i].begin(), lists[i].end());
   std::ranges::sort(all);
@@ -36,9 +36,9 @@ inline std::vector<int> united(const IntLists& lists, const std::vector<int>& in
 /// For each index in [0, count) the places of the rows that name it, ascending. A row is a range of indices.
 /// Each thread looks through all rows for the indices of its share: what it writes stays in its caches.
 template <typename Rows>
-IntLists invert(int count, const Rows& rows) {
-  constexpr int least_share = 1 << 14;
-  const int shares = std::clamp(count / least_share, 1, thread_count());
+IntLists inverse(int count, const Rows& rows) {
+  constexpr int min_share = 1 << 14;
+  const int shares = std::clamp(count / min_share, 1, thread_count());
   const auto for_each_share = [&](const auto& use) {  // use(row, index) for the indices of one share
     parallel_for(static_cast<size_t>(shares), 1, [&](size_t first, size_t last) {
       const auto bound = [&](size_t share) {

@@ -22,9 +22,9 @@ struct FieldSample {
   Vec3 gradient = Vec3::Zero();
 };
 
-/// The surface as the zero level of a field psi [11]. `anchor` is the vertex of the fitted mesh near which
+/// The surface as the zero level of a field psi [11]. `hint` is the vertex of the fitted mesh near which
 /// the point is tracked: it tells sheets apart that are close in space; fields without sheets ignore it.
-using ScalarField = std::function<FieldSample(const Vec3& point, int anchor)>;
+using ScalarField = std::function<FieldSample(const Vec3& point, int hint)>;
 
 /// Something the user should know, with a code that scripts can test.
 struct Warning {

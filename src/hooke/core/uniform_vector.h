@@ -1,4 +1,4 @@
-// Lengths that mostly are all the same.
+// UniformVector that mostly are all the same.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 namespace hooke {
 
 /// A length per item, kept once where all items have the same.
-class Lengths {
+class UniformVector {
  public:
-  Lengths() = default;
-  Lengths(std::vector<double> values) : values_(std::move(values)), size_(values_.size()) {
-    if (size_ > 0 && are_equal(values_)) *this = Lengths(size_, values_[0]);
+  UniformVector() = default;
+  UniformVector(std::vector<double> values) : values_(std::move(values)), size_(values_.size()) {
+    if (size_ > 0 && are_equal(values_)) *this = UniformVector(size_, values_[0]);
   }
   /// Pre-condition: size > 0.
-  Lengths(std::size_t size, double value) : values_(1, value), size_(size), mask_(0) {}
+  UniformVector(std::size_t size, double value) : values_(1, value), size_(size), mask_(0) {}
 
   static bool are_equal(const std::vector<double>& values) {
     return std::ranges::adjacent_find(values, std::ranges::not_equal_to()) == values.end();
@@ -32,7 +32,7 @@ class Lengths {
 
   std::vector<double> values() const { return vary() || empty() ? values_ : std::vector(size_, values_[0]); }
 
-  bool operator==(const Lengths&) const = default;
+  bool operator==(const UniformVector&) const = default;
 
  private:
   std::vector<double> values_;

@@ -8,8 +8,8 @@
 namespace hooke {
 namespace {
 
-constexpr double least_normal_agreement = -.2;  // with the centre: stops at the other sheet of a thin body
-constexpr double tie = 1 + 1e-6;                // of distances: rounding must not choose between equals
+constexpr double min_normal_agreement = -.2;  // with the centre: stops at the other sheet of a thin body
+constexpr double tie = 1 + 1e-6;              // of distances: rounding must not choose between equals
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
@@ -17,14 +17,14 @@ std::size_t idx(int i) {
 
 }  // namespace
 
-PatchGrower::PatchGrower(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+PatchGrower::PatchGrower(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                          const Mat3X& normals, const std::vector<char>& unfolded)
     : points_(points),
-      connectivity_(connectivity),
+      adjacency_(adjacency),
       normals_(normals),
       unfolded_(unfolded),
-      met_by_(idx(connectivity.vertex_count), -1),
-      held_by_(idx(connectivity.vertex_count), -1) {}
+      met_by_(idx(adjacency.vertex_count), -1),
+      held_by_(idx(adjacency.vertex_count), -1) {}
 
 void PatchGrower::grow(int centre, int size) {
   axis_ = axis_at(centre);
@@ -48,20 +48,20 @@ void PatchGrower::grow(int centre, int size) {
 }
 
 bool PatchGrower::is_inside(int vertex) const {
-  return std::ranges::all_of(connectivity_.vertex_neighbours[vertex],
+  return std::ranges::all_of(adjacency_.vertex_neighbours[vertex],
                              [&](int n) { return held_by_[idx(n)] == round_ || !is_admitted(n); });
 }
 
 /// A folded vertex is admitted whatever its normal, which means nothing.
 bool PatchGrower::is_admitted(int vertex) const {
-  return !unfolded_[idx(vertex)] || normals_.col(vertex).dot(axis_) > least_normal_agreement;
+  return !unfolded_[idx(vertex)] || normals_.col(vertex).dot(axis_) > min_normal_agreement;
 }
 
 /// The normal of the centre or, where that means nothing, of its neighbours.
 Vec3 PatchGrower::axis_at(int centre) const {
   Vec3 sum = Vec3::Zero();
   if (!unfolded_[idx(centre)])
-    for (int n : connectivity_.vertex_neighbours[centre])
+    for (int n : adjacency_.vertex_neighbours[centre])
       if (unfolded_[idx(n)]) sum += normals_.col(n);
   return sum.isZero(0) ? Vec3(normals_.col(centre)) : sum.normalized();
 }
@@ -71,7 +71,7 @@ void PatchGrower::search(int centre, std::size_t most) {
   members_.assign(1, centre);
   met_by_[idx(centre)] = round_;
   for (std::size_t i = 0; i < members_.size(); ++i)
-    for (int n : connectivity_.vertex_neighbours[members_[i]]) {
+    for (int n : adjacency_.vertex_neighbours[members_[i]]) {
       if (members_.size() >= most) return;
       if (met_by_[idx(n)] == round_) continue;
       met_by_[idx(n)] = round_;
@@ -85,21 +85,21 @@ constexpr double reach = .9;  // radius over the distance of the farthest vertex
 
 }  // namespace
 
-PatchCover::PatchCover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+PatchCover::PatchCover(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                        const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
                        const std::vector<char>& unfolded, const PatchCoverOptions& options)
-    : connectivity_(connectivity),
+    : adjacency_(adjacency),
       edge_lengths_(edge_lengths),
       unfolded_(unfolded),
       options_(options),
-      grower_(points, connectivity, normals, unfolded),
-      covered_(static_cast<size_t>(connectivity.vertex_count), 0) {}
+      grower_(points, adjacency, normals, unfolded),
+      covered_(static_cast<size_t>(adjacency.vertex_count), 0) {}
 
 PatchList PatchCover::next(size_t count) {
   PatchList patches;
   patches.members.first.push_back(0);
   while (patches.size() < count) {
-    if (vertex_ == connectivity_.vertex_count) {
+    if (vertex_ == adjacency_.vertex_count) {
       if (folded_) break;
       folded_ = true;
       vertex_ = 0;
@@ -113,7 +113,7 @@ PatchList PatchCover::next(size_t count) {
 
 bool PatchCover::is_centre(int vertex) const {
   const auto v = static_cast<size_t>(vertex);
-  return !covered_[v] && (unfolded_[v] == 0) == folded_ && !connectivity_.vertex_faces[vertex].empty();
+  return !covered_[v] && (unfolded_[v] == 0) == folded_ && !adjacency_.vertex_faces[vertex].empty();
 }
 
 void PatchCover::add_patch(int centre, PatchList& patches) {
@@ -131,10 +131,10 @@ void PatchCover::add_patch(int centre, PatchList& patches) {
 
 namespace {
 
-constexpr double least_fold_agreement = .3;  // of a vertex normal with its faces: else the ring is folded
-constexpr std::size_t least_quadratic_size = 15;  // vertices of a patch that get a quadratic part
-constexpr double coincidence = 1e-6;              // in radii: two centres closer than this count once
-constexpr double least_height = 1e-8;             // in radii: less is no offset
+constexpr double min_fold_agreement = .3;       // of a vertex normal with its faces: else the ring is folded
+constexpr std::size_t min_quadratic_size = 15;  // vertices of a patch that get a quadratic part
+constexpr double coincidence = 1e-6;            // in radii: two centres closer than this count once
+constexpr double min_height = 1e-8;             // in radii: less is no offset
 
 /// Many in a large mesh: small pieces of memory that come and go between those that stay leave holes.
 std::size_t patches_of_batch(int vertices) {
@@ -148,15 +148,15 @@ double weight(double r2) {
 }
 
 /// Vertices whose normal is on the outer side of all their faces.
-std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                                     const Mat3X& normals) {
-  const Mat3X of_faces = face_normals(points, connectivity);
-  std::vector<char> unfolded(idx(connectivity.vertex_count), 0);
+  const Mat3X of_faces = face_normals(points, adjacency);
+  std::vector<char> unfolded(idx(adjacency.vertex_count), 0);
   parallel_for(unfolded.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       double least = normals.col(v).squaredNorm();
-      for (int f : connectivity.vertex_faces[v]) least = std::min(least, of_faces.col(f).dot(normals.col(v)));
-      unfolded[idx(v)] = least >= least_fold_agreement;
+      for (int f : adjacency.vertex_faces[v]) least = std::min(least, of_faces.col(f).dot(normals.col(v)));
+      unfolded[idx(v)] = least >= min_fold_agreement;
     }
   });
   return unfolded;
@@ -166,7 +166,7 @@ std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const
 constexpr std::size_t offset_stride = 3;
 
 /// Vertices and offsets of a patch: at most this many.
-std::size_t most_centres(std::size_t vertices) {
+std::size_t max_centres(std::size_t vertices) {
   return vertices + (vertices + offset_stride - 1) / offset_stride;
 }
 
@@ -176,9 +176,9 @@ std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std
   data.drop_repeated(coincidence);
   const auto centres = data.centres.leftCols(data.count);
   const auto values = data.values.head(data.count);
-  const bool quadratic = vertices >= least_quadratic_size;
+  const bool quadratic = vertices >= min_quadratic_size;
   fit = PatchFit::failed;
-  if (data.count == 0 || values.isZero(least_height)) return std::nullopt;  // no offset says where outside is
+  if (data.count == 0 || values.isZero(min_height)) return std::nullopt;  // no offset says where outside is
   std::optional<SplineCoefficients> spline;
   if (quadratic && (spline = fit_spline(centres, values, kernel, 2, workspace)))
     fit = PatchFit::as_wanted;
@@ -189,22 +189,22 @@ std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std
 
 }  // namespace
 
-PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                                    const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
                                    const PartitionOptions& options)
     : kernel_(options.kernel) {
-  const std::vector<char> unfolded = unfolded_vertices(points, connectivity, normals);
+  const std::vector<char> unfolded = unfolded_vertices(points, adjacency, normals);
   const Samples samples{points, normals, edge_lengths, unfolded, options.offset};
-  PatchCover cover(points, connectivity, normals, edge_lengths, unfolded, options.cover);
+  PatchCover cover(points, adjacency, normals, edge_lengths, unfolded, options.cover);
   std::deque<Batch> batches;
   const auto place = [&]() -> Batch* {
-    PatchList list = cover.next(patches_of_batch(connectivity.vertex_count));
+    PatchList list = cover.next(patches_of_batch(adjacency.vertex_count));
     if (list.size() == 0) return nullptr;
     batches.push_back({std::move(list), {}, {}});
     return &batches.back();
   };
   parallel_pipeline<Batch>(place, [&](Batch& batch) { fit(samples, batch); });
-  index_patches(connectivity.vertex_count, batches);
+  index_patches(adjacency.vertex_count, batches);
   std::size_t count = 0;
   for (const Batch& batch : batches) count += batch.patches.size();
   patches_.reserve(count);
@@ -223,7 +223,7 @@ void PartitionOfUnity::gather(const Samples& samples, const PatchList& list, std
   const auto vertices = list.members[static_cast<int>(patch)];
   const Vec3 centre = points.col(list.centres[patch]);
   const double radius = list.radii[patch];
-  data.clear(most_centres(vertices.size()));
+  data.clear(max_centres(vertices.size()));
   if (!(radius > 0)) return;
   const auto add = [&](const Vec3& place, int v, double height) {
     const Vec3 local = (place - centre) / radius, snap = snapped(local);
@@ -244,8 +244,8 @@ void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
   const auto vertices = [&](std::size_t p) { return list.members[static_cast<int>(p)].size(); };
   std::size_t coordinates = 0, coefficients = 0;
   for (std::size_t p = 0; p < list.size(); ++p) {
-    coordinates += Stored::coordinates_size(most_centres(vertices(p)));
-    coefficients += Stored::coefficients_size(most_centres(vertices(p)));
+    coordinates += Stored::coordinates_size(max_centres(vertices(p)));
+    coefficients += Stored::coefficients_size(max_centres(vertices(p)));
   }
   batch.patches.reserve(list.size());
   batch.storage.coordinates.resize(coordinates);
@@ -267,7 +267,7 @@ void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
     const std::size_t count = std::min(lane_count, list.size() - first);
     for (std::size_t k = 0; k < count; ++k) {
       gather(samples, list, first + k, data[k]);
-      wanted[k] = vertices(first + k) >= least_quadratic_size &&
+      wanted[k] = vertices(first + k) >= min_quadratic_size &&
                   static_cast<std::size_t>(data[k].count) > vertices(first + k);
     }
     const SplineGroup::Flags fitted = group.fit(data, wanted, kernel_, coincidence);
@@ -299,10 +299,10 @@ void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& 
   for_each_pair([&](std::size_t v, int p) { items[idx(next[v]++)] = p; });
 }
 
-FieldSample PartitionOfUnity::operator()(const Vec3& x, int anchor) const {
+FieldSample PartitionOfUnity::operator()(const Vec3& x, int hint) const {
   FieldSample sum;
   double total = 0;
-  for (int p : vertex_patches_[anchor]) {
+  for (int p : vertex_patches_[hint]) {
     const Patch& patch = patches_[idx(p)];
     const Vec3 local = (x - patch.centre) / patch.radius;
     const double r2 = local.squaredNorm();

@@ -16,7 +16,7 @@ class PatchGrower {
  public:
   /// `normals` are the unit vertex normals; `unfolded` tells where they mean something: on the outer side of
   /// all faces of the vertex. All arguments must outlive the grower.
-  PatchGrower(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals,
+  PatchGrower(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency, const Mat3X& normals,
               const std::vector<char>& unfolded);
 
   /// Finds half as many vertices again as wanted by breadth-first search, keeps the nearest `size` of them
@@ -37,7 +37,7 @@ class PatchGrower {
   void search(int centre, std::size_t most);
 
   Eigen::Ref<const Mat3X> points_;
-  const Connectivity& connectivity_;
+  const Adjacency& adjacency_;
   const Mat3X& normals_;
   const std::vector<char>& unfolded_;
   Vec3 axis_ = Vec3::Zero();  // of the cone
@@ -70,7 +70,7 @@ class PatchCover {
  public:
   /// `normals`, `edge_lengths`: at the vertices (see normals.h); for `unfolded` see patch_grower.h. All
   /// but the options must outlive the cover.
-  PatchCover(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity, const Mat3X& normals,
+  PatchCover(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency, const Mat3X& normals,
              const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
              const PatchCoverOptions& options);
 
@@ -81,7 +81,7 @@ class PatchCover {
   bool is_centre(int vertex) const;
   void add_patch(int centre, PatchList& patches);
 
-  const Connectivity& connectivity_;
+  const Adjacency& adjacency_;
   const Eigen::VectorXd& edge_lengths_;
   const std::vector<char>& unfolded_;
   PatchCoverOptions options_;
@@ -117,16 +117,15 @@ class PartitionOfUnity {
  public:
   /// `normals` are the unit vertex normals, `edge_lengths` the mean edge length at each vertex (see
   /// normals.h). A vertex without faces gets no patch.
-  PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
-                   const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
-                   const PartitionOptions& options = {});
+  PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency, const Mat3X& normals,
+                   const Eigen::VectorXd& edge_lengths, const PartitionOptions& options = {});
   PartitionOfUnity(const PartitionOfUnity&) = delete;
   PartitionOfUnity& operator=(const PartitionOfUnity&) = delete;
 
-  /// Value and gradient at x, blended from the patches that hold the vertex `anchor`. The gradient is that of
+  /// Value and gradient at x, blended from the patches that hold the vertex `hint`. The gradient is that of
   /// the splines; it leaves out the slope of the weights, which vanishes on the surface. All zero when no
-  /// patch of the anchor reaches x.
-  FieldSample operator()(const Vec3& x, int anchor) const;
+  /// patch of the hint reaches x.
+  FieldSample operator()(const Vec3& x, int hint) const;
 
   std::size_t patch_count() const { return patches_.size(); }
   std::size_t count(PatchFit fit) const;

@@ -18,13 +18,13 @@ constexpr size_t block = 256;
 constexpr double short_way = .1;  // in mean target lengths: however the surface bends
 
 /// The sides of vertices that stand still are not written by a step.
-void copy_sides(const Placement& from, Placement& to) {
-  to.other_side = from.other_side;
+void copy_sides(const SurfacePositions& from, SurfacePositions& to) {
+  to.other_wedge = from.other_wedge;
   to.normals.resize(3, from.normals.cols());
-  to.anchors.resize(from.anchors.size());
-  for (size_t side = from.drift.size(); side < from.anchors.size(); ++side) {
-    to.normals.col(static_cast<Eigen::Index>(side)) = from.normals.col(static_cast<Eigen::Index>(side));
-    to.anchors[side] = from.anchors[side];
+  to.hints.resize(from.hints.size());
+  for (size_t wedge = from.drift.size(); wedge < from.hints.size(); ++wedge) {
+    to.normals.col(static_cast<Eigen::Index>(wedge)) = from.normals.col(static_cast<Eigen::Index>(wedge));
+    to.hints[wedge] = from.hints[wedge];
   }
 }
 
@@ -56,73 +56,73 @@ Retraction::Retraction(Surface surface, const Constraints& constraints, const Re
       options_(options),
       uncounted_(tallies_for(constraints.freedom.size()), 0) {}
 
-VertexPlace::VertexPlace(const Placement& p, int vertex)
+SurfacePosition::SurfacePosition(const SurfacePositions& p, int vertex)
     : point(p.points.col(vertex)),
       normal(p.normals.col(vertex)),
-      anchor(p.anchors[static_cast<size_t>(vertex)]),
+      hint(p.hints[static_cast<size_t>(vertex)]),
       segment(p.segments[static_cast<size_t>(vertex)]),
       drift(p.drift[static_cast<size_t>(vertex)]),
-      other_side(p.other_side_of(vertex)) {
-  if (other_side < 0) return;
-  other_normal = p.normals.col(other_side);
-  other_anchor = p.anchors[static_cast<size_t>(other_side)];
+      other_wedge(p.other_wedge_of(vertex)) {
+  if (other_wedge < 0) return;
+  other_normal = p.normals.col(other_wedge);
+  other_hint = p.hints[static_cast<size_t>(other_wedge)];
 }
 
-void VertexPlace::write_to(Placement& p, int vertex) const {
+void SurfacePosition::write_to(SurfacePositions& p, int vertex) const {
   p.points.col(vertex) = point;
   p.normals.col(vertex) = normal;
-  p.anchors[static_cast<size_t>(vertex)] = anchor;
+  p.hints[static_cast<size_t>(vertex)] = hint;
   p.segments[static_cast<size_t>(vertex)] = segment;
   p.drift[static_cast<size_t>(vertex)] = drift;
-  if (other_side < 0) return;
-  p.normals.col(other_side) = other_normal;
-  p.anchors[static_cast<size_t>(other_side)] = other_anchor;
+  if (other_wedge < 0) return;
+  p.normals.col(other_wedge) = other_normal;
+  p.hints[static_cast<size_t>(other_wedge)] = other_hint;
 }
 
-Vec3 Retraction::within_reach(const Vec3& point, int vertex) const {
-  if (constraints_.reach.empty()) return point;
-  const Vec3 home = constraints_.home.col(vertex), way = point - home;
-  const double length = way.norm(), reach = constraints_.reach[static_cast<size_t>(vertex)];
-  return length > reach ? Vec3(home + way * (reach / length)) : point;
+Vec3 Retraction::within_deviation_bound(const Vec3& point, int vertex) const {
+  if (constraints_.max_travel.empty()) return point;
+  const Vec3 rest = constraints_.rest_position.col(vertex), way = point - rest;
+  const double length = way.norm(), reach = constraints_.max_travel[static_cast<size_t>(vertex)];
+  return length > reach ? Vec3(rest + way * (reach / length)) : point;
 }
 
-CurveFoot Retraction::foot_on_curve(const Vec3& point, int segment, int vertex) const {
+CurveProjection Retraction::foot_on_curve(const Vec3& point, int segment, int vertex) const {
   const auto curve = static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)]);
   return project_to_curve(constraints_.curves[curve], point, segment);
 }
 
-Vec3 Retraction::tangent(const Placement& at, int vertex) const {
+Vec3 Retraction::tangent(const SurfacePositions& at, int vertex) const {
   const auto v = static_cast<size_t>(vertex);
   if (constraints_.freedom[v] != Freedom::curve) return Vec3::Zero();
   return foot_on_curve(at.points.col(vertex), at.segments[v], vertex).tangent;
 }
 
-VertexPlace Retraction::on_curve(VertexPlace place, int vertex) const {
-  const CurveFoot foot = foot_on_curve(place.point, place.segment, vertex);
-  place.point = foot.point;
-  place.segment = foot.segment;
+SurfacePosition Retraction::on_curve(SurfacePosition place, int vertex) const {
+  const CurveProjection projection = foot_on_curve(place.point, place.segment, vertex);
+  place.point = projection.point;
+  place.segment = projection.segment;
   return place;
 }
 
-Foot Retraction::foot(const Vec3& point, int anchor, int vertex) {
-  const Foot foot = surface_(point, anchor, options_.tolerance);
+Projection Retraction::projection(const Vec3& point, int hint, int vertex) {
+  const Projection projection = surface_(point, hint, options_.tolerance);
   long long* const tally = &uncounted_[static_cast<size_t>(vertex) / vertices_of_tally * tally_size];
-  add(1, tally[static_cast<size_t>(foot.status)]);
-  add(foot.evaluations, tally[statuses]);
-  return foot;
+  add(1, tally[static_cast<size_t>(projection.status)]);
+  add(projection.evaluations, tally[statuses]);
+  return projection;
 }
 
-VertexPlace Retraction::on_surface(VertexPlace place, int vertex, Freedom freedom) {
-  const Foot on_side = foot(place.point, place.anchor, vertex);
-  if (place.other_side >= 0) {
-    const Foot on_other_side = foot(place.point, place.other_anchor, vertex);
+SurfacePosition Retraction::on_surface(SurfacePosition place, int vertex, Freedom freedom) {
+  const Projection on_side = projection(place.point, place.hint, vertex);
+  if (place.other_wedge >= 0) {
+    const Projection on_other_side = projection(place.point, place.other_hint, vertex);
     place.other_normal = on_other_side.normal;
-    place.other_anchor = on_other_side.anchor;
+    place.other_hint = on_other_side.hint;
   }
   // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
   if (freedom == Freedom::surface) place.point = on_side.point;
   place.normal = on_side.normal;
-  place.anchor = on_side.anchor;
+  place.hint = on_side.hint;
   place.drift = 0;
   return place;
 }
@@ -131,27 +131,29 @@ bool Retraction::stands_still(int vertex) const {
   return constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::fixed;
 }
 
-VertexPlace Retraction::moved(const Placement& from, int vertex, const Vec3& displacement) {
-  return moved(VertexPlace(from, vertex), vertex, constraints_.freedom[static_cast<size_t>(vertex)],
+SurfacePosition Retraction::moved(const SurfacePositions& from, int vertex, const Vec3& displacement) {
+  return moved(SurfacePosition(from, vertex), vertex, constraints_.freedom[static_cast<size_t>(vertex)],
                displacement);
 }
 
-VertexPlace Retraction::moved_copy(const Placement& from, int vertex, int anchor, const Vec3& displacement) {
-  VertexPlace place(from, vertex);
-  place.anchor = anchor;
+SurfacePosition Retraction::moved_copy(const SurfacePositions& from, int vertex, int hint,
+                                       const Vec3& displacement) {
+  SurfacePosition place(from, vertex);
+  place.hint = hint;
   place.drift = 0;
-  place.other_side = -1;
+  place.other_wedge = -1;
   return moved(place, vertex, Freedom::surface, displacement);
 }
 
-VertexPlace Retraction::moved(VertexPlace place, int vertex, Freedom freedom, const Vec3& displacement) {
+SurfacePosition Retraction::moved(SurfacePosition place, int vertex, Freedom freedom,
+                                  const Vec3& displacement) {
   const double length = displacement.norm();
   if (length == 0 || freedom == Freedom::fixed) return place;
   const Vec3 start = place.point;
-  place.point = within_reach(start + displacement, vertex);
+  place.point = within_deviation_bound(start + displacement, vertex);
   place.drift += length;
   if (freedom == Freedom::curve) place = on_curve(place, vertex);
-  const SurfaceBend bend = surface_.bend(place.anchor);
+  const ShapeOperator bend = surface_.shape_operator(place.hint);
   const double error = .5 * bend.change * place.drift * place.drift;  // off the surface
   if (error < options_.lazy_error) {
     place = drifted(place, place.point - start, bend, freedom);
@@ -163,50 +165,51 @@ VertexPlace Retraction::moved(VertexPlace place, int vertex, Freedom freedom, co
 }
 
 /// `way` led to the place, in the tangent plane or along a chord.
-VertexPlace Retraction::drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend,
-                                Freedom freedom) const {
+SurfacePosition Retraction::drifted(SurfacePosition place, const Vec3& way, const ShapeOperator& bend,
+                                    Freedom freedom) const {
   const Vec3 turn = bend.shape * way;
   if (freedom == Freedom::surface) place.point -= (way.dot(place.normal) + .5 * way.dot(turn)) * place.normal;
   place.normal = (place.normal + turn).normalized();
-  if (place.other_side >= 0)
-    place.other_normal = (place.other_normal + surface_.bend(place.other_anchor).shape * way).normalized();
+  if (place.other_wedge >= 0)
+    place.other_normal =
+        (place.other_normal + surface_.shape_operator(place.other_hint).shape * way).normalized();
   return place;
 }
 
-VertexPlace Retraction::projected(VertexPlace place, int vertex) {
+SurfacePosition Retraction::projected(SurfacePosition place, int vertex) {
   const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
   return on_surface(freedom == Freedom::curve ? on_curve(place, vertex) : place, vertex, freedom);
 }
 
-Placement Retraction::place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments) {
-  Placement p;
+SurfacePositions Retraction::place(const Mat3X& points, std::vector<int> hints, std::vector<int> segments) {
+  SurfacePositions p;
   p.points = points;
-  const auto& further = constraints_.further_sides;
+  const auto& further = constraints_.extra_wedges;
   p.normals = Mat3X::Zero(3, points.cols() + std::ssize(further));
-  p.anchors = std::move(anchors);
+  p.hints = std::move(hints);
   p.segments = std::move(segments);
   p.drift.assign(static_cast<size_t>(points.cols()), 0);
-  p.other_side = other_sides(p.drift.size(), further);
+  p.other_wedge = other_wedges(p.drift.size(), further);
   parallel_for(static_cast<size_t>(points.cols()), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
-      projected(VertexPlace(p, v), v).write_to(p, v);
+      projected(SurfacePosition(p, v), v).write_to(p, v);
     }
   });
   for (size_t s = 0; s < further.size(); ++s) {  // third and further sides of corners
-    const size_t side = p.drift.size() + s;
+    const size_t wedge = p.drift.size() + s;
     const int v = further[s];
-    if (p.other_side_of(v) == static_cast<int>(side)) continue;
-    const Foot on_side = foot(p.points.col(v), p.anchors[side], v);
-    p.normals.col(static_cast<Eigen::Index>(side)) = on_side.normal;
-    p.anchors[side] = on_side.anchor;
+    if (p.other_wedge_of(v) == static_cast<int>(wedge)) continue;
+    const Projection on_side = projection(p.points.col(v), p.hints[wedge], v);
+    p.normals.col(static_cast<Eigen::Index>(wedge)) = on_side.normal;
+    p.hints[wedge] = on_side.hint;
   }
   count();
   return p;
 }
 
-void Retraction::step(const Placement& from, const Mat3X& displacement, std::span<const int> vertices,
-                      Placement& to) {
+void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, std::span<const int> vertices,
+                      SurfacePositions& to) {
   parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
       moved(from, vertices[i], displacement.col(vertices[i])).write_to(to, vertices[i]);
@@ -214,7 +217,7 @@ void Retraction::step(const Placement& from, const Mat3X& displacement, std::spa
   count();
 }
 
-void Retraction::step(const Placement& from, const Mat3X& displacement, Placement& to) {
+void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, SurfacePositions& to) {
   to.points.resize(3, from.points.cols());
   copy_sides(from, to);
   to.segments.resize(from.segments.size());
@@ -228,26 +231,26 @@ void Retraction::step(const Placement& from, const Mat3X& displacement, Placemen
   count();
 }
 
-void Retraction::settle(Placement& placement) {
-  parallel_for(placement.drift.size(), block, [&](size_t begin, size_t end) {
+void Retraction::project_drifted(SurfacePositions& positions) {
+  parallel_for(positions.drift.size(), block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
-      if (placement.drift[i] > 0)
-        on_surface(VertexPlace(placement, v), v, constraints_.freedom[i]).write_to(placement, v);
+      if (positions.drift[i] > 0)
+        on_surface(SurfacePosition(positions, v), v, constraints_.freedom[i]).write_to(positions, v);
     }
   });
   count();
 }
 
-void Retraction::settle(std::span<const int> vertices, Placement& placement) {
+void Retraction::project_drifted(std::span<const int> vertices, SurfacePositions& positions) {
   parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
     for (int v : vertices.subspan(begin, end - begin))
-      projected(VertexPlace(placement, v), v).write_to(placement, v);
+      projected(SurfacePosition(positions, v), v).write_to(positions, v);
   });
   count();
 }
 
-void Retraction::constrain(const Placement& at, Mat3X& vectors) const {
+void Retraction::constrain(const SurfacePositions& at, Mat3X& vectors) const {
   parallel_for(static_cast<size_t>(vectors.cols()), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const auto v = static_cast<Eigen::Index>(i);

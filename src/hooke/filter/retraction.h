@@ -9,42 +9,42 @@
 
 namespace hooke {
 
-/// How the vertices sit on the surface and its curves. Where creases part the surface, normals and anchors go
+/// How the vertices sit on the surface and its curves. Where creases part the surface, normals and hints go
 /// on after those of the vertices with those of their further sides.
-struct Placement {
+struct SurfacePositions {
   Mat3X points;
-  Mat3X normals;                // unit, outward, of the surface; per side
-  std::vector<int> anchors;     // where on the surface each side is tracked
-  std::vector<int> segments;    // where on its curve
-  std::vector<double> drift;    // length moved since the last projection
-  std::vector<int> other_side;  // of a vertex on a crease, -1 without one; empty without creases
+  Mat3X normals;                 // unit, outward, of the surface; per side
+  std::vector<int> hints;        // where on the surface each side is tracked
+  std::vector<int> segments;     // where on its curve
+  std::vector<double> drift;     // length moved since the last projection
+  std::vector<int> other_wedge;  // of a vertex on a crease, -1 without one; empty without creases
 
-  int other_side_of(int vertex) const {
-    return other_side.empty() ? -1 : other_side[static_cast<size_t>(vertex)];
+  int other_wedge_of(int vertex) const {
+    return other_wedge.empty() ? -1 : other_wedge[static_cast<size_t>(vertex)];
   }
 };
 
 /// One vertex of a placement. Where more than two sides meet the vertex stands still: it has no more than two
 /// here.
-struct VertexPlace {
+struct SurfacePosition {
   Vec3 point;
   Vec3 normal;
-  int anchor;
+  int hint;
   int segment;
   double drift;
-  int other_side;  // -1 without
+  int other_wedge;  // -1 without
   Vec3 other_normal = Vec3::Zero();
-  int other_anchor = -1;
+  int other_hint = -1;
 
-  VertexPlace(const Placement& placement, int vertex);
-  void write_to(Placement& placement, int vertex) const;
+  SurfacePosition(const SurfacePositions& positions, int vertex);
+  void write_to(SurfacePositions& positions, int vertex) const;
 };
 
 /// Calls and failures of the projection.
 struct ProjectionCounts {
   long long calls = 0;
   long long evaluations = 0;
-  std::array<long long, 5> by_status{};  // indexed by FootStatus
+  std::array<long long, 5> by_status{};  // indexed by ProjectionStatus
 
   ProjectionCounts& operator+=(const ProjectionCounts& other);
 };
@@ -62,35 +62,36 @@ class Retraction {
  public:
   Retraction(Surface surface, const Constraints& constraints, const RetractionOptions& options);
 
-  /// Puts every point on the surface or its curve. `anchors` are those of all sides.
-  Placement place(const Mat3X& points, std::vector<int> anchors, std::vector<int> segments);
+  /// Puts every point on the surface or its curve. `hints` are those of all sides.
+  SurfacePositions place(const Mat3X& points, std::vector<int> hints, std::vector<int> segments);
 
   /// to = retract(from + displacement) for the given vertices; all other entries of `to` stay.
-  void step(const Placement& from, const Mat3X& displacement, std::span<const int> vertices, Placement& to);
+  void step(const SurfacePositions& from, const Mat3X& displacement, std::span<const int> vertices,
+            SurfacePositions& to);
 
   /// The same for all vertices; `to` is resized.
-  void step(const Placement& from, const Mat3X& displacement, Placement& to);
+  void step(const SurfacePositions& from, const Mat3X& displacement, SurfacePositions& to);
 
   /// Where one vertex comes to lie; safe to call for different vertices at once. Call count() after a batch.
-  VertexPlace moved(const Placement& from, int vertex, const Vec3& displacement);
+  SurfacePosition moved(const SurfacePositions& from, int vertex, const Vec3& displacement);
 
-  /// Of a vertex that is yet to come, free on the surface, which starts where this one is, with this anchor.
-  VertexPlace moved_copy(const Placement& from, int vertex, int anchor, const Vec3& displacement);
+  /// Of a vertex that is yet to come, free on the surface, which starts where this one is, with this hint.
+  SurfacePosition moved_copy(const SurfacePositions& from, int vertex, int hint, const Vec3& displacement);
 
   /// Adds the projections since the last call to counts().
   void count();
 
   /// Projects the vertices that have drifted.
-  void settle(Placement& placement);
+  void project_drifted(SurfacePositions& positions);
 
   /// Projects these vertices, each named once.
-  void settle(std::span<const int> vertices, Placement& placement);
+  void project_drifted(std::span<const int> vertices, SurfacePositions& positions);
 
   /// Unit, of the curve along which the vertex slides; zero for all others.
-  Vec3 tangent(const Placement& at, int vertex) const;
+  Vec3 tangent(const SurfacePositions& at, int vertex) const;
 
   /// Removes what a vertex may not do: the normal part, all but the part along its curve, or everything.
-  void constrain(const Placement& at, Mat3X& vectors) const;
+  void constrain(const SurfacePositions& at, Mat3X& vectors) const;
 
   /// To be called when the constraints have come to be of another number of vertices, or to be ready for as
   /// many.
@@ -106,14 +107,15 @@ class Retraction {
   const RetractionOptions& options() const { return options_; }
 
  private:
-  VertexPlace moved(VertexPlace place, int vertex, Freedom freedom, const Vec3& displacement);
-  Vec3 within_reach(const Vec3& point, int vertex) const;
-  CurveFoot foot_on_curve(const Vec3& point, int segment, int vertex) const;
-  VertexPlace on_curve(VertexPlace place, int vertex) const;
-  VertexPlace on_surface(VertexPlace place, int vertex, Freedom freedom);
-  VertexPlace projected(VertexPlace place, int vertex);
-  VertexPlace drifted(VertexPlace place, const Vec3& way, const SurfaceBend& bend, Freedom freedom) const;
-  Foot foot(const Vec3& point, int anchor, int vertex);
+  SurfacePosition moved(SurfacePosition place, int vertex, Freedom freedom, const Vec3& displacement);
+  Vec3 within_deviation_bound(const Vec3& point, int vertex) const;
+  CurveProjection foot_on_curve(const Vec3& point, int segment, int vertex) const;
+  SurfacePosition on_curve(SurfacePosition place, int vertex) const;
+  SurfacePosition on_surface(SurfacePosition place, int vertex, Freedom freedom);
+  SurfacePosition projected(SurfacePosition place, int vertex);
+  SurfacePosition drifted(SurfacePosition place, const Vec3& way, const ShapeOperator& bend,
+                          Freedom freedom) const;
+  Projection projection(const Vec3& point, int hint, int vertex);
 
   Surface surface_;
   const Constraints& constraints_;

@@ -45,7 +45,7 @@ struct System {
 
 /// Leaves the coefficients of the centres in `a`, those of the polynomials in the first rows of `d`, and in
 /// `solved` which lanes have a solution. [31], [32]
-void solve_system(System& system, Kernel kernel, double least_distance);
+void solve_system(System& system, Kernel kernel, double min_distance);
 
 /// Adds the products of two arrays to the sum.
 HOOKE_INLINE void add_products(const LaneArray& a, const LaneArray& b, std::size_t count, Lanes& sum) {
@@ -83,7 +83,7 @@ HOOKE_INLINE void fill_polynomials(System& s) {
 
 /// P = Q R by Householder's reflectors I - tau v v^T.
 HOOKE_INLINE void factor_polynomials(System& s) {
-  constexpr double least_column_ratio = 1e-8;  // of a column's part that those before it do not explain
+  constexpr double min_column_ratio = 1e-8;  // of a column's part that those before it do not explain
   const Lanes zero = {}, one = zero + 1.;
   for (std::size_t k = 0; k < monomials; ++k) {
     const LaneArray column = s.P.from(k * s.rows), below = column.from(k + 1);
@@ -105,7 +105,7 @@ HOOKE_INLINE void factor_polynomials(System& s) {
       below.get(i, x);
       below.set(i, x * scale);
     }
-    s.solved &= beta * beta > least_column_ratio * least_column_ratio * (explained + beta * beta);
+    s.solved &= beta * beta > min_column_ratio * min_column_ratio * (explained + beta * beta);
     for (std::size_t j = k + 1; j < monomials; ++j) {
       const LaneArray other = s.P.from(j * s.rows);
       Lanes along;
@@ -120,7 +120,7 @@ HOOKE_INLINE void factor_polynomials(System& s) {
 }
 
 /// Lower triangle of the kernel matrix. [32]
-HOOKE_INLINE void fill_kernel_matrix(Kernel kernel, double least_distance, System& s) {
+HOOKE_INLINE void fill_kernel_matrix(Kernel kernel, double min_distance, System& s) {
   LaneMask near = {};
   for (std::size_t i = 0; i < s.rows; ++i) {
     const LaneArray row = s.A.from(row_of(i));
@@ -142,7 +142,7 @@ HOOKE_INLINE void fill_kernel_matrix(Kernel kernel, double least_distance, Syste
       const Lanes r2 = dx * dx + dy * dy + dz * dz;
       KernelSample phi;
       sample_kernel(kernel, r2, phi);
-      near |= (r2 < least_distance * least_distance) & (q > 0.);
+      near |= (r2 < min_distance * min_distance) & (q > 0.);
       row.set(j, phi.value * q);
     }
     row.set(i, 1. - p);
@@ -209,7 +209,7 @@ HOOKE_INLINE void reflect(System& s, std::size_t k) {
 
 /// Cholesky's factor of the part of A that lies across the polynomials, in its place.
 HOOKE_INLINE void factor_kernel_matrix(System& s) {
-  constexpr double least_pivot_ratio = 1e-7;  // of the diagonal: beyond, coefficients are noise
+  constexpr double min_pivot_ratio = 1e-7;  // of the diagonal: beyond, coefficients are noise
   Lanes least = Lanes{} + std::numeric_limits<double>::infinity(), most = {};
   for (std::size_t k = monomials; k < s.rows; ++k) {
     Lanes pivot, p, x, y;
@@ -232,7 +232,7 @@ HOOKE_INLINE void factor_kernel_matrix(System& s) {
       subtract_scaled(y, s.v.from(k + 1), i - k, s.A.from(row_of(i) + k + 1));
     }
   }
-  s.solved &= least > least_pivot_ratio * most;
+  s.solved &= least > min_pivot_ratio * most;
 }
 
 /// [31] in the coordinates of the reflectors: A22 z = d2, then R c = d1 - A12 z, and a = Q [0; z]. Leaves c
@@ -276,10 +276,10 @@ HOOKE_INLINE void solve(System& s) {
   }
 }
 
-HOOKE_SIMD void solve_system(System& s, Kernel kernel, double least_distance) {
+HOOKE_SIMD void solve_system(System& s, Kernel kernel, double min_distance) {
   fill_polynomials(s);
   factor_polynomials(s);
-  fill_kernel_matrix(kernel, least_distance, s);
+  fill_kernel_matrix(kernel, min_distance, s);
   for (std::size_t k = 0; k < monomials; ++k) reflect(s, k);
   factor_kernel_matrix(s);
   solve(s);
@@ -338,7 +338,7 @@ void SplineGroup::gather(const Data& data, const Flags& wanted) {
 }
 
 SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kernel kernel,
-                                    double least_distance) {
+                                    double min_distance) {
   gather(data, wanted);
   if (size_ <= monomials) return {};
   System s{.rows = size_,
@@ -352,7 +352,7 @@ SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kerne
            .w = LaneArray(work_.data() + size_ * lane_count),
            .tau = {},
            .solved = ~LaneMask{}};
-  solve_system(s, kernel, least_distance);
+  solve_system(s, kernel, min_distance);
   Flags solved;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     solved[lane] = wanted[lane] && s.solved[lane] != 0;

@@ -27,8 +27,8 @@ class SplineGroup {
   using Flags = std::array<bool, lane_count>;
 
   /// Fits the lanes that `wanted` names; tells which of these have a solution. None has one whose centres
-  /// do not determine it, or where two are closer than `least_distance`.
-  Flags fit(const Data& data, const Flags& wanted, Kernel kernel, double least_distance);
+  /// do not determine it, or where two are closer than `min_distance`.
+  Flags fit(const Data& data, const Flags& wanted, Kernel kernel, double min_distance);
 
   /// The spline of a lane. Pre-condition: fit() found one to so many centres.
   SplineCoefficients solution(std::size_t lane, std::size_t centres) const;

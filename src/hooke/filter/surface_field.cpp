@@ -27,7 +27,7 @@ int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   double least = (points.col(vertex) - x).squaredNorm();
   for (int from = -1; from != vertex;) {
     from = vertex;
-    for (int n : connectivity.vertex_neighbours[from]) {
+    for (int n : adjacency.vertex_neighbours[from]) {
       const double distance2 = (points.col(n) - x).squaredNorm();
       if (!(distance2 < least)) continue;  // ends the walk for NaN too
       least = distance2;
@@ -37,51 +37,51 @@ int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   return vertex;
 }
 
-Foot NearFaces::closest_point_of_ring(const Vec3& x, int anchor) const {
-  Foot foot{x, Vec3::Zero(), anchor, FootStatus::no_cover, 0};
+Projection NearFaces::closest_point_of_ring(const Vec3& x, int hint) const {
+  Projection projection{x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
   double least = std::numeric_limits<double>::infinity();
   const auto visit = [&](int v) {
-    for (int f : connectivity.vertex_faces[v]) {
-      const Triangle& face = connectivity.faces[static_cast<std::size_t>(f)];
-      if (v != anchor && std::ranges::find(face, anchor) != face.end()) continue;  // seen with the anchor
+    for (int f : adjacency.vertex_faces[v]) {
+      const Triangle& face = adjacency.faces[static_cast<std::size_t>(f)];
+      if (v != hint && std::ranges::find(face, hint) != face.end()) continue;  // seen with the hint
       const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
       if (squared_distance_to_box(a, b, c, x) >= least) continue;
       const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
       if (near.squared_distance >= least) continue;
       least = near.squared_distance;
-      foot.point = near.point;
-      foot.normal.setZero();
+      projection.point = near.point;
+      projection.normal.setZero();
       for (int k = 0; k < 3; ++k)
-        foot.normal += near.weights[k] * normals.col(face[static_cast<std::size_t>(k)]);
+        projection.normal += near.weights[k] * normals.col(face[static_cast<std::size_t>(k)]);
       Eigen::Index corner;
       near.weights.maxCoeff(&corner);
-      foot.anchor = face[static_cast<std::size_t>(corner)];
-      foot.status = FootStatus::converged;
+      projection.hint = face[static_cast<std::size_t>(corner)];
+      projection.status = ProjectionStatus::converged;
     }
   };
-  visit(anchor);
-  for (int n : connectivity.vertex_neighbours[anchor]) visit(n);
-  foot.normal.normalize();
-  return foot;
+  visit(hint);
+  for (int n : adjacency.vertex_neighbours[hint]) visit(n);
+  projection.normal.normalize();
+  return projection;
 }
 
-bool NearFaces::has_face_within(const Vec3& x, int anchor, double distance) const {
-  return std::ranges::any_of(connectivity.vertex_faces[anchor], [&](int f) {
-    const Triangle& face = connectivity.faces[static_cast<std::size_t>(f)];
+bool NearFaces::has_face_within(const Vec3& x, int hint, double distance) const {
+  return std::ranges::any_of(adjacency.vertex_faces[hint], [&](int f) {
+    const Triangle& face = adjacency.faces[static_cast<std::size_t>(f)];
     return closest_point_on_triangle(points.col(face[0]), points.col(face[1]), points.col(face[2]), x)
                .squared_distance <= distance * distance;
   });
 }
 
-Foot NearFaces::closest_point(const Vec3& x, int anchor) const {
-  Foot foot = closest_point_of_ring(x, anchor);
-  while (foot.anchor != anchor) {
-    anchor = foot.anchor;
-    const Foot next = closest_point_of_ring(x, anchor);
-    if (!((next.point - x).squaredNorm() < (foot.point - x).squaredNorm())) break;
-    foot = next;
+Projection NearFaces::closest_point(const Vec3& x, int hint) const {
+  Projection projection = closest_point_of_ring(x, hint);
+  while (projection.hint != hint) {
+    hint = projection.hint;
+    const Projection next = closest_point_of_ring(x, hint);
+    if (!((next.point - x).squaredNorm() < (projection.point - x).squaredNorm())) break;
+    projection = next;
   }
-  return foot;
+  return projection;
 }
 
 namespace {
@@ -92,74 +92,79 @@ namespace {
 /// How far the surface may be from the faces about each vertex: `reach` times the vertex's length (empty: 1),
 /// and infinity where it could only come that far by bending several times more than the normals turn along
 /// edges. Empty: no limit anywhere.
-std::vector<float> reaches_of(const NearFaces& faces, double reach, const std::vector<double>& lengths);
+std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviation,
+                                       const std::vector<double>& lengths);
 
-/// The foot of x, unless it is beyond its anchor's reach: then a place on the same side at that distance from
+/// The foot of x, unless it is beyond its hint's reach: then a place on the same side at that distance from
 /// the faces, above their point next to x when x is more than half as far from them, else above that next to
 /// the foot.
-Foot within_reach(const NearFaces& faces, const std::vector<float>& reaches, const Vec3& x, const Foot& foot);
+Projection within_deviation_bound(const NearFaces& faces, const std::vector<float>& deviation_bounds,
+                                  const Vec3& x, const Projection& projection);
 
 constexpr float no_limit = std::numeric_limits<float>::infinity();
 
-std::vector<float> reaches_of(const NearFaces& faces, double reach, const std::vector<double>& lengths) {
+std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviation,
+                                       const std::vector<double>& lengths) {
   constexpr double bending = 4;
-  const auto& [points, normals, connectivity] = faces;
-  std::vector<float> reaches;
-  if (reach == std::numeric_limits<double>::infinity()) return reaches;
+  const auto& [points, normals, adjacency] = faces;
+  std::vector<float> deviation_bounds;
+  if (max_deviation == std::numeric_limits<double>::infinity()) return deviation_bounds;
   const auto most = [&](int v) {
-    return lengths.empty() ? reach : reach * lengths[static_cast<std::size_t>(v)];
+    return lengths.empty() ? max_deviation : max_deviation * lengths[static_cast<std::size_t>(v)];
   };
-  std::vector<char> bends(connectivity.edges.size());
-  parallel_for(bends.size(), 4096, [&](std::size_t begin, std::size_t end) {
+  std::vector<char> shape_operators(adjacency.edges.size());
+  parallel_for(shape_operators.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
-      const auto& [a, b] = connectivity.edges[e];
+      const auto& [a, b] = adjacency.edges[e];
       const double sagitta =
           (normals.col(a) - normals.col(b)).norm() * (points.col(a) - points.col(b)).norm() / 8;
-      bends[e] = bending * sagitta > std::min(most(a), most(b));
+      shape_operators[e] = bending * sagitta > std::min(most(a), most(b));
     }
   });
-  for (std::size_t e = 0; e < bends.size(); ++e) {
-    if (!bends[e]) continue;
-    reaches.resize(static_cast<std::size_t>(connectivity.vertex_count), no_limit);
-    for (int end : connectivity.edges[e]) {
-      reaches[static_cast<std::size_t>(end)] = static_cast<float>(most(end));
-      for (int v : connectivity.vertex_neighbours[end])
-        reaches[static_cast<std::size_t>(v)] = static_cast<float>(most(v));
+  for (std::size_t e = 0; e < shape_operators.size(); ++e) {
+    if (!shape_operators[e]) continue;
+    deviation_bounds.resize(static_cast<std::size_t>(adjacency.vertex_count), no_limit);
+    for (int end : adjacency.edges[e]) {
+      deviation_bounds[static_cast<std::size_t>(end)] = static_cast<float>(most(end));
+      for (int v : adjacency.vertex_neighbours[end])
+        deviation_bounds[static_cast<std::size_t>(v)] = static_cast<float>(most(v));
     }
   }
-  return reaches;
+  return deviation_bounds;
 }
 
-Foot within_reach(const NearFaces& faces, const std::vector<float>& reaches, const Vec3& x,
-                  const Foot& foot) {
-  if (reaches.empty()) return foot;
-  const double reach = reaches[static_cast<std::size_t>(foot.anchor)];
-  if (reach == no_limit || faces.has_face_within(foot.point, foot.anchor, reach)) return foot;
-  Foot below = faces.closest_point(foot.point, foot.anchor);
-  Vec3 height = foot.point - below.point;
-  if (!(height.squaredNorm() > reach * reach)) return foot;
+Projection within_deviation_bound(const NearFaces& faces, const std::vector<float>& deviation_bounds,
+                                  const Vec3& x, const Projection& projection) {
+  if (deviation_bounds.empty()) return projection;
+  const double max_deviation = deviation_bounds[static_cast<std::size_t>(projection.hint)];
+  if (max_deviation == no_limit || faces.has_face_within(projection.point, projection.hint, max_deviation))
+    return projection;
+  Projection below = faces.closest_point(projection.point, projection.hint);
+  Vec3 height = projection.point - below.point;
+  if (!(height.squaredNorm() > max_deviation * max_deviation)) return projection;
 
   const double side = height.dot(below.normal) < 0 ? -1 : 1;
-  const Foot below_start = faces.closest_point(x, foot.anchor);
+  const Projection below_start = faces.closest_point(x, projection.hint);
   const Vec3 start_height = x - below_start.point;
-  if (side * start_height.dot(below_start.normal) > 0 && start_height.norm() > .5 * reach) {
+  if (side * start_height.dot(below_start.normal) > 0 && start_height.norm() > .5 * max_deviation) {
     below = below_start;
     height = start_height;
   }
   height.normalize();
-  return {below.point + reach * height, side * height, below.anchor, FootStatus::converged, foot.evaluations};
+  return {below.point + max_deviation * height, side * height, below.hint, ProjectionStatus::converged,
+          projection.evaluations};
 }
 
-constexpr double longest_step = .5;  // of Newton, in mean edge lengths at the anchor
+constexpr double longest_step = .5;  // of Newton, in mean edge lengths at the hint
 constexpr double longest_move = 2;
-constexpr double convergence = 2;  // of Newton's method, over the mean edge length at the anchor
+constexpr double convergence = 2;  // of Newton's method, over the mean edge length at the hint
 
 /// Vertices of the piece that have faces, without the repetitions of one place.
-std::vector<int> distinct_vertices(const Mat3X& points, const Connectivity& connectivity,
+std::vector<int> distinct_vertices(const Mat3X& points, const Adjacency& adjacency,
                                    const std::vector<int>& pieces, int piece) {
   std::vector<int> vertices;
-  for (int v = 0; v < connectivity.vertex_count; ++v)
-    if (!connectivity.vertex_faces[v].empty() &&
+  for (int v = 0; v < adjacency.vertex_count; ++v)
+    if (!adjacency.vertex_faces[v].empty() &&
         (pieces.empty() || pieces[static_cast<std::size_t>(v)] == piece))
       vertices.push_back(v);
   const auto place = [&](int v) { return std::array{points(0, v), points(1, v), points(2, v)}; };
@@ -171,10 +176,10 @@ std::vector<int> distinct_vertices(const Mat3X& points, const Connectivity& conn
   return vertices;
 }
 
-double mean_edge_length(const Mat3X& points, const Connectivity& connectivity) {
+double mean_edge_length(const Mat3X& points, const Adjacency& adjacency) {
   double sum = 0;
-  for (const auto& [a, b] : connectivity.edges) sum += (points.col(a) - points.col(b)).norm();
-  return connectivity.edges.empty() ? 0 : sum / static_cast<double>(connectivity.edges.size());
+  for (const auto& [a, b] : adjacency.edges) sum += (points.col(a) - points.col(b)).norm();
+  return adjacency.edges.empty() ? 0 : sum / static_cast<double>(adjacency.edges.size());
 }
 
 /// One spline through the vertices [11]-[13], grown outward; the value rho instead of 1 makes it a distance.
@@ -203,102 +208,104 @@ ThinPlateSpline fit_global_spline(const Mat3X& points, const std::vector<int>& v
 
 struct SurfaceField::State {
   FilterKind kind;
-  std::shared_ptr<const Connectivity> connectivity;
+  std::shared_ptr<const Adjacency> adjacency;
   std::shared_ptr<const Mat3X> points;
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
-  std::vector<SurfaceBend> bends;
-  std::vector<float> reaches;  // see field_reach.h
+  std::vector<ShapeOperator> shape_operators;
+  std::vector<float> deviation_bounds;  // see field_reach.h
   std::optional<PartitionOfUnity> partition;
   std::vector<int> pieces;               // per vertex; empty: one
   std::vector<ThinPlateSpline> splines;  // per piece
 
-  NearFaces faces() const { return {*points, normals, *connectivity}; }
-  FieldSample sample(const Vec3& x, int anchor) const;
-  Foot project(const Vec3& x, int anchor, double tolerance) const;
+  NearFaces faces() const { return {*points, normals, *adjacency}; }
+  FieldSample sample(const Vec3& x, int hint) const;
+  Projection project(const Vec3& x, int hint, double tolerance) const;
 };
 
-FieldSample SurfaceField::State::sample(const Vec3& x, int anchor) const {
+FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
   switch (kind) {
     case FilterKind::local:
-      return (*partition)(x, anchor);
+      return (*partition)(x, hint);
     case FilterKind::global:
-      return splines[pieces.empty() ? 0 : static_cast<std::size_t>(pieces[static_cast<std::size_t>(anchor)])](
+      return splines[pieces.empty() ? 0 : static_cast<std::size_t>(pieces[static_cast<std::size_t>(hint)])](
           x);
     case FilterKind::closest: {
-      const Foot foot = faces().closest_point(x, anchor);
-      const double distance = (x - foot.point).norm();
-      return {(x - foot.point).dot(foot.normal) < 0 ? -distance : distance, foot.normal};
+      const Projection projection = faces().closest_point(x, hint);
+      const double distance = (x - projection.point).norm();
+      return {(x - projection.point).dot(projection.normal) < 0 ? -distance : distance, projection.normal};
     }
     case FilterKind::none:
       break;
   }
-  return {0, normals.col(anchor)};
+  return {0, normals.col(hint)};
 }
 
-Foot SurfaceField::State::project(const Vec3& x, int anchor, double tolerance) const {
-  anchor = faces().nearest_vertex(x, anchor);
-  if (kind == FilterKind::none) return {x, normals.col(anchor), anchor};
-  if (kind == FilterKind::closest) return faces().closest_point(x, anchor);
+Projection SurfaceField::State::project(const Vec3& x, int hint, double tolerance) const {
+  hint = faces().nearest_vertex(x, hint);
+  if (kind == FilterKind::none) return {x, normals.col(hint), hint};
+  if (kind == FilterKind::closest) return faces().closest_point(x, hint);
 
   NewtonOptions newton;
   newton.tolerance = tolerance;
-  newton.longest_step = longest_step * edge_lengths[anchor];
-  newton.longest_move = longest_move * edge_lengths[anchor];
-  newton.convergence = convergence / edge_lengths[anchor];
-  const Foot foot =
-      project_by_newton([this](const Vec3& p, int a) { return sample(p, a); }, x, anchor, newton);
-  if (foot.status == FootStatus::converged) return within_reach(faces(), reaches, x, foot);
+  newton.longest_step = longest_step * edge_lengths[hint];
+  newton.longest_move = longest_move * edge_lengths[hint];
+  newton.convergence = convergence / edge_lengths[hint];
+  const Projection projection =
+      project_by_newton([this](const Vec3& p, int a) { return sample(p, a); }, x, hint, newton);
+  if (projection.status == ProjectionStatus::converged)
+    return within_deviation_bound(faces(), deviation_bounds, x, projection);
 
-  Foot fallback = faces().closest_point(x, anchor);
-  fallback.status = foot.status;
-  fallback.evaluations = foot.evaluations;
+  Projection fallback = faces().closest_point(x, hint);
+  fallback.status = projection.status;
+  fallback.evaluations = projection.evaluations;
   return fallback;
 }
 
 SurfaceField::SurfaceField(std::shared_ptr<const Mat3X> shared_points,
-                           std::shared_ptr<const Connectivity> connectivity, const FilterOptions& options,
+                           std::shared_ptr<const Adjacency> adjacency, const FilterOptions& options,
                            std::vector<int> pieces, const std::vector<double>& lengths) {
   const Mat3X& points = *shared_points;
   auto state = std::make_shared<State>();
   state->kind = options.kind;
-  state->normals = vertex_normals(points, *connectivity);
-  state->edge_lengths = mean_edge_lengths(points, *connectivity);
+  state->normals = vertex_normals(points, *adjacency);
+  state->edge_lengths = mean_edge_lengths(points, *adjacency);
   if (options.kind == FilterKind::local || options.kind == FilterKind::global) {
-    state->bends = surface_bends(points, state->normals, *connectivity);
-    state->reaches = reaches_of({points, state->normals, *connectivity}, options.reach, lengths);
+    state->shape_operators = shape_operators(points, state->normals, *adjacency);
+    state->deviation_bounds =
+        deviation_bounds_of({points, state->normals, *adjacency}, options.max_deviation, lengths);
   }
   if (options.kind == FilterKind::local)
-    state->partition.emplace(points, *connectivity, state->normals, state->edge_lengths,
+    state->partition.emplace(points, *adjacency, state->normals, state->edge_lengths,
                              PartitionOptions{.kernel = options.kernel, .offset = options.offset});
   if (options.kind == FilterKind::global) {
-    const double rho = options.offset * mean_edge_length(points, *connectivity);
+    const double rho = options.offset * mean_edge_length(points, *adjacency);
     const int count = pieces.empty() ? 1 : 1 + *std::ranges::max_element(pieces);
     for (int piece = 0; piece < count; ++piece)
-      state->splines.push_back(fit_global_spline(
-          points, distinct_vertices(points, *connectivity, pieces, piece), state->normals, rho, options));
+      state->splines.push_back(fit_global_spline(points, distinct_vertices(points, *adjacency, pieces, piece),
+                                                 state->normals, rho, options));
     state->pieces = std::move(pieces);
   }
   state->points = std::move(shared_points);
-  state->connectivity = std::move(connectivity);
+  state->adjacency = std::move(adjacency);
   state_ = std::move(state);
 }
 
-Foot SurfaceField::project(const Vec3& x, int anchor, double tolerance) const {
-  return state_->project(x, anchor, tolerance);
+Projection SurfaceField::project(const Vec3& x, int hint, double tolerance) const {
+  return state_->project(x, hint, tolerance);
 }
 
-FieldSample SurfaceField::sample(const Vec3& x, int anchor) const {
-  return state_->sample(x, anchor);
+FieldSample SurfaceField::sample(const Vec3& x, int hint) const {
+  return state_->sample(x, hint);
 }
 
 Surface SurfaceField::surface() const {
-  const auto project = [state = state_](const Vec3& x, int anchor, double tolerance) {
-    return state->project(x, anchor, tolerance);
+  const auto project = [state = state_](const Vec3& x, int hint, double tolerance) {
+    return state->project(x, hint, tolerance);
   };
-  const auto bend = [state = state_](int anchor) {
-    if (state->bends.empty()) return unknown_bend();
-    return state->bends[static_cast<std::size_t>(anchor)];
+  const auto bend = [state = state_](int hint) {
+    if (state->shape_operators.empty()) return unknown_shape_operator();
+    return state->shape_operators[static_cast<std::size_t>(hint)];
   };
   return {project, bend};
 }
@@ -312,8 +319,9 @@ const Mat3X& SurfaceField::normals() const {
 
 std::size_t SurfaceField::memory_bytes() const {
   const auto doubles = state_->points->size() + state_->normals.size() + state_->edge_lengths.size();
-  return sizeof(double) * static_cast<std::size_t>(doubles) + sizeof(SurfaceBend) * state_->bends.capacity() +
-         sizeof(float) * state_->reaches.capacity() +
+  return sizeof(double) * static_cast<std::size_t>(doubles) +
+         sizeof(ShapeOperator) * state_->shape_operators.capacity() +
+         sizeof(float) * state_->deviation_bounds.capacity() +
          (state_->partition ? state_->partition->memory_bytes() : 0) +
          std::transform_reduce(state_->splines.begin(), state_->splines.end(), std::size_t{0}, std::plus<>(),
                                [](const ThinPlateSpline& s) { return s.memory_bytes(); });

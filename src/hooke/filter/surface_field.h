@@ -17,21 +17,21 @@ namespace hooke {
 struct NearFaces {
   const Mat3X& points;
   const Mat3X& normals;  // unit, of the vertices
-  const Connectivity& connectivity;
+  const Adjacency& adjacency;
 
   /// Walks from the vertex over edges while that brings it closer to x: steepest descent of the distance.
   int nearest_vertex(const Vec3& x, int vertex) const;
 
-  /// Has a face at the anchor a point within the distance? No more than that: others may be closer.
-  bool has_face_within(const Vec3& x, int anchor, double distance) const;
+  /// Has a face at the hint a point within the distance? No more than that: others may be closer.
+  bool has_face_within(const Vec3& x, int hint, double distance) const;
 
-  /// Closest point of the faces about the anchor and about its neighbours, from where it walks on while that
-  /// brings it closer. Its normal is blended from those of the corners, its anchor the nearest corner. x
-  /// itself, normal zero and no_cover where the anchor has no faces.
-  Foot closest_point(const Vec3& x, int anchor) const;
+  /// Closest point of the faces about the hint and about its neighbours, from where it walks on while that
+  /// brings it closer. Its normal is blended from those of the corners, its hint the nearest corner. x
+  /// itself, normal zero and no_cover where the hint has no faces.
+  Projection closest_point(const Vec3& x, int hint) const;
 
  private:
-  Foot closest_point_of_ring(const Vec3& x, int anchor) const;
+  Projection closest_point_of_ring(const Vec3& x, int hint) const;
 };
 
 // The surface that a mesh stands for, as a field psi that is zero on it, and the way back to it: Newtonian
@@ -52,7 +52,7 @@ struct FilterOptions {
   std::size_t memory_limit_bytes = SIZE_MAX;  // of the dense fit (global)
   /// Greatest distance of the surface from the faces, over the vertices' lengths, where splines may swing far
   /// out: about long edges along which the normals turn.
-  double reach = std::numeric_limits<double>::infinity();
+  double max_deviation = std::numeric_limits<double>::infinity();
 };
 
 /// The field of a mesh with vertices on the surface (the reference). It keeps what it needs, may outlive the
@@ -63,21 +63,21 @@ class SurfaceField {
   /// solution (all vertices in one place, or two nearly so).
   /// `pieces` numbers the parts of the surface by vertex, for the global fit to give each a spline of its
   /// own; empty: one spline. `lengths` of the vertices are what options.reach counts in; empty: 1.
-  SurfaceField(std::shared_ptr<const Mat3X> points, std::shared_ptr<const Connectivity> connectivity,
+  SurfaceField(std::shared_ptr<const Mat3X> points, std::shared_ptr<const Adjacency> adjacency,
                const FilterOptions& options = {}, std::vector<int> pieces = {},
                const std::vector<double>& lengths = {});
 
-  /// Puts x, tracked near the reference vertex `anchor`, back on the surface to within `tolerance` (a
-  /// length). The anchor first walks over mesh edges to the nearest vertex it can reach downhill. Where
-  /// Newton fails, the foot is the closest point of the faces about the anchor and the status says why; where
+  /// Puts x, tracked near the reference vertex `hint`, back on the surface to within `tolerance` (a
+  /// length). The hint first walks over mesh edges to the nearest vertex it can reach downhill. Where
+  /// Newton fails, the foot is the closest point of the faces about the hint and the status says why; where
   /// options.reach holds it back, as field_reach.h tells. On a
   /// vertex without faces: x itself, normal zero, no_cover.
-  Foot project(const Vec3& x, int anchor, double tolerance) const;
+  Projection project(const Vec3& x, int hint, double tolerance) const;
 
-  /// psi at x: zero on the surface, about the distance near it, growing outward. The anchor does not walk.
+  /// psi at x: zero on the surface, about the distance near it, growing outward. The hint does not walk.
   /// Zero value and gradient mean that the field does not reach x. For `closest` the signed distance; for
   /// `none` always 0.
-  FieldSample sample(const Vec3& x, int anchor) const;
+  FieldSample sample(const Vec3& x, int hint) const;
 
   /// project() as the optimizer wants it; keeps the field alive.
   Surface surface() const;

@@ -119,8 +119,8 @@ namespace {
 
 constexpr std::size_t polynomial_size = monomial_count(2);
 
-constexpr double least_column_ratio = 1e-8;  // of a polynomial's part that the ones before it do not explain
-constexpr double least_pivot_ratio = 1e-7;   // of the Cholesky diagonal: beyond, coefficients are noise
+constexpr double min_column_ratio = 1e-8;  // of a polynomial's part that the ones before it do not explain
+constexpr double min_pivot_ratio = 1e-7;   // of the Cholesky diagonal: beyond, coefficients are noise
 
 using Monomials = Eigen::Matrix<double, polynomial_size, 1>;
 Monomials monomials(double x, double y, double z) {
@@ -152,7 +152,7 @@ void reflect_both_sides(Eigen::MatrixXd& A, const Eigen::VectorXd& v, double tau
 
 bool is_independent(const Eigen::MatrixXd& R, Eigen::Index m) {
   for (Eigen::Index k = 0; k < m; ++k)
-    if (!(std::abs(R(k, k)) > least_column_ratio * R.col(k).head(k + 1).norm())) return false;
+    if (!(std::abs(R(k, k)) > min_column_ratio * R.col(k).head(k + 1).norm())) return false;
   return true;
 }
 
@@ -198,7 +198,7 @@ std::optional<SplineCoefficients> fit_spline(const Eigen::Ref<const Mat3X>& cent
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(A22);
     if (llt.info() != Eigen::Success) return std::nullopt;
     const auto pivots = A22.diagonal();
-    if (!(pivots.minCoeff() > least_pivot_ratio * pivots.maxCoeff())) return std::nullopt;
+    if (!(pivots.minCoeff() > min_pivot_ratio * pivots.maxCoeff())) return std::nullopt;
     a.tail(n - m) = llt.solve(d.tail(n - m));
     d.head(m).noalias() -= A.bottomLeftCorner(n - m, m).transpose() * a.tail(n - m);
   }

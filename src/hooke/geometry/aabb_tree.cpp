@@ -87,7 +87,7 @@ double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& x) {
   return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
 }
 
-BoundingVolumeTree::Face face_of(const Mat3X& points, const std::vector<Triangle>& faces, size_t id) {
+AabbTree::Face face_of(const Mat3X& points, const std::vector<Triangle>& faces, size_t id) {
   const auto& [a, b, c] = faces[id];
   return {{points.col(a), points.col(b), points.col(c)}, {a, b, c}, static_cast<int>(id)};
 }
@@ -101,7 +101,7 @@ std::vector<Vec3> centres(const Mat3X& points, const std::vector<Triangle>& face
 }
 
 /// Better than `best`: closer, or as close and of a lower id.
-void try_face(const Vec3& x, const BoundingVolumeTree::Face& face, ClosestPoint& best) {
+void try_face(const Vec3& x, const AabbTree::Face& face, ClosestPoint& best) {
   const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
   const double d = candidate.squared_distance;
   if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
@@ -116,7 +116,7 @@ ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Ve
   const Vec3 n = (b - a).cross(c - a);
   const double nn = n.squaredNorm();
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  if (nn > least_triangle_squared_area * longest * longest) {
+  if (nn > min_triangle_squared_area * longest * longest) {
     const bool inside =
         n.cross(b - a).dot(x - a) >= 0 && n.cross(c - b).dot(x - b) >= 0 && n.cross(a - c).dot(x - c) >= 0;
     if (inside) {
@@ -146,8 +146,8 @@ Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
   return weights / sum;
 }
 
-BoundingVolumeTree::BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces,
-                                       const std::vector<int>& given_order)
+AabbTree::AabbTree(const Mat3X& points, const std::vector<Triangle>& faces,
+                   const std::vector<int>& given_order)
     : faces_(faces.size()) {
   const std::vector<int> own_order =
       given_order.empty() ? spatial_order(centres(points, faces)) : std::vector<int>();
@@ -161,14 +161,14 @@ BoundingVolumeTree::BoundingVolumeTree(const Mat3X& points, const std::vector<Tr
   enclose(1, 0);
 }
 
-std::vector<int> BoundingVolumeTree::order() const {
+std::vector<int> AabbTree::order() const {
   std::vector<int> ids(faces_.size());
   std::ranges::transform(faces_, ids.begin(), &Face::id);
   return ids;
 }
 
 /// The subtrees of the upper levels in parallel.
-void BoundingVolumeTree::enclose(size_t node, int level) {
+void AabbTree::enclose(size_t node, int level) {
   constexpr int upper_levels = 7;
   if (is_leaf(node)) {
     Box box;
@@ -186,7 +186,7 @@ void BoundingVolumeTree::enclose(size_t node, int level) {
   boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
 }
 
-BoundingVolumeTree::PartBoxes::PartBoxes(std::span<const Face> faces) {
+AabbTree::PartBoxes::PartBoxes(std::span<const Face> faces) {
   const Box nowhere;
   for (size_t i = 0; i < faces_of_part; ++i) {
     const Box box = i < faces.size() ? faces[i].box() : nowhere;
@@ -198,7 +198,7 @@ BoundingVolumeTree::PartBoxes::PartBoxes(std::span<const Face> faces) {
   }
 }
 
-HOOKE_SIMD unsigned BoundingVolumeTree::PartBoxes::meeting(const Box& other) const {
+HOOKE_SIMD unsigned AabbTree::PartBoxes::meeting(const Box& other) const {
   constexpr LaneMask bits = {1, 2, 4, 8};
   LaneMask found = {};
   for (size_t k = 0; k < faces_of_part; k += lane_count) {
@@ -215,7 +215,7 @@ HOOKE_SIMD unsigned BoundingVolumeTree::PartBoxes::meeting(const Box& other) con
   return static_cast<unsigned>(found[0] | found[1] | found[2] | found[3]);
 }
 
-ClosestPoint BoundingVolumeTree::closest(const Vec3& x) const {
+ClosestPoint AabbTree::closest(const Vec3& x) const {
   ClosestPoint best;
   best.squared_distance = std::numeric_limits<double>::infinity();
   if (empty()) return best;

@@ -19,8 +19,8 @@ namespace hooke {
 /// buffer holds is lost.
 template <typename Item, typename Key>
 std::vector<size_t> sort_by_first_digit(std::span<Item> items, std::span<Item> buffer, const Key& key) {
-  constexpr int most_bits = 9;  // more places to write to are too many for the caches
-  constexpr size_t few = 16;    // as quick by insertion
+  constexpr int max_bits = 9;  // more places to write to are too many for the caches
+  constexpr size_t few = 16;   // as quick by insertion
   const size_t n = items.size();
   if (n <= few) {
     for (size_t i = 1; i < n; ++i) {
@@ -38,7 +38,7 @@ std::vector<size_t> sort_by_first_digit(std::span<Item> items, std::span<Item> b
   }
   if (least == greatest) return {};
 
-  const int bits = std::min(most_bits, static_cast<int>(std::bit_width(n)) - 3);  // a handful to each digit
+  const int bits = std::min(max_bits, static_cast<int>(std::bit_width(n)) - 3);  // a handful to each digit
   const int shift = std::max(0, static_cast<int>(std::bit_width(greatest - least)) - bits);
   const auto digit = [&](const Item& item) { return static_cast<size_t>((key(item) - least) >> shift); };
   std::vector<size_t> end((size_t{1} << bits) + 1, 0);
@@ -91,7 +91,7 @@ struct ClosestPoint {
 
 /// Thinner triangles have no normal to speak of: their edges are as close as their inside. Doubled, over the
 /// fourth power of the longest edge.
-inline constexpr double least_triangle_squared_area = 1e-24;
+inline constexpr double min_triangle_squared_area = 1e-24;
 
 /// Closest point of one triangle. Exact in the cases: a triangle without area is taken as its edges.
 ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
@@ -101,7 +101,7 @@ Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Owns a copy of its triangles. Of faces at the same distance the order of faces() decides which one
 /// is told; else answers depend on nothing but the triangles. Const calls are safe from several threads.
-class BoundingVolumeTree {
+class AabbTree {
  public:
   using Box = Eigen::AlignedBox3d;
 
@@ -122,8 +122,7 @@ class BoundingVolumeTree {
 
   /// A triangle may repeat a vertex id: it then stands for a segment. `order`, where given, becomes that of
   /// faces(): what is close there should be close in space.
-  BoundingVolumeTree(const Mat3X& points, const std::vector<Triangle>& faces,
-                     const std::vector<int>& order = {});
+  AabbTree(const Mat3X& points, const std::vector<Triangle>& faces, const std::vector<int>& order = {});
 
   bool empty() const { return faces_.empty(); }
 

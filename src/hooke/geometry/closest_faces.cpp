@@ -19,7 +19,7 @@ constexpr double surely = 1 - 1e-9;
 /// A face and all about it that is the same for every point.
 struct PreparedFace {
   PreparedFace() = default;
-  PreparedFace(const BoundingVolumeTree::Face& face, size_t its_place)
+  PreparedFace(const AabbTree::Face& face, size_t its_place)
       : corners(face.corners), place(static_cast<long long>(its_place)) {
     const auto& [a, b, c] = corners;
     normal = (b - a).cross(c - a);
@@ -32,15 +32,15 @@ struct PreparedFace {
       beside[k] = normal.cross(sides[k]);
     }
     const double nn = normal.squaredNorm();
-    has_area = nn > least_triangle_squared_area * longest * longest;
+    has_area = nn > min_triangle_squared_area * longest * longest;
     squared_normal = has_area ? nn : 1;
-    if (!(nn > least_for_bounds * longest * longest)) return;
+    if (!(nn > min_for_bounds * longest * longest)) return;
     height_weight = 1 / nn;
     beside_weight = height_weight / longest;  // of the longest side: less than that of the others
   }
 
   /// Rounding of a thin triangle's normal could make a bound of it too large.
-  static constexpr double least_for_bounds = 1e-4;
+  static constexpr double min_for_bounds = 1e-4;
 
   std::array<Vec3, 3> corners;
   long long place = 0;
@@ -110,8 +110,8 @@ HOOKE_INLINE void try_face(const PreparedFace& face, const LaneVec& x, Lanes& be
   places = closer ? face.place + LaneMask{} : places;
 }
 
-using Box = BoundingVolumeTree::Box;
-using Face = BoundingVolumeTree::Face;
+using Box = AabbTree::Box;
+using Face = AabbTree::Face;
 
 /// Squared distances of four points to a box.
 HOOKE_INLINE void distances_to(const Box& box, const LaneVec& x, Lanes& squared) {
@@ -131,12 +131,12 @@ HOOKE_INLINE void distances_to(const Box& box, const LaneVec& x, Lanes& squared)
 
 /// Points in lanes, and what is known of them.
 struct NearestFaceSearch::Packet {
-  static constexpr size_t most_points = 160;
+  static constexpr size_t max_points = 160;
 
   size_t groups = 0;  // of four; the last one is filled up with its first point
-  std::array<double, 3 * most_points> points;
-  std::array<double, most_points> squared_distance;
-  std::array<long long, most_points> place;
+  std::array<double, 3 * max_points> points;
+  std::array<double, max_points> squared_distance;
+  std::array<long long, max_points> place;
   Box box;
 
   explicit Packet(std::span<const Vec3> given) : groups(padded_to_lanes(given.size()) / lane_count) {
@@ -210,7 +210,7 @@ HOOKE_INLINE void distances_between(const std::array<double, 3>& low, const std:
   }
 }
 
-HOOKE_INLINE double greatest_of(const Lanes& x) {
+HOOKE_INLINE double max_of(const Lanes& x) {
   return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
@@ -243,11 +243,11 @@ HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
       for (size_t i = 0; i < lane_count; ++i)
         if (meets[i]) try_face(candidates.faces[k + i], x, best, places);
     }
-    double farthest = greatest_of(best);
+    double farthest = max_of(best);
     for (size_t k = 0; k < count && any(least <= farthest); k += lane_count) {
       Lanes squared;
       load(&distances[k], squared);
-      farthest = greatest_of(best);
+      farthest = max_of(best);
       const LaneMask near = (squared > 0.) & (squared <= farthest);
       if (!any(near)) continue;
       for (size_t i = 0; i < std::min(lane_count, count - k); ++i)
@@ -259,7 +259,7 @@ HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
 }
 
 /// One walk for four points: down wherever one of them may come closer, first where they are closer together.
-HOOKE_SIMD void walk(const BoundingVolumeTree& tree, Packet& packet) {
+HOOKE_SIMD void walk(const AabbTree& tree, Packet& packet) {
   const Box* const boxes = tree.boxes().data();
   LaneVec x;
   Lanes best, near, far;
@@ -267,7 +267,7 @@ HOOKE_SIMD void walk(const BoundingVolumeTree& tree, Packet& packet) {
   load(packet.points.data(), lane_count, x);
   load(packet.squared_distance.data(), best);
   std::memcpy(&places, packet.place.data(), sizeof(places));
-  size_t stack[BoundingVolumeTree::max_depth + 1];
+  size_t stack[AabbTree::max_depth + 1];
   int size = 0;
   stack[size++] = 1;
   while (size > 0) {
@@ -295,7 +295,7 @@ HOOKE_SIMD void walk(const BoundingVolumeTree& tree, Packet& packet) {
 
 }  // namespace
 
-NearestFaceSearch::NearestFaceSearch(const BoundingVolumeTree& tree)
+NearestFaceSearch::NearestFaceSearch(const AabbTree& tree)
     : tree_(tree), candidates_(std::make_unique<Candidates>()) {}
 
 NearestFaceSearch::~NearestFaceSearch() = default;
@@ -345,8 +345,8 @@ void NearestFaceSearch::find(std::span<const Vec3> points, std::span<NearestFace
 }
 
 void NearestFaceSearch::operator()(std::span<const Vec3> points, std::span<NearestFace> results) {
-  for (size_t first = 0; first < points.size(); first += Packet::most_points) {
-    const size_t count = std::min(Packet::most_points, points.size() - first);
+  for (size_t first = 0; first < points.size(); first += Packet::max_points) {
+    const size_t count = std::min(Packet::max_points, points.size() - first);
     find(points.subspan(first, count), results.subspan(first, count));
   }
 }

@@ -15,7 +15,7 @@ struct NearestFace {
 /// Keeps a reference to the tree. One thread each; what it tells of ties depends on what it was asked before.
 class NearestFaceSearch {
  public:
-  explicit NearestFaceSearch(const BoundingVolumeTree& tree);
+  explicit NearestFaceSearch(const AabbTree& tree);
   ~NearestFaceSearch();
 
   /// For each point the nearest face; of those at the same distance up to rounding any. Fast where points
@@ -31,7 +31,7 @@ class NearestFaceSearch {
   bool find_together(Packet& packet);
   bool try_faces(double beyond, double within, Packet& packet);
 
-  const BoundingVolumeTree& tree_;
+  const AabbTree& tree_;
   std::unique_ptr<Candidates> candidates_;
   double expected_ = 0;  // squared distance, by what was found last
 };

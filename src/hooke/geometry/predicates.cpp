@@ -22,7 +22,7 @@ constexpr double relative_error_2d = 3.4e-16;
 constexpr double relative_error_3d = 7.8e-16;
 // The bounds do not cover underflow. With differences below 1e100 all that underflow can add is below this.
 constexpr double underflow_error = 1e-200;
-constexpr double greatest_difference = 1e100;
+constexpr double max_difference = 1e100;
 
 /// A finite double as mantissa * 2^exponent with an odd mantissa (or zero).
 struct Binary {
@@ -124,7 +124,7 @@ int orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double determinant = left - right;
   const double bound = relative_error_2d * (std::abs(left) + std::abs(right)) + underflow_error;
   const double greatest = std::max(u.lpNorm<Eigen::Infinity>(), v.lpNorm<Eigen::Infinity>());
-  if (std::abs(determinant) > bound && greatest < greatest_difference) return determinant > 0 ? 1 : -1;
+  if (std::abs(determinant) > bound && greatest < max_difference) return determinant > 0 ? 1 : -1;
   return exact_orient2d(a, b, c);
 }
 
@@ -140,7 +140,7 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double bound = relative_error_3d * permanent + underflow_error;
   const double greatest =
       std::max({u.lpNorm<Eigen::Infinity>(), v.lpNorm<Eigen::Infinity>(), w.lpNorm<Eigen::Infinity>()});
-  if (std::abs(determinant) > bound && greatest < greatest_difference) return determinant > 0 ? 1 : -1;
+  if (std::abs(determinant) > bound && greatest < max_difference) return determinant > 0 ? 1 : -1;
   for (int k = 0; k < 3; ++k)  // meshes in an axis-parallel plane are common, and exact already
     if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;
   return exact_orient3d(a, b, c, d);

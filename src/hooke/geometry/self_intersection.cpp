@@ -120,7 +120,7 @@ bool hinge_is_shut(const Corners& s, const Vec3& tip) {
   return orient2d(a, b, drop_axis(s[2], axis)) * orient2d(a, b, drop_axis(tip, axis)) > 0;
 }
 
-using Face = BoundingVolumeTree::Face;
+using Face = AabbTree::Face;
 
 /// The corners in their order, beginning with `first`.
 Corners corners_from(const Face& face, size_t first) {
@@ -161,7 +161,7 @@ bool triangles_meet(const Corners& s, const Corners& t) {
   return false;
 }
 
-std::vector<std::array<int, 2>> find_self_intersections(const BoundingVolumeTree& tree) {
+std::vector<std::array<int, 2>> find_self_intersections(const AabbTree& tree) {
   constexpr size_t block = 1024, parts_of_block = 64;
   const std::span<const Face> faces = tree.faces();
   std::vector<char> has_area(faces.size());  // by id
@@ -188,7 +188,7 @@ std::vector<std::array<int, 2>> find_self_intersections(const BoundingVolumeTree
 
 std::vector<std::array<int, 2>> find_self_intersections(const Mat3X& points,
                                                         const std::vector<Triangle>& faces) {
-  return find_self_intersections(BoundingVolumeTree(points, faces));
+  return find_self_intersections(AabbTree(points, faces));
 }
 
 }  // namespace hooke

@@ -14,7 +14,7 @@ bool triangles_meet(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t);
 /// (overlap in a plane included). Two faces with the same three vertices are no such pair. Exact; vertices
 /// with equal places but different ids count as different. Faces without area (exactly collinear) are left
 /// out: they are counted as degenerate.
-std::vector<std::array<int, 2>> find_self_intersections(const BoundingVolumeTree& tree);
+std::vector<std::array<int, 2>> find_self_intersections(const AabbTree& tree);
 std::vector<std::array<int, 2>> find_self_intersections(const Mat3X& points,
                                                         const std::vector<Triangle>& faces);
 

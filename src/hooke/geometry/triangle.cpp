@@ -97,7 +97,7 @@ TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return t;
 }
 
-double greatest_cotangent(const Mat3X& points, const Triangle& face) {
+double max_cotangent(const Mat3X& points, const Triangle& face) {
   const Vec3 p = points.col(face[0]), q = points.col(face[1]), r = points.col(face[2]);
   const Vec3 a = r - q, b = p - r, c = q - p;
   const double a2 = a.squaredNorm(), b2 = b.squaredNorm(), c2 = c.squaredNorm();
@@ -110,22 +110,22 @@ double angle_with_cotangent(double cotangent) {
   return std::atan2(1, cotangent) * 180 / std::numbers::pi;
 }
 
-double greatest_cotangent(const Mat3X& points, const std::vector<Triangle>& faces) {
+double max_cotangent(const Mat3X& points, const std::vector<Triangle>& faces) {
   constexpr size_t block = 4096;
   std::vector<double> greatest((faces.size() + block - 1) / block);
   parallel_for(greatest.size(), 1, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {
       double cotangent = -std::numeric_limits<double>::infinity();
       for (size_t f = b * block; f < std::min(faces.size(), (b + 1) * block); ++f)
-        cotangent = std::max(cotangent, greatest_cotangent(points, faces[f]));
+        cotangent = std::max(cotangent, max_cotangent(points, faces[f]));
       greatest[b] = cotangent;
     }
   });
   return greatest.empty() ? std::numeric_limits<double>::infinity() : *std::ranges::max_element(greatest);
 }
 
-double least_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
-  return angle_with_cotangent(greatest_cotangent(points, faces));
+double min_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
+  return angle_with_cotangent(max_cotangent(points, faces));
 }
 
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,

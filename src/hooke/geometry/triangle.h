@@ -37,16 +37,16 @@ TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 // grows.
 
 /// Cotangent of the least angle of a face, which is across from its shortest edge; infinite without area.
-double greatest_cotangent(const Mat3X& points, const Triangle& face);
+double max_cotangent(const Mat3X& points, const Triangle& face);
 
 /// The greatest of all faces; infinite without faces.
-double greatest_cotangent(const Mat3X& points, const std::vector<Triangle>& faces);
+double max_cotangent(const Mat3X& points, const std::vector<Triangle>& faces);
 
 /// The angle, degrees.
 double angle_with_cotangent(double cotangent);
 
 /// Least corner angle of all faces, degrees; 0 without faces.
-double least_angle(const Mat3X& points, const std::vector<Triangle>& faces);
+double min_angle(const Mat3X& points, const std::vector<Triangle>& faces);
 
 // Area and normal of one triangle, and when it has none.
 

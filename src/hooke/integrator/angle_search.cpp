@@ -26,13 +26,13 @@ class VertexSearch {
   bool improve(int vertex, double goal);
 
  private:
-  struct Side {
+  struct Wedge {
     VertexRing ring;
     RingShape before, after;
   };
 
   void look(int vertex);
-  double outcome(const VertexPlace& place);
+  double outcome(const SurfacePosition& place);
   bool may_go() const;
   bool try_all(int vertex, double step);
 
@@ -40,7 +40,7 @@ class VertexSearch {
   const VertexSearchOptions& o_;
   const GuardOptions& guards_;
   std::vector<Eigen::Vector2d> directions_;
-  std::array<Side, 2> sides_;
+  std::array<Wedge, 2> wedges_;
   int count_ = 1;     // of the sides
   double worst_ = 0;  // greatest cotangent about the vertex
 };
@@ -53,8 +53,8 @@ VertexSearch::VertexSearch(Relaxation& r, const VertexSearchOptions& options, co
     : r_(r),
       o_(options),
       guards_(guards),
-      sides_{Side{VertexRing(r.sweeps.spokes, r.energy.targets()), {}, {}},
-             Side{VertexRing(r.sweeps.spokes, r.energy.targets()), {}, {}}} {
+      wedges_{Wedge{VertexRing(r.coloring.rings, r.energy.targets()), {}, {}},
+              Wedge{VertexRing(r.coloring.rings, r.energy.targets()), {}, {}}} {
   for (int k = 0; k < o_.directions; ++k) {
     const double angle = 2 * std::numbers::pi * k / o_.directions;
     directions_.emplace_back(std::cos(angle), std::sin(angle));
@@ -62,7 +62,7 @@ VertexSearch::VertexSearch(Relaxation& r, const VertexSearchOptions& options, co
 }
 
 bool VertexSearch::improve(int vertex, double goal) {
-  if (r_.sweeps.spokes[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
+  if (r_.coloring.rings[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
   bool moved = false;
   double step = o_.first_step;
   look(vertex);
@@ -79,51 +79,51 @@ bool VertexSearch::improve(int vertex, double goal) {
 
 /// Takes in the rings about the vertex as they lie.
 void VertexSearch::look(int vertex) {
-  const Placement& at = r_.placement;
-  count_ = 1 + (at.other_side_of(vertex) >= 0);
+  const SurfacePositions& at = r_.positions;
+  count_ = 1 + (at.other_wedge_of(vertex) >= 0);
   worst_ = 0;
   for (int s = 0; s < count_; ++s) {
-    const int id = s == 0 ? vertex : at.other_side_of(vertex);
-    auto& [ring, before, after] = sides_[static_cast<size_t>(s)];
+    const int id = s == 0 ? vertex : at.other_wedge_of(vertex);
+    auto& [ring, before, after] = wedges_[static_cast<size_t>(s)];
     ring.gather(at, id);
     ring.shape(at.points.col(vertex), at.normals.col(id), before);
-    worst_ = std::max(worst_, ring.greatest_cotangent(before));
+    worst_ = std::max(worst_, ring.max_cotangent(before));
   }
 }
 
 /// The greatest cotangent about the vertex if it went there, whether it may or not.
-double VertexSearch::outcome(const VertexPlace& place) {
+double VertexSearch::outcome(const SurfacePosition& place) {
   double worst = 0;
   for (int s = 0; s < count_; ++s) {
-    auto& [ring, before, after] = sides_[static_cast<size_t>(s)];
+    auto& [ring, before, after] = wedges_[static_cast<size_t>(s)];
     ring.shape(place.point, s == 0 ? place.normal : place.other_normal, after);
-    worst = std::max(worst, ring.greatest_cotangent(after));
+    worst = std::max(worst, ring.max_cotangent(after));
   }
   return worst;
 }
 
 /// May the vertex go where outcome() looked last?
 bool VertexSearch::may_go() const {
-  return std::all_of(sides_.begin(), sides_.begin() + count_,
-                     [&](const Side& s) { return s.ring.obeys(s.before, s.after, guards_); });
+  return std::all_of(wedges_.begin(), wedges_.begin() + count_,
+                     [&](const Wedge& s) { return s.ring.obeys(s.before, s.after, guards_); });
 }
 
 /// Goes to the best of the places at this distance, if one is better than where the vertex is.
 bool VertexSearch::try_all(int vertex, double step) {
-  Placement& at = r_.placement;
+  SurfacePositions& at = r_.positions;
   const Vec3 tangent = r_.retraction.tangent(at, vertex), normal = at.normals.col(vertex);
   const bool on_curve = !tangent.isZero(0);
-  const int neighbour = r_.sweeps.spokes[vertex][0].neighbour;
+  const int neighbour = r_.coloring.rings[vertex][0].neighbour;
   const Vec3 edge = at.points.col(neighbour) - at.points.col(vertex);
   const Vec3 u = on_curve ? tangent : Vec3((edge - normal * normal.dot(edge)).normalized());
   const Vec3 v = normal.cross(u);
   const double length = step * r_.vertex_length[static_cast<size_t>(vertex)];
   // A face without area: any finite angle is better.
   double best =
-      std::isfinite(worst_) ? worst_ - o_.least_gain * std::abs(worst_) : std::numeric_limits<double>::max();
-  std::optional<VertexPlace> best_place;
+      std::isfinite(worst_) ? worst_ - o_.min_gain * std::abs(worst_) : std::numeric_limits<double>::max();
+  std::optional<SurfacePosition> best_place;
   const auto look_at = [&](const Vec3& way) {
-    VertexPlace place(at, vertex);
+    SurfacePosition place(at, vertex);
     place.point += way;
     if (outcome(place) > far_off * best) return;  // nor will it be better once it is on the surface
     place = r_.retraction.moved(at, vertex, way);
@@ -146,7 +146,7 @@ namespace {
 
 constexpr size_t block = 4096;
 
-constexpr double greatest_least_angle = 60;  // degrees; of an equilateral triangle
+constexpr double max_least_angle = 60;  // degrees; of an equilateral triangle
 
 double cotangent_of(double degrees) {
   return 1 / std::tan(degrees * std::numbers::pi / 180);
@@ -157,8 +157,8 @@ struct EdgeErrors {
   double sum = 0, squares = 0;
 
   void add(const Relaxation& r, size_t edge) {
-    const auto& [a, b] = r.connectivity.edges[edge];
-    const double l = (r.placement.points.col(b) - r.placement.points.col(a)).norm();
+    const auto& [a, b] = r.adjacency.edges[edge];
+    const double l = (r.positions.points.col(b) - r.positions.points.col(a)).norm();
     const double error = l / r.energy.targets().edge[edge] - 1;
     sum += error;
     squares += error * error;
@@ -186,7 +186,7 @@ EdgeErrors errors_of(const Relaxation& r, const std::vector<int>& edges) {
 }
 
 EdgeErrors errors_of_all(const Relaxation& r) {
-  const size_t count = r.connectivity.edges.size();
+  const size_t count = r.adjacency.edges.size();
   std::vector<EdgeErrors> parts((count + block - 1) / block);
   parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
     for (size_t part = begin; part < end; ++part)
@@ -202,7 +202,7 @@ EdgeErrors errors_of_all(const Relaxation& r) {
 class Measures {
  public:
   explicit Measures(const Relaxation& r)
-      : r_(r), cotangents_(r.connectivity.faces.size()), errors_(errors_of_all(r)) {
+      : r_(r), cotangents_(r.adjacency.faces.size()), errors_(errors_of_all(r)) {
     parallel_for(cotangents_.size(), block, [&](size_t begin, size_t end) {
       for (size_t f = begin; f < end; ++f) look(f);
     });
@@ -210,9 +210,9 @@ class Measures {
     list_worst();
   }
 
-  double least_angle() {
-    if (greatest_cotangent_of(listed_) < listed_from_) list_worst();
-    return angle_with_cotangent(greatest_cotangent_of(listed_));
+  double min_angle() {
+    if (max_cotangent_of(listed_) < listed_from_) list_worst();
+    return angle_with_cotangent(max_cotangent_of(listed_));
   }
 
   /// Of l / L_e, over that at the start.
@@ -230,7 +230,7 @@ class Measures {
     if (std::ssize(worst) > max_faces) worst.resize(static_cast<size_t>(max_faces));
     std::vector<int> corners;
     for (const auto& [cotangent, f] : worst) {
-      const Triangle& t = r_.connectivity.faces[static_cast<size_t>(f)];
+      const Triangle& t = r_.adjacency.faces[static_cast<size_t>(f)];
       corners.insert(corners.end(), t.begin(), t.end());
     }
     return corners;
@@ -239,11 +239,11 @@ class Measures {
   /// Calls `move` and takes in what it does to these vertices.
   template <typename Move>
   void follow(const std::vector<int>& vertices, const Move& move) {
-    const std::vector<int> edges = united(r_.connectivity.vertex_edges, vertices);
+    const std::vector<int> edges = sorted_union(r_.adjacency.vertex_edges, vertices);
     errors_ -= errors_of(r_, edges);
     move();
     errors_ += errors_of(r_, edges);
-    for (int f : united(r_.connectivity.vertex_faces, vertices)) {
+    for (int f : sorted_union(r_.adjacency.vertex_faces, vertices)) {
       look(static_cast<size_t>(f));
       list_if_low(f);
     }
@@ -252,10 +252,10 @@ class Measures {
  private:
   static constexpr double listed_above = 3;  // degrees, above what is asked for
 
-  void look(size_t f) { cotangents_[f] = greatest_cotangent(r_.placement.points, r_.connectivity.faces[f]); }
-  double deviation() const { return errors_.deviation(r_.connectivity.edges.size()); }
+  void look(size_t f) { cotangents_[f] = max_cotangent(r_.positions.points, r_.adjacency.faces[f]); }
+  double deviation() const { return errors_.deviation(r_.adjacency.edges.size()); }
 
-  double greatest_cotangent_of(const std::vector<int>& faces) const {
+  double max_cotangent_of(const std::vector<int>& faces) const {
     double greatest = -std::numeric_limits<double>::infinity();
     for (int f : faces) greatest = std::max(greatest, cotangents_[static_cast<size_t>(f)]);
     return greatest;
@@ -292,7 +292,7 @@ class Measures {
 int improve(Relaxation& r, const std::vector<int>& vertices, const VertexSearchOptions& options,
             const GuardOptions& guards, double goal) {
   std::vector<char> moved(vertices.size(), 0);
-  for_each_block(r.sweeps, [&](int begin, int end) {
+  for_each_block(r.coloring, [&](int begin, int end) {
     const auto first = std::ranges::lower_bound(vertices, begin);
     if (first == vertices.end() || *first >= end) return;
     VertexSearch search(r, options, guards);
@@ -305,17 +305,15 @@ int improve(Relaxation& r, const std::vector<int>& vertices, const VertexSearchO
 /// Goes on until no round raises the least angle any more.
 void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards, Measures& measures,
                    AngleSearchResult& result) {
-  double least = measures.least_angle();
+  double least = measures.min_angle();
   double above = o.above_least;
   VertexSearchOptions vertex = o.vertex;
-  while (result.rounds < o.max_rounds && above > o.least_rise &&
-         least + o.least_rise < greatest_least_angle) {
+  while (result.rounds < o.max_rounds && above > o.min_rise && least + o.min_rise < max_least_angle) {
     const double goal = least + above;
-    std::vector<int> vertices =
-        with_rings(r.connectivity, measures.worst_corners(goal, o.max_faces), o.rings);
+    std::vector<int> vertices = with_rings(r.adjacency, measures.worst_corners(goal, o.max_faces), o.rings);
     std::ranges::sort(vertices);
-    std::vector<VertexPlace> before;
-    for (int v : vertices) before.emplace_back(r.placement, v);
+    std::vector<SurfacePosition> before;
+    for (int v : vertices) before.emplace_back(r.positions, v);
     int moves = 0;
     measures.follow(vertices, [&] {
       for (int sweep = 0, moved = 1; sweep < o.sweeps && moved > 0; ++sweep)
@@ -323,10 +321,10 @@ void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOption
     });
     ++result.rounds;
     if (moves == 0) return;  // nor will fewer of them
-    const double now = measures.least_angle();
-    if (now < least + o.least_rise || measures.edge_error() > o.edge_error_limit) {
+    const double now = measures.min_angle();
+    if (now < least + o.min_rise || measures.edge_error() > o.edge_error_limit) {
       measures.follow(vertices, [&] {
-        for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(r.placement, vertices[i]);
+        for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(r.positions, vertices[i]);
       });
       above /= 2;  // less, and with shorter steps, which cost less
       vertex.first_step = std::max(vertex.last_step, vertex.first_step / 2);
@@ -342,7 +340,7 @@ void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOption
 
 AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
   AngleSearchResult result;
-  if (r.connectivity.faces.empty()) return result;
+  if (r.adjacency.faces.empty()) return result;
   Measures measures(r);
   GuardOptions guards = r.guards.options();
   search_within(r, o, guards, measures, result);

@@ -8,10 +8,10 @@
 namespace hooke {
 
 struct VertexSearchOptions {
-  int directions = 8;        // that a vertex looks into
-  double first_step = .3;    // target lengths, halved ...
-  double last_step = .01;    // ... down to this
-  double least_gain = 1e-3;  // of the cotangent; less is not worth a move
+  int directions = 8;      // that a vertex looks into
+  double first_step = .3;  // target lengths, halved ...
+  double last_step = .01;  // ... down to this
+  double min_gain = 1e-3;  // of the cotangent; less is not worth a move
 };
 
 // The worst corners, last: where springs have settled against a guard or against each other, a vertex may
@@ -27,7 +27,7 @@ struct AngleSearchOptions {
   double edge_error_limit = 1.005;  // of the standard deviation of l / L_e at its start
   double sagitta = .3;              // over the target length, as guards have one: worth a better least angle
   int max_rounds = 40;              // of both; each must raise the least angle by ...
-  double least_rise = .02;          // ... this many degrees
+  double min_rise = .02;            // ... this many degrees
 };
 
 struct AngleSearchResult {

@@ -37,11 +37,11 @@ double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edg
 namespace {
 
 /// The corners of all faces with an angle below the threshold (degrees) and `rings` rings around them.
-std::vector<int> around_bad_faces(const Mat3X& points, const Connectivity& c, double threshold, int rings) {
+std::vector<int> around_bad_faces(const Mat3X& points, const Adjacency& c, double threshold, int rings) {
   const double limit = 1 / std::tan(threshold * std::numbers::pi / 180);
   std::vector<char> bad(c.faces.size());
   parallel_for(c.faces.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) bad[f] = greatest_cotangent(points, c.faces[f]) > limit;
+    for (size_t f = begin; f < end; ++f) bad[f] = max_cotangent(points, c.faces[f]) > limit;
   });
   std::vector<int> vertices;
   for (size_t f = 0; f < c.faces.size(); ++f)
@@ -50,14 +50,14 @@ std::vector<int> around_bad_faces(const Mat3X& points, const Connectivity& c, do
 }
 
 /// One stage: sweeps over what lies around faces with an angle below the threshold.
-void raise(Relaxation& r, double threshold, const PolishOptions& o, const Observer& observer,
-           PolishResult& result) {
+void raise(Relaxation& r, double threshold, const AngleSpringOptions& o, const Observer& observer,
+           AngleSpringResult& result) {
   const auto watch = [&](Progress p) {
     p.step += result.sweeps;
     return observer(p);
   };
   const LocalRelaxationResult relaxed =
-      relax_locally(r, around_bad_faces(r.placement.points, r.connectivity, threshold, o.rings),
+      relax_locally(r, around_bad_faces(r.positions.points, r.adjacency, threshold, o.rings),
                     {.sweeps = o.sweeps, .rest = o.rest}, observer ? Observer(watch) : nullptr);
   result.sweeps += relaxed.sweeps;
   result.interrupted = relaxed.interrupted;
@@ -65,22 +65,22 @@ void raise(Relaxation& r, double threshold, const PolishOptions& o, const Observ
 
 }  // namespace
 
-PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOptions& o,
-                    const Observer& observer) {
-  const auto& edges = r.connectivity.edges;
-  const auto& faces = r.connectivity.faces;
-  PolishResult result;
-  result.least_angle_before = result.least_angle_after = least_angle(r.placement.points, faces);
+AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, const AngleSpringOptions& o,
+                               const Observer& observer) {
+  const auto& edges = r.adjacency.edges;
+  const auto& faces = r.adjacency.faces;
+  AngleSpringResult result;
+  result.min_angle_before = result.min_angle_after = min_angle(r.positions.points, faces);
   result.edge_error_before = result.edge_error_after =
-      relative_edge_deviation(r.placement.points, edges, targets);
+      relative_edge_deviation(r.positions.points, edges, targets);
 
-  double best = result.least_angle_before;
+  double best = result.min_angle_before;
   double threshold = std::max(o.first_threshold, best + o.margin);
   double too_high = o.last_threshold + 1e-9;  // the first that is
   if (threshold >= too_high) return result;
   const EnergyTerms terms = r.energy.terms;
   r.energy.terms.altitude = 0;
-  Placement kept = r.placement;
+  SurfacePositions kept = r.positions;
   int kept_stages = 0;
   double last_error = result.edge_error_before, last_threshold = best;  // of the last state kept
   double step = o.threshold_step;
@@ -91,38 +91,38 @@ PolishResult polish(Relaxation& r, const TargetLengths& targets, const PolishOpt
     raise(r, threshold, o, observer, result);
     ++result.stages;
 
-    const double angle = least_angle(r.placement.points, faces);
-    const double error = relative_edge_deviation(r.placement.points, edges, targets);
+    const double angle = min_angle(r.positions.points, faces);
+    const double error = relative_edge_deviation(r.positions.points, edges, targets);
     if (kept_stages > 0 && angle < best - o.keep_within) break;  // what bounds it is not the threshold
     const double limit = result.edge_error_before * (kept_stages > 0 ? o.edge_error_limit : 1);
     if (error > limit) {  // too far: half the way, from where it was not
-      r.placement = kept;
+      r.positions = kept;
       too_high = threshold;
       step = (threshold - reached) / 2;
-      if (step < o.least_step) break;
+      if (step < o.min_step) break;
       threshold = reached + step;
       continue;
     }
     reached = threshold;
     if (angle >= best - o.keep_within) {
       best = std::max(best, angle);
-      kept = r.placement;
+      kept = r.positions;
       ++kept_stages;
-      result.least_angle_after = angle;
+      result.min_angle_after = angle;
       result.edge_error_after = error;
       // Errors rise ever faster: what would be too much need not be tried.
       const double rise = 2 * std::max(0., error - last_error) / (threshold - last_threshold);  // per degree
       const double left = o.edge_error_limit * result.edge_error_before - error;
       if (rise * step > left) {
         step /= 2;
-        if (step < o.least_step || (rise > 0 && rise * step > left)) break;
+        if (step < o.min_step || (rise > 0 && rise * step > left)) break;
       }
       last_error = error;
       last_threshold = threshold;
     }
     threshold += step;
   }
-  r.placement = std::move(kept);
+  r.positions = std::move(kept);
   r.energy.terms = terms;
   return result;
 }

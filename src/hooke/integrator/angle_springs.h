@@ -8,11 +8,11 @@ namespace hooke {
 
 struct TargetLengths;
 
-struct PolishOptions {
+struct AngleSpringOptions {
   double first_threshold = 20;     // degrees; at least least angle + margin
   double margin = 2;               // degrees
   double threshold_step = 2;       // degrees per stage
-  double least_step = 1;           // degrees; to which steps halve where a stage or the next costs too much
+  double min_step = 1;             // degrees; to which steps halve where a stage or the next costs too much
   double last_threshold = 32;      // degrees
   double first_weight = 30;        // w of the first stage
   double weight = 100;             // w of the others
@@ -23,17 +23,17 @@ struct PolishOptions {
   double keep_within = .1;         // degrees below the best angle at which a later state is still kept
 };
 
-struct PolishResult {
+struct AngleSpringResult {
   int stages = 0;
   int sweeps = 0;
-  double least_angle_before = 0, least_angle_after = 0;  // degrees
-  double edge_error_before = 0, edge_error_after = 0;    // standard deviation of l / L_e
+  double min_angle_before = 0, min_angle_after = 0;    // degrees
+  double edge_error_before = 0, edge_error_after = 0;  // standard deviation of l / L_e
   bool interrupted = false;
 };
 
 /// Raises the least angle as long as the standard deviation of l / L_e stays within its limit.
-PolishResult polish(Relaxation& relaxation, const TargetLengths& targets, const PolishOptions& options,
-                    const Observer& observer);
+AngleSpringResult raise_angles(Relaxation& relaxation, const TargetLengths& targets,
+                               const AngleSpringOptions& options, const Observer& observer);
 
 /// Standard deviation of l / L_e over the edges.
 double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edges,

@@ -18,7 +18,7 @@
 namespace hooke {
 namespace {
 
-double string_energy(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                      std::span<const double> target_lengths) {
   return parallel_sum(c.edges.size(), 1024, [&](size_t begin, size_t end) {
     double sum = 0;
@@ -31,7 +31,7 @@ double string_energy(const Eigen::Ref<const Mat3X>& points, const Connectivity& 
   });
 }
 
-void update_forces(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
+void update_forces(Motion& motion, const Adjacency& c, std::span<const double> target_lengths,
                    const DampedOptions& options, const Restraint& restraint) {
   Mat3X forces(3, motion.points.cols()), torques(3, motion.points.cols());
   string_forces(motion.points, c, target_lengths, forces);
@@ -54,7 +54,7 @@ Motion motion_of(TriMesh& mesh) {
   assert(mesh.n_vertices() > 0);
   const VProp<Vec3> velocity(mesh, velocity_property);
   const VProp<Vec3> force(mesh, force_property);
-  return {positions(mesh), as_matrix(mesh, velocity), as_matrix(mesh, force),
+  return {vertex_points(mesh), as_matrix(mesh, velocity), as_matrix(mesh, force),
           1 / static_cast<double>(mesh.n_vertices())};
 }
 
@@ -75,7 +75,7 @@ void accelerate(Motion& motion, double tau, double dt) {
   U = U * std::exp(-tau * dt) + motion.forces * (dt / motion.mass);  // [22]
 }
 
-double max_length_error(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                         std::span<const double> target_lengths) {
   double worst = 0;
   for (size_t e = 0; e < c.edges.size(); ++e) {
@@ -85,7 +85,7 @@ double max_length_error(const Eigen::Ref<const Mat3X>& points, const Connectivit
   return worst;
 }
 
-EvolutionStep evolution_step(Motion& motion, const Connectivity& c, std::span<const double> target_lengths,
+EvolutionStep evolution_step(Motion& motion, const Adjacency& c, std::span<const double> target_lengths,
                              const EvolutionOptions& options, const Restraint& restraint,
                              double last_factor) {
   update_forces(motion, c, target_lengths, options.damped, restraint);
@@ -104,7 +104,7 @@ EvolutionStep evolution_step(Motion& motion, const Connectivity& c, std::span<co
   return step;
 }
 
-EvolutionResult evolve_damped(TriMesh& mesh, const Connectivity& c, std::span<const double> target_lengths,
+EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& c, std::span<const double> target_lengths,
                               const EvolutionOptions& options, const Restraint& restraint,
                               const Observer& observer) {
   require_valid(options.damped);
@@ -153,12 +153,12 @@ struct Forces {
   Mat3X torque;  // mu * torque
 };
 
-void compute(const Relaxation& r, const Placement& at, const DampedOptions& damped, Forces& forces) {
+void compute(const Relaxation& r, const SurfacePositions& at, const DampedOptions& damped, Forces& forces) {
   forces.energy = r.energy(at.points, at.normals, &forces.total);
   forces.total *= -damped.string;
   forces.torque.resize(3, at.points.cols());
   if (damped.torque != 0)
-    torque_forces(at.points, r.connectivity, forces.torque);
+    torque_forces(at.points, r.adjacency, forces.torque);
   else
     forces.torque.setZero();
   forces.torque *= damped.torque;
@@ -176,7 +176,7 @@ void slow_down(Motion& motion, const Mat3X& wanted, const Mat3X& granted) {
 
 void keep_in_tangent_space(const Relaxation& r, Motion& motion) {
   Mat3X velocities = motion.velocities;
-  r.retraction.constrain(r.placement, velocities);
+  r.retraction.constrain(r.positions, velocities);
   motion.velocities = velocities;
 }
 
@@ -192,15 +192,15 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
   require_valid(damped);
   Motion motion = motion_of(mesh);
   come_to_rest(motion);
-  motion.points = r.placement.points;
+  motion.points = r.positions.points;
   const double base = std::sqrt(motion.mass / damped.string);
   double factor = first_factor;  // epsilon
   IntegrationResult result;
   RestDetector rest = rest_detector(options);
   Forces forces, trial_forces;
-  Placement trial;
+  SurfacePositions trial;
 
-  compute(r, r.placement, damped, forces);
+  compute(r, r.positions, damped, forces);
   if (!std::isfinite(forces.energy) || !forces.total.allFinite())
     throw NumericalError("the forces on the mesh are not finite; check its points and target lengths");
   motion.forces = forces.total;
@@ -213,12 +213,12 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
     const Mat3X wanted = displacement(motion, damped.friction, dt);
     Mat3X granted = wanted;
     cap_displacement(r.vertex_length, options.max_move, granted);
-    result.held_back +=
-        static_cast<long long>(r.guards.step(r.retraction, r.placement, granted, trial).size());
+    result.limited_steps +=
+        static_cast<long long>(r.guards.step(r.retraction, r.positions, granted, trial).size());
     compute(r, trial, damped, trial_forces);
     ++result.evaluations;
 
-    const double torque_work = forces.torque.cwiseProduct(trial.points - r.placement.points).sum();
+    const double torque_work = forces.torque.cwiseProduct(trial.points - r.positions.points).sum();
     if (!(damped.string * (trial_forces.energy - forces.energy) <= torque_work)) {
       motion.velocities.setZero();
       factor /= 2;
@@ -228,10 +228,10 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
     }
     accelerate(motion, damped.friction, dt);
     slow_down(motion, wanted, granted);
-    std::swap(r.placement, trial);
+    std::swap(r.positions, trial);
     std::swap(forces, trial_forces);
     keep_in_tangent_space(r, motion);
-    motion.points = r.placement.points;
+    motion.points = r.positions.points;
     motion.forces = forces.total;
     factor *= growth;
     ++result.steps;
@@ -244,9 +244,9 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
       break;
     }
   }
-  settle(r.guards, r.retraction, r.placement);
-  compute(r, r.placement, damped, forces);
-  motion.points = r.placement.points;
+  project_drifted(r.guards, r.retraction, r.positions);
+  compute(r, r.positions, damped, forces);
+  motion.points = r.positions.points;
   motion.forces = forces.total;
   result.energy = forces.energy;
   return result;

@@ -44,7 +44,7 @@ Mat3X displacement(const Motion& motion, double friction, double dt);
 void accelerate(Motion& motion, double friction, double dt);
 
 /// Greatest |l - L| of all edges; `target_lengths` has one positive length per edge.
-double max_length_error(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                         std::span<const double> target_lengths);
 
 struct EvolutionOptions {
@@ -65,7 +65,7 @@ struct EvolutionStep {
 
 /// Makes the largest step that the tests of [26] allow for the whole mesh at once: forces, points,
 /// velocities. A jam or rest leaves points and velocities alone. `last_factor` is epsilon of the step before.
-EvolutionStep evolution_step(Motion& motion, const Connectivity& connectivity,
+EvolutionStep evolution_step(Motion& motion, const Adjacency& adjacency,
                              std::span<const double> target_lengths, const EvolutionOptions& options,
                              const Restraint& restraint, double last_factor);
 
@@ -85,7 +85,7 @@ struct EvolutionResult : IntegrationResult {
 /// Nothing here holds the mesh on its surface. The strings alone fold it as they shorten and lengthen edges,
 /// with torque or without, and next to a fold (theta near pi) the torque of [6] is so large that it can throw
 /// vertices many lengths away without failing a test of [26].
-EvolutionResult evolve_damped(TriMesh& mesh, const Connectivity& connectivity,
+EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& adjacency,
                               std::span<const double> target_lengths, const EvolutionOptions& options,
                               const Restraint& restraint = nullptr, const Observer& observer = nullptr);
 

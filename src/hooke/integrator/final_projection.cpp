@@ -24,8 +24,8 @@ constexpr double area_ratio = .01;
 /// below it.
 constexpr double cotangent_reserve = 3e-3;
 
-std::vector<int> put_back(const Guards& guards, const Placement& from, std::vector<int> offending,
-                          Placement& to) {
+std::vector<int> revert(const Guards& guards, const SurfacePositions& from, std::vector<int> offending,
+                        SurfacePositions& to) {
   std::vector<char> is_back(from.drift.size(), 0);
   std::vector<int> all;
   while (!offending.empty()) {
@@ -33,7 +33,7 @@ std::vector<int> put_back(const Guards& guards, const Placement& from, std::vect
     for (int v : offending) {
       to.points.col(v) = from.points.col(v);
       to.normals.col(v) = from.normals.col(v);
-      if (const int other = to.other_side_of(v); other >= 0) to.normals.col(other) = from.normals.col(other);
+      if (const int other = to.other_wedge_of(v); other >= 0) to.normals.col(other) = from.normals.col(other);
     }
     all.insert(all.end(), offending.begin(), offending.end());
     offending = guards.offenders_around(from, to, offending);
@@ -53,7 +53,7 @@ std::vector<int> corners_of(const FacePairs& pairs, const std::vector<Triangle>&
 }
 
 /// Marks the vertices of faces that cross and those within so many rings about them.
-std::vector<char> about_crossings(const Placement& p, const Connectivity& c, int rings) {
+std::vector<char> about_crossings(const SurfacePositions& p, const Adjacency& c, int rings) {
   std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
   for (int v : with_rings(c, corners_of(find_self_intersections(p.points, c.faces), c.faces), rings))
     marked[static_cast<size_t>(v)] = 1;
@@ -62,35 +62,35 @@ std::vector<char> about_crossings(const Placement& p, const Connectivity& c, int
 
 }  // namespace
 
-std::vector<int> put_back_offenders(const Guards& guards, const Placement& from, Placement& to) {
-  return put_back(guards, from, guards.offenders(from, to), to);
+std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from, SurfacePositions& to) {
+  return revert(guards, from, guards.offenders(from, to), to);
 }
 
-std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
-                                    const std::vector<int>& moved, Placement& to) {
-  return put_back(guards, from, guards.offenders_around(from, to, moved), to);
+std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from,
+                                  const std::vector<int>& moved, SurfacePositions& to) {
+  return revert(guards, from, guards.offenders_around(from, to, moved), to);
 }
 
-std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& connectivity,
-                                    const Placement& from, Placement& to) {
-  constexpr int most_rounds = 8;
+std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacency,
+                                  const SurfacePositions& from, SurfacePositions& to) {
+  constexpr int max_rounds = 8;
   constexpr int rings_along = 2;  // about what crossed before, within which it may go on to
   std::vector<int> all;
   std::optional<std::vector<char>> crossed;
-  for (int round = 0; round < most_rounds; ++round) {
-    FacePairs crossings = find_self_intersections(to.points, connectivity.faces);
+  for (int round = 0; round < max_rounds; ++round) {
+    FacePairs crossings = find_self_intersections(to.points, adjacency.faces);
     if (crossings.empty()) break;
-    if (!crossed) crossed = about_crossings(from, connectivity, rings_along);
+    if (!crossed) crossed = about_crossings(from, adjacency, rings_along);
     const auto touches = [&](int f) {
-      return std::ranges::any_of(connectivity.faces[static_cast<size_t>(f)],
+      return std::ranges::any_of(adjacency.faces[static_cast<size_t>(f)],
                                  [&](int v) { return (*crossed)[static_cast<size_t>(v)] != 0; });
     };
     std::erase_if(crossings, [&](const auto& pair) { return touches(pair[0]) && touches(pair[1]); });
-    std::vector<int> vertices = with_rings(connectivity, corners_of(crossings, connectivity.faces), round);
+    std::vector<int> vertices = with_rings(adjacency, corners_of(crossings, adjacency.faces), round);
     std::erase_if(vertices, [&](int v) { return to.points.col(v) == from.points.col(v); });
     if (vertices.empty()) break;
-    for (int v : put_back(guards, from, std::move(vertices), to)) {
-      VertexPlace(from, v).write_to(to, v);
+    for (int v : revert(guards, from, std::move(vertices), to)) {
+      SurfacePosition(from, v).write_to(to, v);
       all.push_back(v);
     }
   }
@@ -99,20 +99,21 @@ std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& co
   return all;
 }
 
-void settle(const Guards& guards, Retraction& retraction, const Placement& from, Placement& to) {
+void project_drifted(const Guards& guards, Retraction& retraction, const SurfacePositions& from,
+                     SurfacePositions& to) {
   to = from;
-  retraction.settle(to);
-  for (int v : put_back_offenders(guards, from, to)) VertexPlace(from, v).write_to(to, v);
+  retraction.project_drifted(to);
+  for (int v : revert_offenders(guards, from, to)) SurfacePosition(from, v).write_to(to, v);
 }
 
-void settle(const Guards& guards, Retraction& retraction, Placement& placement) {
-  Placement settled;
-  settle(guards, retraction, placement, settled);
-  placement = std::move(settled);
+void project_drifted(const Guards& guards, Retraction& retraction, SurfacePositions& positions) {
+  SurfacePositions settled;
+  project_drifted(guards, retraction, positions, settled);
+  positions = std::move(settled);
 }
 
 double cotangent_to_keep(const Mat3X& points, const std::vector<Triangle>& faces) {
-  return greatest_cotangent(points, faces) / (1 + cotangent_reserve);
+  return max_cotangent(points, faces) / (1 + cotangent_reserve);
 }
 
 FinalProjection::FinalProjection(Workspace& work, const GuardOptions& guards)
@@ -124,30 +125,30 @@ Guards FinalProjection::guards() const {
   options.area_ratio = area_ratio;
   options.sagitta = std::numeric_limits<double>::infinity();
   options.cotangent *= 1 + cotangent_reserve;
-  return {*work_.connectivity, work_.targets, options};
+  return {*work_.adjacency, work_.targets, options};
 }
 
 void FinalProjection::refit() {
-  if (!before_refit_) before_refit_ = {work_.placement, unprojected_};
+  if (!before_refit_) before_refit_ = {work_.positions, unprojected_};
   work_.refit();
 }
 
 int FinalProjection::project() {
   const Stage stage(work_.stopwatch, "land");
-  Placement projected = work_.project_to_input();
-  unprojected_ = put_back_offenders(guards(), work_.placement, projected);
-  work_.placement = std::move(projected);
-  took_back_ = false;
+  SurfacePositions projected = work_.project_to_input();
+  unprojected_ = revert_offenders(guards(), work_.positions, projected);
+  work_.positions = std::move(projected);
+  reverted_crossings_ = false;
   if (before_refit_) undo_crossings();
   return static_cast<int>(unprojected_.size());
 }
 
 int FinalProjection::project(const std::vector<int>& vertices) {
   const Stage stage(work_.stopwatch, "land");
-  const Placement before = work_.placement;
-  work_.to_input().settle(vertices, work_.placement);
+  const SurfacePositions before = work_.positions;
+  work_.to_input().project_drifted(vertices, work_.positions);
   std::erase_if(unprojected_, [&](int v) { return std::ranges::binary_search(vertices, v); });
-  const std::vector<int> stay = put_back_offenders(guards(), before, vertices, work_.placement);
+  const std::vector<int> stay = revert_offenders(guards(), before, vertices, work_.positions);
   unprojected_.insert(unprojected_.end(), stay.begin(), stay.end());
   return static_cast<int>(unprojected_.size());
 }
@@ -157,10 +158,10 @@ void FinalProjection::undo_crossings() {
   const Stage stage(work_.stopwatch, "crossings");
   const Projected before = *std::exchange(before_refit_, std::nullopt);
   const std::vector<int> back =
-      put_back_crossings(guards(), *work_.connectivity, before.placement, work_.placement);
-  took_back_ = !back.empty();
-  if (!took_back_) return;
-  work_.track_on_input(work_.placement.anchors);
+      revert_crossings(guards(), *work_.adjacency, before.positions, work_.positions);
+  reverted_crossings_ = !back.empty();
+  if (!reverted_crossings_) return;
+  work_.track_on_input(work_.positions.hints);
   const auto is_back = [&](int v) { return std::ranges::binary_search(back, v); };
   std::erase_if(unprojected_, is_back);
   std::ranges::copy_if(before.unprojected, std::back_inserter(unprojected_), is_back);

@@ -11,25 +11,26 @@ namespace hooke {
 
 /// Puts vertices back from `to` to where they were in `from`, point and normal, until no guard breaks on the
 /// way. Returns these.
-std::vector<int> put_back_offenders(const Guards& guards, const Placement& from, Placement& to);
+std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from, SurfacePositions& to);
 
 /// The same where no vertices moved but these.
-std::vector<int> put_back_offenders(const Guards& guards, const Placement& from,
-                                    const std::vector<int>& moved, Placement& to);
+std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from,
+                                  const std::vector<int>& moved, SurfacePositions& to);
 
 /// Puts the vertices of faces that have come to cross each other back to where they were, with them those
 /// that a guard then wants back, and in each of a few rounds a ring more about what still crosses. Parts that
 /// crossed before go on to cross along the same curve: what is close to it stays. Returns these vertices,
 /// ascending.
-std::vector<int> put_back_crossings(const Guards& guards, const Connectivity& connectivity,
-                                    const Placement& from, Placement& to);
+std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacency,
+                                  const SurfacePositions& from, SurfacePositions& to);
 
 /// to = from with the vertices projected that have drifted, but for those where that would break a guard:
 /// they stay drifted.
-void settle(const Guards& guards, Retraction& retraction, const Placement& from, Placement& to);
+void project_drifted(const Guards& guards, Retraction& retraction, const SurfacePositions& from,
+                     SurfacePositions& to);
 
 /// The same in place.
-void settle(const Guards& guards, Retraction& retraction, Placement& placement);
+void project_drifted(const Guards& guards, Retraction& retraction, SurfacePositions& positions);
 
 /// The cotangent that guards have where no face's least angle may fall below the least of all as they are
 /// now, with room for the final projection.
@@ -47,7 +48,7 @@ class FinalProjection {
   void refit();
 
   /// Projects the vertices. One whose way would break a guard stays where it is; returns their number. Faces
-  /// that have come to cross since refit() go back to where they were, see put_back_crossings().
+  /// that have come to cross since refit() go back to where they were, see revert_crossings().
   int project();
 
   /// Projects vertices, ascending, each named once, that have moved on the field of the input since, after
@@ -55,7 +56,7 @@ class FinalProjection {
   int project(const std::vector<int>& vertices);
 
   /// Did the last projection of all take crossings back?
-  bool took_back() const { return took_back_; }
+  bool reverted_crossings() const { return reverted_crossings_; }
 
  private:
   Guards guards() const;
@@ -65,11 +66,11 @@ class FinalProjection {
   GuardOptions step_guards_;
   std::vector<int> unprojected_;  // vertices that stayed where they were
   struct Projected {
-    Placement placement;
+    SurfacePositions positions;
     std::vector<int> unprojected;
   };
   std::optional<Projected> before_refit_;  // until the next projection
-  bool took_back_ = false;
+  bool reverted_crossings_ = false;
 };
 
 }  // namespace hooke

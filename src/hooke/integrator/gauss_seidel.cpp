@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-constexpr double least_curvature = .1;  // of the largest
+constexpr double min_curvature = .1;  // of the largest
 
 /// Two unit vectors that span the plane across the normal. The first leans on an edge, not on a coordinate
 /// axis, so that a turned mesh has turned vectors.
@@ -31,8 +31,8 @@ double invert_by_size(const Eigen::Matrix2d& H, Eigen::Matrix2d& inverse) {
   const double r = std::sqrt(d * d + H(0, 1) * H(0, 1));
   const double largest = std::abs(m) + r;
   if (!(largest > 0)) return 0;
-  const double high = std::max(std::abs(m + r), least_curvature * largest);
-  const double low = std::max(std::abs(m - r), least_curvature * largest);
+  const double high = std::max(std::abs(m + r), min_curvature * largest);
+  const double low = std::max(std::abs(m - r), min_curvature * largest);
   const Eigen::Matrix2d unit = Eigen::Matrix2d::Identity();
   inverse = .5 * (1 / high + 1 / low) * unit;
   if (r > 0) inverse += .5 * (1 / high - 1 / low) / r * (H - m * unit);
@@ -56,32 +56,32 @@ LocalCurvature curvature_of(const RingModel& model, const Mat32& basis) {
 
 LocalNewton::LocalNewton(Relaxation& relaxation)
     : r_(relaxation),
-      side_{VertexRing(relaxation.sweeps.spokes, relaxation.energy.targets()), {}, {}},
-      other_side_(side_) {}
+      wedge_{VertexRing(relaxation.coloring.rings, relaxation.energy.targets()), {}, {}},
+      other_side_(wedge_) {}
 
 Mat32 LocalNewton::directions(int vertex) const {
-  const Placement& at = r_.placement;
+  const SurfacePositions& at = r_.positions;
   Mat32 curve = Mat32::Zero();
   curve.col(0) = r_.retraction.tangent(at, vertex);
   if (!curve.col(0).isZero(0)) return curve;
-  const int neighbour = r_.sweeps.spokes[vertex][0].neighbour;
+  const int neighbour = r_.coloring.rings[vertex][0].neighbour;
   return tangent_basis(at.normals.col(vertex), at.points.col(neighbour) - at.points.col(vertex));
 }
 
 /// Takes in the ring of a vertex and the model of its energy; false where there is nothing to do.
 bool LocalNewton::look(int vertex) {
-  const Placement& at = r_.placement;
-  if (r_.sweeps.spokes[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
+  const SurfacePositions& at = r_.positions;
+  if (r_.coloring.rings[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
   basis_ = directions(vertex);
-  const auto model = [&](Side& s, int side) {
-    s.ring.gather(at, side);
-    s.ring.shape(at.points.col(vertex), at.normals.col(side), s.before);
+  const auto model = [&](Wedge& s, int wedge) {
+    s.ring.gather(at, wedge);
+    s.ring.shape(at.points.col(vertex), at.normals.col(wedge), s.before);
     return s.ring.model(s.before, r_.energy.terms, basis_.col(0), basis_.col(1));
   };
-  model_ = model(side_, vertex);
-  const int other = at.other_side_of(vertex);
-  two_sided_ = other >= 0;
-  if (!two_sided_) return true;
+  model_ = model(wedge_, vertex);
+  const int other = at.other_wedge_of(vertex);
+  two_wedges_ = other >= 0;
+  if (!two_wedges_) return true;
   const RingModel more = model(other_side_, other);
   model_.energy += more.energy;
   model_.gradient += more.gradient;
@@ -91,11 +91,11 @@ bool LocalNewton::look(int vertex) {
 
 /// A face that is unfolded gets the springs of all others, which cost more than what unfolding gains: such a
 /// move needs no lower energy.
-bool LocalNewton::may_move(const VertexPlace& place) {
+bool LocalNewton::may_move(const SurfacePosition& place) {
   double energy = 0;
   int unfolded = 0;
   const EnergyTerms& terms = r_.energy.terms;
-  const auto obeys = [&](Side& s, const Vec3& normal) {
+  const auto obeys = [&](Wedge& s, const Vec3& normal) {
     s.ring.shape(place.point, normal, s.after);
     if (!s.ring.obeys(s.before, s.after, r_.guards.options())) return false;
     energy += s.ring.energy(s.after, terms);
@@ -104,7 +104,7 @@ bool LocalNewton::may_move(const VertexPlace& place) {
                   s.ring.folded_faces(s.after, terms.unfold_below);
     return true;
   };
-  return obeys(side_, place.normal) && (!two_sided_ || obeys(other_side_, place.other_normal)) &&
+  return obeys(wedge_, place.normal) && (!two_wedges_ || obeys(other_side_, place.other_normal)) &&
          (unfolded > 0 || energy <= model_.energy);
 }
 
@@ -114,7 +114,7 @@ LocalCurvature LocalNewton::curvature(int vertex) {
 
 double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
   if (!look(vertex)) return 0;
-  Placement& at = r_.placement;
+  SurfacePositions& at = r_.positions;
   const double length = r_.vertex_length[static_cast<size_t>(vertex)];
   Vec3 step = -options.over_relaxation * (curvature_of(model_, basis_).inverse * (basis_ * model_.gradient));
   const double size = step.norm(), cap = options.max_move * length;
@@ -122,7 +122,7 @@ double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
   if (size > cap) step *= cap / size;
 
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
-    const VertexPlace place = r_.retraction.moved(at, vertex, step);
+    const SurfacePosition place = r_.retraction.moved(at, vertex, step);
     if (may_move(place)) {
       const double way = (place.point - at.points.col(vertex)).norm();
       place.write_to(at, vertex);
@@ -134,8 +134,8 @@ double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
 
 std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& active,
                                        const LocalNewtonOptions& options) {
-  std::vector<double> moves(static_cast<size_t>(r.connectivity.vertex_count), 0);
-  for_each_block(r.sweeps, [&](int begin, int end) {
+  std::vector<double> moves(static_cast<size_t>(r.adjacency.vertex_count), 0);
+  for_each_block(r.coloring, [&](int begin, int end) {
     LocalNewton newton(r);
     for (int v = begin; v < end; ++v)
       if (active.empty() || active[static_cast<size_t>(v)])
@@ -151,7 +151,7 @@ constexpr double still = .3;  // of `rest`: a vertex that wants to move less is 
 
 /// Marks those of the vertices that moved farther than `rest` and the neighbours of those: all others have
 /// found their place. Returns whether there are any.
-bool mark_restless(const Connectivity& c, const std::vector<int>& vertices, const std::vector<double>& moves,
+bool mark_restless(const Adjacency& c, const std::vector<int>& vertices, const std::vector<double>& moves,
                    double rest, std::vector<char>& active) {
   const auto moved = [&](int v) { return moves[static_cast<size_t>(v)] > rest; };
   parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
@@ -169,13 +169,13 @@ bool mark_restless(const Connectivity& c, const std::vector<int>& vertices, cons
 LocalRelaxationResult relax_locally(Relaxation& r, const std::vector<int>& vertices,
                                     const LocalRelaxationOptions& o, const Observer& observer) {
   LocalRelaxationResult result;
-  std::vector<char> active(static_cast<size_t>(r.connectivity.vertex_count), 0);
+  std::vector<char> active(static_cast<size_t>(r.adjacency.vertex_count), 0);
   for (int v : vertices) active[static_cast<size_t>(v)] = 1;
   bool restless = !vertices.empty();
   while (restless && result.sweeps < o.sweeps && !result.interrupted) {
     const std::vector<double> moves =
         local_newton_sweep(r, active, {.over_relaxation = o.over_relaxation, .rest = still * o.rest});
-    restless = mark_restless(r.connectivity, vertices, moves, o.rest, active);
+    restless = mark_restless(r.adjacency, vertices, moves, o.rest, active);
     result.interrupted = observer && !observer({.step = result.sweeps});
     ++result.sweeps;
   }

@@ -37,18 +37,18 @@ class LocalNewton {
 
  private:
   /// The ring of one side of the vertex, where it is and where it is to go.
-  struct Side {
+  struct Wedge {
     VertexRing ring;
     RingShape before, after;
   };
 
   bool look(int vertex);
   Mat32 directions(int vertex) const;
-  bool may_move(const VertexPlace& place);
+  bool may_move(const SurfacePosition& place);
 
   Relaxation& r_;
-  Side side_, other_side_;
-  bool two_sided_ = false;
+  Wedge wedge_, other_side_;
+  bool two_wedges_ = false;
   Mat32 basis_ = Mat32::Zero();
   RingModel model_;
 };

@@ -37,8 +37,8 @@ double cosine(const Vec3& a, const Vec3& b, double otherwise) {
   return lengths > 0 ? a.dot(b) / lengths : otherwise;
 }
 
-Vec3 sum_of_normals(const Mat3X& normals, const Triangle& sides) {
-  return normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2]);
+Vec3 sum_of_normals(const Mat3X& normals, const Triangle& wedges) {
+  return normals.col(wedges[0]) + normals.col(wedges[1]) + normals.col(wedges[2]);
 }
 
 // What most faces and edges pass without a root or a measure of what was before. They hold with a margin, so
@@ -74,86 +74,86 @@ bool sagitta_is_well(const GuardOptions& o, double target, const Vec3& edge, dou
 
 }  // namespace
 
-double Guards::alignment(const Placement& p, size_t face) const {
-  return face_alignment(p.points, p.normals, connectivity_.faces[face], connectivity_.sides_of_faces()[face]);
+double Guards::alignment(const SurfacePositions& p, size_t face) const {
+  return face_alignment(p.points, p.normals, adjacency_.faces[face], adjacency_.wedges_of_faces()[face]);
 }
 
-double Guards::sagitta(const Placement& p, size_t edge) const {
-  return edge_sagitta(p.points, p.normals, connectivity_.edges[edge], connectivity_.sides_of_edges()[edge]);
+double Guards::sagitta(const SurfacePositions& p, size_t edge) const {
+  return edge_sagitta(p.points, p.normals, adjacency_.edges[edge], adjacency_.wedges_of_edges()[edge]);
 }
 
-double Guards::fold(const Placement& p, size_t edge) const {
-  const auto [left, right] = connectivity_.edge_faces[edge];
+double Guards::fold(const SurfacePositions& p, size_t edge) const {
+  const auto [left, right] = adjacency_.edge_faces[edge];
   if (right < 0) return 1;
-  return cosine_between(p.points, connectivity_.faces[static_cast<size_t>(left)],
-                        connectivity_.faces[static_cast<size_t>(right)]);
+  return cosine_between(p.points, adjacency_.faces[static_cast<size_t>(left)],
+                        adjacency_.faces[static_cast<size_t>(right)]);
 }
 
-bool Guards::face_breaks(const Placement& from, const Placement& to, size_t f) const {
-  const Triangle& t = connectivity_.faces[f];
+bool Guards::face_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t f) const {
+  const Triangle& t = adjacency_.faces[f];
   const Vec3 n = doubled_area_vector(to.points, t), n_before = doubled_area_vector(from.points, t);
-  const Vec3 normals = sum_of_normals(to.normals, connectivity_.sides_of_faces()[f]);
+  const Vec3 normals = sum_of_normals(to.normals, adjacency_.wedges_of_faces()[f]);
   const bool angles_are_free = !std::isfinite(options_.cotangent);
   if (area_and_alignment_are_well(options_, n_before, n, normals) &&
       (angles_are_free || angles_are_well(options_, to.points, t, n)))
     return false;
   const double before = alignment(from, f);
   return hooke::face_breaks(options_, .5 * n_before.norm(), .5 * n.norm(), before, cosine(n, normals, 0)) ||
-         (!angles_are_free && angle_breaks(options_, before, greatest_cotangent(from.points, t),
-                                           greatest_cotangent(to.points, t)));
+         (!angles_are_free &&
+          angle_breaks(options_, before, max_cotangent(from.points, t), max_cotangent(to.points, t)));
 }
 
-bool Guards::fold_breaks(const Placement& from, const Placement& to, size_t e) const {
-  const auto [left, right] = connectivity_.edge_faces[e];
+bool Guards::fold_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t e) const {
+  const auto [left, right] = adjacency_.edge_faces[e];
   if (right < 0) return false;
-  const Vec3 n = doubled_area_vector(to.points, connectivity_.faces[static_cast<size_t>(left)]);
-  const Vec3 m = doubled_area_vector(to.points, connectivity_.faces[static_cast<size_t>(right)]);
+  const Vec3 n = doubled_area_vector(to.points, adjacency_.faces[static_cast<size_t>(left)]);
+  const Vec3 m = doubled_area_vector(to.points, adjacency_.faces[static_cast<size_t>(right)]);
   if (cosine_exceeds(options_.fold, n.dot(m), n.squaredNorm(), m.squaredNorm())) return false;
   const double before = fold(from, e), after = cosine(n, m, 1);
-  return connectivity_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(options_, before, after)
-                                                      : hooke::fold_breaks(options_, before, after);
+  return adjacency_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(options_, before, after)
+                                                   : hooke::fold_breaks(options_, before, after);
 }
 
-bool Guards::edge_breaks(const Placement& from, const Placement& to, size_t e) const {
-  const auto& [a, b] = connectivity_.edges[e];
-  const auto& [side, other_side] = connectivity_.sides_of_edges()[e];
+bool Guards::edge_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t e) const {
+  const auto& [a, b] = adjacency_.edges[e];
+  const auto& [wedge, other_wedge] = adjacency_.wedges_of_edges()[e];
   const double target = targets_.edge[e];
   return (!sagitta_is_well(options_, target, to.points.col(b) - to.points.col(a),
-                           to.normals.col(side).dot(to.normals.col(other_side))) &&
+                           to.normals.col(wedge).dot(to.normals.col(other_wedge))) &&
           sagitta_breaks(options_, target, sagitta(from, e), sagitta(to, e))) ||
          fold_breaks(from, to, e);
 }
 
 void Guards::add_corners(int face, std::vector<int>& vertices) const {
-  const Triangle& t = connectivity_.faces[static_cast<size_t>(face)];
+  const Triangle& t = adjacency_.faces[static_cast<size_t>(face)];
   vertices.insert(vertices.end(), t.begin(), t.end());
 }
 
 /// The ends, and for a fold all corners of the two faces.
 void Guards::add_vertices_about(int edge, bool folds, std::vector<int>& vertices) const {
   const auto e = static_cast<size_t>(edge);
-  vertices.insert(vertices.end(), connectivity_.edges[e].begin(), connectivity_.edges[e].end());
+  vertices.insert(vertices.end(), adjacency_.edges[e].begin(), adjacency_.edges[e].end());
   if (!folds) return;
-  for (int f : connectivity_.edge_faces[e]) add_corners(f, vertices);
+  for (int f : adjacency_.edge_faces[e]) add_corners(f, vertices);
 }
 
-std::vector<int> Guards::offenders(const Placement& from, const Placement& to) const {
+std::vector<int> Guards::offenders(const SurfacePositions& from, const SurfacePositions& to) const {
   std::vector<int> vertices;
-  for (int f : all_that(connectivity_.faces.size(), [&](size_t f) { return face_breaks(from, to, f); }))
+  for (int f : all_that(adjacency_.faces.size(), [&](size_t f) { return face_breaks(from, to, f); }))
     add_corners(f, vertices);
-  for (int e : all_that(connectivity_.edges.size(), [&](size_t e) { return edge_breaks(from, to, e); }))
+  for (int e : all_that(adjacency_.edges.size(), [&](size_t e) { return edge_breaks(from, to, e); }))
     add_vertices_about(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
 
-std::vector<int> Guards::offenders_around(const Placement& from, const Placement& to,
+std::vector<int> Guards::offenders_around(const SurfacePositions& from, const SurfacePositions& to,
                                           const std::vector<int>& moved) const {
   std::vector<int> vertices;
   std::vector<int> edges;  // of the faces around: those across from a moved vertex fold too
-  for (int f : united(connectivity_.vertex_faces, moved)) {
+  for (int f : sorted_union(adjacency_.vertex_faces, moved)) {
     const auto face = static_cast<size_t>(f);
-    edges.insert(edges.end(), connectivity_.face_edges[face].begin(), connectivity_.face_edges[face].end());
+    edges.insert(edges.end(), adjacency_.face_edges[face].begin(), adjacency_.face_edges[face].end());
     if (face_breaks(from, to, face)) add_corners(f, vertices);
   }
   sort_unique(edges);
@@ -164,13 +164,13 @@ std::vector<int> Guards::offenders_around(const Placement& from, const Placement
   return vertices;
 }
 
-std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat3X& displacement,
-                              Placement& to, Stopwatch* stopwatch) const {
+std::vector<int> Guards::step(Retraction& retraction, const SurfacePositions& from, Mat3X& displacement,
+                              SurfacePositions& to, Stopwatch* stopwatch) const {
   timed(stopwatch, "projection", [&] { retraction.step(from, displacement, to); });
   std::vector<int> offending = offenders(from, to);
   if (offending.empty()) return {};
 
-  std::vector<unsigned char> halvings(static_cast<size_t>(connectivity_.vertex_count), 0);
+  std::vector<unsigned char> halvings(static_cast<size_t>(adjacency_.vertex_count), 0);
   std::vector<int> held;
   while (!offending.empty()) {
     std::vector<int> slowed;
@@ -192,25 +192,25 @@ std::vector<int> Guards::step(Retraction& retraction, const Placement& from, Mat
   return held;
 }
 
-std::vector<int> Guards::vertices_at_limits(const Placement& p) const {
+std::vector<int> Guards::vertices_at_limits(const SurfacePositions& p) const {
   constexpr double cosine_margin = .02, sagitta_part = .95;
   const auto leans = [&](size_t f) { return alignment(p, f) < options_.alignment + cosine_margin; };
   const auto folds = [&](size_t e) {
-    return !connectivity_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
+    return !adjacency_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
   };
   const auto is_at_limit = [&](size_t e) {
     return folds(e) || !(sagitta(p, e) < sagitta_part * options_.sagitta * targets_.edge[e]);
   };
   std::vector<int> vertices;
-  for (int f : all_that(connectivity_.faces.size(), leans)) add_corners(f, vertices);
-  for (int e : all_that(connectivity_.edges.size(), is_at_limit))
+  for (int f : all_that(adjacency_.faces.size(), leans)) add_corners(f, vertices);
+  for (int e : all_that(adjacency_.edges.size(), is_at_limit))
     add_vertices_about(e, folds(static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
 
-std::vector<int> Guards::folded_faces(const Placement& p) const {
-  return all_that(connectivity_.faces.size(), [&](size_t f) { return alignment(p, f) < options_.alignment; });
+std::vector<int> Guards::folded_faces(const SurfacePositions& p) const {
+  return all_that(adjacency_.faces.size(), [&](size_t f) { return alignment(p, f) < options_.alignment; });
 }
 
 }  // namespace hooke

@@ -8,8 +8,8 @@
 
 namespace hooke {
 
-struct Connectivity;
-struct Placement;
+struct Adjacency;
+struct SurfacePositions;
 class Retraction;
 class Stopwatch;
 struct TargetLengths;
@@ -60,42 +60,42 @@ inline bool fold_breaks(const GuardOptions& o, double before, double after) {
 /// to the connectivity and the targets.
 class Guards {
  public:
-  Guards(const Connectivity& connectivity, const TargetLengths& targets, const GuardOptions& options)
-      : connectivity_(connectivity), targets_(targets), options_(options) {}
+  Guards(const Adjacency& adjacency, const TargetLengths& targets, const GuardOptions& options)
+      : adjacency_(adjacency), targets_(targets), options_(options) {}
 
   /// to = from + displacement, retracted and obeying the guards: offending vertices halve their steps, then
   /// stand still; `displacement` becomes what was asked for in the end. Returns the vertices that were held
   /// back.
-  std::vector<int> step(Retraction& retraction, const Placement& from, Mat3X& displacement, Placement& to,
-                        Stopwatch* stopwatch = nullptr) const;
+  std::vector<int> step(Retraction& retraction, const SurfacePositions& from, Mat3X& displacement,
+                        SurfacePositions& to, Stopwatch* stopwatch = nullptr) const;
 
   /// The vertices of all faces and edges that break a guard on the way from one placement to the other,
   /// ascending.
-  std::vector<int> offenders(const Placement& from, const Placement& to) const;
+  std::vector<int> offenders(const SurfacePositions& from, const SurfacePositions& to) const;
 
   /// Those about vertices that moved, where no others did.
-  std::vector<int> offenders_around(const Placement& from, const Placement& to,
+  std::vector<int> offenders_around(const SurfacePositions& from, const SurfacePositions& to,
                                     const std::vector<int>& moved) const;
 
   const GuardOptions& options() const { return options_; }
 
   /// Faces that lie against the surface (alignment below the threshold), ascending.
-  std::vector<int> folded_faces(const Placement& placement) const;
+  std::vector<int> folded_faces(const SurfacePositions& positions) const;
 
   /// The vertices of faces and edges that are at a limit or beyond it. Angles have none here.
-  std::vector<int> vertices_at_limits(const Placement& placement) const;
+  std::vector<int> vertices_at_limits(const SurfacePositions& positions) const;
 
  private:
-  double alignment(const Placement& placement, size_t face) const;
-  double sagitta(const Placement& placement, size_t edge) const;
-  double fold(const Placement& placement, size_t edge) const;
-  bool face_breaks(const Placement& from, const Placement& to, size_t face) const;
-  bool fold_breaks(const Placement& from, const Placement& to, size_t edge) const;
-  bool edge_breaks(const Placement& from, const Placement& to, size_t edge) const;
+  double alignment(const SurfacePositions& positions, size_t face) const;
+  double sagitta(const SurfacePositions& positions, size_t edge) const;
+  double fold(const SurfacePositions& positions, size_t edge) const;
+  bool face_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t face) const;
+  bool fold_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t edge) const;
+  bool edge_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t edge) const;
   void add_corners(int face, std::vector<int>& vertices) const;
   void add_vertices_about(int edge, bool folds, std::vector<int>& vertices) const;
 
-  const Connectivity& connectivity_;
+  const Adjacency& adjacency_;
   const TargetLengths& targets_;
   GuardOptions options_;
 };

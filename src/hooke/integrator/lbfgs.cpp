@@ -163,7 +163,7 @@ void find_descent(const Relaxation& r, double max_move, const Mat3X& gradient,
     clear_columns(blocked, d);
     memory.apply(r, h0, d);
     clear_columns(blocked, d);
-    r.retraction.constrain(r.placement, d);
+    r.retraction.constrain(r.positions, d);
     cap_displacement(r.vertex_length, max_move, d);
     if (memory.empty() || dot(d, gradient) < 0) return;
     memory.clear();
@@ -186,16 +186,17 @@ class LooseRetraction {
 };
 
 /// What the guards hold back is out of step with what is around it: lets these places find their own way.
-void mend(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs, Placement& trial) {
-  std::swap(r.placement, trial);
-  relax_locally(r, with_rings(r.connectivity, held, lbfgs.mended_rings), {.sweeps = lbfgs.mending_sweeps},
+void relax_about(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs,
+                 SurfacePositions& trial) {
+  std::swap(r.positions, trial);
+  relax_locally(r, with_rings(r.adjacency, held, lbfgs.relaxed_rings), {.sweeps = lbfgs.local_sweeps},
                 nullptr);
-  std::swap(r.placement, trial);
+  std::swap(r.positions, trial);
 }
 
 /// Leaves the vertices where they have drifted to. The trial is for its memory: its values mean nothing.
 IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
-                          const Observer& observer, Placement& trial) {
+                          const Observer& observer, SurfacePositions& trial) {
   const LooseRetraction loose(r.retraction, lbfgs.lazy_error);
   IntegrationResult result;
   for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep) {
@@ -203,7 +204,7 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
   }
   if (options.max_steps <= 1) {
-    result.energy = r.energy(r.placement.points, r.placement.normals, nullptr);
+    result.energy = r.energy(r.positions.points, r.positions.normals, nullptr);
     result.evaluations = 1;
     result.reason = StopReason::step_limit;
     return result;
@@ -217,9 +218,9 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
   std::vector<int> blocked;  // held in the last step: they sit out this one
   double max_move = options.max_move;
 
-  result.energy = r.energy(r.placement.points, r.placement.normals, &gradient);
+  result.energy = r.energy(r.positions.points, r.positions.normals, &gradient);
   result.evaluations = 1;
-  r.retraction.constrain(r.placement, gradient);
+  r.retraction.constrain(r.positions, gradient);
   rest.at_rest(result.energy);
   result.reason = StopReason::step_limit;
 
@@ -229,15 +230,15 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     const auto find_step = [&] { find_descent(r, max_move, gradient, blocked, h0, memory, step); };
     timed(r.stopwatch, "direction", find_step);
     bool accepted = false;
-    bool mended = false;
+    bool relaxed_locally = false;
     double trial_energy = 0;
     for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
-      if (tries > 0 && (held.empty() || mended)) {
+      if (tries > 0 && (held.empty() || relaxed_locally)) {
         assign_scaled(.5, step, step);
       } else if (tries > 0) {  // what the guards hold back spoils the step of the others
-        if (max_move > lbfgs.least_cap && carried_share(r, max_move, step) > lbfgs.carried) {
+        if (max_move > lbfgs.min_cap && carried_share(r, max_move, step) > lbfgs.carried) {
           max_move /= 2;
-          result.held_back -= static_cast<long long>(held.size());  // but by what ran over them
+          result.limited_steps -= static_cast<long long>(held.size());  // but by what ran over them
         } else {
           blocked.insert(blocked.end(), held.begin(), held.end());
         }
@@ -245,16 +246,16 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
       }
       assign_scaled(1, step, trial_gradient);
       held = timed(r.stopwatch, "guards", [&] {
-        return r.guards.step(r.retraction, r.placement, trial_gradient, trial, r.stopwatch);
+        return r.guards.step(r.retraction, r.positions, trial_gradient, trial, r.stopwatch);
       });
-      result.held_back += static_cast<long long>(held.size());
-      mended =
-          !held.empty() && static_cast<double>(held.size()) <= lbfgs.mendable * r.connectivity.vertex_count;
-      if (mended) timed(r.stopwatch, "mending", [&] { mend(r, held, lbfgs, trial); });
+      result.limited_steps += static_cast<long long>(held.size());
+      relaxed_locally = !held.empty() && static_cast<double>(held.size()) <=
+                                             lbfgs.locally_relaxable * r.adjacency.vertex_count;
+      if (relaxed_locally) timed(r.stopwatch, "mending", [&] { relax_about(r, held, lbfgs, trial); });
       trial_energy = timed(r.stopwatch, "energy",
                            [&] { return r.energy(trial.points, trial.normals, &trial_gradient); });
       ++result.evaluations;
-      const double slope = dot_with_difference(gradient, trial.points, r.placement.points);
+      const double slope = dot_with_difference(gradient, trial.points, r.positions.points);
       accepted = trial_energy <= result.energy + lbfgs.armijo * std::min(0., slope);
     }
     if (!accepted) {
@@ -268,11 +269,11 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     }
     r.retraction.constrain(trial, trial_gradient);
     subtract(trial_gradient, gradient, gradient);
-    subtract(trial.points, r.placement.points, step);
+    subtract(trial.points, r.positions.points, step);
     memory.push(r, h0, step, gradient);
-    std::swap(r.placement, trial);
+    std::swap(r.positions, trial);
     std::swap(gradient, trial_gradient);
-    if (mended)
+    if (relaxed_locally)
       blocked.clear();
     else
       blocked = held;
@@ -294,12 +295,12 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
 
 IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
                               const Observer& observer) {
-  Placement trial;
+  SurfacePositions trial;
   IntegrationResult result = descend(r, options, lbfgs, observer, trial);
-  if (!lbfgs.settles) return result;
-  settle(r.guards, r.retraction, r.placement, trial);
-  std::swap(r.placement, trial);
-  result.energy = r.energy(r.placement.points, r.placement.normals, nullptr);
+  if (!lbfgs.projects_at_end) return result;
+  project_drifted(r.guards, r.retraction, r.positions, trial);
+  std::swap(r.positions, trial);
+  result.energy = r.energy(r.positions.points, r.positions.normals, nullptr);
   return result;
 }
 

@@ -29,12 +29,13 @@ struct LbfgsOptions {
   /// Where guards hold too many back to mend, and more than this part of the vertices go as far as they may,
   /// long waves run over the places that stand: from then on all may go half as far.
   double carried = .25;
-  double least_cap = .25;    // but no less than this, in target lengths
-  double lazy_error = 1e-2;  // of the retraction on the way, in mean target lengths
-  bool settles = true;       // at the end; else the vertices stay where they have drifted to
-  double mendable = .01;     // part of the vertices: no more than so many that guards hold back are mended
-  int mended_rings = 1;      // about them, within which vertices move ...
-  int mending_sweeps = 3;    // ... in so many sweeps
+  double min_cap = .25;         // but no less than this, in target lengths
+  double lazy_error = 1e-2;     // of the retraction on the way, in mean target lengths
+  bool projects_at_end = true;  // at the end; else the vertices stay where they have drifted to
+  double locally_relaxable =
+      .01;                // part of the vertices: no more than so many that guards hold back are mended
+  int relaxed_rings = 1;  // about them, within which vertices move ...
+  int local_sweeps = 3;   // ... in so many sweeps
 };
 
 /// Moves relaxation.placement to a minimum of relaxation.energy on the surface or, unless it settles, no

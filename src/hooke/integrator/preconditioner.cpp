@@ -11,8 +11,8 @@ namespace hooke {
 namespace {
 
 constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the last
-constexpr int most_levels = 24;
-constexpr size_t most_parts = 8, least_part = 4096;  // of the vertices, summed on their own
+constexpr int max_levels = 24;
+constexpr size_t max_parts = 8, min_part = 4096;  // of the vertices, summed on their own
 
 using Cell = std::array<int, 3>;
 
@@ -114,7 +114,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
   for (;;) {
     Level level;
     level.nodes = static_cast<int>(nodes.cells().size());
-    if (level.nodes < coarsest_nodes || level_count() + 1 == most_levels) {
+    if (level.nodes < coarsest_nodes || level_count() + 1 == max_levels) {
       levels_.push_back(std::move(level));
       break;
     }
@@ -143,7 +143,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
 }
 
 std::vector<GridHierarchy::Part> GridHierarchy::part_vertices() const {
-  std::vector<Part> parts(std::clamp<size_t>(places_.size() / least_part, 1, most_parts));
+  std::vector<Part> parts(std::clamp<size_t>(places_.size() / min_part, 1, max_parts));
   for (size_t i = 0; i < parts.size(); ++i) {
     Part& part = parts[i];
     part = {i * places_.size() / parts.size(), (i + 1) * places_.size() / parts.size(), levels_[0].nodes, 0};
@@ -209,7 +209,7 @@ void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vect
 }
 
 void Preconditioner::refresh(Relaxation& r) {
-  const auto n = static_cast<size_t>(r.connectivity.vertex_count);
+  const auto n = static_cast<size_t>(r.adjacency.vertex_count);
   inverse_.resize(n);
   std::vector<float> mean(n, 0);  // a weight need not be exact, and memory is scarcest here
   parallel_for(n, 256, [&](size_t begin, size_t end) {
@@ -234,7 +234,7 @@ void Preconditioner::apply(const Relaxation& r, Mat3X& vectors) const {
     }
   });
   grids_.add(correction, grid_weight_, vectors);
-  r.retraction.constrain(r.placement, vectors);
+  r.retraction.constrain(r.positions, vectors);
 }
 
 }  // namespace hooke

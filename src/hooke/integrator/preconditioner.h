@@ -73,7 +73,7 @@ struct PreconditionerOptions {
 class Preconditioner {
  public:
   Preconditioner(const Relaxation& r, const PreconditionerOptions& options)
-      : options_(options), grids_(r.placement.points, options.grid_cell) {}
+      : options_(options), grids_(r.positions.points, options.grid_cell) {}
 
   /// Takes the curvatures anew. Pre-condition of apply().
   void refresh(Relaxation& r);

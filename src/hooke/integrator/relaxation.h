@@ -6,13 +6,13 @@
 
 namespace hooke {
 
-struct Connectivity;
+struct Adjacency;
 class Energy;
 class Guards;
-struct Placement;
+struct SurfacePositions;
 class Retraction;
 class Stopwatch;
-struct SweepPlan;
+struct VertexColoring;
 
 enum class StopReason {
   converged,    // every edge within the tolerance of its target length
@@ -36,13 +36,13 @@ using Observer = std::function<bool(const Progress&)>;
 
 /// The parts that a relaxation works on. All are references to objects that outlive it.
 struct Relaxation {
-  const Connectivity& connectivity;
-  const SweepPlan& sweeps;
+  const Adjacency& adjacency;
+  const VertexColoring& coloring;
   const std::vector<double>& vertex_length;  // target length per vertex
   Energy& energy;
   Retraction& retraction;
   Guards& guards;
-  Placement& placement;
+  SurfacePositions& positions;
   Stopwatch* stopwatch = nullptr;
 };
 
@@ -55,9 +55,9 @@ struct IntegrationOptions {
 
 struct IntegrationResult {
   int steps = 0;
-  int evaluations = 0;      // of the energy or the forces
-  double energy = 0;        // at the end
-  long long held_back = 0;  // vertex steps shortened by the guards
+  int evaluations = 0;          // of the energy or the forces
+  double energy = 0;            // at the end
+  long long limited_steps = 0;  // vertex steps shortened by the guards
   StopReason reason = StopReason::stalled;
 };
 

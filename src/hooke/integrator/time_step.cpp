@@ -52,7 +52,7 @@ FailedTests test_face(const FaceShape& before, const FaceShape& after, const Tim
 }  // namespace
 
 StepScales step_scales(const Eigen::Ref<const Mat3X>& points, const Eigen::Ref<const Mat3X>& velocities,
-                       const Eigen::Ref<const Mat3X>& forces, const Connectivity& c) {
+                       const Eigen::Ref<const Mat3X>& forces, const Adjacency& c) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const auto length = [&](std::size_t e) {
     const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
@@ -70,7 +70,7 @@ double base_step(const StepScales& s, double mass) {
 }
 
 FailedTests test_step(const Eigen::Ref<const Mat3X>& before, const Eigen::Ref<const Mat3X>& after,
-                      const Connectivity& c, double shortest_edge, const TimeStepOptions& options) {
+                      const Adjacency& c, double shortest_edge, const TimeStepOptions& options) {
   const auto face = [&](std::size_t f) {
     return test_face(face_shape(before, c.faces[f]), face_shape(after, c.faces[f]), options);
   };

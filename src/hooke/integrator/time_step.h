@@ -28,7 +28,7 @@ struct StepScales {
 /// Edges of length 0 are left out of [19]: they would forbid every step for good.
 /// Without an edge of positive length `edge` is infinite.
 StepScales step_scales(const Eigen::Ref<const Mat3X>& points, const Eigen::Ref<const Mat3X>& velocities,
-                       const Eigen::Ref<const Mat3X>& forces, const Connectivity& connectivity);
+                       const Eigen::Ref<const Mat3X>& forces, const Adjacency& adjacency);
 
 /// omega: the longest time in which no vertex, were it free, would travel further than the shortest edge.
 /// [24] Not finite when nothing moves and nothing pulls. `mass` is the mass of one vertex.
@@ -60,7 +60,7 @@ struct BoundCounts {
 /// A face that was degenerate before is exempt from the three face tests: it has no normal and no area to
 /// compare with, and one such face in the input would reject all steps.
 FailedTests test_step(const Eigen::Ref<const Mat3X>& before, const Eigen::Ref<const Mat3X>& after,
-                      const Connectivity& connectivity, double shortest_edge, const TimeStepOptions& options);
+                      const Adjacency& adjacency, double shortest_edge, const TimeStepOptions& options);
 
 /// What became of one search for a time step.
 struct AdaptedStep {

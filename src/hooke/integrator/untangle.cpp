@@ -7,7 +7,7 @@
 namespace hooke {
 namespace {
 
-std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces) {
+std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {
   std::vector<int> vertices;
   for (int f : faces) {
     const Triangle& t = c.faces[static_cast<size_t>(f)];
@@ -20,7 +20,7 @@ std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces
 
 UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer& observer) {
   UntangleResult result;
-  result.folded = r.guards.folded_faces(r.placement);
+  result.folded = r.guards.folded_faces(r.positions);
   result.folded_before = static_cast<int>(result.folded.size());
   if (result.folded.empty()) return result;
 
@@ -29,14 +29,13 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
   size_t least = result.folded.size();
   for (int round = 0, in_vain = 0;
        round < o.rounds && in_vain < o.patience && !result.folded.empty() && !result.interrupted; ++round) {
-    const LocalRelaxationResult relaxed =
-        relax_locally(r,
-                      with_rings(r.connectivity, corners_of(r.connectivity, result.folded),
-                                 o.first_rings + round * o.more_rings),
-                      {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation}, observer);
+    const LocalRelaxationResult relaxed = relax_locally(
+        r,
+        with_rings(r.adjacency, corners_of(r.adjacency, result.folded), o.first_rings + round * o.more_rings),
+        {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation}, observer);
     result.sweeps += relaxed.sweeps;
     result.interrupted = relaxed.interrupted;
-    result.folded = r.guards.folded_faces(r.placement);
+    result.folded = r.guards.folded_faces(r.positions);
     in_vain = result.folded.size() < least ? 0 : in_vain + 1;
     least = std::min(least, result.folded.size());
   }

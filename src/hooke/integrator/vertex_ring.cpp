@@ -52,9 +52,9 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     f = {f.x - e.x, f.y - e.y, f.z - e.z};
     dot(f, f, opposite);
     const Lanes a = length * length, b = far * far;
-    Lanes least_side = a < b ? a : b;
-    least_side = least_side < opposite ? least_side : opposite;
-    const Lanes cosine_at_least = .5 * (a + b + opposite) - least_side;  // times the sides there
+    Lanes min_side = a < b ? a : b;
+    min_side = min_side < opposite ? min_side : opposite;
+    const Lanes cosine_at_least = .5 * (a + b + opposite) - min_side;  // times the sides there
     broken |= (face > 0.) & (cosine_at_least > o.cotangent * (1 - rounding) * area);
 
     load(fixed + edge_normal * stride, stride, m);
@@ -119,38 +119,38 @@ double cotangent_of_least_angle(const double* moving, std::size_t stride) {
 
 }  // namespace
 
-void VertexRing::gather(const Placement& at, int side) {
-  side_ = side;
-  const auto ring = spokes();
+void VertexRing::gather(const SurfacePositions& at, int wedge) {
+  wedge_ = wedge;
+  const auto ring = rings();
   const std::size_t count = ring.size();
   stride_ = padded_to_lanes(count);
   const std::size_t S = stride_;
   columns_.resize(fixed_columns * S);
   double* const data = columns_.data();
-  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(side)]);
-  if (begins_at_crease()) mate_ = at.points.col(spokes_.mate[static_cast<std::size_t>(side)]);
+  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(wedge)]);
+  if (begins_at_crease()) mate_ = at.points.col(spokes_.mate[static_cast<std::size_t>(wedge)]);
   const auto normal = [&](std::size_t i) {
-    return at.normals.col(spokes_.sides.empty() ? ring[i].neighbour : spokes_.sides[item + i]);
+    return at.normals.col(spokes_.wedges.empty() ? ring[i].neighbour : spokes_.wedges[item + i]);
   };
   for (std::size_t i = 0; i < count; ++i) {
-    const Spoke& spoke = ring[i];
-    const bool face = spoke.face >= 0;
+    const RingEntry& entry = ring[i];
+    const bool face = entry.face >= 0;
     // The last edge of an open fan has no face: one across the edge before keeps the numbers finite.
     const std::size_t j = face ? (i + 1) % count : i - 1;
-    const Spoke& next = ring[j];
-    put(at.points.col(spoke.neighbour), data + near * S + i, S);
+    const RingEntry& next = ring[j];
+    put(at.points.col(entry.neighbour), data + near * S + i, S);
     put(at.points.col(next.neighbour), data + far * S + i, S);
     put(normal(i) + normal(j), data + face_normals * S + i, S);
     put(normal(i), data + edge_normal * S + i, S);
     Vec3 other = Vec3::Zero();
-    if (spoke.across >= 0) {
+    if (entry.across >= 0) {
       const Vec3 b = at.points.col(next.neighbour);
-      other = (at.points.col(spoke.neighbour) - b).cross(at.points.col(spoke.across) - b);
+      other = (at.points.col(entry.neighbour) - b).cross(at.points.col(entry.across) - b);
     }
     put(other, data + beyond * S + i, S);
-    data[edge_target * S + i] = targets_.edge[static_cast<std::size_t>(spoke.edge)];
+    data[edge_target * S + i] = targets_.edge[static_cast<std::size_t>(entry.edge)];
     data[face_target * S + i] =
-        face ? targets_.face[static_cast<std::size_t>(spoke.face)] : data[edge_target * S + i];
+        face ? targets_.face[static_cast<std::size_t>(entry.face)] : data[edge_target * S + i];
     data[has_edge * S + i] = spokes_.owned.empty() || spokes_.owned[item + i];
     data[has_face * S + i] = face;
   }
@@ -160,7 +160,7 @@ void VertexRing::gather(const Placement& at, int side) {
 }
 
 void VertexRing::shape(const Vec3& point, const Vec3& normal, RingShape& shape) const {
-  const std::size_t S = stride_, count = spokes().size();
+  const std::size_t S = stride_, count = rings().size();
   shape.point = point;
   shape.normal = normal;
   shape.columns.resize(moving_columns * S);
@@ -168,7 +168,7 @@ void VertexRing::shape(const Vec3& point, const Vec3& normal, RingShape& shape) 
   make_shape(columns_.data(), S, point, data);
   for (std::size_t i = 0; i < S; ++i) {
     const std::size_t before = i == 0 ? count - 1 : i - 1;
-    const bool pair = i < count && spokes()[i].face >= 0 && spokes()[before].face >= 0;
+    const bool pair = i < count && rings()[i].face >= 0 && rings()[before].face >= 0;
     for (std::size_t k = 0; k < 3; ++k)
       data[(previous_vector + k) * S + i] = pair ? data[(area_vector + k) * S + before] : 0;
     data[previous_area * S + i] = pair ? data[doubled_area * S + before] : 0;
@@ -235,12 +235,12 @@ RingMeasures VertexRing::measures(const RingShape& shape) const {
     return lengths > 0 ? a.dot(b) / lengths : 1;
   };
   RingMeasures m;
-  for (std::size_t i = 0; i < spokes().size(); ++i) {
+  for (std::size_t i = 0; i < rings().size(); ++i) {
     const Vec3 n = get(data + area_vector * S + i, S);
     const Vec3 r = get(columns_.data() + face_normals * S + i, S) + shape.normal;
     const double c = std::clamp(get(columns_.data() + edge_normal * S + i, S).dot(shape.normal), -1., 1.);
     const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
-    const bool face = spokes()[i].face >= 0;
+    const bool face = rings()[i].face >= 0;
     m.area.push_back(face ? .5 * data[doubled_area * S + i] : 0);
     m.cotangent.push_back(face ? cotangent_of_least_angle(data + i, S) : 0);
     m.alignment.push_back(!face ? 1 : n.isZero(0) || r.isZero(0) ? 0 : cosine(n, r));
@@ -251,10 +251,10 @@ RingMeasures VertexRing::measures(const RingShape& shape) const {
   return m;
 }
 
-double VertexRing::greatest_cotangent(const RingShape& shape) const {
+double VertexRing::max_cotangent(const RingShape& shape) const {
   double greatest = 0;
-  for (std::size_t i = 0; i < spokes().size(); ++i)
-    if (spokes()[i].face >= 0)
+  for (std::size_t i = 0; i < rings().size(); ++i)
+    if (rings()[i].face >= 0)
       greatest = std::max(greatest, cotangent_of_least_angle(shape.columns.data() + i, stride_));
   return greatest;
 }
@@ -269,7 +269,7 @@ bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMea
   const auto breaks = [&](bool crease, double before, double after) {
     return crease ? crease_fold_breaks(o, before, after) : hooke::fold_breaks(o, before, after);
   };
-  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(side_)]) + i;
+  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(wedge_)]) + i;
   const bool far_crease = !spokes_.far_crease.empty() && spokes_.far_crease[item];
   return breaks(i == 0 && begins_at_crease(), b.fold[i], a.fold[i]) ||
          breaks(far_crease, b.far_fold[i], a.far_fold[i]);
@@ -278,7 +278,7 @@ bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMea
 bool VertexRing::obeys(const RingShape& before, const RingShape& after, const GuardOptions& o) const {
   if (within_limits(view(before), view(after), o)) return true;
   const RingMeasures b = measures(before), a = measures(after);
-  for (std::size_t i = 0; i < spokes().size(); ++i)
+  for (std::size_t i = 0; i < rings().size(); ++i)
     if (face_breaks(o, b.area[i], a.area[i], b.alignment[i], a.alignment[i]) ||
         angle_breaks(o, b.alignment[i], b.cotangent[i], a.cotangent[i]) ||
         sagitta_breaks(o, columns_[edge_target * stride_ + i], b.sagitta[i], a.sagitta[i]) ||

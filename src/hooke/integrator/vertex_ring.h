@@ -30,11 +30,11 @@ struct RingMeasures {
 class VertexRing {
  public:
   /// Keeps references.
-  VertexRing(const Spokes& spokes, const TargetLengths& targets) : spokes_(spokes), targets_(targets) {}
+  VertexRing(const VertexRings& rings, const TargetLengths& targets) : spokes_(rings), targets_(targets) {}
 
   /// Takes in all but the vertex itself. Pre-condition: the vertex has faces. `side` is the vertex or one of
   /// its further sides.
-  void gather(const Placement& at, int side);
+  void gather(const SurfacePositions& at, int wedge);
 
   /// The ring with its vertex at this point, where the surface has this normal.
   void shape(const Vec3& point, const Vec3& normal, RingShape& shape) const;
@@ -52,26 +52,26 @@ class VertexRing {
   RingMeasures measures(const RingShape& shape) const;
 
   /// The greatest cotangent of the faces' least angles; 0 if none is greater.
-  double greatest_cotangent(const RingShape& shape) const;
+  double max_cotangent(const RingShape& shape) const;
 
   /// The number of faces with an alignment below `limit`.
   int folded_faces(const RingShape& shape, double limit) const;
 
  private:
-  std::span<const Spoke> spokes() const { return spokes_[side_]; }
+  std::span<const RingEntry> rings() const { return spokes_[wedge_]; }
   RingView view(const RingShape& s) const { return {columns_.data(), s.columns.data(), stride_, s.normal}; }
   RingModel unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
                    std::vector<double>& unfolded) const;
 
-  const Spokes& spokes_;
+  const VertexRings& spokes_;
   const TargetLengths& targets_;
-  bool fold_breaks(const GuardOptions& options, std::size_t spoke, const RingMeasures& before,
+  bool fold_breaks(const GuardOptions& options, std::size_t entry, const RingMeasures& before,
                    const RingMeasures& after) const;
   bool begins_at_crease() const {
-    return !spokes_.mate.empty() && spokes_.mate[static_cast<std::size_t>(side_)] >= 0;
+    return !spokes_.mate.empty() && spokes_.mate[static_cast<std::size_t>(wedge_)] >= 0;
   }
 
-  int side_ = 0;
+  int wedge_ = 0;
   Vec3 mate_ = Vec3::Zero();     // corner of the face beyond the crease with which the side begins
   std::size_t stride_ = 0;       // entries of a column: whole groups of lanes
   std::vector<double> columns_;  // what stays as it is while the vertex moves

@@ -33,7 +33,7 @@ struct ObjReader {
   ObjReader(const Scanner& text, ObjNumbers& all)
       : scanner(text),
         vertices{.kind = "vertex", .values = all.points},
-        texture{.kind = "texture coordinate", .values = all.texture, .least_numbers = 1},
+        texture{.kind = "texture coordinate", .values = all.texture, .min_numbers = 1},
         normals{.kind = "normal", .values = all.normals} {}
 
   Scanner scanner;

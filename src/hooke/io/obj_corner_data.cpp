@@ -121,7 +121,7 @@ void read_numbers(Scanner& in, ObjElements& elements) {
   bool broken = false;
   for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++numbers)
     broken |= numbers >= 3 || parse_number(token, column[numbers]) != NumberError::none;
-  broken |= numbers < elements.least_numbers;
+  broken |= numbers < elements.min_numbers;
   if (broken && elements.broken_line == 0) elements.broken_line = in.line();
   elements.numbers = std::max(elements.numbers, numbers);
 }
@@ -141,7 +141,7 @@ int read_index(const Scanner& in, std::string_view text, std::string_view corner
   const int id = static_cast<int>(index > 0 ? index - 1 : elements.count + index);
   if (id > elements.greatest) {
     elements.greatest = id;
-    elements.greatest_line = in.line();
+    elements.max_line = in.line();
   }
   return id;
 }
@@ -161,7 +161,7 @@ void check_greatest(const std::string& name, const ObjElementPieces& pieces) {
   if (asked.greatest >= count)
     throw InputError(
         fmt::format("{}:{}: {} index {}; expected at most {}, the number in the file; correct the index",
-                    name, asked.greatest_line, asked.kind, asked.greatest + 1LL, count));
+                    name, asked.max_line, asked.kind, asked.greatest + 1LL, count));
 }
 
 void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, MeshFile& file,
@@ -179,7 +179,7 @@ void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, M
   const auto corners = std::ssize(data.elements);
   if (broken_line > 0)
     not_kept.push_back(fmt::format("{} (line {}; expected {}3 finite numbers)", kind.what, broken_line,
-                                   all.least_numbers < 3 ? "1 to " : ""));
+                                   all.min_numbers < 3 ? "1 to " : ""));
   else if (without == corners)
     not_kept.emplace_back(kind.what);
   else if (without > 0)

@@ -49,9 +49,9 @@ struct ObjElements {
   Mat3X& values;      // of the whole text, one column per element
   int count = 0;      // from the beginning of the text
   int greatest = -1;  // 0-based index that a face of the piece asked for
-  int greatest_line = 0;
+  int max_line = 0;
   // Of texture coordinates and normals, without which we can do:
-  int least_numbers = 3;
+  int min_numbers = 3;
   int numbers = 0;                // most that an element of the piece has
   int broken_line = 0;            // the first whose numbers cannot be used
   std::vector<int> of_corners{};  // their ids, as far as corners of the piece have one; -1 for none

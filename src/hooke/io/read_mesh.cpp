@@ -20,19 +20,19 @@ void append(Warnings& warnings, Warnings more) {
 
 /// Of a mesh that can be worked on. It is looked at in memory order, where that is quick; what is wrong, or
 /// worth a warning, is then told in the order of the file.
-Layout valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, Reordered order,
-                    const MeshSource& source, Warnings& warnings, Stopwatch* stopwatch) {
+MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, Permutation order,
+                         const MeshSource& source, Warnings& warnings, Stopwatch* stopwatch) {
   const auto explain = [&] { append(warnings, require_valid(points, triangles, source)); };
-  Layout layout{std::move(order), nullptr};
+  MemoryOrder memory_order{std::move(order), nullptr};
   VertexFans fans;
   timed(stopwatch, "validate", [&] {
-    if (!find_problems(layout.order.in_new_order(points), layout.order.faces, &fans).empty()) explain();
+    if (!find_problems(memory_order.order.gather(points), memory_order.order.faces, &fans).empty()) explain();
   });
-  layout.connectivity = timed(stopwatch, "connectivity", [&] {
-    return std::make_shared<const Connectivity>(
-        make_connectivity(std::exchange(layout.order.faces, {}), std::move(fans)));
+  memory_order.adjacency = timed(stopwatch, "connectivity", [&] {
+    return std::make_shared<const Adjacency>(
+        make_adjacency(std::exchange(memory_order.order.faces, {}), std::move(fans)));
   });
-  return layout;
+  return memory_order;
 }
 
 }  // namespace
@@ -48,10 +48,10 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   append(warnings, warnings_of(triangulation, file.name));
   const std::vector<Triangle>& triangles = triangulation.triangles;
 
-  Reordered order;
+  Permutation order;
   std::string hash, faces_hash;
   const auto find_order = [&] {
-    order = reorder(triangles, locality_order(static_cast<int>(file.points.cols()), triangles));
+    order = reorder(triangles, bfs_cluster_order(static_cast<int>(file.points.cols()), triangles));
   };
   const auto take_hashes = [&] {
     hash = sha256(content.text());
@@ -61,19 +61,21 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   content = {};  // the memory is wanted for the mesh
 
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
-  Layout layout = valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
+  MemoryOrder memory_order =
+      valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
   require_workable_size(file.points, file.name);
   triangulation = {};
   // Built in place: OpenMesh has no move, and copies all of a mesh.
-  return {timed(stopwatch, "build",
-                [&] { return build_mesh(file.points, *layout.connectivity, layout.order.old_ids()); }),
-          std::move(layout),
-          file.format,
-          file.encoding,
-          std::move(hash),
-          std::move(faces_hash),
-          std::move(file.vertex_data),
-          std::move(warnings)};
+  return {
+      timed(stopwatch, "build",
+            [&] { return build_mesh(file.points, *memory_order.adjacency, memory_order.order.old_ids()); }),
+      std::move(memory_order),
+      file.format,
+      file.encoding,
+      std::move(hash),
+      std::move(faces_hash),
+      std::move(file.vertex_data),
+      std::move(warnings)};
 }
 
 }  // namespace hooke

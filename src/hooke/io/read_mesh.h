@@ -12,9 +12,9 @@ namespace hooke {
 
 /// A mesh, and what the report and the writer want to know about its file.
 struct LoadedMesh {
-  TriMesh mesh;        // vertices in file order; triangles too, those of a polygon together
-  Layout layout;       // of the mesh
-  std::string format;  // "obj", "ply" or "off"
+  TriMesh mesh;              // vertices in file order; triangles too, those of a polygon together
+  MemoryOrder memory_order;  // of the mesh
+  std::string format;        // "obj", "ply" or "off"
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a ply file
   std::string sha256;                                        // of the file's bytes, hex
   std::string connectivity_sha256;                           // see sha256.h

@@ -18,7 +18,7 @@ namespace {
 
 std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, const std::string& format,
                      PlyEncoding encoding, const VertexData& data) {
-  const auto points = positions(mesh);
+  const auto points = vertex_points(mesh);
   if (format == "obj") return write_obj(points, triangles, data);
   if (format == "ply") return write_ply(points, triangles, encoding, data);
   if (format == "off") return write_off(points, triangles, data);

@@ -38,7 +38,7 @@ void sort_unique(std::vector<int>& ids) {
   ids.erase(std::ranges::unique(ids).begin(), ids.end());
 }
 
-std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces) {
+std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {
   std::vector<int> vertices;
   for (int f : faces)
     for (int v : c.faces[static_cast<size_t>(f)]) vertices.push_back(v);
@@ -46,7 +46,7 @@ std::vector<int> corners_of(const Connectivity& c, const std::vector<int>& faces
   return vertices;
 }
 
-Patch patch_about(const Mat3X& points, const Connectivity& c, int face, int rings) {
+Patch patch_about(const Mat3X& points, const Adjacency& c, int face, int rings) {
   Patch patch;
   patch.faces = {face};
   for (int ring = 0; ring < rings; ++ring) {
@@ -179,8 +179,8 @@ size_t tightest_vertex(const Patch& p) {
 
 }  // namespace
 
-AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivity, int face, int rings) {
-  const Patch patch = patch_about(points, connectivity, face, rings);
+AngleBound bound_least_angle(const Mat3X& points, const Adjacency& adjacency, int face, int rings) {
+  const Patch patch = patch_about(points, adjacency, face, rings);
   AngleBound bound;
   const auto unknown = [](double sum) { return !std::isfinite(sum); };
   if (std::ranges::any_of(patch.angle_sum, unknown)) return bound;
@@ -222,9 +222,9 @@ struct SubMesh {
   }
 };
 
-SubMesh cut_out(const Connectivity& c, int face) {
+SubMesh cut_out(const Adjacency& c, int face) {
   const Triangle& t = c.faces[static_cast<size_t>(face)];
-  const std::vector<int> faces = united(c.vertex_faces, with_rings(c, {t.begin(), t.end()}, rings));
+  const std::vector<int> faces = sorted_union(c.vertex_faces, with_rings(c, {t.begin(), t.end()}, rings));
   SubMesh part;
   part.face = static_cast<int>(std::ranges::lower_bound(faces, face) - faces.begin());
   for (int f : faces) part.faces.push_back(c.faces[static_cast<size_t>(f)]);
@@ -237,18 +237,18 @@ SubMesh cut_out(const Connectivity& c, int face) {
 }
 
 AngleBound bound_in_pieces(const MeasuredSurface& surface, int face, const std::vector<Edge>& creases) {
-  const SubMesh part = cut_out(surface.connectivity, face);
+  const SubMesh part = cut_out(surface.adjacency, face);
   std::vector<Edge> here;
   for (const Edge& crease : creases) {
     const Edge e = {part.place_of(crease[0]), part.place_of(crease[1])};
     if (std::min(e[0], e[1]) >= 0) here.push_back(e);
   }
-  Connectivity c = make_connectivity(static_cast<int>(part.vertices.size()), part.faces);
-  part_at_creases(c, here);
+  Adjacency c = make_adjacency(static_cast<int>(part.vertices.size()), part.faces);
+  split_wedges(c, here);
   const Mat3X points = surface.points(Eigen::all, part.vertices);
-  AngleBound bound = bound_least_angle(side_points(points, c), cut_open(c), part.face, rings);
+  AngleBound bound = bound_least_angle(wedge_points(points, c), cut_open(c), part.face, rings);
   for (int& v : bound.vertices)
-    v = surface.ids.vertex(part.vertices[static_cast<size_t>(c.vertex_of_side(v))]);
+    v = surface.ids.vertex(part.vertices[static_cast<size_t>(c.vertex_of_wedge(v))]);
   sort_unique(bound.vertices);
   return bound;
 }
@@ -265,7 +265,7 @@ std::vector<int> places(std::span<const int> ids, size_t count) {
 
 std::vector<AngleBound> bound_least_angles(const MeasuredSurface& surface, const std::vector<int>& faces,
                                            const std::vector<Edge>& creases) {
-  const Connectivity& c = surface.connectivity;
+  const Adjacency& c = surface.adjacency;
   const std::vector<int> vertex_at = places(surface.ids.vertices, static_cast<size_t>(c.vertex_count));
   const std::vector<int> face_at = places(surface.ids.faces, c.faces.size());
   std::vector<Edge> edges = creases;

@@ -17,7 +17,7 @@ struct AngleBound {
 /// curvature inside, the measured angle on the boundary. Where the surface and the boundary stay as they are
 /// no movement gets beyond it; the geometry may allow less. 60 degrees where the coordinates are too large
 /// for the angles to be measured.
-AngleBound bound_least_angle(const Mat3X& points, const Connectivity& connectivity, int face, int rings = 2);
+AngleBound bound_least_angle(const Mat3X& points, const Adjacency& adjacency, int face, int rings = 2);
 
 /// The same where creases, edges of the surface's ids, part the faces about a vertex and stay: what the
 /// angles sum to stays as it is in each sector of a vertex on its own. The vertices are the surface's ids.

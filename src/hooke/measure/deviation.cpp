@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t block = 1024;
 
-using Face = BoundingVolumeTree::Face;
+using Face = AabbTree::Face;
 
 double area_of(const Face& face) {
   const auto& [a, b, c] = face.corners;
@@ -24,7 +24,7 @@ double area_of(const Face& face) {
 /// The samples of a few faces: those that faces have in common once, and those of a face in one group.
 class Samples {
  public:
-  static constexpr size_t most_faces = 16;
+  static constexpr size_t max_faces = 16;
 
   explicit Samples(std::span<const Face> faces) {
     for (const Face& face : faces) {
@@ -69,7 +69,7 @@ class Samples {
   struct OfFace {
     std::array<size_t, 3> corners, midpoints;  // places among the points
   };
-  static constexpr size_t most_points = 10 * most_faces;
+  static constexpr size_t max_points = 10 * max_faces;
 
   size_t add(const Vec3& point) {
     points_[count_] = point;
@@ -92,17 +92,17 @@ class Samples {
     of_face.midpoints[k] = known;
   }
 
-  std::array<Vec3, most_points> points_;
-  std::array<OfFace, most_faces> faces_;
-  std::array<int, 3 * most_faces> vertices_;
-  std::array<std::array<unsigned char, 3 * most_faces>, 3 * most_faces> midpoints_{};  // by ends; 0: none yet
+  std::array<Vec3, max_points> points_;
+  std::array<OfFace, max_faces> faces_;
+  std::array<int, 3 * max_faces> vertices_;
+  std::array<std::array<unsigned char, 3 * max_faces>, 3 * max_faces> midpoints_{};  // by ends; 0: none yet
   size_t count_ = 0, face_count_ = 0, vertex_count_ = 0, first_vertex_ = 0;
 };
 
 }  // namespace
 
 MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
-                        std::vector<TreeFoot>* centres) {
+                        std::vector<ClosestFacePoint>* centres) {
   const std::span<const Face> faces = from.tree.faces();
   if (centres) centres->assign(faces.size(), {});
   std::vector<double> greatest(faces.size() / block + 1, 0);
@@ -110,8 +110,8 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
   const auto look = [&](size_t begin, size_t end) {
     NearestFaceSearch find(to.tree);
     std::vector<NearestFace> nearest;
-    for (size_t first = begin; first < end; first += Samples::most_faces) {
-      const auto some = faces.subspan(first, std::min(Samples::most_faces, end - first));
+    for (size_t first = begin; first < end; first += Samples::max_faces) {
+      const auto some = faces.subspan(first, std::min(Samples::max_faces, end - first));
       const Samples samples(some);
       nearest.resize(samples.points().size());
       find(samples.points(), nearest);
@@ -149,24 +149,24 @@ Vec3 area_vector(const Mat3X& points, const Triangle& t) {
   return area_vector(points.col(t[0]), points.col(t[1]), points.col(t[2]));
 }
 
-using Face = BoundingVolumeTree::Face;
+using Face = AabbTree::Face;
 
 Vec3 area_vector(const Face& face) {
   return area_vector(face.corners[0], face.corners[1], face.corners[2]);
 }
 
-const Face& face_at(const MeasuredSurface& surface, const TreeFoot& foot) {
-  return surface.tree.faces()[static_cast<size_t>(foot.place)];
+const Face& face_at(const MeasuredSurface& surface, const ClosestFacePoint& projection) {
+  return surface.tree.faces()[static_cast<size_t>(projection.place)];
 }
 
-Vec3 weights_at(const Face& face, const TreeFoot& foot) {
-  return barycentric(foot.point, face.corners[0], face.corners[1], face.corners[2]);
+Vec3 weights_at(const Face& face, const ClosestFacePoint& projection) {
+  return barycentric(projection.point, face.corners[0], face.corners[1], face.corners[2]);
 }
 
 /// In the order of the ids that the vertices have in their mesh.
 Mat3X points_by_id(const MeasuredSurface& surface) {
   Mat3X points(3, surface.points.cols());
-  for (int v = 0; v < surface.connectivity.vertex_count; ++v)
+  for (int v = 0; v < surface.adjacency.vertex_count; ++v)
     points.col(surface.ids.vertex(v)) = surface.points.col(v);
   return points;
 }
@@ -192,7 +192,7 @@ double angle_between(const Vec3& n, const Vec3& m) {
 
 /// Does a face with this area vector oppose one of the reference's faces that fold at the closest point?
 /// Where that is on an edge or a vertex, it is the closest point of several faces.
-bool opposes_at_fold(const MeasuredSurface& reference, const TreeFoot& at, const Vec3& n) {
+bool opposes_at_fold(const MeasuredSurface& reference, const ClosestFacePoint& at, const Vec3& n) {
   constexpr double on_side = 1e-9;  // of a barycentric weight
   constexpr double fold = -.1;      // cosine; a crease of a right angle is none
   const Face& face = face_at(reference, at);
@@ -208,8 +208,8 @@ bool opposes_at_fold(const MeasuredSurface& reference, const TreeFoot& at, const
   const Vec3 own = area_vector(face).normalized();
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
-  for (int f : reference.connectivity.vertex_faces[t[static_cast<size_t>(corner)]]) {
-    const Triangle& other = reference.connectivity.faces[static_cast<size_t>(f)];
+  for (int f : reference.adjacency.vertex_faces[t[static_cast<size_t>(corner)]]) {
+    const Triangle& other = reference.adjacency.faces[static_cast<size_t>(f)];
     const Vec3 m = area_vector(reference.points, other).normalized();
     if (touches(other) && m.dot(own) < fold && m.dot(n) < 0) return true;
   }
@@ -218,7 +218,7 @@ bool opposes_at_fold(const MeasuredSurface& reference, const TreeFoot& at, const
 
 /// `closest` belongs to the centres of the result's faces, in the order of its tree.
 MaxRms measure_normal_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
-                                const std::vector<TreeFoot>& closest) {
+                                const std::vector<ClosestFacePoint>& closest) {
   const std::span<const Face> faces = result.tree.faces();
   std::vector<double> angles(closest.size()), weights(closest.size());
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
@@ -244,12 +244,12 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
 
 /// Unit normals; faces weigh by their area, so that a folded sliver does not turn them.
 Mat3X vertex_normals(const MeasuredSurface& side) {
-  Mat3X normals = Mat3X::Zero(3, side.connectivity.vertex_count);
+  Mat3X normals = Mat3X::Zero(3, side.adjacency.vertex_count);
   parallel_for(static_cast<size_t>(normals.cols()), block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       Vec3 sum = Vec3::Zero();
-      for (int f : side.connectivity.vertex_faces[v])
-        sum += area_vector(side.points, side.connectivity.faces[static_cast<size_t>(f)]);
+      for (int f : side.adjacency.vertex_faces[v])
+        sum += area_vector(side.points, side.adjacency.faces[static_cast<size_t>(f)]);
       normals.col(v) = sum.normalized();
     }
   });
@@ -257,7 +257,7 @@ Mat3X vertex_normals(const MeasuredSurface& side) {
 }
 
 /// The reference's vertex normals, interpolated at a point of its surface.
-Vec3 normal_at(const Mat3X& normals, const Face& face, const TreeFoot& at) {
+Vec3 normal_at(const Mat3X& normals, const Face& face, const ClosestFacePoint& at) {
   const Triangle& t = face.vertices;
   const Vec3 weights = weights_at(face, at);
   return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
@@ -265,7 +265,7 @@ Vec3 normal_at(const Mat3X& normals, const Face& face, const TreeFoot& at) {
 
 /// `closest` belongs to the centres of the result's faces, in the order of its tree.
 void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
-                         const std::vector<TreeFoot>& closest, Deviation& deviation) {
+                         const std::vector<ClosestFacePoint>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
   std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
   const std::span<const Face> faces = result.tree.faces();
@@ -286,17 +286,16 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
 }
 
 /// Boundary edges as triangles without area, which is how the tree takes segments.
-std::vector<Triangle> boundary_segments(const Connectivity& connectivity) {
+std::vector<Triangle> boundary_segments(const Adjacency& adjacency) {
   std::vector<Triangle> segments;
-  for (size_t e = 0; e < connectivity.edges.size(); ++e) {
-    const auto [a, b] = connectivity.edges[e];
-    if (connectivity.is_boundary_edge(static_cast<int>(e))) segments.push_back({a, b, b});
+  for (size_t e = 0; e < adjacency.edges.size(); ++e) {
+    const auto [a, b] = adjacency.edges[e];
+    if (adjacency.is_boundary_edge(static_cast<int>(e))) segments.push_back({a, b, b});
   }
   return segments;
 }
 
-double greatest_distance(const Mat3X& points, const std::vector<Triangle>& segments,
-                         const BoundingVolumeTree& to) {
+double max_distance(const Mat3X& points, const std::vector<Triangle>& segments, const AabbTree& to) {
   constexpr int samples = 8;
   std::vector<double> greatest(segments.size());
   parallel_for(segments.size(), block, [&](size_t begin, size_t end) {
@@ -325,7 +324,7 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
                          ? measure_displacement(reference.points, result.points)
                          : measure_displacement(points_by_id(reference), points_by_id(result));
 
-  std::vector<TreeFoot> closest;
+  std::vector<ClosestFacePoint> closest;
   timed(stopwatch, "to_reference", [&] { d.to_reference = measure_distance(result, reference, &closest); });
   timed(stopwatch, "from_reference", [&] { d.from_reference = measure_distance(reference, result); });
   timed(stopwatch, "normals", [&] {
@@ -337,19 +336,17 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
   d.volume_change = relative_change(reference.extent.volume, result.extent.volume);
 
   const Stage stage(stopwatch, "boundary");
-  const auto old_rim = boundary_segments(reference.connectivity);
-  const auto new_rim = boundary_segments(result.connectivity);
+  const auto old_rim = boundary_segments(reference.adjacency);
+  const auto new_rim = boundary_segments(result.adjacency);
   if (!old_rim.empty() && !new_rim.empty()) {
-    d.boundary_to_reference =
-        greatest_distance(result.points, new_rim, BoundingVolumeTree(reference.points, old_rim));
-    d.boundary_from_reference =
-        greatest_distance(reference.points, old_rim, BoundingVolumeTree(result.points, new_rim));
+    d.boundary_to_reference = max_distance(result.points, new_rim, AabbTree(reference.points, old_rim));
+    d.boundary_from_reference = max_distance(reference.points, old_rim, AabbTree(result.points, new_rim));
   }
   return d;
 }
 
-Deviation measure_deviation(const Mat3X& reference_points, const Connectivity& reference,
-                            const Mat3X& result_points, const Connectivity& result) {
+Deviation measure_deviation(const Mat3X& reference_points, const Adjacency& reference,
+                            const Mat3X& result_points, const Adjacency& result) {
   return measure_deviation(MeasuredSurface(reference_points, reference),
                            MeasuredSurface(result_points, result));
 }

@@ -15,7 +15,7 @@ struct MaxRms {
 };
 
 /// Where a point is closest to a surface.
-struct TreeFoot {
+struct ClosestFacePoint {
   Vec3 point = Vec3::Zero();
   long long place = -1;  // of its face in the tree's faces(); -1 where there is none
 };
@@ -25,14 +25,14 @@ struct TreeFoot {
 /// them. Infinite when `to` has no faces. `centres`, where given, gets the closest points of the faces'
 /// centres, in the order of from.tree.faces().
 MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
-                        std::vector<TreeFoot>* centres = nullptr);
+                        std::vector<ClosestFacePoint>* centres = nullptr);
 
 // How far a result has gone from the mesh it was made from.
 
-/// Lengths are in file units, angles in degrees. Distances are sampled at ten points a face: its corners, its
-/// edge midpoints, and the centres of the four triangles between them. A max is attained at a sample and so
-/// is a lower bound of the Hausdorff distance; an rms is an integral over the area. Infinite when the other
-/// side is empty.
+/// UniformVector are in file units, angles in degrees. Distances are sampled at ten points a face: its
+/// corners, its edge midpoints, and the centres of the four triangles between them. A max is attained at a
+/// sample and so is a lower bound of the Hausdorff distance; an rms is an integral over the area. Infinite
+/// when the other side is empty.
 struct Deviation {
   std::optional<MaxRms> displacement;  // of the vertices; none when their numbers differ
   MaxRms to_reference;                 // from the result's surface to the closest point of the reference
@@ -61,7 +61,7 @@ struct Deviation {
 /// they lie close to each other.
 Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
                             Stopwatch* stopwatch = nullptr);
-Deviation measure_deviation(const Mat3X& reference_points, const Connectivity& reference,
-                            const Mat3X& result_points, const Connectivity& result);
+Deviation measure_deviation(const Mat3X& reference_points, const Adjacency& reference,
+                            const Mat3X& result_points, const Adjacency& result);
 
 }  // namespace hooke

@@ -4,12 +4,12 @@
 
 namespace hooke {
 
-MeasuredSurface::MeasuredSurface(Mat3X own_points, const Connectivity& its_connectivity,
-                                 const MeshIds& mesh_ids, const std::vector<int>& tree_order)
+MeasuredSurface::MeasuredSurface(Mat3X own_points, const Adjacency& its_connectivity, const MeshIds& mesh_ids,
+                                 const std::vector<int>& tree_order)
     : points(std::move(own_points)),
-      connectivity(its_connectivity),
+      adjacency(its_connectivity),
       ids(mesh_ids),
-      extent(measure_extent(points, connectivity)),
-      tree(points, connectivity.faces, tree_order) {}
+      extent(measure_extent(points, adjacency)),
+      tree(points, adjacency.faces, tree_order) {}
 
 }  // namespace hooke

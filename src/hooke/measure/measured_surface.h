@@ -13,14 +13,14 @@ namespace hooke {
 struct MeasuredSurface {
   /// `ids`: those by which measures name vertices and faces. `tree_order`: tree.order() of a surface with the
   /// same connectivity, whose faces lie about the same, saves the time to find one.
-  MeasuredSurface(Mat3X points, const Connectivity& connectivity, const MeshIds& ids = {},
+  MeasuredSurface(Mat3X points, const Adjacency& adjacency, const MeshIds& ids = {},
                   const std::vector<int>& tree_order = {});
 
   Mat3X points;
-  const Connectivity& connectivity;
+  const Adjacency& adjacency;
   MeshIds ids;
   Extent extent;
-  BoundingVolumeTree tree;  // over the faces
+  AabbTree tree;  // over the faces
 };
 
 }  // namespace hooke

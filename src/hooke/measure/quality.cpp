@@ -64,22 +64,22 @@ size_t count_where(size_t count, const Condition& condition) {
 }
 
 /// Creases of a right angle are no folds, whichever way they are rounded.
-constexpr double least_fold = -1e-6;
+constexpr double min_fold = -1e-6;
 
-size_t count_folded_edges(const Mat3X& area_vector, const Connectivity& connectivity) {
-  return count_where(connectivity.edge_faces.size(), [&](size_t e) {
-    const auto [left, right] = connectivity.edge_faces[e];
+size_t count_folded_edges(const Mat3X& area_vector, const Adjacency& adjacency) {
+  return count_where(adjacency.edge_faces.size(), [&](size_t e) {
+    const auto [left, right] = adjacency.edge_faces[e];
     if (right < 0) return false;
     // Unit normals first: the plain product of two small faces' vectors could vanish.
     const Vec3 n = area_vector.col(left).normalized(), m = area_vector.col(right).normalized();
-    return n.dot(m) < least_fold;
+    return n.dot(m) < min_fold;
   });
 }
 
-size_t count_degenerate_faces(const Mat3X& area_vector, double least_area) {
+size_t count_degenerate_faces(const Mat3X& area_vector, double min_area) {
   return count_where(static_cast<size_t>(area_vector.cols()), [&](size_t f) {
     const double area = .5 * area_vector.col(static_cast<Eigen::Index>(f)).norm();
-    return !(area > 0 && area >= least_area);
+    return !(area > 0 && area >= min_area);
   });
 }
 
@@ -89,18 +89,17 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const Fa
   std::vector<int> order(shapes.size());
   std::iota(order.begin(), order.end(), 0);
   const auto count = static_cast<std::ptrdiff_t>(std::min(wanted, order.size()));
-  const auto least_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
+  const auto min_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
   std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int f, int g) {
-    return std::pair(least_angle(f), surface.ids.face(f)) < std::pair(least_angle(g), surface.ids.face(g));
+    return std::pair(min_angle(f), surface.ids.face(f)) < std::pair(min_angle(g), surface.ids.face(g));
   });
   std::vector<WorstFace> worst(static_cast<size_t>(count));
   parallel_for(worst.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int f = order[i];
-      const Triangle& t = surface.connectivity.faces[static_cast<size_t>(f)];
-      worst[i] = {surface.ids.face(f), least_angle(f), surface.ids.corners(t),
-                  (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3,
-                  bound_least_angle(X, surface.connectivity, f)};
+      const Triangle& t = surface.adjacency.faces[static_cast<size_t>(f)];
+      worst[i] = {surface.ids.face(f), min_angle(f), surface.ids.corners(t),
+                  (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3, bound_least_angle(X, surface.adjacency, f)};
       std::vector<int>& bounding = worst[i].bound.vertices;
       std::ranges::transform(bounding, bounding.begin(), [&](int v) { return surface.ids.vertex(v); });
       std::ranges::sort(bounding);
@@ -114,7 +113,7 @@ Range range_of(std::vector<double> values) {
   return {s.min, s.mean, s.max};
 }
 
-void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, const Lengths& targets,
+void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, const UniformVector& targets,
                   Quality& q) {
   const auto column = [&](double TriangleShape::*measure) {
     std::vector<double> values(shapes.size());
@@ -150,29 +149,29 @@ void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, 
 
 }  // namespace
 
-Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_target_length,
+Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edge_target_length,
                         const QualityOptions& options, Stopwatch* stopwatch) {
-  const Connectivity& connectivity = surface.connectivity;
+  const Adjacency& adjacency = surface.adjacency;
   const Mat3X& points = surface.points;
-  assert(edge_target_length.empty() || edge_target_length.size() == connectivity.edges.size());
+  assert(edge_target_length.empty() || edge_target_length.size() == adjacency.edges.size());
   Quality q;
   q.extent = surface.extent;
   timed(stopwatch, "topology", [&] {
-    q.topology = measure_topology(connectivity);
-    q.valence = count_valences(connectivity);
+    q.topology = measure_topology(adjacency);
+    q.valence = count_valences(adjacency);
   });
   timed(stopwatch, "angles", [&] {
-    const FaceShapes shapes = measure_faces(points, connectivity.faces);
-    describe_all(shapes, measure_edges(points, connectivity.edges), edge_target_length, q);
+    const FaceShapes shapes = measure_faces(points, adjacency.faces);
+    describe_all(shapes, measure_edges(points, adjacency.edges), edge_target_length, q);
     q.worst_faces = find_worst_faces(surface, shapes, options.worst_faces);
   });
   timed(stopwatch, "folds", [&] {
-    const Mat3X area_vector = area_vectors(points, connectivity.faces);
-    q.folded_edges = count_folded_edges(area_vector, connectivity);
+    const Mat3X area_vector = area_vectors(points, adjacency.faces);
+    q.folded_edges = count_folded_edges(area_vector, adjacency);
     q.degenerate_faces = count_degenerate_faces(area_vector, 1e-14 * q.extent.diagonal * q.extent.diagonal);
   });
   timed(stopwatch, "curvature", [&] {
-    VertexCurvature curvature = measure_curvature(points, connectivity);
+    VertexCurvature curvature = measure_curvature(points, adjacency);
     q.mean_curvature = range_of(std::move(curvature.mean));
     q.gaussian_curvature = range_of(std::move(curvature.gaussian));
   });
@@ -182,9 +181,9 @@ Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_targ
   return q;
 }
 
-Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
-                        const Lengths& edge_target_length, const QualityOptions& options) {
-  return measure_quality(MeasuredSurface(points, connectivity), edge_target_length, options);
+Quality measure_quality(const Mat3X& points, const Adjacency& adjacency,
+                        const UniformVector& edge_target_length, const QualityOptions& options) {
+  return measure_quality(MeasuredSurface(points, adjacency), edge_target_length, options);
 }
 
 void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,

@@ -25,8 +25,9 @@ struct WorstFace {
   double min_angle = 0;  // degrees
   Triangle vertices{};
   Vec3 centre = Vec3::Zero();
-  AngleBound bound;                       // what the connectivity about it allows
-  std::vector<std::string> reasons = {};  // what bounds the angle, see hindrances.h; none where it is unknown
+  AngleBound bound;  // what the connectivity about it allows
+  std::vector<std::string> reasons =
+      {};  // what bounds the angle, see limiting_factors.h; none where it is unknown
 };
 
 struct Quality {
@@ -59,10 +60,10 @@ struct QualityOptions {
 };
 
 /// `edge_target_length` holds L_e for every edge of the connectivity, or nothing.
-Quality measure_quality(const MeasuredSurface& surface, const Lengths& edge_target_length,
+Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edge_target_length,
                         const QualityOptions& options = {}, Stopwatch* stopwatch = nullptr);
-Quality measure_quality(const Mat3X& points, const Connectivity& connectivity,
-                        const Lengths& edge_target_length, const QualityOptions& options = {});
+Quality measure_quality(const Mat3X& points, const Adjacency& adjacency,
+                        const UniformVector& edge_target_length, const QualityOptions& options = {});
 
 /// Bounds the least angles of these faces anew for creases that stay, see bound_least_angles().
 void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,

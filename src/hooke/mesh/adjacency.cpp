@@ -12,16 +12,16 @@ namespace {
 constexpr size_t block = 1024;
 
 /// A face as one of its corners sees it.
-struct Spoke {
+struct RingEntry {
   int out, in;         // half-edges that leave the corner and come to it
   int next, previous;  // the other corners
 };
 
 /// Ascending by the previous corner. Rings are short, and hubs are rare.
-void sort_by_previous(std::vector<Spoke>& ring) {
+void sort_by_previous(std::vector<RingEntry>& ring) {
   constexpr size_t short_ring = 16;
   if (ring.size() > short_ring) {
-    std::ranges::sort(ring, {}, &Spoke::previous);
+    std::ranges::sort(ring, {}, &RingEntry::previous);
     return;
   }
   for (size_t i = 1; i < ring.size(); ++i)
@@ -30,7 +30,7 @@ void sort_by_previous(std::vector<Spoke>& ring) {
 
 /// The spokes of the vertex, ascending by their previous corner.
 void collect(int vertex, std::span<const int> its_faces, const std::vector<Triangle>& faces,
-             std::vector<Spoke>& ring) {
+             std::vector<RingEntry>& ring) {
   ring.clear();
   for (int f : its_faces) {
     const Triangle& t = faces[static_cast<size_t>(f)];
@@ -42,16 +42,16 @@ void collect(int vertex, std::span<const int> its_faces, const std::vector<Trian
 }
 
 /// Place of a spoke of the face across the half-edge that leaves with `spoke`; ring.size() if there is none.
-size_t follower(const std::vector<Spoke>& ring, const Spoke& spoke) {
-  const auto found = std::ranges::lower_bound(ring, spoke.next, {}, &Spoke::previous);
+size_t follower(const std::vector<RingEntry>& ring, const RingEntry& spoke) {
+  const auto found = std::ranges::lower_bound(ring, spoke.next, {}, &RingEntry::previous);
   const bool there = found != ring.end() && found->previous == spoke.next;
   return there ? static_cast<size_t>(found - ring.begin()) : ring.size();
 }
 
-Fan classify(const std::vector<Spoke>& ring, std::vector<char>& followed) {
+Fan classify(const std::vector<RingEntry>& ring, std::vector<char>& followed) {
   if (ring.empty()) return Fan::isolated;
   followed.assign(ring.size() + 1, 0);
-  for (const Spoke& spoke : ring)
+  for (const RingEntry& spoke : ring)
     if (std::exchange(followed[follower(ring, spoke)], 1)) return Fan::broken;  // two ends, or one after two
   // Every spoke has another one after it, none has two before it, and at most one is the end: what is left to
   // know is whether all are in one chain or cycle.
@@ -69,12 +69,12 @@ template <typename Look>
 void look_at_rings(int vertex_count, const std::vector<Triangle>& faces, HalfEdges& half_edges,
                    const Look& look) {
   parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
-    std::vector<Spoke> ring;
+    std::vector<RingEntry> ring;
     std::vector<char> memory;
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       collect(v, half_edges.faces[v], faces, ring);
       look(v, ring, memory);
-      for (const Spoke& spoke : ring)
+      for (const RingEntry& spoke : ring)
         if (const size_t other = follower(ring, spoke); other < ring.size())
           half_edges.twins[static_cast<size_t>(spoke.out)] = ring[other].in;
     }
@@ -84,16 +84,17 @@ void look_at_rings(int vertex_count, const std::vector<Triangle>& faces, HalfEdg
 }  // namespace
 
 HalfEdges pair_half_edges(int vertex_count, const std::vector<Triangle>& faces) {
-  HalfEdges half_edges{invert(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)};
-  look_at_rings(vertex_count, faces, half_edges, [](int, const std::vector<Spoke>&, std::vector<char>&) {});
+  HalfEdges half_edges{inverse(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)};
+  look_at_rings(vertex_count, faces, half_edges,
+                [](int, const std::vector<RingEntry>&, std::vector<char>&) {});
   return half_edges;
 }
 
 VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces) {
-  VertexFans fans{{invert(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)},
+  VertexFans fans{{inverse(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)},
                   std::vector<Fan>(static_cast<size_t>(vertex_count))};
   look_at_rings(vertex_count, faces, fans,
-                [&](int v, const std::vector<Spoke>& ring, std::vector<char>& followed) {
+                [&](int v, const std::vector<RingEntry>& ring, std::vector<char>& followed) {
                   fans.kinds[static_cast<size_t>(v)] = classify(ring, followed);
                 });
   return fans;
@@ -112,7 +113,7 @@ bool names_edge(const std::vector<int>& twins, size_t h) {
 }
 
 /// Numbers the edges in the order of the half-edges that name them.
-void number_edges(const std::vector<int>& twins, Connectivity& c) {
+void number_edges(const std::vector<int>& twins, Adjacency& c) {
   std::vector<int> first(twins.size() / block + 2, 0);  // edge of each block of half-edges
   parallel_for(twins.size(), block, [&](size_t begin, size_t end) {
     for (size_t h = begin; h < end; ++h) first[h / block + 1] += names_edge(twins, h);
@@ -137,7 +138,7 @@ void number_edges(const std::vector<int>& twins, Connectivity& c) {
 }
 
 /// The other end of every edge in c.vertex_edges.
-IntLists other_ends(const Connectivity& c) {
+IntLists other_ends(const Adjacency& c) {
   IntLists lists = c.vertex_edges;
   parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
@@ -149,23 +150,23 @@ IntLists other_ends(const Connectivity& c) {
 
 }  // namespace
 
-Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces) {
+Adjacency make_adjacency(int vertex_count, std::vector<Triangle> faces) {
   HalfEdges half_edges = pair_half_edges(vertex_count, faces);
-  return make_connectivity(std::move(faces), std::move(half_edges));
+  return make_adjacency(std::move(faces), std::move(half_edges));
 }
 
-Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges) {
-  Connectivity c;
+Adjacency make_adjacency(std::vector<Triangle> faces, HalfEdges half_edges) {
+  Adjacency c;
   c.vertex_count = static_cast<int>(half_edges.faces.first.size()) - 1;
   c.faces = std::move(faces);
   c.vertex_faces = std::move(half_edges.faces);
   number_edges(half_edges.twins, c);
-  c.vertex_edges = invert(c.vertex_count, c.edges);
+  c.vertex_edges = inverse(c.vertex_count, c.edges);
   c.vertex_neighbours = other_ends(c);
   return c;
 }
 
-std::vector<int> with_rings(const Connectivity& c, const std::vector<int>& vertices, int rings) {
+std::vector<int> with_rings(const Adjacency& c, const std::vector<int>& vertices, int rings) {
   std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
   std::vector<int> all;
   const auto add = [&](int v) {

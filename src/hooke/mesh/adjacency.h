@@ -34,7 +34,7 @@ int first_broken(const VertexFans& fans);
 
 /// Invariant: faces, edges and vertices have the ids of the triangles it was made from; edges are numbered in
 /// the order in which the faces first name them.
-struct Connectivity {
+struct Adjacency {
   int vertex_count = 0;
   std::vector<Triangle> faces;
   std::vector<Edge> edges;                     // as the first face runs through it
@@ -45,36 +45,36 @@ struct Connectivity {
   IntLists vertex_neighbours;                  // in the order of vertex_edges
 
   // Creases part the faces about a vertex; each part sees a side of its own of it. Sides [0, vertex_count)
-  // are the first ones of the vertices. All empty without creases; set by part_at_creases().
+  // are the first ones of the vertices. All empty without creases; set by split_wedges().
   std::vector<char> creases;         // per edge
   std::vector<Triangle> side_faces;  // the corners' sides
   std::vector<Edge> side_edges;      // the ends' sides, as the edge's first face sees them
-  std::vector<int> further_sides;    // the vertex of each further side, ascending
+  std::vector<int> extra_wedges;     // the vertex of each further side, ascending
 
   bool is_boundary_edge(int edge) const { return edge_faces[static_cast<size_t>(edge)][1] < 0; }
   bool is_crease(int edge) const { return !creases.empty() && creases[static_cast<size_t>(edge)] != 0; }
-  bool is_border(int edge) const { return is_boundary_edge(edge) || is_crease(edge); }
+  bool is_feature_edge(int edge) const { return is_boundary_edge(edge) || is_crease(edge); }
   int other_end(int edge, int vertex) const {
     const auto& [a, b] = edges[static_cast<size_t>(edge)];
     return a == vertex ? b : a;
   }
-  int side_count() const { return vertex_count + static_cast<int>(further_sides.size()); }
-  int vertex_of_side(int side) const {
-    return side < vertex_count ? side : further_sides[static_cast<size_t>(side - vertex_count)];
+  int wedge_count() const { return vertex_count + static_cast<int>(extra_wedges.size()); }
+  int vertex_of_wedge(int wedge) const {
+    return wedge < vertex_count ? wedge : extra_wedges[static_cast<size_t>(wedge - vertex_count)];
   }
 
   /// What normals are looked up by: the sides of corners and of ends, which are the vertices without creases.
-  const std::vector<Triangle>& sides_of_faces() const { return creases.empty() ? faces : side_faces; }
-  const std::vector<Edge>& sides_of_edges() const { return creases.empty() ? edges : side_edges; }
+  const std::vector<Triangle>& wedges_of_faces() const { return creases.empty() ? faces : side_faces; }
+  const std::vector<Edge>& wedges_of_edges() const { return creases.empty() ? edges : side_edges; }
 };
 
 /// Pre-condition: manifold, consistently oriented triangles on vertices [0, vertex_count).
-Connectivity make_connectivity(int vertex_count, std::vector<Triangle> faces);
+Adjacency make_adjacency(int vertex_count, std::vector<Triangle> faces);
 
 /// The same where their half-edges have been paired before.
-Connectivity make_connectivity(std::vector<Triangle> faces, HalfEdges half_edges);
+Adjacency make_adjacency(std::vector<Triangle> faces, HalfEdges half_edges);
 
 /// These vertices and those within so many rings about them.
-std::vector<int> with_rings(const Connectivity& connectivity, const std::vector<int>& vertices, int rings);
+std::vector<int> with_rings(const Adjacency& adjacency, const std::vector<int>& vertices, int rings);
 
 }  // namespace hooke

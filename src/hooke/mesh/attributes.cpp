@@ -44,8 +44,8 @@ ChannelList channels_named(const VertexData& data, ChannelNames names) {
   return channels;
 }
 
-VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
-                      const std::vector<Triangle>& faces) {
+VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
+                       const std::vector<Triangle>& faces) {
   VertexData carried;
   for (const VertexChannel& channel : data) {
     VertexChannel& to = carried.emplace_back(VertexChannel{channel.name, channel.type, {}});

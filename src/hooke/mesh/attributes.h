@@ -40,8 +40,8 @@ ChannelList channels_named(const VertexData& data, ChannelNames names);
 
 /// The values at the places of the map, linear in the faces there and never beyond the values of their
 /// corners; integers rounded. Vertices on no face keep the value of the vertex that they were.
-VertexData carry_over(const VertexData& data, const std::vector<MapEntry>& map,
-                      const std::vector<Triangle>& faces);
+VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
+                       const std::vector<Triangle>& faces);
 
 /// Are there nx, ny and nz?
 bool has_normals(const VertexData& data);

@@ -15,9 +15,9 @@
 namespace hooke {
 namespace {
 
-/// Cotangent of the angle at `apex`; negative when it is obtuse.
-double cotangent_at(const Vec3& apex, const Vec3& next, const Vec3& last, double twice_area) {
-  return (next - apex).dot(last - apex) / twice_area;
+/// Cotangent of the angle at `opposite_vertex`; negative when it is obtuse.
+double cotangent_at(const Vec3& opposite_vertex, const Vec3& next, const Vec3& last, double twice_area) {
+  return (next - opposite_vertex).dot(last - opposite_vertex) / twice_area;
 }
 
 /// Angles between 0 and pi, added as complex numbers are multiplied: with one arc tangent for all.
@@ -72,18 +72,18 @@ void add_face(const Vec3& p, const Vec3& q, const Vec3& r, RingSums& sums) {
 
 }  // namespace
 
-VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& connectivity) {
-  const auto n = static_cast<size_t>(connectivity.vertex_count);
+VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacency) {
+  const auto n = static_cast<size_t>(adjacency.vertex_count);
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   VertexCurvature curvature{std::vector<double>(n, none), std::vector<double>(n, none)};
-  const std::vector<char> on_boundary = boundary_vertices(connectivity);
+  const std::vector<char> on_boundary = boundary_vertices(adjacency);
   parallel_for(n, 1024, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
-      const auto ring = connectivity.vertex_faces[static_cast<int>(v)];
+      const auto ring = adjacency.vertex_faces[static_cast<int>(v)];
       if (on_boundary[v] || ring.empty()) continue;
       RingSums sums;
       for (int f : ring) {
-        const Triangle& t = connectivity.faces[static_cast<size_t>(f)];
+        const Triangle& t = adjacency.faces[static_cast<size_t>(f)];
         const size_t k = t[0] == static_cast<int>(v) ? 0 : t[1] == static_cast<int>(v) ? 1 : 2;
         add_face(points.col(t[k]), points.col(t[(k + 1) % 3]), points.col(t[(k + 2) % 3]), sums);
       }
@@ -102,7 +102,7 @@ constexpr double any_side = -2;
 constexpr double same_sheet = .2;  // least cosine of a normal with the axis
 
 /// Mean normal of the vertex and its neighbours: their majority stands where one ring is folded.
-Vec3 axis_at(const Connectivity& c, const Mat3X& normals, int vertex) {
+Vec3 axis_at(const Adjacency& c, const Mat3X& normals, int vertex) {
   Vec3 sum = normals.col(vertex);
   for (int w : c.vertex_neighbours[vertex]) sum += normals.col(w);
   return sum.normalized();
@@ -110,15 +110,15 @@ Vec3 axis_at(const Connectivity& c, const Mat3X& normals, int vertex) {
 
 /// The vertices within some rings of `centre`, which comes first, whose normals lean at most so far from the
 /// axis.
-std::vector<int> neighbourhood(const Connectivity& c, const Mat3X& normals, int centre, const Vec3& axis,
-                               double least_cosine) {
+std::vector<int> neighbourhood(const Adjacency& c, const Mat3X& normals, int centre, const Vec3& axis,
+                               double min_cosine) {
   std::vector<int> found = {centre};
   size_t ring_begin = 0;
   for (int ring = 1; ring <= 2 || (ring == 3 && found.size() <= enough); ++ring) {
     const size_t ring_end = found.size();
     for (; ring_begin < ring_end; ++ring_begin)
       for (int w : c.vertex_neighbours[found[ring_begin]])
-        if (normals.col(w).dot(axis) >= least_cosine && std::ranges::find(found, w) == found.end())
+        if (normals.col(w).dot(axis) >= min_cosine && std::ranges::find(found, w) == found.end())
           found.push_back(w);
   }
   return found;
@@ -160,7 +160,7 @@ double fit_curvature(const Mat3X& points, const Vec3& n, const std::vector<int>&
 
 }  // namespace
 
-std::vector<double> largest_curvatures(const Mat3X& points, const Connectivity& c) {
+std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) {
   const Mat3X normals = vertex_normals(points, c);
   std::vector<double> curvature(static_cast<size_t>(c.vertex_count), 0);
   parallel_for(curvature.size(), 256, [&](size_t begin, size_t end) {

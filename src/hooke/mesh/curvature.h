@@ -15,7 +15,7 @@ struct VertexCurvature {
   std::vector<double> gaussian;  // 1/length^2: angle defect over the mixed area
 };
 
-VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& connectivity);
+VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacency);
 
 // Principal curvatures by fitting a quadric to the vertices about each vertex. It asks that the vertices lie
 // on the surface, not that the triangles are good. F. Cazals, M. Pouget, "Estimating differential quantities
@@ -24,6 +24,6 @@ VertexCurvature measure_curvature(const Mat3X& points, const Connectivity& conne
 /// The largest principal curvature by size at each vertex, 1/length; 0 at a vertex without faces. Fits two
 /// rings, and a third where they have fewer than ten vertices. Those turned away by more than 78 degrees (on
 /// the other side of a thin sheet) do not count, unless too few are left.
-std::vector<double> largest_curvatures(const Mat3X& points, const Connectivity& connectivity);
+std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& adjacency);
 
 }  // namespace hooke

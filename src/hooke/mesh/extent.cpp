@@ -39,20 +39,20 @@ Sums sum_up(const Mat3X& points, const std::vector<Triangle>& faces, const Vec3&
 
 }  // namespace
 
-Extent measure_extent(const Mat3X& points, const Connectivity& connectivity) {
+Extent measure_extent(const Mat3X& points, const Adjacency& adjacency) {
   Extent extent;
-  if (connectivity.faces.empty()) return extent;
+  if (adjacency.faces.empty()) return extent;
   Eigen::AlignedBox3d box;
-  for (int v = 0; v < connectivity.vertex_count; ++v)
-    if (!connectivity.vertex_faces[v].empty()) box.extend(Vec3(points.col(v)));
+  for (int v = 0; v < adjacency.vertex_count; ++v)
+    if (!adjacency.vertex_faces[v].empty()) box.extend(Vec3(points.col(v)));
   extent.lower = box.min();
   extent.upper = box.max();
   extent.diagonal = box.diagonal().norm();
   const Vec3 centre = box.center();  // keeps the cones small, and the rounding with them
-  const Sums sums = sum_up(points, connectivity.faces, centre);
+  const Sums sums = sum_up(points, adjacency.faces, centre);
   extent.area = sums.area;
   const bool closed =
-      std::ranges::none_of(connectivity.edge_faces, [](const auto& sides) { return sides[1] < 0; });
+      std::ranges::none_of(adjacency.edge_faces, [](const auto& sides) { return sides[1] < 0; });
   if (closed) extent.volume = sums.volume;
   return extent;
 }

@@ -15,7 +15,7 @@ struct Extent {
   std::optional<double> volume;  // signed, positive when the faces look outward; none for an open mesh
 };
 
-Extent measure_extent(const Mat3X& points, const Connectivity& connectivity);
+Extent measure_extent(const Mat3X& points, const Adjacency& adjacency);
 
 /// Sum of the areas of the faces.
 double total_area(const Mat3X& points, const std::vector<Triangle>& faces);

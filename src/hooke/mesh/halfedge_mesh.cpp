@@ -9,20 +9,20 @@
 
 namespace hooke {
 
-Triangulation::Triangulation(const Connectivity& c)
+HalfedgeMesh::HalfedgeMesh(const Adjacency& c)
     : faces_(c.faces),
-      sides_(c.side_faces),
+      wedges_(c.side_faces),
       twins_(3 * c.faces.size(), -1),
-      leaving_(static_cast<size_t>(c.side_count()), -1),
-      valences_(static_cast<size_t>(c.side_count()), -1),
-      on_boundary_(static_cast<size_t>(c.side_count()), 0),
+      outgoing_halfedge_(static_cast<size_t>(c.wedge_count()), -1),
+      valences_(static_cast<size_t>(c.wedge_count()), -1),
+      on_boundary_(static_cast<size_t>(c.wedge_count()), 0),
       constrained_(3 * c.faces.size(), 0) {
   std::fill_n(valences_.begin(), c.vertex_count, 0);
   std::vector<int> first(c.edges.size(), -1);
   for (size_t f = 0; f < faces_.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
       const int h = static_cast<int>(3 * f + k);
-      leaving_[static_cast<size_t>(faces_[f][k])] = h;
+      outgoing_halfedge_[static_cast<size_t>(faces_[f][k])] = h;
       int& other = first[static_cast<size_t>(c.face_edges[f][k])];
       if (other < 0)
         other = h;
@@ -38,15 +38,15 @@ Triangulation::Triangulation(const Connectivity& c)
     if (c.is_crease(c.face_edges[h / 3][h % 3])) constrained_[h] = 1;
 }
 
-int Triangulation::first_outgoing(int vertex) const {
-  const int any = leaving_[static_cast<size_t>(vertex)];
+int HalfedgeMesh::first_outgoing(int vertex) const {
+  const int any = outgoing_halfedge_[static_cast<size_t>(vertex)];
   int start = any;
   if (any >= 0 && on_boundary(vertex))  // as far clockwise as there are faces
     for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
   return start;
 }
 
-ShortList Triangulation::outgoing(int vertex) const {
+ShortList HalfedgeMesh::outgoing(int vertex) const {
   ShortList spokes;
   const int first = first_outgoing(vertex);
   for (int h = first; h >= 0;) {
@@ -57,7 +57,7 @@ ShortList Triangulation::outgoing(int vertex) const {
   return spokes;
 }
 
-ShortList Triangulation::neighbours(int vertex) const {
+ShortList HalfedgeMesh::neighbours(int vertex) const {
   ShortList ring;
   const int first = first_outgoing(vertex);
   for (int h = first; h >= 0;) {
@@ -70,43 +70,43 @@ ShortList Triangulation::neighbours(int vertex) const {
   return ring;
 }
 
-ShortList Triangulation::sector(int h) const {
+ShortList HalfedgeMesh::sector(int h) const {
   const int any = h;
-  while (!is_border(h) && next(twin(h)) != any) h = next(twin(h));
+  while (!is_feature_edge(h) && next(twin(h)) != any) h = next(twin(h));
   ShortList spokes = {h};
-  for (int side = previous(h); !is_border(side) && twin(side) != spokes.front(); side = previous(twin(side)))
-    spokes.push_back(twin(side));
+  for (int wedge = previous(h); !is_feature_edge(wedge) && twin(wedge) != spokes.front();
+       wedge = previous(twin(wedge)))
+    spokes.push_back(twin(wedge));
   return spokes;
 }
 
-bool Triangulation::on_crease(int vertex) const {
-  return std::ranges::any_of(outgoing(vertex),
-                             [&](int h) { return is_constrained(h) || is_constrained(previous(h)); });
+bool HalfedgeMesh::on_crease(int vertex) const {
+  return std::ranges::any_of(outgoing(vertex), [&](int h) { return is_crease(h) || is_crease(previous(h)); });
 }
 
-bool Triangulation::adjacent(int a, int b) const {
+bool HalfedgeMesh::adjacent(int a, int b) const {
   for (int h : outgoing(a))
-    if (to(h) == b || apex(h) == b) return true;
+    if (to(h) == b || opposite_vertex(h) == b) return true;
   return false;
 }
 
-void Triangulation::link(int h, int twin) {
+void HalfedgeMesh::link(int h, int twin) {
   if (h >= 0) twins_[static_cast<size_t>(h)] = twin;
   if (twin >= 0) twins_[static_cast<size_t>(twin)] = h;
 }
 
-void Triangulation::flip(int h) {
+void HalfedgeMesh::flip(int h) {
   const int t = twin(h);
-  assert(t >= 0 && !is_constrained(h));
-  const int a = from(h), b = to(h), c = apex(h), d = apex(t);
+  assert(t >= 0 && !is_crease(h));
+  const int a = from(h), b = to(h), c = opposite_vertex(h), d = opposite_vertex(t);
   const int ca = twin(previous(h)), bc = twin(next(h)), ad = twin(next(t)), db = twin(previous(t));
   const int f = h / 3, g = t / 3;
-  const auto mark = [this](int side) { return constrained_[static_cast<size_t>(side)]; };
+  const auto mark = [this](int wedge) { return constrained_[static_cast<size_t>(wedge)]; };
   const std::array<char, 4> marks = {mark(previous(h)), mark(next(t)), mark(previous(t)), mark(next(h))};
-  if (!sides_.empty()) {  // neither face leaves its sector
-    const int sa = side(h), sb = side(t), sc = side(previous(h)), sd = side(previous(t));
-    sides_[static_cast<size_t>(f)] = {sc, sa, sd};
-    sides_[static_cast<size_t>(g)] = {sd, sb, sc};
+  if (!wedges_.empty()) {  // neither face leaves its sector
+    const int sa = wedge(h), sb = wedge(t), sc = wedge(previous(h)), sd = wedge(previous(t));
+    wedges_[static_cast<size_t>(f)] = {sc, sa, sd};
+    wedges_[static_cast<size_t>(g)] = {sd, sb, sc};
   }
   faces_[static_cast<size_t>(f)] = {c, a, d};
   faces_[static_cast<size_t>(g)] = {d, b, c};
@@ -117,25 +117,25 @@ void Triangulation::flip(int h) {
   link(3 * g + 1, bc);
   for (size_t i = 0; i < 4; ++i) constrained_[static_cast<size_t>(i < 2 ? 3 * f : 3 * g) + i % 2] = marks[i];
   constrained_[static_cast<size_t>(3 * f + 2)] = constrained_[static_cast<size_t>(3 * g + 2)] = 0;
-  leaving_[static_cast<size_t>(c)] = 3 * f;
-  leaving_[static_cast<size_t>(a)] = 3 * f + 1;
-  leaving_[static_cast<size_t>(d)] = 3 * g;
-  leaving_[static_cast<size_t>(b)] = 3 * g + 1;
+  outgoing_halfedge_[static_cast<size_t>(c)] = 3 * f;
+  outgoing_halfedge_[static_cast<size_t>(a)] = 3 * f + 1;
+  outgoing_halfedge_[static_cast<size_t>(d)] = 3 * g;
+  outgoing_halfedge_[static_cast<size_t>(b)] = 3 * g + 1;
   --valences_[static_cast<size_t>(a)];
   --valences_[static_cast<size_t>(b)];
   ++valences_[static_cast<size_t>(c)];
   ++valences_[static_cast<size_t>(d)];
 }
 
-/// Cuts the face of h between its apex and the new vertex, of which it sees `side`: h ends there, and the
-/// last face goes on.
-void Triangulation::halve(int h, int vertex, int side) {
-  const int b = to(h), c = apex(h), across = twin(next(h));
+/// Cuts the face of h between its opposite_vertex and the new vertex, of which it sees `side`: h ends there,
+/// and the last face goes on.
+void HalfedgeMesh::split(int h, int vertex, int wedge) {
+  const int b = to(h), c = opposite_vertex(h), across = twin(next(h));
   const auto f = static_cast<size_t>(h / 3), cut = static_cast<size_t>(next(h));
   const int g = static_cast<int>(twins_.size());  // first half-edge of the new face
-  if (!sides_.empty()) {
-    sides_.push_back({side, this->side(next(h)), this->side(previous(h))});
-    sides_[f][cut % 3] = side;
+  if (!wedges_.empty()) {
+    wedges_.push_back({wedge, this->wedge(next(h)), this->wedge(previous(h))});
+    wedges_[f][cut % 3] = wedge;
   }
   faces_[f][cut % 3] = vertex;
   faces_.push_back({vertex, b, c});
@@ -144,35 +144,36 @@ void Triangulation::halve(int h, int vertex, int side) {
   constrained_[cut] = 0;
   link(g + 1, across);
   link(g + 2, next(h));
-  leaving_[static_cast<size_t>(vertex)] = g;
-  leaving_[static_cast<size_t>(b)] = g + 1;
+  outgoing_halfedge_[static_cast<size_t>(vertex)] = g;
+  outgoing_halfedge_[static_cast<size_t>(b)] = g + 1;
   ++valences_[static_cast<size_t>(vertex)];
   ++valences_[static_cast<size_t>(c)];
 }
 
-int Triangulation::split(int h) {
+int HalfedgeMesh::split(int h) {
   const int t = twin(h), a = from(h);
-  const int vertex = id_count(), right = is_constrained(h) ? vertex + 1 : vertex;
+  const int vertex = id_count(), right = is_crease(h) ? vertex + 1 : vertex;
   valences_.push_back(2);
   if (right != vertex) valences_.push_back(-1);
-  leaving_.resize(valences_.size(), -1);
+  outgoing_halfedge_.resize(valences_.size(), -1);
   on_boundary_.resize(valences_.size(), t < 0);
-  halve(h, vertex, vertex);
+  split(h, vertex, vertex);
   const int beyond = half_edge_count() - 3;  // from the vertex to the old end of h
-  leaving_[static_cast<size_t>(a)] = h;
+  outgoing_halfedge_[static_cast<size_t>(a)] = h;
   if (t < 0) return vertex;
-  halve(t, vertex, right);
+  split(t, vertex, right);
   link(h, half_edge_count() - 3);
   link(t, beyond);
   return vertex;
 }
 
-bool Triangulation::may_collapse(int h) const {
+bool HalfedgeMesh::may_collapse(int h) const {
   const int a = from(h), b = to(h), t = twin(h);
   if (t >= 0 && on_boundary(a) && on_boundary(b)) return false;
   const auto may_lose = [this](int v) { return valence(v) > (on_boundary(v) ? 2 : 3); };
-  for (int side : {h, t})
-    if (side >= 0 && (!may_lose(apex(side)) || (is_border(next(side)) && is_border(previous(side)))))
+  for (int wedge : {h, t})
+    if (wedge >= 0 && (!may_lose(opposite_vertex(wedge)) ||
+                       (is_feature_edge(next(wedge)) && is_feature_edge(previous(wedge)))))
       return false;
   const ShortList ring = neighbours(a);
   int common = 0;
@@ -181,61 +182,61 @@ bool Triangulation::may_collapse(int h) const {
 }
 
 /// Removes the face of h, whose other two sides fall together.
-void Triangulation::close(int h) {
-  const int b = to(h), c = apex(h);
+void HalfedgeMesh::close(int h) {
+  const int b = to(h), c = opposite_vertex(h);
   const int left = twin(next(h)), right = twin(previous(h));
-  const bool marked = is_constrained(next(h)) || is_constrained(previous(h));
+  const bool marked = is_crease(next(h)) || is_crease(previous(h));
   if (left >= 0) twins_[static_cast<size_t>(left)] = right;
   if (right >= 0) twins_[static_cast<size_t>(right)] = left;
-  for (int side : {left, right})
-    if (side >= 0) constrained_[static_cast<size_t>(side)] = marked;
-  leaving_[static_cast<size_t>(b)] = left >= 0 ? next(left) : right;
-  leaving_[static_cast<size_t>(c)] = left >= 0 ? left : next(right);
+  for (int wedge : {left, right})
+    if (wedge >= 0) constrained_[static_cast<size_t>(wedge)] = marked;
+  outgoing_halfedge_[static_cast<size_t>(b)] = left >= 0 ? next(left) : right;
+  outgoing_halfedge_[static_cast<size_t>(c)] = left >= 0 ? left : next(right);
   --valences_[static_cast<size_t>(c)];
   faces_[static_cast<size_t>(h / 3)] = {-1, -1, -1};
-  for (int side : {h, next(h), previous(h)}) {
-    twins_[static_cast<size_t>(side)] = -1;
-    constrained_[static_cast<size_t>(side)] = 0;
+  for (int wedge : {h, next(h), previous(h)}) {
+    twins_[static_cast<size_t>(wedge)] = -1;
+    constrained_[static_cast<size_t>(wedge)] = 0;
   }
 }
 
-int Triangulation::side_after_collapse(int h, int stays, int spoke) const {
-  if (from(spoke) == stays) return side(spoke);
-  const auto at = [this](int along, int end) { return side(from(along) == end ? along : next(along)); };
-  const bool on_the_left = twin(h) < 0 || side(spoke) == at(h, from(spoke));
+int HalfedgeMesh::side_after_collapse(int h, int stays, int spoke) const {
+  if (from(spoke) == stays) return wedge(spoke);
+  const auto at = [this](int along, int end) { return wedge(from(along) == end ? along : next(along)); };
+  const bool on_the_left = twin(h) < 0 || wedge(spoke) == at(h, from(spoke));
   return at(on_the_left ? h : twin(h), stays);
 }
 
-void Triangulation::collapse(int h, int stays) {
+void HalfedgeMesh::collapse(int h, int stays) {
   assert(may_collapse(h));
   const int goes = from(h) == stays ? to(h) : from(h), t = twin(h);
   const ShortList spokes = outgoing(goes);
-  ShortList sides;
-  for (int spoke : spokes) sides.push_back(side_after_collapse(h, stays, spoke));
+  ShortList wedges;
+  for (int spoke : spokes) wedges.push_back(side_after_collapse(h, stays, spoke));
   for (size_t i = 0; i < spokes.size(); ++i) {
     const auto f = static_cast<size_t>(spokes[i] / 3), k = static_cast<size_t>(spokes[i] % 3);
     faces_[f][k] = stays;
-    if (!sides_.empty()) sides_[f][k] = sides[i];
+    if (!wedges_.empty()) wedges_[f][k] = wedges[i];
   }
   // Every edge of the one but those to the other and to the apexes is new there.
   valences_[static_cast<size_t>(stays)] += valences_[static_cast<size_t>(goes)] - (t < 0 ? 3 : 4);
   on_boundary_[static_cast<size_t>(stays)] |= on_boundary_[static_cast<size_t>(goes)];
   close(h);
   if (t >= 0) close(t);
-  leaving_[static_cast<size_t>(goes)] = -1;
+  outgoing_halfedge_[static_cast<size_t>(goes)] = -1;
   valences_[static_cast<size_t>(goes)] = -1;
 }
 
-void Triangulation::set_sides(const Connectivity& c) {
-  sides_ = c.side_faces;
-  valences_.resize(static_cast<size_t>(c.side_count()), -1);
-  leaving_.resize(valences_.size(), -1);
+void HalfedgeMesh::set_wedges(const Adjacency& c) {
+  wedges_ = c.side_faces;
+  valences_.resize(static_cast<size_t>(c.wedge_count()), -1);
+  outgoing_halfedge_.resize(valences_.size(), -1);
   on_boundary_.resize(valences_.size(), 0);
 }
 
-Connectivity connectivity_of(const Triangulation& t, int vertex_count) {
+Adjacency connectivity_of(const HalfedgeMesh& t, int vertex_count) {
   const std::vector<Triangle>& faces = t.faces();
-  return make_connectivity(faces, {.faces = invert(vertex_count, faces), .twins = t.twins()});
+  return make_adjacency(faces, {.faces = inverse(vertex_count, faces), .twins = t.twins()});
 }
 
 namespace {
@@ -248,7 +249,7 @@ void for_each_index(size_t count, const auto& use) {
 
 }  // namespace
 
-std::vector<int> Triangulation::compact() {
+std::vector<int> HalfedgeMesh::compact() {
   const auto old_face_count = static_cast<int>(faces_.size());
   std::vector<int> left;
   left.reserve(faces_.size());
@@ -257,7 +258,7 @@ std::vector<int> Triangulation::compact() {
   std::vector<Triangle> faces(left.size());
   for_each_index(left.size(), [&](size_t i) { faces[i] = faces_[static_cast<size_t>(left[i])]; });
 
-  std::vector<int> kept = locality_order(id_count(), faces);
+  std::vector<int> kept = bfs_cluster_order(id_count(), faces);
   std::erase_if(kept, [this](int v) { return valence(v) < 0; });
   std::vector<int> vertex_id(valences_.size(), -1);
   for (size_t i = 0; i < kept.size(); ++i) vertex_id[static_cast<size_t>(kept[i])] = static_cast<int>(i);
@@ -267,33 +268,33 @@ std::vector<int> Triangulation::compact() {
     for (int& v : faces[i]) v = vertex_id[static_cast<size_t>(v)];
     first_corners[i][0] = std::ranges::min(faces[i]);
   });
-  const std::vector<int> order = invert(static_cast<int>(kept.size()), first_corners).items;
+  const std::vector<int> order = inverse(static_cast<int>(kept.size()), first_corners).items;
   std::vector<int> face_id(faces_.size(), -1);
   for_each_index(order.size(), [&](size_t g) {
     face_id[static_cast<size_t>(left[static_cast<size_t>(order[g])])] = static_cast<int>(g);
   });
 
   const auto renumber = [&](int h) { return h < 0 ? -1 : 3 * face_id[static_cast<size_t>(h / 3)] + h % 3; };
-  const Triangulation old = std::move(*this);
+  const HalfedgeMesh old = std::move(*this);
   faces_.resize(order.size());
-  sides_.resize(old.sides_.empty() ? 0 : order.size());
+  wedges_.resize(old.wedges_.empty() ? 0 : order.size());
   twins_.resize(3 * order.size());
   constrained_.resize(3 * order.size());
   for_each_index(order.size(), [&](size_t g) {
     const auto i = static_cast<size_t>(order[g]), f = static_cast<size_t>(left[i]);
     faces_[g] = faces[i];
-    if (!sides_.empty()) sides_[g] = old.sides_[f];
+    if (!wedges_.empty()) wedges_[g] = old.wedges_[f];
     for (size_t k = 0; k < 3; ++k) {
       twins_[3 * g + k] = renumber(old.twins_[3 * f + k]);
       constrained_[3 * g + k] = old.constrained_[3 * f + k];
     }
   });
-  leaving_.resize(kept.size());
+  outgoing_halfedge_.resize(kept.size());
   valences_.resize(kept.size());
   on_boundary_.resize(kept.size());
   for_each_index(kept.size(), [&](size_t i) {
     const auto v = static_cast<size_t>(kept[i]);
-    leaving_[i] = renumber(old.leaving_[v]);
+    outgoing_halfedge_[i] = renumber(old.outgoing_halfedge_[v]);
     valences_[i] = old.valences_[v];
     on_boundary_[i] = old.on_boundary_[v];
   });

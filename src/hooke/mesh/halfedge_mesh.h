@@ -11,21 +11,25 @@ namespace hooke {
 
 /// Creases of the connectivity are constrained: no flip may lose them. Half-edge 3 f + k runs from corner k
 /// of face f to corner k + 1; its twin runs back in the face across.
-class Triangulation {
+class HalfedgeMesh {
  public:
-  explicit Triangulation(const Connectivity& connectivity);
+  explicit HalfedgeMesh(const Adjacency& adjacency);
 
   const std::vector<Triangle>& faces() const { return faces_; }
   const std::vector<int>& twins() const { return twins_; }             // per half-edge, see twin()
   int id_count() const { return static_cast<int>(valences_.size()); }  // with those that are gone
-  const std::vector<Triangle>& sides() const { return sides_.empty() ? faces_ : sides_; }  // of the corners
+  const std::vector<Triangle>& wedges() const {
+    return wedges_.empty() ? faces_ : wedges_;
+  }  // of the corners
   int half_edge_count() const { return static_cast<int>(twins_.size()); }
 
   int from(int h) const { return faces_[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
   int to(int h) const { return from(next(h)); }
-  int apex(int h) const { return from(previous(h)); }  // the corner across the half-edge in its face
+  int opposite_vertex(int h) const {
+    return from(previous(h));
+  }  // the corner across the half-edge in its face
   int twin(int h) const { return twins_[static_cast<size_t>(h)]; }  // -1 on the boundary
-  int side(int h) const { return sides()[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
+  int wedge(int h) const { return wedges()[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
   static int next(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static int previous(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
@@ -54,9 +58,9 @@ class Triangulation {
   bool adjacent(int a, int b) const;
 
   /// Is the edge of h part of a crease?
-  bool is_constrained(int h) const { return constrained_[static_cast<size_t>(h)] != 0; }
+  bool is_crease(int h) const { return constrained_[static_cast<size_t>(h)] != 0; }
   /// Or does it have no face on its other side?
-  bool is_border(int h) const { return twin(h) < 0 || is_constrained(h); }
+  bool is_feature_edge(int h) const { return twin(h) < 0 || is_crease(h); }
 
   /// The edge of h comes to join the two corners across it.
   /// Pre-condition: h has a twin, is not constrained, and no edge joins those corners.
@@ -84,30 +88,30 @@ class Triangulation {
   void collapse(int h, int stays);
 
   /// Gives up the unused ids of vertices and faces and puts those that are left in an order in which
-  /// neighbours are close together: see locality_order(). Returns the old ids of the vertices in the new
-  /// order. The sides keep their ids: set_sides() is to follow where there are creases.
+  /// neighbours are close together: see bfs_cluster_order(). Returns the old ids of the vertices in the new
+  /// order. The sides keep their ids: set_wedges() is to follow where there are creases.
   std::vector<int> compact();
 
   /// Numbers the sides anew, as the connectivity of the same faces does.
-  void set_sides(const Connectivity& connectivity);
+  void set_wedges(const Adjacency& adjacency);
 
  private:
   int first_outgoing(int vertex) const;
   void link(int h, int twin);
-  void halve(int h, int vertex, int side);
+  void split(int h, int vertex, int wedge);
   void close(int h);
 
   std::vector<Triangle> faces_;
-  std::vector<Triangle> sides_;  // empty without creases: they are the vertices
+  std::vector<Triangle> wedges_;  // empty without creases: they are the vertices
   std::vector<int> twins_;
-  std::vector<int> leaving_;       // per id: one half-edge that leaves the vertex, -1 without faces
-  std::vector<int> valences_;      // per id: -1 for a vertex that is gone and for a further side
-  std::vector<char> on_boundary_;  // per id
-  std::vector<char> constrained_;  // per half-edge
+  std::vector<int> outgoing_halfedge_;  // per id: one half-edge that leaves the vertex, -1 without faces
+  std::vector<int> valences_;           // per id: -1 for a vertex that is gone and for a further side
+  std::vector<char> on_boundary_;       // per id
+  std::vector<char> constrained_;       // per half-edge
 };
 
 /// Its connectivity, without creases: quicker than from the faces alone. Pre-condition: no face is gone, and
 /// there are so many vertices.
-Connectivity connectivity_of(const Triangulation& triangulation, int vertex_count);
+Adjacency connectivity_of(const HalfedgeMesh& halfedges, int vertex_count);
 
 }  // namespace hooke

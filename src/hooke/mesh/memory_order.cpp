@@ -51,7 +51,7 @@ std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours)
 /// one at a boundary, which has it for a neighbour; elsewhere fewer, which costs order only. Looked up
 /// beforehand on all cores, not one after the other on the way.
 IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
-  IntLists corners = invert(vertex_count, faces);
+  IntLists corners = inverse(vertex_count, faces);
   parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       for (int i = corners.first[static_cast<size_t>(v)]; i < corners.first[static_cast<size_t>(v) + 1];
@@ -66,7 +66,7 @@ IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
 
 /// Calls each(new id, old id).
 template <class Each>
-void for_each_vertex(const Reordered& order, const Each& each) {
+void for_each_vertex(const Permutation& order, const Each& each) {
   parallel_for(order.old_vertex.size(), block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) each(v, static_cast<size_t>(order.old_vertex[v]));
   });
@@ -82,24 +82,24 @@ decltype(auto) item(Values& values, size_t vertex) {
 }
 
 template <class Old, class New>
-New gathered(const Reordered& order, const Old& old, New fresh) {
+New gathered(const Permutation& order, const Old& old, New fresh) {
   for_each_vertex(order, [&](size_t v, size_t before) { item(fresh, v) = item(old, before); });
   return fresh;
 }
 
 template <class Values>
-Values scattered(const Reordered& order, const Values& fresh, Values old) {
+Values scattered(const Permutation& order, const Values& fresh, Values old) {
   for_each_vertex(order, [&](size_t v, size_t before) { item(old, before) = item(fresh, v); });
   return old;
 }
 
 }  // namespace
 
-std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces) {
+std::vector<int> bfs_cluster_order(int vertex_count, const std::vector<Triangle>& faces) {
   return order_by_clusters(vertex_count, next_corners(vertex_count, faces));
 }
 
-std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
+std::vector<int> Permutation::new_vertices(const std::vector<int>& old) const {
   if (old.empty()) return {};
   std::vector<int> fresh(old_vertex.size());
   for (size_t i = 0; i < old_vertex.size(); ++i)
@@ -109,23 +109,23 @@ std::vector<int> Reordered::new_vertices(const std::vector<int>& old) const {
   return result;
 }
 
-Mat3X Reordered::in_new_order(const Eigen::Ref<const Mat3X>& old) const {
+Mat3X Permutation::gather(const Eigen::Ref<const Mat3X>& old) const {
   return gathered(*this, old, Mat3X(3, old.cols()));
 }
 
-std::vector<double> Reordered::in_new_order(const std::vector<double>& old) const {
+std::vector<double> Permutation::gather(const std::vector<double>& old) const {
   return gathered(*this, old, std::vector<double>(old.size()));
 }
 
-Mat3X Reordered::in_old_order(const Mat3X& fresh) const {
+Mat3X Permutation::scatter(const Mat3X& fresh) const {
   return scattered(*this, fresh, Mat3X(3, fresh.cols()));
 }
 
-std::vector<double> Reordered::in_old_order(const std::vector<double>& fresh) const {
+std::vector<double> Permutation::scatter(const std::vector<double>& fresh) const {
   return scattered(*this, fresh, std::vector<double>(fresh.size()));
 }
 
-std::vector<Triangle> Reordered::in_old_order(const std::vector<Triangle>& fresh) const {
+std::vector<Triangle> Permutation::scatter(const std::vector<Triangle>& fresh) const {
   std::vector<Triangle> old(fresh.size());
   parallel_for(fresh.size(), block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f)
@@ -135,7 +135,7 @@ std::vector<Triangle> Reordered::in_old_order(const std::vector<Triangle>& fresh
   return old;
 }
 
-Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order) {
+Permutation reorder(std::vector<Triangle> faces, const std::vector<int>& order) {
   std::vector<int> fresh(order.size());
   for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);
   std::vector<std::array<int, 1>> smallest(faces.size());  // vertex of each face
@@ -145,9 +145,9 @@ Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order) {
       smallest[f][0] = std::ranges::min(faces[f]);
     }
   });
-  Reordered r;
+  Permutation r;
   r.old_vertex = order;
-  r.old_face = invert(static_cast<int>(order.size()), smallest).items;
+  r.old_face = inverse(static_cast<int>(order.size()), smallest).items;
   r.faces.resize(faces.size());
   parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) r.faces[f] = faces[static_cast<size_t>(r.old_face[f])];

@@ -22,10 +22,10 @@ struct MeshIds {
 /// order[new] = old vertex id: clusters grown breadth-first over the mesh, so that a ring mostly lies within
 /// one cluster. Depends on the connectivity only, never on coordinates: a moved or turned mesh has the same
 /// order.
-std::vector<int> locality_order(int vertex_count, const std::vector<Triangle>& faces);
+std::vector<int> bfs_cluster_order(int vertex_count, const std::vector<Triangle>& faces);
 
 /// A mesh in another order, and the way back.
-struct Reordered {
+struct Permutation {
   std::vector<int> old_vertex;  // of a new one
   std::vector<int> old_face;    // of a new one; faces follow their smallest vertex
   std::vector<Triangle> faces;  // in new vertex ids
@@ -37,14 +37,14 @@ struct Reordered {
   std::vector<int> new_vertices(const std::vector<int>& old) const;
 
   /// What belongs to the vertices, from the one order to the other.
-  Mat3X in_new_order(const Eigen::Ref<const Mat3X>& old) const;
-  std::vector<double> in_new_order(const std::vector<double>& old) const;
-  Mat3X in_old_order(const Mat3X& fresh) const;
-  std::vector<double> in_old_order(const std::vector<double>& fresh) const;
+  Mat3X gather(const Eigen::Ref<const Mat3X>& old) const;
+  std::vector<double> gather(const std::vector<double>& old) const;
+  Mat3X scatter(const Mat3X& fresh) const;
+  std::vector<double> scatter(const std::vector<double>& fresh) const;
 
   /// Faces in new vertex ids and new order, as they were.
-  std::vector<Triangle> in_old_order(const std::vector<Triangle>& fresh) const;
+  std::vector<Triangle> scatter(const std::vector<Triangle>& fresh) const;
 };
-Reordered reorder(std::vector<Triangle> faces, const std::vector<int>& order);
+Permutation reorder(std::vector<Triangle> faces, const std::vector<int>& order);
 
 }  // namespace hooke

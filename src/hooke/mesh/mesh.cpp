@@ -15,13 +15,13 @@ constexpr size_t block = 4096;
 using OpenMesh::HalfedgeHandle, OpenMesh::FaceHandle, OpenMesh::VertexHandle;
 
 /// OpenMesh's half-edge that runs along side k of the face.
-HalfedgeHandle half_edge(const Connectivity& c, size_t face, size_t k) {
+HalfedgeHandle half_edge(const Adjacency& c, size_t face, size_t k) {
   const auto edge = static_cast<size_t>(c.face_edges[face][k]);
   const bool along = c.edge_faces[edge][0] == static_cast<int>(face);
   return HalfedgeHandle(static_cast<int>(2 * edge + (along ? 0 : 1)));
 }
 
-void link_inside(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
+void link_inside(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
   parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const FaceHandle face(ids.face(static_cast<int>(f)));
@@ -37,7 +37,7 @@ void link_inside(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
 }
 
 /// A vertex points to a half-edge that leaves it: on the boundary to the one without a face.
-void link_vertices(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
+void link_vertices(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
   parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       const VertexHandle vertex(ids.vertex(v));
@@ -53,7 +53,7 @@ void link_vertices(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
   });
 }
 
-void link_boundary(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
+void link_boundary(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
   const auto end = [&](size_t e, size_t k) { return VertexHandle(ids.vertex(c.edges[e][k])); };
   const auto boundary = [&](size_t e) { return HalfedgeHandle(static_cast<int>(2 * e + 1)); };
   for (size_t e = 0; e < c.edges.size(); ++e) {
@@ -69,11 +69,11 @@ void link_boundary(const Connectivity& c, const MeshIds& ids, TriMesh& mesh) {
 
 }  // namespace
 
-TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity, const MeshIds& ids) {
+TriMesh build_mesh(const Mat3X& points, const Adjacency& adjacency, const MeshIds& ids) {
   TriMesh mesh;
   mesh.resize(static_cast<size_t>(points.cols()), 0, 0);
-  positions(mesh) = points;
-  replace_faces(mesh, connectivity, ids);
+  vertex_points(mesh) = points;
+  replace_faces(mesh, adjacency, ids);
   return mesh;
 }
 
@@ -81,25 +81,25 @@ TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) 
   VertexFans fans = examine_fans(static_cast<int>(points.cols()), triangles);
   if (const int broken = first_broken(fans); broken >= 0)
     throw MeshError(fmt::format("the faces around vertex {} do not fit a manifold mesh", broken));
-  return build_mesh(points, make_connectivity(triangles, std::move(fans)));
+  return build_mesh(points, make_adjacency(triangles, std::move(fans)));
 }
 
 // Straight into the kernel's arrays: adding face by face looks at every ring again and again.
-void replace_faces(TriMesh& mesh, const Connectivity& connectivity, const MeshIds& ids) {
+void replace_faces(TriMesh& mesh, const Adjacency& adjacency, const MeshIds& ids) {
   mesh.resize(mesh.n_vertices(), 0, 0);  // properties of edges and faces go with them
-  mesh.resize(mesh.n_vertices(), connectivity.edges.size(), connectivity.faces.size());
-  link_inside(connectivity, ids, mesh);
-  link_vertices(connectivity, ids, mesh);
-  link_boundary(connectivity, ids, mesh);
+  mesh.resize(mesh.n_vertices(), adjacency.edges.size(), adjacency.faces.size());
+  link_inside(adjacency, ids, mesh);
+  link_vertices(adjacency, ids, mesh);
+  link_boundary(adjacency, ids, mesh);
 }
 
-Eigen::Map<Mat3X> positions(TriMesh& mesh) {
+Eigen::Map<Mat3X> vertex_points(TriMesh& mesh) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const auto n = static_cast<Eigen::Index>(mesh.n_vertices());
   return {n ? mesh.point(mesh.vertex_handle(0)).data() : nullptr, 3, n};
 }
 
-Eigen::Map<const Mat3X> positions(const TriMesh& mesh) {
+Eigen::Map<const Mat3X> vertex_points(const TriMesh& mesh) {
   const auto n = static_cast<Eigen::Index>(mesh.n_vertices());
   return {n ? mesh.points()->data() : nullptr, 3, n};
 }
@@ -138,13 +138,13 @@ std::vector<Triangle> triangles_of(const TriMesh& mesh) {
   return triangles;
 }
 
-Layout lay_out(const TriMesh& mesh) {
+MemoryOrder find_memory_order(const TriMesh& mesh) {
   const int n = static_cast<int>(mesh.n_vertices());
   const std::vector<Triangle> faces = triangles_of(mesh);
-  Layout layout{reorder(faces, locality_order(n, faces)), nullptr};
-  layout.connectivity =
-      std::make_shared<const Connectivity>(make_connectivity(n, std::exchange(layout.order.faces, {})));
-  return layout;
+  MemoryOrder memory_order{reorder(faces, bfs_cluster_order(n, faces)), nullptr};
+  memory_order.adjacency =
+      std::make_shared<const Adjacency>(make_adjacency(n, std::exchange(memory_order.order.faces, {})));
+  return memory_order;
 }
 
 }  // namespace hooke

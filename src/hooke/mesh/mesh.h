@@ -33,7 +33,7 @@ inline constexpr char target_length_property[] =
 
 /// Mesh from points, by vertex id, and a connectivity, of which vertices and faces have these ids in the mesh
 /// and edges their own.
-TriMesh build_mesh(const Mat3X& points, const Connectivity& connectivity, const MeshIds& ids = {});
+TriMesh build_mesh(const Mat3X& points, const Adjacency& adjacency, const MeshIds& ids = {});
 
 /// The same from triangles, which need not have been looked at before. Throws MeshError unless they are
 /// manifold and consistently oriented (validation.h tells more).
@@ -41,11 +41,11 @@ TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles);
 
 /// Gives the mesh other faces on the same vertices, which keep their ids, points and properties. Properties
 /// of edges and faces start anew. `ids` as for build_mesh(). Pre-condition: as many vertices.
-void replace_faces(TriMesh& mesh, const Connectivity& connectivity, const MeshIds& ids = {});
+void replace_faces(TriMesh& mesh, const Adjacency& adjacency, const MeshIds& ids = {});
 
 /// The points as a 3 x |V| matrix over the mesh's own storage. Dies when vertices are added or removed.
-Eigen::Map<Mat3X> positions(TriMesh& mesh);
-Eigen::Map<const Mat3X> positions(const TriMesh& mesh);
+Eigen::Map<Mat3X> vertex_points(TriMesh& mesh);
+Eigen::Map<const Mat3X> vertex_points(const TriMesh& mesh);
 
 /// A Vec3 vertex property as a 3 x |V| matrix over the mesh's own storage. Same life as above.
 Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property);
@@ -64,12 +64,12 @@ std::vector<Triangle> triangles_of(const TriMesh& mesh);
 
 // How a mesh lies in memory while we work on it and measure it, however its file has it.
 
-struct Layout {
-  Reordered order;  // against the mesh; without its faces, which the connectivity has
-  std::shared_ptr<const Connectivity> connectivity;
+struct MemoryOrder {
+  Permutation order;  // against the mesh; without its faces, which the connectivity has
+  std::shared_ptr<const Adjacency> adjacency;
 };
 
 /// In memory order.
-Layout lay_out(const TriMesh& mesh);
+MemoryOrder find_memory_order(const TriMesh& mesh);
 
 }  // namespace hooke

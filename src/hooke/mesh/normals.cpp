@@ -23,11 +23,11 @@ Vec3 weighted_corner_normal(const Eigen::Ref<const Mat3X>& points, const Triangl
 
 }  // namespace
 
-Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity) {
-  Mat3X normals(3, static_cast<Eigen::Index>(connectivity.faces.size()));
-  parallel_for(connectivity.faces.size(), block, [&](std::size_t begin, std::size_t end) {
+Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
+  Mat3X normals(3, static_cast<Eigen::Index>(adjacency.faces.size()));
+  parallel_for(adjacency.faces.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const auto& [a, b, c] = connectivity.faces[f];
+      const auto& [a, b, c] = adjacency.faces[f];
       const Vec3 ab = points.col(b) - points.col(a), ac = points.col(c) - points.col(a);
       normals.col(static_cast<Eigen::Index>(f)) = unit_or_zero(ab.cross(ac));
     }
@@ -35,24 +35,24 @@ Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& co
   return normals;
 }
 
-Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity) {
+Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
   Mat3X normals(3, points.cols());
   parallel_for(static_cast<std::size_t>(points.cols()), block, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       Vec3 sum = Vec3::Zero();
-      for (int f : connectivity.vertex_faces[v])
-        sum += weighted_corner_normal(points, connectivity.faces[static_cast<std::size_t>(f)], v);
+      for (int f : adjacency.vertex_faces[v])
+        sum += weighted_corner_normal(points, adjacency.faces[static_cast<std::size_t>(f)], v);
       normals.col(v) = unit_or_zero(sum);
     }
   });
   return normals;
 }
 
-Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity) {
+Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
   Eigen::VectorXd lengths(points.cols());
   parallel_for(static_cast<std::size_t>(points.cols()), block, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-      const auto neighbours = connectivity.vertex_neighbours[v];
+      const auto neighbours = adjacency.vertex_neighbours[v];
       double sum = 0;
       for (int n : neighbours) sum += (points.col(n) - points.col(v)).norm();
       lengths[v] = neighbours.empty() ? 0 : sum / static_cast<double>(neighbours.size());

@@ -7,14 +7,14 @@
 namespace hooke {
 
 /// Unit normal per face; zero for a face without area.
-Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity);
+Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);
 
 /// Unit normal per vertex; zero for a vertex without faces of positive area. The faces are weighted so that
 /// the normal is exact wherever the ring lies on a sphere (N. Max, "Weights for computing vertex normals from
 /// facet normals", 1999).
-Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity);
+Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);
 
 /// Mean length of the edges at each vertex; zero for a vertex without edges.
-Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity);
+Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);
 
 }  // namespace hooke

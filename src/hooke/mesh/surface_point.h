@@ -16,8 +16,8 @@ struct MapEntry {
   SurfacePoint place;  // on the faces there
 };
 
-/// The closest point to x of the faces about `anchor`, a vertex that is near, and of those it meets when it
+/// The closest point to x of the faces about `hint`, a vertex that is near, and of those it meets when it
 /// walks on from there as long as that brings it closer.
-SurfacePoint locate(const Mat3X& points, const Connectivity& connectivity, const Vec3& x, int anchor);
+SurfacePoint locate(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
 
 }  // namespace hooke

@@ -28,31 +28,31 @@ class DisjointSets {
 
 }  // namespace
 
-std::vector<char> boundary_vertices(const Connectivity& connectivity) {
-  std::vector<char> on_boundary(static_cast<size_t>(connectivity.vertex_count), 0);
-  for (size_t e = 0; e < connectivity.edges.size(); ++e)
-    if (connectivity.is_boundary_edge(static_cast<int>(e)))
-      for (int v : connectivity.edges[e]) on_boundary[static_cast<size_t>(v)] = 1;
+std::vector<char> boundary_vertices(const Adjacency& adjacency) {
+  std::vector<char> on_boundary(static_cast<size_t>(adjacency.vertex_count), 0);
+  for (size_t e = 0; e < adjacency.edges.size(); ++e)
+    if (adjacency.is_boundary_edge(static_cast<int>(e)))
+      for (int v : adjacency.edges[e]) on_boundary[static_cast<size_t>(v)] = 1;
   return on_boundary;
 }
 
-Topology measure_topology(const Connectivity& connectivity) {
+Topology measure_topology(const Adjacency& adjacency) {
   Topology t;
-  t.vertices = connectivity.vertex_count;
-  t.edges = static_cast<int>(connectivity.edges.size());
-  t.faces = static_cast<int>(connectivity.faces.size());
+  t.vertices = adjacency.vertex_count;
+  t.edges = static_cast<int>(adjacency.edges.size());
+  t.faces = static_cast<int>(adjacency.faces.size());
 
   DisjointSets parts(t.vertices);
   DisjointSets rims(t.vertices);
-  for (size_t e = 0; e < connectivity.edges.size(); ++e) {
-    parts.join(connectivity.edges[e]);
-    if (!connectivity.is_boundary_edge(static_cast<int>(e))) continue;
-    rims.join(connectivity.edges[e]);
+  for (size_t e = 0; e < adjacency.edges.size(); ++e) {
+    parts.join(adjacency.edges[e]);
+    if (!adjacency.is_boundary_edge(static_cast<int>(e))) continue;
+    rims.join(adjacency.edges[e]);
     ++t.boundary_edges;
   }
-  const std::vector<char> on_boundary = boundary_vertices(connectivity);
+  const std::vector<char> on_boundary = boundary_vertices(adjacency);
   for (int v = 0; v < t.vertices; ++v) {
-    if (connectivity.vertex_faces[v].empty()) {
+    if (adjacency.vertex_faces[v].empty()) {
       ++t.isolated_vertices;
       continue;
     }
@@ -63,11 +63,11 @@ Topology measure_topology(const Connectivity& connectivity) {
   return t;
 }
 
-Valence count_valences(const Connectivity& connectivity) {
+Valence count_valences(const Adjacency& adjacency) {
   Valence valence;
-  const std::vector<char> on_boundary = boundary_vertices(connectivity);
-  for (int v = 0; v < connectivity.vertex_count; ++v) {
-    const size_t edges = connectivity.vertex_edges[v].size();
+  const std::vector<char> on_boundary = boundary_vertices(adjacency);
+  for (int v = 0; v < adjacency.vertex_count; ++v) {
+    const size_t edges = adjacency.vertex_edges[v].size();
     if (edges == 0) continue;
     std::vector<int>& counts = on_boundary[static_cast<size_t>(v)] ? valence.boundary : valence.interior;
     if (counts.size() <= edges) counts.resize(edges + 1, 0);

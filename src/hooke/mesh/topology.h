@@ -26,10 +26,10 @@ struct Valence {
   std::vector<int> boundary;
 };
 
-Topology measure_topology(const Connectivity& connectivity);
-Valence count_valences(const Connectivity& connectivity);
+Topology measure_topology(const Adjacency& adjacency);
+Valence count_valences(const Adjacency& adjacency);
 
 /// For every vertex: does it lie on a boundary edge?
-std::vector<char> boundary_vertices(const Connectivity& connectivity);
+std::vector<char> boundary_vertices(const Adjacency& adjacency);
 
 }  // namespace hooke

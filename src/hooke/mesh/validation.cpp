@@ -24,7 +24,7 @@ class Findings {
         std::find_if(problems_.begin(), problems_.end(), [&](const Problem& p) { return p.kind == kind; });
     if (known == problems_.end()) known = problems_.insert(known, Problem{kind, 0, {}, {}});
     Problem& problem = *known;
-    if (++problem.count > most_places) return;
+    if (++problem.count > max_places) return;
     problem.faces.insert(problem.faces.end(), faces);
     problem.vertices.insert(problem.vertices.end(), vertices);
   }
@@ -186,8 +186,8 @@ bool surely_has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return size > 1e-50 && size < 1e50 && u.cross(v).squaredNorm() > 1e-26 * longest2 * size * size;
 }
 
-// Zero up to the rounding of the coordinates. Lengths are taken relative to them, then heights to lengths: no
-// product underflows or overflows.
+// Zero up to the rounding of the coordinates. UniformVector are taken relative to them, then heights to
+// lengths: no product underflows or overflows.
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
   if (size == 0) return true;
@@ -287,7 +287,7 @@ std::string places_text(const Problem& problem, const MeshSource& source) {
     vertices += std::to_string(problem.vertices[k]);
   }
   for (const int face : problem.faces) faces += (faces.empty() ? "" : ", ") + face_text(face, source);
-  const std::string more = problem.count > most_places ? " ..." : "";
+  const std::string more = problem.count > max_places ? " ..." : "";
   if (problem.faces.empty()) return "vertices " + vertices + more;
   if (problem.vertices.empty()) return "faces " + faces + more;
   return fmt::format("{} {}{}, faces {}{}", edges ? "edges" : "vertices", vertices, more, faces, more);

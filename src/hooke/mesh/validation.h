@@ -26,12 +26,12 @@ enum class ProblemKind {
 };
 
 /// At most so many places of a problem are kept.
-inline constexpr size_t most_places = 10;
+inline constexpr size_t max_places = 10;
 
 struct Problem {
   ProblemKind kind;
   size_t count = 0;           // how often it occurs
-  std::vector<int> faces;     // the first places, at most most_places: face ids ...
+  std::vector<int> faces;     // the first places, at most max_places: face ids ...
   std::vector<int> vertices;  // ... and vertex ids; of an edge, both its ends follow each other
 };
 

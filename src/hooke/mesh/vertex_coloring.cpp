@@ -20,13 +20,13 @@ size_t corner_of(const Triangle& face, int vertex) {
 }
 
 /// The face on the other side of the edge; -1 without one.
-int beyond(const Connectivity& c, int edge, int face) {
+int beyond(const Adjacency& c, int edge, int face) {
   const auto [a, b] = c.edge_faces[static_cast<size_t>(edge)];
   return a == face ? b : a;
 }
 
 /// The vertex across the edge k of the face; -1 without one.
-int vertex_across(const Connectivity& c, int face, size_t k) {
+int vertex_across(const Adjacency& c, int face, size_t k) {
   const int edge = c.face_edges[static_cast<size_t>(face)][k];
   const int other = beyond(c, edge, face);
   if (other < 0) return -1;
@@ -36,7 +36,7 @@ int vertex_across(const Connectivity& c, int face, size_t k) {
 }
 
 /// The first face of a fan: the one at the boundary, clockwise, or the face itself.
-int first_of_fan(const Connectivity& c, int vertex, int start) {
+int first_of_fan(const Adjacency& c, int vertex, int start) {
   for (int face = start;;) {
     const auto f = static_cast<size_t>(face);
     const int before = beyond(c, c.face_edges[f][corner_of(c.faces[f], vertex)], face);
@@ -47,7 +47,7 @@ int first_of_fan(const Connectivity& c, int vertex, int start) {
 }
 
 /// Writes the spokes of one fan, beginning with this face; returns the end.
-Spoke* write_fan(const Connectivity& c, int vertex, int start, Spoke* out) {
+RingEntry* write_fan(const Adjacency& c, int vertex, int start, RingEntry* out) {
   for (int face = start;;) {
     const auto f = static_cast<size_t>(face);
     const Triangle& t = c.faces[f];
@@ -60,81 +60,81 @@ Spoke* write_fan(const Connectivity& c, int vertex, int start, Spoke* out) {
   }
 }
 
-void write_spokes(const Connectivity& c, int vertex, Spoke* out) {
+void write_spokes(const Adjacency& c, int vertex, RingEntry* out) {
   const auto faces = c.vertex_faces[vertex];
   if (faces.empty()) return;
-  const Spoke* begin = out;
-  const Spoke* end = begin + c.vertex_edges[vertex].size();
+  const RingEntry* begin = out;
+  const RingEntry* end = begin + c.vertex_edges[vertex].size();
   out = write_fan(c, vertex, first_of_fan(c, vertex, faces[0]), out);
   for (size_t i = 1; out < end && i < faces.size(); ++i) {  // fans that touch in a point
     const int first = first_of_fan(c, vertex, faces[i]);
-    const bool written =
-        std::any_of(begin, static_cast<const Spoke*>(out), [&](const Spoke& s) { return s.face == first; });
+    const bool written = std::any_of(begin, static_cast<const RingEntry*>(out),
+                                     [&](const RingEntry& s) { return s.face == first; });
     if (!written) out = write_fan(c, vertex, first, out);
   }
 }
 
-Spokes make_spokes(const Connectivity& c) {
-  Spokes spokes;
-  spokes.first = c.vertex_edges.first;
-  spokes.items.resize(c.vertex_edges.items.size());
+VertexRings make_spokes(const Adjacency& c) {
+  VertexRings rings;
+  rings.first = c.vertex_edges.first;
+  rings.items.resize(c.vertex_edges.items.size());
   parallel_for(static_cast<size_t>(c.vertex_count), fan_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
-      write_spokes(c, static_cast<int>(v), spokes.items.data() + spokes.first[v]);
+      write_spokes(c, static_cast<int>(v), rings.items.data() + rings.first[v]);
   });
-  return spokes;
+  return rings;
 }
 
-/// Spokes of the mesh cut open at its creases, in terms of the mesh itself.
-Spokes make_parted_spokes(const Connectivity& c) {
-  const Connectivity cut = cut_open(c);
-  Spokes spokes = make_spokes(cut);
-  const auto vertex_of = [&](int side) {
-    return side < c.vertex_count ? side : c.further_sides[static_cast<size_t>(side - c.vertex_count)];
+/// VertexRings of the mesh cut open at its creases, in terms of the mesh itself.
+VertexRings make_parted_spokes(const Adjacency& c) {
+  const Adjacency cut = cut_open(c);
+  VertexRings rings = make_spokes(cut);
+  const auto vertex_of = [&](int wedge) {
+    return wedge < c.vertex_count ? wedge : c.extra_wedges[static_cast<size_t>(wedge - c.vertex_count)];
   };
   for (int s = 0; s < cut.vertex_count; ++s) {
     const int v = vertex_of(s);
     int face = -1;
-    spokes.mate.push_back(-1);
-    for (int i = spokes.first[static_cast<size_t>(s)]; i < spokes.first[static_cast<size_t>(s) + 1]; ++i) {
-      Spoke& spoke = spokes.items[static_cast<size_t>(i)];
-      spokes.sides.push_back(spoke.neighbour);
-      spoke.neighbour = vertex_of(spoke.neighbour);
-      if (spoke.face >= 0) face = spoke.face;
+    rings.mate.push_back(-1);
+    for (int i = rings.first[static_cast<size_t>(s)]; i < rings.first[static_cast<size_t>(s) + 1]; ++i) {
+      RingEntry& entry = rings.items[static_cast<size_t>(i)];
+      rings.wedges.push_back(entry.neighbour);
+      entry.neighbour = vertex_of(entry.neighbour);
+      if (entry.face >= 0) face = entry.face;
       const auto f = static_cast<size_t>(face);
       const size_t k = corner_of(c.faces[f], v), far = (k + 1) % 3;
-      spoke.across = spoke.face >= 0 ? vertex_across(c, face, far) : -1;
-      spokes.far_crease.push_back(spoke.face >= 0 && c.is_crease(c.face_edges[f][far]));
-      spoke.edge = c.face_edges[f][spoke.face >= 0 ? k : (k + 2) % 3];
-      if (i == spokes.first[static_cast<size_t>(s)] && c.is_crease(spoke.edge))
-        spokes.mate.back() = vertex_across(c, face, k);
-      const auto e = static_cast<size_t>(spoke.edge);
-      spokes.owned.push_back(c.side_edges[e][c.edges[e][0] == v ? 0 : 1] == s);
+      entry.across = entry.face >= 0 ? vertex_across(c, face, far) : -1;
+      rings.far_crease.push_back(entry.face >= 0 && c.is_crease(c.face_edges[f][far]));
+      entry.edge = c.face_edges[f][entry.face >= 0 ? k : (k + 2) % 3];
+      if (i == rings.first[static_cast<size_t>(s)] && c.is_crease(entry.edge))
+        rings.mate.back() = vertex_across(c, face, k);
+      const auto e = static_cast<size_t>(entry.edge);
+      rings.owned.push_back(c.side_edges[e][c.edges[e][0] == v ? 0 : 1] == s);
     }
   }
-  return spokes;
+  return rings;
 }
 
 /// The other blocks that the vertices of each block look at, and those that look at them.
-std::vector<std::vector<int>> blocks_seen(const Spokes& spokes, const Connectivity& c, int block) {
+std::vector<std::vector<int>> blocks_seen(const VertexRings& rings, const Adjacency& c, int block) {
   const int vertex_count = c.vertex_count;
   const auto blocks = static_cast<size_t>((vertex_count + block - 1) / block);
   std::vector<std::vector<int>> seen(blocks);
-  const auto further_side = [&](int vertex) {  // the first of this vertex or a later one
-    return static_cast<size_t>(std::ranges::lower_bound(c.further_sides, vertex) - c.further_sides.begin());
+  const auto extra_wedge = [&](int vertex) {  // the first of this vertex or a later one
+    return static_cast<size_t>(std::ranges::lower_bound(c.extra_wedges, vertex) - c.extra_wedges.begin());
   };
   parallel_for(blocks, 8, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {
       const int first = static_cast<int>(b) * block, last = std::min(first + block, vertex_count);
-      const auto from = spokes.items.begin() + spokes.first[static_cast<size_t>(first)];
-      const auto to = spokes.items.begin() + spokes.first[static_cast<size_t>(last)];
-      const auto look = [&](const Spoke& s) {
+      const auto from = rings.items.begin() + rings.first[static_cast<size_t>(first)];
+      const auto to = rings.items.begin() + rings.first[static_cast<size_t>(last)];
+      const auto look = [&](const RingEntry& s) {
         for (int v : {s.neighbour, s.across})
           if (v >= 0 && (v < first || v >= last)) seen[b].push_back(v / block);
       };
       std::for_each(from, to, look);
-      for (size_t i = further_side(first); i < further_side(last); ++i)
-        for (const Spoke& s : spokes[vertex_count + static_cast<int>(i)]) look(s);
+      for (size_t i = extra_wedge(first); i < extra_wedge(last); ++i)
+        for (const RingEntry& s : rings[vertex_count + static_cast<int>(i)]) look(s);
       std::ranges::sort(seen[b]);
       seen[b].erase(std::unique(seen[b].begin(), seen[b].end()), seen[b].end());
     }
@@ -144,49 +144,49 @@ std::vector<std::vector<int>> blocks_seen(const Spokes& spokes, const Connectivi
 
 /// First fit in the order of the blocks.
 std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighbours) {
-  std::vector<int> wave(neighbours.size(), -1);
-  std::vector<std::vector<int>> waves;
+  std::vector<int> color(neighbours.size(), -1);
+  std::vector<std::vector<int>> colors;
   std::vector<char> used;
   for (size_t b = 0; b < neighbours.size(); ++b) {
-    used.assign(waves.size() + 1, 0);
+    used.assign(colors.size() + 1, 0);
     for (int n : neighbours[b])
-      if (wave[static_cast<size_t>(n)] >= 0) used[static_cast<size_t>(wave[static_cast<size_t>(n)])] = 1;
+      if (color[static_cast<size_t>(n)] >= 0) used[static_cast<size_t>(color[static_cast<size_t>(n)])] = 1;
     const auto free = static_cast<size_t>(std::ranges::find(used, 0) - used.begin());
-    if (free == waves.size()) waves.emplace_back();
-    waves[free].push_back(static_cast<int>(b));
-    wave[b] = static_cast<int>(free);
+    if (free == colors.size()) colors.emplace_back();
+    colors[free].push_back(static_cast<int>(b));
+    color[b] = static_cast<int>(free);
   }
-  return waves;
+  return colors;
 }
 
-SweepPlan without_waves(const Connectivity& connectivity) {
-  SweepPlan plan;
-  plan.spokes = connectivity.creases.empty() ? make_spokes(connectivity) : make_parted_spokes(connectivity);
-  plan.vertices = connectivity.vertex_count;
+VertexColoring without_waves(const Adjacency& adjacency) {
+  VertexColoring plan;
+  plan.rings = adjacency.creases.empty() ? make_spokes(adjacency) : make_parted_spokes(adjacency);
+  plan.vertices = adjacency.vertex_count;
   return plan;
 }
 
 }  // namespace
 
-SweepPlan plan_sweeps(const Connectivity& connectivity) {
-  SweepPlan plan = without_waves(connectivity);
-  plan.block = block_size(connectivity.vertex_count);
-  plan.waves = colour(blocks_seen(plan.spokes, connectivity, plan.block));
+VertexColoring color_vertices(const Adjacency& adjacency) {
+  VertexColoring plan = without_waves(adjacency);
+  plan.block = block_size(adjacency.vertex_count);
+  plan.colors = colour(blocks_seen(plan.rings, adjacency, plan.block));
   return plan;
 }
 
-SweepPlan plan_one_block(const Connectivity& connectivity) {
-  SweepPlan plan = without_waves(connectivity);
+VertexColoring color_as_one_block(const Adjacency& adjacency) {
+  VertexColoring plan = without_waves(adjacency);
   plan.block = std::max(1, plan.vertices);
-  plan.waves = {{0}};
+  plan.colors = {{0}};
   return plan;
 }
 
-void for_each_block(const SweepPlan& plan, const std::function<void(int begin, int end)>& body) {
-  for (const std::vector<int>& wave : plan.waves)
-    parallel_for(wave.size(), 1, [&](size_t begin, size_t end) {
+void for_each_block(const VertexColoring& plan, const std::function<void(int begin, int end)>& body) {
+  for (const std::vector<int>& color : plan.colors)
+    parallel_for(color.size(), 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
-        body(wave[i] * plan.block, std::min(plan.vertices, (wave[i] + 1) * plan.block));
+        body(color[i] * plan.block, std::min(plan.vertices, (color[i] + 1) * plan.block));
     });
 }
 

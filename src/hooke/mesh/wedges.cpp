@@ -13,9 +13,9 @@ size_t corner_of(const Triangle& face, int vertex) {
 /// The sectors about one vertex.
 class Sectors {
  public:
-  Sectors(const Connectivity& c, int vertex) : c_(c), vertex_(vertex) {
+  Sectors(const Adjacency& c, int vertex) : c_(c), vertex_(vertex) {
     for (int f : c.vertex_faces[vertex])
-      if (c.is_border(edge_at(f, 0))) starts_.push_back({neighbour_at(f), f});
+      if (c.is_feature_edge(edge_at(f, 0))) starts_.push_back({neighbour_at(f), f});
     std::ranges::sort(starts_);
   }
 
@@ -26,7 +26,7 @@ class Sectors {
     for (int f = starts_[sector][1];;) {
       visit(f);
       const int e = edge_at(f, 2);
-      if (c_.is_border(e)) return;
+      if (c_.is_feature_edge(e)) return;
       const auto& [left, right] = c_.edge_faces[static_cast<size_t>(e)];
       f = left == f ? right : left;
     }
@@ -44,12 +44,12 @@ class Sectors {
     return t[(corner_of(t, vertex_) + 1) % 3];
   }
 
-  const Connectivity& c_;
+  const Adjacency& c_;
   int vertex_;
   std::vector<std::array<int, 2>> starts_;  // neighbour and face
 };
 
-void mark(Connectivity& c, const std::vector<Edge>& creases) {
+void mark(Adjacency& c, const std::vector<Edge>& creases) {
   c.creases.assign(c.edges.size(), 0);
   for (const auto& [a, b] : creases) {
     const auto edges = c.vertex_edges[a];
@@ -60,11 +60,11 @@ void mark(Connectivity& c, const std::vector<Edge>& creases) {
 
 }  // namespace
 
-void part_at_creases(Connectivity& c, const std::vector<Edge>& creases) {
+void split_wedges(Adjacency& c, const std::vector<Edge>& creases) {
   if (creases.empty()) return;
   mark(c, creases);
   c.side_faces = c.faces;
-  c.further_sides.clear();
+  c.extra_wedges.clear();
   std::vector<int> touched;
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.creases[e]) touched.insert(touched.end(), c.edges[e].begin(), c.edges[e].end());
@@ -73,11 +73,11 @@ void part_at_creases(Connectivity& c, const std::vector<Edge>& creases) {
   for (int v : touched) {
     const Sectors sectors(c, v);
     for (size_t s = 1; s < sectors.count(); ++s) {
-      const int side = c.side_count();
+      const int wedge = c.wedge_count();
       sectors.for_each_face(s, [&](int f) {
-        c.side_faces[static_cast<size_t>(f)][corner_of(c.faces[static_cast<size_t>(f)], v)] = side;
+        c.side_faces[static_cast<size_t>(f)][corner_of(c.faces[static_cast<size_t>(f)], v)] = wedge;
       });
-      c.further_sides.push_back(v);
+      c.extra_wedges.push_back(v);
     }
   }
   c.side_edges.resize(c.edges.size());
@@ -87,51 +87,51 @@ void part_at_creases(Connectivity& c, const std::vector<Edge>& creases) {
   }
 }
 
-Connectivity without_creases(Connectivity c) {
+Adjacency without_creases(Adjacency c) {
   c.creases.clear();
   c.side_faces.clear();
   c.side_edges.clear();
-  c.further_sides.clear();
+  c.extra_wedges.clear();
   return c;
 }
 
-std::vector<Edge> crease_edges(const Connectivity& c) {
+std::vector<Edge> crease_edges(const Adjacency& c) {
   std::vector<Edge> creases;
   for (size_t e = 0; e < c.creases.size(); ++e)
     if (c.creases[e]) creases.push_back(c.edges[e]);
   return creases;
 }
 
-Connectivity cut_open(const Connectivity& c) {
-  return make_connectivity(c.side_count(), c.sides_of_faces());
+Adjacency cut_open(const Adjacency& c) {
+  return make_adjacency(c.wedge_count(), c.wedges_of_faces());
 }
 
-std::vector<int> sides_before(const Connectivity& c, const std::vector<Triangle>& sides,
-                              std::vector<int> vertices) {
+std::vector<int> wedges_before(const Adjacency& c, const std::vector<Triangle>& wedges,
+                               std::vector<int> vertices) {
   std::vector<int> before = std::move(vertices);
-  before.resize(static_cast<size_t>(c.side_count()), -1);
-  for (size_t f = 0; f < sides.size(); ++f)
-    for (size_t k = 0; k < 3; ++k) before[static_cast<size_t>(c.sides_of_faces()[f][k])] = sides[f][k];
+  before.resize(static_cast<size_t>(c.wedge_count()), -1);
+  for (size_t f = 0; f < wedges.size(); ++f)
+    for (size_t k = 0; k < 3; ++k) before[static_cast<size_t>(c.wedges_of_faces()[f][k])] = wedges[f][k];
   return before;
 }
 
-std::vector<int> other_sides(std::size_t vertex_count, const std::vector<int>& further_sides) {
-  if (further_sides.empty()) return {};
+std::vector<int> other_wedges(std::size_t vertex_count, const std::vector<int>& extra_wedges) {
+  if (extra_wedges.empty()) return {};
   std::vector<int> others(vertex_count, -1);
-  for (size_t s = further_sides.size(); s-- > 0;)
-    others[static_cast<size_t>(further_sides[s])] = static_cast<int>(vertex_count + s);
+  for (size_t s = extra_wedges.size(); s-- > 0;)
+    others[static_cast<size_t>(extra_wedges[s])] = static_cast<int>(vertex_count + s);
   return others;
 }
 
-Mat3X side_points(const Mat3X& points, const Connectivity& c) {
-  Mat3X sides(3, c.side_count());
-  sides.leftCols(points.cols()) = points;
-  for (size_t s = 0; s < c.further_sides.size(); ++s)
-    sides.col(points.cols() + static_cast<Eigen::Index>(s)) = points.col(c.further_sides[s]);
-  return sides;
+Mat3X wedge_points(const Mat3X& points, const Adjacency& c) {
+  Mat3X wedges(3, c.wedge_count());
+  wedges.leftCols(points.cols()) = points;
+  for (size_t s = 0; s < c.extra_wedges.size(); ++s)
+    wedges.col(points.cols() + static_cast<Eigen::Index>(s)) = points.col(c.extra_wedges[s]);
+  return wedges;
 }
 
-std::vector<int> label_components(const Connectivity& c) {
+std::vector<int> label_components(const Adjacency& c) {
   std::vector<int> label(static_cast<size_t>(c.vertex_count), -1);
   int count = 0;
   for (int start = 0; start < c.vertex_count; ++start) {

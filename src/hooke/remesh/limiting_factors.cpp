@@ -14,52 +14,53 @@ namespace {
 /// Degrees below the bound from which on something else is to blame.
 constexpr double reached = 1;
 
-unsigned char hold_of_curve(const Workspace& work, size_t vertex) {
+unsigned char limit_of_curve(const Workspace& work, size_t vertex) {
   const int curve = work.constraints.curve[vertex];
   const int creases = static_cast<int>(work.constraints.curves.size()) - work.constraints.crease_curves;
-  return curve < 0 ? held_by_nothing : curve < creases ? held_by_boundary : held_by_crease;
+  return curve < 0 ? held_by_nothing : curve < creases ? limited_by_boundary : limited_by_crease;
 }
 
 }  // namespace
 
-std::vector<unsigned char> holds_of_result(const Workspace& work, const Guards& guards,
-                                           const ConstraintOptions& asked) {
+std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const Guards& guards,
+                                                   const ConstraintOptions& asked) {
   std::vector<int> fixed_vertices = asked.fixed_vertices;
   std::ranges::sort(fixed_vertices);
-  const Connectivity& c = *work.connectivity;
-  std::vector<unsigned char> holds(work.origins.size());
-  for (size_t v = 0; v < holds.size(); ++v) holds[v] = hold_of_curve(work, v);
+  const Adjacency& c = *work.adjacency;
+  std::vector<unsigned char> vertex_limits(work.origins.size());
+  for (size_t v = 0; v < vertex_limits.size(); ++v) vertex_limits[v] = limit_of_curve(work, v);
   for (size_t e = 0; e < c.edges.size(); ++e)
     for (const int v : c.edges[e]) {
-      auto& hold = holds[static_cast<size_t>(v)];
-      if (c.edge_faces[e][1] < 0) hold |= held_by_boundary;
-      if (c.is_crease(static_cast<int>(e))) hold |= held_by_crease;
+      auto& limit = vertex_limits[static_cast<size_t>(v)];
+      if (c.edge_faces[e][1] < 0) limit |= limited_by_boundary;
+      if (c.is_crease(static_cast<int>(e))) limit |= limited_by_crease;
     }
-  for (size_t v = 0; v < holds.size(); ++v) {
+  for (size_t v = 0; v < vertex_limits.size(); ++v) {
     if (work.constraints.freedom[v] != Freedom::fixed || work.constraints.at_bend(static_cast<int>(v)))
       continue;
     const bool requested =
         std::ranges::binary_search(fixed_vertices, work.vertex_of_input(static_cast<int>(v))) ||
-        (asked.boundary == BoundaryRule::fixed && (holds[v] & held_by_boundary));
-    holds[v] |= requested ? held_by_request : held_at_corner;
+        (asked.boundary == BoundaryRule::fixed && (vertex_limits[v] & limited_by_boundary));
+    vertex_limits[v] |= requested ? limited_by_request : limited_at_corner;
   }
-  for (const int v : guards.vertices_at_limits(work.placement))
-    holds[static_cast<size_t>(v)] |= held_by_guard;
+  for (const int v : guards.vertices_at_limits(work.positions))
+    vertex_limits[static_cast<size_t>(v)] |= limited_by_guard;
 
-  std::vector<unsigned char> of_result(holds.size());
-  for (size_t v = 0; v < holds.size(); ++v)
-    of_result[static_cast<size_t>(work.order.old_vertex[v])] = holds[v];
+  std::vector<unsigned char> of_result(vertex_limits.size());
+  for (size_t v = 0; v < vertex_limits.size(); ++v)
+    of_result[static_cast<size_t>(work.order.old_vertex[v])] = vertex_limits[v];
   return of_result;
 }
 
-std::vector<std::string> hindrances(const WorstFace& face, const std::vector<unsigned char>& holds) {
+std::vector<std::string> limiting_factors(const WorstFace& face,
+                                          const std::vector<unsigned char>& vertex_limits) {
   const bool bounded = face.min_angle >= face.bound.degrees - reached;
   unsigned char all = 0;
   bool inside = false;
   const auto look = [&](int v) {
-    const unsigned char hold = holds[static_cast<size_t>(v)];
-    inside = inside || (hold & ~held_by_guard) == held_by_nothing;
-    all |= hold;
+    const unsigned char limit = vertex_limits[static_cast<size_t>(v)];
+    inside = inside || (limit & ~limited_by_guard) == held_by_nothing;
+    all |= limit;
   };
   if (bounded)
     std::ranges::for_each(face.bound.vertices, look);
@@ -67,12 +68,12 @@ std::vector<std::string> hindrances(const WorstFace& face, const std::vector<uns
     std::ranges::for_each(face.vertices, look);
 
   std::vector<std::string> names;
-  if (all & held_at_corner) names.push_back("corner");
-  if (all & held_by_request) names.push_back("fixed");
-  if (all & held_by_crease) names.push_back("crease");
-  if (all & held_by_boundary) names.push_back("boundary");
+  if (all & limited_at_corner) names.push_back("corner");
+  if (all & limited_by_request) names.push_back("fixed");
+  if (all & limited_by_crease) names.push_back("crease");
+  if (all & limited_by_boundary) names.push_back("boundary");
   if (bounded && inside) names.push_back("valence");
-  if (!bounded && (all & held_by_guard)) names.push_back("guard");
+  if (!bounded && (all & limited_by_guard)) names.push_back("guard");
   if (names.empty()) names.push_back("lengths");
   return names;
 }

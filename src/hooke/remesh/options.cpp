@@ -12,8 +12,8 @@ void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
       flips.passes.passes = 1;
       flips.passes.rounds = 3;
       flips.passes.sweeps = 2;
-      flips.passes.hope = .3;
-      flips.passes.swept_hope = .04;
+      flips.passes.max_energy_rise = .3;
+      flips.passes.max_rise_after_relaxation = .04;
       break;
     case Effort::standard:
       flips.flow.rounds = 20;
@@ -24,7 +24,7 @@ void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
 }
 
 /// Flips alone pay for a larger least angle with their edges' lengths.
-void set_mending(SliverTrialOptions& trials, ConnectivityMode mode, Effort effort) {
+void set_sliver_removal(SliverTrialOptions& trials, ConnectivityMode mode, Effort effort) {
   const bool adapts = mode == ConnectivityMode::adapt;
   switch (effort) {
     case Effort::fast:
@@ -48,14 +48,14 @@ void set_effort(RemeshOptions& options, Effort effort) {
   options.adaptation = adapt_options(effort);
   if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
   if (options.connectivity != ConnectivityMode::fixed) {
-    set_mending(options.mend.trials, options.connectivity, effort);
+    set_sliver_removal(options.slivers.trials, options.connectivity, effort);
     return;
   }
   switch (effort) {
     case Effort::fast:  // one round, and angle springs once, not in rising stages
       options.max_outer = 1;
-      options.polish.first_threshold = options.polish.last_threshold = 24;
-      options.polish.sweeps = 8;
+      options.angle_springs.first_threshold = options.angle_springs.last_threshold = 24;
+      options.angle_springs.sweeps = 8;
       break;
     case Effort::standard:
       break;
@@ -63,13 +63,13 @@ void set_effort(RemeshOptions& options, Effort effort) {
       options.max_outer = 12;
       options.integration.energy_drop = 2e-3;
       options.outer_drop = 1e-3;
-      options.polish.sweeps = 24;
-      options.polish.rest = 3e-3;
-      options.polish.threshold_step = 1;
-      options.polish.least_step = .5;
-      options.polish.last_threshold = 40;
-      options.polish.edge_error_limit = 1.05;
-      options.polish.keep_within = 0;
+      options.angle_springs.sweeps = 24;
+      options.angle_springs.rest = 3e-3;
+      options.angle_springs.threshold_step = 1;
+      options.angle_springs.min_step = .5;
+      options.angle_springs.last_threshold = 40;
+      options.angle_springs.edge_error_limit = 1.05;
+      options.angle_springs.keep_within = 0;
       break;
   }
 }

@@ -26,10 +26,10 @@ enum class IntegratorKind {
 
 /// What a mesh that is good already must not lose. Equal edges and great angles are two aims: a mesh whose
 /// angles are all good could pay for the one with the other.
-struct HarmOptions {
-  double angle = 35;       // degrees; a mesh is near-regular if no angle is below ...
-  double deviation = .25;  // ... and the standard deviation of l / L_e is at most this part of its mean
-  double reach = .19;      // of its target length, that a vertex of a near-regular mesh may travel
+struct NearRegularOptions {
+  double angle = 35;        // degrees; a mesh is near-regular if no angle is below ...
+  double deviation = .25;   // ... and the standard deviation of l / L_e is at most this part of its mean
+  double max_travel = .19;  // of its target length, that a vertex of a near-regular mesh may travel
 };
 
 struct RemeshOptions {
@@ -43,15 +43,15 @@ struct RemeshOptions {
   DampedOptions damped;
   double altitude = 1;  // beta, weight of the altitude springs against the strings
   GuardOptions guards;
-  HarmOptions harm;  // in mode `fixed`
+  NearRegularOptions near_regular;  // in mode `fixed`
   UntangleOptions untangle;
-  PolishOptions polish;
+  AngleSpringOptions angle_springs;
   bool polish_angles = true;
-  AngleSearchOptions search;  // after the polish
-  MendOptions mend;           // after that, in the modes `flip` and `adapt`
-  FilterOptions filter{.reach = .35};
-  // Of the field: before each outer iteration, where the guards hindered the last; or once, which `adapt`
-  // always does.
+  AngleSearchOptions search;     // after the polish
+  SliverRemovalOptions slivers;  // after that, in the modes `flip` and `adapt`
+  FilterOptions filter{.max_deviation = .35};
+  // Of the field: before each outer iteration, where the guards guard_limited the last; or once, which
+  // `adapt` always does.
   Refit refit = Refit::each;
   RetractionOptions retraction{.tolerance = 1e-5, .lazy = 2};
   ConstraintOptions constraints;
@@ -60,7 +60,7 @@ struct RemeshOptions {
   double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part ...
   /// ... or comes to rest where guards held back no more of the vertices' steps than this part, all trials
   /// counted.
-  double hindered = 2.5e-4;
+  double guard_limited = 2.5e-4;
 };
 
 /// Sets the counts and limits that an effort stands for, in the connectivity mode of the options. `standard`

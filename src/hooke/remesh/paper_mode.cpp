@@ -16,13 +16,14 @@ namespace {
 /// The work in hand and the account of it.
 class PaperRun {
  public:
-  PaperRun(const TriMesh& mesh, Layout layout, const PaperOptions& options, const Observer& observer)
+  PaperRun(const TriMesh& mesh, MemoryOrder memory_order, const PaperOptions& options,
+           const Observer& observer)
       : options_(options),
         observer_(observer),
-        work_(mesh, std::move(layout), options.constraints, options.filter, options.retraction),
+        work_(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction),
         to_input_(*work_.retraction),
-        strings_(*work_.connectivity, work_.targets, {.altitude = 0}),
-        mesh_(build_mesh(*work_.start, *work_.connectivity)) {}
+        strings_(*work_.adjacency, work_.targets, {.altitude = 0}),
+        mesh_(build_mesh(*work_.start, *work_.adjacency)) {}
 
   RemeshResult run(TriMesh& mesh) {
     result_.folded_before = static_cast<int>(folded_faces().size());
@@ -31,20 +32,20 @@ class PaperRun {
     result_.projection = work_.projection_counts();
     result_.folded_faces = folded_faces();
     result_.input_points = work_.copy_back(mesh);
-    result_.layout = work_.layout();
+    result_.memory_order = work_.memory_order();
     return std::move(result_);
   }
 
  private:
   void iterate() {
     if (outer_ > 1) work_.refit();  // psi of M_t
-    const double before = strings_(work_.placement.points, work_.placement.normals, nullptr);
+    const double before = strings_(work_.positions.points, work_.positions.normals, nullptr);
     EvolutionResult evolved = optimize();  // M_{t+1}
     filter();                              // M*_{t+1}
-    evolved.energy = strings_(work_.placement.points, work_.placement.normals, nullptr);
+    evolved.energy = strings_(work_.positions.points, work_.positions.normals, nullptr);
     record(evolved);
     const double worst =
-        max_length_error(work_.placement.points, *work_.connectivity, work_.targets.edge.values());  // D
+        max_length_error(work_.positions.points, *work_.adjacency, work_.targets.edge.values());  // D
     if (worst < options_.evolution.tolerance) return stop(StopReason::converged);
     if (evolved.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (before - evolved.energy > options_.outer_drop * before) return;
@@ -52,14 +53,14 @@ class PaperRun {
   }
 
   EvolutionResult optimize() {
-    return evolve_damped(mesh_, *work_.connectivity, work_.targets.edge.values(), options_.evolution,
+    return evolve_damped(mesh_, *work_.adjacency, work_.targets.edge.values(), options_.evolution,
                          boundary_rule(), watch());
   }
 
   void filter() {
-    Placement& p = work_.placement;
-    p = work_.retraction->place(positions(mesh_), std::move(p.anchors), std::move(p.segments));
-    positions(mesh_) = p.points;
+    SurfacePositions& p = work_.positions;
+    p = work_.retraction->place(vertex_points(mesh_), std::move(p.hints), std::move(p.segments));
+    vertex_points(mesh_) = p.points;
   }
 
   /// What curve and fixed vertices may not do, where the user asked for more than the paper. All others stay
@@ -73,7 +74,7 @@ class PaperRun {
         const Freedom freedom = work_.constraints.freedom[static_cast<size_t>(v)];
         if (freedom == Freedom::surface) continue;
         const Vec3 tangent =
-            work_.retraction->tangent(work_.placement, static_cast<int>(v));  // zero if fixed
+            work_.retraction->tangent(work_.positions, static_cast<int>(v));  // zero if fixed
         forces.col(v) = (tangent * tangent.dot(forces.col(v))).eval();
       }
     };
@@ -90,16 +91,17 @@ class PaperRun {
 
   /// Faces of the present points against the surface of the input: the field of a folded mesh is no judge.
   std::vector<int> folded_faces() {
-    Placement seen = to_input_.place(work_.placement.points, input_anchors(), work_.placement.segments);
-    seen.points = work_.placement.points;
-    const Guards guards(*work_.connectivity, work_.targets, {});
+    SurfacePositions seen =
+        to_input_.place(work_.positions.points, input_anchors(), work_.positions.segments);
+    seen.points = work_.positions.points;
+    const Guards guards(*work_.adjacency, work_.targets, {});
     return faces_of_result(work_, guards.folded_faces(seen));
   }
 
   std::vector<int> input_anchors() const {
-    std::vector<int> anchors(work_.placement.anchors.size());
-    std::iota(anchors.begin(), anchors.end(), 0);
-    return anchors;
+    std::vector<int> hints(work_.positions.hints.size());
+    std::iota(hints.begin(), hints.end(), 0);
+    return hints;
   }
 
   void record(const EvolutionResult& evolved) {
@@ -131,12 +133,12 @@ class PaperRun {
 }  // namespace
 
 RemeshResult paper_remesh(TriMesh& mesh, const PaperOptions& options, const Observer& observer) {
-  return paper_remesh(mesh, lay_out(mesh), options, observer);
+  return paper_remesh(mesh, find_memory_order(mesh), options, observer);
 }
 
-RemeshResult paper_remesh(TriMesh& mesh, Layout layout, const PaperOptions& options,
+RemeshResult paper_remesh(TriMesh& mesh, MemoryOrder memory_order, const PaperOptions& options,
                           const Observer& observer) {
-  return PaperRun(mesh, std::move(layout), options, observer).run(mesh);
+  return PaperRun(mesh, std::move(memory_order), options, observer).run(mesh);
 }
 
 }  // namespace hooke

@@ -35,7 +35,7 @@ struct PaperOptions {
 RemeshResult paper_remesh(TriMesh& mesh, const PaperOptions& options, const Observer& observer = nullptr);
 
 /// The same with the mesh's layout, where it is known already.
-RemeshResult paper_remesh(TriMesh& mesh, Layout layout, const PaperOptions& options,
+RemeshResult paper_remesh(TriMesh& mesh, MemoryOrder memory_order, const PaperOptions& options,
                           const Observer& observer = nullptr);
 
 }  // namespace hooke

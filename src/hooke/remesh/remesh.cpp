@@ -20,7 +20,7 @@ namespace {
 
 /// Standard deviation of l / L_e in parts of its mean.
 double spread_of_edges(const Workspace& work) {
-  const auto& edges = work.connectivity->edges;
+  const auto& edges = work.adjacency->edges;
   double sum = 0, squares = 0;
   for (size_t e = 0; e < edges.size(); ++e) {
     const auto [a, b] = edges[e];
@@ -34,14 +34,15 @@ double spread_of_edges(const Workspace& work) {
 
 }  // namespace
 
-bool do_no_harm(Workspace& work, const HarmOptions& options, GuardOptions& guards) {
-  const bool near_regular = least_angle(*work.start, work.connectivity->faces) >= options.angle &&
+bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards) {
+  const bool near_regular = min_angle(*work.start, work.adjacency->faces) >= options.angle &&
                             spread_of_edges(work) <= options.deviation;
   if (near_regular || !work.graded())
-    guards.cotangent = cotangent_to_keep(work.placement.points, work.connectivity->faces);
+    guards.cotangent = cotangent_to_keep(work.positions.points, work.adjacency->faces);
   if (near_regular) {
-    work.constraints.home = *work.start;
-    for (double length : work.vertex_length) work.constraints.reach.push_back(options.reach * length);
+    work.constraints.rest_position = *work.start;
+    for (double length : work.vertex_length)
+      work.constraints.max_travel.push_back(options.max_travel * length);
   }
   return near_regular;
 }
@@ -57,8 +58,8 @@ class OuterIterations {
       : options_(options),
         observer_(observer),
         work_(work),
-        energy_(*work_.connectivity, work_.targets, {.altitude = options.altitude}),
-        guards_(*work_.connectivity, work_.targets, options.guards),
+        energy_(*work_.adjacency, work_.targets, {.altitude = options.altitude}),
+        guards_(*work_.adjacency, work_.targets, options.guards),
         projection_(work, options.guards) {}
 
   /// `flips` is what the mode has done before: nothing more is done if it was interrupted.
@@ -75,7 +76,7 @@ class OuterIterations {
     if (!interrupted() && options_.polish_angles)
       raise_angles();
     else if (outer_ == 0)
-      settle_down();  // no iteration has
+      project_to_input();  // no iteration has
     conclude();
     return std::move(result_);
   }
@@ -86,18 +87,18 @@ class OuterIterations {
     result_ = std::move(result);
     seconds_before_ = seconds;
     if (interrupted())
-      settle_down();
+      project_to_input();
     else
       search();
-    record("mend", {.energy = energy_(work_.placement.points, work_.placement.normals, nullptr)});
+    record("mend", {.energy = energy_(work_.positions.points, work_.positions.normals, nullptr)});
     conclude();
     return std::move(result_);
   }
 
  private:
   Relaxation relaxation() {
-    return {*work_.connectivity, work_.sweeps, work_.vertex_length, energy_,
-            *work_.retraction,   guards_,      work_.placement,     work_.stopwatch};
+    return {*work_.adjacency,  work_.coloring, work_.vertex_length, energy_,
+            *work_.retraction, guards_,        work_.positions,     work_.stopwatch};
   }
 
   Observer watch(const char* stage) const {
@@ -126,7 +127,7 @@ class OuterIterations {
     LbfgsOptions lbfgs = options_.lbfgs;
     const bool flowed = options_.connectivity != ConnectivityMode::fixed;
     if (flowed || !held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
-    lbfgs.settles = !goes_on();
+    lbfgs.projects_at_end = !goes_on();
     return lbfgs;
   }
 
@@ -143,7 +144,7 @@ class OuterIterations {
       case IntegratorKind::lbfgs:
         return relax_lbfgs(r, integration(), lbfgs(), watch("relax"));
       case IntegratorKind::damped: {
-        TriMesh moving = build_mesh(work_.placement.points, *work_.connectivity);
+        TriMesh moving = build_mesh(work_.positions.points, *work_.adjacency);
         return relax_damped(r, moving, integration(), options_.damped, watch("relax"));
       }
     }
@@ -152,35 +153,36 @@ class OuterIterations {
 
   /// A coarser mesh knows less of the surface than the input does.
   bool refits() const {
-    return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt && !unhindered_;
+    return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt &&
+           !free_of_guards_;
   }
 
   /// Came to rest where the guards had next to nothing to hold back: there the surface is smooth under the
   /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same, unless the
   /// vertices have come to places with other target lengths.
-  bool is_unhindered(const IntegrationResult& relaxed) const {
-    const double vertex_steps = static_cast<double>(relaxed.evaluations) * work_.connectivity->vertex_count;
+  bool is_free_of_guards(const IntegrationResult& relaxed) const {
+    const double vertex_steps = static_cast<double>(relaxed.evaluations) * work_.adjacency->vertex_count;
     return options_.integrator == IntegratorKind::lbfgs && !work_.graded() &&
            relaxed.reason == StopReason::stalled &&
-           static_cast<double>(relaxed.held_back) <= options_.hindered * vertex_steps;
+           static_cast<double>(relaxed.limited_steps) <= options_.guard_limited * vertex_steps;
   }
 
   /// The next iteration or the polish goes on from where the vertices are, on the same field.
   bool goes_on() const {
-    return options_.polish_angles && (unhindered_ || options_.connectivity == ConnectivityMode::adapt);
+    return options_.polish_angles && (free_of_guards_ || options_.connectivity == ConnectivityMode::adapt);
   }
 
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
     if (refits() && outer_ > 1) projection_.refit();
-    const double energy = energy_(work_.placement.points, work_.placement.normals, nullptr);
+    const double energy = energy_(work_.positions.points, work_.positions.normals, nullptr);
     IntegrationResult relaxed = relax();
-    held_back_ = relaxed.held_back > 0;
-    unhindered_ = is_unhindered(relaxed);
+    held_back_ = relaxed.limited_steps > 0;
+    free_of_guards_ = is_free_of_guards(relaxed);
     if (!goes_on() || relaxed.reason == StopReason::interrupted) {
-      settle_down();
-      if (projection_.took_back())
-        relaxed.energy = energy_(work_.placement.points, work_.placement.normals, nullptr);
+      project_to_input();
+      if (projection_.reverted_crossings())
+        relaxed.energy = energy_(work_.positions.points, work_.positions.normals, nullptr);
     } else {
       work_.resample_lengths();
     }
@@ -188,7 +190,7 @@ class OuterIterations {
     if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
-    if (unhindered_ || energy - relaxed.energy <= options_.outer_drop * energy)
+    if (free_of_guards_ || energy - relaxed.energy <= options_.outer_drop * energy)
       return stop(StopReason::stalled);
     result_.reason = StopReason::step_limit;
   }
@@ -198,30 +200,31 @@ class OuterIterations {
     if (refits()) projection_.refit();
     {
       Relaxation r = relaxation();
-      const PolishOptions& options =
-          options_.connectivity == ConnectivityMode::fixed ? options_.polish : options_.flips.polish;
-      result_.polish = polish(r, work_.targets, options, watch("polish"));
+      const AngleSpringOptions& options = options_.connectivity == ConnectivityMode::fixed
+                                              ? options_.angle_springs
+                                              : options_.flips.angle_springs;
+      result_.angle_springs = hooke::raise_angles(r, work_.targets, options, watch("polish"));
     }
-    if (result_.polish.interrupted) {
+    if (result_.angle_springs.interrupted) {
       result_.reason = StopReason::interrupted;
-      settle_down();
+      project_to_input();
     } else {
       search();
     }
-    record("polish", {.steps = result_.polish.sweeps,
-                      .energy = energy_(work_.placement.points, work_.placement.normals, nullptr)});
+    record("polish", {.steps = result_.angle_springs.sweeps,
+                      .energy = energy_(work_.positions.points, work_.positions.normals, nullptr)});
   }
 
   /// On the field fitted last, where vertices can move that will not land; then, where landing has changed
   /// what is worst, on that of the input.
   void search() {
     if (work_.refitted()) {
-      settle(guards_, *work_.retraction, work_.placement);
+      project_drifted(guards_, *work_.retraction, work_.positions);
       search_here();
     }
-    settle_down();
+    project_to_input();
     work_.return_to_input();
-    result_.not_landed = projection_.project(search_here());
+    result_.unprojected = projection_.project(search_here());
     work_.resample_lengths();
   }
 
@@ -233,16 +236,16 @@ class OuterIterations {
     });
   }
 
-  void settle_down() {
-    result_.not_landed = projection_.project();
+  void project_to_input() {
+    result_.unprojected = projection_.project();
     work_.resample_lengths();
   }
 
   void conclude() {
-    result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.placement));
-    result_.holds = holds_of_result(work_, guards_, options_.constraints);
+    result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.positions));
+    result_.vertex_limits = vertex_limits_of_result(work_, guards_, options_.constraints);
     result_.creases = count_creases(work_);
-    result_.crease_edges = crease_edges(*work_.connectivity);
+    result_.crease_edges = crease_edges(*work_.adjacency);
     for (Edge& e : result_.crease_edges)
       for (int& v : e) v = work_.order.old_vertex[static_cast<size_t>(v)];
     result_.projection = work_.projection_counts();
@@ -259,7 +262,7 @@ class OuterIterations {
     record.seconds =
         seconds_before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     result_.iterations.push_back(record);
-    result_.held_back += done.held_back;
+    result_.limited_steps += done.limited_steps;
   }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -273,7 +276,7 @@ class OuterIterations {
   double seconds_before_ = 0;
   int outer_ = 0;
   bool held_back_ = true;  // by the guards, in the last relaxation
-  bool unhindered_ = false;
+  bool free_of_guards_ = false;
   bool done_ = false;
 };
 
@@ -287,8 +290,8 @@ RemeshOptions relaxing_little(RemeshOptions options) {
 }
 
 /// Slivers that are left get other edges. Returns whether there was any such change.
-bool mend_once(Workspace& work, const RemeshOptions& options, const Observer& observer,
-               RemeshResult& result) {
+bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Observer& observer,
+                         RemeshResult& result) {
   const auto start = std::chrono::steady_clock::now();
   const Observer watch = [&](Progress p) {
     p.stage = "mend";
@@ -296,38 +299,42 @@ bool mend_once(Workspace& work, const RemeshOptions& options, const Observer& ob
     return result.reason != StopReason::interrupted;
   };
   const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
-    return mend_slivers(work, options.connectivity, {.altitude = options.altitude}, options.mend,
-                        options.guards, options.constraints.corner_angle, watch);
+    return remove_slivers(work, options.connectivity, {.altitude = options.altitude}, options.slivers,
+                          options.guards, options.constraints.corner_angle, watch);
   });
   result.sliver_tries += changes.tries;
   if (changes.count() == 0) return false;
   RemeshOptions rest = options;
-  rest.search.sagitta = options.mend.trials.change.sagitta;
+  rest.search.sagitta = options.slivers.trials.change.sagitta;
   const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
   const std::chrono::duration<double> trials = std::chrono::steady_clock::now() - start;
   result = OuterIterations(work, rest, observer).search_again(std::move(result), before + trials.count());
   result.flips.flips += changes.flips;
   result.adaptation.splits += changes.splits;
-  result.adaptation.collapses += changes.merges;
+  result.adaptation.collapses += changes.collapses;
   return true;
 }
 
-void mend(Workspace& work, const RemeshOptions& options, const Observer& observer, RemeshResult& result) {
+void remove_slivers_in_passes(Workspace& work, const RemeshOptions& options, const Observer& observer,
+                              RemeshResult& result) {
   bool changed = options.polish_angles;
-  for (int pass = 0; changed && pass < options.mend.passes; ++pass)
-    changed = result.reason != StopReason::interrupted && mend_once(work, options, observer, result);
+  for (int pass = 0; changed && pass < options.slivers.passes; ++pass)
+    changed =
+        result.reason != StopReason::interrupted && remove_slivers_once(work, options, observer, result);
 }
 
 }  // namespace
 
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer,
                     Stopwatch* stopwatch) {
-  return remesh(mesh, timed(stopwatch, "order", [&] { return lay_out(mesh); }), options, observer, stopwatch);
+  return remesh(mesh, timed(stopwatch, "order", [&] { return find_memory_order(mesh); }), options, observer,
+                stopwatch);
 }
 
-RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, const Observer& observer,
-                    Stopwatch* stopwatch) {
-  Workspace work(mesh, std::move(layout), options.constraints, options.filter, options.retraction, stopwatch);
+RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
+                    const Observer& observer, Stopwatch* stopwatch) {
+  Workspace work(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction,
+                 stopwatch);
   const EnergyTerms terms{.altitude = options.altitude};
   const double corner_angle = options.constraints.corner_angle;
   AdaptResult adapted;
@@ -344,8 +351,8 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
       return flip_connectivity(work, then, terms, options.guards, corner_angle, observer);
     });
   RemeshOptions then = options;
-  const bool near_regular =
-      options.connectivity == ConnectivityMode::fixed && do_no_harm(work, options.harm, then.guards);
+  const bool near_regular = options.connectivity == ConnectivityMode::fixed &&
+                            keep_near_regular(work, options.near_regular, then.guards);
   if (adapted.levels > 0 && options.polish_angles) then = relaxing_little(std::move(then));
   RemeshResult result = OuterIterations(work, then, observer).run(flips);
   result.near_regular = near_regular;
@@ -355,17 +362,17 @@ RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options, 
       break;
     case ConnectivityMode::flip:
       result.folded_before = flips.untangle.folded_before;
-      mend(work, options, observer, result);
+      remove_slivers_in_passes(work, options, observer, result);
       measure_travel(work, result.flips);
       break;
     case ConnectivityMode::adapt:
       result.folded_before = adapted.untangle.folded_before;
-      mend(work, options, observer, result);
+      remove_slivers_in_passes(work, options, observer, result);
       break;
   }
   if (options.map) result.map = work.map();
   result.input_points = work.copy_back(mesh);
-  result.layout = work.layout();
+  result.memory_order = work.memory_order();
   return result;
 }
 

@@ -19,12 +19,12 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
                     Stopwatch* stopwatch = nullptr);
 
 /// The same with the mesh's layout, where it is known already.
-RemeshResult remesh(TriMesh& mesh, Layout layout, const RemeshOptions& options,
+RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                     const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
 
 /// Lets the guards keep the least angle where all edges are to have one length or the mesh is near-regular,
 /// and the vertices of a near-regular mesh within reach. Returns whether it is near-regular. Pre-condition:
 /// no vertex has moved.
-bool do_no_harm(Workspace& work, const HarmOptions& options, GuardOptions& guards);
+bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards);
 
 }  // namespace hooke

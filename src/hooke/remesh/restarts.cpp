@@ -16,7 +16,7 @@
 namespace hooke {
 namespace {
 
-struct Attempt {
+struct Run {
   TriMesh mesh;
   RemeshResult result;
   std::size_t flaws = 0;  // flipped faces, and pairs of faces that cross beyond those of the input
@@ -25,35 +25,35 @@ struct Attempt {
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
-  std::size_t face_count() const { return result.layout.connectivity->faces.size(); }
+  std::size_t face_count() const { return result.memory_order.adjacency->faces.size(); }
 
-  bool is_better_than(const Attempt& other) const {
+  bool is_better_than(const Run& other) const {
     return std::pair(flaws, -angle) < std::pair(other.flaws, -other.angle);
   }
 };
 
-class Attempts {
+class Restarts {
  public:
-  Attempts(const TriMesh& mesh, const Layout& layout, const RemeshOptions& options,
-           const AttemptOptions& attempts, const Observer& observer, Stopwatch* stopwatch)
+  Restarts(const TriMesh& mesh, const MemoryOrder& memory_order, const RemeshOptions& options,
+           const RestartOptions& restarts, const Observer& observer, Stopwatch* stopwatch)
       : mesh_(mesh),
-        layout_(layout),
+        memory_order_(memory_order),
         options_(options),
-        attempts_(attempts),
+        restarts_(restarts),
         observer_(observer),
         stopwatch_(stopwatch),
-        input_(layout.order.in_new_order(positions(mesh)), *layout.connectivity),
+        input_(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency),
         crossings_(find_self_intersections(input_.tree).size()) {}
 
-  Attempt best() const {
-    Attempt best = make(0);
+  Run best() const {
+    Run best = make(0);
     const auto most =
-        std::min<double>(attempts_.most, attempts_.most_faces / static_cast<double>(best.face_count()));
+        std::min<double>(restarts_.most, restarts_.max_faces / static_cast<double>(best.face_count()));
     if (most < 2 || best.is_interrupted()) return best;
     judge(best);
     int tries = best.result.sliver_tries, kept = 1, made = 1;
-    while (made + 1 <= most && tries < attempts_.most_tries && !is_good(best)) {
-      Attempt next = make(made);
+    while (made + 1 <= most && tries < restarts_.max_tries && !is_good(best)) {
+      Run next = make(made);
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
         break;
@@ -65,15 +65,15 @@ class Attempts {
       best = std::move(next);
       kept = made;
     }
-    best.result.attempts = made;
-    best.result.kept_attempt = kept;
+    best.result.restarts = made;
+    best.result.kept_run = kept;
     return best;
   }
 
  private:
-  bool is_good(const Attempt& a) const {
+  bool is_good(const Run& a) const {
     constexpr double close = .99;
-    return a.flaws == 0 && a.angle >= std::min(attempts_.good_angle, close * a.bound);
+    return a.flaws == 0 && a.angle >= std::min(restarts_.good_angle, close * a.bound);
   }
 
   /// Another start: edges are split a little sooner or later, flow goes on for a little longer or shorter,
@@ -84,27 +84,27 @@ class Attempts {
     const int by = number % 2 == 1 ? (number + 1) / 2 : -number / 2;
     o.flips.flow.rounds = std::max(1, o.flips.flow.rounds + 4 * by);
     o.adaptation.steps.split.longest *= 1 - .02 * by;
-    o.filter.reach *= std::pow(.9, std::abs(by));
+    o.filter.max_deviation *= std::pow(.9, std::abs(by));
     return o;
   }
 
-  Attempt make(int number) const {
-    Attempt a;
+  Run make(int number) const {
+    Run a;
     a.mesh = mesh_;
-    a.result = remesh(a.mesh, layout_, varied(number), observer_, stopwatch_);
+    a.result = remesh(a.mesh, memory_order_, varied(number), observer_, stopwatch_);
     return a;
   }
 
-  void judge(Attempt& a) const {
+  void judge(Run& a) const {
     const Stage stage(stopwatch_, "judge");
-    const Layout& layout = a.result.layout;
-    const Mat3X points = positions(a.mesh);
+    const MemoryOrder& memory_order = a.result.memory_order;
+    const Mat3X points = vertex_points(a.mesh);
     if (!points.allFinite()) {
       a.flaws = std::numeric_limits<std::size_t>::max();
       return;
     }
-    const MeasuredSurface surface(layout.order.in_new_order(points), *layout.connectivity,
-                                  layout.order.old_ids());
+    const MeasuredSurface surface(memory_order.order.gather(points), *memory_order.adjacency,
+                                  memory_order.order.old_ids());
     Quality quality = measure_quality(surface, {}, {.worst_faces = 1});
     bound_between_creases(quality.worst_faces, surface, a.result.crease_edges);
     const auto crossings = *quality.self_intersections;
@@ -115,9 +115,9 @@ class Attempts {
   }
 
   const TriMesh& mesh_;
-  const Layout& layout_;
+  const MemoryOrder& memory_order_;
   const RemeshOptions& options_;
-  const AttemptOptions& attempts_;
+  const RestartOptions& restarts_;
   const Observer& observer_;
   Stopwatch* stopwatch_;
   const MeasuredSurface input_;
@@ -126,25 +126,25 @@ class Attempts {
 
 }  // namespace
 
-AttemptOptions attempt_options(Effort effort) {
+RestartOptions restart_options(Effort effort) {
   switch (effort) {
     case Effort::fast:
       return {.most = 1};
     case Effort::standard:
       break;
     case Effort::thorough:
-      return {.most = 20, .most_faces = 2e5, .most_tries = 4000};
+      return {.most = 20, .max_faces = 2e5, .max_tries = 4000};
   }
   return {};
 }
 
-RemeshResult remesh_in_attempts(TriMesh& mesh, Layout layout, const RemeshOptions& options,
-                                const AttemptOptions& attempts, const Observer& observer,
-                                Stopwatch* stopwatch) {
-  const bool small = 2 * static_cast<double>(layout.connectivity->faces.size()) <= attempts.most_faces;
-  if (options.connectivity == ConnectivityMode::fixed || attempts.most < 2 || !small)
-    return remesh(mesh, std::move(layout), options, observer, stopwatch);
-  Attempt best = Attempts(mesh, layout, options, attempts, observer, stopwatch).best();
+RemeshResult remesh_with_restarts(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
+                                  const RestartOptions& restarts, const Observer& observer,
+                                  Stopwatch* stopwatch) {
+  const bool small = 2 * static_cast<double>(memory_order.adjacency->faces.size()) <= restarts.max_faces;
+  if (options.connectivity == ConnectivityMode::fixed || restarts.most < 2 || !small)
+    return remesh(mesh, std::move(memory_order), options, observer, stopwatch);
+  Run best = Restarts(mesh, memory_order, options, restarts, observer, stopwatch).best();
   mesh = std::move(best.mesh);
   return std::move(best.result);
 }

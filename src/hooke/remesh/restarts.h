@@ -7,22 +7,22 @@
 
 namespace hooke {
 
-struct AttemptOptions {
-  int most = 12;            // attempts
-  double most_faces = 4e4;  // of the results of all attempts together; a larger mesh is made once
-  int most_tries = 1000;    // no further attempt after so many sliver_tries: there is little to be gained
-  double good_angle = 30;   // degrees; a result with a smaller one, which might be larger, is not good
+struct RestartOptions {
+  int most = 12;           // attempts
+  double max_faces = 4e4;  // of the results of all attempts together; a larger mesh is made once
+  int max_tries = 1000;    // no further attempt after so many sliver_tries: there is little to be gained
+  double good_angle = 30;  // degrees; a result with a smaller one, which might be larger, is not good
 };
 
 /// The options that an effort stands for.
-AttemptOptions attempt_options(Effort effort);
+RestartOptions restart_options(Effort effort);
 
 /// remesh(), in the modes `flip` and `adapt` again from other starts while the result is not good: while
 /// faces are flipped, more pairs cross than before, or the least angle is small and its bound (see
 /// crease_bound.h) is not. The best result is kept: by flipped faces and crossings, then by the least angle.
 /// An interrupted attempt after the first counts for nothing.
-RemeshResult remesh_in_attempts(TriMesh& mesh, Layout layout, const RemeshOptions& options,
-                                const AttemptOptions& attempts = {}, const Observer& observer = nullptr,
-                                Stopwatch* stopwatch = nullptr);
+RemeshResult remesh_with_restarts(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
+                                  const RestartOptions& restarts = {}, const Observer& observer = nullptr,
+                                  Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

@@ -13,8 +13,8 @@ namespace hooke {
 IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done) {
   IterationRecord record{
       .stage = stage, .steps = done.steps, .evaluations = done.evaluations, .energy = done.energy};
-  const Mat3X& points = work.placement.points;
-  const auto& edges = work.connectivity->edges;
+  const Mat3X& points = work.positions.points;
+  const auto& edges = work.adjacency->edges;
   double sum2 = 0;
   for (size_t e = 0; e < edges.size(); ++e) {
     const double l = (points.col(edges[e][1]) - points.col(edges[e][0])).norm();
@@ -23,7 +23,7 @@ IterationRecord iteration_record(const Workspace& work, const char* stage, const
     sum2 += error * error;
   }
   record.rms_length_error = std::sqrt(sum2 / static_cast<double>(edges.size()));
-  record.least_angle = least_angle(points, work.connectivity->faces);
+  record.min_angle = min_angle(points, work.adjacency->faces);
   record.field_evaluations = work.projection_counts().evaluations;
   return record;
 }
@@ -34,7 +34,7 @@ CreaseCounts count_creases(const Workspace& work) {
   if (constraints.creases.empty()) return counts;
   counts.curves = constraints.crease_curves;
   counts.edges = static_cast<int>(constraints.creases.size());
-  counts.kept = static_cast<int>(crease_edges(*work.connectivity).size());
+  counts.kept = static_cast<int>(crease_edges(*work.adjacency).size());
   counts.charts = work.chart_count();
   std::vector<int> ends;
   for (const Edge& e : constraints.creases) ends.insert(ends.end(), e.begin(), e.end());

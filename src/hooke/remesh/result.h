@@ -24,8 +24,8 @@ struct IterationRecord {
   double energy = 0;
   double max_length_error = 0;  // max |l - L_e| / L_e
   double rms_length_error = 0;
-  double least_angle = 0;  // degrees
-  double seconds = 0;      // since the start
+  double min_angle = 0;  // degrees
+  double seconds = 0;    // since the start
 };
 
 /// The state of the work after `done`; all but the seconds.
@@ -47,27 +47,27 @@ CreaseCounts count_creases(const Workspace& work);
 
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
-  int attempts = 1;      // of which this is the best, see attempts.h ...
-  int kept_attempt = 1;  // ... by its number
+  int restarts = 1;      // of which this is the best, see attempts.h ...
+  int kept_run = 1;      // ... by its number
   int sliver_tries = 0;  // see sliver_trials.h
   std::vector<IterationRecord> iterations;
   Mat3X input_points;         // of the mesh as it was, to measure the result against
-  Layout layout;              // of the mesh as it is now
-  bool near_regular = false;  // in mode `fixed`: see do_no_harm.h
+  MemoryOrder memory_order;   // of the mesh as it is now
+  bool near_regular = false;  // in mode `fixed`: see keep_near_regular.h
   int folded_before = 0;
   std::vector<int> folded_faces;  // still folded away from the surface, ids of the result
   CreaseCounts creases;
-  std::vector<Edge> crease_edges;    // ids of the result
-  FlipResult flips;                  // in the modes `flip` and `adapt`
-  AdaptResult adaptation;            // in mode `adapt`
-  std::vector<MapEntry> map;         // per vertex of the result
-  std::vector<unsigned char> holds;  // per vertex of the result, see hindrances.h
-  int not_landed = 0;  // vertices that stay off the input's field, where landing would fold a face
-  PolishResult polish;
+  std::vector<Edge> crease_edges;            // ids of the result
+  FlipResult flips;                          // in the modes `flip` and `adapt`
+  AdaptResult adaptation;                    // in mode `adapt`
+  std::vector<MapEntry> map;                 // per vertex of the result
+  std::vector<unsigned char> vertex_limits;  // per vertex of the result, see limiting_factors.h
+  int unprojected = 0;  // vertices that stay off the input's field, where landing would fold a face
+  AngleSpringResult angle_springs;
   ProjectionCounts projection;
-  long long held_back = 0;  // vertex steps shortened by the guards
-  BoundCounts bound;        // time steps by the test that set them (paper_remesh only)
-  FailedTests jam;          // what no time step passed, when jammed there
+  long long limited_steps = 0;  // vertex steps shortened by the guards
+  BoundCounts bound;            // time steps by the test that set them (paper_remesh only)
+  FailedTests jam;              // what no time step passed, when jammed there
 };
 
 /// The ids that these faces of the work have in the result, ascending.

@@ -147,19 +147,19 @@ Json iteration_json(const IterationRecord& r) {
           {"energy", r.energy},
           {"max_length_error", r.max_length_error},
           {"rms_length_error", r.rms_length_error},
-          {"min_angle", r.least_angle},
+          {"min_angle", r.min_angle},
           {"field_evaluations", r.field_evaluations},
           {"t_s", r.seconds}};
 }
 
 Json projection_json(const ProjectionCounts& counts) {
-  const auto status = [&](FootStatus s) { return counts.by_status[static_cast<size_t>(s)]; };
+  const auto status = [&](ProjectionStatus s) { return counts.by_status[static_cast<size_t>(s)]; };
   return {{"calls", counts.calls},
           {"field_evaluations", counts.evaluations},
-          {"no_cover", status(FootStatus::no_cover)},
-          {"flat_gradient", status(FootStatus::flat_gradient)},
-          {"too_far", status(FootStatus::too_far)},
-          {"step_limit", status(FootStatus::step_limit)}};
+          {"no_cover", status(ProjectionStatus::no_cover)},
+          {"flat_gradient", status(ProjectionStatus::flat_gradient)},
+          {"too_far", status(ProjectionStatus::too_far)},
+          {"step_limit", status(ProjectionStatus::step_limit)}};
 }
 
 /// The columns of the paper's tables 1 to 3.
@@ -266,9 +266,9 @@ Json report_json(const RunRecord& run) {
   if (run.result) {
     for (const IterationRecord& r : run.result->iterations) j["iterations"].push_back(iteration_json(r));
     j["projection"] = projection_json(run.result->projection);
-    j["projection"]["not_landed"] = run.result->not_landed;
-    j["held_back"] = run.result->held_back;
-    j["attempts"] = {{"made", run.result->attempts}, {"kept", run.result->kept_attempt}};
+    j["projection"]["not_landed"] = run.result->unprojected;
+    j["held_back"] = run.result->limited_steps;
+    j["attempts"] = {{"made", run.result->restarts}, {"kept", run.result->kept_run}};
     j["near_regular"] = run.result->near_regular;
   }
   j["features"] = creases_json(run);
@@ -361,11 +361,12 @@ void add_filter(Json& j, const FilterOptions& filter) {
   j["filter"] = name_of(filter.kind);
   j["kernel"] = where(splines, filter.kernel == Kernel::r3 ? "r3" : "r2logr");
   j["rho"] = where(splines, filter.offset);
-  j["reach"] = where(splines && std::isfinite(filter.reach), filter.reach);
+  j["reach"] = where(splines && std::isfinite(filter.max_deviation), filter.max_deviation);
 }
 
 void add_polish(Json& j, const RemeshOptions& o) {
-  const PolishOptions& polish = o.connectivity == ConnectivityMode::fixed ? o.polish : o.flips.polish;
+  const AngleSpringOptions& polish =
+      o.connectivity == ConnectivityMode::fixed ? o.angle_springs : o.flips.angle_springs;
   const bool on = o.polish_angles;
   j["polish"] = on;
   j["polish_from"] = where(on, polish.first_threshold);
@@ -379,14 +380,14 @@ void add_polish(Json& j, const RemeshOptions& o) {
 /// Of a mesh that is near-regular already.
 void add_harm(Json& j, const RemeshOptions& o) {
   const bool fixed = o.connectivity == ConnectivityMode::fixed;
-  j["near_regular_angle"] = where(fixed, o.harm.angle);
-  j["near_regular_deviation"] = where(fixed, o.harm.deviation);
-  j["near_regular_reach"] = where(fixed, o.harm.reach);
+  j["near_regular_angle"] = where(fixed, o.near_regular.angle);
+  j["near_regular_deviation"] = where(fixed, o.near_regular.deviation);
+  j["near_regular_reach"] = where(fixed, o.near_regular.max_travel);
 }
 
 }  // namespace
 
-Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Effort effort) {
+Json parameters_json(const RemeshOptions& o, const RestartOptions& restarts, Effort effort) {
   const bool adapts = o.connectivity == ConnectivityMode::adapt;
   const bool damped = o.integrator == IntegratorKind::damped;
   const bool fixed = o.connectivity == ConnectivityMode::fixed;
@@ -394,7 +395,7 @@ Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Eff
   j["paper"] = false;
   j["connectivity"] = name_of(o.connectivity);
   j["effort"] = name_of(effort);
-  j["most_attempts"] = fixed ? 1 : attempts.most;
+  j["most_attempts"] = fixed ? 1 : restarts.most;
   j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;
@@ -416,7 +417,7 @@ Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Eff
   j["max_outer"] = o.max_outer;
   j["outer_drop"] = o.outer_drop;
   j["energy_drop"] = fixed ? o.integration.energy_drop : o.flips.energy_drop;
-  j["hindered"] = where(!damped, o.hindered);
+  j["hindered"] = where(!damped, o.guard_limited);
   j["max_steps"] = o.integration.max_steps;
   j["boundary"] = name_of(o.constraints.boundary);
   j["corner_angle"] = o.constraints.corner_angle;
@@ -428,9 +429,9 @@ Json parameters_json(const RemeshOptions& o, const AttemptOptions& attempts, Eff
   j["guard_sagitta"] = o.guards.sagitta;
   j["search_sagitta"] = where(o.polish_angles, o.search.sagitta);
   const bool mends = o.polish_angles && !fixed;
-  j["sliver_angles"] = where(mends, o.mend.trials.sliver_angles);
-  j["sliver_passes"] = where(mends, o.mend.passes);
-  j["sliver_sagitta"] = where(mends, o.mend.trials.change.sagitta);
+  j["sliver_angles"] = where(mends, o.slivers.trials.sliver_angles);
+  j["sliver_passes"] = where(mends, o.slivers.passes);
+  j["sliver_sagitta"] = where(mends, o.slivers.trials.change.sagitta);
   return j;
 }
 

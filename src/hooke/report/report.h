@@ -13,7 +13,7 @@
 
 namespace hooke {
 
-struct AttemptOptions;
+struct RestartOptions;
 struct PaperOptions;
 struct RemeshOptions;
 
@@ -84,7 +84,7 @@ std::string report_text(const RunRecord& run);
 
 /// Every effective value of a run, `null` for what has no effect in it. `effort` is what the options were set
 /// for.
-nlohmann::ordered_json parameters_json(const RemeshOptions& options, const AttemptOptions& attempts,
+nlohmann::ordered_json parameters_json(const RemeshOptions& options, const RestartOptions& restarts,
                                        Effort effort);
 nlohmann::ordered_json parameters_json(const PaperOptions& options);
 

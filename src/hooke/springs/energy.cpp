@@ -25,7 +25,7 @@ struct EdgeLanes {
 HOOKE_INLINE void load_edges(const FaceSprings& f, EdgeLanes (&edges)[3]) {
   Lanes target;
   load(f.face_target, target);
-  const Lanes floor = FaceSprings::least_length * target;
+  const Lanes floor = FaceSprings::min_length * target;
   for (std::size_t k = 0; k < 3; ++k) {
     LaneVec a, b;
     load(f.corners + 3 * lane_count * ((k + 1) % 3), lane_count, a);
@@ -99,7 +99,7 @@ HOOKE_SIMD void evaluate_face_springs(double string, double altitude, FaceSpring
   dot(normal, normal, area);
   take_sqrt(area);
   load(f.face_target, target);
-  f.flat = any(~(area > FaceSprings::least_length * target * target));
+  f.flat = any(~(area > FaceSprings::min_length * target * target));
   if (f.flat) return;
 
   Lanes energy = {}, by_area = {};
@@ -125,7 +125,7 @@ namespace {
 
 constexpr size_t block = 1024;  // faces, a multiple of the lanes
 // Parts large enough for several threads, and so many that what is kept of one does not count.
-constexpr size_t most_parts = 16, least_part = 32 * block;
+constexpr size_t max_parts = 16, min_part = 32 * block;
 
 /// One face with what all terms need of it.
 struct FaceFrame {
@@ -136,25 +136,25 @@ struct FaceFrame {
 };
 
 /// Sum of the surface normals at the corners, unit.
-Vec3 surface_normal(const Mat3X& normals, const Triangle& sides) {
-  return (normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2])).stableNormalized();
+Vec3 surface_normal(const Mat3X& normals, const Triangle& wedges) {
+  return (normals.col(wedges[0]) + normals.col(wedges[1]) + normals.col(wedges[2])).stableNormalized();
 }
 
-FaceFrame frame_of(const Mat3X& points, const Mat3X& normals, const Triangle& t, const Triangle& sides,
+FaceFrame frame_of(const Mat3X& points, const Mat3X& normals, const Triangle& t, const Triangle& wedges,
                    double target) {
   const std::array<Vec3, 3> p = {points.col(t[0]), points.col(t[1]), points.col(t[2])};
   FaceFrame f;
   for (size_t k = 0; k < 3; ++k) {
     f.opposite[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
-    f.length[k] = std::max(f.opposite[k].norm(), FaceSprings::least_length * target);
+    f.length[k] = std::max(f.opposite[k].norm(), FaceSprings::min_length * target);
   }
   f.normal = f.opposite[2].cross(-f.opposite[1]);
   f.doubled_area = f.normal.norm();
-  const double floor = FaceSprings::least_length * target * target;
+  const double floor = FaceSprings::min_length * target * target;
   if (f.doubled_area > floor) {
     f.normal /= f.doubled_area;
   } else {
-    f.normal = surface_normal(normals, sides);
+    f.normal = surface_normal(normals, wedges);
     f.doubled_area = floor;
   }
   return f;
@@ -217,13 +217,12 @@ size_t corner_of(const Triangle& face, int vertex) {
 
 }  // namespace
 
-Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
-               const EnergyTerms& energy_terms)
-    : terms(energy_terms), connectivity_(connectivity), targets_(targets) {
-  const auto& faces = connectivity.faces;
-  const size_t size = std::max(least_part, (faces.size() / most_parts / block + 1) * block);
+Energy::Energy(const Adjacency& adjacency, const TargetLengths& targets, const EnergyTerms& energy_terms)
+    : terms(energy_terms), adjacency_(adjacency), targets_(targets) {
+  const auto& faces = adjacency.faces;
+  const size_t size = std::max(min_part, (faces.size() / max_parts / block + 1) * block);
   for (size_t begin = 0; begin < faces.size(); begin += size) {
-    Part part{begin, std::min(begin + size, faces.size()), connectivity.vertex_count, 0};
+    Part part{begin, std::min(begin + size, faces.size()), adjacency.vertex_count, 0};
     for (size_t f = part.begin; f < part.end; ++f) {
       part.first_vertex = std::min(part.first_vertex, std::ranges::min(faces[f]));
       part.last_vertex = std::max(part.last_vertex, std::ranges::max(faces[f]));
@@ -234,25 +233,25 @@ Energy::Energy(const Connectivity& connectivity, const TargetLengths& targets,
 }
 
 double Energy::face_energy(const Points& at, size_t face, double* corner_gradients) const {
-  const Triangle& t = connectivity_.faces[face];
+  const Triangle& t = adjacency_.faces[face];
   const double target = targets_.face[face];
-  const Triangle& sides = connectivity_.sides_of_faces()[face];
-  const FaceFrame f = frame_of(at.points, at.normals, t, sides, target);
+  const Triangle& wedges = adjacency_.wedges_of_faces()[face];
+  const FaceFrame f = frame_of(at.points, at.normals, t, wedges, target);
   double energy = 0;
   double by_area = 0;
   std::array<double, 3> by_length{};
   std::array<Vec3, 3> gradient = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 
   for (size_t k = 0; k < 3; ++k) {  // an edge belongs to its first face
-    const auto e = static_cast<size_t>(connectivity_.face_edges[face][(k + 1) % 3]);
-    if (connectivity_.edge_faces[e][0] != static_cast<int>(face)) continue;
+    const auto e = static_cast<size_t>(adjacency_.face_edges[face][(k + 1) % 3]);
+    if (adjacency_.edge_faces[e][0] != static_cast<int>(face)) continue;
     const double L = targets_.edge[e];
     const Potential u = spring_potential(f.length[k], L);
     energy += terms.string * u.value / (L * L);
     by_length[k] += terms.string * u.slope / (L * L);
   }
-  if (terms.unfold > 0 && face_alignment(at.points, at.normals, t, sides) < terms.unfold_below) {
-    energy += unfold_energy(surface_normal(at.normals, sides), f, terms, target, gradient);
+  if (terms.unfold > 0 && face_alignment(at.points, at.normals, t, wedges) < terms.unfold_below) {
+    energy += unfold_energy(surface_normal(at.normals, wedges), f, terms, target, gradient);
   } else {
     if (terms.altitude > 0)
       energy += altitude_energy(f, terms.altitude, altitude_ratio * target, by_area, by_length);
@@ -272,7 +271,7 @@ double Energy::face_energy(const Points& at, size_t face, double* corner_gradien
 
 /// Four faces from `face` on or as many as there are, together where nothing but springs acts on them.
 double Energy::energy_of_four(const Points& at, size_t face, double* corner_gradients) const {
-  const size_t count = std::min(lane_count, connectivity_.faces.size() - face);
+  const size_t count = std::min(lane_count, adjacency_.faces.size() - face);
   if (terms.unfold <= 0 && terms.angle <= 0) {
     FaceSprings four;
     gather_faces(at, face, count, four);
@@ -293,14 +292,14 @@ double Energy::energy_of_four(const Points& at, size_t face, double* corner_grad
 void Energy::gather_faces(const Points& at, size_t face, size_t count, FaceSprings& four) const {
   for (size_t i = 0; i < lane_count; ++i) {
     const size_t f = face + std::min(i, count - 1);
-    const Triangle& t = connectivity_.faces[f];
+    const Triangle& t = adjacency_.faces[f];
     for (size_t k = 0; k < 3; ++k) {
-      const auto e = static_cast<size_t>(connectivity_.face_edges[f][(k + 1) % 3]);
+      const auto e = static_cast<size_t>(adjacency_.face_edges[f][(k + 1) % 3]);
       for (size_t d = 0; d < 3; ++d)
         four.corners[(3 * k + d) * lane_count + i] = at.points(static_cast<Eigen::Index>(d), t[k]);
       four.edge_target[k * lane_count + i] = targets_.edge[e];
       // An edge belongs to its first face.
-      four.has_edge[k * lane_count + i] = i < count && connectivity_.edge_faces[e][0] == static_cast<int>(f);
+      four.has_edge[k * lane_count + i] = i < count && adjacency_.edge_faces[e][0] == static_cast<int>(f);
     }
     four.face_target[i] = targets_.face[f];
     four.has_face[i] = i < count;
@@ -313,10 +312,10 @@ void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
   parallel_for(static_cast<size_t>(part.last_vertex) + 1 - first, 2048, [&](size_t begin, size_t end) {
     for (size_t v = first + begin; v < first + end; ++v) {
       Vec3 sum = gradient.col(static_cast<Eigen::Index>(v));
-      for (int face : connectivity_.vertex_faces[static_cast<int>(v)]) {
+      for (int face : adjacency_.vertex_faces[static_cast<int>(v)]) {
         const auto f = static_cast<size_t>(face);
         if (f < part.begin || f >= part.end) continue;
-        const size_t k = corner_of(connectivity_.faces[f], static_cast<int>(v));
+        const size_t k = corner_of(adjacency_.faces[f], static_cast<int>(v));
         sum += Eigen::Map<const Vec3>(corner_gradients_.data() + 9 * (f - part.begin) + 3 * k);
       }
       gradient.col(static_cast<Eigen::Index>(v)) = sum;
@@ -325,8 +324,8 @@ void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
 }
 
 double Energy::operator()(const Mat3X& points, const Mat3X& normals, Mat3X* gradient) {
-  if (gradient) gradient->setZero(3, connectivity_.vertex_count);
-  std::vector<double> energies((connectivity_.faces.size() + block - 1) / block);
+  if (gradient) gradient->setZero(3, adjacency_.vertex_count);
+  std::vector<double> energies((adjacency_.faces.size() + block - 1) / block);
   for (const Part& part : parts_) {
     const size_t blocks = (part.end - part.begin + block - 1) / block;
     parallel_for(blocks, 1, [&](size_t begin, size_t end) {

@@ -9,7 +9,7 @@ namespace hooke {
 
 /// Four faces, one in each lane. All but `flat` are columns of one entry a lane.
 struct FaceSprings {
-  static constexpr double least_length = 1e-9;  // of the face's target: a zero edge has a force, not a NaN
+  static constexpr double min_length = 1e-9;  // of the face's target: a zero edge has a force, not a NaN
 
   // What is asked:
   double corners[9 * lane_count];      // x, y, z of each corner
@@ -47,7 +47,7 @@ struct EnergyTerms {
 class Energy {
  public:
   /// Keeps references to the connectivity and the targets.
-  Energy(const Connectivity& connectivity, const TargetLengths& targets, const EnergyTerms& terms);
+  Energy(const Adjacency& adjacency, const TargetLengths& targets, const EnergyTerms& terms);
 
   /// Energy of the vertices at these points, `normals` those of the surface there, per side: they count as
   /// constant. With `gradient` also its gradient by the points.
@@ -73,7 +73,7 @@ class Energy {
   };
   void add_corner_gradients(const Part& part, Mat3X& gradient) const;
 
-  const Connectivity& connectivity_;
+  const Adjacency& adjacency_;
   const TargetLengths& targets_;
   std::vector<Part> parts_;
   std::vector<double> corner_gradients_;  // 9 per face of a part: gradient by each of its corners

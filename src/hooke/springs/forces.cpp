@@ -25,7 +25,7 @@ Vec3 torque_across(const FaceShape& face, const FaceShape& other, const Vec3& ed
   return axis * (theta / (sine * one_plus_cosine * d));                                       // [6]
 }
 
-std::vector<FaceShape> face_shapes(const Eigen::Ref<const Mat3X>& points, const Connectivity& c) {
+std::vector<FaceShape> face_shapes(const Eigen::Ref<const Mat3X>& points, const Adjacency& c) {
   std::vector<FaceShape> shapes(c.faces.size());
   parallel_for(shapes.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) shapes[f] = face_shape(points, c.faces[f]);
@@ -34,7 +34,7 @@ std::vector<FaceShape> face_shapes(const Eigen::Ref<const Mat3X>& points, const 
 }
 
 /// Torque on the first face of every edge by the second; the second receives the opposite.
-Mat3X edge_torques(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+Mat3X edge_torques(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                    const std::vector<FaceShape>& shapes) {
   Mat3X torques = Mat3X::Zero(3, static_cast<Eigen::Index>(c.edges.size()));
   parallel_for(c.edges.size(), block, [&](std::size_t begin, std::size_t end) {
@@ -50,7 +50,7 @@ Mat3X edge_torques(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
 
 }  // namespace
 
-void string_forces(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
+void string_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                    std::span<const double> target_lengths, Eigen::Ref<Mat3X> forces) {
   assert(points.cols() == c.vertex_count && forces.cols() == points.cols());
   assert(target_lengths.size() == c.edges.size());
@@ -74,7 +74,7 @@ void string_forces(const Eigen::Ref<const Mat3X>& points, const Connectivity& c,
   });
 }
 
-void torque_forces(const Eigen::Ref<const Mat3X>& points, const Connectivity& c, Eigen::Ref<Mat3X> forces) {
+void torque_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& c, Eigen::Ref<Mat3X> forces) {
   assert(points.cols() == c.vertex_count && forces.cols() == points.cols());
   const std::vector<FaceShape> shapes = face_shapes(points, c);
   const Mat3X across = edge_torques(points, c, shapes);

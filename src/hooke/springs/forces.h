@@ -13,7 +13,7 @@ namespace hooke {
 /// apart when it is shorter; minus the gradient of the sum of spring_potential over the edges. [3][4]
 /// `points` and `forces` are 3 x |V|; `target_lengths` has one positive length per edge. Forces are lengths.
 /// An edge of length 0 has no direction and gives no force.
-void string_forces(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+void string_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                    std::span<const double> target_lengths, Eigen::Ref<Mat3X> forces);
 
 /// F_torque: every face turns about its centre toward the normals of the faces across its edges. [5]-[10]
@@ -25,7 +25,7 @@ void string_forces(const Eigen::Ref<const Mat3X>& points, const Connectivity& co
 /// A degenerate face has no normal: it is not turned and turns no other. Two faces folded onto each other
 /// (within about 1e-6 of theta = pi) do not turn each other either: [6] ends before pi, where the force is
 /// infinite and rounding decides which way it points.
-void torque_forces(const Eigen::Ref<const Mat3X>& points, const Connectivity& connectivity,
+void torque_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                    Eigen::Ref<Mat3X> forces);
 
 }  // namespace hooke

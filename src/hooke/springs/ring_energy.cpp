@@ -55,7 +55,7 @@ using namespace ring;
 
 namespace {
 
-constexpr double least_length = 1e-9;  // of the target: a zero edge has a force, not a NaN
+constexpr double min_length = 1e-9;  // of the target: a zero edge has a force, not a NaN
 
 /// What the terms share of four faces of the ring.
 struct FaceLanes {
@@ -80,7 +80,7 @@ HOOKE_INLINE void load_face(const RingView& r, std::size_t i, FaceLanes& q) {
   load(fixed + has_face * stride, q.face);
   load(fixed + has_edge * stride, q.edge);
   load(fixed + face_target * stride, target);
-  const Lanes floor = least_length * target;
+  const Lanes floor = min_length * target;
   q.la = q.la > floor ? q.la : floor;
   q.lb = q.lb > floor ? q.lb : floor;
   q.c = {q.f.x - q.e.x, q.f.y - q.e.y, q.f.z - q.e.z};
@@ -88,8 +88,8 @@ HOOKE_INLINE void load_face(const RingView& r, std::size_t i, FaceLanes& q) {
   take_sqrt(q.lc);
   q.lc = q.lc > floor ? q.lc : floor;
 
-  const Lanes least_area = floor * target;
-  const LaneMask flat = ~(q.area > least_area);
+  const Lanes min_area = floor * target;
+  const LaneMask flat = ~(q.area > min_area);
   if (any(flat)) {  // without an area: the surface's normal
     LaneVec m;
     Lanes size;
@@ -97,10 +97,10 @@ HOOKE_INLINE void load_face(const RingView& r, std::size_t i, FaceLanes& q) {
     m = {m.x + r.normal[0], m.y + r.normal[1], m.z + r.normal[2]};
     dot(m, m, size);
     take_sqrt(size);
-    q.n.x = flat ? m.x / size * least_area : q.n.x;
-    q.n.y = flat ? m.y / size * least_area : q.n.y;
-    q.n.z = flat ? m.z / size * least_area : q.n.z;
-    q.area = flat ? least_area : q.area;
+    q.n.x = flat ? m.x / size * min_area : q.n.x;
+    q.n.y = flat ? m.y / size * min_area : q.n.y;
+    q.n.z = flat ? m.z / size * min_area : q.n.z;
+    q.area = flat ? min_area : q.area;
   }
   const Lanes one_over = 1. / q.area;
   q.n = {q.n.x * one_over, q.n.y * one_over, q.n.z * one_over};

@@ -67,7 +67,7 @@ LengthSpec parse_length(const std::string& text) {
   return spec;
 }
 
-double resolve_length(const LengthSpec& spec, const Mat3X& points, const Connectivity& c) {
+double resolve_length(const LengthSpec& spec, const Mat3X& points, const Adjacency& c) {
   const double natural = natural_length(total_area(points, c.faces), c.faces.size());
   switch (spec.kind) {
     case LengthSpec::Kind::natural:
@@ -101,7 +101,7 @@ SizingSource parse_sizing(const std::string& text) {
 }
 
 std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
-                                           const Connectivity& c) {
+                                           const Adjacency& c) {
   std::vector<double> lengths = sizing.vertex_length;
   if (lengths.empty()) {
     lengths.assign(static_cast<size_t>(c.vertex_count), resolve_length(spec, points, c));
@@ -128,7 +128,7 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
   return lengths;
 }
 
-std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c, double chord_error,
+std::vector<double> curvature_lengths(const Mat3X& points, const Adjacency& c, double chord_error,
                                       double longest) {
   std::vector<double> lengths = largest_curvatures(points, c);
   for (double& l : lengths) {
@@ -138,7 +138,7 @@ std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& c
   return lengths;
 }
 
-void limit_gradation(const Mat3X& points, const Connectivity& c, double slope, std::vector<double>& length) {
+void limit_gradation(const Mat3X& points, const Adjacency& c, double slope, std::vector<double>& length) {
   if (std::isinf(slope)) return;
   const auto at = [&](int v) -> double& { return length[static_cast<size_t>(v)]; };
   const auto limit = [&](int from, int to) {

@@ -19,7 +19,7 @@ struct LengthSpec {
 LengthSpec parse_length(const std::string& text);
 
 /// The length that is meant, in the unit of the points. Pre-condition: not as_given.
-double resolve_length(const LengthSpec& spec, const Mat3X& points, const Connectivity& connectivity);
+double resolve_length(const LengthSpec& spec, const Mat3X& points, const Adjacency& adjacency);
 
 /// Target lengths that differ from vertex to vertex, before they are brought to the scale of a LengthSpec.
 struct Sizing {
@@ -33,7 +33,7 @@ struct Sizing {
 /// absolute, percent_of_diagonal: their mean_length() is the spec's length. as_given: not scaled. Throws
 /// Error for as_given without a sizing.
 std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
-                                           const Connectivity& connectivity);
+                                           const Adjacency& adjacency);
 
 /// Where target lengths per vertex come from, as the user says it.
 struct SizingSource {
@@ -48,16 +48,16 @@ struct SizingSource {
 /// message begins with what is wrong.
 SizingSource parse_sizing(const std::string& text);
 
-/// Lengths from curvature: l = sqrt(8 R t - 4 t^2) per vertex, the chord of a circle of radius R with the
-/// sagitta t, where t is the chord error, and R the least radius of curvature there but no less than t; at
-/// most `longest`. All in the unit of the points. Pre-condition: both are positive.
-std::vector<double> curvature_lengths(const Mat3X& points, const Connectivity& connectivity,
-                                      double chord_error, double longest);
+/// UniformVector from curvature: l = sqrt(8 R t - 4 t^2) per vertex, the chord of a circle of radius R with
+/// the sagitta t, where t is the chord error, and R the least radius of curvature there but no less than t;
+/// at most `longest`. All in the unit of the points. Pre-condition: both are positive.
+std::vector<double> curvature_lengths(const Mat3X& points, const Adjacency& adjacency, double chord_error,
+                                      double longest);
 
 /// Lowers target lengths until along every edge they differ by at most `slope` times the edge's length; the
 /// greatest lengths that do and are nowhere above the given ones. Infinity limits nothing.
 /// Pre-condition: slope is positive. H. Borouchaki, F. Hecht, P. J. Frey, "Mesh gradation control", 1998.
-void limit_gradation(const Mat3X& points, const Connectivity& connectivity, double slope,
+void limit_gradation(const Mat3X& points, const Adjacency& adjacency, double slope,
                      std::vector<double>& vertex_length);
 
 }  // namespace hooke

@@ -21,7 +21,7 @@ double natural_length(double area, std::size_t face_count) {
   return std::sqrt(4 * area / (std::sqrt(3.) * static_cast<double>(face_count)));
 }
 
-double covering_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
+double covering_length(const Mat3X& points, const Adjacency& c, const TargetLengths& targets) {
   if (!targets.face.vary()) return targets.face[0];
   const auto sum = [&](const auto& weight) {
     return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
@@ -34,7 +34,7 @@ double covering_length(const Mat3X& points, const Connectivity& c, const TargetL
                    sum([&](size_t f) { return 1 / (targets.face[f] * targets.face[f]); }));
 }
 
-double mean_length(const Mat3X& points, const Connectivity& c, const TargetLengths& targets) {
+double mean_length(const Mat3X& points, const Adjacency& c, const TargetLengths& targets) {
   const double first = targets.edge[0];
   if (!targets.edge.vary()) return first;
   const auto sum = [&](const auto& value) {
@@ -52,11 +52,12 @@ double mean_length(const Mat3X& points, const Connectivity& c, const TargetLengt
          sum([&](double l) { return (l - first) / (l * l); }) / sum([](double l) { return 1 / (l * l); });
 }
 
-TargetLengths spread_target_lengths(const Connectivity& c, const std::vector<double>& vertex_length) {
+TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double>& vertex_length) {
   const auto mean_of_three = [](double a, double b, double d) { return (a + b + d) / 3; };
-  if (!c.faces.empty() && Lengths::are_equal(vertex_length)) {
+  if (!c.faces.empty() && UniformVector::are_equal(vertex_length)) {
     const double length = vertex_length[0];
-    return {Lengths(c.edges.size(), length), Lengths(c.faces.size(), mean_of_three(length, length, length))};
+    return {UniformVector(c.edges.size(), length),
+            UniformVector(c.faces.size(), mean_of_three(length, length, length))};
   }
   std::vector<double> edge(c.edges.size()), face(c.faces.size());
   parallel_for(c.edges.size(), block, [&](size_t begin, size_t end) {

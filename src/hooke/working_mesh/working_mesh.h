@@ -13,9 +13,9 @@ struct Workspace;
 
 /// A mesh whose edges are flipped and whose vertices move on the surface. All are references to objects that
 /// outlive it.
-struct FlippingMesh {
-  Triangulation& triangulation;
-  Placement& placement;
+struct FlippableMesh {
+  HalfedgeMesh& halfedges;
+  SurfacePositions& positions;
   Retraction& retraction;
   const Constraints& constraints;
   const std::vector<double>& vertex_length;  // target length per vertex
@@ -26,9 +26,9 @@ struct FlippingMesh {
 
 /// All references are to objects that outlive it. Until compact() the arrays are by the ids of the
 /// triangulation, and may have room for more.
-struct AdaptingMesh {
-  Triangulation& triangulation;
-  Placement& placement;
+struct WorkingMesh {
+  HalfedgeMesh& halfedges;
+  SurfacePositions& positions;
   Retraction& retraction;
   Constraints& constraints;
   std::vector<double>& vertex_length;
@@ -37,57 +37,57 @@ struct AdaptingMesh {
   const CurveFinder& curve_finder;
   CurveEdges& curve_edges;
 
-  FlippingMesh flipping() const {
-    return {triangulation, placement, retraction, constraints, vertex_length, corner_valences};
+  FlippableMesh flipping() const {
+    return {halfedges, positions, retraction, constraints, vertex_length, corner_valences};
   }
 };
 
 /// Does the edge lie along a curve: a boundary or a crease?
-inline bool is_rim(const Triangulation& t, int h) {
-  return t.twin(h) < 0 || t.is_constrained(h);
+inline bool is_feature_edge(const HalfedgeMesh& t, int h) {
+  return t.twin(h) < 0 || t.is_crease(h);
 }
 
 /// The curve along which the edge of a rim runs; curve -1 where none is known.
-CurveFinder::Place curve_of(const AdaptingMesh& mesh, int half_edge);
+CurveFinder::Place curve_of(const WorkingMesh& mesh, int half_edge);
 
 /// Of an edge between the vertices.
-inline double target_length(const AdaptingMesh& m, int v, int w) {
+inline double target_length(const WorkingMesh& m, int v, int w) {
   return .5 * (m.vertex_length[static_cast<size_t>(v)] + m.vertex_length[static_cast<size_t>(w)]);
 }
 
 /// Length of the edge over its target length.
-double relative_length(const AdaptingMesh& mesh, int half_edge);
+double relative_length(const WorkingMesh& mesh, int half_edge);
 
 /// Fills curve_edges: one edge per target length, and as many more as it takes to keep the chords within
 /// `chord_error` target lengths of the curve.
-void count_curve_edges(AdaptingMesh& mesh, double chord_error);
+void count_curve_edges(WorkingMesh& mesh, double chord_error);
 
 /// Adds what belongs to a vertex in the middle of the edge, on its curve or on the surface, and to its sides:
 /// the only place where a vertex is born. The triangles do not know it yet. Returns the id that a split of
 /// the edge will give it. `middle` is that of the edge if it is known, else null.
-int add_vertex(AdaptingMesh& mesh, int half_edge, const VertexPlace* middle = nullptr);
+int add_vertex(WorkingMesh& mesh, int half_edge, const SurfacePosition* middle = nullptr);
 
 /// Where the middle of an edge that is no rim comes to lie on the surface; safe for different edges at once.
-VertexPlace middle_of(const AdaptingMesh& mesh, int half_edge);
+SurfacePosition middle_of(const WorkingMesh& mesh, int half_edge);
 
 /// Takes back what was added last.
-void drop_vertex(AdaptingMesh& mesh);
+void drop_vertex(WorkingMesh& mesh);
 
-/// Gives up the ids that are unused, numbers the sides as part_at_creases() does, and writes the creases to
+/// Gives up the ids that are unused, numbers the sides as split_wedges() does, and writes the creases to
 /// the constraints.
-void compact(AdaptingMesh& mesh);
+void compact(WorkingMesh& mesh);
 
 // The mesh of a work as one whose vertices come and go.
 
 /// Pre-condition: the vertices lie on the field of the input, see Workspace::replace_faces().
-class AdaptingWork {
+class WorkspaceEdit {
  public:
   /// Keeps a reference to the work. `corner_angle`: degrees, see corner_rule.h.
-  AdaptingWork(Workspace& work, double corner_angle);
-  AdaptingWork(const AdaptingWork&) = delete;
+  WorkspaceEdit(Workspace& work, double corner_angle);
+  WorkspaceEdit(const WorkspaceEdit&) = delete;
 
-  AdaptingMesh& mesh() { return mesh_; }
-  const AdaptingMesh& mesh() const { return mesh_; }
+  WorkingMesh& mesh() { return mesh_; }
+  const WorkingMesh& mesh() const { return mesh_; }
 
   /// Gives the work the faces as they are now. Pre-condition: there were only flips.
   void replace_faces();
@@ -97,12 +97,12 @@ class AdaptingWork {
 
  private:
   Workspace& work_;
-  Triangulation triangulation_;
+  HalfedgeMesh halfedges_;
   std::vector<int> corner_valences_;
   std::vector<int> origins_;
   const CurveFinder curve_finder_;
   CurveEdges curve_edges_;
-  AdaptingMesh mesh_;
+  WorkingMesh mesh_;
 };
 
 }  // namespace hooke

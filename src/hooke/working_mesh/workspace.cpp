@@ -35,52 +35,52 @@ std::vector<int> identity(int count) {
 
 }  // namespace
 
-Workspace::Workspace(const TriMesh& source, Layout layout, const ConstraintOptions& constraint_options,
-                     const FilterOptions& filter, const RetractionOptions& retraction_options,
-                     Stopwatch* stopwatch_or_none)
+Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
+                     const ConstraintOptions& constraint_options, const FilterOptions& filter,
+                     const RetractionOptions& retraction_options, Stopwatch* stopwatch_or_none)
     : stopwatch(stopwatch_or_none),
-      order(std::move(layout.order)),
+      order(std::move(memory_order.order)),
       filter_(filter),
       retraction_options_(retraction_options) {
   const std::vector<double> length = vertex_values(source, target_length_property);
-  normalisation = normalisation_of(positions(source), length);
+  normalisation = normalisation_of(vertex_points(source), length);
 
-  Mat3X points = order.in_new_order(positions(source));
+  Mat3X points = order.gather(vertex_points(source));
   for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
-  vertex_length = order.in_new_order(length);
+  vertex_length = order.gather(length);
   for (double& l : vertex_length) l /= normalisation.unit;
   start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
-  for (int e : find_features(*start, *layout.connectivity, vertex_length, constraint_options.features))
-    creases.push_back(layout.connectivity->edges[static_cast<size_t>(e)]);
-  connect(std::move(layout.connectivity), creases);
+  for (int e : detect_creases(*start, *memory_order.adjacency, vertex_length, constraint_options.features))
+    creases.push_back(memory_order.adjacency->edges[static_cast<size_t>(e)]);
+  connect(std::move(memory_order.adjacency), creases);
   start_length_ = vertex_length;
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   if (graded()) reordered.even_crease = 0;  // even edges are not what is asked for
   constraints =
-      timed(stopwatch, "constraints", [&] { return find_constraints(*start, *connectivity, reordered); });
-  origins = identity(connectivity->vertex_count);
-  input_connectivity_ = connectivity;
+      timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
+  origins = identity(adjacency->vertex_count);
+  input_connectivity_ = adjacency;
 
   const Stage stage(stopwatch, "fit");
   const SurfaceField field = fit(start);
-  input_anchors_ = identity(connectivity->side_count());
+  input_hints_ = identity(adjacency->wedge_count());
   to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
                                            RetractionOptions{.tolerance = landing_tolerance});
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  placement = retraction->place(*start, input_anchors_, constraints.segment);
+  positions = retraction->place(*start, input_hints_, constraints.segment);
 }
 
-void Workspace::connect(std::shared_ptr<const Connectivity> smooth, const std::vector<Edge>& creases) {
-  connectivity = std::move(smooth);
+void Workspace::connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases) {
+  adjacency = std::move(smooth);
   if (!creases.empty()) {
-    Connectivity parted = *connectivity;
-    part_at_creases(parted, creases);
-    connectivity = std::make_shared<const Connectivity>(std::move(parted));
+    Adjacency parted = *adjacency;
+    split_wedges(parted, creases);
+    adjacency = std::make_shared<const Adjacency>(std::move(parted));
   }
-  sweeps = plan_sweeps(*connectivity);
-  targets = spread_target_lengths(*connectivity, vertex_length);
+  coloring = color_vertices(*adjacency);
+  targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
 /// A field of which each side of a crease has its own. What it may swing out is counted in target lengths, or
@@ -88,37 +88,37 @@ void Workspace::connect(std::shared_ptr<const Connectivity> smooth, const std::v
 /// polyhedron.
 SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> shared_points) const {
   const Mat3X& points = *shared_points;
-  const double natural = natural_length(total_area(points, connectivity->faces), connectivity->faces.size());
-  std::vector<double> lengths(static_cast<size_t>(connectivity->side_count()));
-  for (size_t side = 0; side < lengths.size(); ++side)
-    lengths[side] = std::max(
-        natural, vertex_length[static_cast<size_t>(connectivity->vertex_of_side(static_cast<int>(side)))]);
-  if (connectivity->creases.empty())
-    return SurfaceField(std::move(shared_points), connectivity, filter_, {}, lengths);
-  const auto cut = std::make_shared<const Connectivity>(cut_open(*connectivity));
-  return SurfaceField(std::make_shared<const Mat3X>(side_points(points, *connectivity)), cut, filter_,
+  const double natural = natural_length(total_area(points, adjacency->faces), adjacency->faces.size());
+  std::vector<double> lengths(static_cast<size_t>(adjacency->wedge_count()));
+  for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
+    lengths[wedge] = std::max(
+        natural, vertex_length[static_cast<size_t>(adjacency->vertex_of_wedge(static_cast<int>(wedge)))]);
+  if (adjacency->creases.empty())
+    return SurfaceField(std::move(shared_points), adjacency, filter_, {}, lengths);
+  const auto cut = std::make_shared<const Adjacency>(cut_open(*adjacency));
+  return SurfaceField(std::make_shared<const Mat3X>(wedge_points(points, *adjacency)), cut, filter_,
                       label_components(*cut), lengths);
 }
 
 int Workspace::chart_count() const {
-  const Connectivity cut = cut_open(*connectivity);
+  const Adjacency cut = cut_open(*adjacency);
   return measure_topology(cut).components;
 }
 
 void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;
-  const SurfaceField field = fit(std::make_shared<const Mat3X>(placement.points));
+  const SurfaceField field = fit(std::make_shared<const Mat3X>(positions.points));
   finished_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  placement = retraction->place(placement.points, identity(connectivity->side_count()), placement.segments);
+  positions = retraction->place(positions.points, identity(adjacency->wedge_count()), positions.segments);
 }
 
-Placement Workspace::project_to_input() {
-  if (!refitted_) input_anchors_ = placement.anchors;
-  Placement landed = to_input_->place(placement.points, input_anchors_, placement.segments);
-  input_anchors_ = landed.anchors;
-  return landed;
+SurfacePositions Workspace::project_to_input() {
+  if (!refitted_) input_hints_ = positions.hints;
+  SurfacePositions projected = to_input_->place(positions.points, input_hints_, positions.segments);
+  input_hints_ = projected.hints;
+  return projected;
 }
 
 void Workspace::return_to_input() {
@@ -129,14 +129,13 @@ void Workspace::return_to_input() {
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {
-  connect(
-      std::make_shared<const Connectivity>(make_connectivity(connectivity->vertex_count, std::move(faces))),
-      constraints.creases);
-  input_anchors_ = placement.anchors;  // vertices may be far from where they were
+  connect(std::make_shared<const Adjacency>(make_adjacency(adjacency->vertex_count, std::move(faces))),
+          constraints.creases);
+  input_hints_ = positions.hints;  // vertices may be far from where they were
   faces_replaced_ = true;
 }
 
-void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& sides,
+void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges,
                              const std::vector<int>& before) {
   const auto n = before.size();
   std::vector<int> kept_as(order.old_vertex.size(), -1);  // by the ids of before
@@ -153,7 +152,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
   for (Triangle& t : faces)
     for (int& v : t) v = id[static_cast<size_t>(v)];
-  const std::vector<int> local = locality_order(static_cast<int>(n), faces);
+  const std::vector<int> local = bfs_cluster_order(static_cast<int>(n), faces);
   order = reorder(std::move(faces), local);
 
   std::vector<int> source(n), place(n);  // where each vertex comes from, and goes to
@@ -165,9 +164,9 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
     const auto old = values;
     for (size_t v = 0; v < n; ++v) values[v] = old[static_cast<size_t>(source[v])];
   };
-  placement.points = placement.points(Eigen::all, source).eval();
-  arrange(placement.segments);
-  arrange(placement.drift);
+  positions.points = positions.points(Eigen::all, source).eval();
+  arrange(positions.segments);
+  arrange(positions.drift);
   arrange(vertex_length);
   arrange(constraints.freedom);
   arrange(constraints.curve);
@@ -180,36 +179,35 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
       from[v] = origins[static_cast<size_t>(old)];
   origins = std::move(from);
 
-  connect(
-      std::make_shared<const Connectivity>(make_connectivity(static_cast<int>(n), std::move(order.faces))),
-      constraints.creases);
+  connect(std::make_shared<const Adjacency>(make_adjacency(static_cast<int>(n), std::move(order.faces))),
+          constraints.creases);
   if (!constraints.creases.empty()) {
     std::vector<Triangle> moved;
-    for (int f : order.old_face) moved.push_back(sides[static_cast<size_t>(f)]);
-    source = sides_before(*connectivity, moved, source);
-    constraints.further_sides = connectivity->further_sides;
+    for (int f : order.old_face) moved.push_back(wedges[static_cast<size_t>(f)]);
+    source = wedges_before(*adjacency, moved, source);
+    constraints.extra_wedges = adjacency->extra_wedges;
   }
-  placement.normals = placement.normals(Eigen::all, source).eval();
-  std::vector<int> anchors;
-  for (int side : source) anchors.push_back(placement.anchors[static_cast<size_t>(side)]);
-  placement.anchors = std::move(anchors);
-  placement.other_side = other_sides(n, constraints.further_sides);
-  input_anchors_ = placement.anchors;
+  positions.normals = positions.normals(Eigen::all, source).eval();
+  std::vector<int> hints;
+  for (int wedge : source) hints.push_back(positions.hints[static_cast<size_t>(wedge)]);
+  positions.hints = std::move(hints);
+  positions.other_wedge = other_wedges(n, constraints.extra_wedges);
+  input_hints_ = positions.hints;
   retraction->resize(n);
   to_input_->resize(n);
   vertices_replaced_ = true;
 }
 
 SurfacePoint Workspace::place_on_input(int v) const {
-  const std::vector<int>& anchors = refitted_ ? input_anchors_ : placement.anchors;
-  return locate(*start, *input_connectivity_, placement.points.col(v),
-                input_connectivity_->vertex_of_side(anchors[static_cast<size_t>(v)]));
+  const std::vector<int>& hints = refitted_ ? input_hints_ : positions.hints;
+  return locate(*start, *input_connectivity_, positions.points.col(v),
+                input_connectivity_->vertex_of_wedge(hints[static_cast<size_t>(v)]));
 }
 
 void Workspace::resample_lengths() {
   if (!graded()) return;
   vertex_length = input_lengths();
-  targets = spread_target_lengths(*connectivity, vertex_length);
+  targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
 bool Workspace::graded() const {
@@ -252,30 +250,30 @@ std::vector<MapEntry> Workspace::map() const {
 }
 
 Mat3X Workspace::copy_back(TriMesh& target) const {
-  Mat3X input = positions(target);
-  Mat3X points(3, placement.points.cols());
+  Mat3X input = vertex_points(target);
+  Mat3X points(3, positions.points.cols());
   std::vector<double> lengths(vertex_length.size());
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     const auto place = static_cast<size_t>(order.old_vertex[static_cast<size_t>(v)]);
     const int origin = origins[static_cast<size_t>(v)];
-    const bool stayed = origin >= 0 && placement.points.col(v) == start->col(origin);
+    const bool stayed = origin >= 0 && positions.points.col(v) == start->col(origin);
     points.col(static_cast<Eigen::Index>(place)) =
         stayed ? Vec3(input.col(input_order().old_vertex[static_cast<size_t>(origin)]))
-               : Vec3(normalisation.centre + normalisation.unit * placement.points.col(v));
+               : Vec3(normalisation.centre + normalisation.unit * positions.points.col(v));
     lengths[place] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
   }
   if (vertices_replaced_)
-    target = build_mesh(points, *connectivity, order.old_ids());
+    target = build_mesh(points, *adjacency, order.old_ids());
   else if (faces_replaced_)
-    hooke::replace_faces(target, *connectivity, order.old_ids());
-  positions(target) = points;
+    hooke::replace_faces(target, *adjacency, order.old_ids());
+  vertex_points(target) = points;
   if (graded() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
   return input;
 }
 
-Layout Workspace::layout() const {
-  if (connectivity->creases.empty()) return {order, connectivity};
-  return {order, std::make_shared<const Connectivity>(without_creases(*connectivity))};
+MemoryOrder Workspace::memory_order() const {
+  if (adjacency->creases.empty()) return {order, adjacency};
+  return {order, std::make_shared<const Adjacency>(without_creases(*adjacency))};
 }
 
 ProjectionCounts Workspace::projection_counts() const {

@@ -24,7 +24,7 @@ struct Normalisation {
 
 struct Workspace {
   /// Takes the target lengths from v:target_length. The layout is that of the mesh.
-  Workspace(const TriMesh& mesh, Layout layout, const ConstraintOptions& constraints,
+  Workspace(const TriMesh& mesh, MemoryOrder memory_order, const ConstraintOptions& constraints,
             const FilterOptions& filter, const RetractionOptions& retraction, Stopwatch* stopwatch = nullptr);
 
   /// Fits a new field to the vertices as they lie now and makes it the one that moves are projected to.
@@ -33,10 +33,10 @@ struct Workspace {
 
   /// Where the vertices come to lie on the field of the input, which is what they are to lie on in the end.
   /// From there on they are tracked on it.
-  Placement project_to_input();
+  SurfacePositions project_to_input();
 
   /// Where on the input the vertices are tracked from now on, per side.
-  void track_on_input(std::vector<int> anchors) { input_anchors_ = std::move(anchors); }
+  void track_on_input(std::vector<int> hints) { input_hints_ = std::move(hints); }
 
   /// To the field of the input.
   Retraction& to_input() { return *to_input_; }
@@ -57,7 +57,7 @@ struct Workspace {
   /// and `origins` tells for each vertex which one it was before: -1 for a new one. All are put into memory
   /// order; in the result the vertices that were there keep their order, and new ones follow. Pre-condition
   /// as for replace_faces().
-  void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& sides,
+  void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges,
                     const std::vector<int>& origins);
 
   /// Do target lengths vary?
@@ -76,7 +76,7 @@ struct Workspace {
   Mat3X copy_back(TriMesh& target) const;
 
   /// That of the result.
-  Layout layout() const;
+  MemoryOrder memory_order() const;
 
   /// The id that a vertex of the work had in the mesh the work was made from; -1 for a new one.
   int vertex_of_input(int vertex) const;
@@ -91,34 +91,34 @@ struct Workspace {
 
   Stopwatch* stopwatch;
   Normalisation normalisation;
-  Reordered order;  // ids in the result, those of the input while its vertices stay; without its faces
-  std::shared_ptr<const Connectivity> connectivity;  // with its creases
-  SweepPlan sweeps;
+  Permutation order;  // ids in the result, those of the input while its vertices stay; without its faces
+  std::shared_ptr<const Adjacency> adjacency;  // with its creases
+  VertexColoring coloring;
   std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
   TargetLengths targets;
   Constraints constraints;
   std::shared_ptr<const Mat3X> start;      // the points of the input
   std::vector<int> origins;                // per vertex: which of `start` it was, -1 for a new one
-  Placement placement;                     // of the vertices on the field fitted last
+  SurfacePositions positions;              // of the vertices on the field fitted last
   std::unique_ptr<Retraction> retraction;  // to that field
 
  private:
   SurfacePoint place_on_input(int vertex) const;
-  const Reordered& input_order() const { return input_order_ ? *input_order_ : order; }
-  void connect(std::shared_ptr<const Connectivity> smooth, const std::vector<Edge>& creases);
+  const Permutation& input_order() const { return input_order_ ? *input_order_ : order; }
+  void connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases);
   SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
 
   FilterOptions filter_;
   RetractionOptions retraction_options_;
   bool faces_replaced_ = false;
   bool vertices_replaced_ = false;
-  std::optional<Reordered> input_order_;                    // the ids in the input, once `order` has others
-  std::shared_ptr<const Connectivity> input_connectivity_;  // on `start`
-  Lengths start_length_;                                    // target lengths there
-  bool refitted_ = false;                                   // until then both fields are the same
-  std::vector<int> input_anchors_;                          // where each vertex is tracked on the input
-  std::unique_ptr<Retraction> to_input_;                    // to the field of the input
-  ProjectionCounts finished_;                               // of the retractions that are gone
+  std::optional<Permutation> input_order_;               // the ids in the input, once `order` has others
+  std::shared_ptr<const Adjacency> input_connectivity_;  // on `start`
+  UniformVector start_length_;                           // target lengths there
+  bool refitted_ = false;                                // until then both fields are the same
+  std::vector<int> input_hints_;                         // where each vertex is tracked on the input
+  std::unique_ptr<Retraction> to_input_;                 // to the field of the input
+  ProjectionCounts finished_;                            // of the retractions that are gone
 };
 
 }  // namespace hooke

@@ -4,21 +4,21 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/working_mesh/working_mesh.h"
-#include "support/flipping_scene.h"
+#include "support/flippable_scene.h"
 
 namespace hooke::test {
 
-struct AdaptingScene : FlippingScene {
-  AdaptingScene(const Triangles& t, const Surface& surface, const std::vector<Edge>& creases = {})
-      : FlippingScene(t, surface, creases) {
+struct WorkingScene : FlippableScene {
+  WorkingScene(const Triangles& t, const Surface& surface, const std::vector<Edge>& creases = {})
+      : FlippableScene(t, surface, creases) {
     count_curve_edges(adapting, .1);
   }
 
   CurveFinder finder{constraints.curves};
   CurveEdges curve_edges;
   std::vector<int> origins = std::vector<int>(vertex_length.size(), 0);
-  AdaptingMesh adapting{triangulation,   placement, retraction, constraints, vertex_length,
-                        corner_valences, origins,   finder,     curve_edges};
+  WorkingMesh adapting{halfedges,       positions, retraction, constraints, vertex_length,
+                       corner_valences, origins,   finder,     curve_edges};
 };
 
 }  // namespace hooke::test
