@@ -1,4 +1,4 @@
-// What the exit status of the command means.
+// Exit codes of the command.
 #pragma once
 
 namespace hooke::app {
@@ -6,14 +6,14 @@ namespace hooke::app {
 enum ExitCode {
   done = 0,
   internal_error = 1,
-  usage = 2,              // or configuration
+  usage = 2,              // invalid command line
   malformed_input = 3,    // missing, unreadable or not a well-formed mesh file
-  unacceptable_mesh = 4,  // read, but not an oriented manifold with area
-  output_failed = 5,      // an older file is left as it was
+  unacceptable_mesh = 4,  // well-formed, but not an oriented manifold with area
+  output_failed = 5,      // an existing file is unchanged
   numerical_failure = 7,
-  limit_reached = 8,  // of memory, with nothing usable
+  limit_reached = 8,  // memory limit, without a usable result
   interrupted = 130,  // SIGINT; the best mesh so far was written
-  terminated = 143,   // SIGTERM; likewise
+  terminated = 143,   // SIGTERM; the best mesh so far was written
 };
 
 }  // namespace hooke::app

@@ -1,4 +1,4 @@
-// hooke-remesh: reads a mesh, optimizes it, writes it, and says what was reached.
+// hooke-remesh: reads a mesh, optimizes it, writes the result and reports its quality.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,31 +47,30 @@ bool keeps_faces(const Settings& s) {
   return s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
 }
 
-/// The mesh of the input, for the result to be measured against.
+/// The input mesh, kept as the reference for measuring the result.
 struct Original {
-  Mat3X points;  // as the layout has them
+  Mat3X points;  // in memory order
   MemoryOrder memory_order;
-  std::vector<int> tree_order;  // in which its tree holds the faces
+  std::vector<int> tree_order;  // order of the faces in its bounding volume tree
 };
 
-/// What the input told of its vertices, for those of the result: the same while vertices stay what they were,
-/// else the values at their places. Normals are always those of the result.
+/// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface
+/// positions of its vertices. Normals are always recomputed from the result.
 VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
                           const Mat3X& points, const MemoryOrder& memory_order, RunRecord& run) {
-  const bool to_other_places = !keeps_faces(s) && !loaded.vertex_data.empty();
+  const bool interpolated = !keeps_faces(s) && !loaded.vertex_data.empty();
   VertexData data =
-      to_other_places
-          ? interpolate(loaded.vertex_data, run.result->map,
-                        original.memory_order.order.scatter(original.memory_order.adjacency->faces))
-          : loaded.vertex_data;
+      interpolated ? interpolate(loaded.vertex_data, run.result->map,
+                                 original.memory_order.order.scatter(original.memory_order.adjacency->faces))
+                   : loaded.vertex_data;
   if (has_normals(data))
     set_normals(data, memory_order.order.scatter(vertex_normals(points, *memory_order.adjacency)));
-  FormatData carried = data_for_format(data, loaded.format, s.format);
-  if (!carried.left_out.empty())
+  FormatData converted = data_for_format(data, loaded.format, s.format);
+  if (!converted.dropped.empty())
     run.warnings.push_back({"attributes_not_kept",
                             fmt::format("{}: {} files cannot hold {}; use PLY", printable(s.output.string()),
-                                        s.format, fmt::join(carried.left_out, ", "))});
-  return std::move(carried.data);
+                                        s.format, fmt::join(converted.dropped, ", "))});
+  return std::move(converted.data);
 }
 
 MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwatch& stopwatch,
@@ -82,14 +81,14 @@ MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwa
   });
 }
 
-/// Against the target lengths that the vertices have now.
+/// Measures the quality relative to the current target lengths of the vertices.
 Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
                 Stopwatch& stopwatch) {
   const std::vector<double> lengths = order.gather(vertex_values(mesh, target_length_property));
   return measure_quality(surface, spread_target_lengths(surface.adjacency, lengths).edge, {}, &stopwatch);
 }
 
-/// What `work` returns; its errors get the name of the input.
+/// Returns work(). Puts the name of the input in front of the messages of its errors.
 template <typename Work>
 auto in_the_name_of(const std::string& name, const Work& work) {
   try {
@@ -116,7 +115,7 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order
   });
 }
 
-/// Gives the input its target lengths and measures it. Returns the order of its tree.
+/// Sets the target lengths of the input and measures it. Returns the order of the faces in its tree.
 std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord& record,
                                Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
@@ -131,16 +130,17 @@ std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord&
   return surface.tree.order();
 }
 
-void measure_way(const Original& original, const MeasuredSurface& result, RunRecord& record,
-                 Stopwatch& stopwatch) {
+void measure_deviation_from_input(const Original& original, const MeasuredSurface& result, RunRecord& record,
+                                  Stopwatch& stopwatch) {
   const MeasuredSurface reference =
       surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
-  if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();  // other vertices
+  if (record.result->adaptation.rounds > 0)
+    record.deviation->displacement.reset();  // vertices do not correspond
 }
 
-/// Optimizes the mesh, measures what has come of it, and prepares the files that hold it.
+/// Optimizes the mesh, measures the result and prepares its output files.
 void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
                  OutputFiles& files, Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
@@ -164,7 +164,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   if (!done.vertex_limits.empty())
     for (WorstFace& face : record.after->worst_faces)
       face.reasons = limiting_factors(face, done.vertex_limits);
-  measure_way(original, result, record, stopwatch);
+  measure_deviation_from_input(original, result, record, stopwatch);
   const VertexData data = data_of_result(s, loaded, original, result.points, memory_order, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
@@ -175,7 +175,8 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   add_result_warnings(s, record);
 }
 
-/// No file is in its place before all that can fail has been done.
+/// Writes the remaining outputs, then commits all files, so that no file is replaced before everything that
+/// can fail has succeeded. Prints the warnings and the summary.
 void finish(const Settings& s, const RunRecord& record, OutputFiles& files) {
   if (!s.trace.empty()) files.add(PendingFile(s.trace, trace_csv(record.stages)));
   if (!s.report.empty() && s.report != "-") files.add(PendingFile(s.report, report_text(record)));

@@ -14,7 +14,7 @@
 namespace hooke::app {
 namespace {
 
-/// From Linux's /proc/meminfo; 0 where it is not there.
+/// Available memory from Linux's /proc/meminfo; 0 if it is not reported.
 std::size_t available_bytes() {
   std::ifstream file("/proc/meminfo");
   for (std::string key; file >> key;) {

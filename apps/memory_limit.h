@@ -1,15 +1,15 @@
-// How much memory the work may take, and its way back.
+// The memory limit of a run, and the return of free memory to the system.
 #pragma once
 
 #include <cstddef>
 
 namespace hooke::app {
 
-/// Bytes: 80 % of what the system says is available, or of what the machine has where it does not say, but of
-/// no more than the process may take (ulimit -v).
+/// The memory limit in bytes: 80 % of the minimum of the available memory and the process limit (ulimit -v).
+/// If the system does not report the available memory, the physical memory is used instead.
 std::size_t memory_limit();
 
-/// Gives memory that is free back to the system, where its library can: before work that takes large pieces.
+/// Returns free heap memory to the system, if the C library can. To be called before large allocations.
 void return_free_memory();
 
 }  // namespace hooke::app

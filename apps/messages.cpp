@@ -13,7 +13,7 @@
 namespace hooke::app {
 namespace {
 
-/// To standard error. Where nobody can read it, the work goes on all the same: fmt::print would throw.
+/// Prints to standard error and ignores write errors, for which fmt::print would throw.
 template <typename... Arguments>
 void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   std::fputs(fmt::format(text, std::forward<Arguments>(arguments)...).c_str(), stderr);
@@ -38,7 +38,7 @@ std::string reason_in_words(const RunRecord& run) {
 
 void print_iterations(const RemeshResult& r) {
   say("{:<10}{:>7}{:>8}{:>14}{:>12}{:>12}{:>12}\n", "stage", "steps", "evals", "energy", "rms error",
-      "max error", "least angle");
+      "max error", "min angle");
   for (const IterationRecord& i : r.iterations)
     say("{:<10}{:>7}{:>8}{:>14.6g}{:>12.4f}{:>12.4f}{:>12.3f}\n", i.stage, i.steps, i.evaluations, i.energy,
         i.rms_length_error, i.max_length_error, i.min_angle);
@@ -82,13 +82,13 @@ void print_summary(const Settings& s, const RunRecord& run) {
   say("\n{}\n", reason_in_words(run));
   if (run.result->near_regular)
     say("the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
-  if (run.result->restarts > 1) say("the best of {} attempts\n", run.result->restarts);
+  if (run.result->restarts > 1) say("the best of {} runs\n", run.result->restarts);
   const FlipResult& f = run.result->flips;
   const AdaptResult& a = run.result->adaptation;
   if (a.rounds > 0)
     say("{} edges split, {} collapsed, {} flipped: {} vertices, {} faces ({:.0f} wanted)\n", a.splits,
         a.collapses, a.flips + f.flips, run.after->topology.vertices, run.after->topology.faces,
-        a.wanted_faces);
+        a.target_faces);
   else if (f.flow.rounds > 0)
     say("{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n", f.flips,
         f.max_travel, f.rms_travel);

@@ -1,4 +1,4 @@
-// What people read on standard error.
+// Messages for the user on standard error: errors, warnings, the summary and the progress line.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace hooke::app {
 void print_error(const std::string& message);
 void print_warning(const Warning& warning);
 
-/// The result in words and the before/after table. With check the one mesh on its own.
+/// Prints the result in words and a table of the quality before and after; with --check, of the input only.
 void print_summary(const Settings& settings, const RunRecord& run);
 
-/// Why the paper's own scheme came no further: which of its tests set the time steps.
+/// Explains why the paper's integrator stopped, by how often each of its tests limited the time step.
 std::string paper_message(const RemeshResult& result);
 
-/// A line that overwrites itself on a terminal and says where the work stands.
+/// A progress line that overwrites itself on a terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(const Settings& settings);

@@ -21,34 +21,35 @@ namespace {
 template <typename T>
 using Choices = std::vector<std::pair<const char*, T>>;
 
-/// An option with one of these words as its value, which may also be optional.
+/// Adds an option whose value is one of the given words. `Value` is T or std::optional<T>.
 template <typename Value, typename T>
 CLI::Option* add_choice(CLI::App& app, const char* name, Value& value, const char* help,
                         const Choices<T>& choices) {
-  std::string raw;
-  for (const auto& choice : choices) raw += (raw.empty() ? "" : "|") + std::string(choice.first);
-  const auto choose = [&value, name, raw, choices](const std::string& text) {
+  std::string alternatives;
+  for (const auto& choice : choices)
+    alternatives += (alternatives.empty() ? "" : "|") + std::string(choice.first);
+  const auto choose = [&value, name, alternatives, choices](const std::string& text) {
     for (const auto& [word, meaning] : choices)
       if (text == word) {
         value = meaning;
         return;
       }
-    throw CLI::ValidationError(name, in_quotes(text) + "; expected " + raw);
+    throw CLI::ValidationError(name, in_quotes(text) + "; expected " + alternatives);
   };
-  return app.add_option_function<std::string>(name, choose, help)->type_name(raw);
+  return app.add_option_function<std::string>(name, choose, help)->type_name(alternatives);
 }
 
-/// Which numbers an option takes.
+/// The numbers that an option accepts.
 struct Range {
-  const char* raw;
-  bool (*holds)(double);  // of finite numbers
+  const char* description;
+  bool (*holds)(double);  // called with finite numbers only
 };
 constexpr Range positive{"a positive number", [](double x) { return x > 0; }};
 constexpr Range not_negative{"a number that is not negative", [](double x) { return x >= 0; }};
 constexpr Range cosine{"a number from -1 to 1", [](double x) { return std::abs(x) <= 1; }};
-constexpr Range count{"a whole number from 1", [](double x) { return x >= 1; }};
+constexpr Range whole_number{"a whole number from 1", [](double x) { return x >= 1; }};
 
-/// An option with a number as its value, which may also be optional.
+/// Adds an option whose value is a number in a range. `Value` is Number or std::optional<Number>.
 template <typename Number, typename Value>
 CLI::Option* add_number(CLI::App& app, const char* name, Value& value, const char* help, Range range) {
   const auto read = [&value, name, range](const std::string& text) {
@@ -57,19 +58,19 @@ CLI::Option* add_number(CLI::App& app, const char* name, Value& value, const cha
     const auto [rest, error] = std::from_chars(text.data(), end, number);
     if (error != std::errc() || rest != end || !std::isfinite(static_cast<double>(number)) ||
         !range.holds(static_cast<double>(number)))
-      throw CLI::ValidationError(name, fmt::format("{}; expected {}", in_quotes(text), range.raw));
+      throw CLI::ValidationError(name, fmt::format("{}; expected {}", in_quotes(text), range.description));
     value = number;
   };
   return app.add_option_function<std::string>(name, read, help)
       ->type_name(std::is_integral_v<Number> ? "N" : "X");
 }
 
-/// The same for a value that is there already.
+/// The same for a value with a default.
 CLI::Option* add_number(CLI::App& app, const char* name, double& value, const char* help, Range range) {
   return add_number<double, double>(app, name, value, help, range)->default_str(fmt::format("{}", value));
 }
 
-/// Not empty, and not `-`, which is no stream here.
+/// Accepts any name but the empty one and `-`, which does not stand for a stream here.
 CLI::Validator file_name() {
   const auto check = [](const std::string& text) {
     return text.empty() || text == "-" ? in_quotes(text) + "; expected the name of a file" : std::string();
@@ -97,7 +98,7 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
       ->type_name("FILE|ply:PROPERTY|curvature[:ERROR]")
       ->default_str("off");
   app.add_option("--gradation", raw.gradation,
-                 "Greatest change of a sizing's lengths along an edge, over the edge's length")
+                 "Maximum change of a sizing's lengths along an edge, over the edge's length")
       ->type_name("X|off")
       ->default_str("0.3");
   add_choice(app, "--connectivity", s.remesh.connectivity,
@@ -130,8 +131,8 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
       "Algorithms 1 to 3 of the paper to the letter, for comparison: global time step, torque, global "
       "spline, the paper's constants; mostly jams, may fold faces");
   add_choice(app, "--filter", s.remesh.filter.kind,
-             "Where vertices are put back: local = splines blended over patches, global = one dense spline, "
-             "closest = the input's faces, none",
+             "What vertices are projected to: local = splines blended over patches, global = one dense "
+             "spline, closest = the input's faces, none",
              Choices<FilterKind>{{"local", FilterKind::local},
                                  {"global", FilterKind::global},
                                  {"closest", FilterKind::closest},
@@ -151,9 +152,9 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option("--tolerance", raw.tolerance, "Converged when every edge is this near to the target length")
       ->type_name("X%")
       ->capture_default_str();
-  add_number<int>(app, "--max-outer", raw.max_outer, "Outer iterations: relaxation and filtering", count)
+  add_number<int>(app, "--max-outer", raw.max_outer, "Outer iterations: relaxation and filtering", whole_number)
       ->default_str("6; 10 with --paper");
-  add_number<int>(app, "--max-steps", raw.max_steps, "Steps per outer iteration", count)
+  add_number<int>(app, "--max-steps", raw.max_steps, "Steps per outer iteration", whole_number)
       ->default_str("2000; 400 with --paper");
 }
 
@@ -163,14 +164,15 @@ void add_motion(CLI::App& app, Settings& s) {
   add_number(app, "--string", damped.string, "String tension lambda (damped and paper)", positive);
   add_number(app, "--torque", damped.torque, "Torque coefficient mu (damped and paper)", not_negative);
   add_number(app, "--friction", damped.friction, "Friction tau (damped and paper)", positive);
-  add_number(app, "--step-angle", step.angle, "Least cosine a face may turn by in a time step (paper)",
+  add_number(app, "--step-angle", step.angle, "Minimum cosine a face may turn by in a time step (paper)",
              cosine);
   add_number(app, "--step-expansion", step.expansion,
-             "Greatest relative change of a face's area in a time step (paper)", positive);
+             "Maximum relative change of a face's area in a time step (paper)", positive);
   add_number(app, "--step-displacement", step.displacement,
-             "Greatest move of a vertex in a time step, over the shortest edge (paper)", positive);
+             "Maximum move of a vertex in a time step, over the shortest edge (paper)", positive);
   add_number(app, "--step-area", step.area_bound,
-             "Least area of a face after a time step, over the squared target length (paper)", not_negative);
+             "Minimum area of a face after a time step, over the squared target length (paper)",
+             not_negative);
 }
 
 void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
@@ -204,7 +206,7 @@ void add_reports(CLI::App& app, Settings& s) {
 void add_run(CLI::App& app, Settings& s) {
   add_number<int>(
       app, "-j,--threads", s.threads,
-      "Threads (default: SLURM_CPUS_PER_TASK, OMP_NUM_THREADS, or all); results do not depend on it", count);
+      "Threads (default: SLURM_CPUS_PER_TASK, OMP_NUM_THREADS, or all); results do not depend on it", whole_number);
   app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");
   app.add_flag("-v,--verbose", s.verbose, "Print every outer iteration");
   add_choice(
@@ -233,9 +235,9 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   app.set_version_flag("-V,--version", "hooke-remesh " HOOKE_VERSION)->group("Options");
 }
 
-/// The exit code of help and version, which go to standard output.
-int print_wanted(const CLI::App& app, const CLI::ParseError& wanted) {
-  app.exit(wanted);
+/// Prints the requested help or version to standard output. Returns the exit code.
+int print_help_or_version(const CLI::App& app, const CLI::ParseError& request) {
+  app.exit(request);
   if (std::cout.flush()) return done;
   print_error("standard output: cannot be written; expected an open reader or room");
   return output_failed;
@@ -257,7 +259,7 @@ Parsed parse_command_line(int argc, char** argv) {
     app.parse(argc, argv);
     resolve(settings, raw);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return {std::nullopt, print_wanted(app, e)};
+    if (e.get_exit_code() == 0) return {std::nullopt, print_help_or_version(app, e)};
     print_error(e.what() + std::string("; see hooke-remesh --help"));
     return {std::nullopt, usage};
   } catch (const Error& e) {

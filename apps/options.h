@@ -1,4 +1,4 @@
-// The command line: the only file pair that knows CLI11.
+// Parses the command line into settings. Only this module depends on CLI11.
 #pragma once
 
 #include <filesystem>
@@ -12,35 +12,37 @@
 
 namespace hooke::app {
 
+/// When to show the progress line; automatic: on a terminal.
 enum class ProgressStyle { automatic, bar, none };
 
+/// All settings of a run.
 struct Settings {
   std::filesystem::path input;
-  std::filesystem::path output;  // empty with check
-  std::string format;            // of the output
+  std::filesystem::path output;  // empty with --check
+  std::string format;            // output format: "obj", "ply" or "off"
   LengthSpec length;
   std::string length_text = "auto";
   SizingSource sizing;
   std::string sizing_text = "off";
-  double gradation = Sizing{}.gradation;  // of a sizing
-  bool check = false;                     // measure the input only
+  double gradation = Sizing{}.gradation;  // limit of the gradation of a sizing
+  bool check = false;                     // only measure the input
   bool paper = false;
   Effort effort = Effort::standard;
-  std::filesystem::path map;  // empty without
+  std::filesystem::path map;  // empty for none
   RemeshOptions remesh;
   RestartOptions restarts;
   PaperOptions paper_options;
-  std::filesystem::path fix;    // file of vertex ids that stay; empty without
-  std::string report;           // path, "-" for standard output, empty without
-  std::filesystem::path trace;  // seconds per stage; empty without
-  int threads = 0;              // 0: all that the process may use
+  std::filesystem::path fix;    // file with the ids of fixed vertices; empty for none
+  std::string report;           // path; "-" for standard output; empty for none
+  std::filesystem::path trace;  // file for the time of each stage; empty for none
+  int threads = 0;              // 0: as many as the process may use
   bool quiet = false;
   bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
-/// The settings, or the exit code when the command line asks for help or is not understood (then the message
-/// has been printed).
+/// The settings, or an exit code if the command line asks for help or is invalid; the help or the message has
+/// then been printed.
 struct Parsed {
   std::optional<Settings> settings;
   int exit_code = 0;

@@ -12,7 +12,7 @@ namespace hooke::app {
 namespace {
 
 struct NamedFile {
-  const char* role;  // the option that names it
+  const char* role;  // the option that specifies it
   std::filesystem::path path;
 };
 

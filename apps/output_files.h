@@ -1,4 +1,4 @@
-// The files that a run writes: all of them or none.
+// The output files of a run, which are written all or none.
 #pragma once
 
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace hooke::app {
 
-/// Everything that can be known to fail before the work is done. Throws Error for an output that is another
-/// file of the command line as well, OutputError for one that could not be written.
+/// Checks all outputs before the computation. Throws Error if an output is the same file as another input or
+/// output, and OutputError if it cannot be written.
 void require_outputs(const Settings& settings);
 
 /// Writes the text to standard output. Throws OutputError.
 void write_to_standard_output(const std::string& text);
 
-/// Files that are written, but not in their places yet.
+/// Files that are written to temporary files until they are committed together.
 class OutputFiles {
  public:
   void add(PendingFile file) { files_.push_back(std::move(file)); }
 
-  /// Puts them there.
+  /// Renames all files to their targets. Throws OutputError.
   void commit() {
     for (PendingFile& file : files_) file.commit();
   }

@@ -16,15 +16,15 @@ namespace {
 void warn_of_folds(RunRecord& run) {
   std::vector<int> folded = folded_faces(run);
   if (folded.empty()) return;
-  constexpr size_t most = 10;
+  constexpr size_t max_listed = 10;
   const size_t count = folded.size();
-  folded.resize(std::min(count, most));
+  folded.resize(std::min(count, max_listed));
   run.warnings.push_back(
       {"folded_faces",
        fmt::format("{}: {} of its faces lie against the surface of {}, or at folds that are there already: "
                    "faces {}{}; look at both meshes there",
                    run.output->path, count, run.input.path, fmt::join(folded, " "),
-                   count > most ? " ..." : "")});
+                   count > max_listed ? " ..." : "")});
 }
 
 void warn_of_crossings(RunRecord& run) {
@@ -35,7 +35,7 @@ void warn_of_crossings(RunRecord& run) {
                                                                     run.output->path, crossings, before)});
 }
 
-/// Half an edge away from the surface is another surface.
+/// Warns if the surfaces are more than half a natural length apart.
 void warn_of_distance(const Settings& s, RunRecord& run) {
   const double natural = run.parameters["L_natural"].get<double>();
   const double distance = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
@@ -51,18 +51,18 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 
 void warn_of_count(RunRecord& run) {
   const AdaptResult& adapted = run.result->adaptation;
-  if (run.result->reason == StopReason::interrupted) return;  // there was no time for all
-  const double faces = run.after->topology.faces, wanted = adapted.wanted_faces;
-  if (adapted.rounds > 0 && std::abs(faces - wanted) > (1 + 1e-9) * std::max(3., .03 * wanted))
+  if (run.result->reason == StopReason::interrupted) return;  // adaptation may be incomplete
+  const double faces = run.after->topology.faces, expected = adapted.target_faces;
+  if (adapted.rounds > 0 && std::abs(faces - expected) > (1 + 1e-9) * std::max(3., .03 * expected))
     run.warnings.push_back(
         {"face_count_missed",
          fmt::format(
              "{}: {} faces, where the target length asks for {:.0f}; edges that the surface, a boundary "
              "or a fixed vertex needs stay; use a smaller length",
-             run.output->path, faces, wanted)});
+             run.output->path, faces, expected)});
 }
 
-/// The rms error of the edges that a mode can keep to on a mesh whose lengths vary by four.
+/// The rms length error that each mode can achieve on a mesh whose target lengths vary by a factor of four.
 double reachable_length_error(ConnectivityMode mode) {
   switch (mode) {
     case ConnectivityMode::fixed:
@@ -78,8 +78,8 @@ double reachable_length_error(ConnectivityMode mode) {
 void warn_of_sizing(const Settings& s, RunRecord& run) {
   const Statistics& error = run.after->length_error;
   const double rms = std::hypot(error.mean, error.std);
-  const double most = reachable_length_error(s.remesh.connectivity);
-  if (s.sizing.kind == SizingSource::Kind::none || rms <= most) return;
+  const double max_rms = reachable_length_error(s.remesh.connectivity);
+  if (s.sizing.kind == SizingSource::Kind::none || rms <= max_rms) return;
   const char* advice = s.remesh.connectivity == ConnectivityMode::adapt
                            ? "a smaller --gradation, or lengths that the boundary can take"
                            : "--connectivity adapt, or lengths nearer to those of the input";
@@ -88,7 +88,7 @@ void warn_of_sizing(const Settings& s, RunRecord& run) {
        fmt::format(
            "{}: the edges miss the lengths of the sizing by {:.0f} % (rms), expected at most {:.0f} % "
            "with these vertices and faces; use {}",
-           run.output->path, 100 * rms, 100 * most, advice)});
+           run.output->path, 100 * rms, 100 * max_rms, advice)});
 }
 
 }  // namespace

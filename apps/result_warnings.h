@@ -1,4 +1,4 @@
-// What a result must not hide.
+// Warnings about the input and the result of a run, added to its record.
 #pragma once
 
 #include "hooke/report/report.h"
@@ -6,15 +6,15 @@
 
 namespace hooke::app {
 
-/// The target length is out of reach for as many faces as there are. `length` is the covering_length() of the
-/// targets.
+/// Warns if the number of faces does not match the target length. `length` is the covering_length() of the
+/// targets, `natural` the natural length of the mesh.
 void warn_of_length(const Settings& settings, double length, double natural, RunRecord& run);
 
-/// So many boundary vertices share their place with another.
+/// Warns if there are boundary vertices (`count`) at the same position as another.
 void warn_of_coincident_boundary(std::size_t count, RunRecord& run);
 
-/// Faces that lie wrong, a surface that was left, counts and lengths that were missed. Pre-condition: the run
-/// has a result, which was measured.
+/// Warns of folded faces, new self-intersections, deviation from the input surface, and missed face counts
+/// and edge lengths. Pre-condition: the run has a result that was measured.
 void add_result_warnings(const Settings& settings, RunRecord& run);
 
 }  // namespace hooke::app

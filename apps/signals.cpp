@@ -19,8 +19,8 @@ void catch_signals() {
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed reader is a failed write with a message, not a silent death
-  std::signal(SIGXFSZ, SIG_IGN);  // so is a file that may not grow
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported as a failed write instead
+  std::signal(SIGXFSZ, SIG_IGN);  // so is the file size limit
 }
 
 int caught_signal() {

@@ -1,12 +1,13 @@
-// Interruption: the first SIGINT or SIGTERM asks the work to stop with what it has; the second ends the
-// process.
+// Signal handling: the first SIGINT or SIGTERM requests a stop with the best mesh so far, the second
+// terminates the process.
 #pragma once
 
 namespace hooke::app {
 
+/// Installs the signal handlers.
 void catch_signals();
 
-/// The signal that asked to stop, 0 if none did.
+/// The signal that requested a stop; 0 if none did.
 int caught_signal();
 
 }  // namespace hooke::app

@@ -1,10 +1,10 @@
-// Standard input, output and error as the process meets them.
+// Protection against closed standard streams.
 #pragma once
 
 namespace hooke::app {
 
-/// Gives a stream that the caller has closed a place where nothing can be written: else the next file that is
-/// opened would become that stream, and get what is meant for it. To be called first of all.
+/// Opens /dev/null, read-only, for each standard stream that is closed. Otherwise the next file to be opened
+/// would take its descriptor and receive its output. To be called before any file is opened.
 void occupy_standard_streams();
 
 }  // namespace hooke::app

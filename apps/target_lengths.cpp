@@ -20,7 +20,7 @@
 namespace hooke::app {
 namespace {
 
-constexpr double longest = .1;  // of the box's diagonal: beyond it a mesh hardly shows a shape
+constexpr double max_relative_length = .1;  // maximum, relative to the diagonal of the bounding box
 
 std::vector<double> read_property(const std::string& property, const std::filesystem::path& mesh_file,
                                   int count) {
@@ -36,16 +36,17 @@ std::vector<double> read_property(const std::string& property, const std::filesy
   return lengths;
 }
 
-/// Far from the natural length nothing sensible can come of it, and numbers overflow.
-void require_reasonable(const Settings& s, double least, double most, double natural) {
+/// Throws Error if the lengths differ from the natural length by more than a factor of 1e6, because numbers
+/// may then overflow.
+void require_reasonable(const Settings& s, double min_length, double max_length, double natural) {
   constexpr double limit = 1e6;
-  if (least >= natural / limit && most <= limit * natural) return;
+  if (min_length >= natural / limit && max_length <= limit * natural) return;
   const bool sized = s.sizing.kind != SizingSource::Kind::none;
   throw Error(
       fmt::format("{} '{}': target lengths from {:.3g} to {:.3g} for {}; expected {:.3g} to {:.3g}, {:.0e} "
                   "times less and more than the natural length",
-                  sized ? "--sizing" : "--length", sized ? s.sizing_text : s.length_text, least, most,
-                  printable(s.input.string()), natural / limit, limit * natural, limit));
+                  sized ? "--sizing" : "--length", sized ? s.sizing_text : s.length_text, min_length,
+                  max_length, printable(s.input.string()), natural / limit, limit * natural, limit));
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
     case SizingSource::Kind::curvature: {
       const double diagonal = box_diagonal(points);
       const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
-      return curvature_lengths(points, c, error, longest * diagonal);
+      return curvature_lengths(points, c, error, max_relative_length * diagonal);
     }
   }
   return {};
@@ -75,14 +76,14 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   const Sizing sizing{read_sizing(s.sizing, s.input, points, memory_order), s.gradation};
   const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
   const double natural = resolve_length({}, points, adjacency);
-  const auto [least, most] = std::ranges::minmax_element(lengths);
-  require_reasonable(s, *least, *most, natural);
+  const auto [min_length, max_length] = std::ranges::minmax_element(lengths);
+  require_reasonable(s, *min_length, *max_length, natural);
   set_vertex_values(mesh, target_length_property, memory_order.order.scatter(lengths));
 
   const TargetLengths targets = spread_target_lengths(adjacency, lengths);
   record.parameters.update({{"L", mean_length(points, adjacency, targets)},
-                            {"L_min", *least},
-                            {"L_max", *most},
+                            {"L_min", *min_length},
+                            {"L_max", *max_length},
                             {"L_spec", printable(s.length_text)},
                             {"L_natural", natural},
                             {"sizing", printable(s.sizing_text)}});

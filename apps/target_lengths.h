@@ -1,4 +1,4 @@
-// The lengths that the edges of the input are to have, from what the command line asks for.
+// Sets the target edge lengths of the input from the options --length, --sizing and --gradation.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,15 @@
 
 namespace hooke::app {
 
-/// The lengths, one per vertex of the layout, whose points these are; none without a source. Lists follow the
-/// mesh's own order. A property is read from the mesh's own file, which must be PLY: Error otherwise. Throws
-/// InputError for a file without them.
+/// Reads or computes the lengths of a sizing, one per vertex in memory order, as are `points`; empty without
+/// a source. Files list the lengths in file order. A property is read from the mesh file itself; throws Error
+/// if that is not PLY. Throws InputError if the file does not hold the lengths.
 std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
                                 const Mat3X& points, const MemoryOrder& memory_order);
 
-/// Gives the vertices, which are at these points in the layout, their target lengths (v:target_length) and
-/// tells in the record what they are. Throws Error where they are out of all proportion to the mesh, and what
-/// reading a sizing throws.
+/// Sets the target lengths of the vertices (v:target_length) and records them in the parameters of the run.
+/// `points` are in memory order. Throws Error if the lengths are unreasonable for the size of the mesh, and
+/// what read_sizing() throws.
 void set_target_lengths(const Settings& settings, TriMesh& mesh, const MemoryOrder& memory_order,
                         const Mat3X& points, RunRecord& record);
 

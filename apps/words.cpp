@@ -17,7 +17,7 @@
 namespace hooke::app {
 namespace {
 
-/// A number and what follows it; NaN where there is none.
+/// A number and the text after it; NaN if the text does not start with a number.
 struct NumberAndUnit {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::string_view unit;
@@ -32,7 +32,7 @@ NumberAndUnit split(std::string_view text) {
   return result;
 }
 
-/// "0.1%" or ".001": parts of the target length.
+/// Parses "0.1%" or ".001", relative to the target length.
 double parse_tolerance(const std::string& text) {
   const auto [value, unit] = split(text);
   if (!(unit.empty() || unit == "%") || !(value >= 0) || !std::isfinite(value))
@@ -42,7 +42,7 @@ double parse_tolerance(const std::string& text) {
   return unit == "%" ? value / 100 : value;
 }
 
-/// "off" or a positive number.
+/// Parses "off" (infinity) or a positive number.
 double parse_gradation(const std::string& text) {
   if (text == "off") return std::numeric_limits<double>::infinity();
   const auto [value, unit] = split(text);
@@ -51,7 +51,7 @@ double parse_gradation(const std::string& text) {
   return value;
 }
 
-/// "40" or "off": degrees, 180 for none.
+/// Parses an angle in degrees such as "40", or "off" (180).
 double parse_feature_angle(const std::string& text) {
   if (text == "off") return 180;
   const auto [value, unit] = split(text);
@@ -61,7 +61,7 @@ double parse_feature_angle(const std::string& text) {
   return value;
 }
 
-/// parse(text), whose messages begin with the text, in the name of an option.
+/// Returns parse(text). Puts the name of the option in front of the message of an Error.
 template <typename Parse>
 auto parsed(const char* option, const Parse& parse, const std::string& text) {
   try {
@@ -71,7 +71,7 @@ auto parsed(const char* option, const Parse& parse, const std::string& text) {
   }
 }
 
-/// Threads that a batch system or OpenMP grants; 0 when they say nothing.
+/// The number of threads granted by a batch system or OpenMP; 0 if not specified.
 int threads_of_environment() {
   for (const char* name : {"SLURM_CPUS_PER_TASK", "OMP_NUM_THREADS"}) {
     const char* text = std::getenv(name);
@@ -93,8 +93,8 @@ void resolve_sizing(Settings& s, const RawOptions& raw) {
     throw Error("--length sizing without --sizing; name a sizing, or another length");
 }
 
-/// What would do nothing is refused: who says it expects something of it.
-void refuse_idle(const Settings& s, const RawOptions& raw) {
+/// Throws Error for options that would have no effect with the others.
+void reject_unused_options(const Settings& s, const RawOptions& raw) {
   const auto refuse = [&](bool idle, std::initializer_list<const char*> options, const char* why) {
     for (const char* option : options)
       if (idle && raw.given(option)) throw Error(fmt::format("{} {}; leave it out", option, why));
@@ -121,7 +121,7 @@ void refuse_idle(const Settings& s, const RawOptions& raw) {
 void resolve(Settings& s, const RawOptions& raw) {
   s.length = parsed("--length", parse_length, s.length_text);
   resolve_sizing(s, raw);
-  refuse_idle(s, raw);
+  reject_unused_options(s, raw);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
   s.restarts = restart_options(s.effort);

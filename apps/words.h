@@ -1,4 +1,4 @@
-// What the user said in words, and what it means.
+// Resolves the raw option texts of the command line to settings.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace hooke::app {
 
-/// What was said, before it is given its meaning.
+/// Options as given on the command line, not yet interpreted.
 struct RawOptions {
   std::string tolerance = "0.1%";
   std::string gradation;
@@ -17,10 +17,11 @@ struct RawOptions {
   std::optional<double> rho;
   std::optional<int> max_outer, max_steps;
   std::optional<BoundaryRule> boundary;
-  std::function<bool(const char*)> given;  // was this option said?
+  std::function<bool(const char*)> given;  // whether the option was given
 };
 
-/// Gives the words their meaning and checks what belongs together. Throws Error that names the option.
+/// Interprets the raw options, completes the settings and checks that they are consistent. Throws Error that
+/// names the option.
 void resolve(Settings& settings, const RawOptions& raw);
 
 }  // namespace hooke::app

@@ -10,8 +10,7 @@
 #include "support/solids.h"
 #include "support/temporary_folder.h"
 
-namespace hooke::app {
-namespace {
+namespace hooke::app::target_lengths_test {
 
 MemoryOrder layout_of(const test::Triangles& t) {
   return find_memory_order(test::to_mesh(t));
@@ -69,5 +68,4 @@ TEST(ReadSizing, WithoutOneThereAreNoLengths) {
   EXPECT_TRUE(read_sizing({}, "", t.points, layout_of(t)).empty());
 }
 
-}  // namespace
-}  // namespace hooke::app
+}  // namespace hooke::app::target_lengths_test

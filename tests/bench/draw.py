@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""draw.py BEFORE AFTER OUT.png [AZIMUTH [ELEVATION [HEIGHT]]]   two meshes side by side, coloured by their least angles.
+"""draw.py BEFORE AFTER OUT.png [AZIMUTH [ELEVATION [HEIGHT]]]   two meshes side by side, coloured by their minimum angles.
 
 Python 3 standard library only. Flat shading, edges drawn, seen from far away (no perspective); angles in degrees,
-HEIGHT of the picture in pixels. A face's colour says its least angle: red 0, yellow 25, green 38, blue 60 degrees;
+HEIGHT of the picture in pixels. A face's colour says its minimum angle: red 0, yellow 25, green 38, blue 60 degrees;
 the bar between the meshes is the scale, 60 degrees at its top.
 """
 
@@ -40,7 +40,7 @@ def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-def least_angle(corners):
+def min_angle(corners):
     """In degrees."""
     angles = []
     for k in range(3):
@@ -50,12 +50,12 @@ def least_angle(corners):
 
 
 def shaded(corners):
-    """Colour of a face in view coordinates: its least angle's, darker where it turns from the light."""
+    """Colour of a face in view coordinates: its minimum angle's, darker where it turns from the light."""
     normal = cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0]))
     length = math.hypot(*normal) or 1.
     facing = 1 if normal[2] >= 0 else -1  # both sides of an open surface are lit
     lambert = max(0., facing * dot(normal, LIGHT) / length / math.hypot(*LIGHT))
-    return tuple((.58 + .42 * lambert) * c for c in colour_of(least_angle(corners)))
+    return tuple((.58 + .42 * lambert) * c for c in colour_of(min_angle(corners)))
 
 
 def viewed(vertices, azimuth, elevation):

@@ -2,8 +2,8 @@
 """invariance.py TOOL [MESH...]   what a change of units, place, direction or thread count does to the result.
 
 Python 3 standard library only; the meshes default to the samples of data/. Each mesh is moved, optimized, and
-compared with the optimized mesh moved the same way. Printed: the greatest distance between the two over the target
-length L, and the change of the least angle and of the edge lengths' standard deviation. Exits with 1 when a law is
+compared with the optimized mesh moved the same way. Printed: the maximum distance between the two over the target
+length L, and the change of the minimum angle and of the edge lengths' standard deviation. Exits with 1 when a law is
 broken: powers of two and threads change no bit, the rest moves along to 1e-3 L and its quality to 1 %.
 """
 
@@ -87,7 +87,7 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     meshes = [Path(name) for name in sys.argv[2:]] or SAMPLES
-    print("| mesh | motion | greatest distance over L | least angle | edge SD |\n|---|---|---|---|---|")
+    print("| mesh | motion | maximum distance over L | minimum angle | edge SD |\n|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         laws = [compare(sys.argv[1], Path(folder), mesh) for mesh in meshes]
     return 0 if all(laws) else 1

@@ -13,7 +13,7 @@ from pathlib import Path
 import artificial_meshes
 from run_tool import run_tool
 
-# Tables 1 and 3: least angle before and after (rad), edge length SD before and after, greatest displacement.
+# Tables 1 and 3: minimum angle before and after (rad), edge length SD before and after, maximum displacement.
 # M2's SD before is printed as .4000; every recipe gives a tenth of it.
 PAPER = {
     "G1": (.0018, .5336, .0347, .0076, .1652),
@@ -49,7 +49,7 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     tool, seeds = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 10
-    print("| mesh | who | least angle before (rad) | after (rad) | edge SD before | after | greatest displacement "
+    print("| mesh | who | minimum angle before (rad) | after (rad) | edge SD before | after | maximum displacement "
           "| meshes with a flipped face or a new fold |")
     print("|---|---|---|---|---|---|---|---|")
     for family, numbers in PAPER.items():

@@ -34,7 +34,7 @@ def seconds(command):
 
 
 def figures(tool, path):
-    """(least angle, edge CV, folded edges, self-intersections, faces) of a mesh file; None when it is not acceptable."""
+    """(minimum angle, edge CV, folded edges, self-intersections, faces) of a mesh file; None when it is not acceptable."""
     run = subprocess.run([str(tool), str(path), "--check", "-q", "--report", "-"], capture_output=True, text=True)
     if run.returncode != 0:
         return None
@@ -52,7 +52,7 @@ def methods(tool, peers, source, output):
 
 
 def compare(tool, peers, sources):
-    """Per method the lines (least angle, CV, new folds, new self-intersections, faces, seconds) of all sources."""
+    """Per method the lines (minimum angle, CV, new folds, new self-intersections, faces, seconds) of all sources."""
     lines = {}
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "out.off"
@@ -68,7 +68,7 @@ def compare(tool, peers, sources):
 
 
 def print_table(title, lines):
-    print("| %s | least angle, median (worst) | edge CV | folded edges | self-intersections | faces | wall s |" % title)
+    print("| %s | minimum angle, median (worst) | edge CV | folded edges | self-intersections | faces | wall s |" % title)
     print("|---|---|---|---|---|---|---|")
     for name, rows in lines.items():
         done = [row for row in rows if row]

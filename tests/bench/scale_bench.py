@@ -37,7 +37,7 @@ def main():
         sys.exit(__doc__)
     tool, sizes = sys.argv[1], [int(s) for s in sys.argv[2:]] or [1000, 10000, 100000]
     runs = {}
-    print("| vertices | wall s | us per vertex | CPU s | peak MB | least angle | edge CV |")
+    print("| vertices | wall s | us per vertex | CPU s | peak MB | minimum angle | edge CV |")
     print("|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         source, output = Path(folder) / "in.off", Path(folder) / "out.off"

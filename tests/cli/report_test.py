@@ -225,7 +225,7 @@ class Report(CommandTest):
     def test_summary_shows_before_and_after_on_standard_error(self):
         out, err = self.run_command(DATA / "patch.obj", "-o", "out.obj")
         self.assertEqual(out, "")
-        for text in ("before", "after", "least angle", "flipped faces", "out.obj written"):
+        for text in ("before", "after", "minimum angle", "flipped faces", "out.obj written"):
             self.assertIn(text, err)
 
     def test_summary_names_every_file_that_was_written(self):

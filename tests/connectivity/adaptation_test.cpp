@@ -23,8 +23,7 @@
 #include "support/solids.h"
 #include "support/working_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::adaptation_test {
 
 using test::natural;
 
@@ -48,7 +47,7 @@ struct Outcome {
   Adjacency adjacency;
 };
 
-RemeshOptions adapting(Effort effort = Effort::fast) {
+RemeshOptions adaptation_options(Effort effort = Effort::fast) {
   RemeshOptions options;
   options.connectivity = ConnectivityMode::adapt;
   options.flips = flip_options(effort);
@@ -69,7 +68,7 @@ Outcome adapted(const test::Triangles& t, const RemeshOptions& options, const st
   return o;
 }
 
-Outcome adapted(const test::Triangles& t, double length, const RemeshOptions& options = adapting(),
+Outcome adapted(const test::Triangles& t, double length, const RemeshOptions& options = adaptation_options(),
                 const Observer& observer = nullptr) {
   return adapted(t, options, std::vector<double>(static_cast<size_t>(t.points.cols()), length), observer);
 }
@@ -95,7 +94,7 @@ TEST(Adaptation, HasAsManyFacesAsTheLengthAsksFor) {
       const Outcome o = adapted(t, factor * natural(t));
       const double wanted = static_cast<double>(t.faces.size()) / (factor * factor);
       EXPECT_NEAR(static_cast<double>(o.adjacency.faces.size()), wanted, std::max(2.5, .03 * wanted));
-      EXPECT_NEAR(o.result.adaptation.wanted_faces, wanted, .001 * wanted);
+      EXPECT_NEAR(o.result.adaptation.target_faces, wanted, .001 * wanted);
       expect_sound(t, o);
     }
 }
@@ -107,7 +106,7 @@ TEST(Adaptation, KeepsHolesEvenWhereTheyAreSmallForTheLength) {
 
 TEST(Adaptation, MakesGoodTriangles) {
   const test::Triangles t = test::sphere(3, .45, 4);
-  const Outcome o = adapted(t, natural(t), adapting(Effort::standard));
+  const Outcome o = adapted(t, natural(t), adaptation_options(Effort::standard));
   EXPECT_GT(min_angle(o.points, o.adjacency.faces), 44);
   EXPECT_LT(min_angle(t.points, t.faces), 15);
 }
@@ -120,7 +119,7 @@ double irregular_share(const Adjacency& c) {
 
 TEST(Adaptation, ACoarserMeshFirstLeavesFewIrregularVertices) {
   const test::Triangles t = test::sphere(4, .45, 4);
-  RemeshOptions coarse = adapting(Effort::standard), none = coarse;
+  RemeshOptions coarse = adaptation_options(Effort::standard), none = coarse;
   none.adaptation.coarse.levels = 0;
   const Outcome with = adapted(t, natural(t), coarse), without = adapted(t, natural(t), none);
   EXPECT_EQ(with.result.adaptation.levels, 1);
@@ -134,12 +133,12 @@ TEST(Adaptation, InterruptedAtACoarserMeshItStillHasTheLengthsAskedFor) {
   const test::Triangles t = test::sphere(4, .3, 4);
   const double L = natural(t), wanted = static_cast<double>(t.faces.size());
   int all = 0;
-  adapted(t, L, adapting(),
+  adapted(t, L, adaptation_options(),
           [&](const Progress& p) { return all += std::string_view(p.stage) == "adapt", true; });
   ASSERT_GT(all, 8);
   for (int calls : {1, all / 4, all / 2, 3 * all / 4}) {
     int left = calls;
-    const Outcome o = adapted(t, L, adapting(), [&](const Progress& p) {
+    const Outcome o = adapted(t, L, adaptation_options(), [&](const Progress& p) {
       return std::string_view(p.stage) != "adapt" || --left > 0;
     });
     EXPECT_EQ(o.result.reason, StopReason::interrupted);
@@ -150,10 +149,10 @@ TEST(Adaptation, InterruptedAtACoarserMeshItStillHasTheLengthsAskedFor) {
 }
 
 /// On the faces of the input, where any drift shows.
-TEST(Adaptation, AllVerticesLandInterruptedOrNot) {
+TEST(Adaptation, AllVerticesAreProjectedInterruptedOrNot) {
   const test::Triangles t = test::sphere(4, .3, 4);
   const AabbTree input(t.points, t.faces);
-  RemeshOptions options = adapting();
+  RemeshOptions options = adaptation_options();
   options.filter.kind = FilterKind::closest;
   int all = 0;
   const auto max_distance = [&](const Outcome& o) {
@@ -176,7 +175,7 @@ TEST(Adaptation, ACoarserMeshHonoursASizing) {
   const test::Triangles t = test::sphere(4, .3, 4);
   std::vector<double> lengths;
   for (const auto& x : t.points.colwise()) lengths.push_back(natural(t) * (1 + .4 * x[2]));
-  const Outcome o = adapted(t, adapting(), lengths);
+  const Outcome o = adapted(t, adaptation_options(), lengths);
   EXPECT_GT(o.result.adaptation.levels, 0);
   double error = 0;
   for (const auto& [a, b] : o.adjacency.edges) {
@@ -189,7 +188,7 @@ TEST(Adaptation, ACoarserMeshHonoursASizing) {
 
 TEST(Adaptation, ARegularMeshKeepsItsVertices) {
   const test::Triangles t = test::sphere(4);
-  const Outcome o = adapted(t, natural(t), adapting(Effort::standard));
+  const Outcome o = adapted(t, natural(t), adaptation_options(Effort::standard));
   EXPECT_EQ(o.result.adaptation.levels, 0);
   for (size_t v = 0; v < o.result.map.size(); ++v) EXPECT_EQ(o.result.map[v].vertex, static_cast<int>(v));
   EXPECT_EQ(o.adjacency.faces.size(), t.faces.size());
@@ -205,7 +204,7 @@ TEST(Adaptation, ARoughSurfaceHasNoCoarserMesh) {
 
 TEST(Adaptation, CornersAndGivenVerticesStayBitForBit) {
   const test::Triangles t = with_holes(wave);
-  RemeshOptions options = adapting();
+  RemeshOptions options = adaptation_options();
   options.constraints.fixed_vertices = {100, 112};
   const Outcome o = adapted(t, .8 * natural(t), options);
   std::set<int> found;
@@ -218,17 +217,17 @@ TEST(Adaptation, CornersAndGivenVerticesStayBitForBit) {
   EXPECT_EQ(found.size(), 6u);
 }
 
-TEST(Adaptation, TheRimStaysOnItsPolyline) {
+TEST(Adaptation, TheBoundaryStaysOnItsPolyline) {
   const test::Triangles t = with_holes(test::flat);
   const Adjacency input = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
-  const Constraints rim = find_constraints(t.points, input, {});
+  const Constraints constraints = find_constraints(t.points, input, {});
   const Outcome o = adapted(t, .7 * natural(t));
   const std::vector<char> boundary = boundary_vertices(o.adjacency);
   for (size_t v = 0; v < boundary.size(); ++v) {
     if (!boundary[v]) continue;
     const Vec3 x = o.points.col(static_cast<Eigen::Index>(v));
     double least = 1;
-    for (const Curve& curve : rim.curves)
+    for (const Curve& curve : constraints.curves)
       for (int s = 0; s < curve.segment_count(); ++s)
         least = std::min(least, (project_to_curve(curve, x, s).point - x).norm());
     EXPECT_LT(least, 1e-12);
@@ -264,7 +263,7 @@ TEST(Adaptation, TheMapIsKeptInTheOtherModes) {
   const test::Triangles t = test::sphere(2, .3, 4);
   const double L = natural(t);
   for (ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
-    RemeshOptions options = adapting();
+    RemeshOptions options = adaptation_options();
     options.connectivity = mode;
     const Outcome o = adapted(t, L, options);
     ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
@@ -273,8 +272,8 @@ TEST(Adaptation, TheMapIsKeptInTheOtherModes) {
       EXPECT_EQ(entry.vertex, static_cast<int>(v));
       Vec3 x = Vec3::Zero();
       for (size_t k = 0; k < 3; ++k)
-        x += entry.place.weights[static_cast<Eigen::Index>(k)] *
-             t.points.col(t.faces[static_cast<size_t>(entry.place.face)][k]);
+        x += entry.position.weights[static_cast<Eigen::Index>(k)] *
+             t.points.col(t.faces[static_cast<size_t>(entry.position.face)][k]);
       EXPECT_LT((x - o.points.col(static_cast<Eigen::Index>(v))).norm(), .3 * L);  // the faces' sagitta
     }
   }
@@ -304,10 +303,11 @@ TEST(Adaptation, APowerOfTwoScalesTheResultExactly) {
 TEST(Adaptation, StopsWithAValidMeshWheneverTheObserverSaysSo) {
   const test::Triangles t = with_holes(wave);
   int all = 0;
-  adapted(t, .6 * natural(t), adapting(), [&](const Progress&) { return ++all > 0; });
+  adapted(t, .6 * natural(t), adaptation_options(), [&](const Progress&) { return ++all > 0; });
   for (int calls : {1, 2, all / 4, all / 2, all - 1}) {
     int left = calls;
-    const Outcome o = adapted(t, .6 * natural(t), adapting(), [&](const Progress&) { return --left > 0; });
+    const Outcome o =
+        adapted(t, .6 * natural(t), adaptation_options(), [&](const Progress&) { return --left > 0; });
     EXPECT_EQ(o.result.reason, StopReason::interrupted);
     expect_sound(t, o);
   }
@@ -333,7 +333,7 @@ TEST(Adaptation, EdgesFollowGradedTargets) {
   const test::Triangles t = test::grid(20, test::flat, .3);
   std::vector<double> lengths;
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) lengths.push_back(natural(t) * (.6 + t.points(0, v)));
-  const Outcome o = adapted(t, adapting(), lengths);
+  const Outcome o = adapted(t, adaptation_options(), lengths);
   double left = 0, right = 0, lefts = 0, rights = 0;
   for (const auto& [a, b] : o.adjacency.edges) {
     const double x = .5 * (o.points(0, a) + o.points(0, b)), l = (o.points.col(a) - o.points.col(b)).norm();
@@ -361,13 +361,13 @@ TEST(WorkingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
     CreasedScene s;
     for (double& length : s.vertex_length) length *= factor;
     for (int round = 0; round < 4; ++round) {
-      count_curve_edges(s.adapting, .1);
-      split_long_edges(s.adapting, {});
-      FlippableMesh flipping = s.adapting.flipping();
+      count_curve_edges(s.working, .1);
+      split_long_edges(s.working, {});
+      FlippableMesh flipping = s.working.flipping();
       flip_to_delaunay(flipping, {});
-      collapse_short_edges(s.adapting, {});
-      match_curve_edges(s.adapting, {});
-      compact(s.adapting);
+      collapse_short_edges(s.working, {});
+      match_curve_edges(s.working, {});
+      compact(s.working);
     }
     const double wanted = std::lround(1 / s.vertex_length[0]);
     EXPECT_NEAR(static_cast<double>(s.constraints.creases.size()), wanted, 1);
@@ -381,10 +381,11 @@ TEST(WorkingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
 }
 
 /// Limited by the surface only.
-constexpr CoarseLimits any_number{.levels = 10, .min_faces = 0, .rim_share = 9, .irregular_share = -1};
+constexpr CoarseLimits any_number{
+    .levels = 10, .min_faces = 0, .constrained_share = 9, .irregular_share = -1};
 
 int levels_of(const test::WorkingScene& s, const CoarseLimits& limits = any_number) {
-  return coarse_levels(s.adapting, static_cast<double>(s.adjacency.faces.size()), limits);
+  return coarse_levels(s.working, static_cast<double>(s.adjacency.faces.size()), limits);
 }
 
 TEST(CoarseLevels, GrowByOneWhereTheMeshIsTwiceAsFine) {
@@ -448,7 +449,7 @@ TEST(CoarseLevels, AreThoseOfTheSurfaceHoweverFinelyItIsMeshed) {
   CoarseLimits limits = any_number;
   const double round = .5 * std::tan(.3 / 4);  // sagitta of an edge of the small sphere over its length
   limits.sagitta = 1.5 * round;
-  EXPECT_EQ(levels_of(s, limits), 0);  // the large sphere alone would bear one
+  EXPECT_EQ(levels_of(s, limits), 0);  // the large sphere alone would allow one
   limits.bent_share = .5;
   EXPECT_EQ(levels_of(s, limits), 1);
 }
@@ -462,12 +463,12 @@ TEST(CoarseLevels, ThereAreNoneBetweenCreases) {
   EXPECT_EQ(levels_of(test::WorkingScene(t, test::plane(), crease)), 0);
 }
 
-TEST(CoarseLevels, ARimTakesNoMoreThanItsShare) {
+TEST(CoarseLevels, ConstrainedVerticesTakeNoMoreThanTheirShare) {
   const test::WorkingScene s(test::grid(24, test::flat, .1), test::plane());
   CoarseLimits limits = any_number;
-  // At level 1 about 44 of 144 vertices are on the rim and its corners stand still, at level 2 22 of 36.
+  // At level 1 about 44 of 144 vertices are on the boundary, whose corners are fixed, at level 2 22 of 36.
   for (const auto& [share, levels] : {std::pair(.25, 0), std::pair(.45, 1), std::pair(.8, 2)}) {
-    limits.rim_share = share;
+    limits.constrained_share = share;
     EXPECT_EQ(levels_of(s, limits), levels) << share;
   }
 }
@@ -475,12 +476,10 @@ TEST(CoarseLevels, ARimTakesNoMoreThanItsShare) {
 TEST(CoarseLevels, VerticesThatStandStillDoNotGetFewer) {
   test::WorkingScene s(test::sphere(4, .2, 3), test::unit_sphere());
   CoarseLimits limits = any_number;
-  limits.rim_share = .25;
+  limits.constrained_share = .25;
   EXPECT_GE(levels_of(s, limits), 2);
   for (size_t v = 0; v < s.constraints.freedom.size(); v += 25) s.constraints.freedom[v] = Freedom::fixed;
   EXPECT_EQ(levels_of(s, limits), 1);  // .04 of the vertices: .16 at level 1, .64 at level 2
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::adaptation_test

@@ -13,33 +13,32 @@
 #include "hooke/working_mesh/working_mesh.h"
 #include "support/working_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::collapse_passes_test {
 
 constexpr int fine_cells = 24;
-constexpr int wedge = fine_cells + 1;
-constexpr BlockOptions blocks{.vertices = 5 * wedge, .passes = 1};  // of five rows
+constexpr int row_size = fine_cells + 1;
+constexpr BlockOptions blocks{.vertices = 5 * row_size, .passes = 1};  // of five rows
 
 /// A grid that is far too fine.
 struct FineGrid : test::WorkingScene {
   explicit FineGrid(double times = 5) : WorkingScene(test::grid(fine_cells, test::flat, .3), test::plane()) {
     for (double& length : vertex_length) length *= times;
-    count_curve_edges(adapting, .1);
+    count_curve_edges(working, .1);
   }
 };
 
 int rows_from_other_blocks(int vertex) {
-  const int row = vertex / wedge % 5;
-  return std::min(vertex / wedge < 5 ? 5 : row, vertex / wedge >= fine_cells / 5 * 5 ? 5 : 4 - row);
+  const int row = vertex / row_size % 5;
+  return std::min(vertex / row_size < 5 ? 5 : row, vertex / row_size >= fine_cells / 5 * 5 ? 5 : 4 - row);
 }
 
 TEST(BlockCollapses, LeaveWhatLiesAboutOtherBlocks) {
   FineGrid s;
   const Mat3X before = s.positions.points;
-  const int collapses = collapse_in_blocks(s.adapting, {}, blocks);
+  const int collapses = collapse_in_blocks(s.working, {}, blocks);
   EXPECT_GT(collapses, fine_cells);
   int gone = 0;
-  for (int v = 0; v < wedge * wedge; ++v) {
+  for (int v = 0; v < row_size * row_size; ++v) {
     gone += s.halfedges.valence(v) < 0;
     if (rows_from_other_blocks(v) >= 2) continue;
     EXPECT_GT(s.halfedges.valence(v), 0) << v;
@@ -52,41 +51,42 @@ TEST(BlockCollapses, ReachFartherInFurtherPasses) {
   FineGrid once, thrice;
   BlockOptions more = blocks;
   more.passes = 3;
-  EXPECT_GT(collapse_in_blocks(thrice.adapting, {}, more), collapse_in_blocks(once.adapting, {}, blocks));
+  EXPECT_GT(collapse_in_blocks(thrice.working, {}, more), collapse_in_blocks(once.working, {}, blocks));
 }
 
 TEST(BlockCollapses, KeepTopologyBoundaryAndLengthsThatMayStay) {
   FineGrid s;
   BlockOptions more = blocks;
   more.passes = 3;
-  collapse_in_blocks(s.adapting, {}, more);
-  for (int v = 0; v < wedge * wedge; ++v)
-    if (v % wedge == 0 || v % wedge == fine_cells || v < wedge || v >= fine_cells * wedge) {
+  collapse_in_blocks(s.working, {}, more);
+  for (int v = 0; v < row_size * row_size; ++v)
+    if (v % row_size == 0 || v % row_size == fine_cells || v < row_size || v >= fine_cells * row_size) {
       EXPECT_GT(s.halfedges.valence(v), 0) << v;
     }
-  compact(s.adapting);
+  compact(s.working);
   const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces());
   EXPECT_EQ(measure_topology(c).euler, 1);
   EXPECT_EQ(measure_topology(c).components, 1);
 
   FineGrid barely(1.5);  // no edge is shorter than a tenth of what may stay
-  EXPECT_EQ(collapse_in_blocks(barely.adapting, {}, {.vertices = blocks.vertices, .part = .1, .share = 0}),
+  EXPECT_EQ(collapse_in_blocks(barely.working, {},
+                               {.vertices = blocks.vertices, .length_factor = .1, .min_share = 0}),
             0);
 }
 
-/// Of triangles with two equal sides: an inner edge may come to lie on the boundary and be as long as before.
+/// Isosceles triangles: a collapse can move an inner edge to the boundary without changing its length.
 TEST(BlockCollapses, LeaveCurvesTheirEdges) {
   test::Triangles even = test::grid(fine_cells, test::flat);
-  for (int v = 0; v < wedge * wedge; ++v)
-    even.points.col(v) = Vec3(v % wedge - .5 * (v / wedge), v / wedge, 0);
+  for (int v = 0; v < row_size * row_size; ++v)
+    even.points.col(v) = Vec3(v % row_size - .5 * (v / row_size), v / row_size, 0);
   test::WorkingScene s(even, test::plane());
   for (double& length : s.vertex_length) length *= 5;
-  count_curve_edges(s.adapting, .1);
+  count_curve_edges(s.working, .1);
   const std::vector<int> present = s.curve_edges.present;
-  EXPECT_GT(collapse_in_blocks(s.adapting, {.valence = 12}, {.vertices = 12 * wedge}), fine_cells);
+  EXPECT_GT(collapse_in_blocks(s.working, {.valence = 12}, {.vertices = 12 * row_size}), fine_cells);
   EXPECT_EQ(s.curve_edges.present, present);
-  for (int v = 0; v < wedge * wedge; ++v)
-    if (v % wedge == 0 || v % wedge == fine_cells || v < wedge || v >= fine_cells * wedge) {
+  for (int v = 0; v < row_size * row_size; ++v)
+    if (v % row_size == 0 || v % row_size == fine_cells || v < row_size || v >= fine_cells * row_size) {
       EXPECT_GT(s.halfedges.valence(v), 0) << v;
     }
 }
@@ -99,7 +99,7 @@ TEST(BlockCollapses, DoNotDependOnThreads) {
     FineGrid s;
     BlockOptions more = blocks;
     more.passes = 3;
-    collapse_in_blocks(s.adapting, {}, more);
+    collapse_in_blocks(s.working, {}, more);
     points.push_back(s.positions.points);
     faces.push_back(s.halfedges.faces());
   }
@@ -109,8 +109,8 @@ TEST(BlockCollapses, DoNotDependOnThreads) {
 
 TEST(BlockCollapses, AreForManyShortEdgesOnly) {
   FineGrid small, few;
-  EXPECT_EQ(collapse_in_blocks(small.adapting, {}, {.vertices = wedge * wedge}), 0);
-  EXPECT_EQ(collapse_in_blocks(few.adapting, {}, {.vertices = blocks.vertices, .share = 1.01}), 0);
+  EXPECT_EQ(collapse_in_blocks(small.working, {}, {.vertices = row_size * row_size}), 0);
+  EXPECT_EQ(collapse_in_blocks(few.working, {}, {.vertices = blocks.vertices, .min_share = 1.01}), 0);
 }
 
 constexpr int cells = 12;
@@ -127,7 +127,7 @@ std::vector<int> inner_edges(const HalfedgeMesh& t) {
   return edges;
 }
 
-/// Of the edges at the vertex.
+/// Maximum relative length of the edges at the vertex.
 double longest_at(const WorkingMesh& m, int v) {
   double longest = 0;
   for (int h : m.halfedges.outgoing(v)) longest = std::max(longest, relative_length(m, h));
@@ -139,7 +139,7 @@ TEST(CollapseTrial, LeavesTheMeshAlone) {
   const Mat3X points = s.positions.points, normals = s.positions.normals;
   const std::vector<Triangle> faces = s.halfedges.faces();
   int allowed = 0;
-  for (int h : inner_edges(s.halfedges)) allowed += find_collapse(s.adapting, h, {}).has_value();
+  for (int h : inner_edges(s.halfedges)) allowed += find_collapse(s.working, h, {}).has_value();
   EXPECT_GT(allowed, 0);
   EXPECT_EQ(s.positions.points, points);
   EXPECT_EQ(s.positions.normals, normals);
@@ -150,10 +150,10 @@ TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
   for (int k = 0; k < 200; k += 7) {
     test::WorkingScene s(rough(), test::plane());
     const int h = inner_edges(s.halfedges)[static_cast<size_t>(k)];
-    const std::optional<Collapse> trial = find_collapse(s.adapting, h, {});
-    EXPECT_EQ(collapse_edge(s.adapting, h, {}), trial ? trial->stays : -1);
-    if (trial) {
-      EXPECT_EQ(Vec3(s.positions.points.col(trial->stays)), trial->place.point);
+    const std::optional<Collapse> collapse = find_collapse(s.working, h, {});
+    EXPECT_EQ(collapse_edge(s.working, h, {}), collapse ? collapse->stays : -1);
+    if (collapse) {
+      EXPECT_EQ(Vec3(s.positions.points.col(collapse->stays)), collapse->position.point);
       EXPECT_TRUE(s.halfedges.is_gone(h / 3));
     }
   }
@@ -166,27 +166,27 @@ TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
     test::WorkingScene s(rough(), test::plane());
     const int h = inner_edges(s.halfedges)[k];
     const double before =
-        std::max(longest_at(s.adapting, s.halfedges.from(h)), longest_at(s.adapting, s.halfedges.to(h)));
-    const int v = collapse_edge(s.adapting, h, {.longest = longest});
+        std::max(longest_at(s.working, s.halfedges.from(h)), longest_at(s.working, s.halfedges.to(h)));
+    const int v = collapse_edge(s.working, h, {.longest = longest});
     (v < 0 ? refused : allowed)++;
     if (v >= 0) {
-      EXPECT_LE(longest_at(s.adapting, v), std::max(longest, before) + 1e-9);
+      EXPECT_LE(longest_at(s.working, v), std::max(longest, before) + 1e-9);
     }
   }
   EXPECT_GT(allowed, 0);
   EXPECT_GT(refused, 0);
 }
 
-/// Of the faces at the vertex, their edges there and what is across their sides.
+/// The worst shape of the faces at the vertex, its edges, and the dihedral angles of its faces.
 WorstShape worst_at(const WorkingMesh& m, int v) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X &X = m.positions.points, &N = m.positions.normals;
   WorstShape worst;
-  for (int spoke : t.outgoing(v)) {
-    const auto f = static_cast<size_t>(spoke / 3);
+  for (int outgoing : t.outgoing(v)) {
+    const auto f = static_cast<size_t>(outgoing / 3);
     worst.cotangent = std::max(worst.cotangent, max_cotangent(X, t.faces()[f]));
     worst.alignment = std::min(worst.alignment, face_alignment(X, N, t.faces()[f], t.wedges()[f]));
-    for (int h : {spoke, HalfedgeMesh::next(spoke), HalfedgeMesh::previous(spoke)}) {
+    for (int h : {outgoing, HalfedgeMesh::next(outgoing), HalfedgeMesh::previous(outgoing)}) {
       const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
       if (edge[0] == v || edge[1] == v)
         worst.sagitta =
@@ -199,41 +199,42 @@ WorstShape worst_at(const WorkingMesh& m, int v) {
   return worst;
 }
 
-/// Every so many-th edge that may collapse, in a mesh of its own: what the ring foresees is there afterwards.
+/// Collapses every `every`-th edge that may collapse, each in a fresh mesh, and compares with the predicted
+/// one-ring.
 template <typename MakeScene>
-void expect_rings_to_foresee(const MakeScene& make_scene, int every) {
+void expect_rings_to_predict(const MakeScene& make_scene, int every) {
   int collapses = 0;
   for (int h = 0; h < make_scene()->halfedges.half_edge_count(); h += every) {
     const auto s = make_scene();
-    const std::optional<Collapse> trial = find_collapse(s->adapting, h, {.longest = 3});
-    if (!trial) continue;
-    const WorstShape foreseen = CollapsedRing(s->adapting, h, trial->stays).worst(trial->place);
-    ASSERT_EQ(collapse_edge(s->adapting, h, {.longest = 3}), trial->stays);
-    const WorstShape seen = worst_at(s->adapting, trial->stays);
-    EXPECT_NEAR(foreseen.cotangent, seen.cotangent, 1e-12);
-    EXPECT_NEAR(foreseen.alignment, seen.alignment, 1e-12);
-    EXPECT_NEAR(foreseen.fold, seen.fold, 1e-12);
-    EXPECT_NEAR(foreseen.sagitta, seen.sagitta, 1e-12);
+    const std::optional<Collapse> collapse = find_collapse(s->working, h, {.longest = 3});
+    if (!collapse) continue;
+    const WorstShape predicted = CollapsedRing(s->working, h, collapse->stays).worst(collapse->position);
+    ASSERT_EQ(collapse_edge(s->working, h, {.longest = 3}), collapse->stays);
+    const WorstShape measured = worst_at(s->working, collapse->stays);
+    EXPECT_NEAR(predicted.cotangent, measured.cotangent, 1e-12);
+    EXPECT_NEAR(predicted.alignment, measured.alignment, 1e-12);
+    EXPECT_NEAR(predicted.fold, measured.fold, 1e-12);
+    EXPECT_NEAR(predicted.sagitta, measured.sagitta, 1e-12);
     ++collapses;
   }
   EXPECT_GT(collapses, 5);
 }
 
-TEST(CollapsedRing, ForeseesWhatIsThereAfterwards) {
-  expect_rings_to_foresee([] { return std::make_unique<test::WorkingScene>(rough(), test::plane()); }, 11);
-  expect_rings_to_foresee(
+TEST(CollapsedRing, PredictsWhatIsThereAfterwards) {
+  expect_rings_to_predict([] { return std::make_unique<test::WorkingScene>(rough(), test::plane()); }, 11);
+  expect_rings_to_predict(
       [] { return std::make_unique<test::WorkingScene>(test::sphere(2, .2), test::unit_sphere()); }, 11);
 }
 
-TEST(CollapsedRing, ForeseesItOnBothSidesOfACrease) {
+TEST(CollapsedRing, PredictsItOnBothSidesOfACrease) {
   std::vector<Edge> row;
   for (int v = cells / 2 * (cells + 1); row.size() < cells; ++v) row.push_back({v, v + 1});
   const auto creased = [&] {
     auto s = std::make_unique<test::WorkingScene>(test::grid(cells, test::flat), test::plane(), row);
-    for (int& wanted : s->curve_edges.wanted) wanted = 1;
+    for (int& target : s->curve_edges.target) target = 1;
     return s;
   };
-  expect_rings_to_foresee(creased, 1);
+  expect_rings_to_predict(creased, 1);
 }
 
 TEST(EdgeCollapses, DoNotDependOnThreads) {
@@ -243,9 +244,9 @@ TEST(EdgeCollapses, DoNotDependOnThreads) {
     const ThreadLimit limit(threads);
     test::WorkingScene s(rough(), test::plane());
     for (double& length : s.vertex_length) length *= 1.5;
-    count_curve_edges(s.adapting, .1);
-    EXPECT_GT(collapse_short_edges(s.adapting, {}), cells);
-    compact(s.adapting);
+    count_curve_edges(s.working, .1);
+    EXPECT_GT(collapse_short_edges(s.working, {}), cells);
+    compact(s.working);
     points.push_back(s.positions.points);
     faces.push_back(s.halfedges.faces());
     const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), faces.back());
@@ -255,18 +256,18 @@ TEST(EdgeCollapses, DoNotDependOnThreads) {
   EXPECT_EQ(faces[0], faces[1]);
 }
 
-/// Though many edges of a curve that has a few too many are tried at once.
-TEST(EdgeCollapses, LeaveCurvesTheEdgesTheyWant) {
+/// Many edges of a curve with a few edges too many are candidates in the same pass.
+TEST(EdgeCollapses, LeaveCurvesTheirTargetEdgeCount) {
   constexpr int n = 40;
   test::WorkingScene s(test::grid(n, test::flat), test::plane());
   for (size_t v = 0; v < s.vertex_length.size(); ++v)
     s.vertex_length[v] = (s.halfedges.on_boundary(static_cast<int>(v)) ? 1.1 : 1.) / n;
-  count_curve_edges(s.adapting, .1);
-  EXPECT_GT(collapse_short_edges(s.adapting, {.shortest = .95, .longest = 10}), 0);
-  ASSERT_EQ(s.curve_edges.wanted.size(), 4u);
+  count_curve_edges(s.working, .1);
+  EXPECT_GT(collapse_short_edges(s.working, {.shortest = .95, .longest = 10}), 0);
+  ASSERT_EQ(s.curve_edges.target.size(), 4u);
   for (size_t c = 0; c < 4; ++c) {
-    EXPECT_LT(s.curve_edges.wanted[c], n);
-    EXPECT_EQ(s.curve_edges.present[c], s.curve_edges.wanted[c]);
+    EXPECT_LT(s.curve_edges.target[c], n);
+    EXPECT_EQ(s.curve_edges.present[c], s.curve_edges.target[c]);
   }
 }
 
@@ -280,26 +281,26 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
   return t;
 }
 
-/// Of the faces that are left.
-struct Look {
+/// Number and worst alignment of the remaining faces.
+struct FaceSummary {
   int faces = 0;
   double min_alignment = 1;
 };
 
-Look look_at(const WorkingMesh& m) {
-  Look look;
+FaceSummary summarize(const WorkingMesh& m) {
+  FaceSummary summary;
   for (size_t f = 0; f < m.halfedges.faces().size(); ++f) {
     if (m.halfedges.is_gone(static_cast<int>(f))) continue;
     const Triangle& t = m.halfedges.faces()[f];
-    ++look.faces;
-    look.min_alignment =
-        std::min(look.min_alignment, face_alignment(m.positions.points, m.positions.normals, t));
+    ++summary.faces;
+    summary.min_alignment =
+        std::min(summary.min_alignment, face_alignment(m.positions.points, m.positions.normals, t));
   }
-  return look;
+  return summary;
 }
 
 void expect_a_disk(test::WorkingScene& s) {
-  compact(s.adapting);
+  compact(s.working);
   const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces());
   EXPECT_EQ(measure_topology(c).euler, 1);
   EXPECT_EQ(measure_topology(c).boundary_loops, 1);
@@ -307,9 +308,9 @@ void expect_a_disk(test::WorkingScene& s) {
 
 TEST(FaceCollapses, TakeOutFoldedFaces) {
   test::WorkingScene s(with_moved_middle(1.4, 0), test::plane());
-  ASSERT_LT(look_at(s.adapting).min_alignment, 0);
-  EXPECT_GE(collapse_folded_faces(s.adapting, folded_face_options()), 1);
-  const Look after = look_at(s.adapting);
+  ASSERT_LT(summarize(s.working).min_alignment, 0);
+  EXPECT_GE(collapse_folded_faces(s.working, folded_face_options()), 1);
+  const FaceSummary after = summarize(s.working);
   EXPECT_GT(after.min_alignment, .99);
   EXPECT_GE(after.faces, 2 * fold_cells * fold_cells - 4);
   expect_a_disk(s);
@@ -317,10 +318,8 @@ TEST(FaceCollapses, TakeOutFoldedFaces) {
 
 TEST(FaceCollapses, LeaveGoodFacesAlone) {
   test::WorkingScene s(test::grid(fold_cells, test::flat), test::plane());
-  EXPECT_EQ(collapse_folded_faces(s.adapting, folded_face_options()), 0);
-  EXPECT_EQ(look_at(s.adapting).faces, 2 * fold_cells * fold_cells);
+  EXPECT_EQ(collapse_folded_faces(s.working, folded_face_options()), 0);
+  EXPECT_EQ(summarize(s.working).faces, 2 * fold_cells * fold_cells);
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::collapse_passes_test

@@ -9,43 +9,42 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::corner_flips_test {
 
-int wanted_at_tip(double angle) {
-  const test::Triangles t = test::wedge(angle, 4);
+int target_valence_at_tip(double angle) {
+  const test::Triangles t = test::fan(angle, 4);
   const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
   return corner_valences(t.points, c, find_constraints(t.points, c, {}), 35)[0];
 }
 
-TEST(CornerRule, ACornerWantsFacesOfAboutSixtyDegrees) {
-  EXPECT_EQ(wanted_at_tip(20), 2);  // never less than one face
-  EXPECT_EQ(wanted_at_tip(42), 2);
-  EXPECT_EQ(wanted_at_tip(95), 3);
-  EXPECT_EQ(wanted_at_tip(125), 3);
-  EXPECT_EQ(wanted_at_tip(250), 5);
+TEST(CornerFlips, ACornerTargetsFacesOfAboutSixtyDegrees) {
+  EXPECT_EQ(target_valence_at_tip(20), 2);  // at least one face
+  EXPECT_EQ(target_valence_at_tip(42), 2);
+  EXPECT_EQ(target_valence_at_tip(95), 3);
+  EXPECT_EQ(target_valence_at_tip(125), 3);
+  EXPECT_EQ(target_valence_at_tip(250), 5);
 }
 
-TEST(CornerRule, OnlyCornersOfTheBoundaryWantAnything) {
-  EXPECT_EQ(wanted_at_tip(170), 0);  // nearly straight
+TEST(CornerFlips, OnlyCornersOfTheBoundaryHaveATarget) {
+  EXPECT_EQ(target_valence_at_tip(170), 0);  // nearly straight
   const test::Triangles t = test::grid(4, test::flat);
   const Adjacency c = make_adjacency(25, t.faces);
-  const std::vector<int> wanted = corner_valences(t.points, c, find_constraints(t.points, c, {}), 35);
-  EXPECT_EQ(std::count(wanted.begin(), wanted.end(), 0), 21);
+  const std::vector<int> targets = corner_valences(t.points, c, find_constraints(t.points, c, {}), 35);
+  EXPECT_EQ(std::count(targets.begin(), targets.end(), 0), 21);
   const test::Triangles ball = test::sphere(1);
   const Adjacency closed = make_adjacency(42, ball.faces);
   for (int v : corner_valences(ball.points, closed, find_constraints(ball.points, closed, {}), 35))
     EXPECT_EQ(v, 0);
 }
 
-struct Wedge {
+struct Fan {
   double angle;
-  int spokes;
+  int edge_count;
 };
-class CornerIsForced : public testing::TestWithParam<Wedge> {};
+class CornerIsForced : public testing::TestWithParam<Fan> {};
 
-TEST_P(CornerIsForced, ToTheValenceItWantsAndStaysThere) {
-  const test::Triangles t = test::wedge(GetParam().angle, GetParam().spokes);
+TEST_P(CornerIsForced, ToItsTargetValenceAndStaysThere) {
+  const test::Triangles t = test::fan(GetParam().angle, GetParam().edge_count);
   test::FlippableScene s(t, test::plane());
   s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   const Vec3 tip = s.positions.points.col(0);
@@ -59,10 +58,10 @@ TEST_P(CornerIsForced, ToTheValenceItWantsAndStaysThere) {
   const int n = static_cast<int>(t.points.cols());
   EXPECT_EQ(test::boundary_edges(n, s.halfedges.faces()), test::boundary_edges(n, t.faces));
 }
-INSTANTIATE_TEST_SUITE_P(Wedges, CornerIsForced,
-                         testing::Values(Wedge{42, 3}, Wedge{42, 4}, Wedge{90, 5}, Wedge{130, 7}));
+INSTANTIATE_TEST_SUITE_P(Fans, CornerIsForced,
+                         testing::Values(Fan{42, 3}, Fan{42, 4}, Fan{90, 5}, Fan{130, 7}));
 
-TEST(CornerRule, ACornerCutOffByOneFaceIsOpened) {
+TEST(CornerFlips, ACornerCutOffByOneFaceIsOpened) {
   const test::Triangles t = test::grid(4, test::flat);
   test::FlippableScene s(t, test::plane());
   s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
@@ -72,10 +71,9 @@ TEST(CornerRule, ACornerCutOffByOneFaceIsOpened) {
   EXPECT_EQ(s.positions.points, t.points);
 }
 
-TEST(CornerRule, AnInnerNeighbourDeepInTheEarIsMovedOutOfIt) {
-  test::Triangles t = test::wedge(42, 3);
-  t.points.col(2) *=
-      .6;  // behind the line between its neighbours: the spoke to it cannot be flipped as it is
+TEST(CornerFlips, AnInnerNeighbourDeepInTheEarIsMovedOutOfIt) {
+  test::Triangles t = test::fan(42, 3);
+  t.points.col(2) *= .6;  // behind the line between its neighbours: the edge to it cannot be flipped directly
   test::FlippableScene s(t, test::plane());
   s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   ASSERT_FALSE(may_flip(s.mesh, test::half_edge(s.halfedges, 0, 2), {}));
@@ -83,7 +81,7 @@ TEST(CornerRule, AnInnerNeighbourDeepInTheEarIsMovedOutOfIt) {
   EXPECT_EQ(s.halfedges.valence(0), 2);
 }
 
-TEST(CornerRule, WhatBringsNothingIsUndone) {
+TEST(CornerFlips, WhatBringsNothingIsUndone) {
   // The neighbour of the tip has no room: its ring is one face behind it.
   const test::Triangles t{(Mat3X(3, 4) << 0, 1, .4, 0, 0, 0, .4, 1, 0, 0, 0, 0).finished(),
                           {{0, 1, 2}, {0, 2, 3}}};
@@ -95,5 +93,4 @@ TEST(CornerRule, WhatBringsNothingIsUndone) {
   EXPECT_EQ(s.halfedges.faces(), t.faces);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::corner_flips_test

@@ -12,8 +12,7 @@
 #include "hooke/mesh/halfedge_mesh.h"
 #include "support/flippable_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::edge_flips_test {
 
 double worst_opposite_angles(const HalfedgeMesh& t, const Mat3X& points) {
   double worst = 0;
@@ -22,7 +21,7 @@ double worst_opposite_angles(const HalfedgeMesh& t, const Mat3X& points) {
   return worst;
 }
 
-/// The square (0,1) x (0,1) of two triangles; the far corner (vertex 2) is placed at will. The diagonal is
+/// The square (0,1) x (0,1) of two triangles; the far corner (vertex 2) has a given position. The diagonal is
 /// 0-2.
 test::Triangles quad(const Vec3& corner) {
   test::Triangles t;
@@ -92,13 +91,13 @@ TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
     const int a = s.halfedges.from(h), b = s.halfedges.to(h), c = s.halfedges.opposite_vertex(h),
               d = s.halfedges.opposite_vertex(s.halfedges.twin(h));
     if (!may_flip(s.mesh, h, folds_only)) continue;
-    const std::array<Edge, 4> rim = {Edge{b, c}, Edge{c, a}, Edge{a, d}, Edge{d, b}};
+    const std::array<Edge, 4> quad_edges = {Edge{b, c}, Edge{c, a}, Edge{a, d}, Edge{d, b}};
     std::vector<double> before = {cosine(a, b)};
-    for (const auto& [from, to] : rim) before.push_back(cosine(from, to));
+    for (const auto& [from, to] : quad_edges) before.push_back(cosine(from, to));
     const HalfedgeMesh kept = s.halfedges;
     s.halfedges.flip(h);
     std::vector<double> after = {cosine(c, d)};
-    for (const auto& [from, to] : rim) after.push_back(cosine(from, to));
+    for (const auto& [from, to] : quad_edges) after.push_back(cosine(from, to));
     s.halfedges = kept;
     for (size_t i = 0; i < before.size(); ++i) EXPECT_GE(after[i], std::min(folds_only.fold, before[i]));
     ++allowed;
@@ -143,7 +142,7 @@ TEST(EdgeFlips, AVertexKeepsThreeEdges) {
   ASSERT_EQ(s.halfedges.valence(4), 4);
   for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // the ends have three
   s.corner_valences = {2, 2, 2, 2, 0};
-  for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // corners want no more
+  for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // target valence of corners
   s.corner_valences = {2, 4, 2, 4, 0};
   EXPECT_TRUE(may_flip(s.mesh, test::half_edge(s.halfedges, 4, 0), {}));
   s.halfedges.flip(test::half_edge(s.halfedges, 4, 0));
@@ -162,5 +161,4 @@ TEST(EdgeFlips, AnEdgeDoesNotCutThroughASharpBend) {
   EXPECT_TRUE(may_flip(s.mesh, h, {.sagitta = 10}));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::edge_flips_test

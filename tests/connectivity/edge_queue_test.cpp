@@ -10,8 +10,7 @@
 
 #include "hooke/mesh/halfedge_mesh.h"
 
-namespace hooke {
-namespace {
+namespace hooke::edge_queue_test {
 
 constexpr int cells = 12;
 
@@ -42,11 +41,11 @@ bool meet(const std::set<int>& a, const std::set<int>& b) {
 constexpr auto any = [](int) { return true; };
 
 /// All edges with their batch, in the order in which they come.
-std::vector<std::pair<int, int>> batches_of(const HalfedgeMesh& t, size_t most) {
+std::vector<std::pair<int, int>> batches_of(const HalfedgeMesh& t, size_t max_count) {
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
   std::vector<std::pair<int, int>> edges;
   int batch = 0;
-  for (std::vector<int> apart; !(apart = queue.pop_apart(most, any)).empty(); ++batch)
+  for (std::vector<int> apart; !(apart = queue.pop_apart(max_count, any)).empty(); ++batch)
     for (int h : apart) edges.push_back({h, batch});
   return edges;
 }
@@ -153,7 +152,7 @@ TEST(EdgeQueue, LosesNoEdgeWhereOthersAreSplit) {
   const test::Triangles large = test::grid(40, test::flat);  // more edges than are sorted at a time
   HalfedgeMesh t(make_adjacency(static_cast<int>(large.points.cols()), large.faces));
   EdgeQueue queue(t, [&](int h) { return urgency(t, h); });
-  for (int k = 0; k < 300; ++k) queue.push_about(t.split(queue.pop()));
+  for (int k = 0; k < 300; ++k) queue.push_around(t.split(queue.pop()));
   expect_all_of(t, queue, urgent_edges(t));
 }
 
@@ -169,7 +168,7 @@ TEST(EdgeQueue, LosesNoEdgeWhereOthersCollapse) {
       continue;
     }
     t.collapse(h, stays);
-    queue.push_about(stays);
+    queue.push_around(stays);
   }
   for (int h : refused)
     if (!t.is_gone(h / 3)) queue.push(h);
@@ -188,5 +187,4 @@ TEST(EdgeQueue, DropsWhatIsNotWanted) {
   EXPECT_EQ(queue.pop(), -1);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::edge_queue_test

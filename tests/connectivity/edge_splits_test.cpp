@@ -9,14 +9,13 @@
 #include "hooke/mesh/extent.h"
 #include "hooke/working_mesh/working_mesh.h"
 
-namespace hooke {
-namespace {
+namespace hooke::edge_splits_test {
 
 constexpr int cells = 6;
 
 int quadrupled(test::WorkingScene& s) {
-  const int splits = subdivide(s.adapting, {}, {});
-  compact(s.adapting);
+  const int splits = subdivide(s.working, {}, {});
+  compact(s.working);
   return splits;
 }
 
@@ -68,7 +67,7 @@ TEST(Subdivision, NewVerticesLieOnTheSurface) {
   for (const auto& x : s.positions.points.colwise()) EXPECT_NEAR(x.norm(), 1, 1e-9);
 }
 
-TEST(Subdivision, CurvesAndCreasesAreHalved) {
+TEST(Subdivision, CurvesAndCreasesAreSplit) {
   std::vector<Edge> crease;
   for (int v = cells / 2 * (cells + 1); crease.size() < cells; ++v) crease.push_back({v, v + 1});
   test::WorkingScene s(test::grid(cells, test::flat), test::plane(), crease);
@@ -100,5 +99,4 @@ TEST(Subdivision, ABoundaryThatStandsStillStaysWhole) {
   EXPECT_NEAR(total_area(s.positions.points, s.halfedges.faces()), total_area(t.points, t.faces), 1e-12);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::edge_splits_test

@@ -10,40 +10,39 @@
 #include "hooke/working_mesh/working_mesh.h"
 #include "support/working_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::edge_trial_test {
 
 constexpr double sliver_angle = 35;
 
 std::vector<EdgeChange> changes_of(const test::WorkingScene& s) {
   std::vector<EdgeChange> changes;
   for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
-    if (s.halfedges.twin(h) > h || is_feature_edge(s.halfedges, h)) continue;
-    const std::vector<EdgeChange> allowed = allowed_changes(s.adapting, h, {});
+    if (s.halfedges.twin(h) > h || s.halfedges.is_feature_edge(h)) continue;
+    const std::vector<EdgeChange> allowed = allowed_changes(s.working, h, {});
     changes.insert(changes.end(), allowed.begin(), allowed.end());
   }
   return changes;
 }
 
-/// The trials that are worth keeping.
-std::vector<EdgeCandidate> kept(const test::WorkingScene& s, const EdgeTrialOptions& options) {
+/// The candidates that are accepted.
+std::vector<EdgeCandidate> kept(const test::WorkingScene& s, const CandidateOptions& options) {
   const EnergyTerms terms;
-  EdgeTrials trials(s.adapting, terms, options, {});
-  trials.begin_with(sliver_angle);
+  CandidateEvaluator evaluator(s.working, terms, options, {});
+  evaluator.set_sliver_angle(sliver_angle);
   std::vector<EdgeCandidate> kept;
   for (const EdgeChange& change : changes_of(s)) {
-    EdgeCandidate trial = trials.begin(change);
-    if (!trial.is_viable) continue;
-    trials.finish(trial);
-    if (trial.is_viable) kept.push_back(std::move(trial));
+    EdgeCandidate candidate = evaluator.begin(change);
+    if (!candidate.is_viable) continue;
+    evaluator.finish(candidate);
+    if (candidate.is_viable) kept.push_back(std::move(candidate));
   }
   return kept;
 }
 
-PatchQuality look_after(const EdgeCandidate& trial, const EdgeTrialOptions& o) {
+PatchQuality quality_after(const EdgeCandidate& candidate, const CandidateOptions& o) {
   const GuardOptions guards;
-  return look_at(trial.patch.positions, trial.adjacency, trial.targets,
-                 {sliver_angle + o.fair_margin, guards.alignment, guards.fold, o.sagitta, o.longest});
+  return measure_patch(candidate.patch.positions, candidate.adjacency, candidate.targets,
+                       {sliver_angle + o.fair_margin, guards.alignment, guards.fold, o.sagitta, o.longest});
 }
 
 test::WorkingScene rough_sphere() {
@@ -60,30 +59,30 @@ TEST(EdgeCandidate, LeavesTheMeshAlone) {
 }
 
 TEST(EdgeCandidate, WhatIsKeptGainsAndKeepsTheLeastAngle) {
-  const EdgeTrialOptions options;
-  for (const EdgeCandidate& trial : kept(rough_sphere(), options)) {
-    EXPECT_GE(trial.gain, options.gain);
-    EXPECT_LE(look_after(trial, options).cotangent, trial.before.cotangent);
+  const CandidateOptions options;
+  for (const EdgeCandidate& candidate : kept(rough_sphere(), options)) {
+    EXPECT_GE(candidate.gain, options.gain);
+    EXPECT_LE(quality_after(candidate, options).cotangent, candidate.before.cotangent);
   }
 }
 
-/// Of a rough sphere most changes cover more: here they have to.
+/// Most changes of a rough sphere increase its area; `more` requires them to.
 TEST(EdgeCandidate, LosesNoMoreSurfaceThanItMay) {
   const test::WorkingScene s = rough_sphere();
-  const EdgeTrialOptions any, more{.area_loss = -.1};
+  const CandidateOptions any, more{.area_loss = -.1};
   const std::vector<EdgeCandidate> all = kept(s, any), covering = kept(s, more);
   EXPECT_LT(covering.size(), all.size());
   EXPECT_FALSE(covering.empty());
-  for (const EdgeCandidate& trial : covering) {
-    const double length = trial.patch.vertex_length[0];
-    EXPECT_GE(look_after(trial, more).area, trial.before.area + .1 * length * length - 1e-12);
+  for (const EdgeCandidate& candidate : covering) {
+    const double length = candidate.patch.vertex_length[0];
+    EXPECT_GE(quality_after(candidate, more).area, candidate.before.area + .1 * length * length - 1e-12);
   }
 }
 
 TEST(EdgeCandidate, IsOverWithoutHope) {
   const test::WorkingScene s = rough_sphere();
-  EXPECT_TRUE(kept(s, {.max_energy_rise = -1e9}).empty());
-  EXPECT_TRUE(kept(s, {.most = 1}).empty());
+  EXPECT_TRUE(kept(s, {.max_cost_rise = -1e9}).empty());
+  EXPECT_TRUE(kept(s, {.max_vertices = 1}).empty());
 }
 
 constexpr int cells = 8, across = cells + 1;
@@ -92,9 +91,9 @@ int face_at(int column, int row) {
   return 2 * (row * cells + column);
 }
 
-/// Of the mesh without what is gone.
+/// Topology of the mesh without deleted elements.
 Topology topology_of(test::WorkingScene& s) {
-  compact(s.adapting);
+  compact(s.working);
   return measure_topology(make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces()));
 }
 
@@ -106,13 +105,13 @@ std::vector<EdgeChange> changes_about(const WorkingMesh& m, int face, const Chan
 }
 
 EdgePatch cut(const test::WorkingScene& s, const EdgeChange& change) {
-  return *cut_patch(s.adapting.flipping(), change.half_edge, 2, 200);
+  return *cut_patch(s.working.flipping(), change.half_edge, 2, 200);
 }
 
 TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
   const test::Triangles grid = test::grid(cells, test::flat, .3, 5);
   const test::WorkingScene first(grid, test::plane());
-  const std::vector<EdgeChange> changes = changes_about(first.adapting, face_at(4, 4), {});
+  const std::vector<EdgeChange> changes = changes_about(first.working, face_at(4, 4), {});
   std::array<int, 3> kinds = {};
   for (const EdgeChange& change : changes) {
     ++kinds[static_cast<size_t>(change.kind)];
@@ -120,7 +119,7 @@ TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
     const Topology before = measure_topology(s.adjacency);
     EdgePatch patch = cut(s, change);
     const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
-    change_mesh(s.adapting, change, patch);
+    change_mesh(s.working, change, patch);
     for (const Triangle& face : faces) {
       const auto in_mesh = [&](int k) {
         return patch.vertices[static_cast<size_t>(face[static_cast<size_t>(k)])];
@@ -143,8 +142,8 @@ TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
 
 TEST(EdgeChanges, OnlyThoseThatAreAskedFor) {
   const test::WorkingScene s(test::grid(cells, test::flat, .3, 5), test::plane());
-  const auto all = changes_about(s.adapting, face_at(4, 4), {});
-  const auto flips = changes_about(s.adapting, face_at(4, 4), {.splits = false, .collapses = false});
+  const auto all = changes_about(s.working, face_at(4, 4), {});
+  const auto flips = changes_about(s.working, face_at(4, 4), {.splits = false, .collapses = false});
   EXPECT_FALSE(flips.empty());
   EXPECT_LT(flips.size(), all.size());
   for (const EdgeChange& change : flips) EXPECT_EQ(change.kind, ChangeKind::flip);
@@ -155,7 +154,7 @@ TEST(EdgeChanges, LeaveTheBoundaryAlone) {
   const HalfedgeMesh& t = s.halfedges;
   int collapses = 0;
   for (int row : {0, 1}) {
-    for (const EdgeChange& change : changes_about(s.adapting, face_at(3, row), {})) {
+    for (const EdgeChange& change : changes_about(s.working, face_at(3, row), {})) {
       EXPECT_GE(t.twin(change.half_edge), 0);
       if (change.kind != ChangeKind::collapse) continue;
       ++collapses;
@@ -171,7 +170,7 @@ TEST(EdgeChanges, LeaveCreasesAlone) {
   const test::WorkingScene s(test::grid(cells, test::flat), test::plane(), creases);
   const HalfedgeMesh& t = s.halfedges;
   int beside = 0;
-  for (const EdgeChange& change : changes_about(s.adapting, face_at(3, 3), {})) {
+  for (const EdgeChange& change : changes_about(s.working, face_at(3, 3), {})) {
     EXPECT_FALSE(t.is_crease(change.half_edge));
     if (change.kind != ChangeKind::collapse) continue;
     const int a = t.from(change.half_edge), b = t.to(change.half_edge);
@@ -185,7 +184,7 @@ TEST(EdgeChanges, AFreeBoundaryStaysWhereItIs) {
   test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   for (Freedom& freedom : s.constraints.freedom) freedom = Freedom::surface;
   int collapses = 0;
-  for (const EdgeChange& change : changes_about(s.adapting, face_at(3, 0), {})) {
+  for (const EdgeChange& change : changes_about(s.working, face_at(3, 0), {})) {
     if (change.kind != ChangeKind::collapse) continue;
     EdgePatch patch = cut(s, change);
     const Mat3X before = patch.positions.points;
@@ -200,13 +199,13 @@ TEST(EdgeChanges, AFreeBoundaryStaysWhereItIs) {
   EXPECT_GT(collapses, 0);
 }
 
-TEST(EdgeChanges, CornersKeepToTheEdgesTheyWant) {
-  // The tip of a wedge has the four edges it wants: none may be flipped away from it, and nothing may merge
-  // into it that brings more.
-  test::WorkingScene s(test::wedge(90, 4), test::plane());
+TEST(EdgeChanges, CornersKeepTheirTargetValence) {
+  // The tip of a fan has its target valence of four: no edge may be flipped away from it, and no collapse
+  // may add edges to it.
+  test::WorkingScene s(test::fan(90, 4), test::plane());
   s.corner_valences[0] = 4;
   int seen = 0;
-  for (const EdgeChange& change : changes_about(s.adapting, 0, {})) {
+  for (const EdgeChange& change : changes_about(s.working, 0, {})) {
     EdgePatch patch = cut(s, change);
     const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
     const auto tip = std::ranges::find(patch.vertices, 0);
@@ -222,7 +221,7 @@ TEST(EdgeChanges, CornersKeepToTheEdgesTheyWant) {
 
 TEST(EdgeChanges, GiveNoVertexTooManyEdges) {
   const test::WorkingScene s(test::grid(cells, test::flat), test::plane());
-  EXPECT_TRUE(changes_about(s.adapting, face_at(4, 4), {.valence = 6, .collapses = false}).empty());
+  EXPECT_TRUE(changes_about(s.working, face_at(4, 4), {.valence = 6, .collapses = false}).empty());
 }
 
 TEST(EdgeChanges, APatchCutAfterASplitOfACreasedMeshKnowsItsVertices) {
@@ -232,16 +231,14 @@ TEST(EdgeChanges, APatchCutAfterASplitOfACreasedMeshKnowsItsVertices) {
   const EdgeChange split{test::half_edge(s.halfedges, 2 * across + 3, 2 * across + 4), ChangeKind::split};
   EdgePatch patch = cut(s, split);
   change_patch(patch, split, test::plane(), {});
-  change_mesh(s.adapting, split, patch);
+  change_mesh(s.working, split, patch);
   const int beyond = test::half_edge(s.halfedges, 5 * across + 3, 5 * across + 4);
-  const EdgePatch other = *cut_patch(s.adapting.flipping(), beyond, 2, 200);
+  const EdgePatch other = *cut_patch(s.working.flipping(), beyond, 2, 200);
   for (size_t i = 0; i < other.vertices.size(); ++i) {
-    EXPECT_GE(s.halfedges.valence(other.vertices[i]), 0);  // no further side
+    EXPECT_GE(s.halfedges.valence(other.vertices[i]), 0);  // no extra wedge
     EXPECT_EQ(other.positions.points.col(static_cast<Eigen::Index>(i)),
               s.positions.points.col(other.vertices[i]));
   }
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::edge_trial_test

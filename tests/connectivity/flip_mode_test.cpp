@@ -13,8 +13,7 @@
 #include "hooke/remesh/result.h"
 #include "support/flippable_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::flip_mode_test {
 
 TriMesh with_target(const test::Triangles& t) {
   TriMesh mesh = test::to_mesh(t);
@@ -125,5 +124,4 @@ TEST(FlipConnectivity, AnInterruptedRunLeavesAValidMesh) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::flip_mode_test

@@ -12,8 +12,7 @@
 #include "hooke/working_mesh/working_mesh.h"
 #include "support/flippable_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::lloyd_flow_test {
 
 LloydFlowResult flow_for(FlippableMesh& mesh, int rounds, const Observer& observer = nullptr) {
   return flow(mesh, {.rounds = rounds}, {}, {}, observer);
@@ -179,6 +178,4 @@ TEST(Lloyd, VerticesCrowdWhereTheTargetsAreSmall) {
   for (int v = 0; v < step.cols(); ++v) EXPECT_TRUE(!deep_inside(s, v) || step(0, v) < -1e-3) << v;
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::lloyd_flow_test

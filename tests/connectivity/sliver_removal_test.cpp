@@ -8,8 +8,7 @@
 #include "hooke/mesh/topology.h"
 #include "support/working_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::sliver_removal_test {
 
 constexpr int cells = 8, faces = 2 * cells * cells;
 constexpr FaceCountLimits any_count = {0, 1e9}, same_count = {faces, faces};
@@ -22,8 +21,8 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
 }
 
 SliverChanges change(test::WorkingScene& s, const FaceCountLimits& limits = any_count,
-                     const SliverTrialOptions& options = {}, const Observer& observer = nullptr) {
-  return change_slivers(s.adapting, {}, options, {}, limits, observer);
+                     const SliverOptions& options = {}, const Observer& observer = nullptr) {
+  return change_slivers(s.working, {}, options, {}, limits, observer);
 }
 
 std::vector<Triangle> faces_of(const test::WorkingScene& s) {
@@ -43,19 +42,19 @@ auto folded_faces_of(const test::WorkingScene& s) {
 }
 
 void expect_a_disk(test::WorkingScene& s) {
-  compact(s.adapting);
+  compact(s.working);
   const Topology t =
       measure_topology(make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces()));
   EXPECT_EQ(t.euler, 1);
   EXPECT_EQ(t.boundary_loops, 1);
 }
 
-/// A grid with a vertex of 12 edges, which no motion mends.
+/// A grid with a vertex of 12 edges, which relaxation alone cannot improve.
 void crowd(test::WorkingScene& s) {
   const int hub = cells / 2 * (cells + 2);
   for (int extra = 0; extra < 6; ++extra)
-    for (int spoke : s.halfedges.outgoing(hub)) {
-      const int h = HalfedgeMesh::next(spoke), g = s.halfedges.twin(h);
+    for (int outgoing : s.halfedges.outgoing(hub)) {
+      const int h = HalfedgeMesh::next(outgoing), g = s.halfedges.twin(h);
       if (g < 0 || s.halfedges.adjacent(hub, s.halfedges.opposite_vertex(g)) ||
           s.halfedges.valence(s.halfedges.from(h)) <= 4 || s.halfedges.valence(s.halfedges.to(h)) <= 4)
         continue;
@@ -64,26 +63,26 @@ void crowd(test::WorkingScene& s) {
     }
 }
 
-void expect_mended(test::WorkingScene& s) {
+void expect_slivers_removed(test::WorkingScene& s) {
   ASSERT_LT(min_angle_of(s), 20);
   EXPECT_GE(change(s).count(), 1);
   EXPECT_GT(min_angle_of(s), 30);
   expect_a_disk(s);
 }
 
-TEST(SliverTrials, MendWhatAMovedVertexLeaves) {
+TEST(SliverRemoval, RemovesWhatAMovedVertexLeaves) {
   test::WorkingScene s(with_moved_middle(.7, .1), test::plane());
-  expect_mended(s);
+  expect_slivers_removed(s);
 }
 
-TEST(SliverTrials, MendCrowdedVertices) {
+TEST(SliverRemoval, RemovesSliversAtCrowdedVertices) {
   test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   crowd(s);
   ASSERT_GE(s.halfedges.valence(cells / 2 * (cells + 2)), 11);
-  expect_mended(s);
+  expect_slivers_removed(s);
 }
 
-TEST(SliverTrials, WhereTheCountIsToStayThereAreOnlyFlips) {
+TEST(SliverRemoval, WhereTheCountIsToStayThereAreOnlyFlips) {
   test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   crowd(s);
   const double before = min_angle_of(s);
@@ -95,18 +94,18 @@ TEST(SliverTrials, WhereTheCountIsToStayThereAreOnlyFlips) {
   EXPECT_EQ(std::ssize(faces_of(s)), faces);
 }
 
-TEST(SliverTrials, KeepTheCountWithinItsLimits) {
+TEST(SliverRemoval, KeepsTheCountWithinItsLimits) {
   for (const FaceCountLimits& limits :
        {FaceCountLimits{faces - 2, faces}, FaceCountLimits{faces, faces + 2}}) {
     test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
     EXPECT_GT(change(s, limits, {.sliver_angles = {40}}).count(), 0);
     const auto count = static_cast<double>(faces_of(s).size());
-    EXPECT_GE(count, limits.least);
-    EXPECT_LE(count, limits.most);
+    EXPECT_GE(count, limits.min);
+    EXPECT_LE(count, limits.max);
   }
 }
 
-TEST(SliverTrials, NeverLowerTheLeastAngleNorFoldAFace) {
+TEST(SliverRemoval, NeverLowersTheLeastAngleNorFoldsAFace) {
   SliverChanges all;
   for (unsigned seed = 1; seed <= 12; ++seed) {
     test::WorkingScene s(test::grid(cells, test::flat, .45, seed), test::plane());
@@ -125,10 +124,10 @@ TEST(SliverTrials, NeverLowerTheLeastAngleNorFoldAFace) {
   EXPECT_GT(all.collapses, 0);
 }
 
-TEST(SliverTrials, AddNothingBeyondTheLimits) {
+TEST(SliverRemoval, AddsNothingBeyondTheLimits) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     test::WorkingScene s(test::sphere(2, .4, seed), test::unit_sphere());
-    const EdgeTrialOptions options;
+    const CandidateOptions options;
     const auto worst = [&](const auto& measure) {
       double most = 0;
       for (const Triangle& t : faces_of(s))
@@ -149,7 +148,7 @@ TEST(SliverTrials, AddNothingBeyondTheLimits) {
   }
 }
 
-TEST(SliverTrials, LeaveCreasesWhereTheyAre) {
+TEST(SliverRemoval, LeavesCreasesWhereTheyAre) {
   std::vector<Edge> creases;
   const int middle = cells / 2 * (cells + 1);
   for (int i = 0; i < cells; ++i) creases.push_back({middle + i, middle + i + 1});
@@ -162,15 +161,15 @@ TEST(SliverTrials, LeaveCreasesWhereTheyAre) {
     all.collapses += changes.collapses;
     for (int i = 0; i <= cells; ++i)
       EXPECT_EQ(s.positions.points.col(middle + i), before.col(middle + i)) << seed;
-    compact(s.adapting);
+    compact(s.working);
     EXPECT_EQ(s.constraints.creases.size(), creases.size()) << seed;
     expect_a_disk(s);
   }
   EXPECT_GT(all.splits + all.collapses, 0);
 }
 
-TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
-  // A sliver at a corner of the boundary, where no change gains as much as is asked for: it is tried once.
+TEST(SliverRemoval, NoEdgeIsTriedAgainWhereNothingHasChanged) {
+  // A sliver at a corner of the boundary, where no change gains enough: it is evaluated once.
   test::Triangles t = test::grid(cells, test::flat);
   const auto tip = t.points.cols();
   t.points.conservativeResize(3, tip + 1);
@@ -179,21 +178,21 @@ TEST(SliverTrials, NoEdgeIsTriedAgainWhereNothingHasChanged) {
   test::WorkingScene s(t, test::plane());
   int calls = 0;
   const auto count = [&](const Progress&) { return ++calls > 0; };
-  const SliverTrialOptions options{.sliver_angles = {30}, .change = {.gain = 1e9}};
+  const SliverOptions options{.sliver_angles = {30}, .change = {.gain = 1e9}};
   EXPECT_EQ(change(s, same_count, options, count).count(), 0);
   EXPECT_EQ(calls, 1);
 }
 
-TEST(SliverTrials, ThereAreNoMoreTriesThanAllowed) {
-  const auto tries = [](int most) {
+TEST(SliverRemoval, ThereAreNoMoreTriesThanAllowed) {
+  const auto tested = [](int most) {
     test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
-    return change(s, any_count, {.share_in_all = 0, .min_in_all = most}).tries;
+    return change(s, any_count, {.share_in_all = 0, .min_in_all = most}).tested;
   };
-  EXPECT_EQ(tries(0), 0);
-  EXPECT_EQ(tries(3), 3);
+  EXPECT_EQ(tested(0), 0);
+  EXPECT_EQ(tested(3), 3);
 }
 
-TEST(SliverTrials, KeepNothingThatIsNotTriedToTheEnd) {
+TEST(SliverRemoval, KeepsNothingThatIsNotTriedToTheEnd) {
   const auto changes = [](size_t searched) {
     test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
     return change(s, any_count, {.searched = searched}).count();
@@ -202,25 +201,25 @@ TEST(SliverTrials, KeepNothingThatIsNotTriedToTheEnd) {
   EXPECT_GT(changes(1), 0);
 }
 
-TEST(SliverTrials, LeaveGoodFacesAlone) {
+TEST(SliverRemoval, LeavesGoodFacesAlone) {
   test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   const Mat3X before = s.positions.points;
   EXPECT_EQ(change(s).count(), 0);
   EXPECT_EQ(s.positions.points, before);
 }
 
-TEST(SliverTrials, ThreadsChangeNothing) {
+TEST(SliverRemoval, ThreadsChangeNothing) {
   const auto result = [](int threads) {
     const ThreadLimit limit(threads);
     test::WorkingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
     EXPECT_GT(change(s).count(), 0);
-    compact(s.adapting);
+    compact(s.working);
     return std::pair(s.halfedges.faces(), s.positions.points);
   };
   EXPECT_EQ(result(1), result(2));
 }
 
-TEST(SliverTrials, StopWhenTheObserverSaysSo) {
+TEST(SliverRemoval, StopsWhenTheObserverSaysSo) {
   test::WorkingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
   int calls = 0;
   const SliverChanges changes = change(s, any_count, {}, [&](const Progress&) { return ++calls < 2; });
@@ -229,5 +228,4 @@ TEST(SliverTrials, StopWhenTheObserverSaysSo) {
   expect_a_disk(s);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::sliver_removal_test

@@ -11,8 +11,7 @@
 #include "hooke/springs/target_lengths.h"
 #include "support/flippable_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::valence_flips_test {
 
 double spring_energy(const test::FlippableScene& s, const EnergyTerms& terms = {}) {
   const Adjacency c = make_adjacency(static_cast<int>(s.vertex_length.size()), s.halfedges.faces());
@@ -26,7 +25,7 @@ int flip_all(test::FlippableScene& s, const FlipPassOptions& options = {}) {
   return flip_irregular_edges(s.mesh, {}, options, {}, {}, near, nullptr);
 }
 
-/// Least cosine between two neighbouring faces.
+/// Minimum cosine between two neighbouring faces.
 double min_fold(const test::FlippableScene& s) {
   const Adjacency c = make_adjacency(static_cast<int>(s.vertex_length.size()), s.halfedges.faces());
   double least = 1;
@@ -83,7 +82,7 @@ TEST(FlipPass, LooksOnlyWhereThereIsSomethingNew) {
 TEST(FlipPass, NoEdgeIsTriedAmongTooManyVertices) {
   test::FlippableScene s(test::sphere(3, .4, 5), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
-  EXPECT_EQ(flip_all(s, {.most = 8}), 0);  // two rings have more
+  EXPECT_EQ(flip_all(s, {.max_vertices = 8}), 0);  // two rings have more
 }
 
 TEST(FlipPass, ThreadsChangeNothing) {
@@ -128,5 +127,4 @@ TEST(FlipPass, KeepsTheBoundary) {
   EXPECT_NEAR(total_area(s.positions.points, s.halfedges.faces()), 1, 1e-12);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::valence_flips_test

@@ -11,10 +11,9 @@
 #include "support/scene.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::constraints_test {
 
-/// Two uneven bumps side by side whose vertices on the common side x = 1 have the same places, but other ids.
+/// Two uneven bumps that share the boundary x = 1, where vertices have the same positions but different ids.
 test::Triangles seamed(int n) {
   const auto bump = [](double x, double y) { return .3 * std::sin(3 * x) * std::cos(2 * y); };
   const test::Triangles left = test::grid(n, bump, .35, 1);
@@ -94,18 +93,18 @@ long count_of(const Constraints& c, Freedom freedom) {
   return std::ranges::count(c.freedom, freedom);
 }
 
-/// A disk of `sides` triangles about vertex 0, its rim on the unit circle.
-test::Triangles disk(int wedges) {
-  test::Triangles t{Mat3X::Zero(3, wedges + 1), {}};
-  for (int i = 0; i < wedges; ++i) {
-    const double angle = 2 * std::numbers::pi * i / wedges;
+/// A fan of triangles about vertex 0 with the boundary on the unit circle.
+test::Triangles disk(int triangles) {
+  test::Triangles t{Mat3X::Zero(3, triangles + 1), {}};
+  for (int i = 0; i < triangles; ++i) {
+    const double angle = 2 * std::numbers::pi * i / triangles;
     t.points.col(i + 1) = Vec3(std::cos(angle), std::sin(angle), 0);
-    t.faces.push_back({0, i + 1, (i + 1) % wedges + 1});
+    t.faces.push_back({0, i + 1, (i + 1) % triangles + 1});
   }
   return t;
 }
 
-/// 24 sides with one tip: the only corner, at vertex 5.
+/// A disk of 24 triangles with one tip, the only corner, at vertex 5.
 test::Triangles drop() {
   test::Triangles t = disk(24);
   t.points.col(5) *= 1.25;
@@ -125,14 +124,14 @@ TEST(Constraints, ASquareHasFourCornersAndFourSides) {
 }
 
 TEST(Constraints, CornersAreSeenIn3D) {
-  // Seen from above the rim is straight at x = 1/2; in space it turns by 90 degrees there.
+  // Seen from above the boundary is straight at x = 1/2; in space it turns by 90 degrees there.
   const auto roof = [](double x, double) { return std::abs(x - .5); };
   EXPECT_EQ(count_of(constraints_of(test::grid(4, roof)), Freedom::fixed), 6);
   const auto flat_roof = [](double x, double) { return .3 * std::abs(x - .5); };  // 33 degrees
   EXPECT_EQ(count_of(constraints_of(test::grid(4, flat_roof)), Freedom::fixed), 4);
 }
 
-TEST(Constraints, TheCornerAngleIsTheTurnOfTheRim) {
+TEST(Constraints, TheCornerAngleIsTheTurnOfTheBoundary) {
   EXPECT_EQ(count_of(constraints_of(disk(10)), Freedom::fixed), 10);  // 36 degrees
   EXPECT_EQ(count_of(constraints_of(disk(11)), Freedom::fixed), 0);   // 32.7
   EXPECT_EQ(count_of(constraints_of(disk(11), {.corner_angle = 30}), Freedom::fixed), 11);
@@ -189,7 +188,7 @@ TEST(Constraints, EveryLoopHasItsOwnCurves) {
   EXPECT_EQ(count_of(c, Freedom::fixed), 4 + 4 + 1);  // and the vertex in the middle of the hole
 }
 
-TEST(Constraints, AFixedRimStandsStillAndAFreeOneDoesNot) {
+TEST(Constraints, AFixedBoundaryStandsStillAndAFreeOneDoesNot) {
   const test::Triangles t = test::grid(6, test::flat);
   const Constraints fixed = constraints_of(t, {.boundary = BoundaryRule::fixed});
   EXPECT_EQ(count_of(fixed, Freedom::fixed), 24);
@@ -201,7 +200,7 @@ TEST(Constraints, AFixedRimStandsStillAndAFreeOneDoesNot) {
 TEST(Constraints, GivenVerticesStandStillUnderEveryRule) {
   for (BoundaryRule rule : {BoundaryRule::slide, BoundaryRule::fixed, BoundaryRule::free}) {
     const Constraints c = constraints_of(test::grid(6, test::flat),
-                                         {.boundary = rule, .fixed_vertices = {3, 24}});  // 3: on the rim
+                                         {.boundary = rule, .fixed_vertices = {3, 24}});  // 3: on boundary
     EXPECT_EQ(c.freedom[3], Freedom::fixed);
     EXPECT_EQ(c.freedom[24], Freedom::fixed);
     EXPECT_EQ(c.curves.size(), rule == BoundaryRule::slide ? 4u : 0u);
@@ -219,7 +218,8 @@ TEST(Constraints, VerticesWithoutFacesStandStill) {
   }
 }
 
-/// Projects points around the places `near` segments on and compares with the search over all segments.
+/// Projects points near segments up to two away from the start of the search and compares with the search
+/// over all segments.
 void expect_closest(const Curve& curve, double distance) {
   const Mat3X shift = test::random_vectors(400, distance, 9);
   for (int i = 0; i < 400; ++i) {
@@ -286,6 +286,4 @@ TEST(Constraints, OnStraightCreasesVerticesSlide) {
   for (size_t v = 0; v < c.freedom.size(); ++v) EXPECT_FALSE(c.at_bend(static_cast<int>(v)));
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::constraints_test

@@ -6,8 +6,7 @@
 
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::crease_detection_test {
 
 std::vector<Edge> features_of(const test::Triangles& t, const CreaseOptions& options = {}) {
   const Adjacency c = test::connect(t);
@@ -117,7 +116,7 @@ TEST(Features, AChainInTheMidstOfTheSurfaceLiesBetweenFlatFaces) {
 }
 
 TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
-  EXPECT_TRUE(features_of(test::sphere(0)).empty());  // an icosahedron bends by 42 degrees everywhere
+  EXPECT_TRUE(features_of(test::sphere(0)).empty());  // normals of neighbours differ by 42 degrees
   for (unsigned seed = 1; seed <= 5; ++seed) {
     EXPECT_TRUE(features_of(test::sphere(2, .45, seed)).empty());
     EXPECT_TRUE(features_of(test::shaken(test::sphere(2, 0, seed), .04, seed)).empty());
@@ -125,5 +124,4 @@ TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::crease_detection_test

@@ -6,8 +6,7 @@
 
 #include "hooke/core/types.h"
 
-namespace hooke {
-namespace {
+namespace hooke::lists_test {
 
 TEST(IntLists, AreInvertedAlikeByAnyNumberOfThreads) {
   constexpr int count = 100000;  // enough for several threads
@@ -33,5 +32,4 @@ TEST(IntLists, IndicesThatNoRowNamesHaveEmptyLists) {
   EXPECT_EQ(inverse(0, std::vector<Edge>()).first, std::vector<int>{0});
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::lists_test

@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace hooke {
-namespace {
+namespace hooke::parallel_test {
 
 TEST(Parallel, EveryIndexIsVisitedOnce) {
   for (int threads : {1, 2}) {
@@ -107,5 +106,4 @@ TEST(Parallel, ALimitEndsWithItsLifeAndANestedOneDoesNotRaiseIt) {
   EXPECT_GE(before, 1);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::parallel_test

@@ -6,8 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace hooke {
-namespace {
+namespace hooke::simd_test {
 
 TEST(FastLog, IsTheLogarithm) {
   for (double x = std::numeric_limits<double>::min(); x < 1e300; x *= 1.0137) {
@@ -43,5 +42,4 @@ TEST(FastAngle, IsTheAngle) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::simd_test

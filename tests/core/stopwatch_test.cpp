@@ -5,8 +5,7 @@
 #include <chrono>
 #include <thread>
 
-namespace hooke {
-namespace {
+namespace hooke::stopwatch_test {
 
 void work_for(double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -81,5 +80,4 @@ TEST(Stopwatch, TraceHasALinePerStage) {
             "read/parse,2,0.000000,0.000000,8192\n");
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::stopwatch_test

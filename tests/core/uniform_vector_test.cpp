@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hooke {
-namespace {
+namespace hooke::uniform_vector_test {
 
 TEST(UniformVector, AreThoseThatWereGivenWhetherTheyVaryOrNot) {
   for (const std::vector<double>& given :
@@ -17,12 +16,11 @@ TEST(UniformVector, AreThoseThatWereGivenWhetherTheyVaryOrNot) {
 }
 
 TEST(UniformVector, VaryWhereTwoDiffer) {
-  EXPECT_FALSE(UniformVector().vary());
-  EXPECT_FALSE(UniformVector(std::vector<double>{2}).vary());
-  EXPECT_FALSE(UniformVector(std::vector<double>{2, 2}).vary());
-  EXPECT_TRUE(UniformVector(std::vector<double>{2, 2, 2.0000000001}).vary());
+  EXPECT_FALSE(UniformVector().is_varying());
+  EXPECT_FALSE(UniformVector(std::vector<double>{2}).is_varying());
+  EXPECT_FALSE(UniformVector(std::vector<double>{2, 2}).is_varying());
+  EXPECT_TRUE(UniformVector(std::vector<double>{2, 2, 2.0000000001}).is_varying());
   EXPECT_EQ(UniformVector(3, 2.), UniformVector(std::vector<double>(3, 2.)));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::uniform_vector_test

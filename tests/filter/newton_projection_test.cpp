@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hooke {
-namespace {
+namespace hooke::newton_projection_test {
 
 FieldSample unit_sphere(const Vec3& x, int) {
   return {x.squaredNorm() - 1, 2 * x};
@@ -64,5 +63,4 @@ TEST(Projection, ShortensLongSteps) {
   EXPECT_NEAR(longest, .5, 1e-12);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::newton_projection_test

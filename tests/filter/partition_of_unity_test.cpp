@@ -10,8 +10,7 @@
 #include "support/meshes.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::partition_of_unity_test {
 
 struct Covered {
   test::Triangles mesh;
@@ -81,7 +80,7 @@ TEST(PatchGrower, FindsTheNearestVerticesAndThoseThatTie) {
 }
 
 TEST(PatchGrower, DoesNotCrossAKnifeEdge) {
-  // Two sheets that share a rim: the vertices 0 and 1; each sheet has a vertex of its own.
+  // Two sheets that share the edge between vertices 0 and 1; each sheet has a vertex of its own.
   Mat3X points(3, 4);
   points << 0, 1, .5, .5, 0, 0, 1, 1, 0, 0, .01, -.01;
   const Adjacency c = make_adjacency(4, {{0, 1, 2}, {1, 0, 3}});
@@ -94,6 +93,4 @@ TEST(PatchGrower, DoesNotCrossAKnifeEdge) {
   EXPECT_TRUE(grower.is_inside(0));  // as far as the cone admits its ring
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::partition_of_unity_test

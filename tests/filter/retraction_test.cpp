@@ -9,8 +9,7 @@
 #include "hooke/core/parallel.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::retraction_test {
 
 TEST(Retraction, PlacesEveryVertexOnTheSurface) {
   test::Triangles t = test::sphere(2, .2);
@@ -110,7 +109,7 @@ TEST(Retraction, ConstrainLeavesWhatAVertexMayDo) {
   }
 }
 
-TEST(Retraction, FixedVerticesStandStillAndFreeOnesLeaveTheRim) {
+TEST(Retraction, FixedVerticesStandStillAndFreeOnesLeaveTheBoundary) {
   for (BoundaryRule rule : {BoundaryRule::fixed, BoundaryRule::free}) {
     test::SceneOptions options;
     options.constraints.boundary = rule;
@@ -135,7 +134,7 @@ TEST(Retraction, NoVertexGoesBeyondItsReach) {
   EXPECT_GT((at.points - s.positions.points).colwise().norm().maxCoeff(), .09 * s.L());
 }
 
-TEST(Retraction, LazyVerticesDriftUntilTheyHaveMovedEnough) {  // on a surface that tells of no bend
+TEST(Retraction, LazyVerticesDriftUntilTheyHaveMovedEnough) {  // on a surface without shape operator
   test::SceneOptions options;
   options.retraction.lazy = .025;
   test::Scene s = test::sphere_scene(.3, options);
@@ -158,9 +157,9 @@ TEST(Retraction, LazyVerticesDriftUntilTheyHaveMovedEnough) {  // on a surface t
   s.retraction.project_drifted(two);
   EXPECT_LT((two.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
   EXPECT_EQ(*std::ranges::max_element(two.drift), 0);
-  const SurfacePositions settled = two;
+  const SurfacePositions projected = two;
   s.retraction.project_drifted(two);
-  EXPECT_TRUE(test::same(two, settled));
+  EXPECT_TRUE(test::same(two, projected));
 }
 
 TEST(Retraction, LazyVerticesFollowTheBendOfTheSurface) {
@@ -183,7 +182,7 @@ TEST(Retraction, LazyVerticesFollowTheBendOfTheSurface) {
     EXPECT_LT((to.normals.col(v) - to.points.col(v).normalized()).norm(), std::pow(.15, 2));
 
   test::Scene rough(test::sphere(2, .3, 5), Surface(test::to_unit_sphere, bend(1)), options);
-  rough.retraction.step(rough.positions, u, to);  // where bends say little, vertices are projected
+  rough.retraction.step(rough.positions, u, to);  // projects: unreliable shape operator
   EXPECT_LT((to.points.colwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
 }
 
@@ -193,7 +192,7 @@ TEST(Retraction, CountsEveryCallAndHowItEnded) {
     ++asked;
     Projection projection{x, Vec3::UnitZ(), hint,
                           hint % 2 ? ProjectionStatus::too_far : ProjectionStatus::converged, 3};
-    if (hint == 40) projection.evaluations = 0;  // e.g. a closest point, which asks no field
+    if (hint == 40) projection.evaluations = 0;  // e.g. a closest point, which evaluates no field
     return projection;
   };
   test::Scene s(test::grid(8, test::flat), surface);
@@ -219,5 +218,4 @@ TEST(Retraction, OneThreadAndTwoGiveTheSameBits) {
   EXPECT_TRUE(test::same(to[0], to[1]));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::retraction_test

@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace hooke {
-namespace {
+namespace hooke::spline_batch_test {
 
 /// A bent sheet of about unit size with points above and below it, values their heights.
 SplineData sheet(int count, unsigned seed) {
@@ -80,7 +79,7 @@ TEST_P(GroupOfEachKernel, ASplineDoesNotKnowWhichOthersAreInItsGroup) {
 TEST(SplineGroup, TellsWhichDataDoNotDetermineASpline) {
   SplineGroup::Data data = sheets();
   data[0].centres.row(2).setZero();                  // on a plane
-  data[2].centres.col(17) = data[2].centres.col(3);  // one place twice
+  data[2].centres.col(17) = data[2].centres.col(3);  // two equal positions
   SplineGroup group;
   const SplineGroup::Flags expected = {false, true, false, true};
   EXPECT_EQ(group.fit(data, all, Kernel::r3, min_distance), expected);
@@ -103,5 +102,4 @@ TEST(SplineData, DropsWhatRepeatsAPlaceAndKeepsTheFirst) {
   EXPECT_EQ(data.centres.col(2), Vec3(0, 1, 0));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::spline_batch_test

@@ -13,22 +13,21 @@
 #include "support/meshes.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::surface_field_test {
 
 /// A cone of so many faces about vertex 0, and a strip around it.
-test::Triangles hub(int spokes) {
-  test::Triangles t{Mat3X(3, 1 + 2 * spokes), {}};
+test::Triangles hub(int valence) {
+  test::Triangles t{Mat3X(3, 1 + 2 * valence), {}};
   t.points.col(0) = Vec3(0, 0, .3);
-  for (int k = 0; k < spokes; ++k) {
-    const double angle = 2 * std::numbers::pi * k / spokes;
+  for (int k = 0; k < valence; ++k) {
+    const double angle = 2 * std::numbers::pi * k / valence;
     const Vec3 out(std::cos(angle), std::sin(angle), 0);
     t.points.col(1 + k) = out;
-    t.points.col(1 + spokes + k) = 1.2 * out - .2 * Vec3::UnitZ();
-    const int next = (k + 1) % spokes;
+    t.points.col(1 + valence + k) = 1.2 * out - .2 * Vec3::UnitZ();
+    const int next = (k + 1) % valence;
     t.faces.push_back({0, 1 + k, 1 + next});
-    t.faces.push_back({1 + k, 1 + spokes + k, 1 + spokes + next});
-    t.faces.push_back({1 + k, 1 + spokes + next, 1 + next});
+    t.faces.push_back({1 + k, 1 + valence + k, 1 + valence + next});
+    t.faces.push_back({1 + k, 1 + valence + next, 1 + next});
   }
   return t;
 }
@@ -74,12 +73,12 @@ TEST(NearFaces, AFaceWithinADistanceIsNoFartherThanTheClosestOne) {
     const Projection projection = faces.closest_point(x, 12);
     const double distance = (projection.point - x).norm();
     EXPECT_FALSE(faces.has_face_within(x, 12, .999 * distance));
-    within += faces.has_face_within(x, projection.hint, 1.001 * distance);  // the foot is on one of its faces
+    within += faces.has_face_within(x, projection.hint, 1.001 * distance);  // on one of its faces
   }
   EXPECT_EQ(within, 300);
 }
 
-TEST(NearFaces, AnAnchorWithoutFacesHasNoFoot) {
+TEST(NearFaces, AnAnchorWithoutFacesHasNoProjection) {
   test::Triangles t = test::equilateral();
   t.points.conservativeResize(3, 4);
   t.points.col(3) = Vec3(5, 5, 5);
@@ -103,7 +102,7 @@ struct Start {
   int hint;
 };
 
-/// Random places of the faces, moved along the face normals by up to `off`.
+/// Random points on the faces, moved along the face normals by up to `off`.
 std::vector<Start> starts_near(const test::Triangles& t, double off, int per_face = 1) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -183,7 +182,7 @@ TEST_P(EveryField, FindsAPlaneExactly) {
   }
 }
 
-TEST_P(EveryField, HasSaneFeetAtOpenRims) {
+TEST_P(EveryField, HasSaneProjectionsAtOpenBoundaries) {
   const int n = 12;
   const auto t = test::grid(n, test::paraboloid, .3);
   const SurfaceField field = field_of(t, GetParam());
@@ -426,6 +425,4 @@ TEST(PartitionOfUnity, LeavesNoVertexWithoutAPatchAndFitsThemAllAsWanted) {
   for (int v = 0; v < c->vertex_count; ++v) EXPECT_NEAR(psi(t.points.col(v), v).gradient.norm(), 1, .1);
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::surface_field_test

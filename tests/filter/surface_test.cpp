@@ -6,8 +6,7 @@
 #include "hooke/mesh/normals.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::surface_test {
 
 std::vector<ShapeOperator> bends_of(const test::Triangles& t) {
   const Adjacency c = test::connect(t);
@@ -21,8 +20,8 @@ TEST(ShapeOperator, ASphereTurnsByTheWayOverItsRadius) {
     const std::vector<ShapeOperator> shape_operators = bends_of(t);
     for (size_t v = 0; v < shape_operators.size(); ++v) {
       const Vec3 n = t.points.col(static_cast<Eigen::Index>(v)).normalized();
-      const Vec3 way = n.unitOrthogonal();
-      EXPECT_LT((shape_operators[v].shape * way - way / 5).norm(), 1e-3 / 5);
+      const Vec3 direction = n.unitOrthogonal();
+      EXPECT_LT((shape_operators[v].shape * direction - direction / 5).norm(), 1e-3 / 5);
       EXPECT_LT((shape_operators[v].shape * n).norm(), 1e-6);
       EXPECT_LT(shape_operators[v].change, .02 / 5);
     }
@@ -70,5 +69,4 @@ TEST(ShapeOperator, IsOneOverTheLength) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::surface_test

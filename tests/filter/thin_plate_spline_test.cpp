@@ -8,8 +8,7 @@
 #include "hooke/core/error.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::thin_plate_spline_test {
 
 Mat3X test_centres(int count, unsigned seed) {
   return test::random_vectors(count, 1.9, seed);
@@ -193,6 +192,4 @@ TEST(ThinPlateSpline, RefusesMoreMemoryThanItMayUseAndSaysHowMuch) {
   }
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::thin_plate_spline_test

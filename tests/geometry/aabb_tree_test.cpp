@@ -11,8 +11,7 @@
 
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::aabb_tree_test {
 
 /// Closest point by a fine walk over the triangle: slow, and true to about 1 / steps.
 double sampled_distance(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -202,6 +201,4 @@ TEST(SpatialOrder, HasEveryIdOnceAndKeepsTheirOrderWherePointsCoincide) {
   EXPECT_EQ(order, ids);
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::aabb_tree_test

@@ -7,10 +7,9 @@
 
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::closest_faces_test {
 
-/// Some points within `spread` of one that is up to `reach` away from the origin.
+/// Some points within `spread` of a point that is up to `reach` away from the origin.
 std::vector<Vec3> cluster(std::mt19937& random, size_t count, double reach, double spread) {
   std::uniform_real_distribution<double> u(-1, 1);
   const auto vector = [&] { return Vec3(u(random), u(random), u(random)); };
@@ -20,7 +19,7 @@ std::vector<Vec3> cluster(std::mt19937& random, size_t count, double reach, doub
   return points;
 }
 
-/// Squared distance by looking at all faces.
+/// Squared distance by testing all faces.
 double min_of_all(const AabbTree& tree, const Vec3& x) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [corners, vertices, id] : tree.faces())
@@ -80,5 +79,4 @@ TEST(NearestFaces, AreNoneInAnEmptyTree) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::closest_faces_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace hooke {
-namespace {
+namespace hooke::predicates_test {
 
 using Rational = boost::multiprecision::cpp_rational;
 
@@ -69,7 +68,7 @@ TEST_P(PredicatesAtScale, Orient2dAgreesWithRationals) {
     ASSERT_EQ(orient2d(b, a, c), -expected);
     ++signs[expected + 1];
   }
-  EXPECT_GT(std::min(signs[0], signs[2]), 100);  // the cases are worth something
+  EXPECT_GT(std::min(signs[0], signs[2]), 100);  // the cases cover both signs
 }
 
 TEST_P(PredicatesAtScale, Orient3dAgreesWithRationals) {
@@ -114,5 +113,4 @@ TEST(Predicates, CollinearMeansExactlyCollinear) {
   EXPECT_FALSE(is_collinear({0, 0, 0}, {0, 0, 1}, {0, 1, 0}));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::predicates_test

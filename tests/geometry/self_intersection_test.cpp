@@ -7,8 +7,7 @@
 #include "hooke/core/parallel.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::self_intersection_test {
 
 using Pairs = std::vector<std::array<int, 2>>;
 
@@ -63,7 +62,7 @@ TEST(SelfIntersection, InOnePlane) {
   expect_pair(apart({2, 2, 0}, {5, 5, 0}, {5, 4, 0}), true);  // a corner touches an edge
   expect_pair(apart({4, 0, 0}, {0, 4, 0}, {5, 5, 0}), true);  // edge on edge
   expect_pair(apart({3, 3, 0}, {5, 5, 0}, {5, 4, 0}), false);
-  expect_pair(apart(a, b, c), true);  // the same place twice
+  expect_pair(apart(a, b, c), true);  // identical positions
 }
 
 TEST(SelfIntersection, TrianglesWithACommonVertex) {
@@ -133,5 +132,4 @@ TEST(SelfIntersection, PairsAreOrderedAndEqualForAnyNumberOfThreads) {
   for (const auto& [f, g] : many) EXPECT_LT(f, g);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::self_intersection_test

@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace hooke {
-namespace {
+namespace hooke::triangle_test {
 
 TEST(ClosestPoint, OfATriangleIsNoFartherThanAnyOfItsPoints) {
   std::mt19937 random(1);
@@ -36,5 +35,4 @@ TEST(ClosestPoint, OfAPointOfTheTriangleIsItself) {
   EXPECT_EQ(inside.squared_distance, 0);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::triangle_test

@@ -11,8 +11,7 @@
 #include "support/remeshed.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::angle_search_test {
 
 /// Irregular connectivity, whose springs are at rest.
 test::Triangles irregular(unsigned seed) {
@@ -132,5 +131,4 @@ TEST(AngleSearch, OneThreadAndTwoGiveTheSameBits) {
   EXPECT_EQ(search(irregular(2)).points, two);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::angle_search_test

@@ -11,17 +11,16 @@
 #include "hooke/springs/target_lengths.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::angle_springs_test {
 
-/// Brings the springs to rest: polish begins there.
+/// Relaxes the springs; angle optimisation starts from their equilibrium.
 void relax(test::Scene& s) {
   Relaxation r = s.relaxation();
   relax_lbfgs(r, IntegrationOptions{}, LbfgsOptions{}, nullptr);
 }
 
-AngleSpringResult polished(test::Scene& s, const AngleSpringOptions& options = {},
-                           const Observer& observer = nullptr) {
+AngleSpringResult angle_optimised(test::Scene& s, const AngleSpringOptions& options = {},
+                                  const Observer& observer = nullptr) {
   Relaxation r = s.relaxation();
   return raise_angles(r, s.targets, options, observer);
 }
@@ -70,12 +69,12 @@ TEST(RelativeEdgeDeviation, IsTheStandardDeviationInPartsOfTheTargets) {
   EXPECT_NEAR(relative_edge_deviation(c.points, adjacency.edges, targets), 0, 1e-15);
 }
 
-TEST(Polish, RaisesTheLeastAngleAndNeverTheEdgeDeviation) {
+TEST(AngleSprings, RaiseTheLeastAngleAndNeverTheEdgeDeviation) {
   test::Scene s(irregular(), test::to_ground);
   relax(s);
   const double angle = angle_of(s), deviation = deviation_of(s);
   ASSERT_LT(angle, 30);
-  const AngleSpringResult result = polished(s);
+  const AngleSpringResult result = angle_optimised(s);
   EXPECT_EQ(result.min_angle_before, angle);
   EXPECT_EQ(result.edge_error_before, deviation);
   EXPECT_EQ(result.min_angle_after, angle_of(s));
@@ -84,7 +83,7 @@ TEST(Polish, RaisesTheLeastAngleAndNeverTheEdgeDeviation) {
   EXPECT_LE(result.edge_error_after, deviation);
 }
 
-TEST(Polish, IsNeverWorseThanItsStart) {
+TEST(AngleSprings, AreNeverWorseThanTheStart) {
   AngleSpringOptions options;
   options.keep_within = 90;  // so that only the start bounds what is kept
   for (unsigned seed = 1; seed <= 20; ++seed)
@@ -93,7 +92,7 @@ TEST(Polish, IsNeverWorseThanItsStart) {
       if (at_rest) relax(s);
       const double angle = angle_of(s), deviation = deviation_of(s);
       const int folded = inward_faces(s);
-      polished(s, options);
+      angle_optimised(s, options);
       EXPECT_GE(angle_of(s), angle) << seed;
       EXPECT_LE(deviation_of(s), deviation) << seed;
       EXPECT_LE(inward_faces(s), folded) << seed;
@@ -101,8 +100,8 @@ TEST(Polish, IsNeverWorseThanItsStart) {
     }
 }
 
-TEST(Polish, IsNeverWorseThanItsStartWhereConnectivityBinds) {
-  AngleSpringOptions high;  // thresholds that cannot be reached: corners pay for each other
+TEST(AngleSprings, AreNeverWorseThanTheStartWhereConnectivityBinds) {
+  AngleSpringOptions high;  // thresholds that cannot be met: angles improve at the expense of others
   high.first_threshold = 45;
   high.last_threshold = 50;
   high.keep_within = 90;
@@ -110,26 +109,26 @@ TEST(Polish, IsNeverWorseThanItsStartWhereConnectivityBinds) {
     test::Scene s(irregular(seed), test::to_ground);
     relax(s);
     const double angle = angle_of(s);
-    EXPECT_GE(polished(s, high).min_angle_after, angle);
+    EXPECT_GE(angle_optimised(s, high).min_angle_after, angle);
     EXPECT_GE(angle_of(s), angle);
-    polished(s, high);
+    angle_optimised(s, high);
     EXPECT_GE(angle_of(s), angle);
   }
 }
 
-TEST(Polish, GoodAnglesAreLeftAlone) {
+TEST(AngleSprings, LeaveGoodAnglesAlone) {
   test::Scene s = test::sphere_scene(0);
   const SurfacePositions before = s.positions;
-  EXPECT_EQ(polished(s).stages, 0);
+  EXPECT_EQ(angle_optimised(s).stages, 0);
   EXPECT_TRUE(test::same(s.positions, before));
 }
 
-TEST(Polish, MovesOnlyWhatLiesAroundBadFaces) {
+TEST(AngleSprings, MoveOnlyWhatLiesAroundBadFaces) {
   test::Triangles t = test::grid(20, test::flat);
   t.points.col(21 * 4 + 4) += Vec3(.034, .016, 0);  // one bad ring near a corner
   test::Scene s(t, test::to_ground);
   ASSERT_LT(angle_of(s), 20);
-  polished(s);
+  angle_optimised(s);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v)
     if (t.points(0, v) > .6 || t.points(1, v) > .6) {
       EXPECT_EQ(s.positions.points.col(v), t.points.col(v));
@@ -137,11 +136,11 @@ TEST(Polish, MovesOnlyWhatLiesAroundBadFaces) {
   EXPECT_GT(angle_of(s), 20);
 }
 
-TEST(Polish, PutsTheEnergyBackAndStopsWhenAskedTo) {
+TEST(AngleSprings, RestoreTheEnergyAndStopWhenAskedTo) {
   test::Scene s(irregular(), test::to_ground);
   relax(s);
   const double angle = angle_of(s), deviation = deviation_of(s);
-  const AngleSpringResult result = polished(s, {}, [](const Progress& p) { return p.step < 3; });
+  const AngleSpringResult result = angle_optimised(s, {}, [](const Progress& p) { return p.step < 3; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_LE(result.sweeps, 5);
   EXPECT_EQ(s.energy.terms.angle, 0);
@@ -150,17 +149,16 @@ TEST(Polish, PutsTheEnergyBackAndStopsWhenAskedTo) {
   EXPECT_LE(deviation_of(s), deviation);
 }
 
-TEST(Polish, OneThreadAndTwoGiveTheSameBits) {
+TEST(AngleSprings, OneThreadAndTwoGiveTheSameBits) {
   std::vector<SurfacePositions> results;
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     test::Scene s(irregular(), test::to_ground);
     relax(s);
-    polished(s);
+    angle_optimised(s);
     results.push_back(s.positions);
   }
   EXPECT_TRUE(test::same(results[0], results[1]));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::angle_springs_test

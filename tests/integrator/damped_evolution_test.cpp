@@ -22,8 +22,7 @@
 #include "hooke/working_mesh/workspace.h"
 #include "support/meshes.h"
 
-namespace hooke {
-namespace {
+namespace hooke::damped_evolution_test {
 
 using test::Triangles;
 
@@ -56,17 +55,17 @@ double string_energy(const Body& b) {
 TEST(DampedEvolution, VelocityDecaysExactlyWithoutForce) {
   Body b = body(test::sphere(1));
   Motion motion = motion_of(b.mesh);
-  come_to_rest(motion);
+  reset_motion(motion);
   motion.velocities.colwise() = Vec3(1, 2, 3);
   const Mat3X start = motion.points;
   const EvolutionOptions free{.damped = {.string = 0, .torque = 0}};
-  const EvolutionStep step = evolution_step(motion, b.adjacency, b.lengths, free, nullptr, first_factor);
+  const EvolutionStep step = evolution_step(motion, b.adjacency, b.lengths, free, nullptr, initial_factor);
   const double decay = std::exp(-free.damped.friction * step.adapted.time);
   ASSERT_GT(step.adapted.time, 0);
   for (Eigen::Index v = 0; v < start.cols(); ++v) {
     EXPECT_TRUE(motion.velocities.col(v).isApprox(decay * Vec3(1, 2, 3), 1e-14));
-    const Vec3 way = motion.points.col(v) - start.col(v);
-    EXPECT_TRUE(way.isApprox((1 - decay) / free.damped.friction * Vec3(1, 2, 3), 1e-9));
+    const Vec3 displacement = motion.points.col(v) - start.col(v);
+    EXPECT_TRUE(displacement.isApprox((1 - decay) / free.damped.friction * Vec3(1, 2, 3), 1e-9));
   }
 }
 
@@ -99,7 +98,7 @@ TEST(DampedEvolution, LosesEnergyByFriction) {
   const auto total = [&] {
     return options.damped.string * string_energy(b) + .5 * motion.mass * motion.velocities.squaredNorm();
   };
-  come_to_rest(motion);
+  reset_motion(motion);
   const double start = total();
   double last = start;
   evolve_damped(b.mesh, b.adjacency, b.lengths, options, nullptr, [&](const Progress& step) {
@@ -285,14 +284,14 @@ TEST(DampedRelaxation, EnergyNeverRisesWithoutTorque) {
 }
 
 TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
-  // In the plane nothing bends the way, and this jitter is too small for the cap and the guards. The first
-  // step starts from rest at epsilon = 1/2, the second goes on at 1.1 times that.
+  // In the plane the displacements are not curved, and this jitter is too small for the cap and the guards.
+  // The first step starts from rest at epsilon = 1/2, the second goes on at 1.1 times that.
   Bench b(test::grid(8, test::flat, .1), {}, FilterKind::none);
   b.energy.terms.altitude = 0;  // stiff: they would reject the second step
   const DampedOptions constants{.string = 3, .friction = 400};
   const double m = 1. / 81, dt = .5 * std::sqrt(m / 3), tau = 400;
   const Mat3X X0 = b.work.positions.points;
-  b.damped({.max_steps = 1}, constants);  // one look at the forces, no step
+  b.damped({.max_steps = 1}, constants);  // evaluates the forces, without a step
   const Mat3X F0 = b.property(force_property);
   ASSERT_GT(F0.norm(), .1);
   EXPECT_EQ(vertex_points(b.mesh), X0);
@@ -356,7 +355,7 @@ TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
 
 TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
   const GuardOptions none{
-      .area_ratio = 0, .alignment = -2, .fold = -2, .sagitta = 1e9};  // they would hold it back
+      .area_ratio = 0, .alignment = -2, .fold = -2, .sagitta = 1e9};  // guards would limit the steps
   Bench b(test::grid(4, test::flat, .2), none, FilterKind::none);
   const Surface runs_away = [](const Vec3& x, int hint, double) {
     return Projection{.point = 2 * x, .normal = Vec3::UnitZ(), .hint = hint};
@@ -424,6 +423,4 @@ TEST(DampedRelaxation, CommutesExactlyWithScalingByAPowerOfTwo) {
   EXPECT_EQ(vertex_points(large), 1024 * vertex_points(mesh));
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::damped_evolution_test

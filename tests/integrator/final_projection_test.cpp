@@ -9,8 +9,7 @@
 #include "hooke/geometry/self_intersection.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::final_projection_test {
 
 constexpr double height = .05;  // of the upper sheet; edges are .125 long
 
@@ -36,7 +35,7 @@ struct Sheets {
     return t;
   }
 
-  /// A vertex of the upper sheet goes through the lower one.
+  /// Moves a vertex of the upper sheet through the lower one.
   int push_through(SurfacePositions& p) const {
     const int v = inner.back() - 20;
     p.points(2, v) -= 2 * height;
@@ -49,7 +48,7 @@ struct Sheets {
   size_t crossings(const SurfacePositions& p) const { return pairs(p).size(); }
 };
 
-TEST(Landing, WhatCrossesGoesBackAndNothingFarFromIt) {
+TEST(FinalProjection, WhatCrossesGoesBackAndNothingFarFromIt) {
   Sheets s;
   const SurfacePositions& from = s.scene.positions;
   for (int v : s.inner) {
@@ -73,7 +72,7 @@ TEST(Landing, WhatCrossesGoesBackAndNothingFarFromIt) {
   }
 }
 
-TEST(Landing, WhatCrossedBeforeMayGoOnToAndSlide) {
+TEST(FinalProjection, WhatCrossedBeforeMayGoOnToAndSlide) {
   Sheets s;
   const int through = s.push_through(s.scene.positions);
   s.to = s.scene.positions;
@@ -86,7 +85,7 @@ TEST(Landing, WhatCrossedBeforeMayGoOnToAndSlide) {
   EXPECT_TRUE(test::same(s.to, moved));
 }
 
-TEST(Landing, WhereNothingCrossesNothingGoesBack) {
+TEST(FinalProjection, WhereNothingCrossesNothingGoesBack) {
   Sheets s;
   for (int v : s.inner) s.to.points.col(v) += Vec3(.01, .01, 0);
   const SurfacePositions moved = s.to;
@@ -94,5 +93,4 @@ TEST(Landing, WhereNothingCrossesNothingGoesBack) {
   EXPECT_TRUE(test::same(s.to, moved));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::final_projection_test

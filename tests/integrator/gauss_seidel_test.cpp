@@ -9,8 +9,7 @@
 #include "hooke/integrator/vertex_ring.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::gauss_seidel_test {
 
 double energy_around(test::Scene& s, int vertex) {
   VertexRing ring(s.coloring.rings, s.targets);
@@ -163,5 +162,4 @@ TEST(LocalNewton, OneThreadAndTwoGiveTheSameBits) {
   EXPECT_TRUE(test::same(results[0], results[1]));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::gauss_seidel_test

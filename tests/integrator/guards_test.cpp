@@ -10,8 +10,7 @@
 #include "hooke/integrator/vertex_ring.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::guards_test {
 
 const GuardOptions defaults;
 
@@ -122,31 +121,31 @@ TEST(Guards, SagittaIsThatOfACircle) {
   EXPECT_EQ(edge_sagitta(Mat3X::Random(3, 2), Mat3X::Ones(3, 2) / std::sqrt(3), {0, 1}), 0);
 }
 
-TEST(Guards, VerticesThatDriftedSettleButWhereThatWouldFoldAFace) {
-  constexpr int wild = 40;  // the middle of a grid of eight cells a side; its foot lies three cells away
+TEST(Guards, DriftedVerticesAreProjectedUnlessThatWouldFoldAFace) {
+  constexpr int wild = 40;  // middle of an 8 x 8 grid; its projection lies three cells away
   const Surface surface = [](const Vec3& x, int hint, double) {
     const double jump = hint == wild ? 3. / 8 : 0;
     return Projection{Vec3(x[0] + jump, x[1], 0), Vec3::UnitZ(), hint, ProjectionStatus::converged, 1};
   };
   test::Scene s(test::grid(8, test::flat), test::to_ground);
   Retraction retraction(surface, s.constraints, {});
-  SurfacePositions drifted = s.positions, settled;
+  SurfacePositions drifted = s.positions, projected;
   for (size_t v = 0; v < drifted.drift.size(); ++v)
     if (s.constraints.freedom[v] == Freedom::surface) {
       drifted.points(2, static_cast<Eigen::Index>(v)) = 1e-3;
       drifted.drift[v] = .01;
     }
-  project_drifted(s.guards, retraction, drifted, settled);
-  EXPECT_EQ(settled.points.col(wild), drifted.points.col(wild));
-  EXPECT_EQ(settled.drift[wild], .01);
-  int landed = 0;
+  project_drifted(s.guards, retraction, drifted, projected);
+  EXPECT_EQ(projected.points.col(wild), drifted.points.col(wild));
+  EXPECT_EQ(projected.drift[wild], .01);
+  int projected_count = 0;
   for (size_t v = 0; v < drifted.drift.size(); ++v) {
     const auto i = static_cast<Eigen::Index>(v);
-    EXPECT_EQ(settled.points(2, i), settled.drift[v] == 0 ? 0 : drifted.points(2, i));
-    landed += settled.drift[v] == 0;
-    EXPECT_EQ(settled.points.col(i).head(2), drifted.points.col(i).head(2));
+    EXPECT_EQ(projected.points(2, i), projected.drift[v] == 0 ? 0 : drifted.points(2, i));
+    projected_count += projected.drift[v] == 0;
+    EXPECT_EQ(projected.points.col(i).head(2), drifted.points.col(i).head(2));
   }
-  EXPECT_GE(landed, 81 - 19);  // all but the vertex and its two rings at most
+  EXPECT_GE(projected_count, 81 - 19);  // all but the vertex and its two rings at most
 }
 
 TEST(Guards, WhatIsKnownToHaveMovedIsPutBackLikeAll) {
@@ -267,12 +266,12 @@ TEST(Guards, AFoldedFaceMayPassThroughZeroArea) {
   EXPECT_TRUE(s.guards.folded_faces(to).empty());
 }
 
-/// Moves each vertex alone by a random vector; returns how many the guards held back.
-int moves_refused(test::Scene& s) {
+/// Moves each vertex alone by a random vector; returns how many were limited by guards.
+int limited_moves(test::Scene& s) {
   const Mat3X wanted = test::random_vectors(s.positions.points.cols(), .6 * s.L());
   VertexRing ring(s.coloring.rings, s.targets);
   RingShape before, after;
-  int refused = 0;
+  int limited = 0;
   for (int v = 0; v < s.adjacency.vertex_count; ++v) {
     Mat3X u = Mat3X::Zero(3, wanted.cols());
     u.col(v) = wanted.col(v);
@@ -283,9 +282,9 @@ int moves_refused(test::Scene& s) {
     ring.shape(to.points.col(v), to.normals.col(v), after);
     const bool obeys = ring.obeys(before, after, s.guards.options());
     EXPECT_EQ(s.guards.step(s.retraction, s.positions, u, to).empty(), obeys) << v;
-    refused += !obeys;
+    limited += !obeys;
   }
-  return refused;
+  return limited;
 }
 
 TEST(Guards, OneVertexAloneIsJudgedLikeAStepOfAll) {
@@ -294,9 +293,9 @@ TEST(Guards, OneVertexAloneIsJudgedLikeAStepOfAll) {
   test::Scene scenes[] = {test::sphere_scene(.4), test::ground_scene(.4), test::sphere_scene(.4, tight),
                           test::Scene(folded_grid(1.5), test::to_ground)};
   for (test::Scene& s : scenes) {
-    const int refused = moves_refused(s);
-    EXPECT_GT(refused, s.adjacency.vertex_count / 20);
-    EXPECT_LT(refused, s.adjacency.vertex_count - 2);
+    const int limited = limited_moves(s);
+    EXPECT_GT(limited, s.adjacency.vertex_count / 20);
+    EXPECT_LT(limited, s.adjacency.vertex_count - 2);
   }
 }
 
@@ -311,6 +310,4 @@ TEST(Guards, OneThreadAndTwoGiveTheSameBits) {
   EXPECT_TRUE(test::same(to[0], to[1]));
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::guards_test

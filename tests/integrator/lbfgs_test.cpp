@@ -8,8 +8,7 @@
 #include "hooke/integrator/relaxation.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::lbfgs_test {
 
 IntegrationOptions until_rest() {
   IntegrationOptions options;
@@ -23,7 +22,7 @@ IntegrationResult relax(test::Scene& s, const IntegrationOptions& options = unti
   return relax_lbfgs(r, options, LbfgsOptions{}, observer);
 }
 
-/// Guarded steps along the gradient; returns the least energy met.
+/// Guarded steps along the gradient; returns the minimum energy.
 double descend(test::Scene& s, int steps) {
   double energy = s.energy(s.positions.points, s.positions.normals, nullptr);
   double step = .1 * s.L() * s.L();
@@ -51,7 +50,7 @@ TEST(RelaxLbfgs, GetsLowerThanGradientSteps) {
 TEST(RelaxLbfgs, ComesToRestWhereTheGradientIsSmall) {
   for (bool on_sphere : {true, false}) {
     test::Scene s = on_sphere ? test::sphere_scene(.35) : test::ground_scene(.4);
-    ASSERT_TRUE(s.guards.folded_faces(s.positions).empty());  // they would block the way
+    ASSERT_TRUE(s.guards.folded_faces(s.positions).empty());  // folds would limit the steps
     const double start = s.tangent_gradient().norm();
     const double energy = s.energy(s.positions.points, s.positions.normals, nullptr);
     const IntegrationResult result = relax(s);
@@ -76,7 +75,7 @@ TEST(RelaxLbfgs, KeepsEveryVertexOnTheSurfaceAndNoFaceFolds) {
   }
 }
 
-TEST(RelaxLbfgs, DriftsNoFartherThanItMayUnlessItSettles) {
+TEST(RelaxLbfgs, LeavesDriftOnlyIfItDoesNotProjectAtTheEnd) {
   test::SceneOptions options;
   options.retraction.lazy = .01;
   const auto drift = [&](bool projects_at_end) {
@@ -140,12 +139,12 @@ TEST(RelaxLbfgs, TheEnergyFallsFromStepToStep) {
   EXPECT_GT(result.evaluations, result.steps);
 }
 
-/// A grid that is dense on one side, in which all have far to go past vertices that stand still.
+/// A grid that is dense on one side, whose vertices have to travel far past fixed ones.
 TEST(RelaxLbfgs, LongWavesDoNotBreakOnVerticesThatStand) {
   const int n = 60;
   test::Triangles t = test::grid(n, test::flat, .2, 3);
   for (auto p : t.points.colwise()) p[0] = p[0] * (.4 + .6 * p[0]);
-  const auto relaxed = [&](double carried) {
+  const auto relaxed = [&](double max_capped_fraction) {
     test::SceneOptions options;
     for (int i = 1; i < 6; ++i)
       for (int j = 1; j < 6; ++j) options.constraints.fixed_vertices.push_back(10 * i * (n + 1) + 10 * j);
@@ -154,10 +153,10 @@ TEST(RelaxLbfgs, LongWavesDoNotBreakOnVerticesThatStand) {
     IntegrationOptions integration = until_rest();
     integration.max_steps = 60;
     LbfgsOptions lbfgs;
-    lbfgs.carried = carried;
+    lbfgs.max_capped_fraction = max_capped_fraction;
     return relax_lbfgs(r, integration, lbfgs, nullptr);
   };
-  const IntegrationResult breaking = relaxed(2), whole = relaxed(LbfgsOptions{}.carried);
+  const IntegrationResult breaking = relaxed(2), whole = relaxed(LbfgsOptions{}.max_capped_fraction);
   EXPECT_LT(whole.energy, .9 * breaking.energy);
   EXPECT_LT(whole.limited_steps, breaking.limited_steps);
 }
@@ -195,5 +194,4 @@ TEST(RelaxLbfgs, OneThreadAndTwoGiveTheSameBits) {
   EXPECT_TRUE(test::same(results[0], results[1]));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::lbfgs_test

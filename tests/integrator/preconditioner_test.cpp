@@ -5,8 +5,7 @@
 #include "hooke/core/parallel.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::preconditioner_test {
 
 /// A wavy sheet, 31 cells of the finest grid wide.
 Mat3X sheet() {
@@ -107,5 +106,4 @@ TEST(GridHierarchy, FewPointsInALineOrNoneAreWelcome) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::preconditioner_test

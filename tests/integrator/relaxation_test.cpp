@@ -6,8 +6,7 @@
 
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::relaxation_test {
 
 IntegrationOptions rest(double drop, int window) {
   IntegrationOptions options;
@@ -66,5 +65,4 @@ TEST(CapDisplacement, ShortensWhatIsTooLongAndNothingElse) {
   EXPECT_GT(shortened, 1000);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::relaxation_test

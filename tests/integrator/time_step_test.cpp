@@ -10,8 +10,7 @@
 
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::time_step_test {
 
 using test::Triangles;
 
@@ -108,11 +107,11 @@ auto up_to(double longest) {
 }
 
 TEST(AdaptStep, GrowsAtMostTwiceAndHalvesUntilItPasses) {
-  const AdaptedStep free = adapt_step(3, first_factor, 1e-6, up_to(1e9));
+  const AdaptedStep free = adapt_step(3, initial_factor, 1e-6, up_to(1e9));
   EXPECT_EQ(free.factor, 1);
   EXPECT_EQ(free.time, 3);
   EXPECT_FALSE(free.bound.any());
-  const AdaptedStep cut = adapt_step(3, first_factor, 1e-6, up_to(.4));
+  const AdaptedStep cut = adapt_step(3, initial_factor, 1e-6, up_to(.4));
   EXPECT_EQ(cut.factor, .125);
   EXPECT_EQ(cut.time, .375);
   EXPECT_EQ(cut.rejected, 3);
@@ -121,11 +120,10 @@ TEST(AdaptStep, GrowsAtMostTwiceAndHalvesUntilItPasses) {
 }
 
 TEST(AdaptStep, ReportsAJamUnderTheFloor) {
-  const AdaptedStep jam = adapt_step(3, first_factor, 1e-3, up_to(1e-9));
+  const AdaptedStep jam = adapt_step(3, initial_factor, 1e-3, up_to(1e-9));
   EXPECT_TRUE(jam.jammed);
   EXPECT_TRUE(jam.bound.expansion);
   EXPECT_EQ(jam.time, 0);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::time_step_test

@@ -8,8 +8,7 @@
 #include "hooke/integrator/relaxation.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::untangle_test {
 
 /// A flat grid whose vertex 40 is pulled over the edges that face it.
 test::Triangles folded_grid() {
@@ -49,9 +48,9 @@ TEST(Untangle, UnfoldsOnASphere) {
     EXPECT_GT(test::area_vector(s.positions.points, face).dot(s.positions.points.col(face[0])), 0);
 }
 
-TEST(Untangle, OpensASliverThatHardlyLiesOutsideTheRim) {
+TEST(Untangle, OpensASliverThatHardlyLiesOutsideTheBoundary) {
   test::Triangles t = test::grid(8, test::flat, .1);
-  t.points.col(13) = Vec3(t.points(0, 13), -.002, 0);  // next to the rim
+  t.points.col(13) = Vec3(t.points(0, 13), -.002, 0);  // next to the boundary
   test::Scene s(t, test::to_ground);
   ASSERT_GT(downward_faces(s), 0);
   Relaxation r = s.relaxation();
@@ -91,7 +90,7 @@ TEST(Untangle, StopsWhenAskedTo) {
 TEST(Untangle, NamesWhatItCannotUnfold) {
   test::SceneOptions options;
   options.constraints.boundary = BoundaryRule::fixed;
-  test::Triangles t = test::grid(2, test::flat);  // one inner vertex: the fold on the rim stays
+  test::Triangles t = test::grid(2, test::flat);  // one inner vertex: the fold at the boundary stays
   t.points.col(1) += Vec3(.8, 0, 0);
   test::Scene s(t, test::to_ground, options);
   const int before = downward_faces(s);
@@ -104,5 +103,4 @@ TEST(Untangle, NamesWhatItCannotUnfold) {
     EXPECT_LT(test::area_vector(s.positions.points, t.faces[static_cast<size_t>(f)])[2], 1e-2);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::untangle_test

@@ -7,8 +7,7 @@
 
 #include "hooke/springs/energy.h"
 
-namespace hooke {
-namespace {
+namespace hooke::vertex_ring_test {
 
 /// The corner angles of the faces of a vertex.
 std::vector<double> angles_about(const test::Scene& s, int vertex) {
@@ -86,7 +85,7 @@ TEST_P(RingLaws, TheModelHasTheEnergyAndItsGradient) {
 TEST_P(RingLaws, TheHessianEqualsDifferencesOfTheGradient) {
   for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
     const double t = s.energy.terms.angle > 0 ? s.energy.terms.angle_threshold : 0;
-    if (std::ranges::any_of(angles_about(s, v), [t](double a) { return a >= t && a <= angle_felt * t; }))
+    if (std::ranges::any_of(angles_about(s, v), [t](double a) { return a >= t && a <= angle_fade_out * t; }))
       return;
     const Vec3 x = s.positions.points.col(v);
     const Vec3 a =
@@ -159,5 +158,4 @@ TEST(VertexRing, AFaceWithoutAreaHasAFiniteModel) {
   EXPECT_LT(m.gradient[1], 0);  // pushed open
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::vertex_ring_test

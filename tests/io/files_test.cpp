@@ -12,8 +12,7 @@
 #include "support/errors.h"
 #include "support/temporary_folder.h"
 
-namespace hooke {
-namespace {
+namespace hooke::files_test {
 
 namespace fs = std::filesystem;
 using test::read_text;
@@ -91,8 +90,8 @@ TEST(AtomicWrite, RefusesWhatIsNotAPlaceForAFile) {
   EXPECT_EQ(folder.file_count(), before);
 }
 
-/// Root may write everywhere: takes the place of a user who owns the folder, until its end. Others stay who
-/// they are.
+/// Root may write everywhere: during its lifetime, root acts as a user who owns the folder. Other users are
+/// not changed.
 class OrdinaryUser {
  public:
   explicit OrdinaryUser(const fs::path& folder) {
@@ -214,6 +213,4 @@ TEST(FileBytes, OfAnEmptyFileAreAnError) {
   EXPECT_TRUE(test::has(message, "the file is empty")) << message;
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::files_test

@@ -8,8 +8,7 @@
 #include "support/errors.h"
 #include "support/temporary_folder.h"
 
-namespace hooke {
-namespace {
+namespace hooke::mesh_file_test {
 
 namespace fs = std::filesystem;
 using test::has;
@@ -84,5 +83,4 @@ TEST(MeshFile, AnUnusualNameIsReadAndPrintable) {
   EXPECT_TRUE(has(message, "a\\n%s \\x1b[0m.obj:1: z is missing")) << message;
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::mesh_file_test

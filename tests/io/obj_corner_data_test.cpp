@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace hooke {
-namespace {
+namespace hooke::obj_corner_data_test {
 
 /// A fan of triangles about vertex 0 with the ring 1, 2 ... n, closed.
 IntLists fan(int n) {
@@ -70,5 +69,4 @@ TEST(CornerData, VerticesWithoutCornersGetZero) {
   EXPECT_EQ(file.vertex_data[1].values, (std::vector<double>{3, 2, 1, 0}));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::obj_corner_data_test

@@ -6,8 +6,7 @@
 #include "hooke/core/error.h"
 #include "support/errors.h"
 
-namespace hooke {
-namespace {
+namespace hooke::obj_test {
 
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -168,5 +167,4 @@ TEST(Obj, WritesWhatItReads) {
   EXPECT_EQ(write_obj(read(three + "f 1 2 3").points, {{0, 1, 2}}), three + "f 1 2 3\n");
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::obj_test

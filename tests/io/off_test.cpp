@@ -5,8 +5,7 @@
 #include "hooke/core/error.h"
 #include "support/errors.h"
 
-namespace hooke {
-namespace {
+namespace hooke::off_test {
 
 const std::string body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
@@ -110,5 +109,4 @@ TEST(Off, WritesWhatItReads) {
   EXPECT_EQ(write_off(read("OFF\n3 1 0\n" + body).points, {{0, 1, 2}}), "OFF\n3 1 0\n" + body);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::off_test

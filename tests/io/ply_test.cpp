@@ -11,8 +11,7 @@
 #include "hooke/core/error.h"
 #include "support/errors.h"
 
-namespace hooke {
-namespace {
+namespace hooke::ply_test {
 
 std::string header_with(const std::string& format, const std::string& properties) {
   return "ply\nformat " + format +
@@ -180,7 +179,7 @@ TEST(Ply, OtherPropertiesAndElementsArePassedOverAndNamed) {
 }
 
 TEST(Ply, BodyBeginsRightAfterTheHeadersOwnLineEnd) {
-  // The first byte of the body is 10, a line end in another place.
+  // The first byte of the body is 10, which would be a line end in the header.
   Binary file(
       "binary_little_endian",
       "element vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\nelement face 1\n" + list);
@@ -263,6 +262,4 @@ TEST(Ply, BinaryBodyErrorsNameElementAndByte) {
   }
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::ply_test

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace hooke {
-namespace {
+namespace hooke::polygon_triangulation_test {
 
 struct Polygon {
   Mat3X points;
@@ -126,5 +125,4 @@ TEST(Polygons, WithoutACleanCutTheCountStaysRightAndItIsSaid) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::polygon_triangulation_test

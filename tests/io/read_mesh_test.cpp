@@ -14,8 +14,7 @@
 #include "support/solids.h"
 #include "support/temporary_folder.h"
 
-namespace hooke {
-namespace {
+namespace hooke::read_mesh_test {
 
 using test::read_text;
 using test::TemporaryFolder;
@@ -131,5 +130,4 @@ TEST(Sha256, AgreesWithTheStandardsExamples) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::read_mesh_test

@@ -14,8 +14,7 @@
 #include "hooke/io/text.h"
 #include "support/errors.h"
 
-namespace hooke {
-namespace {
+namespace hooke::scanner_test {
 
 NumberError parse(std::string_view text) {
   double value = 0;
@@ -116,5 +115,4 @@ TEST(Printable, IsOneLineOfUtf8WithoutControlCharacters) {
   EXPECT_EQ(in_quotes(std::string(100, 'a')), fmt::format("'{:a>40}...'", ""));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::scanner_test

@@ -10,8 +10,7 @@
 #include "support/errors.h"
 #include "support/meshes.h"
 
-namespace hooke {
-namespace {
+namespace hooke::text_test {
 
 // Several megabytes, so that there are several pieces.
 const test::Triangles& large() {
@@ -153,5 +152,4 @@ TEST(TextPieces, NegativeIndicesCountFromWhereTheyStand) {
   EXPECT_ERROR(InputError, "name:1: vertex index", read_obj("f 1 2 180001\n" + text, "name"));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::text_test

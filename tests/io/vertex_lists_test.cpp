@@ -6,8 +6,7 @@
 #include "support/errors.h"
 #include "support/temporary_folder.h"
 
-namespace hooke {
-namespace {
+namespace hooke::vertex_lists_test {
 
 TEST(IdList, ReadsOneIdALine) {
   const test::TemporaryFolder folder;
@@ -53,6 +52,4 @@ TEST(LengthList, NamesTheLineOfWhatIsNoLength) {
   EXPECT_ERROR(InputError, (folder / "none").string(), read_length_list(folder / "none", 3));
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::vertex_lists_test

@@ -7,11 +7,10 @@
 #include "hooke/mesh/adjacency.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::angle_bound_test {
 
 AngleBound bound(const test::Triangles& t, int face, int rings = 2) {
-  return bound_least_angle(t.points, test::connect(t), face, rings);
+  return bound_min_angle(t.points, test::connect(t), face, rings);
 }
 
 TEST(AngleBound, AnEquilateralTriangleCanHaveSixtyDegrees) {
@@ -64,7 +63,7 @@ TEST(AngleBound, WhatCannotBeMeasuredIsNotBounded) {
   EXPECT_TRUE(bound(t, 0).vertices.empty());
 }
 
-/// Each side of the cube has creases about it and one diagonal.
+/// Each square of the cube is bounded by creases and has one diagonal.
 std::vector<Edge> edges_of_cube(const test::Triangles& cube) {
   std::vector<Edge> edges;
   for (const Edge& e : test::connect(cube).edges)
@@ -131,6 +130,4 @@ TEST(CreaseBound, SpeaksInTheIdsOfTheSurface) {
   EXPECT_EQ(narrow->bound.vertices, std::vector<int>{4});
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::angle_bound_test

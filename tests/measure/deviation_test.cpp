@@ -8,8 +8,7 @@
 #include "hooke/core/parallel.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::deviation_test {
 
 Deviation measure(const test::Triangles& reference, const test::Triangles& result) {
   return measure_deviation(reference.points, test::connect(reference), result.points, test::connect(result));
@@ -166,5 +165,4 @@ TEST(Deviation, FromAnEmptyReferenceIsInfinite) {
   EXPECT_EQ(d.flipped_faces, 0u);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::deviation_test

@@ -12,8 +12,7 @@
 #include "hooke/mesh/curvature.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::quality_test {
 
 Quality measure(const test::Triangles& t, const std::vector<double>& targets = {}) {
   return measure_quality(t.points, test::connect(t), targets);
@@ -186,17 +185,17 @@ double angle_defect(const test::Triangles& t, const Adjacency& c, int v) {
 }
 
 /// Two hubs with many faces about a ring that goes up and down: their angles add up to several turns.
-test::Triangles ruffle(int rim) {
+test::Triangles ruffle(int boundary_size) {
   test::Triangles t;
-  t.points.resize(3, rim + 2);
-  for (int i = 0; i < rim; ++i) {
-    const double angle = 2 * std::numbers::pi * i / rim;
+  t.points.resize(3, boundary_size + 2);
+  for (int i = 0; i < boundary_size; ++i) {
+    const double angle = 2 * std::numbers::pi * i / boundary_size;
     t.points.col(i) = Vec3(std::cos(angle), std::sin(angle), i % 2 == 0 ? 3 : -2.5);
-    t.faces.push_back({i, (i + 1) % rim, rim});
-    t.faces.push_back({(i + 1) % rim, i, rim + 1});
+    t.faces.push_back({i, (i + 1) % boundary_size, boundary_size});
+    t.faces.push_back({(i + 1) % boundary_size, i, boundary_size + 1});
   }
-  t.points.col(rim) = Vec3(.1, 0, .5);
-  t.points.col(rim + 1) = Vec3(0, .1, -.5);
+  t.points.col(boundary_size) = Vec3(.1, 0, .5);
+  t.points.col(boundary_size + 1) = Vec3(0, .1, -.5);
   return t;
 }
 
@@ -233,5 +232,4 @@ TEST(Curvature, IsNotDefinedOnTheBoundaryNorBesideFacesWithoutArea) {
   EXPECT_NEAR(k.gaussian[18], 0, 1e-12);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::quality_test

@@ -9,8 +9,7 @@
 #include <numeric>
 #include <random>
 
-namespace hooke {
-namespace {
+namespace hooke::statistics_test {
 
 TEST(Statistics, OfAKnownListAreExact) {
   const Statistics s = describe({5, 1, 4, 2, 3});
@@ -96,5 +95,4 @@ TEST(Statistics, EqualNumbersFillOneBin) {
   EXPECT_EQ(s.histogram.edges, (std::vector<double>{2, 2}));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::statistics_test

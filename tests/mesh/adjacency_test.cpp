@@ -9,8 +9,7 @@
 
 #include "hooke/mesh/mesh.h"
 
-namespace hooke {
-namespace {
+namespace hooke::adjacency_test {
 
 TEST(Adjacency, EulerCharacteristicOfASphereIsTwo) {
   const auto t = test::sphere(2);
@@ -103,14 +102,12 @@ TEST(VertexFans, VerticesWithoutFacesAreIsolated) {
 }
 
 TEST(VertexFans, AHubOfManyFacesIsNoSlowerThanItsFaces) {
-  constexpr int spokes = 100000;
+  constexpr int face_count = 100000;
   std::vector<Triangle> faces;
-  for (int k = 1; k <= spokes; ++k) faces.push_back({0, k, k % spokes + 1});
-  const VertexFans fans = examine_fans(spokes + 1, faces);
+  for (int k = 1; k <= face_count; ++k) faces.push_back({0, k, k % face_count + 1});
+  const VertexFans fans = examine_fans(face_count + 1, faces);
   EXPECT_EQ(first_broken(fans), -1);
-  EXPECT_EQ(std::count(fans.twins.begin(), fans.twins.end(), -1), spokes);
+  EXPECT_EQ(std::count(fans.twins.begin(), fans.twins.end(), -1), face_count);
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::adjacency_test

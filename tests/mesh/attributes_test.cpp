@@ -16,8 +16,7 @@
 #include "support/errors.h"
 #include "support/meshes.h"
 
-namespace hooke {
-namespace {
+namespace hooke::attributes_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -140,7 +139,7 @@ TEST(FormatData, ColoursChangeTheirScaleBetweenFormats) {
   const FormatData obj = data_for_format(bytes, "ply", "obj");
   ASSERT_EQ(obj.data.size(), 3u);
   EXPECT_EQ(obj.data[1].values, (std::vector<double>{.2, 1}));
-  EXPECT_EQ(obj.left_out, std::vector<std::string>{"quality"});
+  EXPECT_EQ(obj.dropped, std::vector<std::string>{"quality"});
   const FormatData ply = data_for_format(obj.data, "obj", "ply");
   for (size_t c = 0; c < 3; ++c) {
     EXPECT_EQ(ply.data[c].type, NumberType::uint8);
@@ -151,15 +150,15 @@ TEST(FormatData, ColoursChangeTheirScaleBetweenFormats) {
   ASSERT_EQ(off.data.size(), 4u) << "an alpha is added";
   for (size_t c = 0; c < 3; ++c) EXPECT_EQ(off.data[c].values, bytes[c].values);
   EXPECT_EQ(off.data[3].values, (std::vector<double>{255, 255}));
-  EXPECT_EQ(data_for_format(off.data, "off", "obj").left_out, std::vector<std::string>{"alpha"});
+  EXPECT_EQ(data_for_format(off.data, "off", "obj").dropped, std::vector<std::string>{"alpha"});
 }
 
 TEST(FormatData, ColoursWithoutANumberHaveNoPlaceInTextFormats) {
   const VertexData data = {{"red", NumberType::float32, {nan, 2}},
                            {"green", NumberType::float32, {.5, -1}},
                            {"blue", NumberType::float32, {1, 1}}};
-  EXPECT_EQ(data_for_format(data, "ply", "off").left_out.size(), 3u);
-  EXPECT_EQ(data_for_format(data, "ply", "obj").left_out.size(), 3u);
+  EXPECT_EQ(data_for_format(data, "ply", "off").dropped.size(), 3u);
+  EXPECT_EQ(data_for_format(data, "ply", "obj").dropped.size(), 3u);
 }
 
 TEST(FormatData, NormalsAndTextureCoordinatesGoBetweenFormatsWhereTheyAreWhole) {
@@ -168,26 +167,25 @@ TEST(FormatData, NormalsAndTextureCoordinatesGoBetweenFormatsWhereTheyAreWhole) 
     for (const std::string& name : names) data.push_back({name, NumberType::float32, {.25, .5}});
     return data;
   };
-  const auto left_out = [&](const std::vector<std::string>& names, const char* from, const char* to) {
-    return data_for_format(of(names), from, to).left_out;
+  const auto dropped = [&](const std::vector<std::string>& names, const char* from, const char* to) {
+    return data_for_format(of(names), from, to).dropped;
   };
   const std::vector<std::string> none;
   for (const char* to : {"obj", "off"}) {
-    EXPECT_EQ(left_out({"nx", "ny", "nz", "s", "t"}, "ply", to), none);
-    EXPECT_EQ(left_out({"nx", "nz", "t"}, "ply", to).size(), 3u);
+    EXPECT_EQ(dropped({"nx", "ny", "nz", "s", "t"}, "ply", to), none);
+    EXPECT_EQ(dropped({"nx", "nz", "t"}, "ply", to).size(), 3u);
     const FormatData other = data_for_format(of({"texture_u", "q", "texture_v"}), "ply", to);
     ASSERT_EQ(other.data.size(), 2u);
     EXPECT_EQ(other.data[0].name, "s");
     EXPECT_EQ(other.data[1].name, "t");
-    EXPECT_EQ(left_out({"s", "t", "texture_u", "texture_v"}, "ply", to).size(), 2u)
+    EXPECT_EQ(dropped({"s", "t", "texture_u", "texture_v"}, "ply", to).size(), 2u)
         << "one pair has the place";
   }
-  EXPECT_EQ(left_out({"s", "t", "p"}, "obj", "off"), std::vector<std::string>{"p"});
-  EXPECT_EQ(left_out({"s", "t", "p"}, "obj", "ply"), none);
+  EXPECT_EQ(dropped({"s", "t", "p"}, "obj", "off"), std::vector<std::string>{"p"});
+  EXPECT_EQ(dropped({"s", "t", "p"}, "obj", "ply"), none);
   VertexData endless = of({"s", "t"});
   endless[1].values[0] = inf;
-  EXPECT_EQ(data_for_format(endless, "ply", "obj").left_out.size(), 2u);
+  EXPECT_EQ(data_for_format(endless, "ply", "obj").dropped.size(), 2u);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::attributes_test

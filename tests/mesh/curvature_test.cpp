@@ -6,8 +6,7 @@
 
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::curvature_test {
 
 std::vector<double> curvatures(const test::Triangles& t) {
   return largest_curvatures(t.points, test::connect(t));
@@ -48,5 +47,4 @@ TEST(PrincipalCurvature, IsDefinedOnTheSmallestMeshesAndWithoutFaces) {
   EXPECT_EQ(largest_curvatures(one, make_adjacency(4, {}))[3], 0);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::curvature_test

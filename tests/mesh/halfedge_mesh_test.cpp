@@ -13,8 +13,7 @@
 #include "support/crease_solids.h"
 #include "support/flippable_scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::halfedge_mesh_test {
 
 HalfedgeMesh triangulate(const test::Triangles& t, const std::vector<Edge>& creases = {}) {
   Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
@@ -100,8 +99,8 @@ TEST(HalfedgeMesh, FlipsAroundKeepConstrainedEdges) {
     if (t.twin(h) < 0 || t.is_crease(h) || t.adjacent(t.opposite_vertex(h), t.opposite_vertex(t.twin(h))))
       continue;
     t.flip(h);
-    for (int wedge : {HalfedgeMesh::flipped(h), t.twin(HalfedgeMesh::flipped(h))})
-      EXPECT_FALSE(t.is_crease(wedge));
+    for (int outer : {HalfedgeMesh::flipped(h), t.twin(HalfedgeMesh::flipped(h))})
+      EXPECT_FALSE(t.is_crease(outer));
   }
   EXPECT_EQ(constrained(), before);
 }
@@ -137,14 +136,14 @@ TEST(HalfedgeMesh, SplitsAndCollapsesKeepTheTopology) {
   }
 }
 
-/// May the end of h go without a crease losing its way? Those that slide along the crease may.
+/// Whether removing the vertex `end` of h breaks no crease: it lies on none, or slides along that of h.
 bool is_free_to_go(const HalfedgeMesh& t, int h, int end) {
   int creases = 0;
-  for (int spoke : t.outgoing(end)) creases += t.is_crease(spoke);
+  for (int outgoing : t.outgoing(end)) creases += t.is_crease(outgoing);
   return creases == 0 || (creases == 2 && t.is_crease(h));
 }
 
-TEST(HalfedgeMesh, SplitsAndCollapsesKeepTheSidesOfCreases) {
+TEST(HalfedgeMesh, SplitsAndCollapsesKeepTheWedges) {
   const test::Triangles cube = test::irregular_cube(4);
   for (unsigned seed = 1; seed <= 4; ++seed) {
     HalfedgeMesh t = triangulate(cube, test::bent_edges(cube.points, cube.faces));
@@ -168,12 +167,12 @@ TEST(HalfedgeMesh, SplitsAndCollapsesKeepTheSidesOfCreases) {
     Adjacency c = make_adjacency(vertices, t.faces());
     split_wedges(c, creases);
     EXPECT_EQ(measure_topology(cut_open(c)).components, 6);
-    std::map<int, int> numbers;  // of the sides, where there and here are one to one
+    std::map<int, int> numbers;  // maps the wedges of the half-edge mesh one-to-one to those of the adjacency
     std::set<int> there;
     for (size_t f = 0; f < c.faces.size(); ++f)
       for (size_t k = 0; k < 3; ++k) {
-        const auto [wedge, fresh] = numbers.emplace(t.wedges()[f][k], c.side_faces[f][k]);
-        EXPECT_EQ(wedge->second, c.side_faces[f][k]);
+        const auto [wedge, fresh] = numbers.emplace(t.wedges()[f][k], c.wedge_faces[f][k]);
+        EXPECT_EQ(wedge->second, c.wedge_faces[f][k]);
         if (fresh) {
           EXPECT_TRUE(there.insert(wedge->second).second);
         }
@@ -223,24 +222,23 @@ TEST(HalfedgeMesh, AFlipJoinsTheCornersAcross) {
   EXPECT_EQ((std::set{t.from(f), t.to(f)}), (std::set{c, d}));
 }
 
-TEST(HalfedgeMesh, SpokesRunFromOneBoundaryEdgeToTheOther) {
+TEST(HalfedgeMesh, OutgoingEdgesRunFromOneBoundaryEdgeToTheOther) {
   const test::Triangles grid = test::grid(2, test::flat);
   const HalfedgeMesh t = triangulate(grid);
   for (int v = 0; v < 9; ++v) {
-    const ShortList spokes = t.outgoing(v);
-    for (size_t i = 0; i + 1 < spokes.size(); ++i)
-      EXPECT_EQ(t.opposite_vertex(spokes[i]), t.to(spokes[i + 1]));
+    const SmallIntList outgoing = t.outgoing(v);
+    for (size_t i = 0; i + 1 < outgoing.size(); ++i)
+      EXPECT_EQ(t.opposite_vertex(outgoing[i]), t.to(outgoing[i + 1]));
     if (!t.on_boundary(v)) continue;
-    EXPECT_EQ(t.twin(spokes.front()), -1);
-    EXPECT_EQ(t.twin(HalfedgeMesh::previous(spokes.back())), -1);
+    EXPECT_EQ(t.twin(outgoing.front()), -1);
+    EXPECT_EQ(t.twin(HalfedgeMesh::previous(outgoing.back())), -1);
   }
 }
 
-TEST(HalfedgeMesh, AVertexWithoutFacesHasNoSpokes) {
+TEST(HalfedgeMesh, AVertexWithoutFacesHasNoOutgoingEdges) {
   const HalfedgeMesh t(make_adjacency(4, {{0, 1, 2}}));
   EXPECT_TRUE(t.outgoing(3).empty());
   EXPECT_EQ(t.valence(3), 0);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::halfedge_mesh_test

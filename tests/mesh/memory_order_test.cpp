@@ -8,8 +8,7 @@
 
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::memory_order_test {
 
 std::vector<int> numbers(size_t count) {
   std::vector<int> ids(count);
@@ -74,5 +73,4 @@ TEST(Ordering, NothingComesOutOfNothing) {
   EXPECT_TRUE(reorder({}, {}).faces.empty());
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::memory_order_test

@@ -11,8 +11,7 @@
 #include "support/remeshed.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::mesh_test {
 
 const test::Triangles& scattered() {
   static const test::Triangles t = test::shuffled(test::two_parts_and_loose_vertices());
@@ -23,7 +22,7 @@ MeasuredSurface measured(const Mat3X& points, const MemoryOrder& memory_order) {
   return {memory_order.order.gather(points), *memory_order.adjacency, memory_order.order.old_ids()};
 }
 
-/// Neighbours, counter-clockwise from the least, or from where a boundary begins.
+/// Neighbours, counter-clockwise from the smallest id, or from where a boundary begins.
 std::vector<int> ring_of(const TriMesh& mesh, OpenMesh::VertexHandle v) {
   std::vector<int> ring;
   for (const auto w : mesh.vv_ccw_range(v)) ring.push_back(w.idx());
@@ -196,6 +195,4 @@ TEST(MeshFoundation, AFaceThatDoesNotFitIsAnError) {
   EXPECT_THROW(build_mesh(Mat3X::Random(3, 4), {{0, 1, 2}, {0, 1, 3}}), MeshError);
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::mesh_test

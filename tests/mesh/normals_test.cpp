@@ -6,8 +6,7 @@
 
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::normals_test {
 
 TEST(Normals, OfVerticesOnASphereAreItsRadii) {
   const auto t = test::sphere(2, .3);
@@ -37,5 +36,4 @@ TEST(Normals, AreZeroWhereThereIsNoArea) {
   EXPECT_EQ(lengths[1], 1);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::normals_test

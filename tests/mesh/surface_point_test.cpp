@@ -7,8 +7,7 @@
 #include "hooke/mesh/adjacency.h"
 #include "support/meshes.h"
 
-namespace hooke {
-namespace {
+namespace hooke::surface_point_test {
 
 TEST(SurfacePoint, WalksToTheClosestPoint) {
   const test::Triangles t = test::grid(10, test::paraboloid, .3);
@@ -36,5 +35,4 @@ TEST(MapText, HasALinePerVertex) {
   EXPECT_EQ(map_text(map), "7 3 0.25 0.75 0\n-1 0 0 0.1 0.9\n2 -1 0 0 0\n");
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::surface_point_test

@@ -6,8 +6,7 @@
 
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::topology_test {
 
 TEST(Topology, OfACube) {
   const Topology t = measure_topology(test::connect(test::cube()));
@@ -61,5 +60,4 @@ TEST(Valence, CountsEveryVertexWithAFaceOnce) {
   EXPECT_EQ(v.boundary, (std::vector<int>{0, 0, 2, 2, 12}));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::topology_test

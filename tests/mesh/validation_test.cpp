@@ -10,8 +10,7 @@
 #include "support/errors.h"
 #include "support/meshes.h"
 
-namespace hooke {
-namespace {
+namespace hooke::validation_test {
 
 using test::has;
 
@@ -159,5 +158,4 @@ TEST(Validation, SizesBeyondTheRangeOfTheirSquaresAreRefused) {
     EXPECT_ERROR(MeshError, "m: the diagonal of its box is ", require_workable_size(scale * t.points, "m"));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::validation_test

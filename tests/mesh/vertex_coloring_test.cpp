@@ -10,8 +10,7 @@
 
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::vertex_coloring_test {
 
 std::vector<Adjacency> meshes() {
   const auto connect = [](const test::Triangles& t) { return test::connect(t); };
@@ -22,7 +21,7 @@ std::vector<Adjacency> meshes() {
           connect(bow_tie)};
 }
 
-TEST(VertexColoring, SpokesNameEveryEdgeAndFaceOfAVertexOnce) {
+TEST(VertexColoring, RingEntriesNameEveryEdgeAndFaceOfAVertexOnce) {
   for (const Adjacency& c : meshes()) {
     const VertexColoring plan = color_vertices(c);
     for (int v = 0; v < c.vertex_count; ++v) {
@@ -37,7 +36,7 @@ TEST(VertexColoring, SpokesNameEveryEdgeAndFaceOfAVertexOnce) {
   }
 }
 
-TEST(VertexColoring, AFaceLiesBetweenItsSpokeAndTheNext) {
+TEST(VertexColoring, AFaceLiesBetweenItsRingEntryAndTheNext) {
   for (const Adjacency& c : meshes()) {
     const VertexColoring plan = color_vertices(c);
     for (int v = 0; v < c.vertex_count; ++v) {
@@ -83,7 +82,7 @@ TEST(VertexColoring, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
   }
 }
 
-TEST(VertexColoring, OneBlockSweepsAllVerticesInOrderOverTheSameSpokes) {
+TEST(VertexColoring, OneBlockSweepsAllVerticesInOrderOverTheSameRings) {
   for (const Adjacency& c : meshes()) {
     const VertexColoring one = color_as_one_block(c), many = color_vertices(c);
     std::vector<int> swept, all(static_cast<size_t>(c.vertex_count));
@@ -97,5 +96,4 @@ TEST(VertexColoring, OneBlockSweepsAllVerticesInOrderOverTheSameSpokes) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::vertex_coloring_test

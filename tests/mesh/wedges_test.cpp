@@ -9,8 +9,7 @@
 #include "hooke/mesh/halfedge_mesh.h"
 #include "support/crease_solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::wedges_test {
 
 Adjacency parted(const test::Triangles& t) {
   Adjacency c = test::connect(t);
@@ -21,7 +20,7 @@ Adjacency parted(const test::Triangles& t) {
   return c;
 }
 
-TEST(Creases, ACornerOfACubeHasThreeSidesAndAnEdgeTwo) {
+TEST(Creases, ACornerOfACubeHasThreeWedgesAndAnEdgeTwo) {
   const Adjacency c = parted(test::irregular_cube(4));
   EXPECT_EQ(c.extra_wedges.size(), 8 * 2 + 12 * 3u);
   EXPECT_TRUE(std::ranges::is_sorted(c.extra_wedges));
@@ -33,12 +32,12 @@ TEST(Creases, ACornerOfACubeHasThreeSidesAndAnEdgeTwo) {
       EXPECT_EQ(chart[static_cast<size_t>(v)], chart[static_cast<size_t>(cut.faces[f][0])]);
 }
 
-TEST(Creases, SidesLieWhereTheirVerticesLie) {
+TEST(Creases, WedgesLieWhereTheirVerticesLie) {
   const test::Triangles t = test::step_block(3);
   const Adjacency c = parted(t);
   const Mat3X wedges = wedge_points(t.points, c);
   for (size_t f = 0; f < c.faces.size(); ++f)
-    for (size_t k = 0; k < 3; ++k) EXPECT_EQ(wedges.col(c.side_faces[f][k]), t.points.col(c.faces[f][k]));
+    for (size_t k = 0; k < 3; ++k) EXPECT_EQ(wedges.col(c.wedge_faces[f][k]), t.points.col(c.faces[f][k]));
 }
 
 TEST(Creases, ACreaseWithALooseEndIsASlit) {
@@ -50,14 +49,14 @@ TEST(Creases, ACreaseWithALooseEndIsASlit) {
   EXPECT_EQ(crease_edges(c).size(), 3u);
 }
 
-TEST(Creases, WithoutCreasesSidesAreTheVertices) {
+TEST(Creases, WithoutCreasesWedgesAreTheVertices) {
   Adjacency c = test::connect(test::cube());
   split_wedges(c, {});
   EXPECT_EQ(&c.wedges_of_faces(), &c.faces);
   EXPECT_EQ(c.wedge_count(), 8);
 }
 
-TEST(Creases, FlipsOfOtherEdgesKeepTheSides) {
+TEST(Creases, FlipsOfOtherEdgesKeepTheWedges) {
   const Adjacency c = parted(test::irregular_cube(4));
   HalfedgeMesh t(c);
   std::mt19937 random(3);
@@ -71,14 +70,14 @@ TEST(Creases, FlipsOfOtherEdgesKeepTheSides) {
   EXPECT_GT(flips, 50);
   Adjacency after = make_adjacency(c.vertex_count, t.faces());
   split_wedges(after, crease_edges(c));
-  EXPECT_EQ(after.side_faces, t.wedges());
+  EXPECT_EQ(after.wedge_faces, t.wedges());
   EXPECT_EQ(after.extra_wedges, c.extra_wedges);
 }
 
 TEST(Creases, ASectorRunsFromCreaseToCrease) {
   const HalfedgeMesh t(parted(test::irregular_cube(4)));
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    const ShortList sector = t.sector(h);
+    const SmallIntList sector = t.sector(h);
     EXPECT_NE(std::ranges::find(sector, h), sector.end());
     for (int s : sector) {
       EXPECT_EQ(t.from(s), t.from(h));
@@ -88,5 +87,4 @@ TEST(Creases, ASectorRunsFromCreaseToCrease) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::wedges_test

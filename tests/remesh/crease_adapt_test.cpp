@@ -9,12 +9,11 @@
 #include "hooke/remesh/options.h"
 #include "support/crease_outcome.h"
 
-namespace hooke {
-namespace {
+namespace hooke::crease_adapt_test {
 
 using test::natural, test::Outcome, test::remeshed;
 
-RemeshOptions adapting() {
+RemeshOptions adaptation_options() {
   RemeshOptions options;
   options.connectivity = ConnectivityMode::adapt;
   options.flips = flip_options(Effort::fast);
@@ -23,8 +22,8 @@ RemeshOptions adapting() {
   return options;
 }
 
-/// As many faces as the length asks for, and a sound surface.
-/// Right angles on round rims are some a little less.
+/// As many faces as the target length asks for, and a sound surface.
+/// With `round`, edges may be folded: right angles along circular edges can be slightly less than 90 degrees.
 void expect_sound(const Outcome& o, double faces, bool round = false) {
   EXPECT_NEAR(static_cast<double>(o.faces.size()), faces, std::max(2.5, .03 * faces));
   const Adjacency c = make_adjacency(static_cast<int>(o.points.cols()), o.faces);
@@ -40,7 +39,7 @@ void expect_sound(const Outcome& o, double faces, bool round = false) {
 TEST(CreaseAdapt, ACubeStaysACube) {
   const test::Triangles t = test::irregular_cube(7);
   for (double factor : {.35, 1., 3.}) {
-    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    const Outcome o = remeshed(t, factor * natural(t), adaptation_options());
     expect_sound(o, static_cast<double>(t.faces.size()) / (factor * factor));
     expect_flat_faces(t, o, 1e-9);
     expect_same_creases(t, o, 1e-9);
@@ -54,7 +53,7 @@ TEST(CreaseAdapt, ACubeStaysACube) {
 TEST(CreaseAdapt, AStepBlockKeepsItsConcaveEdge) {
   const test::Triangles t = test::step_block(4);
   for (double factor : {.5, 1., 2.}) {
-    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    const Outcome o = remeshed(t, factor * natural(t), adaptation_options());
     expect_sound(o, static_cast<double>(t.faces.size()) / (factor * factor));
     expect_flat_faces(t, o, 1e-9);
     expect_same_creases(t, o, 1e-9);
@@ -67,18 +66,18 @@ TEST(CreaseAdapt, AStepBlockKeepsItsConcaveEdge) {
 
 TEST(CreaseAdapt, ACubeOfTwelveFacesIsRefined) {
   const test::Triangles t = test::cube();
-  const Outcome o = remeshed(t, .2 * natural(t), adapting());
+  const Outcome o = remeshed(t, .2 * natural(t), adaptation_options());
   expect_sound(o, 12 * 25);
   expect_flat_faces(t, o, 1e-9);
   expect_same_creases(t, o, 1e-9);
   EXPECT_GT(min_angle(o.points, o.faces), 30);
 }
 
-TEST(CreaseAdapt, ACylinderStaysRoundUpToItsRims) {
+TEST(CreaseAdapt, ACylinderStaysRoundUpToItsFeatureEdges) {
   const test::Triangles t = test::cylinder(40);
   const double L = natural(t);
   for (double factor : {.5, 1., 2.}) {
-    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    const Outcome o = remeshed(t, factor * natural(t), adaptation_options());
     expect_sound(o, static_cast<double>(t.faces.size()) / (factor * factor), true);
     EXPECT_EQ(o.result.creases.curves, 2);
     EXPECT_EQ(o.result.creases.charts, 3);
@@ -94,18 +93,18 @@ TEST(CreaseAdapt, ACylinderStaysRoundUpToItsRims) {
   }
 }
 
-TEST(CreaseAdapt, AnEvenRimStaysAsItIsUnlessItIsToHaveOtherEdges) {
+TEST(CreaseAdapt, AnEvenFeatureCurveStaysAsItIsUnlessItIsToHaveOtherEdges) {
   const test::Triangles t = test::cylinder(40, .1);
   for (double factor : {.5, 1., 2.}) {
-    const Outcome o = remeshed(t, factor * natural(t), adapting());
+    const Outcome o = remeshed(t, factor * natural(t), adaptation_options());
     EXPECT_NEAR(o.result.creases.edges, 80 / factor, .1 * 80 / factor);
-    double farthest = 0;  // of the input's rim from the nearest point of the result's
-    const auto rims = test::bent_edges(o.points, o.faces);
+    double farthest = 0;  // from the circular edges of the input to those of the result
+    const auto features = test::bent_edges(o.points, o.faces);
     for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
       const Vec3 x = t.points.col(v);
       if ((x[2] != 0 && x[2] != 2) || std::hypot(x[0], x[1]) < 1 - 1e-9) continue;
       double nearest = std::numeric_limits<double>::infinity();
-      for (const auto& [a, b] : rims)
+      for (const auto& [a, b] : features)
         nearest = std::min(nearest, distance_to_segment(x, o.points.col(a), o.points.col(b)));
       farthest = std::max(farthest, nearest);
     }
@@ -116,13 +115,13 @@ TEST(CreaseAdapt, AnEvenRimStaysAsItIsUnlessItIsToHaveOtherEdges) {
 TEST(CreaseAdapt, TheMapReproducesThePointsOnCreases) {
   const test::Triangles t = test::cylinder(30);
   const double L = natural(t);
-  const Outcome o = remeshed(t, .7 * natural(t), adapting());
+  const Outcome o = remeshed(t, .7 * natural(t), adaptation_options());
   ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
   int on_caps = 0;
   for (size_t v = 0; v < o.result.map.size(); ++v) {
     const Vec3 x = o.points.col(static_cast<Eigen::Index>(v));
     if (std::min(std::abs(x[2]), std::abs(x[2] - 2)) > 1e-9 * L) continue;
-    const SurfacePoint& place = o.result.map[v].place;
+    const SurfacePoint& place = o.result.map[v].position;
     Vec3 y = Vec3::Zero();
     for (size_t k = 0; k < 3; ++k)
       y += place.weights[static_cast<Eigen::Index>(k)] *
@@ -137,8 +136,8 @@ TEST(CreaseAdapt, AScaleOfTwoChangesNothing) {
   const test::Triangles t = test::step_block(3);
   test::Triangles large = t;
   large.points *= 4;
-  const Outcome one = remeshed(t, .8 * natural(t), adapting()),
-                four = remeshed(large, .8 * natural(large), adapting());
+  const Outcome one = remeshed(t, .8 * natural(t), adaptation_options()),
+                four = remeshed(large, .8 * natural(large), adaptation_options());
   EXPECT_EQ(4 * one.points, four.points);
   EXPECT_EQ(one.faces, four.faces);
 }
@@ -148,11 +147,10 @@ TEST(CreaseAdapt, ThreadsChangeNothing) {
   std::vector<Outcome> outcomes;
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    outcomes.push_back(remeshed(t, .8 * natural(t), adapting()));
+    outcomes.push_back(remeshed(t, .8 * natural(t), adaptation_options()));
   }
   EXPECT_EQ(outcomes[0].points, outcomes[1].points);
   EXPECT_EQ(outcomes[0].faces, outcomes[1].faces);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::crease_adapt_test

@@ -7,8 +7,7 @@
 #include "hooke/remesh/options.h"
 #include "support/crease_outcome.h"
 
-namespace hooke {
-namespace {
+namespace hooke::crease_remesh_test {
 
 using test::Outcome, test::remeshed, test::natural, test::volume;
 
@@ -67,7 +66,7 @@ TEST(CreaseRemesh, NoCreaseBecomesAcute) {
   }
 }
 
-TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
+TEST(CreaseRemesh, ACylinderStaysRoundUpToItsFeatureEdges) {
   const test::Triangles t = test::cylinder(40);
   const double L = natural(t);
   for (ConnectivityMode mode : both_modes) {
@@ -76,7 +75,7 @@ TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
     EXPECT_EQ(o.result.creases.corners, 0);
     EXPECT_EQ(o.result.creases.charts, 3);
     EXPECT_EQ(o.result.creases.kept, 80);
-    int on_rims = 0;
+    int on_features = 0;
     for (Eigen::Index v = 0; v < o.points.cols(); ++v) {
       const Vec3 x = o.points.col(v);
       const double r = std::hypot(x[0], x[1]);
@@ -85,21 +84,21 @@ TEST(CreaseRemesh, ACylinderStaysRoundUpToItsRims) {
         EXPECT_NEAR(r, 1, 2e-3 * L);
       }
       EXPECT_LE(r, 1 + 2e-3 * L);
-      on_rims += on_cap && r > .98;  // rims are polygons of 40 sides
+      on_features += on_cap && r > .98;  // the circular edges are polygons of 40 edges
     }
-    EXPECT_EQ(on_rims, 80);
+    EXPECT_EQ(on_features, 80);
     EXPECT_TRUE(o.result.folded_faces.empty());
     EXPECT_GT(min_angle(o.points, o.faces), min_angle(t.points, t.faces) + 5);
   }
 }
 
-TEST(CreaseRemesh, AnEvenRimStaysAsItIs) {
+TEST(CreaseRemesh, AnEvenFeatureCurveStaysAsItIs) {
   const test::Triangles t = test::cylinder(40, .1);
-  const auto rims = test::bent_edges(t.points, t.faces);
+  const auto features = test::bent_edges(t.points, t.faces);
   for (ConnectivityMode mode : both_modes) {
     const Outcome o = remeshed(t, in_mode(mode));
-    EXPECT_EQ(test::bent_edges(o.points, o.faces), rims);
-    for (const Edge& edge : rims)
+    EXPECT_EQ(test::bent_edges(o.points, o.faces), features);
+    for (const Edge& edge : features)
       for (int v : edge) EXPECT_EQ(o.points.col(v), t.points.col(v));
   }
 }
@@ -164,5 +163,4 @@ TEST(CreaseRemesh, ThreadsChangeNothing) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::crease_remesh_test

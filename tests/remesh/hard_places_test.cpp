@@ -9,8 +9,7 @@
 #include "support/remeshed.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::hard_places_test {
 
 test::Triangles stretched(test::Triangles t, const Vec3& factors) {
   t.points = (factors.asDiagonal() * t.points).eval();
@@ -109,8 +108,8 @@ TEST_P(HardPlaces, GetBetterAndLoseNothing) {
   const test::Outcome o = test::remeshed(input_, options);
   const Quality before = quality_of(test::to_mesh(input_)), after = quality_of(o.mesh);
   EXPECT_GE(after.min_angle.min, before.min_angle.min);
-  // The lens turns about within less than an edge: edges along its rim fold, and others may come to lie
-  // there.
+  // The normals of the lens reverse within less than an edge length: edges along its equator fold, and other
+  // edges may replace them.
   EXPECT_LE(after.folded_edges, 2 * before.folded_edges);
   EXPECT_EQ(after.degenerate_faces, 0u);
   EXPECT_EQ(after.topology.components, before.topology.components);
@@ -124,8 +123,8 @@ TEST_P(HardPlaces, GetBetterAndLoseNothing) {
   EXPECT_NEAR(after.extent.area, before.extent.area, .05 * before.extent.area);
 }
 
-/// Coarse lenses turn about along their rims, where springs leave slivers.
-TEST(HardPlaces, OtherEdgesMendTheSliversThatSpringsLeave) {
+/// At the equator of a coarse lens the normals reverse within an edge, and springs leave slivers.
+TEST(HardPlaces, OtherEdgesRemoveTheSliversThatSpringsLeave) {
   for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt}) {
     double gain = 0;
     for (unsigned seed : {1, 2}) {
@@ -133,28 +132,28 @@ TEST(HardPlaces, OtherEdgesMendTheSliversThatSpringsLeave) {
       RemeshOptions options;
       options.connectivity = mode;
       set_effort(options, Effort::standard);
-      const Quality mended = quality_of(test::remeshed(lens, options).mesh);
-      options.slivers.trials.rounds = 0;
+      const Quality improved = quality_of(test::remeshed(lens, options).mesh);
+      options.slivers.pass.rounds = 0;
       const Quality left = quality_of(test::remeshed(lens, options).mesh);
-      EXPECT_GE(mended.min_angle.min, left.min_angle.min - 1e-9) << seed;
-      EXPECT_LE(mended.folded_edges, left.folded_edges) << seed;
-      EXPECT_EQ(mended.topology.euler, left.topology.euler) << seed;
+      EXPECT_GE(improved.min_angle.min, left.min_angle.min - 1e-9) << seed;
+      EXPECT_LE(improved.folded_edges, left.folded_edges) << seed;
+      EXPECT_EQ(improved.topology.euler, left.topology.euler) << seed;
       if (mode == ConnectivityMode::flip) {
-        EXPECT_EQ(mended.topology.faces, left.topology.faces) << seed;
+        EXPECT_EQ(improved.topology.faces, left.topology.faces) << seed;
       }
-      gain += mended.min_angle.min - left.min_angle.min;
+      gain += improved.min_angle.min - left.min_angle.min;
     }
     EXPECT_GT(gain, 5);
   }
 }
 
-TEST(HardPlaces, MendingIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
+TEST(HardPlaces, SliverRemovalIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
   const test::Triangles lens = stretched(test::sphere(2, .4, 1), {1, 1, .12});
   for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt}) {
     RemeshOptions options;
     options.connectivity = mode;
     set_effort(options, Effort::standard);
-    options.slivers.trials.sliver_angles = {33};
+    options.slivers.pass.sliver_angles = {33};
     int slivers = 0;
     const auto run = [&](int threads, int stop_at) {
       const ThreadLimit limit(threads);
@@ -192,5 +191,4 @@ INSTANTIATE_TEST_SUITE_P(
         testing::Values(ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt)),
     name_of);
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::hard_places_test

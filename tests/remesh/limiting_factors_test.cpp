@@ -9,8 +9,7 @@
 #include "support/remeshed.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::limiting_factors_test {
 
 using Names = std::vector<std::string>;
 
@@ -22,7 +21,7 @@ WorstFace face_with(double angle, double bound, std::vector<int> bound_vertices)
   return face;
 }
 
-TEST(Hindrances, AreWhatSetsTheBoundWhereItIsReached) {
+TEST(LimitingFactors, AreWhatSetsTheBoundWhereItIsReached) {
   const std::vector<unsigned char> vertex_limits = {0,
                                                     limited_by_boundary,
                                                     limited_by_crease,
@@ -41,7 +40,7 @@ TEST(Hindrances, AreWhatSetsTheBoundWhereItIsReached) {
   EXPECT_EQ(named({0, 2}), (Names{"crease", "valence"}));
 }
 
-TEST(Hindrances, AreWhatHoldsTheFacesOwnVerticesElsewhere) {
+TEST(LimitingFactors, AreWhatLimitsTheFacesOwnVerticesElsewhere) {
   const auto named = [](const std::vector<unsigned char>& vertex_limits) {
     return limiting_factors(face_with(20, 30, {0}), vertex_limits);
   };
@@ -51,16 +50,16 @@ TEST(Hindrances, AreWhatHoldsTheFacesOwnVerticesElsewhere) {
             (Names{"fixed", "boundary", "guard"}));
 }
 
-/// What the vertices of a remeshed mesh are held by.
-std::vector<unsigned char> holds_of(const test::Triangles& t, const RemeshOptions& options = {}) {
+/// The vertex limits of a remeshed mesh.
+std::vector<unsigned char> limits_of(const test::Triangles& t, const RemeshOptions& options = {}) {
   return test::remeshed(t, options).result.vertex_limits;
 }
 
-TEST(Hindrances, HoldsAreThoseOfTheInputsVertices) {
+TEST(LimitingFactors, LimitsAreThoseOfTheInputsVertices) {
   const test::Triangles t = test::grid(6, test::flat, .2, 3);
   RemeshOptions options;
   options.constraints.fixed_vertices = {24, 16};
-  const auto vertex_limits = holds_of(t, options);
+  const auto vertex_limits = limits_of(t, options);
   ASSERT_EQ(std::ssize(vertex_limits), t.points.cols());
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto on_end = [](double x) { return x == 0 || x == 1; };
@@ -71,23 +70,23 @@ TEST(Hindrances, HoldsAreThoseOfTheInputsVertices) {
   }
 }
 
-TEST(Hindrances, AFixedBoundaryIsARequest) {
+TEST(LimitingFactors, AFixedBoundaryIsARequest) {
   const test::Triangles t = test::grid(6, test::flat, .2, 3);
   RemeshOptions options;
   options.constraints.boundary = BoundaryRule::fixed;
-  const auto vertex_limits = holds_of(t, options);
+  const auto vertex_limits = limits_of(t, options);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto on_end = [](double x) { return x == 0 || x == 1; };
-    const bool rim = on_end(t.points(0, v)) || on_end(t.points(1, v));
+    const bool on_boundary = on_end(t.points(0, v)) || on_end(t.points(1, v));
     EXPECT_EQ(vertex_limits[static_cast<size_t>(v)] & ~limited_by_guard,
-              rim ? limited_by_request | limited_by_boundary : 0)
+              on_boundary ? limited_by_request | limited_by_boundary : 0)
         << v;
   }
 }
 
-TEST(Hindrances, CreasesHoldTheirVertices) {
+TEST(LimitingFactors, CreasesLimitTheirVertices) {
   const test::Triangles t = test::irregular_cube(4);
-  const auto vertex_limits = holds_of(t);
+  const auto vertex_limits = limits_of(t);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto planes = (t.points.col(v).array() == 0 || t.points.col(v).array() == 4).count();
     EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_at_corner) != 0, planes == 3) << v;
@@ -95,5 +94,4 @@ TEST(Hindrances, CreasesHoldTheirVertices) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::limiting_factors_test

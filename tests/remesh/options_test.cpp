@@ -11,8 +11,7 @@
 #include "support/remeshed.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::options_test {
 
 using test::Outcome, test::remeshed;
 
@@ -60,7 +59,7 @@ TEST(RemeshToSizing, EdgesFollowTargetsThatVary) {
   EXPECT_LT(rms_length_error(fixed), .2);
   remesh(flip, in_mode(ConnectivityMode::flip));
   EXPECT_LT(rms_length_error(flip), .12);
-  for (const TriMesh* mesh : {&fixed, &flip}) {  // the targets are those of the places
+  for (const TriMesh* mesh : {&fixed, &flip}) {  // target lengths belong to surface positions
     const std::vector<double> lengths = vertex_values(*mesh, target_length_property);
     const auto points = vertex_points(*mesh);
     const double scale = lengths[0] / (2.5 + 1.5 * points(2, 0));
@@ -85,11 +84,11 @@ TEST(RemeshRefit, WhereNothingHindersOneFieldAndOneIterationDo) {
   const test::Triangles t = test::sphere(3, .25, 4);
   RemeshOptions once, stubborn;
   once.refit = Refit::once;
-  stubborn.guard_limited = -1;  // whatever is held back is too much
+  stubborn.guard_limited = -1;  // any vertex limited by guards is too many
   const Outcome o = remeshed(t), same = remeshed(t, once), more = remeshed(t, stubborn);
   EXPECT_EQ(o.points, same.points);
   EXPECT_EQ(o.result.reason, StopReason::stalled);
-  ASSERT_EQ(o.result.iterations.size(), 2);  // relaxed, polished
+  ASSERT_EQ(o.result.iterations.size(), 2);  // relaxation, angle optimisation
   ASSERT_GT(more.result.iterations.size(), 2);
   EXPECT_LT(o.result.iterations[0].energy, 1.001 * more.result.iterations[1].energy);
 }
@@ -112,5 +111,4 @@ TEST(RemeshEffort, RaisesTheLeastAngle) {
   }
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::options_test

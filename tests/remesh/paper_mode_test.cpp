@@ -14,8 +14,7 @@
 #include "hooke/springs/target_lengths.h"
 #include "support/meshes.h"
 
-namespace hooke {
-namespace {
+namespace hooke::paper_mode_test {
 
 using test::Triangles;
 
@@ -183,5 +182,4 @@ TEST(PaperMode, CommutesExactlyWithScalingByAPowerOfTwo) {
   EXPECT_EQ(vertex_points(large), 1024 * vertex_points(mesh));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::paper_mode_test

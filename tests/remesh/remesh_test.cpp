@@ -16,8 +16,7 @@
 #include "support/scene.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::remesh_test {
 
 using test::natural, test::Outcome, test::remeshed;
 
@@ -179,7 +178,7 @@ TEST_P(RemeshLaws, IdsAndConnectivityStay) {
             std::vector<double>(static_cast<size_t>(input_.points.cols()), L_));
 }
 
-TEST_P(RemeshLaws, CornersStayBitForBitAndRimsOnTheirPolylines) {
+TEST_P(RemeshLaws, CornersStayBitForBitAndBoundariesOnTheirPolylines) {
   const Outcome o = remeshed(input_);
   const Constraints c = find_constraints(input_.points, test::connect(input_), {});
   for (size_t v = 0; v < c.freedom.size(); ++v) {
@@ -356,17 +355,17 @@ TEST(Remesh, SmallMeshesWork) {
     }
 }
 
-TEST(Remesh, TheBoundaryRuleDecidesWhetherARimMoves) {
+TEST(Remesh, TheBoundaryRuleDecidesWhetherABoundaryMoves) {
   test::Triangles t = jittered_grid();
-  t.points(0, 4) += .04;  // a rim that is not evenly sampled
-  const Constraints rim = find_constraints(t.points, test::connect(t), {.boundary = BoundaryRule::fixed});
+  t.points(0, 4) += .04;  // an unevenly sampled boundary
+  const Constraints fixed = find_constraints(t.points, test::connect(t), {.boundary = BoundaryRule::fixed});
   for (BoundaryRule rule : {BoundaryRule::fixed, BoundaryRule::slide, BoundaryRule::free}) {
     RemeshOptions options;
     options.constraints.boundary = rule;
     const Mat3X points = remeshed(t, options).points;
     int moved = 0;
-    for (size_t v = 0; v < rim.freedom.size(); ++v)
-      moved += rim.freedom[v] == Freedom::fixed &&
+    for (size_t v = 0; v < fixed.freedom.size(); ++v)
+      moved += fixed.freedom[v] == Freedom::fixed &&
                points.col(static_cast<Eigen::Index>(v)) != t.points.col(static_cast<Eigen::Index>(v));
     EXPECT_EQ(moved, rule == BoundaryRule::fixed ? 0 : rule == BoundaryRule::slide ? 32 : 36);
   }
@@ -461,6 +460,4 @@ TEST(Remesh, ConvergesWhereEveryEdgeCanHaveItsLength) {
   EXPECT_LT(largest_move(o.points, perfect), .05 / 6);
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::remesh_test

@@ -12,8 +12,7 @@
 #include "support/remeshed.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::restarts_test {
 
 /// A coarse sheet closed on both sides, thinner than its edges are long.
 test::Triangles lens(unsigned seed) {
@@ -26,8 +25,8 @@ RemeshOptions options_for(ConnectivityMode mode) {
   RemeshOptions options;
   options.connectivity = mode;
   set_effort(options, Effort::standard);
-  options.slivers.trials.sliver_angles = {30};  // each attempt is made quickly
-  options.slivers.trials.rounds = options.slivers.passes = 1;
+  options.slivers.pass.sliver_angles = {30};  // makes each restart fast
+  options.slivers.pass.rounds = options.slivers.passes = 1;
   return options;
 }
 
@@ -42,14 +41,14 @@ test::Outcome remeshed(const test::Triangles& t, const RemeshOptions& options, c
   return o;
 }
 
-/// What attempts are judged by: flipped faces and crossings, and the least angle.
+/// The criteria for comparing restarts: number of flipped faces and crossings, and minimum angle.
 std::pair<std::size_t, double> judged(const test::Triangles& before, const test::Outcome& after) {
   const auto adjacency = [](const Mat3X& points, const std::vector<Triangle>& faces) {
     return make_adjacency(static_cast<int>(points.cols()), faces);
   };
-  const Deviation way = measure_deviation(before.points, adjacency(before.points, before.faces), after.points,
-                                          adjacency(after.points, after.faces));
-  return {way.flipped_faces + find_self_intersections(after.points, after.faces).size(),
+  const Deviation deviation = measure_deviation(before.points, adjacency(before.points, before.faces),
+                                                after.points, adjacency(after.points, after.faces));
+  return {deviation.flipped_faces + find_self_intersections(after.points, after.faces).size(),
           min_angle(after.points, after.faces)};
 }
 
@@ -59,7 +58,7 @@ TEST(Restarts, TheBestIsNoWorseThanTheFirstAndSomeAreBetter) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
       const test::Triangles t = lens(seed);
       const RemeshOptions options = options_for(mode);
-      const test::Outcome first = test::remeshed(t, options), best = remeshed(t, options, {.most = 4});
+      const test::Outcome first = test::remeshed(t, options), best = remeshed(t, options, {.max_runs = 4});
       const auto [first_flaws, first_angle] = judged(t, first);
       const auto [best_flaws, best_angle] = judged(t, best);
       EXPECT_LE(best_flaws, first_flaws) << seed;
@@ -86,25 +85,25 @@ TEST(Restarts, AGoodResultIsTheFirst) {
   }
 }
 
-/// No attempt is made in vain: neither at a corner that no connectivity widens, nor where all end alike, nor
-/// beyond what is to be paid for.
+/// There are no further restarts for a corner that no connectivity can improve, when all results are equal,
+/// or beyond the budget.
 TEST(Restarts, ThereIsOneWhereMoreAreOfNoUse) {
-  const test::Triangles wedge =
+  const test::Triangles sharp_corner =
       test::triangles({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {2, .25, 0}}, {{0, 1, 3}, {1, 2, 3}});
-  EXPECT_EQ(remeshed(wedge, options_for(ConnectivityMode::adapt), {}).result.restarts, 1);
+  EXPECT_EQ(remeshed(sharp_corner, options_for(ConnectivityMode::adapt), {}).result.restarts, 1);
   EXPECT_EQ(remeshed(lens(1), options_for(ConnectivityMode::fixed), {.good_angle = 60}).result.restarts, 1);
   const RemeshOptions options = options_for(ConnectivityMode::adapt);
   const double faces = static_cast<double>(lens(1).faces.size());
   EXPECT_EQ(remeshed(lens(1), options, {.max_faces = 1.9 * faces, .good_angle = 60}).result.restarts, 1);
   EXPECT_EQ(remeshed(lens(1), options, {.max_faces = 2.5 * faces, .good_angle = 60}).result.restarts, 2);
-  EXPECT_EQ(remeshed(lens(1), options, {.most = 3, .good_angle = 60}).result.restarts, 3);
+  EXPECT_EQ(remeshed(lens(1), options, {.max_runs = 3, .good_angle = 60}).result.restarts, 3);
 }
 
 TEST(Restarts, AreTheSameForAnyNumberOfThreads) {
   const RemeshOptions options = options_for(ConnectivityMode::adapt);
   const auto run = [&](int threads) {
     const ThreadLimit limit(threads);
-    return remeshed(lens(2), options, {.most = 3, .good_angle = 60});
+    return remeshed(lens(2), options, {.max_runs = 3, .good_angle = 60});
   };
   const test::Outcome one = run(1), two = run(2);
   EXPECT_EQ(one.result.restarts, 3);
@@ -117,7 +116,7 @@ TEST(Restarts, AnInterruptedOneCountsForNothing) {
   const RemeshOptions options = options_for(ConnectivityMode::adapt);
   int of_first = 0;
   const Observer count = [&](const Progress&) { return ++of_first > 0; };
-  const test::Outcome first = remeshed(t, options, {.most = 1}, count);
+  const test::Outcome first = remeshed(t, options, {.max_runs = 1}, count);
   for (int more : {1, of_first / 2}) {
     int calls = 0;
     const test::Outcome stopped =
@@ -135,5 +134,4 @@ TEST(Restarts, AnInterruptedOneCountsForNothing) {
   EXPECT_EQ(early.result.restarts, 1);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::restarts_test

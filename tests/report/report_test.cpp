@@ -8,8 +8,7 @@
 
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::report_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -108,5 +107,4 @@ TEST(QualityJson, MeshFacts) {
                   .is_null());
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::report_test

@@ -8,8 +8,7 @@
 
 #include "hooke/mesh/adjacency.h"
 
-namespace hooke {
-namespace {
+namespace hooke::table_test {
 
 Quality quality_of(const test::Triangles& t) {
   return measure_quality(t.points, test::connect(t), {});
@@ -33,8 +32,8 @@ TEST(QualityTable, ShowsBothSidesWithin80Columns) {
   const std::string table =
       quality_table(quality_of(a), quality_of(b), measure_deviation(a.points, c, b.points, c));
   expect_narrow(table);
-  for (const char* part : {"before", "after", "least angle", "folded edges", "self-intersections",
-                           "greatest displacement", "flipped faces", "█"})
+  for (const char* part : {"before", "after", "minimum angle", "folded edges", "self-intersections",
+                           "maximum displacement", "flipped faces", "█"})
     EXPECT_NE(table.find(part), std::string::npos) << part;
   EXPECT_EQ(table.find("nan"), std::string::npos);
 }
@@ -52,5 +51,4 @@ TEST(TextHistogram, EmptyBinsAreBlankAndOthersAreNot) {
   EXPECT_EQ(text_histogram({}), "");
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::table_test

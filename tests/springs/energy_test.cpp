@@ -12,8 +12,7 @@
 #include "support/meshes.h"
 #include "support/named_terms.h"
 
-namespace hooke {
-namespace {
+namespace hooke::energy_test {
 
 struct Placed {
   Mat3X points, normals;
@@ -213,6 +212,4 @@ TEST(FaceSprings, FacesWithoutAreaAreTold) {
   EXPECT_TRUE(f.flat);
 }
 
-}  // namespace
-
-}  // namespace hooke
+}  // namespace hooke::energy_test

@@ -11,8 +11,7 @@
 #include "hooke/springs/hooke_law.h"
 #include "support/meshes.h"
 
-namespace hooke {
-namespace {
+namespace hooke::forces_test {
 
 using test::Triangles;
 
@@ -192,5 +191,4 @@ TEST(Forces, DoNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(both(1), both(2));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::forces_test

@@ -9,8 +9,7 @@
 #include "hooke/mesh/adjacency.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::sizing_test {
 
 std::vector<double> wild_lengths(int count, unsigned seed) {
   std::mt19937 random(seed);
@@ -28,7 +27,7 @@ struct Limited {
 
   Limited() { limit_gradation(t.points, c, slope, lengths); }
 
-  /// The most that the neighbour `from` leaves to `to`.
+  /// The maximum length that the neighbour `from` allows at `to`.
   double most(int from, int to) const {
     return lengths[static_cast<size_t>(from)] + slope * (t.points.col(to) - t.points.col(from)).norm();
   }
@@ -95,5 +94,4 @@ TEST(SizingSource, RefusesWhatIsNone) {
     EXPECT_THROW(parse_sizing(text), Error) << text;
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::sizing_test

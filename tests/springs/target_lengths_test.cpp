@@ -10,8 +10,7 @@
 #include "hooke/springs/sizing.h"
 #include "support/solids.h"
 
-namespace hooke {
-namespace {
+namespace hooke::target_lengths_test {
 
 double natural_length_of(const test::Triangles& t) {
   return natural_length(total_area(t.points, t.faces), t.faces.size());
@@ -147,5 +146,4 @@ TEST(VertexLengths, FollowTheLeastRadiusOfCurvature) {
   for (double l : curvature_lengths(t.points, c, .3, .1)) EXPECT_EQ(l, .1);
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::target_lengths_test

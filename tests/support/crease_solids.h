@@ -69,7 +69,7 @@ inline Triangles step_block(int m) {
   return cells(2 * m, m, 2 * m, [m](int x, int, int z) { return x < m || z < m; });
 }
 
-/// Radius 1, z from 0 to 2, `around` points on each rim.
+/// Radius 1, z from 0 to 2, `around` points on each circular edge.
 inline Triangles cylinder(int around, double jitter = .3, unsigned seed = 2) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-jitter, jitter);

@@ -1,4 +1,4 @@
-// A mesh on a known surface with all that flips want, for tests.
+// A mesh on a known surface with everything that edge flips need, for tests.
 #pragma once
 
 #include <algorithm>
@@ -79,18 +79,18 @@ inline std::vector<Edge> boundary_edges(int vertex_count, const std::vector<Tria
   return edges;
 }
 
-/// A fan about vertex 0 at the tip of a wedge of `angle` degrees: `spokes` edges of length 1, then a second
-/// row beyond.
-inline Triangles wedge(double angle, int rings) {
+/// A fan about vertex 0 at the tip of a corner of `angle` degrees: `edge_count` edges of length 1, then a
+/// second row beyond.
+inline Triangles fan(double angle, int edge_count) {
   Triangles t;
-  t.points.resize(3, 1 + 2 * rings);
-  for (int i = 0; i < rings; ++i) {
-    const double phi = angle * i / (rings - 1) * std::numbers::pi / 180;
+  t.points.resize(3, 1 + 2 * edge_count);
+  for (int i = 0; i < edge_count; ++i) {
+    const double phi = angle * i / (edge_count - 1) * std::numbers::pi / 180;
     t.points.col(1 + i) = Vec3(std::cos(phi), std::sin(phi), 0);
-    t.points.col(1 + rings + i) = 2 * Vec3(std::cos(phi), std::sin(phi), 0);
+    t.points.col(1 + edge_count + i) = 2 * Vec3(std::cos(phi), std::sin(phi), 0);
   }
-  for (int i = 0; i + 1 < rings; ++i) {
-    const int a = 1 + i, b = a + rings;
+  for (int i = 0; i + 1 < edge_count; ++i) {
+    const int a = 1 + i, b = a + edge_count;
     t.faces.push_back({0, a, a + 1});
     t.faces.push_back({a, b, b + 1});
     t.faces.push_back({a, b + 1, a + 1});

@@ -32,7 +32,7 @@ struct SceneOptions {
   GuardOptions guards;
 };
 
-/// Every vertex wants the natural length of the mesh.
+/// The target length of every vertex is the natural length of the mesh.
 struct Scene {
   Adjacency adjacency;
   VertexColoring coloring;

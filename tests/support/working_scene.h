@@ -1,4 +1,4 @@
-// A mesh on a known surface with all that adaptation wants, for tests.
+// A mesh on a known surface with everything that adaptation needs, for tests.
 #pragma once
 
 #include "hooke/constraints/constraints.h"
@@ -11,14 +11,14 @@ namespace hooke::test {
 struct WorkingScene : FlippableScene {
   WorkingScene(const Triangles& t, const Surface& surface, const std::vector<Edge>& creases = {})
       : FlippableScene(t, surface, creases) {
-    count_curve_edges(adapting, .1);
+    count_curve_edges(working, .1);
   }
 
   CurveFinder finder{constraints.curves};
   CurveEdges curve_edges;
   std::vector<int> origins = std::vector<int>(vertex_length.size(), 0);
-  WorkingMesh adapting{halfedges,       positions, retraction, constraints, vertex_length,
-                       corner_valences, origins,   finder,     curve_edges};
+  WorkingMesh working{halfedges,       positions, retraction, constraints, vertex_length,
+                      corner_valences, origins,   finder,     curve_edges};
 };
 
 }  // namespace hooke::test

@@ -11,10 +11,9 @@
 #include "hooke/integrator/guards.h"
 #include "hooke/mesh/halfedge_mesh.h"
 
-namespace hooke {
-namespace {
+namespace hooke::patch_test {
 
-/// Faces with their least corner first, in order.
+/// Sorted faces, each with its smallest corner first.
 std::vector<Triangle> sorted(std::vector<Triangle> faces) {
   for (Triangle& f : faces) std::ranges::rotate(f, std::ranges::min_element(f));
   std::ranges::sort(faces);
@@ -62,14 +61,14 @@ TEST(EdgePatch, FlippedFacesAreThoseOfTheFlippedMesh) {
   }
 }
 
-/// Without those that are gone.
+/// The faces of the mesh without deleted ones, sorted.
 std::vector<Triangle> faces_of(const HalfedgeMesh& t) {
   std::vector<Triangle> faces = t.faces();
   std::erase_if(faces, [](const Triangle& f) { return f[0] < 0; });
   return sorted(faces);
 }
 
-TEST(EdgePatch, HalvedFacesAreThoseOfTheSplitMesh) {
+TEST(EdgePatch, SplitFacesAreThoseOfTheSplitMesh) {
   test::FlippableScene s(test::sphere(2, .3, 2), test::unit_sphere());
   const int h = 3 * 17 + 1;
   EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
@@ -118,30 +117,30 @@ TEST(EdgePatch, EndsAtCreases) {
   }
 }
 
-TEST(EdgePatch, FoldsAtItsRimAreSeen) {
+TEST(EdgePatch, FoldsAtItsBoundaryAreSeen) {
   test::FlippableScene s(test::grid(8, test::flat), test::plane());
   const int h = test::half_edge(s.halfedges, 4 * 9 + 3, 4 * 9 + 4);
   EdgePatch patch = *cut_patch(s.mesh, h, 1, 200);
-  EXPECT_FALSE(patch.rim.empty());
-  EXPECT_FALSE(folds_at_rim(patch, flipped_faces(patch), s.mesh, {}));
-  for (size_t i = 0; i < patch.movable; ++i)  // turned over, beyond the rim
+  EXPECT_FALSE(patch.boundary.empty());
+  EXPECT_FALSE(folds_at_patch_boundary(patch, flipped_faces(patch), s.mesh, {}));
+  for (size_t i = 0; i < patch.movable; ++i)  // turned over, beyond the boundary of the patch
     patch.positions.points.col(static_cast<Eigen::Index>(i)) += Vec3(2, 0, .1);
-  EXPECT_TRUE(folds_at_rim(patch, flipped_faces(patch), s.mesh, {}));
+  EXPECT_TRUE(folds_at_patch_boundary(patch, flipped_faces(patch), s.mesh, {}));
 }
 
-/// A fan of so many spokes about vertex 0, and a ring of faces around it.
-test::Triangles wheel(int spokes) {
+/// A fan of `valence` triangles about vertex 0, and a ring of faces around it.
+test::Triangles wheel(int valence) {
   test::Triangles t;
-  t.points.resize(3, 1 + 2 * spokes);
+  t.points.resize(3, 1 + 2 * valence);
   t.points.col(0).setZero();
-  for (int i = 0; i < spokes; ++i) {
-    const double phi = 2 * std::numbers::pi * i / spokes;
+  for (int i = 0; i < valence; ++i) {
+    const double phi = 2 * std::numbers::pi * i / valence;
     t.points.col(1 + i) = Vec3(std::cos(phi), std::sin(phi), 0);
-    t.points.col(1 + spokes + i) = 2 * Vec3(std::cos(phi), std::sin(phi), 0);
-    const int a = 1 + i, b = 1 + (i + 1) % spokes;
+    t.points.col(1 + valence + i) = 2 * Vec3(std::cos(phi), std::sin(phi), 0);
+    const int a = 1 + i, b = 1 + (i + 1) % valence;
     t.faces.push_back({0, a, b});
-    t.faces.push_back({a, a + spokes, b + spokes});
-    t.faces.push_back({a, b + spokes, b});
+    t.faces.push_back({a, a + valence, b + valence});
+    t.faces.push_back({a, b + valence, b});
   }
   return t;
 }
@@ -184,14 +183,14 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
       const auto folds = [&] {
         std::vector<double> cosines;
         for (const Edge& e : creases) {
-          const int wedge = test::half_edge(s.halfedges, e[0], e[1]);
+          const int halfedge = test::half_edge(s.halfedges, e[0], e[1]);
           cosines.push_back(
-              cosine_between(s.positions.points, s.halfedges.faces()[static_cast<size_t>(wedge / 3)],
-                             s.halfedges.faces()[static_cast<size_t>(s.halfedges.twin(wedge) / 3)]));
+              cosine_between(s.positions.points, s.halfedges.faces()[static_cast<size_t>(halfedge / 3)],
+                             s.halfedges.faces()[static_cast<size_t>(s.halfedges.twin(halfedge) / 3)]));
         }
         return cosines;
       };
-      const bool seen = folds_at_rim(*patch, flipped_faces(*patch), s.mesh, guards);
+      const bool seen = folds_at_patch_boundary(*patch, flipped_faces(*patch), s.mesh, guards);
       HalfedgeMesh before = s.halfedges;
       const std::vector<double> old = folds();
       s.halfedges.flip(h);
@@ -212,5 +211,4 @@ TEST(EdgePatch, IsNotCutWhereTooManyVerticesWouldMove) {
   EXPECT_FALSE(cut_patch(s.mesh, 0, 2, movable - 1).has_value());
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::patch_test

@@ -12,8 +12,7 @@
 #include "hooke/remesh/remesh.h"
 #include "support/scene.h"
 
-namespace hooke {
-namespace {
+namespace hooke::workspace_test {
 
 TriMesh with_length(const test::Triangles& t, double length) {
   TriMesh mesh = test::to_mesh(t);
@@ -117,7 +116,7 @@ TEST(FinalProjection, EndsOnTheFieldOfTheInput) {
     projection.project();
     projection.refit();
     shake(w);
-    EXPECT_GT(off_the_input(mesh, w.positions.points), 1e-4);  // the fields differ, or landing were idle
+    EXPECT_GT(off_the_input(mesh, w.positions.points), 1e-4);  // off the field of the input
     const int stay = projection.project();
     EXPECT_EQ(stay, 0);
     EXPECT_LT(off_the_input(mesh, w.positions.points), 1e-5);
@@ -225,5 +224,4 @@ TEST(Workspace, EqualTargetLengthsStayToTheLastBit) {
   EXPECT_EQ(vertex_values(mesh, target_length_property), std::vector<double>(lengths.size(), .1));
 }
 
-}  // namespace
-}  // namespace hooke
+}  // namespace hooke::workspace_test

@@ -28,48 +28,48 @@
 namespace hooke {
 namespace {
 
-/// All leave a mesh of the same topology, with its boundary loops, creases, corners and fixed vertices. Keeps
-/// references to what it is given. After finish() nothing more may be called.
+/// The steps of the adaptation. All preserve the topology, boundary loops, creases, corners and fixed
+/// vertices. Keeps references to its arguments. finish() must be the last call.
 class AdaptationSteps {
  public:
-  /// `corner_angle`: degrees, see corner_rule.h. The observer is asked as by the steps that take one.
+  /// `corner_angle`: degrees, see corner_valences().
   AdaptationSteps(Workspace& work, const StepOptions& options, const FlipGuardOptions& flip_guard,
                   const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
                   Observer observer);
 
-  /// Vertices at bends may move and go where a curve is to have other edges.
+  /// Lets vertices at bends move and collapse on curves whose number of edges is to change.
   void release_bends();
 
-  /// Doubles the target lengths so many times; below zero they are halved.
+  /// Multiplies the target lengths by 2^levels.
   void coarsen(int levels);
 
-  /// How often they may be doubled.
-  int bearable_levels(double wanted_faces, const CoarseLimits& limits) const;
+  /// See hooke::coarse_levels().
+  int coarse_levels(double target_faces, const CoarseLimits& limits) const;
 
-  /// Splits and collapses edges that are too long or too short, and gives curves as many as they want.
-  void change_lengths();
+  /// Splits and collapses edges that are too long or too short, and matches the edge counts of the curves.
+  void split_and_collapse();
 
-  /// Brings the number of faces closer to what is wanted; false if nothing changes it.
-  bool change_count(double wanted_faces);
+  /// Brings the number of faces closer to the target; false if no inner edge could be changed.
+  bool change_count(double target_faces);
 
-  /// Flow, after which the mesh is Delaunay and its vertices lie on the surface, as far as guards let them.
+  /// Lloyd flow, after which the mesh is Delaunay and its vertices lie on the surface, within the guards.
   void lloyd_flow(int rounds);
 
-  /// Passes of springs and flips about irregular vertices, until one flips nothing.
+  /// Passes of springs and flips near irregular vertices, until one flips nothing.
   void flip_irregular();
 
-  /// Every face becomes four.
+  /// 1-to-4 subdivision; also halves the target lengths.
   void subdivide();
 
-  /// Gives the work the mesh as it is now.
-  void finish() { adapting_.replace_mesh(); }
+  /// Writes the mesh to the workspace.
+  void finish() { edit_.replace_mesh(); }
 
   double face_count() const { return static_cast<double>(m_.halfedges.faces().size()); }
   const StepCounts& counts() const { return counts_; }
   bool interrupted() const { return interrupted_; }
 
  private:
-  void give_up_unused_ids();
+  void compact_ids();
   void relax_springs();
   int pass_over_irregular(std::vector<char>& lately_changed);
   void resample_lengths();
@@ -81,20 +81,20 @@ class AdaptationSteps {
   const EnergyTerms& terms_;
   const GuardOptions& guards_;
   const Observer observer_;
-  WorkspaceEdit adapting_;
-  WorkingMesh& m_ = adapting_.mesh();
+  WorkspaceEdit edit_;
+  WorkingMesh& m_ = edit_.mesh();
   const bool graded_;
-  int level_ = 0;  // the target lengths are doubled so many times
+  int level_ = 0;  // the target lengths are multiplied by 2^level_
   StepCounts counts_;
   bool interrupted_ = false;
 };
 
-/// How far the surface turns along an arc of the target length, radians, and how much of it is like that.
+/// Turn of the surface normal along an arc of the target length, radians, with a weight for its share.
 struct Turn {
   double angle, weight;
 };
 
-/// Per half-edge; without weight where the edge has had its turn.
+/// Per half-edge; the weight is 0 for one of the two half-edges of each edge.
 std::vector<Turn> turns(const WorkingMesh& m) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& N = m.positions.normals;
@@ -111,7 +111,7 @@ std::vector<Turn> turns(const WorkingMesh& m) {
   return turns;
 }
 
-/// The angle that no more than this part of the weights exceeds; 0 without any.
+/// The angle that is exceeded by no more than this share of the total weight; 0 if there is no weight.
 double exceeded_by(double share, std::vector<Turn> turns) {
   double left = 0;
   for (const Turn& turn : turns) left += share * turn.weight;
@@ -123,7 +123,7 @@ double exceeded_by(double share, std::vector<Turn> turns) {
   return 0;
 }
 
-/// How many of the ids [0, count) are such; asked several at once.
+/// Number of ids in [0, count) that satisfy the predicate, which is called from several threads.
 double count_of(int count, const auto& is_such) {
   return parallel_sum(static_cast<size_t>(count), 4096, [&](size_t begin, size_t end) {
     double number = 0;
@@ -147,23 +147,23 @@ bool is_regular(const WorkingMesh& m, const CoarseLimits& limits) {
              limits.misfit_share * count_of(half_edges, is_edge);
 }
 
-/// Of the chord of a circular arc that turns by so much, over the chord's length.
+/// Sagitta over chord length of a circular arc that turns by this angle, radians; at most 1/2.
 double relative_sagitta(double turn) {
   return turn < std::numbers::pi ? .5 * std::tan(turn / 4) : .5;
 }
 
 }  // namespace
 
-int coarse_levels(const WorkingMesh& m, double wanted_faces, const CoarseLimits& limits) {
+int coarse_levels(const WorkingMesh& m, double target_faces, const CoarseLimits& limits) {
   if (!m.constraints.creases.empty() || is_regular(m, limits)) return 0;
   const double turn = exceeded_by(limits.bent_share, turns(m));
   const auto still = static_cast<double>(std::ranges::count(m.constraints.freedom, Freedom::fixed));
-  const std::vector<int>& wanted = m.curve_edges.wanted;
-  const double on_curves = std::accumulate(wanted.begin(), wanted.end(), 0.);
+  const std::vector<int>& target = m.curve_edges.target;
+  const double on_curves = std::accumulate(target.begin(), target.end(), 0.);
   const auto bears = [&](int level) {
-    const double scale = std::pow(2, level), faces = wanted_faces / (scale * scale), vertices = .5 * faces;
+    const double scale = std::pow(2, level), faces = target_faces / (scale * scale), vertices = .5 * faces;
     return faces >= limits.min_faces && relative_sagitta(scale * turn) <= limits.sagitta &&
-           still + on_curves / scale <= limits.rim_share * vertices;
+           still + on_curves / scale <= limits.constrained_share * vertices;
   };
   int level = 0;
   while (level < limits.levels && bears(level + 1)) ++level;
@@ -179,8 +179,8 @@ AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options,
       terms_(terms),
       guards_(guards),
       observer_(std::move(observer)),
-      adapting_(work, corner_angle),
-      graded_(work.graded()) {}
+      edit_(work, corner_angle),
+      graded_(work.has_varying_lengths()) {}
 
 void AdaptationSteps::release_bends() {
   count_curve_edges(m_, options_.chord_error);
@@ -188,7 +188,7 @@ void AdaptationSteps::release_bends() {
   for (size_t v = 0; v < constraints.freedom.size(); ++v) {
     if (!constraints.at_bend(static_cast<int>(v))) continue;
     const auto curve = static_cast<size_t>(constraints.curve[v]);
-    const double wanted = m_.curve_edges.wanted[curve], ratio = wanted / m_.curve_edges.present[curve];
+    const double target = m_.curve_edges.target[curve], ratio = target / m_.curve_edges.present[curve];
     if (std::max(ratio, 1 / ratio) > options_.keep_bends) constraints.freedom[v] = Freedom::curve;
   }
 }
@@ -198,14 +198,14 @@ void AdaptationSteps::coarsen(int levels) {
   for (double& length : work_.vertex_length) length = std::ldexp(length, levels);
 }
 
-int AdaptationSteps::bearable_levels(double wanted_faces, const CoarseLimits& limits) const {
-  return coarse_levels(adapting_.mesh(), wanted_faces, limits);
+int AdaptationSteps::coarse_levels(double target_faces, const CoarseLimits& limits) const {
+  return hooke::coarse_levels(edit_.mesh(), target_faces, limits);
 }
 
-void AdaptationSteps::change_lengths() {
+void AdaptationSteps::split_and_collapse() {
   count_curve_edges(m_, options_.chord_error);
-  // Splits leave flat faces, which collapses would keep. Where there are none, flips before the collapses
-  // gain nothing: most of their edges go.
+  // Splits leave flat faces, which prevent collapses, so flips come first. Without splits, flips before the
+  // collapses gain nothing: most of the flipped edges collapse.
   if (const int splits =
           timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, options_.split); })) {
     counts_.splits += splits;
@@ -218,14 +218,14 @@ void AdaptationSteps::change_lengths() {
     counts_.collapses += collapse_folded_faces(m_, options_.folded);
   }
   add(match_curve_edges(m_, options_.count));
-  give_up_unused_ids();
+  compact_ids();
 }
 
-bool AdaptationSteps::change_count(double wanted_faces) {
+bool AdaptationSteps::change_count(double target_faces) {
   count_curve_edges(m_, options_.chord_error);
   add(match_curve_edges(m_, options_.count));
-  const CountChanges inner = approach_count(m_, wanted_faces, options_.count);
-  give_up_unused_ids();
+  const CountChanges inner = approach_face_count(m_, target_faces, options_.count);
+  compact_ids();
   add(inner);
   return inner.splits + inner.collapses > 0;
 }
@@ -268,11 +268,11 @@ void AdaptationSteps::subdivide() {
   const Stage stage(work_.stopwatch, "quadruple");
   count_curve_edges(m_, options_.chord_error);
   counts_.splits += hooke::subdivide(m_, options_.split, flip_guard_);
-  give_up_unused_ids();
+  compact_ids();
   coarsen(-1);
 }
 
-void AdaptationSteps::give_up_unused_ids() {
+void AdaptationSteps::compact_ids() {
   const Stage stage(work_.stopwatch, "compact");
   compact(m_);
 }
@@ -289,7 +289,7 @@ void AdaptationSteps::relax_springs() {
   IntegrationOptions integration;
   integration.max_steps = options_.spring_steps;
   LbfgsOptions lbfgs;
-  lbfgs.sweeps = 0;  // flow has left no slivers for them
+  lbfgs.sweeps = 0;  // no slivers are left after the Lloyd flow
   lbfgs.projects_at_end = false;
   interrupted_ = relax_lbfgs(r, integration, lbfgs, observer_).reason == StopReason::interrupted;
   resample_lengths();
@@ -316,15 +316,14 @@ class Adaptation {
       : options_(options),
         observer_(observer),
         steps_(work, options.steps, flip_guard, terms, guards, corner_angle, watch()) {
-    result_.wanted_faces =
-        wanted_face_count(work.positions.points, work.adjacency->faces, work.vertex_length);
+    result_.target_faces =
+        target_face_count(work.positions.points, work.adjacency->faces, work.vertex_length);
   }
 
-  /// `folded`: are there faces that lie against the surface? Flow would carry them along where splits and
-  /// collapses take them out.
+  /// `folded`: are there folded faces? Splits and collapses remove them, whereas Lloyd flow would keep them.
   AdaptResult run(bool folded) {
     steps_.release_bends();
-    result_.levels = steps_.bearable_levels(result_.wanted_faces, options_.coarse);
+    result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
     if (result_.levels > 0)
       refine_coarse_mesh();
     else
@@ -338,38 +337,38 @@ class Adaptation {
   }
 
  private:
-  /// Without a coarser mesh first.
+  /// Without a coarser mesh.
   void adapt_at_once(bool folded) {
     if (!folded) steps_.lloyd_flow(options_.first_flow);
-    change_lengths(options_.rounds, options_.flow_rounds);
-    approach(result_.wanted_faces, options_.count_slack);
+    adapt_lengths(options_.rounds, options_.flow_rounds);
+    approach(result_.target_faces, options_.count_slack);
   }
 
   void refine_coarse_mesh() {
     steps_.coarsen(result_.levels);
-    change_lengths(options_.rounds, options_.coarse_flow);
-    approach(result_.wanted_faces / std::pow(4, result_.levels), options_.count_slack);
+    adapt_lengths(options_.rounds, options_.coarse_flow);
+    approach(result_.target_faces / std::pow(4, result_.levels), options_.count_slack);
     for (int level = result_.levels; level > 0; --level) {
       if (level < result_.levels) lloyd_flow(options_.coarse_flow);
       if (!steps_.interrupted()) steps_.flip_irregular();
-      steps_.subdivide();  // interrupted or not: the target lengths are to be those that were asked for
+      steps_.subdivide();  // even if interrupted, to restore the requested target lengths
     }
-    change_lengths(options_.fine_rounds, options_.fine_flow);
-    approach(result_.wanted_faces, options_.fine_count_slack * result_.wanted_faces);
+    adapt_lengths(options_.fine_rounds, options_.fine_flow);
+    approach(result_.target_faces, options_.fine_count_slack * result_.target_faces);
   }
 
-  void change_lengths(int rounds, int flow_rounds) {
+  void adapt_lengths(int rounds, int flow_rounds) {
     for (int i = 0; i < rounds && !steps_.interrupted(); ++i) {
-      steps_.change_lengths();
+      steps_.split_and_collapse();
       ++result_.rounds;
       lloyd_flow(flow_rounds);
     }
   }
 
-  void approach(double wanted_faces, double slack) {
+  void approach(double target_faces, double slack) {
     for (int i = 0; i < options_.count_rounds && !steps_.interrupted(); ++i) {
-      if (std::abs(steps_.face_count() - wanted_faces) <= slack) return;
-      if (!steps_.change_count(wanted_faces)) return;
+      if (std::abs(steps_.face_count() - target_faces) <= slack) return;
+      if (!steps_.change_count(target_faces)) return;
       ++result_.count_rounds;
       lloyd_flow(options_.count_flow);
     }
@@ -419,7 +418,7 @@ AdaptOptions adapt_options(Effort effort) {
       options.steps.irregular = {.passes = 1};
       options.last_flow = options.last_passes = 0;
       options.last_outer = 1;
-      options.last_steps = 1;  // a sweep
+      options.last_steps = 1;  // one sweep
       break;
     case Effort::standard:
       break;

@@ -1,4 +1,7 @@
-// How much coarser than asked for a mesh may first be made.
+// Connectivity mode `adapt`: edges are split and collapsed as well as flipped, until the mesh has as many
+// faces of the target length as the surface takes. Where the surface is smooth, a coarser mesh comes first
+// and is refined by 1-to-4 subdivision, whose new vertices are all regular. After M. Botsch and L. Kobbelt,
+// "A remeshing approach to multiresolution modeling", 2004.
 #pragma once
 
 #include <optional>
@@ -12,30 +15,30 @@ namespace hooke {
 
 struct WorkingMesh;
 
+/// Limits on how much coarser than requested the first mesh may be.
 struct CoarseLimits {
-  int levels = 1;           // times the target lengths are doubled, at most
-  double min_faces = 80;    // of the coarsest mesh
-  double sagitta = .07;     // greatest of an edge of the coarsest mesh over its length ...
-  double bent_share = .01;  // ... but for this part of them
-  double rim_share = .25;   // greatest part of the coarsest mesh's vertices that lie on curves or stand still
-  // A mesh with no more irregular inner vertices and no more edges beyond these lengths, in parts of all, is
-  // regular already: no coarser one comes first.
+  int levels = 1;                  // maximum number of times the target lengths are doubled
+  double min_faces = 80;           // minimum number of faces of the coarsest mesh
+  double sagitta = .07;            // maximum sagitta of an edge of the coarsest mesh, over its length
+  double bent_share = .01;         // share of its edges that may exceed that sagitta
+  double constrained_share = .25;  // maximum share of its vertices that are fixed or on feature curves
+  // A mesh with at most these shares of irregular inner vertices, and of edges outside the range of lengths
+  // below, is regular already and needs no coarser mesh first.
   double irregular_share = .1, misfit_share = .01;
-  double shortest = .8, longest = 4. / 3;  // over the target lengths
+  double shortest = .8, longest = 4. / 3;  // lengths, over the target lengths
 };
 
-/// How many times the target lengths can be doubled so that edges as long still follow the surface, judged by
-/// how its normals turn along the edges there are; each stands for as many edges of the target length as
-/// cover its square. None where there are creases: the narrow faces between them want the lengths that were
-/// asked for. Pre-condition: the edges of the curves are counted.
-int coarse_levels(const WorkingMesh& mesh, double wanted_faces, const CoarseLimits& limits);
+/// Number of times the target lengths can be doubled while edges of that length still follow the surface.
+/// This is estimated from the turn of the normals along the present edges, weighted by squared relative
+/// length. Returns 0 for a mesh with creases: narrow faces between creases need the requested lengths.
+/// Pre-condition: count_curve_edges().
+int coarse_levels(const WorkingMesh& mesh, double target_faces, const CoarseLimits& limits);
 
-// What the adaptation of a mesh is made of, step by step; their order is that of adaptation.h.
-
+/// Options of the single steps.
 struct StepOptions {
-  double chord_error = .1;  // greatest distance of a curve from its edges, in target lengths
-  double keep_bends = 1.3;  // a curve keeps its bends if its edges and those it wants differ by less
-  int spring_steps = 15;    // evaluations of the springs' energy before flips of irregular edges
+  double chord_error = .1;  // maximum distance of a feature curve from its edges, in target lengths
+  double keep_bends = 1.3;  // maximum ratio of target to present edge count at which a curve keeps its bends
+  int spring_steps = 15;    // evaluations of the spring energy before flips of irregular edges
   SplitOptions split;
   CollapseOptions collapse;
   CollapseOptions folded = folded_face_options();
@@ -48,53 +51,49 @@ struct StepCounts {
   long long splits = 0, collapses = 0, flips = 0;
 };
 
-// Adjacency mode `adapt`: edges are split and collapsed too, until there are as many faces of the target
-// length as the surface takes. What follows is that of mode `flip`: see flip_connectivity.h.
-// After M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004. Where the surface
-// is smooth a coarser mesh is made first and every face of it becomes four: all new vertices are regular, so
-// that few others are left.
-
+/// Options of mode `adapt`; the steps of mode `flip` follow it, see flip_mode.h.
 struct AdaptOptions {
-  int rounds = 5;          // of splits, collapses and flow
-  int count_rounds = 30;   // of count control and flow, at most
-  int first_flow = 6;      // rounds of flow before: what can stay where it spreads out need not go
-  int flow_rounds = 6;     // after the splits and collapses of a round
-  int count_flow = 6;      // rounds of flow after a round of count control
-  double count_slack = 2;  // faces by which the count may miss what is wanted
+  int rounds = 5;          // of splits, collapses and Lloyd flow
+  int count_rounds = 30;   // maximum rounds of face count control and Lloyd flow
+  int first_flow = 6;      // rounds of Lloyd flow before the first split; vertices that spread out can stay
+  int flow_rounds = 6;     // of Lloyd flow after the splits and collapses of a round
+  int count_flow = 6;      // rounds of Lloyd flow after a round of face count control
+  double count_slack = 2;  // faces by which the count may miss the target
 
-  // With a coarser mesh first. The rounds are then those of the coarsest mesh, which is not flown before.
+  // With a coarser mesh first. `rounds` then applies to the coarsest mesh, without `first_flow`.
   CoarseLimits coarse;
-  int coarse_flow = 6;                 // takes the place of flow_rounds
-  int fine_rounds = 1;                 // of splits, collapses and flow at the target lengths ...
-  int fine_flow = 6;                   // ... with so many rounds of flow
-  double fine_count_slack = .01;       // part of the faces
-  int last_flow = 3, last_passes = 2;  // what mode `flip` does then, at most, ...
-  int last_outer = 6;                  // ... and so many outer iterations after it, if polish follows, ...
-  std::optional<int> last_steps;       // ... each with so many evaluations of the energy by L-BFGS
+  int coarse_flow = 6;                 // replaces flow_rounds and is the Lloyd flow of each coarser level
+  int fine_rounds = 1;                 // of splits, collapses and Lloyd flow at the target lengths
+  int fine_flow = 6;                   // rounds of Lloyd flow in each of the fine rounds
+  double fine_count_slack = .01;       // share of the target face count by which the count may miss it
+  int last_flow = 3, last_passes = 2;  // maximum rounds of flow and flip passes of mode `flip` afterwards
+  int last_outer = 6;                  // maximum outer iterations afterwards, if angle optimisation follows
+  std::optional<int> last_steps;       // maximum energy evaluations of L-BFGS in each of these iterations
 
   StepOptions steps;
 };
 
-/// The options that an effort stands for.
+/// The options for an effort level.
 AdaptOptions adapt_options(Effort effort);
 
 struct AdaptResult {
   UntangleResult untangle;
-  int levels = 0;  // of coarser meshes: how many times the faces of the first became four
+  int levels = 0;  // coarser meshes, i.e. number of 1-to-4 subdivisions
   int rounds = 0;
   int count_rounds = 0;
   long long splits = 0, collapses = 0, flips = 0;
-  double wanted_faces = 0;
+  double target_faces = 0;
   bool interrupted = false;
 };
 
-/// Replaces the mesh of the work. Boundary loops, creases, corners and fixed vertices are kept, as is the
-/// topology. Pre-condition: no refit() yet.
+/// Replaces the mesh of the workspace. The topology, boundary loops, creases, corners and fixed vertices are
+/// kept. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
                   const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
                   const Observer& observer);
 
-/// What mode `flip` is to do after that: less where most vertices are regular already.
+/// The options of mode `flip` after that: less is done if a coarser mesh came first, as most vertices are
+/// then regular.
 FlipOptions flips_after(const AdaptResult& adapted, const AdaptOptions& options, FlipOptions flips);
 
 }  // namespace hooke

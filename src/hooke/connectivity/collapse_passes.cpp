@@ -17,10 +17,10 @@
 namespace hooke {
 namespace {
 
-/// Which block each vertex belongs to: as many that follow each other, but for the first and the last.
+/// Partition of the vertices into blocks of consecutive ids, equal in size except for the first and the last.
 struct Blocks {
-  std::vector<int> of;     // per id
-  std::vector<int> first;  // id of each block, and one past the last
+  std::vector<int> of;     // per id: its block
+  std::vector<int> first;  // first id of each block, and one past the last id
 };
 
 Blocks cut_into_blocks(const HalfedgeMesh& t, int vertices, int offset) {
@@ -37,9 +37,10 @@ Blocks cut_into_blocks(const HalfedgeMesh& t, int vertices, int offset) {
   return blocks;
 }
 
-/// How far each vertex lies from the other blocks: at 0 a neighbour is in one, at 1 a neighbour is at 0. A
-/// collapse of an inner edge between vertices at 2 reads and writes its own block alone, and leaves them
-/// at 2. Edges of rims count in what the mesh knows of their curves.
+/// Distance of each vertex from the other blocks: 0 if a neighbour is in another block, 1 if a neighbour has
+/// depth 0, else 2. The collapse of an inner edge between vertices of depth 2 reads and writes its own block
+/// only and preserves these depths. Feature edges are excluded: their collapse changes the edge count of a
+/// curve, which blocks share.
 std::vector<char> depths_in(const Blocks& blocks, const HalfedgeMesh& t) {
   std::vector<char> depths(static_cast<size_t>(t.id_count()), 2);
   const auto lower = [&](char depth, const auto& is_so_deep) {
@@ -76,7 +77,7 @@ class BlockCollapses {
       const int stays = collapse_edge(m_, h, options_);
       if (stays < 0) continue;
       ++collapses;
-      for (int spoke : t_.outgoing(stays)) push(spoke);
+      for (int outgoing : t_.outgoing(stays)) push(outgoing);
     }
     return collapses;
   }
@@ -85,17 +86,17 @@ class BlockCollapses {
   bool is_deep(int v) const { return depths_[static_cast<size_t>(v)] == 2; }
 
   void push(int h) {
-    if (!is_deep(t_.from(h)) || !is_deep(t_.to(h)) || is_feature_edge(t_, h)) return;
+    if (!is_deep(t_.from(h)) || !is_deep(t_.to(h)) || t_.is_feature_edge(h)) return;
     if (const double length = relative_length(m_, h); length < shortest_) waiting_.emplace(length, h);
   }
 
-  /// The shortest of the edges that are as long as they were when they came, and still inner ones: a
-  /// half-edge may stand for another edge by then. -1 without one.
+  /// The shortest waiting edge whose entry is up to date: the half-edge may represent another edge by now, or
+  /// have another length. -1 if there is none.
   int pop() {
     while (!waiting_.empty()) {
       const auto [length, h] = waiting_.top();
       waiting_.pop();
-      if (!t_.is_gone(h / 3) && !is_feature_edge(t_, h) && relative_length(m_, h) == length) return h;
+      if (!t_.is_gone(h / 3) && !t_.is_feature_edge(h) && relative_length(m_, h) == length) return h;
     }
     return -1;
   }
@@ -114,7 +115,7 @@ int vertex_count(const HalfedgeMesh& t) {
   return count;
 }
 
-/// Of all half-edges, the part that is shorter than this.
+/// Share of all half-edges whose relative length is less than this.
 double share_of_shorter(const WorkingMesh& m, double length) {
   const HalfedgeMesh& t = m.halfedges;
   const auto count = [&](const auto& counts) {
@@ -144,8 +145,8 @@ int collapse_in(const Blocks& blocks, WorkingMesh& m, const CollapseOptions& opt
 
 int collapse_in_blocks(WorkingMesh& m, const CollapseOptions& options, const BlockOptions& o) {
   const HalfedgeMesh& t = m.halfedges;
-  const double shortest = o.part * options.shortest;
-  if (t.id_count() < 2 * o.vertices || share_of_shorter(m, shortest) < o.share) return 0;
+  const double shortest = o.length_factor * options.shortest;
+  if (t.id_count() < 2 * o.vertices || share_of_shorter(m, shortest) < o.min_share) return 0;
   int collapses = 0;
   for (int pass = 0; pass < o.passes; ++pass) {
     const int size = std::min(o.vertices, vertex_count(t) / 2);
@@ -156,16 +157,16 @@ int collapse_in_blocks(WorkingMesh& m, const CollapseOptions& options, const Blo
 
 namespace {
 
-/// Of edges that are tried at the same time, against the mesh as it was before.
-constexpr size_t max_edges = 1024;
+/// Maximum number of edges tested in parallel, all against the mesh before their collapses.
+constexpr size_t collapse_batch_size = 1024;
 
-std::vector<std::optional<Collapse>> try_all(const WorkingMesh& m, const std::vector<int>& edges,
-                                             const CollapseOptions& options) {
-  std::vector<std::optional<Collapse>> trials(edges.size());
+std::vector<std::optional<Collapse>> find_collapses(const WorkingMesh& m, const std::vector<int>& edges,
+                                                    const CollapseOptions& options) {
+  std::vector<std::optional<Collapse>> collapses(edges.size());
   parallel_for(edges.size(), 16, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) trials[i] = find_collapse(m, edges[i], options);
+    for (size_t i = begin; i < end; ++i) collapses[i] = find_collapse(m, edges[i], options);
   });
-  return trials;
+  return collapses;
 }
 
 }  // namespace
@@ -174,13 +175,15 @@ int collapse_short_edges(WorkingMesh& m, const CollapseOptions& options) {
   int collapses = collapse_in_blocks(m, options, {});
   EdgeQueue queue(m.halfedges, [&](int h) { return options.shortest - relative_length(m, h); });
   const auto next_edges = [&] {
-    return queue.pop_apart(max_edges, [&](int h) { return valence_after(m, h) <= options.valence; });
+    return queue.pop_apart(collapse_batch_size,
+                           [&](int h) { return valence_after(m, h) <= options.valence; });
   };
   for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
-    for (const std::optional<Collapse>& trial : try_all(m, edges, options)) {
-      if (!trial || !curve_may_lose(m, trial->half_edge)) continue;  // others of its curve may have gone
-      make_collapse(m, *trial);
-      queue.push_about(trial->stays);
+    for (const std::optional<Collapse>& collapse : find_collapses(m, edges, options)) {
+      // Other edges of its curve may have collapsed.
+      if (!collapse || !may_remove_curve_edge(m, collapse->half_edge)) continue;
+      make_collapse(m, *collapse);
+      queue.push_around(collapse->stays);
       ++collapses;
     }
   m.retraction.count();
@@ -189,7 +192,7 @@ int collapse_short_edges(WorkingMesh& m, const CollapseOptions& options) {
 
 namespace {
 
-/// Collapses the first edge that may, of the face or at its corners.
+/// Collapses the first edge for which it is allowed, of the face or at its corners.
 bool collapse_about(WorkingMesh& m, int face, const CollapseOptions& options) {
   const HalfedgeMesh& t = m.halfedges;
   for (int h = 3 * face; h < 3 * face + 3; ++h)

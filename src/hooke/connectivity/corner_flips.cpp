@@ -13,20 +13,21 @@
 namespace hooke {
 namespace {
 
-constexpr double push = .1;  // in target lengths
+constexpr double push = .1;  // displacement per step, in target lengths
 constexpr int max_pushes = 8;
 
-/// One corner and what can be done about its valence.
+/// Matches the valence of one corner to its target.
 class Corner {
  public:
   Corner(FlippableMesh& mesh, const FlipGuardOptions& options, int vertex, int wedge)
       : m_(mesh), t_(mesh.halfedges), options_(options), vertex_(vertex), wedge_(wedge) {}
 
   int match_valence() {
-    const int wanted = m_.corner_valences[static_cast<size_t>(wedge_)];
-    while (valence() < wanted && flip_best(sides_across())) ++flips_;
-    while (valence() > wanted) {
-      if (!flip_best(inner_spokes()) && !free_inner_neighbour() && !push_inner_neighbour() && !pull_sides())
+    const int target = m_.corner_valences[static_cast<size_t>(wedge_)];
+    while (valence() < target && flip_best(opposite_edges())) ++flips_;
+    while (valence() > target) {
+      if (!flip_best(inner_edges()) && !free_inner_neighbour() && !push_inner_neighbour() &&
+          !pull_feature_neighbours())
         break;
       ++flips_;
     }
@@ -34,29 +35,29 @@ class Corner {
   }
 
  private:
-  ShortList spokes() const {
+  SmallIntList corner_edges() const {
     for (int h : t_.outgoing(vertex_))
       if (t_.wedge(h) == wedge_) return t_.sector(h);
     return {};
   }
 
-  int valence() const { return static_cast<int>(spokes().size()) + 1; }
+  int valence() const { return static_cast<int>(corner_edges().size()) + 1; }
 
-  ShortList inner_spokes() const {
-    ShortList inner;
-    for (int h : spokes())
+  SmallIntList inner_edges() const {
+    SmallIntList inner;
+    for (int h : corner_edges())
       if (!t_.is_feature_edge(h)) inner.push_back(h);
     return inner;
   }
 
-  ShortList sides_across() const {
-    ShortList wedges;
-    for (int h : spokes()) wedges.push_back(HalfedgeMesh::next(h));
-    return wedges;
+  SmallIntList opposite_edges() const {
+    SmallIntList half_edges;
+    for (int h : corner_edges()) half_edges.push_back(HalfedgeMesh::next(h));
+    return half_edges;
   }
 
-  /// Flips the edge whose new faces have the largest least angle.
-  bool flip_best(const ShortList& half_edges) {
+  /// Flips the edge whose new faces have the largest minimum angle.
+  bool flip_best(const SmallIntList& half_edges) {
     int best = -1;
     double best_angle = -1;
     for (int h : half_edges) {
@@ -71,18 +72,18 @@ class Corner {
     return best >= 0;
   }
 
-  /// An inner neighbour with three edges cannot lose one: the edge across it goes to it first.
+  /// An inner neighbour of valence 3 cannot lose an edge: an opposite edge is first flipped to it.
   bool free_inner_neighbour() {
-    for (int h : inner_spokes()) {
+    for (int h : inner_edges()) {
       const int w = t_.to(h);
-      if (t_.valence(w) != 3 || is_on_border(w)) continue;
-      for (int wedge : t_.outgoing(w)) {
-        const int across = HalfedgeMesh::next(wedge);
+      if (t_.valence(w) != 3 || is_on_feature(w)) continue;
+      for (int outgoing : t_.outgoing(w)) {
+        const int across = HalfedgeMesh::next(outgoing);
         if (t_.from(across) == vertex_ || t_.to(across) == vertex_) continue;
         if (!may_flip(m_, across, options_)) continue;
         t_.flip(across);
         ++flips_;
-        if (flip_best(inner_spokes())) return true;
+        if (flip_best(inner_edges())) return true;
         break;
       }
     }
@@ -90,37 +91,38 @@ class Corner {
   }
 
   bool push_inner_neighbour() {
-    for (int h : inner_spokes()) {
+    for (int h : inner_edges()) {
       const int w = t_.to(h);
-      if (!is_on_border(w) && shift({w}, push)) return true;
+      if (!is_on_feature(w) && shift({w}, push)) return true;
     }
     return false;
   }
 
-  bool pull_sides() {
-    const ShortList all = spokes();
+  bool pull_feature_neighbours() {
+    const SmallIntList all = corner_edges();
     return shift({t_.to(all.front()), t_.opposite_vertex(all.back())}, -push);
   }
 
-  bool is_on_border(int vertex) const { return t_.on_boundary(vertex) || t_.on_crease(vertex); }
+  bool is_on_feature(int vertex) const { return t_.on_boundary(vertex) || t_.on_crease(vertex); }
 
-  /// Moves the vertices along the lines from the corner, bit by bit, until a spoke can be flipped.
-  bool shift(const std::vector<int>& vertices, double part) {
+  /// Moves the vertices along the lines from the corner, step by step, until an edge at the corner can be
+  /// flipped; else reverts them.
+  bool shift(const std::vector<int>& vertices, double relative_step) {
     std::vector<SurfacePosition> before;
     for (int v : vertices) before.emplace_back(m_.positions, v);
-    for (int i = 0; i < max_pushes && shift_once(vertices, part); ++i)
-      if (flip_best(inner_spokes())) return true;
+    for (int i = 0; i < max_pushes && shift_once(vertices, relative_step); ++i)
+      if (flip_best(inner_edges())) return true;
     for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(m_.positions, vertices[i]);
     return false;
   }
 
-  bool shift_once(const std::vector<int>& vertices, double part) {
+  bool shift_once(const std::vector<int>& vertices, double relative_step) {
     Mat3X& X = m_.positions.points;
     for (int v : vertices) {
       if (m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed) continue;
       const std::vector<double> before = alignments(v);
       const Vec3 away = (X.col(v) - X.col(vertex_)).normalized();
-      const double length = part * m_.vertex_length[static_cast<size_t>(v)];
+      const double length = relative_step * m_.vertex_length[static_cast<size_t>(v)];
       m_.retraction.moved(m_.positions, v, length * away).write_to(m_.positions, v);
       const std::vector<double> after = alignments(v);
       for (size_t i = 0; i < before.size(); ++i)

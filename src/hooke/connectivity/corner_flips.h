@@ -1,15 +1,15 @@
-// Corners of the boundary and of creases: as many faces as fit their angle. Delaunay flips alone cut a corner
-// of 42 degrees into two of 21, which no motion mends.
+// Edge flips that give each corner of the boundary and of creases as many faces as fit its angle. Delaunay
+// flips alone divide a corner of 42 degrees into two angles of 21, which vertex motion cannot improve.
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
 
 namespace hooke {
 
-/// Flips edges at the corners that do not have the valence they want. Where a flip is not allowed it makes
-/// room: it gives an inner neighbour with three edges a fourth, else pushes the neighbour away from the
-/// corner, else slides the corner's neighbours on the boundary toward it. What brings nothing is undone.
-/// Returns the number of flips.
+/// Flips edges at corners whose valence differs from the target, see corner_valences(). Where a flip is not
+/// allowed it first gives an inner neighbour of valence three a fourth edge, else moves the neighbour away
+/// from the corner, else slides the corner's neighbours on the feature edges toward it. Moves that enable no
+/// flip are reverted. Returns the number of flips.
 int flip_corners_to_valence(FlippableMesh& mesh, const FlipGuardOptions& options);
 
 }  // namespace hooke

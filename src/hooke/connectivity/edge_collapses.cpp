@@ -16,13 +16,13 @@
 namespace hooke {
 namespace {
 
-/// The columns of a face's corners.
+/// The three columns of a face in a CollapsedRing.
 Triangle corners_of(size_t face) {
   const int first = static_cast<int>(3 * face);
   return {first, first + 1, first + 2};
 }
 
-void look_at_face(const WorkingMesh& m, size_t face, WorstShape& worst) {
+void measure_face(const WorkingMesh& m, size_t face, WorstShape& worst) {
   const Mat3X& X = m.positions.points;
   const Triangle& corners = m.halfedges.faces()[face];
   const Triangle& wedges = m.halfedges.wedges()[face];
@@ -30,8 +30,8 @@ void look_at_face(const WorkingMesh& m, size_t face, WorstShape& worst) {
   worst.alignment = std::min(worst.alignment, face_alignment(X, m.positions.normals, corners, wedges));
 }
 
-/// The edge of h, and the fold there. Creases are folds that shall be.
-void look_at_edge(const WorkingMesh& m, int h, WorstShape& worst) {
+/// The sagitta of the edge of h, and its fold unless it is a feature edge.
+void measure_edge(const WorkingMesh& m, int h, WorstShape& worst) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.positions.points;
   const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
@@ -58,10 +58,10 @@ WorstShape worst_about(const WorkingMesh& m, int half_edge) {
   const HalfedgeMesh& t = m.halfedges;
   WorstShape worst;
   for (int end : {t.from(half_edge), t.to(half_edge)})
-    for (int spoke : t.outgoing(end)) {
-      look_at_face(m, static_cast<size_t>(spoke / 3), worst);
-      for (int h : {spoke, HalfedgeMesh::next(spoke), HalfedgeMesh::previous(spoke)})
-        look_at_edge(m, h, worst);
+    for (int outgoing : t.outgoing(end)) {
+      measure_face(m, static_cast<size_t>(outgoing / 3), worst);
+      for (int h : {outgoing, HalfedgeMesh::next(outgoing), HalfedgeMesh::previous(outgoing)})
+        measure_edge(m, h, worst);
     }
   return worst;
 }
@@ -71,35 +71,36 @@ CollapsedRing::CollapsedRing(const WorkingMesh& mesh, int half_edge, int stays)
   const int twin = t_.twin(half_edge);
   const int dying[] = {half_edge / 3, twin < 0 ? -1 : twin / 3};
   for (int v : {t_.from(half_edge), t_.to(half_edge)})
-    for (int spoke : t_.outgoing(v))
-      if (spoke / 3 != dying[0] && spoke / 3 != dying[1])
-        add_face(spoke, t_.side_after_collapse(half_edge, stays, spoke));
+    for (int outgoing : t_.outgoing(v))
+      if (outgoing / 3 != dying[0] && outgoing / 3 != dying[1])
+        add_face(outgoing, t_.wedge_after_collapse(half_edge, stays, outgoing));
   for (Face& face : faces_) face.next = face_after(face);
   copy_corners();
 }
 
-void CollapsedRing::add_face(int spoke, int wedge) {
-  const int next = HalfedgeMesh::next(spoke), previous = HalfedgeMesh::previous(spoke);
-  Face face{.spoke = spoke,
+void CollapsedRing::add_face(int outgoing, int wedge) {
+  const int next = HalfedgeMesh::next(outgoing), previous = HalfedgeMesh::previous(outgoing);
+  Face face{.outgoing = outgoing,
             .wedge = wedge,
             .first_target = target_length(m_, stays_, t_.from(next)),
             .last_target = target_length(m_, stays_, t_.from(previous)),
-            .has_beyond = !t_.is_feature_edge(next),
-            .beyond = Vec3::Zero(),
+            .has_neighbour = !t_.is_feature_edge(next),
+            .neighbour_area = Vec3::Zero(),
             .next = -1};
-  if (face.has_beyond) {
+  if (face.has_neighbour) {
     const auto across = static_cast<size_t>(t_.twin(next) / 3);
-    face.beyond = doubled_area_vector(m_.positions.points, t_.faces()[across]);
+    face.neighbour_area = doubled_area_vector(m_.positions.points, t_.faces()[across]);
   }
   faces_.push_back(face);
 }
 
-/// The face after it about the vertex that stays, also where two edges have become one.
+/// The next face counter-clockwise around the remaining vertex, also across two edges that the collapse
+/// merges.
 int CollapsedRing::face_after(const Face& face) const {
-  const int last = HalfedgeMesh::previous(face.spoke);
+  const int last = HalfedgeMesh::previous(face.outgoing);
   const auto found =
-      std::ranges::find_if(faces_, [&](const Face& other) { return t_.to(other.spoke) == t_.from(last); });
-  if (found == faces_.end() || t_.is_crease(last) || t_.is_crease(found->spoke)) return -1;
+      std::ranges::find_if(faces_, [&](const Face& other) { return t_.to(other.outgoing) == t_.from(last); });
+  if (found == faces_.end() || t_.is_crease(last) || t_.is_crease(found->outgoing)) return -1;
   return static_cast<int>(found - faces_.begin());
 }
 
@@ -109,49 +110,51 @@ void CollapsedRing::copy_corners() {
   normals_.resize(3, columns);
   areas_.resize(faces_.size());
   for (size_t f = 0; f < faces_.size(); ++f) {
-    const int next = HalfedgeMesh::next(faces_[f].spoke), previous = HalfedgeMesh::previous(faces_[f].spoke);
+    const int next = HalfedgeMesh::next(faces_[f].outgoing),
+              previous = HalfedgeMesh::previous(faces_[f].outgoing);
     const auto [first, second, third] = corners_of(f);
     points_.col(second) = m_.positions.points.col(t_.from(next));
     points_.col(third) = m_.positions.points.col(t_.from(previous));
-    normals_.col(first) = m_.positions.normals.col(faces_[f].wedge);  // put() knows two sides
+    normals_.col(first) =
+        m_.positions.normals.col(faces_[f].wedge);  // set_position() sets at most two wedges
     normals_.col(second) = m_.positions.normals.col(t_.wedge(next));
     normals_.col(third) = m_.positions.normals.col(t_.wedge(previous));
   }
 }
 
-void CollapsedRing::put(const SurfacePosition& place) {
+void CollapsedRing::set_position(const SurfacePosition& position) {
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Triangle corners = corners_of(f);
-    points_.col(corners[0]) = place.point;
-    if (faces_[f].wedge == stays_) normals_.col(corners[0]) = place.normal;
-    if (faces_[f].wedge == place.other_wedge) normals_.col(corners[0]) = place.other_normal;
+    points_.col(corners[0]) = position.point;
+    if (faces_[f].wedge == stays_) normals_.col(corners[0]) = position.normal;
+    if (faces_[f].wedge == position.other_wedge) normals_.col(corners[0]) = position.other_normal;
     areas_[f] = doubled_area_vector(points_, corners);
   }
 }
 
-WorstShape CollapsedRing::worst(const SurfacePosition& place) {
-  put(place);
+WorstShape CollapsedRing::worst(const SurfacePosition& position) {
+  set_position(position);
   WorstShape worst;
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
-    look_at_face(f, worst);
-    look_at_edge(f, 1, face.first_target, worst);
-    look_at_edge(f, 2, face.last_target, worst);
-    if (face.has_beyond) worst.fold = std::min(worst.fold, cosine_between(areas_[f], face.beyond));
+    measure_face(f, worst);
+    measure_edge(f, 1, face.first_target, worst);
+    measure_edge(f, 2, face.last_target, worst);
+    if (face.has_neighbour) worst.fold = std::min(worst.fold, cosine_between(areas_[f], face.neighbour_area));
     if (face.next >= 0)
       worst.fold = std::min(worst.fold, cosine_between(areas_[f], areas_[static_cast<size_t>(face.next)]));
   }
   return worst;
 }
 
-void CollapsedRing::look_at_face(size_t face, WorstShape& worst) const {
+void CollapsedRing::measure_face(size_t face, WorstShape& worst) const {
   const Triangle corners = corners_of(face);
   worst.cotangent = std::max(worst.cotangent, max_cotangent(points_, corners));
   worst.alignment = std::min(worst.alignment, face_alignment(points_, normals_, corners));
 }
 
-/// The edge from the first corner to another one.
-void CollapsedRing::look_at_edge(size_t face, int corner, double target, WorstShape& worst) const {
+/// The edge from the first corner to the given one.
+void CollapsedRing::measure_edge(size_t face, int corner, double target, WorstShape& worst) const {
   const int first = corners_of(face)[0];
   const double sagitta = edge_sagitta(points_, normals_, {first, first + corner});
   worst.sagitta = std::max(worst.sagitta, sagitta / target);
@@ -163,9 +166,9 @@ WorstShape limits_of(const CollapseOptions& o) {
   return {1 / std::tan(o.angle * std::numbers::pi / 180), o.alignment, o.fold, o.sagitta};
 }
 
-class Trial {
+class CollapseTest {
  public:
-  Trial(const WorkingMesh& mesh, int half_edge, const CollapseOptions& options)
+  CollapseTest(const WorkingMesh& mesh, int half_edge, const CollapseOptions& options)
       : m_(mesh),
         t_(mesh.halfedges),
         options_(options),
@@ -174,18 +177,19 @@ class Trial {
         b_(t_.to(half_edge)) {}
 
   std::optional<Collapse> run() const {
-    if (!may_vanish(a_) && !may_vanish(b_)) return std::nullopt;
-    if (!is_welcome() || !t_.may_collapse(h_)) return std::nullopt;
+    if (!is_removable(a_) && !is_removable(b_)) return std::nullopt;
+    if (!keeps_valences_and_counts() || !t_.may_collapse(h_)) return std::nullopt;
     const Rings rings = {t_.neighbours(a_), t_.neighbours(b_)};
     const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
     const SurfacePosition here(m_.positions, stays);
-    const Vec3 way = m_.positions.points.col(goes) - here.point;
+    const Vec3 displacement = m_.positions.points.col(goes) - here.point;
     std::optional<CollapsedRing> ring;
     std::optional<WorstShape> looser;
-    for (double part : parts(stays, goes)) {
-      if (leaves_long_edges(rings, stays, here.point + part * way)) continue;
+    for (double fraction : candidate_fractions(stays, goes)) {
+      if (leaves_long_edges(rings, stays, here.point + fraction * displacement)) continue;
       if (!ring) ring.emplace(m_, h_, stays);
-      const SurfacePosition there = part > 0 ? m_.retraction.moved(m_.positions, stays, part * way) : here;
+      const SurfacePosition there =
+          fraction > 0 ? m_.retraction.moved(m_.positions, stays, fraction * displacement) : here;
       const WorstShape after = ring->worst(there), limits = limits_of(options_);
       if (is_within(after, limits)) return Collapse{h_, stays, there};
       if (!looser) looser = loosened(limits);
@@ -196,50 +200,50 @@ class Trial {
 
  private:
   struct Rings {
-    ShortList a, b;  // the neighbours of the ends
+    SmallIntList a, b;  // neighbours of the two ends
   };
 
   Freedom freedom(int v) const { return m_.constraints.freedom[static_cast<size_t>(v)]; }
 
-  bool may_vanish(int v) const {
+  bool is_removable(int v) const {
     if (freedom(v) == Freedom::fixed) return false;
     if (freedom(v) == Freedom::surface && !t_.on_boundary(v)) return true;
-    return is_feature_edge(t_, h_);
+    return t_.is_feature_edge(h_);
   }
 
-  /// Does the valence stay fair, and do curve and corners keep what they want?
-  bool is_welcome() const {
+  /// Is the valence within its limit, and do the curve and the opposite corners keep their target counts?
+  bool keeps_valences_and_counts() const {
     if (valence_after(m_, h_) > options_.valence) return false;
-    for (int wedge : {h_, t_.twin(h_)}) {
-      if (wedge < 0) continue;
-      const CornerValence opposite_vertex = corner_valence(m_.flipping(), HalfedgeMesh::previous(wedge));
-      if (opposite_vertex.has <= opposite_vertex.wanted) return false;
+    for (int half_edge : {h_, t_.twin(h_)}) {
+      if (half_edge < 0) continue;
+      const CornerValence opposite = corner_valence(m_.flipping(), HalfedgeMesh::previous(half_edge));
+      if (opposite.present <= opposite.target) return false;
     }
-    return curve_may_lose(m_, h_);
+    return may_remove_curve_edge(m_, h_);
   }
 
-  /// Which vertex is less free, or older.
+  /// The remaining vertex: the more constrained end, else the older one.
   int staying_end() const {
     const auto rank = [&](int v) {
       const int origin = m_.origins[static_cast<size_t>(v)];
-      return std::tuple(may_vanish(v), freedom(v) == Freedom::surface && !t_.on_boundary(v), origin < 0,
+      return std::tuple(is_removable(v), freedom(v) == Freedom::surface && !t_.on_boundary(v), origin < 0,
                         origin < 0 ? v : origin);
     };
     return rank(a_) < rank(b_) ? a_ : b_;
   }
 
-  /// Where the vertex that stays may go, as parts of the way to the other.
-  std::span<const double> parts(int stays, int goes) const {
+  /// Candidate positions of the remaining vertex, as fractions of the vector to the other end.
+  std::span<const double> candidate_fractions(int stays, int goes) const {
     static constexpr double anywhere[] = {.5, 0, 1}, nowhere[] = {0};
-    const bool alike =
-        may_vanish(stays) && freedom(stays) == freedom(goes) && t_.on_boundary(stays) == t_.on_boundary(goes);
+    const bool alike = is_removable(stays) && freedom(stays) == freedom(goes) &&
+                       t_.on_boundary(stays) == t_.on_boundary(goes);
     return alike ? std::span<const double>(anywhere) : std::span<const double>(nowhere);
   }
 
-  /// The longest edge over its target length, if the vertex that stays were at the point.
+  /// The longest edge over its target length, if the remaining vertex were at the point.
   double longest_edge(const Rings& rings, int stays, const Vec3& point) const {
     double longest = 0;
-    for (const ShortList* ring : {&rings.a, &rings.b})
+    for (const SmallIntList* ring : {&rings.a, &rings.b})
       for (int v : *ring)
         if (v != a_ && v != b_) longest = std::max(longest, length(point, v) / target_length(m_, stays, v));
     return longest;
@@ -247,11 +251,11 @@ class Trial {
 
   double length(const Vec3& point, int v) const { return (m_.positions.points.col(v) - point).norm(); }
 
-  /// Would an edge come to be longer than allowed, and than every edge at the ends is now?
+  /// Would an edge become longer than allowed, and longer than every edge at the ends is now?
   bool leaves_long_edges(const Rings& rings, int stays, const Vec3& point) const {
     const double longest = longest_edge(rings, stays, point);
     if (longest <= options_.longest) return false;
-    const auto has_as_long = [&](int end, const ShortList& ring) {
+    const auto has_as_long = [&](int end, const SmallIntList& ring) {
       return std::ranges::any_of(ring, [&](int v) {
         return length(m_.positions.points.col(end), v) / target_length(m_, end, v) >= longest;
       });
@@ -259,7 +263,7 @@ class Trial {
     return !has_as_long(a_, rings.a) && !has_as_long(b_, rings.b);
   }
 
-  /// What is worse than it should be may stay as it is, unless the options insist.
+  /// The limits relaxed to the present worst values; not for alignment if the options insist on it.
   WorstShape loosened(const WorstShape& limits) const {
     WorstShape loose = worse_of(limits, worst_about(m_, h_));
     if (options_.insist_on_alignment) loose.alignment = limits.alignment;
@@ -280,29 +284,29 @@ int valence_after(const WorkingMesh& m, int half_edge) {
 }
 
 std::optional<Collapse> find_collapse(const WorkingMesh& m, int half_edge, const CollapseOptions& options) {
-  return Trial(m, half_edge, options).run();
+  return CollapseTest(m, half_edge, options).run();
 }
 
 void make_collapse(WorkingMesh& m, const Collapse& c) {
-  const int curve = is_feature_edge(m.halfedges, c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
+  const int curve = m.halfedges.is_feature_edge(c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
   if (curve >= 0) --m.curve_edges.present[static_cast<size_t>(curve)];
   m.halfedges.collapse(c.half_edge, c.stays);
-  c.place.write_to(m.positions, c.stays);
+  c.position.write_to(m.positions, c.stays);
 }
 
 int collapse_edge(WorkingMesh& m, int half_edge, const CollapseOptions& options) {
-  const std::optional<Collapse> trial = find_collapse(m, half_edge, options);
-  if (!trial) return -1;
-  make_collapse(m, *trial);
-  return trial->stays;
+  const std::optional<Collapse> collapse = find_collapse(m, half_edge, options);
+  if (!collapse) return -1;
+  make_collapse(m, *collapse);
+  return collapse->stays;
 }
 
-bool curve_may_lose(const WorkingMesh& m, int half_edge) {
-  if (!is_feature_edge(m.halfedges, half_edge)) return true;
+bool may_remove_curve_edge(const WorkingMesh& m, int half_edge) {
+  if (!m.halfedges.is_feature_edge(half_edge)) return true;
   const int curve = curve_of(m, half_edge).curve;
   if (curve < 0) return true;
   const auto c = static_cast<size_t>(curve);
-  return m.curve_edges.present[c] > m.curve_edges.wanted[c];
+  return m.curve_edges.present[c] > m.curve_edges.target[c];
 }
 
 }  // namespace hooke

@@ -1,4 +1,5 @@
-// The faces about an edge, before it collapses and after.
+// Edge collapses: the quality of the faces around an edge before and after, whether a collapse is allowed,
+// and where the remaining vertex is placed.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -12,45 +13,48 @@ namespace hooke {
 struct WorkingMesh;
 class HalfedgeMesh;
 
-/// The worst of what guards look at.
+/// The worst values, over some faces and edges, of the measures that the guards limit.
 struct WorstShape {
-  double cotangent = 0;  // of the least angle of a face
-  double alignment = 1;  // least cosine between a face and the surface
-  double fold = 1;       // least cosine between neighbouring faces that no crease parts
-  double sagitta = 0;    // of an edge, over its target length
+  double cotangent = 0;  // of the minimum angle of a face
+  double alignment = 1;  // minimum cosine between the normals of a face and of the surface
+  double fold = 1;       // minimum cosine between neighbouring faces not separated by a crease
+  double sagitta = 0;    // maximum of an edge, over its target length
 };
 
+/// The componentwise worse shape.
 WorstShape worse_of(const WorstShape& a, const WorstShape& b);
+/// Does the shape satisfy all limits?
 bool is_within(const WorstShape& worst, const WorstShape& limits);
 
-/// Of the faces at both ends of the edge, their edges and what is across these.
+/// The worst shape of the faces around both ends of the edge, including folds with the faces next to them.
 WorstShape worst_about(const WorkingMesh& mesh, int half_edge);
 
-/// The faces that stay when the edge collapses, as they will be about the vertex that stays: each with
-/// columns of its own for its corners, of which that vertex is the first. Keeps a reference to the mesh.
+/// The one-ring of the remaining vertex after the collapse of an edge. Each face has its own three columns of
+/// corner positions, that vertex first. Keeps a reference to the mesh.
 class CollapsedRing {
  public:
   CollapsedRing(const WorkingMesh& mesh, int half_edge, int stays);
 
-  /// Of these faces with the vertex at the place, their edges there and what is across their sides.
-  WorstShape worst(const SurfacePosition& place);
+  /// The worst shape of these faces, their edges at the vertex and the folds with the faces next to them, if
+  /// the vertex is at this position.
+  WorstShape worst(const SurfacePosition& position);
 
  private:
   struct Face {
-    int spoke;                         // half-edge of the mesh from the first corner
+    int outgoing;                      // outgoing half-edge of the mesh at the first corner
     int wedge;                         // of the first corner
-    double first_target, last_target;  // lengths, of the edges to the second corner and from the third
-    bool has_beyond;                   // is there a face across from the first corner, and no crease between?
-    Vec3 beyond;                       // its doubled area vector
-    int next;                          // the face that shares the last edge; -1 if a crease parts them
+    double first_target, last_target;  // target lengths of the edges to the second corner and from the third
+    bool has_neighbour;                // is there a face opposite the first corner, across no crease?
+    Vec3 neighbour_area;               // doubled area vector of that face
+    int next;                          // the face that shares the last edge; -1 across a feature edge
   };
 
-  void add_face(int spoke, int wedge);
+  void add_face(int outgoing, int wedge);
   void copy_corners();
-  void put(const SurfacePosition& place);
+  void set_position(const SurfacePosition& position);
   int face_after(const Face& face) const;
-  void look_at_face(size_t face, WorstShape& worst) const;
-  void look_at_edge(size_t face, int corner, double target, WorstShape& worst) const;
+  void measure_face(size_t face, WorstShape& worst) const;
+  void measure_edge(size_t face, int corner, double target, WorstShape& worst) const;
 
   const WorkingMesh& m_;
   const HalfedgeMesh& t_;
@@ -60,47 +64,45 @@ class CollapsedRing {
   Mat3X points_, normals_;
 };
 
-// One edge collapse: may it be, and where does the vertex that stays come to lie?
-
 struct CollapseOptions {
-  double shortest = .8;  // of an edge over its target length; shorter ones collapse
-  /// Of an edge over its target length that a collapse may leave, unless there was one as long at its ends;
-  /// before the vertex that stays goes back to the surface.
+  double shortest = .8;  // edge length over target length; shorter edges collapse
+  /// Maximum edge length over target length after a collapse, unless an edge at its ends was as long already;
+  /// measured before the remaining vertex is projected to the surface.
   double longest = 4. / 3;
-  int valence = 9;        // greatest valence of the vertex that stays
-  double angle = 10;      // degrees; least angle about the vertex that stays, unless there was a smaller one
-  double alignment = .3;  // least cosine between a new face and the surface, unless an old one had less
-  double fold = .1;       // least cosine between neighbouring faces, unless two old ones had less
-  double sagitta = .2;    // greatest sagitta of an edge over its target length, unless an old one had more
-  bool insist_on_alignment = false;  // even where an old face had less
+  // Limits on the one-ring of the remaining vertex. All but the valence also admit the worst value before.
+  int valence = 9;                   // maximum valence of the remaining vertex
+  double angle = 10;                 // degrees; minimum angle of a face
+  double alignment = .3;             // minimum cosine between a face and the surface
+  double fold = .1;                  // minimum cosine between neighbouring faces
+  double sagitta = .2;               // maximum sagitta of an edge, over its target length
+  bool insist_on_alignment = false;  // apply the alignment limit even where it was violated before
 };
 
 struct Collapse {
   int half_edge;
-  int stays;              // the vertex of the edge that does
-  SurfacePosition place;  // where
+  int stays;                 // the remaining vertex, an end of the edge
+  SurfacePosition position;  // of that vertex after the collapse
 };
 
-/// Of the vertex that stays.
+/// The valence of the remaining vertex.
 int valence_after(const WorkingMesh& mesh, int half_edge);
 
-/// Nothing where the edge may not collapse: where that changes the topology, where a guard forbids it, where
-/// it takes a vertex off its curve or an edge from a curve that has no more than it wants. A vertex that is
-/// less free stays where it is; of two alike that of the input stays, in the middle of the edge if the guards
-/// allow it, else at one of its ends.
-/// The mesh is only looked at: edges may be tried at the same time, and of those without a vertex or
-/// neighbour in common all may be made that pass, but for what their curves want. Projections are not
-/// counted.
-/// Pre-condition: the edges of the curves are counted.
+/// The collapse of the edge, or nothing if it is not allowed: if it changes the topology, violates a limit of
+/// the options, takes a vertex off its feature curve, or leaves a curve or a corner with fewer edges than its
+/// target. The more constrained vertex remains, in its position; of two with equal freedom that of the input
+/// remains, at the midpoint of the edge if the limits allow it, else at one of its ends.
+/// Does not modify the mesh, so edges can be tested in parallel; the collapses found for edges without a
+/// vertex or neighbour in common can all be made, except that may_remove_curve_edge() must be asked again.
+/// Projections are not counted. Pre-condition: count_curve_edges().
 std::optional<Collapse> find_collapse(const WorkingMesh& mesh, int half_edge, const CollapseOptions& options);
 
-/// Makes a collapse that has passed its trial.
+/// Makes a collapse that find_collapse() returned.
 void make_collapse(WorkingMesh& mesh, const Collapse& collapse);
 
-/// Both: merges the ends of the edge and returns the vertex that stays, -1 where that is not allowed.
+/// Finds and makes the collapse. Returns the remaining vertex, -1 if no collapse is allowed.
 int collapse_edge(WorkingMesh& mesh, int half_edge, const CollapseOptions& options);
 
-/// The curve of the edge has more edges than it wants, or the edge has no curve.
-bool curve_may_lose(const WorkingMesh& mesh, int half_edge);
+/// Does the curve of the edge have more edges than its target, or does the edge lie on no known curve?
+bool may_remove_curve_edge(const WorkingMesh& mesh, int half_edge);
 
 }  // namespace hooke

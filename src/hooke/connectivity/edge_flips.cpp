@@ -14,7 +14,8 @@
 namespace hooke {
 namespace {
 
-constexpr double delaunay = std::numbers::pi + 1e-9;  // radians; rounding flips no square to and fro
+/// Radians; the tolerance keeps rounding from flipping a square back and forth.
+constexpr double delaunay = std::numbers::pi + 1e-9;
 
 /// Angle at p between the directions of a and b, radians.
 double angle_at(const Mat3X& points, int p, int a, int b) {
@@ -27,20 +28,20 @@ double area(const Mat3X& points, const Triangle& t) {
   return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
 }
 
-/// Lowering the valence at the corner where h leaves by one: does its vertex stay fair?
+/// May the vertex from which h starts lose an edge?
 bool may_lose_an_edge(const FlippableMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
-  return corner.has > (corner.wanted > 0 ? std::max(2, corner.wanted) : 3);
+  return corner.present > (corner.target > 0 ? std::max(2, corner.target) : 3);
 }
 
 bool may_gain_an_edge(const FlippableMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
-  return corner.wanted == 0 || corner.has < corner.wanted;
+  return corner.target == 0 || corner.present < corner.target;
 }
 
-/// Is the sum of the angles across the edge less than pi beyond doubt? Its sine tells without an arctangent.
+/// Is the sum of the opposite angles certainly less than pi? Its sine tells this without an arctangent.
 bool clearly_delaunay(const Mat3X& points, int a, int b, int c, int d) {
-  const auto at = [&](int p) {  // the sine and the cosine of the angle at p, both times the same length
+  const auto at = [&](int p) {  // sine and cosine of the angle at p, with a common factor
     const Vec3 u = points.col(a) - points.col(p), v = points.col(b) - points.col(p);
     return std::pair(u.cross(v).norm(), u.dot(v));
   };
@@ -49,7 +50,7 @@ bool clearly_delaunay(const Mat3X& points, int a, int b, int c, int d) {
   return sin_c * cos_d + cos_c * sin_d > 1e-9 * (sin_c + std::abs(cos_c)) * (sin_d + std::abs(cos_d));
 }
 
-/// Do the angles across the edge fall when it is flipped?
+/// Is the edge non-Delaunay, and is the sum of opposite angles smaller after its flip?
 bool improves(const HalfedgeMesh& t, const Mat3X& points, int h) {
   const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), d = t.opposite_vertex(t.twin(h));
   if (clearly_delaunay(points, a, b, c, d)) return false;
@@ -58,32 +59,32 @@ bool improves(const HalfedgeMesh& t, const Mat3X& points, int h) {
 }
 
 std::deque<int> improvable_edges(const HalfedgeMesh& t, const Mat3X& points) {
-  std::vector<char> wanted(static_cast<size_t>(t.half_edge_count()), 0);
-  parallel_for(wanted.size(), 4096, [&](size_t begin, size_t end) {
+  std::vector<char> improvable(static_cast<size_t>(t.half_edge_count()), 0);
+  parallel_for(improvable.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int h = static_cast<int>(i);
-      wanted[i] = t.twin(h) > h && !t.is_crease(h) && improves(t, points, h);
+      improvable[i] = t.twin(h) > h && !t.is_crease(h) && improves(t, points, h);
     }
   });
   std::deque<int> queue;
-  for (size_t h = 0; h < wanted.size(); ++h)
-    if (wanted[h]) queue.push_back(static_cast<int>(h));
+  for (size_t h = 0; h < improvable.size(); ++h)
+    if (improvable[h]) queue.push_back(static_cast<int>(h));
   return queue;
 }
 
-/// Does the flip of h fold the faces about it? A fold that is there is no leave for another: each edge is
-/// judged by what it was, the new one by the one it takes the place of.
+/// Does the flip of h make a fold at one of the five edges of its faces? Each edge is compared with itself
+/// before the flip, and the new edge with the one it replaces.
 bool folds(const FlippableMesh& m, int h, double limit) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.positions.points;
   const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), g = t.twin(h), d = t.opposite_vertex(g);
   const Triangle left = {c, a, d}, right = {d, b, c};
   const auto breaks = [&](double before, double after) { return after < std::min(limit, before); };
-  const auto breaks_across = [&](int wedge, const Triangle& before, const Triangle& after) {
-    const int twin = t.twin(wedge);
-    if (twin < 0 || t.is_crease(wedge)) return false;
-    const Triangle& beyond = t.faces()[static_cast<size_t>(twin / 3)];
-    return breaks(cosine_between(X, before, beyond), cosine_between(X, after, beyond));
+  const auto breaks_across = [&](int half_edge, const Triangle& before, const Triangle& after) {
+    const int twin = t.twin(half_edge);
+    if (twin < 0 || t.is_crease(half_edge)) return false;
+    const Triangle& neighbour = t.faces()[static_cast<size_t>(twin / 3)];
+    return breaks(cosine_between(X, before, neighbour), cosine_between(X, after, neighbour));
   };
   const Triangle of_h = {a, b, c}, of_g = {b, a, d};
   return breaks(cosine_between(X, of_h, of_g), cosine_between(X, left, right)) ||
@@ -102,27 +103,27 @@ double opposite_angles(const HalfedgeMesh& t, const Mat3X& points, int h) {
 
 CornerValence corner_valence(const FlippableMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  const int wanted = m.corner_valences[static_cast<size_t>(t.wedge(h))];
-  return {wanted, wanted > 0 ? static_cast<int>(t.sector(h).size()) + 1 : t.valence(t.from(h))};
+  const int target = m.corner_valences[static_cast<size_t>(t.wedge(h))];
+  return {target, target > 0 ? static_cast<int>(t.sector(h).size()) + 1 : t.valence(t.from(h))};
 }
 
 bool may_flip(const FlippableMesh& m, int h, const FlipGuardOptions& o) {
   const HalfedgeMesh& t = m.halfedges;
   if (t.twin(h) < 0 || t.is_crease(h)) return false;
-  const int g = t.twin(h), apex_h = HalfedgeMesh::previous(h), apex_g = HalfedgeMesh::previous(g);
+  const int g = t.twin(h), opposite_h = HalfedgeMesh::previous(h), opposite_g = HalfedgeMesh::previous(g);
   if (!may_lose_an_edge(m, h) || !may_lose_an_edge(m, g)) return false;
-  if (!may_gain_an_edge(m, apex_h) || !may_gain_an_edge(m, apex_g)) return false;
+  if (!may_gain_an_edge(m, opposite_h) || !may_gain_an_edge(m, opposite_g)) return false;
 
   const Mat3X& X = m.positions.points;
   const Mat3X& N = m.positions.normals;
   const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), d = t.opposite_vertex(g);
-  const int sa = t.wedge(h), sb = t.wedge(g), sc = t.wedge(apex_h), sd = t.wedge(apex_g);
+  const int sa = t.wedge(h), sb = t.wedge(g), sc = t.wedge(opposite_h), sd = t.wedge(opposite_g);
   const double pair = area(X, {a, b, c}) + area(X, {b, a, d});
-  const double c_old =
+  const double old_alignment =
       std::min(face_alignment(X, N, {a, b, c}, {sa, sb, sc}), face_alignment(X, N, {b, a, d}, {sb, sa, sd}));
   const auto is_fair = [&](const Triangle& f, const Triangle& wedges) {
     return area(X, f) >= o.area_share * pair &&
-           face_alignment(X, N, f, wedges) >= std::min(o.alignment, c_old);
+           face_alignment(X, N, f, wedges) >= std::min(o.alignment, old_alignment);
   };
   if (!is_fair({c, a, d}, {sc, sa, sd}) || !is_fair({d, b, c}, {sd, sb, sc})) return false;
   const double length =
@@ -135,7 +136,7 @@ bool may_flip(const FlippableMesh& m, int h, const FlipGuardOptions& o) {
 int flip_to_delaunay(FlippableMesh& m, const FlipGuardOptions& options) {
   HalfedgeMesh& t = m.halfedges;
   std::deque<int> queue = improvable_edges(t, m.positions.points);
-  const int limit = 10 * t.half_edge_count();  // on a curved surface flips may go round in circles
+  const int limit = 10 * t.half_edge_count();  // on a curved surface flips may cycle
   int flips = 0;
   while (!queue.empty() && flips < limit) {
     const int h = queue.front();
@@ -145,8 +146,9 @@ int flip_to_delaunay(FlippableMesh& m, const FlipGuardOptions& options) {
     t.flip(h);
     ++flips;
     const int other = t.twin(HalfedgeMesh::flipped(h));
-    for (int wedge : {HalfedgeMesh::flipped(h), other})
-      for (int around : {HalfedgeMesh::next(wedge), HalfedgeMesh::previous(wedge)}) queue.push_back(around);
+    for (int half_edge : {HalfedgeMesh::flipped(h), other})
+      for (int around : {HalfedgeMesh::next(half_edge), HalfedgeMesh::previous(half_edge)})
+        queue.push_back(around);
   }
   return flips;
 }

@@ -1,4 +1,4 @@
-// Edge flips: when one is allowed, and flips until the mesh is Delaunay.
+// Edge flips: whether a flip is allowed, and flips until the mesh is Delaunay.
 // C. L. Lawson, "Software for C1 surface interpolation", 1977; on surfaces R. Dyer, H. Zhang and T. Moller,
 // "Delaunay mesh construction", 2007.
 #pragma once
@@ -11,31 +11,31 @@ struct FlippableMesh;
 class HalfedgeMesh;
 
 struct FlipGuardOptions {
-  double area_share = .02;  // least part of the pair's area that each new face has
-  double alignment = .3;    // least cosine between a new face and the surface, unless an old one had less
-  double fold = .1;         // least cosine between a new face and its neighbours, unless the old had less
-  double sagitta = .2;  // greatest sagitta of the new edge over its target length, unless the old had more
+  double area_share = .02;  // minimum share of the area of the two faces in each new face
+  // Limits that also admit the value before the flip:
+  double alignment = .3;  // minimum cosine between a new face and the surface
+  double fold = .1;       // minimum cosine between a new face and its neighbours
+  double sagitta = .2;    // maximum sagitta of the new edge over its target length
 };
 
-/// Sum of the two angles across an inner edge, radians; Delaunay up to pi.
+/// Sum of the two angles opposite an inner edge, radians. The edge is Delaunay if it is at most pi.
 double opposite_angles(const HalfedgeMesh& halfedges, const Mat3X& points, int half_edge);
 
-/// The edges that the corner wants at which h leaves, and those it has: between the creases about h's face,
-/// or in all where it wants none (0).
+/// The target valence of the corner from which the half-edge starts, 0 if it has none, and its present
+/// valence: the edges of the wedge, feature edges included, or of the whole vertex if there is no target.
 struct CornerValence {
-  int wanted;
-  int has;
+  int target;
+  int present;
 };
 CornerValence corner_valence(const FlippableMesh& mesh, int half_edge);
 
-/// May the edge be flipped? It may not on the boundary or on a crease; where the new edge exists already;
-/// where a vertex comes to have fewer than 3 edges (2 at a corner) or a corner moves away from the valence it
-/// wants; where a new face is a sliver, lies against the surface or its neighbours, or the new edge cuts deep
-/// into it (see the options).
+/// May the edge be flipped? Not if it is a feature edge; if the new edge exists already; if a vertex would
+/// have fewer than 3 edges (2 at a corner), or a corner valence move away from its target; or if a new face
+/// would be a sliver or folded, or the new edge too far from the surface (see the options).
 bool may_flip(const FlippableMesh& mesh, int half_edge, const FlipGuardOptions& options);
 
-/// Flips edges whose opposite angles exceed pi by more than 1e-9, first come first served, as long as that
-/// lowers the sum of the angles and the guard allows it. Returns the number of flips.
+/// Flips edges whose opposite angles sum to more than pi + 1e-9, in the order of a queue, while that lowers
+/// the sum and may_flip() allows it. Returns the number of flips.
 int flip_to_delaunay(FlippableMesh& mesh, const FlipGuardOptions& options);
 
 }  // namespace hooke

@@ -15,40 +15,40 @@
 namespace hooke {
 namespace {
 
-/// May vertex v, of which the face of h sees `side`, halve that face?
+/// May vertex v, with this wedge, split the face of h in two?
 bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge, const SplitOptions& o) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.positions.points;
   const Mat3X& N = m.positions.normals;
   const Triangle old = {t.from(h), t.to(h), t.opposite_vertex(h)};
-  const Triangle seen = {t.wedge(h), t.wedge(HalfedgeMesh::next(h)), t.wedge(HalfedgeMesh::previous(h))};
+  const Triangle wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h)), t.wedge(HalfedgeMesh::previous(h))};
   const double min_area = o.area_share * face_shape(X, old).area;
-  const double min_alignment = std::min(o.alignment, face_alignment(X, N, old, seen));
-  for (size_t k : {0, 1}) {  // the corner that the vertex replaces
-    Triangle half = old, half_seen = seen;
+  const double min_alignment = std::min(o.alignment, face_alignment(X, N, old, wedges));
+  for (size_t k : {0, 1}) {  // the corner that v replaces
+    Triangle half = old, half_wedges = wedges;
     half[k] = v;
-    half_seen[k] = wedge;
-    if (face_shape(X, half).area < min_area || face_alignment(X, N, half, half_seen) < min_alignment)
+    half_wedges[k] = wedge;
+    if (face_shape(X, half).area < min_area || face_alignment(X, N, half, half_wedges) < min_alignment)
       return false;
   }
   return true;
 }
 
-/// The ends of an edge that stands still, because its boundary does.
-bool stands_still(const WorkingMesh& m, int h) {
+/// Is the edge part of a fixed boundary?
+bool is_fixed(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
   const auto fixed = [&](int v) { return m.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed; };
-  return is_feature_edge(t, h) && fixed(t.from(h)) && fixed(t.to(h)) && curve_of(m, h).curve < 0;
+  return t.is_feature_edge(h) && fixed(t.from(h)) && fixed(t.to(h)) && curve_of(m, h).curve < 0;
 }
 
-/// Would a split leave all new edges shorter than the old one? Else splits might go on for ever where the
+/// Would all new edges of a split be shorter than the old one? Otherwise splits might never end where the
 /// longest edge of a flat face may not be split.
 bool shortens(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.positions.points;
   const Vec3 a = X.col(t.from(h)), b = X.col(t.to(h)), middle = .5 * a + .5 * b;
-  const auto shorter = [&](int wedge) {
-    return (middle - X.col(t.opposite_vertex(wedge))).squaredNorm() < (b - a).squaredNorm();
+  const auto shorter = [&](int half_edge) {
+    return (middle - X.col(t.opposite_vertex(half_edge))).squaredNorm() < (b - a).squaredNorm();
   };
   return shorter(h) && (t.twin(h) < 0 || shorter(t.twin(h)));
 }
@@ -57,10 +57,10 @@ bool shortens(const WorkingMesh& m, int h) {
 
 int split_edge(WorkingMesh& m, int h, const SplitOptions& options, const SurfacePosition* middle) {
   HalfedgeMesh& t = m.halfedges;
-  if (stands_still(m, h)) return -1;
+  if (is_fixed(m, h)) return -1;
   const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_crease(h) ? v + 1 : v;
   if (!may_split_edge(m, h, v, v, options) || (twin >= 0 && !may_split_edge(m, twin, v, right, options))) {
-    drop_vertex(m);
+    remove_last_vertex(m);
     return -1;
   }
   t.split(h);
@@ -76,7 +76,7 @@ int split_long_edges(WorkingMesh& m, const SplitOptions& options) {
     if (!shortens(m, h)) continue;
     const int v = split_edge(m, h, options);
     if (v < 0) continue;
-    queue.push_about(v);
+    queue.push_around(v);
     ++splits;
   }
   m.retraction.count();
@@ -85,7 +85,7 @@ int split_long_edges(WorkingMesh& m, const SplitOptions& options) {
 
 namespace {
 
-/// The half-edge that runs from one vertex to the other, -1 if there is none.
+/// The half-edge from one vertex to the other, -1 if there is none.
 int half_edge_between(const HalfedgeMesh& t, int from, int to) {
   for (int h : t.outgoing(from))
     if (t.to(h) == to) return h;
@@ -93,11 +93,11 @@ int half_edge_between(const HalfedgeMesh& t, int from, int to) {
 }
 
 struct EdgeToSplit {
-  Edge ends;                              // as a face runs through it
-  std::optional<SurfacePosition> middle;  // of an edge that is no rim
+  Edge ends;                              // in the orientation of a face
+  std::optional<SurfacePosition> middle;  // midpoint; none for a feature edge
 };
 
-/// Each edge once. The middles are looked for at the same time: no split moves a vertex.
+/// Each edge once. The midpoints can be found in parallel beforehand, as splits move no vertex.
 std::vector<EdgeToSplit> all_edges(const WorkingMesh& m) {
   const HalfedgeMesh& t = m.halfedges;
   std::vector<int> half_edges;
@@ -108,7 +108,7 @@ std::vector<EdgeToSplit> all_edges(const WorkingMesh& m) {
     for (size_t i = begin; i < end; ++i) {
       const int h = half_edges[i];
       edges[i].ends = {t.from(h), t.to(h)};
-      if (!is_feature_edge(t, h)) edges[i].middle = middle_of(m, h);
+      if (!t.is_feature_edge(h)) edges[i].middle = project_midpoint(m, h);
     }
   });
   return edges;
@@ -139,8 +139,8 @@ class Subdivision {
 
   bool is_middle(int v) const { return ends_[static_cast<size_t>(v)][0] >= 0; }
 
-  /// The first split of a face joins the new vertex to the corner across. That edge has a middle on either
-  /// side in the end, which are to be joined instead.
+  /// The first split of a face joins the new vertex to the opposite corner. After all splits that edge lies
+  /// between two midpoints, which are to be joined instead.
   bool is_between_middles(int h) const {
     if (t_.twin(h) < 0 || t_.is_crease(h)) return false;
     const int a = t_.from(h), b = t_.to(h);
@@ -149,8 +149,8 @@ class Subdivision {
            is_middle(t_.opposite_vertex(t_.twin(h)));
   }
 
-  /// All are judged by the faces as the splits have left them. No face that was quartered has more than one
-  /// such edge: a flip leaves the other edges in their places.
+  /// Flips these edges, all tested on the faces after the splits. A face that was split three times has only
+  /// one of them, so no flip affects another.
   void join_middles() {
     const FlippableMesh flipping = m_.flipping();
     std::vector<char> joins(static_cast<size_t>(t_.half_edge_count()), 0);
@@ -167,7 +167,7 @@ class Subdivision {
   HalfedgeMesh& t_;
   const SplitOptions& options_;
   const FlipGuardOptions& guard_;
-  std::vector<Edge> ends_;  // per id: of the edge in whose middle the vertex is; -1 for all others
+  std::vector<Edge> ends_;  // per id: ends of the edge whose midpoint the vertex is; -1 for others
 };
 
 }  // namespace

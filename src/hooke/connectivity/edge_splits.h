@@ -1,4 +1,4 @@
-// Edge splits: a new vertex in the middle of an edge that is too long.
+// Edge splits: of edges that are too long, and of all edges in 1-to-4 subdivision.
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
@@ -9,26 +9,24 @@ struct WorkingMesh;
 struct SurfacePosition;
 
 struct SplitOptions {
-  double longest = 4. / 3;  // of an edge over its target length
-  double area_share = .1;   // least part of a halved face's area that each half has on the surface
-  double alignment = .3;    // least cosine between a new face and the surface, unless the old one had less
+  double longest = 4. / 3;  // edge length over target length; longer edges are split
+  double area_share = .1;   // minimum share of a split face's area in each half, new vertex on the surface
+  double alignment = .3;    // minimum cosine between a new face and the surface, unless the old one had less
 };
 
-/// Splits one edge and returns the new vertex; -1 where a guard forbids it, or where the edge joins two
-/// vertices of a boundary that stands still. `middle`: see add_vertex().
+/// Splits one edge at its midpoint and returns the new vertex; -1 if a limit of the options forbids it or the
+/// edge belongs to a fixed boundary. `middle`: see add_vertex().
 int split_edge(WorkingMesh& mesh, int half_edge, const SplitOptions& options,
                const SurfacePosition* middle = nullptr);
 
-/// Splits edges, the longest first, until none is too long. Returns the number of splits.
+/// Splits edges, the longest first, until none that may be split is too long. Returns the number of splits.
 int split_long_edges(WorkingMesh& mesh, const SplitOptions& options);
 
-// Subdivision: every face becomes four of half its size, whose new vertices are regular.
-
-/// Halves every edge, the new vertices on their curves or on the surface, and joins those of each face: one
-/// step of C. Loop, "Smooth subdivision surfaces based on triangles", 1987, as far as who touches whom. An
-/// edge that may not be split (see split_edge()) stays whole, and flips that the guard forbids are left out.
-/// Target lengths stay as they are. Returns the number of splits. Pre-condition: no id is unused, and the
-/// edges of the curves are counted.
+/// 1-to-4 subdivision: splits every edge, with the new vertices on their feature curves or on the surface,
+/// and joins the three new vertices of each face. All new inner vertices are regular. The connectivity is
+/// that of one step of C. Loop, "Smooth subdivision surfaces based on triangles", 1987. Edges that may not be
+/// split (see split_edge()) stay, and flips that may_flip() forbids are omitted. Target lengths do not
+/// change. Returns the number of splits. Pre-condition: no id is unused, and count_curve_edges().
 int subdivide(WorkingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard);
 
 }  // namespace hooke

@@ -20,32 +20,33 @@
 namespace hooke {
 namespace {
 
-void add_face(const SurfacePositions& p, const Triangle& t, const PatchLimits& limits, PatchQuality& look) {
+void add_face(const SurfacePositions& p, const Triangle& t, const PatchLimits& limits,
+              PatchQuality& quality) {
   const double cotangent = max_cotangent(p.points, t);
   const double lacks = std::max(0., limits.fair_angle - angle_with_cotangent(cotangent));
   const double alignment = face_alignment(p.points, p.normals, t);
   const double misses = limits.alignment - alignment;
-  look.cotangent = std::max(look.cotangent, cotangent);
-  look.area += .5 * doubled_area_vector(p.points, t).norm() * alignment;
-  look.angle_cost += lacks * lacks;
-  look.excess.alignment += std::max(0., misses);
-  look.excess.folds += misses > 0;
+  quality.cotangent = std::max(quality.cotangent, cotangent);
+  quality.area += .5 * doubled_area_vector(p.points, t).norm() * alignment;
+  quality.angle_cost += lacks * lacks;
+  quality.violation.alignment += std::max(0., misses);
+  quality.violation.folds += misses > 0;
 }
 
 void add_edge(const SurfacePositions& p, const Edge& edge, double target, const PatchLimits& limits,
-              PatchQuality& look) {
+              PatchQuality& quality) {
   const double length = (p.points.col(edge[1]) - p.points.col(edge[0])).norm() / target;
   const double sagitta = edge_sagitta(p.points, p.normals, edge) / target;
-  look.length_errors += (length - 1) * (length - 1);
-  look.excess.length = std::max(look.excess.length, length - limits.longest);
-  look.excess.sagitta += std::max(0., sagitta - limits.sagitta);
+  quality.length_errors += (length - 1) * (length - 1);
+  quality.violation.length = std::max(quality.violation.length, length - limits.longest);
+  quality.violation.sagitta += std::max(0., sagitta - limits.sagitta);
 }
 
 void add_fold(const SurfacePositions& p, const Triangle& face, const Triangle& other,
-              const PatchLimits& limits, PatchQuality& look) {
+              const PatchLimits& limits, PatchQuality& quality) {
   const double misses = limits.fold - cosine_between(p.points, face, other);
-  look.excess.fold += std::max(0., misses);
-  look.excess.folds += misses > 0;
+  quality.violation.fold += std::max(0., misses);
+  quality.violation.folds += misses > 0;
 }
 
 }  // namespace
@@ -55,24 +56,25 @@ bool is_no_worse(const PatchViolation& now, const PatchViolation& before) {
          now.length <= before.length && now.folds <= before.folds;
 }
 
-PatchQuality look_at(const SurfacePositions& p, const Adjacency& c, const TargetLengths& targets,
-                     const PatchLimits& limits) {
-  PatchQuality look;
-  look.edges = c.edges.size();
-  for (const Triangle& t : c.faces) add_face(p, t, limits, look);
+PatchQuality measure_patch(const SurfacePositions& p, const Adjacency& c, const TargetLengths& targets,
+                           const PatchLimits& limits) {
+  PatchQuality quality;
+  quality.edges = c.edges.size();
+  for (const Triangle& t : c.faces) add_face(p, t, limits, quality);
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
-    add_edge(p, c.edges[e], targets.edge[e], limits, look);
+    add_edge(p, c.edges[e], targets.edge[e], limits, quality);
     if (const auto [f, g] = c.edge_faces[e]; g >= 0)
-      add_fold(p, c.faces[static_cast<std::size_t>(f)], c.faces[static_cast<std::size_t>(g)], limits, look);
+      add_fold(p, c.faces[static_cast<std::size_t>(f)], c.faces[static_cast<std::size_t>(g)], limits,
+               quality);
   }
-  return look;
+  return quality;
 }
 
 namespace {
 
-class Choice {
+class ChangeFinder {
  public:
-  Choice(const WorkingMesh& mesh, const ChangeRules& rules)
+  ChangeFinder(const WorkingMesh& mesh, const ChangeRules& rules)
       : m_(mesh), flipping_(mesh.flipping()), t_(mesh.halfedges), rules_(rules) {}
 
   std::vector<EdgeChange> changes(int h) const {
@@ -86,21 +88,21 @@ class Choice {
  private:
   bool may_gain_an_edge(int corner) const {
     const CornerValence valence = corner_valence(flipping_, corner);
-    return valence.wanted > 0 ? valence.has < valence.wanted : valence.has < rules_.valence;
+    return valence.target > 0 ? valence.present < valence.target : valence.present < rules_.valence;
   }
 
   bool may_lose_an_edge(int corner) const {
     const CornerValence valence = corner_valence(flipping_, corner);
-    if (valence.wanted > 0) return valence.has > valence.wanted;
-    return valence.has > (t_.on_boundary(t_.from(corner)) ? 2 : 3);
+    if (valence.target > 0) return valence.present > valence.target;
+    return valence.present > (t_.on_boundary(t_.from(corner)) ? 2 : 3);
   }
 
   template <typename MayChange>
-  bool at_both_apexes(int h, const MayChange& may_change) const {
+  bool at_both_opposite_vertices(int h, const MayChange& may_change) const {
     return may_change(HalfedgeMesh::previous(h)) && may_change(HalfedgeMesh::previous(t_.twin(h)));
   }
 
-  /// A flip brings the corners across one more edge, too.
+  /// A flip adds an edge to the opposite vertices, as a split does.
   bool may_flip(int h) const {
     constexpr double any = std::numeric_limits<double>::infinity();
     return may_split(h) &&
@@ -108,37 +110,37 @@ class Choice {
   }
 
   bool may_split(int h) const {
-    return at_both_apexes(h, [this](int corner) { return may_gain_an_edge(corner); });
+    return at_both_opposite_vertices(h, [this](int corner) { return may_gain_an_edge(corner); });
   }
 
-  bool may_go(int v) const {
+  bool is_removable(int v) const {
     return m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::surface && !t_.on_boundary(v) &&
            !t_.on_crease(v);
   }
 
-  /// Does a corner that stays keep to the edges it wants?
-  bool may_take_up(int stays, int goes) const {
+  /// Would a remaining corner have no more edges than its target?
+  bool may_absorb(int stays, int goes) const {
     const CornerValence corner = corner_valence(flipping_, stays);
-    return corner.wanted == 0 || corner.has + t_.valence(t_.from(goes)) - 4 <= corner.wanted;
+    return corner.target == 0 || corner.present + t_.valence(t_.from(goes)) - 4 <= corner.target;
   }
 
   bool may_collapse(int h) const {
     const int g = t_.twin(h), a = t_.from(h), b = t_.to(h);
-    if (!may_go(a) && !may_go(b)) return false;
-    if (!may_go(a) && !may_take_up(h, g)) return false;
-    if (!may_go(b) && !may_take_up(g, h)) return false;
+    if (!is_removable(a) && !is_removable(b)) return false;
+    if (!is_removable(a) && !may_absorb(h, g)) return false;
+    if (!is_removable(b) && !may_absorb(g, h)) return false;
     return t_.valence(a) + t_.valence(b) - 4 <= rules_.valence && t_.may_collapse(h) &&
-           at_both_apexes(h, [this](int corner) { return may_lose_an_edge(corner); });
+           at_both_opposite_vertices(h, [this](int corner) { return may_lose_an_edge(corner); });
   }
 
-  /// Of two alike that one stays which has been there longer, and goes to the middle.
+  /// The more constrained end remains in its position; of two free ends the older one, moved to the midpoint.
   EdgeChange collapse(int h) const {
     const int a = t_.from(h), b = t_.to(h);
     const auto rank = [this](int v) {
       const int origin = m_.origins[static_cast<size_t>(v)];
-      return std::tuple(may_go(v), origin < 0, origin < 0 ? v : origin);
+      return std::tuple(is_removable(v), origin < 0, origin < 0 ? v : origin);
     };
-    return {h, ChangeKind::collapse, rank(a) < rank(b) ? 0 : 1, may_go(a) && may_go(b)};
+    return {h, ChangeKind::collapse, rank(a) < rank(b) ? 0 : 1, is_removable(a) && is_removable(b)};
   }
 
   const WorkingMesh& m_;
@@ -147,25 +149,25 @@ class Choice {
   const ChangeRules& rules_;
 };
 
-/// A vertex that is at one end of the edge goes half the way to the other.
-void move_half_way(EdgePatch& patch, int vertex, int to, const Surface& surface,
-                   const RetractionOptions& options) {
-  const Vec3 way = .5 * (patch.positions.points.col(to) - patch.positions.points.col(vertex));
+/// Moves a vertex at one end of the edge to its midpoint.
+void move_to_midpoint(EdgePatch& patch, int vertex, int to, const Surface& surface,
+                      const RetractionOptions& options) {
+  const Vec3 displacement = .5 * (patch.positions.points.col(to) - patch.positions.points.col(vertex));
   Retraction retraction(surface, patch.constraints, options);
-  retraction.moved(patch.positions, vertex, way).write_to(patch.positions, vertex);
+  retraction.moved(patch.positions, vertex, displacement).write_to(patch.positions, vertex);
 }
 
-/// Appends the vertex in the middle of the edge. Returns its id.
+/// Appends the vertex at the midpoint of the edge. Returns its id.
 int add_middle(EdgePatch& patch, const Surface& surface, const RetractionOptions& options) {
   const int v = append_vertex(patch, 0);
-  move_half_way(patch, v, 1, surface, options);
+  move_to_midpoint(patch, v, 1, surface, options);
   return v;
 }
 
 void collapse_ends(EdgePatch& patch, const EdgeChange& collapse, const Surface& surface,
                    const RetractionOptions& options) {
   const int goes = 1 - collapse.stays;
-  if (collapse.half_way) move_half_way(patch, collapse.stays, goes, surface, options);
+  if (collapse.to_midpoint) move_to_midpoint(patch, collapse.stays, goes, surface, options);
   patch.constraints.freedom[static_cast<size_t>(goes)] = Freedom::fixed;
 }
 
@@ -184,7 +186,7 @@ std::vector<int> inner_edges_about(const HalfedgeMesh& t, int face) {
 }
 
 std::vector<EdgeChange> allowed_changes(const WorkingMesh& m, int half_edge, const ChangeRules& rules) {
-  return Choice(m, rules).changes(half_edge);
+  return ChangeFinder(m, rules).changes(half_edge);
 }
 
 std::vector<Triangle> change_patch(EdgePatch& patch, const EdgeChange& change, const Surface& surface,
@@ -227,96 +229,97 @@ double mean_of(const std::vector<double>& values) {
 
 }  // namespace
 
-EdgeTrials::EdgeTrials(const WorkingMesh& mesh, const EnergyTerms& terms, const EdgeTrialOptions& options,
-                       const GuardOptions& guards)
+CandidateEvaluator::CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms,
+                                       const CandidateOptions& options, const GuardOptions& guards)
     : m_(mesh), terms_(terms), options_(options), guards_(guards) {
   guards_.sagitta = options.sagitta;
 }
 
-void EdgeTrials::begin_with(double sliver_angle) {
+void CandidateEvaluator::set_sliver_angle(double sliver_angle) {
   limits_ = {sliver_angle + options_.fair_margin, guards_.alignment, guards_.fold, options_.sagitta,
              options_.longest};
 }
 
-PatchQuality EdgeTrials::look_before(const EdgePatch& patch) const {
+PatchQuality CandidateEvaluator::quality_before(const EdgePatch& patch) const {
   const Adjacency c = make_adjacency(static_cast<int>(patch.wedges.size()), patch.faces);
-  return look_at(patch.positions, c, spread_target_lengths(c, patch.vertex_length), limits_);
+  return measure_patch(patch.positions, c, spread_target_lengths(c, patch.vertex_length), limits_);
 }
 
-/// A vertex that comes or goes takes no credit for the number of its edges.
-double EdgeTrials::gain(const PatchQuality& before, const PatchQuality& now) const {
+/// Length errors are scaled to the same number of edges, so that splits and collapses compare fairly.
+double CandidateEvaluator::gain(const PatchQuality& before, const PatchQuality& now) const {
   const double errors_before = before.length_errors,
                errors_now =
                    now.length_errors * static_cast<double>(before.edges) / static_cast<double>(now.edges);
   return before.angle_cost - now.angle_cost + options_.length_weight * (errors_before - errors_now);
 }
 
-EdgeCandidate EdgeTrials::cut(const EdgeChange& change) const {
-  EdgeCandidate trial;
-  trial.change = change;
-  std::optional<EdgePatch> patch = cut_patch(m_.flipping(), change.half_edge, options_.rings, options_.most);
-  if (!patch) return trial;
-  trial.patch = std::move(*patch);
-  trial.before = look_before(trial.patch);
-  trial.adjacency =
-      make_adjacency(static_cast<int>(trial.patch.wedges.size()),
-                     change_patch(trial.patch, change, m_.retraction.surface(), m_.retraction.options()));
-  trial.targets = spread_target_lengths(trial.adjacency, trial.patch.vertex_length);
-  trial.is_viable = true;
-  return trial;
+EdgeCandidate CandidateEvaluator::cut(const EdgeChange& change) const {
+  EdgeCandidate candidate;
+  candidate.change = change;
+  std::optional<EdgePatch> patch =
+      cut_patch(m_.flipping(), change.half_edge, options_.rings, options_.max_vertices);
+  if (!patch) return candidate;
+  candidate.patch = std::move(*patch);
+  candidate.before = quality_before(candidate.patch);
+  candidate.adjacency =
+      make_adjacency(static_cast<int>(candidate.patch.wedges.size()),
+                     change_patch(candidate.patch, change, m_.retraction.surface(), m_.retraction.options()));
+  candidate.targets = spread_target_lengths(candidate.adjacency, candidate.patch.vertex_length);
+  candidate.is_viable = true;
+  return candidate;
 }
 
-/// Calls body(relaxation) and looks at the patch again.
+/// Calls body(relaxation) and measures the patch afterwards.
 template <typename Relax>
-PatchQuality EdgeTrials::relax(EdgeCandidate& trial, const Relax& body) const {
-  Energy energy(trial.adjacency, trial.targets, terms_);
-  Guards guards(trial.adjacency, trial.targets, guards_);
-  Retraction retraction(m_.retraction.surface(), trial.patch.constraints, m_.retraction.options());
-  const VertexColoring coloring = color_as_one_block(trial.adjacency);
-  Relaxation r{trial.adjacency, coloring, trial.patch.vertex_length, energy,
-               retraction,      guards,   trial.patch.positions};
+PatchQuality CandidateEvaluator::relax(EdgeCandidate& candidate, const Relax& body) const {
+  Energy energy(candidate.adjacency, candidate.targets, terms_);
+  Guards guards(candidate.adjacency, candidate.targets, guards_);
+  Retraction retraction(m_.retraction.surface(), candidate.patch.constraints, m_.retraction.options());
+  const VertexColoring coloring = color_as_one_block(candidate.adjacency);
+  Relaxation r{candidate.adjacency, coloring, candidate.patch.vertex_length, energy,
+               retraction,          guards,   candidate.patch.positions};
   body(r);
-  return look_at(trial.patch.positions, trial.adjacency, trial.targets, limits_);
+  return measure_patch(candidate.patch.positions, candidate.adjacency, candidate.targets, limits_);
 }
 
-EdgeCandidate EdgeTrials::begin(const EdgeChange& change) const {
-  EdgeCandidate trial = cut(change);
-  if (!trial.is_viable) return trial;
-  const PatchQuality now = relax(trial, [this](Relaxation& r) {
+EdgeCandidate CandidateEvaluator::begin(const EdgeChange& change) const {
+  EdgeCandidate candidate = cut(change);
+  if (!candidate.is_viable) return candidate;
+  const PatchQuality now = relax(candidate, [this](Relaxation& r) {
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) local_newton_sweep(r, {}, {});
   });
-  trial.gain = gain(trial.before, now);
-  trial.is_viable = trial.gain >= -options_.max_energy_rise;
-  return trial;
+  candidate.gain = gain(candidate.before, now);
+  candidate.is_viable = candidate.gain >= -options_.max_cost_rise;
+  return candidate;
 }
 
-void EdgeTrials::finish(EdgeCandidate& trial) const {
-  const PatchQuality& before = trial.before;
-  const PatchQuality after = relax(trial, [this](Relaxation& r) { search_angles(r, options_.search); });
-  trial.gain = gain(before, after);
-  trial.is_viable =
-      trial.gain >= options_.gain && after.cotangent <= before.cotangent &&
-      before.area - after.area <= options_.area_loss * std::pow(mean_of(trial.patch.vertex_length), 2) &&
-      is_no_worse(after.excess, before.excess) &&
-      !folds_at_rim(trial.patch, trial.adjacency.faces, m_.flipping(), guards_);
+void CandidateEvaluator::finish(EdgeCandidate& candidate) const {
+  const PatchQuality& before = candidate.before;
+  const PatchQuality after = relax(candidate, [this](Relaxation& r) { search_angles(r, options_.search); });
+  candidate.gain = gain(before, after);
+  candidate.is_viable =
+      candidate.gain >= options_.gain && after.cotangent <= before.cotangent &&
+      before.area - after.area <= options_.area_loss * std::pow(mean_of(candidate.patch.vertex_length), 2) &&
+      is_no_worse(after.violation, before.violation) &&
+      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_.flipping(), guards_);
 }
 
-bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippableMesh& m,
-                  const GuardOptions& guards) {
+bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces,
+                             const FlippableMesh& m, const GuardOptions& guards) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.positions.points;
-  return std::ranges::any_of(patch.rim, [&](const PatchBoundary& rim) {
-    const Triangle& face = t.faces()[static_cast<size_t>(rim.half_edge / 3)];
-    const Triangle& beyond = t.faces()[static_cast<size_t>(t.twin(rim.half_edge) / 3)];
-    const double before = cosine_between(X, face, beyond);
-    const Triangle& changed = face_along(faces, rim.from, rim.to);
-    const Vec3 across =
-        rim.beyond[0] < 0
-            ? doubled_area_vector(X, beyond)
-            : doubled_area_vector(patch.positions.points, face_along(faces, rim.beyond[0], rim.beyond[1]));
+  return std::ranges::any_of(patch.boundary, [&](const PatchBoundary& edge) {
+    const Triangle& face = t.faces()[static_cast<size_t>(edge.half_edge / 3)];
+    const Triangle& neighbour = t.faces()[static_cast<size_t>(t.twin(edge.half_edge) / 3)];
+    const double before = cosine_between(X, face, neighbour);
+    const Triangle& changed = face_along(faces, edge.from, edge.to);
+    const Vec3 across = edge.twin_ends[0] < 0
+                            ? doubled_area_vector(X, neighbour)
+                            : doubled_area_vector(patch.positions.points,
+                                                  face_along(faces, edge.twin_ends[0], edge.twin_ends[1]));
     const double after = cosine_between(doubled_area_vector(patch.positions.points, changed), across);
-    return t.is_crease(rim.half_edge) ? crease_fold_breaks(guards, before, after)
-                                      : fold_breaks(guards, before, after);
+    return t.is_crease(edge.half_edge) ? crease_fold_breaks(guards, before, after)
+                                       : fold_breaks(guards, before, after);
   });
 }
 

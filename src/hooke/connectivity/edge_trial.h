@@ -1,4 +1,5 @@
-// How good the faces of a small mesh are, and what in it is beyond the limits of the guards.
+// Candidate changes of one edge (flip, split, collapse): which are topologically allowed, how each is applied
+// to a patch around the edge and to the whole mesh, and whether the relaxed patch is better afterwards.
 #pragma once
 
 #include "hooke/integrator/angle_search.h"
@@ -11,134 +12,141 @@ namespace hooke {
 
 struct WorkingMesh;
 
+// Quality of a patch.
+
 struct PatchLimits {
-  double fair_angle;  // degrees; a face with a smaller one costs the square of what it lacks
-  double alignment;   // least cosine between a face and the surface
-  double fold;        // least cosine between two neighbouring faces
-  double sagitta;     // greatest of an edge, over its target length
-  double longest;     // edge over its target length
+  double fair_angle;  // degrees; a face with a smaller minimum angle costs the squared difference
+  double alignment;   // minimum cosine between a face and the surface
+  double fold;        // minimum cosine between two neighbouring faces
+  double sagitta;     // maximum of an edge, over its target length
+  double longest;     // maximum length of an edge, over its target length
 };
 
-/// What lies beyond the limits.
+/// How far a patch exceeds the limits.
 struct PatchViolation {
   double alignment = 0, fold = 0, sagitta = 0;  // sums over faces and edges
   double length = 0;                            // of the longest edge
-  int folds = 0;                                // faces and edges
+  int folds = 0;                                // number of faces and edges beyond alignment or fold
 };
 
+/// Is each violation at most what it was before?
 bool is_no_worse(const PatchViolation& now, const PatchViolation& before);
 
 struct PatchQuality {
   double angle_cost = 0;     // degrees squared
   double length_errors = 0;  // sum of the squares of l / L_e - 1
   std::size_t edges = 0;
-  double cotangent = 0;  // of the least angle
-  double area = 0;       // of the surface that it covers: of faces as seen along the surface's normals
-  PatchViolation excess;
+  double cotangent = 0;  // of the minimum angle
+  double area = 0;       // covered on the surface: areas of the faces, projected along the surface normals
+  PatchViolation violation;
 };
 
-/// Pre-condition: a connectivity without creases.
-PatchQuality look_at(const SurfacePositions& positions, const Adjacency& adjacency,
-                     const TargetLengths& targets, const PatchLimits& limits);
+/// Measures a patch. Pre-condition: the adjacency has no creases.
+PatchQuality measure_patch(const SurfacePositions& positions, const Adjacency& adjacency,
+                           const TargetLengths& targets, const PatchLimits& limits);
 
-// What can become of an edge: which changes are allowed, and each of them in a patch and in the whole mesh.
+// Changes of an edge.
 
 enum class ChangeKind {
-  flip,      // the edge comes to join the corners across it
-  split,     // a new vertex halves it
-  collapse,  // its ends become one vertex
+  flip,      // the edge joins the two opposite vertices instead
+  split,     // a new vertex at the midpoint
+  collapse,  // one end is merged into the other
 };
 
 struct EdgeChange {
   int half_edge;
   ChangeKind kind;
-  int stays = 0;          // of a merge: the end where the half-edge begins (0) or ends (1)
-  bool half_way = false;  // that end comes to the middle
+  int stays = 0;  // of a collapse: the remaining end, the start (0) or the end (1) of the half-edge
+  bool to_midpoint = false;  // of a collapse: the remaining vertex moves to the midpoint
 };
 
-/// The changes to choose from.
+/// Which changes are considered besides flips.
 struct ChangeRules {
-  int valence = 9;  // greatest of a vertex that gains edges
+  int valence = 9;  // maximum valence of a vertex that gains edges
   bool splits = true, collapses = true;
 };
 
-/// One half-edge of each inner edge of the faces about the corners of this one, ascending.
+/// One half-edge of each inner edge of the faces around the corners of this face, ascending.
 std::vector<int> inner_edges_about(const HalfedgeMesh& halfedges, int face);
 
-/// The changes of an inner edge that leave a mesh of the same topology, creases and corners included,
-/// whatever becomes of angles and folds: that is for a trial to tell. Vertices on curves neither come nor go.
+/// The changes of an inner edge that preserve the topology and creases and respect the valence limits; angles
+/// and folds are left to CandidateEvaluator. Vertices on feature curves are neither added nor removed.
 std::vector<EdgeChange> allowed_changes(const WorkingMesh& mesh, int half_edge, const ChangeRules& rules);
 
-/// Puts the vertices of the patch of the edge where the change takes them, on the surface; a split adds one.
-/// Returns the faces it has then.
+/// Applies the change to the vertices of the patch of its edge, with new positions projected to the surface;
+/// a split appends a vertex. Returns the faces of the changed patch.
 std::vector<Triangle> change_patch(EdgePatch& patch, const EdgeChange& change, const Surface& surface,
                                    const RetractionOptions& options);
 
-/// Changes the mesh as its patch was changed, and moves its vertices to where those of the patch are.
+/// Applies the change to the mesh and gives its vertices the positions in the changed patch.
 void change_mesh(WorkingMesh& mesh, const EdgeChange& change, EdgePatch& patch);
 
-// Tries one change of an edge in a patch of its own: is the mesh better off there?
+// Evaluation of candidates.
 
-struct EdgeTrialOptions {
-  double fair_margin =
-      6;  // degrees; a face with less than so much more than a sliver costs the square of that
-  double length_weight = 100;    // and an edge this many degrees squared times the square of l / L_e - 1
-  double gain = 4;               // degrees squared; least fall of the cost of a patch for a change to be kept
-  double max_energy_rise = 500;  // degrees squared; greatest rise of it by a change and its springs to go on
-  int rings = 2;                 // around an edge, within which the vertices settle
-  size_t most = 100;             // vertices that settle: no edge is tried about which there are more
-  int sweeps = 3;                // of Newton's method vertex by vertex, for them to settle
-  // What a change may leave, besides what is there; alignment and fold are those of the guards.
-  double sagitta = .5;    // of an edge, over its target length
-  double longest = 1.7;   // edge over its target length
-  double area_loss = .2;  // of covered surface, over a mean target length squared: rims of thin sheets stay
+/// The cost of a patch, in degrees squared, is the sum over its faces of the squared shortfall of the minimum
+/// angle from the sliver angle plus `fair_margin`, and over its edges of `length_weight` (l / L_e - 1)^2.
+struct CandidateOptions {
+  double fair_margin = 6;      // degrees
+  double length_weight = 100;  // degrees squared
+  double gain = 4;             // degrees squared; minimum decrease of the cost for a change to be kept
+  double max_cost_rise = 500;  // degrees squared; maximum rise of the cost after the sweeps to go on
+  int rings = 2;               // around the edge, within which vertices are relaxed
+  size_t max_vertices = 100;   // maximum number of relaxed vertices; edges with more are not tested
+  int sweeps = 3;              // of Newton's method vertex by vertex, to relax the patch
+  // Limits after a change, unless exceeded before; those of alignment and fold are the guards'.
+  double sagitta = .5;   // maximum of an edge, over its target length
+  double longest = 1.7;  // maximum edge length over target length
+  /// Maximum loss of covered surface, over the squared mean target length; keeps the margins of thin sheets.
+  double area_loss = .2;
   AngleSearchOptions search{.edge_error_limit = 1.2, .sagitta = 0, .max_rounds = 12};  // after the sweeps
 };
 
+/// A change of an edge with its patch, at some stage of its evaluation.
 struct EdgeCandidate {
   EdgeChange change{};
   EdgePatch patch{};
   PatchQuality before{};
-  Adjacency adjacency{};  // of the patch once it is changed, as are these:
+  Adjacency adjacency{};  // of the changed patch, as are the targets
   TargetLengths targets{};
-  double gain = 0;         // degrees squared: fall of the cost so far
-  bool is_viable = false;  // is it worth going on or, at the end, worth keeping?
+  double gain = 0;         // degrees squared: decrease of the cost so far
+  bool is_viable = false;  // after begin(): worth going on; after finish(): worth keeping
 };
 
-/// The mesh is only looked at: several changes may be tried at the same time. Keeps references to the mesh,
-/// the terms and the options. Projections are not counted.
-class EdgeTrials {
+/// Tests changes of edges, each in its own copy of the patch around the edge. Does not modify the mesh, so
+/// changes can be tested in parallel. Keeps references to the mesh, the terms and the options. Projections
+/// are not counted.
+class CandidateEvaluator {
  public:
-  EdgeTrials(const WorkingMesh& mesh, const EnergyTerms& terms, const EdgeTrialOptions& options,
-             const GuardOptions& guards);
+  CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms, const CandidateOptions& options,
+                     const GuardOptions& guards);
 
-  /// Faces with a smaller angle than this, degrees, are slivers from now on.
-  void begin_with(double sliver_angle);
+  /// Sets the sliver angle, degrees: faces with a smaller angle are slivers from now on.
+  void set_sliver_angle(double sliver_angle);
 
-  /// Changes the patch and lets its springs settle. Pre-condition: begin_with().
+  /// Cuts and changes the patch and relaxes its springs. Pre-condition: set_sliver_angle().
   EdgeCandidate begin(const EdgeChange& change) const;
 
-  /// Searches for better places, and judges the outcome: it is to lower what the patch costs, to keep the
-  /// least angle there and the surface that the faces cover, and to add nothing to what is beyond the limits.
-  void finish(EdgeCandidate& trial) const;
+  /// Searches for better positions of the vertices and accepts the result if it lowers the cost of the patch,
+  /// keeps its minimum angle and its covered surface, and increases no violation of the limits.
+  void finish(EdgeCandidate& candidate) const;
 
  private:
   EdgeCandidate cut(const EdgeChange& change) const;
-  PatchQuality look_before(const EdgePatch& patch) const;
+  PatchQuality quality_before(const EdgePatch& patch) const;
   template <typename Relax>
-  PatchQuality relax(EdgeCandidate& trial, const Relax& body) const;
+  PatchQuality relax(EdgeCandidate& candidate, const Relax& body) const;
   double gain(const PatchQuality& before, const PatchQuality& now) const;
 
   const WorkingMesh& m_;
   const EnergyTerms& terms_;
-  const EdgeTrialOptions& options_;
+  const CandidateOptions& options_;
   GuardOptions guards_;
   PatchLimits limits_{};
 };
 
-/// Would the patch, with these faces and its vertices where they are now, break the rule of folds with the
-/// faces across its rim?
-bool folds_at_rim(const EdgePatch& patch, const std::vector<Triangle>& faces, const FlippableMesh& mesh,
-                  const GuardOptions& guards);
+/// Would the patch, with these faces and its present positions, violate the fold limits of the guards along
+/// its boundary or along a crease within it?
+bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces,
+                             const FlippableMesh& mesh, const GuardOptions& guards);
 
 }  // namespace hooke

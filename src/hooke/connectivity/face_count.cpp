@@ -18,8 +18,9 @@ int face_count(const HalfedgeMesh& t) {
   return count;
 }
 
-/// How many edges more than six, four on a boundary, where h leaves; corners have what they want.
-int excess(const WorkingMesh& m, int h) {
+/// Valence excess of the vertex from which h starts, over 6, or 4 on the boundary; 0 at corners with a target
+/// valence.
+int valence_excess(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
   if (m.corner_valences[static_cast<size_t>(t.wedge(h))] > 0) return 0;
   return t.valence(t.from(h)) - (t.on_boundary(t.from(h)) ? 4 : 6);
@@ -33,17 +34,18 @@ struct Candidate {
   }
 };
 
-/// Inner edges, the best for a split or a collapse first; at least `count` of them are sorted.
+/// The `count` inner edges that are best for a split or a collapse, or all if there are fewer; best first.
 std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count, double weight) {
   const HalfedgeMesh& t = m.halfedges;
   std::vector<Candidate> edges;
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.is_gone(h / 3) || is_feature_edge(t, h) || t.twin(h) > h) continue;
+    if (t.is_gone(h / 3) || t.is_feature_edge(h) || t.twin(h) > h) continue;
     const int twin = t.twin(h);
-    const int ends = excess(m, h) + excess(m, twin);
-    const int apexes = excess(m, HalfedgeMesh::previous(h)) + excess(m, HalfedgeMesh::previous(twin));
+    const int ends = valence_excess(m, h) + valence_excess(m, twin);
+    const int opposite =
+        valence_excess(m, HalfedgeMesh::previous(h)) + valence_excess(m, HalfedgeMesh::previous(twin));
     const double l = relative_length(m, h);
-    edges.push_back({split ? -l + weight * apexes : l + weight * (ends - apexes), h});
+    edges.push_back({split ? -l + weight * opposite : l + weight * (ends - opposite), h});
   }
   count = std::min(count, edges.size());
   std::partial_sort(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(count), edges.end());
@@ -53,7 +55,7 @@ std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count
 
 }  // namespace
 
-double wanted_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
+double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
                          const std::vector<double>& vertex_length) {
   double count = 0;
   for (const Triangle& t : faces) {
@@ -68,43 +70,42 @@ CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
   CountChanges changes;
   if (m.constraints.curves.empty()) return changes;
   const HalfedgeMesh& t = m.halfedges;
-  const auto lacking = [&](int h) {  // edges on the curve of h
-    const int curve = is_feature_edge(t, h) ? curve_of(m, h).curve : -1;
+  const auto lacking = [&](int h) {  // edges missing on the curve of h
+    const int curve = t.is_feature_edge(h) ? curve_of(m, h).curve : -1;
     if (curve < 0) return 0;
-    return m.curve_edges.wanted[static_cast<size_t>(curve)] -
+    return m.curve_edges.target[static_cast<size_t>(curve)] -
            m.curve_edges.present[static_cast<size_t>(curve)];
   };
-  const auto rim_length = [&](int h) { return is_feature_edge(t, h) ? relative_length(m, h) : 0; };
+  const auto feature_edge_length = [&](int h) { return t.is_feature_edge(h) ? relative_length(m, h) : 0; };
 
-  EdgeQueue longest(t, rim_length);
+  EdgeQueue longest(t, feature_edge_length);
   for (int h = longest.pop(); h >= 0; h = longest.pop()) {
     if (lacking(h) <= 0) continue;
     const int v = split_edge(m, h, options.split);
     if (v < 0) continue;
-    longest.push_about(v);
+    longest.push_around(v);
     ++changes.splits;
   }
-  EdgeQueue shortest(t,
-                     [&](int h) { return is_feature_edge(t, h) ? 1 / (1e-9 + relative_length(m, h)) : 0; });
+  EdgeQueue shortest(t, [&](int h) { return t.is_feature_edge(h) ? 1 / (1e-9 + relative_length(m, h)) : 0; });
   for (int h = shortest.pop(); h >= 0; h = shortest.pop()) {
     if (lacking(h) >= 0) continue;
     const int v = collapse_edge(m, h, options.collapse);
     if (v < 0) continue;
-    shortest.push_about(v);
+    shortest.push_around(v);
     ++changes.collapses;
   }
   m.retraction.count();
   return changes;
 }
 
-CountChanges approach_count(WorkingMesh& m, double wanted, const CountOptions& options) {
+CountChanges approach_face_count(WorkingMesh& m, double target, const CountOptions& options) {
   CountChanges changes;
   HalfedgeMesh& t = m.halfedges;
   const int faces = face_count(t);
-  const double missing = (wanted - faces) / 2;  // a split adds two faces, a collapse removes two
+  const double missing = (target - faces) / 2;  // a split adds two faces, a collapse removes two
   const bool split = missing > 0;
-  const int most = std::max(1, static_cast<int>(options.largest_part * 1.5 * faces));
-  const int count = std::min(most, static_cast<int>(std::lround(std::abs(missing))));
+  const int max_changes = std::max(1, static_cast<int>(options.largest_part * 1.5 * faces));
+  const int count = std::min(max_changes, static_cast<int>(std::lround(std::abs(missing))));
   std::vector<char> touched(static_cast<size_t>(t.id_count() + count), 0);
   int done = 0;
   for (const Candidate& c :

@@ -1,4 +1,5 @@
-// Count control: as many edges on each curve as it wants, and as many faces as the target lengths ask for.
+// Face count control: splits and collapses until each feature curve has its target number of edges and the
+// mesh the number of faces that follows from the target lengths.
 #pragma once
 
 #include "hooke/connectivity/collapse_passes.h"
@@ -7,15 +8,15 @@
 namespace hooke {
 
 struct CountOptions {
-  double largest_part = .02;   // of the edges, changed in one go
-  double valence_weight = .1;  // of an irregular valence against l / L when edges are chosen
+  double largest_part = .02;   // maximum share of the edges changed in one call
+  double valence_weight = .1;  // of the valence excess against l / L when edges are chosen
   SplitOptions split{.longest = 0};
   CollapseOptions collapse{.longest = 1.6, .valence = 8};
 };
 
-/// 4 A / (sqrt 3 L^2), summed over the faces: the number of equilateral triangles of the target length that
-/// cover the surface.
-double wanted_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
+/// The number of equilateral triangles of the target length that cover the surface: the sum over the faces of
+/// 4 A / (sqrt 3 L^2).
+double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
                          const std::vector<double>& vertex_length);
 
 struct CountChanges {
@@ -23,11 +24,12 @@ struct CountChanges {
   int collapses = 0;
 };
 
-/// Splits the longest and collapses the shortest edges of each curve until it has as many as it wants.
+/// Splits the longest or collapses the shortest edges of each feature curve until it has its target number.
+/// Pre-condition: count_curve_edges().
 CountChanges match_curve_edges(WorkingMesh& mesh, const CountOptions& options);
 
-/// Brings the number of faces closer to `wanted` by splits or collapses of inner edges that are far apart:
-/// those that are the longest or shortest and leave the best valences.
-CountChanges approach_count(WorkingMesh& mesh, double wanted, const CountOptions& options);
+/// Brings the number of faces closer to `target` by splits or collapses of inner edges without a common
+/// neighbour, preferring the longest or shortest edges and those whose change leaves the best valences.
+CountChanges approach_face_count(WorkingMesh& mesh, double target, const CountOptions& options);
 
 }  // namespace hooke

@@ -37,7 +37,7 @@ class FlipMode {
   }
 
  private:
-  /// Calls what relaxes with the parts it wants, made for the faces as they are now.
+  /// Calls body(relaxation) with a relaxation for the present faces.
   template <typename Relax>
   auto relax(const Relax& body) {
     Energy energy(*work_.adjacency, work_.targets, terms_);
@@ -47,7 +47,7 @@ class FlipMode {
     return body(r);
   }
 
-  /// Calls what flips, and takes over its faces when it says that it flipped.
+  /// Calls body(mesh), which returns its number of flips, and writes changed faces to the workspace.
   template <typename Flips>
   long long flip(const Flips& body) {
     HalfedgeMesh halfedges(*work_.adjacency);
@@ -85,24 +85,24 @@ class FlipMode {
       return result_.flow.flips;
     });
     result_.interrupted = result_.flow.interrupted;
-    note_hindrance(result_.flow.limited_steps, result_.flow.rounds);
+    note_limited_steps(result_.flow.limited_steps, result_.flow.rounds);
   }
 
-  void note_hindrance(long long limited_steps, int steps) {
+  void note_limited_steps(long long limited_steps, int steps) {
     const double share = options_.guard_limited * work_.adjacency->vertex_count;
-    hindered_ = static_cast<double>(limited_steps) > share * steps;
+    guard_limited_ = static_cast<double>(limited_steps) > share * steps;
   }
 
-  /// Sweeps loosen what guards hold; elsewhere flow has left no slivers for them.
+  /// Newton sweeps help vertices limited by guards; otherwise no slivers are left after the Lloyd flow.
   void relax_springs() {
     const Stage stage(work_.stopwatch, "springs");
     IntegrationOptions integration;
     integration.max_steps = options_.spring_steps;
     LbfgsOptions lbfgs;
-    if (!hindered_) lbfgs.sweeps = 0;
+    if (!guard_limited_) lbfgs.sweeps = 0;
     const IntegrationResult relaxed =
         relax([&](Relaxation& r) { return relax_lbfgs(r, integration, lbfgs, watch("springs")); });
-    note_hindrance(relaxed.limited_steps, relaxed.evaluations);
+    note_limited_steps(relaxed.limited_steps, relaxed.evaluations);
     work_.resample_lengths();
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
@@ -141,8 +141,9 @@ class FlipMode {
   const GuardOptions& guards_;
   const Observer& observer_;
   std::vector<int> corner_valences_;
-  std::vector<char> lately_changed_;  // vertices, by flips of irregular edges
-  bool hindered_ = true;              // by guards, in the flow or the last springs; maybe, without either
+  std::vector<char> lately_changed_;  // per vertex: flag, by flips of irregular edges
+  /// Did guards limit many steps of the flow or the last springs? True before both.
+  bool guard_limited_ = true;
   FlipResult result_;
 };
 
@@ -175,8 +176,8 @@ FlipOptions flip_options(Effort effort) {
   return options;
 }
 
-FlipResult flip_connectivity(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
-                             const GuardOptions& guards, double corner_angle, const Observer& observer) {
+FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
+                         const GuardOptions& guards, double corner_angle, const Observer& observer) {
   return FlipMode(work, options, terms, guards, corner_angle, observer).run();
 }
 

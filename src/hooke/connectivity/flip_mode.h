@@ -1,6 +1,6 @@
-// Adjacency mode `flip`: the same vertices, joined by better triangles. Flow first, springs second, polish
-// last: springs with flips alone lock at edges that vary by 13-18 %.
-// Vertices keep their ids, but travel: by one or two edge lengths, and more on uneven meshes.
+// Connectivity mode `flip`: the same vertices, joined by better triangles. Lloyd flow comes first, then
+// springs with flips, then angle springs; springs with flips alone stall at edge lengths that vary by 13-18
+// %. Vertices keep their ids but travel by one or two edge lengths, and farther on uneven meshes.
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
@@ -17,46 +17,49 @@ struct Workspace;
 enum class ConnectivityMode {
   fixed,  // the faces stay
   flip,   // edges are flipped
-  adapt,  // they are split and collapsed too: other vertices and faces
+  adapt,  // edges are also split and collapsed: new vertices and faces
 };
 
-/// How long to go on for better triangles.
+/// How much time to spend on better triangles.
 enum class Effort { fast, standard, thorough };
 
 struct FlipOptions {
   LloydFlowOptions flow;
-  int spring_rounds = 8;        // of springs and Delaunay flips after the flow, at most ...
-  double few_flips = 1e-3;      // ... while more than this part of the edges flips
-  int spring_steps = 15;        // evaluations of the springs' energy per round
-  double guard_limited = 2e-3;  // part of the vertices; if guards hold back more in a step, sweeps go first
+  int spring_rounds = 8;    // maximum rounds of springs and Delaunay flips after the flow
+  double few_flips = 1e-3;  // share of the edges; the rounds end when no more than this are flipped
+  int spring_steps = 15;    // evaluations of the spring energy per round
+  /// Share of the vertices; if guards limit more per step, Newton sweeps precede the next L-BFGS relaxation.
+  double guard_limited = 2e-3;
   FlipPassOptions passes;
   double energy_drop = 2e-3;  // see IntegrationOptions; of the relaxation that follows
   FlipGuardOptions guard;
-  /// Starts where the springs end and goes on as long as it helps; angles pay for a little of the edges.
+  /// Angle springs start at the present minimum angle and go on as long as they raise it; edge lengths may
+  /// become a little less uniform for it.
   AngleSpringOptions angle_springs{
       .first_threshold = 0, .margin = 3, .last_threshold = 60, .rest = 3e-3, .edge_error_limit = 1.05};
 };
 
-/// The options that an effort stands for.
+/// The options for an effort level.
 FlipOptions flip_options(Effort effort);
 
 struct FlipResult {
   UntangleResult untangle;
   LloydFlowResult flow;
   int spring_rounds = 0;
-  long long flips = 0;  // in all
+  long long flips = 0;  // total
   int passes = 0;
-  int evaluations = 0;                    // of the energy
+  int evaluations = 0;                    // of the spring energy
   double max_travel = 0, rms_travel = 0;  // from input to result, in target lengths
   bool interrupted = false;
 };
 
-/// Moves the vertices of the work on the surface of the input and flips edges between. Boundary edges stay.
-/// Pre-condition: no refit() yet.
-FlipResult flip_connectivity(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
-                             const GuardOptions& guards, double corner_angle, const Observer& observer);
+/// Moves the vertices of the workspace on the surface of the input, alternating with edge flips. Feature
+/// edges stay. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.
+FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
+                         const GuardOptions& guards, double corner_angle, const Observer& observer);
 
-/// How far the vertices are from where they started, in target lengths. Pre-condition: they are the same.
+/// Sets max_travel and rms_travel: the distances of the vertices from their input positions, in target
+/// lengths. Pre-condition: the vertices are those of the input.
 void measure_travel(const Workspace& work, FlipResult& result);
 
 }  // namespace hooke

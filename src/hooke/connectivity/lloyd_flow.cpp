@@ -17,12 +17,12 @@
 namespace hooke {
 namespace {
 
-/// Mass and first moment about the vertex.
+/// Mass and first moment with respect to the vertex.
 struct Moments {
   double mass = 0;
   Vec3 moment = Vec3::Zero();
 
-  /// The triangle (0, a, b) of signed area with densities at its corners, linear between them.
+  /// Adds the triangle (0, a, b) of signed area, with densities at its corners and linear between them.
   void add(double area, const Vec3& a, const Vec3& b, double at_0, double at_a, double at_b) {
     const double sum = at_0 + at_a + at_b;
     mass += area * sum / 3;
@@ -30,10 +30,10 @@ struct Moments {
   }
 };
 
-/// What Voronoi cells take from a face: its circumcentre and how its angles stand.
+/// The data of a face for Voronoi cells.
 struct FaceCell {
-  Vec3 circumcentre = Vec3::Zero();               // seen from the first corner
-  Vec3 cotangent = Vec3::Constant(std::nan(""));  // of the angle across from each edge, NaN without area
+  Vec3 circumcentre = Vec3::Zero();               // relative to the first corner
+  Vec3 cotangent = Vec3::Constant(std::nan(""));  // of the angle opposite each edge, NaN without area
 };
 
 FaceCell cell_of(const Mat3X& points, const Triangle& t) {
@@ -41,33 +41,34 @@ FaceCell cell_of(const Mat3X& points, const Triangle& t) {
   const double area = u.cross(v).norm();  // doubled
   if (!(area > 0)) return {};
   const double at_0 = u.dot(v), at_1 = -u.dot(w), at_2 = v.dot(w);
-  // The barycentric weights of the circumcentre are as a^2 (b^2 + c^2 - a^2), a^2 being across the corner.
+  // The barycentric weights of the circumcentre are proportional to a^2 (b^2 + c^2 - a^2), with a the edge
+  // opposite the corner.
   const double scale = 1 / (2 * area * area);
   return {scale * (v.squaredNorm() * at_1 * u + u.squaredNorm() * at_2 * v), Vec3(at_2, at_0, at_1) / area};
 }
 
-/// Edges across which Voronoi cells are not made of kites: the angles across from them make more than pi. A
-/// crease bounds the cells on either side.
-std::vector<char> crooked_edges(const std::vector<FaceCell>& cells, const Adjacency& c) {
-  constexpr double least = -1e-9;
-  std::vector<char> crooked(c.edges.size());
+/// Non-Delaunay edges, whose opposite angles sum to more than pi: Voronoi cells there do not consist of
+/// kites. A feature edge, which bounds the cells, counts if an opposite angle is obtuse.
+std::vector<char> non_delaunay_edges(const std::vector<FaceCell>& cells, const Adjacency& c) {
+  constexpr double min_cotangent = -1e-9;
+  std::vector<char> non_delaunay(c.edges.size());
   parallel_for(c.edges.size(), 2048, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
-      std::array<double, 2> cotangent = {0, 0};  // of a right angle
-      for (size_t wedge = 0; wedge < 2; ++wedge) {
-        if (c.edge_faces[e][wedge] < 0) continue;
-        const auto face = static_cast<size_t>(c.edge_faces[e][wedge]);
+      std::array<double, 2> cotangent = {0, 0};  // that of a right angle where there is no face
+      for (size_t i = 0; i < 2; ++i) {
+        if (c.edge_faces[e][i] < 0) continue;
+        const auto face = static_cast<size_t>(c.edge_faces[e][i]);
         const Triangle& edges = c.face_edges[face];
         const Eigen::Index k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
-        cotangent[wedge] = cells[face].cotangent[k];
+        cotangent[i] = cells[face].cotangent[k];
       }
-      const bool straight = c.is_feature_edge(static_cast<int>(e))
-                                ? std::min(cotangent[0], cotangent[1]) >= least
-                                : cotangent[0] + cotangent[1] >= least;
-      crooked[e] = !straight;
+      const bool is_delaunay = c.is_feature_edge(static_cast<int>(e))
+                                   ? std::min(cotangent[0], cotangent[1]) >= min_cotangent
+                                   : cotangent[0] + cotangent[1] >= min_cotangent;
+      non_delaunay[e] = !is_delaunay;
     }
   });
-  return crooked;
+  return non_delaunay;
 }
 
 std::vector<FaceCell> cells_of(const Mat3X& points, const Adjacency& c) {
@@ -88,26 +89,26 @@ class Lloyd {
         options_(options),
         even_(std::ranges::adjacent_find(length, std::ranges::not_equal_to()) == length.end()),
         cells_(cells_of(X_, c)),
-        crooked_(crooked_edges(cells_, c)) {}
+        non_delaunay_(non_delaunay_edges(cells_, c)) {}
 
   Vec3 step(int v) const {
     if (c_.vertex_faces[v].empty()) return Vec3::Zero();
-    const std::array<int, 2> wedges = border_neighbours(v);
-    if (wedges[1] >= 0) return boundary_step(v, wedges[0], wedges[1]);
-    Moments cell = has_straight_cell(v) ? voronoi_cell(v) : Moments{};
+    const std::array<int, 2> neighbours = feature_neighbours(v);
+    if (neighbours[1] >= 0) return boundary_step(v, neighbours[0], neighbours[1]);
+    Moments cell = has_voronoi_cell(v) ? voronoi_cell(v) : Moments{};
     if (!(cell.mass > 0)) cell = faces_about(v);
     if (!(cell.mass > 0)) return Vec3::Zero();
     return options_.over_relaxation / cell.mass * cell.moment;
   }
 
  private:
-  /// -1 for an inner vertex.
-  std::array<int, 2> border_neighbours(int v) const {
-    std::array<int, 2> wedges = {-1, -1};
+  /// The two neighbours along feature edges; -1 for an inner vertex.
+  std::array<int, 2> feature_neighbours(int v) const {
+    std::array<int, 2> neighbours = {-1, -1};
     size_t count = 0;
     for (int e : c_.vertex_edges[v])
-      if (count < 2 && c_.is_feature_edge(e)) wedges[count++] = c_.other_end(e, v);
-    return wedges;
+      if (count < 2 && c_.is_feature_edge(e)) neighbours[count++] = c_.other_end(e, v);
+    return neighbours;
   }
 
   Vec3 boundary_step(int v, int a, int b) const {
@@ -119,15 +120,15 @@ class Lloyd {
     return options_.boundary_relaxation * (to_a / (to_a + to_b) - t) * along;
   }
 
-  bool has_straight_cell(int v) const {
+  bool has_voronoi_cell(int v) const {
     for (int f : c_.vertex_faces[v])
       for (int e : c_.face_edges[static_cast<size_t>(f)])
-        if (crooked_[static_cast<size_t>(e)]) return false;
+        if (non_delaunay_[static_cast<size_t>(e)]) return false;
     return true;
   }
 
-  /// The kite of a face has its corner, the midpoints of two edges and the circumcentre; half of it over an
-  /// edge of length l across from an angle is l^2 / 8 cot(angle) large.
+  /// The kite of a face has as corners the vertex, the midpoints of two edges and the circumcentre. The half
+  /// of it at an edge of length l opposite an angle has the signed area l^2 / 8 cot(angle).
   Moments voronoi_cell(int v) const {
     Moments cell;
     for (int f : c_.vertex_faces[v]) {
@@ -155,7 +156,7 @@ class Lloyd {
     return faces;
   }
 
-  /// Where the vertex stands in the face.
+  /// Index of the vertex in the face.
   size_t corner(int face, int v) const {
     const Triangle& t = c_.faces[static_cast<size_t>(face)];
     return t[0] == v ? 0 : t[1] == v ? 1 : 2;
@@ -177,7 +178,7 @@ class Lloyd {
   const LloydOptions& options_;
   bool even_;  // the same target length everywhere
   std::vector<FaceCell> cells_;
-  std::vector<char> crooked_;
+  std::vector<char> non_delaunay_;
 };
 
 }  // namespace
@@ -195,7 +196,7 @@ Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
 
 namespace {
 
-/// One guarded Lloyd step. Returns the number of vertices held back.
+/// One guarded Lloyd step. Returns the number of vertices limited by guards.
 int move_vertices(FlippableMesh& m, const Adjacency& adjacency, const LloydOptions& options,
                   const GuardOptions& guard_options) {
   const TargetLengths targets = spread_target_lengths(adjacency, m.vertex_length);

@@ -1,4 +1,5 @@
-// One step of Lloyd's method on a surface mesh: every vertex heads for the centroid of its Voronoi cell.
+// Lloyd's method on a surface mesh: each vertex moves toward the centroid of its Voronoi cell. The flow, a
+// sequence of over-relaxed steps between Delaunay flips, distributes the vertices as in a regular mesh.
 // S. P. Lloyd, "Least squares quantization in PCM", 1982; cells on meshes after Q. Du, V. Faber and M.
 // Gunzburger, "Centroidal Voronoi tessellations", 1999.
 #pragma once
@@ -12,26 +13,23 @@ struct Adjacency;
 struct GuardOptions;
 
 struct LloydOptions {
-  double over_relaxation = 1.3;      // of the way to the centroid
-  double boundary_relaxation = .91;  // of the way to the middle of the two neighbours on the boundary
-  double max_move = .3;              // in target lengths
+  double over_relaxation = 1.3;      // factor on the displacement to the centroid
+  double boundary_relaxation = .91;  // factor on the displacement between the neighbours on feature edges
+  double max_move = .3;              // maximum displacement, in target lengths
 };
 
-/// Where every vertex is to go; the caller makes that tangential and retracts. The cell is made of signed
-/// kites between the vertex, the middles of its edges and the circumcentres of its faces; its density is
-/// L^-4, which makes the lengths of the edges follow L. A vertex near an edge that is not Delaunay, or near a
-/// boundary edge that faces an obtuse angle, has no such cell and takes the centroid of its faces. Vertices
-/// on the boundary or a crease go along the line between their neighbours to where the two edges have the
-/// ratio of their target lengths.
+/// The displacements of all vertices, 3 x n; the caller makes them tangential and retracts. The cell consists
+/// of signed kites between the vertex, the midpoints of its edges and the circumcentres of its faces; its
+/// density is L^-4, which makes edge lengths follow L. A vertex near a non-Delaunay edge, or near a feature
+/// edge opposite an obtuse angle, has no such cell and uses the centroid of its faces. Vertices on feature
+/// edges move parallel to the line between their two neighbours, to where the two edges have the ratio of
+/// their target lengths.
 Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
                  const std::vector<double>& vertex_length, const LloydOptions& options);
 
-// Flow: over-relaxed Lloyd steps between Delaunay flips. It carries the vertices to where a regular mesh has
-// them; springs with flips alone lock long before.
-
 struct LloydFlowOptions {
-  int rounds = 32;       // of flips and one step
-  int corner_every = 5;  // rounds between two looks at the corners, after the first quarter of the rounds
+  int rounds = 32;       // of flips and one Lloyd step
+  int corner_every = 5;  // rounds between flips of corners, after the first quarter of the rounds
   LloydOptions lloyd{};
 };
 
@@ -42,8 +40,8 @@ struct LloydFlowResult {
   bool interrupted = false;
 };
 
-/// Ends with flips: the mesh is Delaunay as far as the guards allow. The observer is asked beforehand, and
-/// after each round.
+/// Runs the flow and ends with flips, after which the mesh is Delaunay as far as the guards allow. The
+/// observer is called before the first round and after each round.
 LloydFlowResult flow(FlippableMesh& mesh, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
                      const GuardOptions& guards, const Observer& observer);
 

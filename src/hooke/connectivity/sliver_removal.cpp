@@ -17,22 +17,22 @@
 namespace hooke {
 namespace {
 
-class SliverTrials {
+class SliverPass {
  public:
-  SliverTrials(WorkingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
-               const GuardOptions& guards, const FaceCountLimits& limits)
+  SliverPass(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
+             const GuardOptions& guards, const FaceCountLimits& limits)
       : m_(mesh),
         t_(mesh.halfedges),
         options_(options),
-        trials_(mesh, terms, options.change, guards),
+        evaluator_(mesh, terms, options.change, guards),
         limits_(limits),
         faces_(static_cast<double>(t_.faces().size())),
-        max_tries_(std::max(options.min_in_all, static_cast<int>(options.share_in_all * faces_))) {}
+        max_tested_(std::max(options.min_in_all, static_cast<int>(options.share_in_all * faces_))) {}
 
   SliverChanges run(const Observer& observer) {
     for (double angle : options_.sliver_angles) {
-      begin_with(angle);
-      for (int round = 0; round < options_.rounds && try_slivers(observer); ++round) continue;
+      begin_stage(angle);
+      for (int round = 0; round < options_.rounds && test_slivers(observer); ++round) continue;
       if (interrupted_) break;
     }
     m_.retraction.count();
@@ -40,30 +40,30 @@ class SliverTrials {
   }
 
  private:
-  void begin_with(double sliver_angle) {
+  void begin_stage(double sliver_angle) {
     sliver_cotangent_ = 1 / std::tan(sliver_angle * std::numbers::pi / 180);
-    trials_.begin_with(sliver_angle);
-    tried_at_.clear();
+    evaluator_.set_sliver_angle(sliver_angle);
+    tested_at_.clear();
   }
 
-  /// One round. False if there was nothing to try, or if it was interrupted.
-  bool try_slivers(const Observer& observer) {
-    const int most = std::min(
-        std::clamp(static_cast<int>(options_.share * faces_), options_.min_tries, options_.max_tries),
-        max_tries_ - changes_.tries);
-    int tries = most;
+  /// One round. False if there was nothing to test, or if it was interrupted.
+  bool test_slivers(const Observer& observer) {
+    const int limit = std::min(
+        std::clamp(static_cast<int>(options_.share * faces_), options_.min_tested, options_.max_tested),
+        max_tested_ - changes_.tested);
+    int left = limit;
     for (int f : slivers()) {
-      if (tries == 0) break;
+      if (left == 0) break;
       if (!is_sliver(f)) continue;
-      const std::vector<int> edges = untried_edges_about(f);
+      const std::vector<int> edges = untested_edges_about(f);
       if (edges.empty()) continue;
       interrupted_ = observer && !observer({.step = changes_.count()});
       if (interrupted_) return false;
-      --tries;
-      ++changes_.tries;
-      if (std::optional<EdgeCandidate> best = best_trial(edges)) keep(*best);
+      --left;
+      ++changes_.tested;
+      if (std::optional<EdgeCandidate> best = best_candidate(edges)) keep(*best);
     }
-    return tries < most;
+    return left < limit;
   }
 
   double cotangent(int f) const {
@@ -72,7 +72,7 @@ class SliverTrials {
 
   bool is_sliver(int f) const { return !t_.is_gone(f) && cotangent(f) > sliver_cotangent_; }
 
-  /// The worst of them first.
+  /// Worst first.
   std::vector<int> slivers() const {
     std::vector<int> faces;
     for (int f = 0; f < t_.half_edge_count() / 3; ++f)
@@ -81,82 +81,82 @@ class SliverTrials {
     return faces;
   }
 
-  /// Those about which something has changed noticeably since they were tried last.
-  std::vector<int> untried_edges_about(int face) {
-    tried_at_.resize(static_cast<size_t>(t_.half_edge_count()), -1);
+  /// Edges whose neighbourhood has changed noticeably since they were tested last.
+  std::vector<int> untested_edges_about(int face) {
+    tested_at_.resize(static_cast<size_t>(t_.half_edge_count()), -1);
     changed_at_.resize(static_cast<size_t>(t_.id_count()), 0);
     std::vector<int> edges = inner_edges_about(t_, face);
     std::erase_if(edges, [this](int h) {
       const int changed =
           std::max(changed_at_[static_cast<size_t>(t_.from(h))], changed_at_[static_cast<size_t>(t_.to(h))]);
-      return tried_at_[static_cast<size_t>(h)] >= changed;
+      return tested_at_[static_cast<size_t>(h)] >= changed;
     });
     return edges;
   }
 
   std::vector<EdgeChange> changes_of(const std::vector<int>& edges) {
     const ChangeRules rules{.valence = options_.valence,
-                            .splits = faces_ + 2 <= limits_.most,
-                            .collapses = faces_ - 2 >= limits_.least};
+                            .splits = faces_ + 2 <= limits_.max,
+                            .collapses = faces_ - 2 >= limits_.min};
     std::vector<EdgeChange> changes;
     for (int h : edges) {
       const std::vector<EdgeChange> allowed = allowed_changes(m_, h, rules);
       changes.insert(changes.end(), allowed.begin(), allowed.end());
-      tried_at_[static_cast<size_t>(h)] = changes_.count();
+      tested_at_[static_cast<size_t>(h)] = changes_.count();
     }
     return changes;
   }
 
-  /// Of those that are as good at the end, the one that was best before the search.
-  std::optional<EdgeCandidate> best_trial(const std::vector<int>& edges) {
+  /// The candidate with the largest gain; among equals the one with the largest gain before the search.
+  std::optional<EdgeCandidate> best_candidate(const std::vector<int>& edges) {
     const std::vector<EdgeChange> changes = changes_of(edges);
-    std::vector<EdgeCandidate> trials(changes.size());
-    parallel_for(trials.size(), 1, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) trials[i] = trials_.begin(changes[i]);
+    std::vector<EdgeCandidate> candidates(changes.size());
+    parallel_for(candidates.size(), 1, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) candidates[i] = evaluator_.begin(changes[i]);
     });
-    const auto is_hopeless = [](const EdgeCandidate& trial) { return !trial.is_viable; };
-    std::erase_if(trials, is_hopeless);
-    std::ranges::stable_sort(trials, std::ranges::greater(), &EdgeCandidate::gain);
-    if (trials.size() > options_.searched) trials.resize(options_.searched);
-    parallel_for(trials.size(), 1, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) trials_.finish(trials[i]);
+    const auto is_rejected = [](const EdgeCandidate& candidate) { return !candidate.is_viable; };
+    std::erase_if(candidates, is_rejected);
+    std::ranges::stable_sort(candidates, std::ranges::greater(), &EdgeCandidate::gain);
+    if (candidates.size() > options_.searched) candidates.resize(options_.searched);
+    parallel_for(candidates.size(), 1, [&](size_t begin, size_t end) {
+      for (size_t i = begin; i < end; ++i) evaluator_.finish(candidates[i]);
     });
-    std::erase_if(trials, is_hopeless);
-    const auto best = std::ranges::max_element(trials, {}, &EdgeCandidate::gain);
-    return best == trials.end() ? std::nullopt : std::optional(std::move(*best));
+    std::erase_if(candidates, is_rejected);
+    const auto best = std::ranges::max_element(candidates, {}, &EdgeCandidate::gain);
+    return best == candidates.end() ? std::nullopt : std::optional(std::move(*best));
   }
 
-  /// The corners of the faces of its edge, what a merge joins anew, and those that have come so far, all in
-  /// all, that it is noticed.
-  std::vector<int> vertices_changed_by(const EdgeCandidate& trial) {
-    const int h = trial.change.half_edge;
+  /// The vertices of the two faces of its edge, the one-ring of a collapse, and vertices whose accumulated
+  /// moves exceed `noticeable_move`.
+  std::vector<int> vertices_changed_by(const EdgeCandidate& candidate) {
+    const int h = candidate.change.half_edge;
     std::vector<int> vertices = {t_.from(h), t_.to(h), t_.opposite_vertex(h), t_.opposite_vertex(t_.twin(h))};
-    if (trial.change.kind == ChangeKind::collapse)
+    if (candidate.change.kind == ChangeKind::collapse)
       for (int end : {t_.from(h), t_.to(h)})
         for (int v : t_.neighbours(end)) vertices.push_back(v);
     unnoticed_.resize(static_cast<size_t>(t_.id_count()), 0);
-    for (Eigen::Index i = 0; i < trial.patch.positions.points.cols(); ++i) {
-      const int v = trial.patch.vertices[static_cast<size_t>(i)];
-      if (v < 0) continue;  // is to come
+    for (Eigen::Index i = 0; i < candidate.patch.positions.points.cols(); ++i) {
+      const int v = candidate.patch.vertices[static_cast<size_t>(i)];
+      if (v < 0) continue;  // the new vertex of a split
       double& moved = unnoticed_[static_cast<size_t>(v)];
-      moved += (trial.patch.positions.points.col(i) - m_.positions.points.col(v)).norm();
-      if (moved <= options_.noticed * m_.vertex_length[static_cast<size_t>(v)]) continue;
+      moved += (candidate.patch.positions.points.col(i) - m_.positions.points.col(v)).norm();
+      if (moved <= options_.noticeable_move * m_.vertex_length[static_cast<size_t>(v)]) continue;
       moved = 0;
       vertices.push_back(v);
     }
     return vertices;
   }
 
-  void keep(EdgeCandidate& trial) {
-    std::vector<int> changed = vertices_changed_by(trial);
-    change_mesh(m_, trial.change, trial.patch);
-    switch (trial.change.kind) {
+  void keep(EdgeCandidate& candidate) {
+    std::vector<int> changed = vertices_changed_by(candidate);
+    change_mesh(m_, candidate.change, candidate.patch);
+    switch (candidate.change.kind) {
       case ChangeKind::flip:
         ++changes_.flips;
         break;
       case ChangeKind::split:
         ++changes_.splits;
-        changed.push_back(trial.patch.vertices.back());
+        changed.push_back(candidate.patch.vertices.back());
         faces_ += 2;
         break;
       case ChangeKind::collapse:
@@ -170,36 +170,36 @@ class SliverTrials {
 
   WorkingMesh& m_;
   HalfedgeMesh& t_;
-  const SliverTrialOptions& options_;
-  EdgeTrials trials_;
+  const SliverOptions& options_;
+  CandidateEvaluator evaluator_;
   FaceCountLimits limits_;
   double faces_;
-  const int max_tries_;
+  const int max_tested_;
   double sliver_cotangent_ = 0;
-  std::vector<int> tried_at_;      // per half-edge that stands for its edge: changes so far; -1 for never
-  std::vector<int> changed_at_;    // per id: changes so far, when the last one changed what is about it
-  std::vector<double> unnoticed_;  // per id: the length of its moves since changed_at_ was set for them
+  std::vector<int> tested_at_;     // per half-edge: number of changes when its edge was tested last, or -1
+  std::vector<int> changed_at_;    // per id: number of changes when its neighbourhood last changed noticeably
+  std::vector<double> unnoticed_;  // per id: accumulated length of its moves too small to be noticed
   SliverChanges changes_;
   bool interrupted_ = false;
 };
 
 }  // namespace
 
-SliverChanges change_slivers(WorkingMesh& m, const EnergyTerms& terms, const SliverTrialOptions& options,
+SliverChanges change_slivers(WorkingMesh& m, const EnergyTerms& terms, const SliverOptions& options,
                              const GuardOptions& guards, const FaceCountLimits& limits,
                              const Observer& observer) {
-  return SliverTrials(m, terms, options, guards, limits).run(observer);
+  return SliverPass(m, terms, options, guards, limits).run(observer);
 }
 
 namespace {
 
-/// In mode `flip` their number stays.
+/// In mode `flip` the number of faces is fixed.
 FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double share) {
   const auto& faces = work.adjacency->faces;
   const auto count = static_cast<double>(faces.size());
   if (mode == ConnectivityMode::flip) return {count, count};
-  const double wanted = wanted_face_count(work.positions.points, faces, work.vertex_length);
-  return {(1 - share) * wanted, (1 + share) * wanted};
+  const double target = target_face_count(work.positions.points, faces, work.vertex_length);
+  return {(1 - share) * target, (1 + share) * target};
 }
 
 }  // namespace
@@ -207,17 +207,17 @@ FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double s
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
                              const SliverRemovalOptions& options, const GuardOptions& guards,
                              double corner_angle, const Observer& observer) {
-  const std::vector<double>& angles = options.trials.sliver_angles;
+  const std::vector<double>& angles = options.pass.sliver_angles;
   if (angles.empty() || min_angle(work.positions.points, work.adjacency->faces) >= angles.back()) return {};
-  WorkspaceEdit adapting(work, corner_angle);
-  const SliverChanges changes = change_slivers(adapting.mesh(), terms, options.trials, guards,
+  WorkspaceEdit edit(work, corner_angle);
+  const SliverChanges changes = change_slivers(edit.mesh(), terms, options.pass, guards,
                                                limits_of(work, mode, options.count_share), observer);
   if (changes.count() == 0) return changes;
   if (mode == ConnectivityMode::flip) {
-    adapting.replace_faces();
+    edit.replace_faces();
   } else {
-    compact(adapting.mesh());
-    adapting.replace_mesh();
+    compact(edit.mesh());
+    edit.replace_mesh();
   }
   return changes;
 }

@@ -1,5 +1,5 @@
-// Slivers that neither springs nor a search for better places has mended: what can become of the edges
-// nearby is tried, each change in a patch of its own, and the best one is kept.
+// Sliver removal, the last step of the modes `flip` and `adapt`: for faces that vertex motion could not
+// improve, all changes of the edges nearby are tested, each in its own patch, and the best one is applied.
 #pragma once
 
 #include <vector>
@@ -10,53 +10,51 @@
 
 namespace hooke {
 
-struct SliverTrialOptions {
-  /// Degrees, ascending: faces with a smaller angle are slivers, first those of less than the first angle.
-  /// One threshold for all would let bad faces in each other's way wait for the mending of many fair ones.
+struct SliverOptions {
+  /// Degrees, ascending: faces with a smaller minimum angle are slivers, one stage for each angle. With a
+  /// single angle the worst faces would have to wait for the removal of many mild slivers.
   std::vector<double> sliver_angles = {25, 30, 35, 40};
-  int rounds = 6;            // over the slivers that are left, for each of these angles
-  double share = .01;        // of the faces: so many slivers are tried in a round, the worst first,
-  int min_tries = 10;        // but so many in any case,
-  int max_tries = 200;       // and no more than these
-  double share_in_all = .1;  // of the faces: no more tries than so many in all rounds and stages, but ...
-  int min_in_all = 60;       // ... so many in any case
-  double noticed = .03;      // in target lengths; shorter moves are no reason to try edges again
-  int valence = 9;           // of a vertex that gains edges
-  size_t searched = 10;      // changes about a sliver, the best by then, that are tried to the end
-  EdgeTrialOptions change{};
+  int rounds = 6;                // over the remaining slivers, per stage
+  double share = .01;            // slivers tested per round, worst first, as a share of the faces
+  int min_tested = 10;           // lower limit of that number
+  int max_tested = 200;          // upper limit of that number
+  double share_in_all = .1;      // maximum number of slivers tested in all stages, as a share of the faces
+  int min_in_all = 60;           // lower limit of that maximum
+  double noticeable_move = .03;  // in target lengths; shorter moves are no reason to test edges again
+  int valence = 9;               // maximum valence of a vertex that gains edges
+  size_t searched = 10;  // candidates per sliver, the best after relaxation, that are tested to the end
+  CandidateOptions change{};
 };
 
-/// How many faces there may be in all.
+/// Limits on the total number of faces.
 struct FaceCountLimits {
-  double least, most;
+  double min, max;
 };
 
 struct SliverChanges {
   int flips = 0, splits = 0, collapses = 0;
-  int tries = 0;  // slivers whose edges were tried
+  int tested = 0;  // slivers whose edges were tested
 
   int count() const { return flips + splits + collapses; }
 };
 
-/// Every change lowers what its patch costs, keeps the least angle there, and adds nothing to what is beyond
-/// the limits of alignment, folds and sagittas; no edge gets longer than the limit, or than the longest was.
-/// An edge is tried again only when something has changed noticeably about it. The observer is called before
-/// each sliver that is tried. Projections of trials are not counted. The mesh is not compact afterwards.
-SliverChanges change_slivers(WorkingMesh& mesh, const EnergyTerms& terms, const SliverTrialOptions& options,
+/// Changes edges near slivers. Each change lowers the cost of its patch, keeps the minimum angle there and
+/// increases no violation of the limits of alignment, fold, sagitta and length, see CandidateEvaluator. An
+/// edge is tested again only after its neighbourhood has changed noticeably. The observer is called before
+/// each sliver that is tested. Projections in the tests are not counted. The mesh is not compact afterwards.
+SliverChanges change_slivers(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
                              const GuardOptions& guards, const FaceCountLimits& limits,
                              const Observer& observer);
 
-// Modes `flip` and `adapt`, last: slivers that are left are mended by other edges.
-
 struct SliverRemovalOptions {
-  int passes = 3;  // the vertices land after each, which may make slivers again
-  SliverTrialOptions trials;
-  double count_share = .02;  // of the wanted faces, by which their number may miss it in mode `adapt`
+  int passes = 3;  // each ends with a projection to the input surface, which may create new slivers
+  SliverOptions pass;
+  double count_share = .02;  // share of the target face count by which mode `adapt` may miss it
 };
 
-/// Changes the connectivity of the work about its slivers: in mode `flip` by flips only. Their neighbourhoods
-/// settle; nothing else moves. Pre-condition: the vertices lie on the field of the input, see
-/// Workspace::return_to_input().
+/// Changes the connectivity of the workspace near its slivers, in mode `flip` by flips only. Only vertices
+/// near the changed edges move. `corner_angle`: degrees, see corner_valences(). Pre-condition: the vertices
+/// lie on the field of the input, see Workspace::return_to_input().
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
                              const SliverRemovalOptions& options, const GuardOptions& guards,
                              double corner_angle, const Observer& observer);

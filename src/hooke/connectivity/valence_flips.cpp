@@ -17,36 +17,36 @@
 namespace hooke {
 namespace {
 
-// Edges of a batch are tried at the same time, against the mesh as it was before. They lie far apart: a batch
-// takes every so many-th of the candidates, which follow the mesh.
+// The edges of a batch are tested in parallel against the mesh before the batch. They lie far apart: a batch
+// takes every n-th candidate, for n batches, and candidates follow the order of the mesh.
 constexpr size_t edges_of_batch = 512;
 constexpr size_t min_batches = 16;
 
-/// Of the corner where h leaves.
+/// Valence excess of the corner from which h starts.
 int irregularity(const FlippableMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
-  if (corner.wanted > 0) return corner.has - corner.wanted;
-  return corner.has - (m.halfedges.on_boundary(m.halfedges.from(h)) ? 4 : 6);
+  if (corner.target > 0) return corner.present - corner.target;
+  return corner.present - (m.halfedges.on_boundary(m.halfedges.from(h)) ? 4 : 6);
 }
 
-/// Two or more irregular vertices about the edge, and no more irregularity after the flip.
-bool worth_a_try(const FlippableMesh& m, int h) {
+/// Has the edge two or more irregular vertices among its four, whose irregularity the flip does not increase?
+bool is_worth_testing(const FlippableMesh& m, int h) {
   const int g = m.halfedges.twin(h);
   int irregular = 0, before = 0, after = 0;
-  const auto look = [&](int corner, int change) {
+  const auto add = [&](int corner, int change) {
     const int i = irregularity(m, corner);
     irregular += i != 0;
     before += i * i;
     after += (i + change) * (i + change);
   };
-  look(h, -1);
-  look(g, -1);
-  look(HalfedgeMesh::previous(h), 1);
-  look(HalfedgeMesh::previous(g), 1);
+  add(h, -1);
+  add(g, -1);
+  add(HalfedgeMesh::previous(h), 1);
+  add(HalfedgeMesh::previous(g), 1);
   return irregular >= 2 && after <= before;
 }
 
-/// Of a patch of an edge's two faces, before and after its flip.
+/// Adjacency of the two faces of an edge, before and after its flip.
 struct Pair {
   Adjacency before = make_adjacency(4, {{0, 1, 2}, {1, 0, 3}});
   Adjacency after = make_adjacency(4, {{2, 0, 3}, {3, 1, 2}});
@@ -80,7 +80,7 @@ class FlipPass {
       for (size_t i = 0; i < batches; ++i) {
         std::vector<int> batch;
         for (size_t k = i; k < edges.size(); k += batches) batch.push_back(edges[k]);
-        keep_gains(batch, try_all(batch));
+        keep_gains(batch, test_all(batch));
         if (observer && !observer({.step = batch_})) return flips_;
       }
       if (m_.after_move) m_.after_move();
@@ -90,7 +90,7 @@ class FlipPass {
 
  private:
   bool is_candidate(int h) const {
-    return t_.twin(h) >= 0 && !t_.is_crease(h) && worth_a_try(m_, h) && may_flip(m_, h, flip_guard_);
+    return t_.twin(h) >= 0 && !t_.is_crease(h) && is_worth_testing(m_, h) && may_flip(m_, h, flip_guard_);
   }
 
   bool is_near(int h) const {
@@ -113,12 +113,13 @@ class FlipPass {
     return edges;
   }
 
-  /// Flips the edge in its patch and settles that, while there is hope.
-  std::optional<EdgePatch> try_flip(int h) const {
+  /// Flips the edge in its patch and relaxes that while the energy rise is within the limits. Returns the
+  /// patch if its energy decreases enough.
+  std::optional<EdgePatch> test_flip(int h) const {
     if (!is_candidate(h)) return std::nullopt;
-    const double loss = loss_before_settling(h);
-    if (loss > options_.max_energy_rise * unit_) return std::nullopt;
-    std::optional<EdgePatch> patch = cut_patch(m_, h, options_.rings, options_.most);
+    const double rise = energy_rise_of_flip(h);
+    if (rise > options_.max_energy_rise * unit_) return std::nullopt;
+    std::optional<EdgePatch> patch = cut_patch(m_, h, options_.rings, options_.max_vertices);
     if (!patch) return std::nullopt;
     const Adjacency c = make_adjacency(static_cast<int>(patch->wedges.size()), flipped_faces(*patch));
     const TargetLengths targets = spread_target_lengths(c, patch->vertex_length);
@@ -128,7 +129,7 @@ class FlipPass {
     const VertexColoring coloring = color_as_one_block(c);
     Relaxation r{c, coloring, patch->vertex_length, energy, retraction, guards, patch->positions};
     LocalNewton newton(r);
-    const double before = energy(patch->positions.points, patch->positions.normals, nullptr) - loss;
+    const double before = energy(patch->positions.points, patch->positions.normals, nullptr) - rise;
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
       if (sweep > 0 && energy(patch->positions.points, patch->positions.normals, nullptr) - before >
                            options_.max_rise_after_relaxation * unit_)
@@ -140,28 +141,29 @@ class FlipPass {
     return patch;
   }
 
-  double loss_before_settling(int h) const {
+  double energy_rise_of_flip(int h) const {
     const EdgePatch patch = cut_pair(m_, h);
     return energy_of(patch, pair_.after, terms_) - energy_of(patch, pair_.before, terms_);
   }
 
-  std::vector<std::optional<EdgePatch>> try_all(const std::vector<int>& edges) const {
-    std::vector<std::optional<EdgePatch>> trials(edges.size());
+  std::vector<std::optional<EdgePatch>> test_all(const std::vector<int>& edges) const {
+    std::vector<std::optional<EdgePatch>> results(edges.size());
     parallel_for(edges.size(), 4, [&](size_t begin, size_t end) {
-      for (size_t i = begin; i < end; ++i) trials[i] = try_flip(edges[i]);
+      for (size_t i = begin; i < end; ++i) results[i] = test_flip(edges[i]);
     });
-    return trials;
+    return results;
   }
 
-  /// Those that meet with others of their batch are to be tried again.
-  void keep_gains(const std::vector<int>& edges, const std::vector<std::optional<EdgePatch>>& trials) {
+  /// Applies the successful flips. Those whose patch overlaps one applied earlier in the batch are marked to
+  /// be tested again.
+  void keep_gains(const std::vector<int>& edges, const std::vector<std::optional<EdgePatch>>& results) {
     ++batch_;
     for (size_t i = 0; i < edges.size(); ++i) {
-      if (!trials[i]) continue;
-      const EdgePatch& patch = *trials[i];
+      if (!results[i]) continue;
+      const EdgePatch& patch = *results[i];
       if (meets_another(patch))
-        look_again_near(patch, 2);  // the ends of the edge
-      else if (!folds_at_rim(patch, flipped_faces(patch), m_, guards_))
+        mark_for_retest(patch, 2);  // at the two ends of the edge
+      else if (!folds_at_patch_boundary(patch, flipped_faces(patch), m_, guards_))
         keep(edges[i], patch);
     }
   }
@@ -171,7 +173,7 @@ class FlipPass {
                                [this](int v) { return batch_of_[static_cast<size_t>(v)] == batch_; });
   }
 
-  void look_again_near(const EdgePatch& patch, size_t vertices) {
+  void mark_for_retest(const EdgePatch& patch, size_t vertices) {
     for (size_t id = 0; id < vertices; ++id) near_[static_cast<size_t>(patch.vertices[id])] = 1;
   }
 
@@ -179,7 +181,7 @@ class FlipPass {
     t_.flip(edge);
     move_vertices(patch, m_.positions);
     for (size_t id = 0; id < patch.movable; ++id) batch_of_[static_cast<size_t>(patch.vertices[id])] = batch_;
-    look_again_near(patch, patch.movable);
+    mark_for_retest(patch, patch.movable);
     ++flips_;
   }
 
@@ -190,8 +192,8 @@ class FlipPass {
   const FlipGuardOptions& flip_guard_;
   const GuardOptions& guards_;
   const Pair pair_;
-  double unit_;                // of what a flip may cost at first
-  std::vector<char>& near_;    // per vertex: edges of which are to be tried; all if empty
+  double unit_;                // of the maximum energy rises
+  std::vector<char>& near_;    // per vertex: flag that edges there are to be tested; all if empty
   std::vector<int> batch_of_;  // per vertex: the last batch in which it moved, from 1
   int batch_ = 0;
   int flips_ = 0;

@@ -56,7 +56,7 @@ bool is_corner(const Mat3X& points, int before, int at, int after, double cos_co
   return in.dot(out) < cos_corner * in.norm() * out.norm();
 }
 
-/// The vertices become a curve along which those between its ends slide.
+/// Adds a curve through the vertices, along which those that are not fixed slide.
 void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool closed, Constraints& result) {
   Curve curve;
   curve.closed = closed;
@@ -73,7 +73,7 @@ void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool close
   result.curves.push_back(std::move(curve));
 }
 
-/// One loop of vertices, cut into curves at its corners and at `breaks`.
+/// Adds a loop of vertices, cut into curves at its corners and at `breaks`.
 void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corner,
               const std::vector<char>& breaks, Constraints& result) {
   const size_t n = loop.size();
@@ -93,7 +93,7 @@ void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corn
   }
 }
 
-/// The crease edges, traced from corner to corner.
+/// Traces the crease edges into curves from corner to corner.
 class CreaseTracer {
  public:
   CreaseTracer(const Mat3X& points, const Adjacency& c, double cos_corner, const ConstraintOptions& options,
@@ -108,14 +108,14 @@ class CreaseTracer {
   void run() {
     for (size_t v = 0; v < breaks_.size(); ++v)
       if (breaks_[v]) result_.freedom[v] = Freedom::fixed;
-    for (const bool at_corners : {true, false})  // what is left then are loops without a corner
+    for (const bool at_corners : {true, false})  // only loops without a corner are left for the second pass
       for (size_t v = 0; v < breaks_.size(); ++v)
         if (!at_corners || breaks_[v])
           for (int e : c_.vertex_edges[static_cast<int>(v)])
             if (c_.is_crease(e) && !traced_[static_cast<size_t>(e)]) trace(static_cast<int>(v), e);
   }
 
-  /// Vertices where curves of creases end.
+  /// Marks the vertices where crease curves end.
   static std::vector<char> crease_breaks(const Mat3X& points, const Adjacency& c, double cos_corner) {
     std::vector<char> breaks(static_cast<size_t>(c.vertex_count), 0);
     if (c.creases.empty()) return breaks;
@@ -153,7 +153,7 @@ class CreaseTracer {
     hold_bends(vertices, closed);
   }
 
-  /// To slide past a bend cuts it off, and gains nothing where the edges are even already.
+  /// Fixes the vertices at the bends of an even crease: sliding past a bend cuts it off and gains nothing.
   void hold_bends(const std::vector<int>& vertices, bool closed) {
     const size_t n = vertices.size(), segments = closed ? n : n - 1;
     const auto point = [&](size_t i) { return points_.col(vertices[i % n]); };

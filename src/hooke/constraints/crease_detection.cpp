@@ -15,8 +15,8 @@ size_t idx(int i) {
   return static_cast<size_t>(i);
 }
 
-/// Degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces without
-/// area.
+/// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
+/// without area.
 std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
   const Mat3X normals = face_normals(points, c);
   std::vector<double> angles(c.edges.size(), 0);
@@ -54,8 +54,8 @@ class FeatureSearch {
   }
 
  private:
-  /// How the flatter of its two other edges bends each face of the edge, over the edge's own angle. Boundary
-  /// edges are flat or, where it is to be seen that the surface goes on, none.
+  /// Bend ratio of the edge, see CreaseOptions. Boundary edges count as flat or, with `goes_on`, where the
+  /// surface evidently continues, are left out.
   double bend(int edge, bool goes_on = false) const {
     double worst = 0;
     for (int f : c_.edge_faces[idx(edge)]) {
@@ -81,14 +81,14 @@ class FeatureSearch {
     return (X_.col(a) - X_.col(b)).norm() / (.5 * (length_[idx(a)] + length_[idx(b)]));
   }
 
-  /// Does the chain go nearly straight on at the vertex?
+  /// Whether the chain continues nearly straight at the vertex.
   bool goes_on(int edge, int next, int vertex) const {
     const Vec3 in = X_.col(vertex) - X_.col(other_end(edge, vertex));
     const Vec3 out = X_.col(other_end(next, vertex)) - X_.col(vertex);
     return in.dot(out) >= cos_turn_ * in.norm() * out.norm();
   }
 
-  /// Sharp edges, and the weaker ones that go on from them. Returns how many.
+  /// Marks the sharp edges and the weaker ones that continue them. Returns their number.
   size_t grow() {
     size_t count = 0;
     std::vector<int> front;
@@ -123,7 +123,7 @@ class FeatureSearch {
     int first, last;  // vertices
   };
 
-  /// From an end to where another chain meets it, it turns, or it ends.
+  /// The chain from a vertex to where it meets another chain, turns, or ends.
   Chain chain_from(int vertex, int edge) const {
     Chain chain{{edge}, vertex, other_end(edge, vertex)};
     for (;;) {
@@ -151,9 +151,9 @@ class FeatureSearch {
 
   bool is_loose(int vertex) const { return kept_edges(vertex).size() == 1 && !on_boundary(vertex); }
 
-  /// Noise makes chains that begin and end in the midst of the surface, and short ones. What leads from the
+  /// Noise makes short chains and chains that begin and end in the interior of the surface. A chain from the
   /// boundary to another crease or to the boundary, sharp between flat faces, may be short: the corner of an
-  /// open box, the fold of a strip. But one edge alone may be the side of a loose triangle.
+  /// open box, the fold of a strip. A single edge may not: it could be the edge of a loose triangle.
   bool is_worth_keeping(const Chain& chain) const {
     double sum = 0;
     int sharp = 0;
@@ -187,7 +187,7 @@ class FeatureSearch {
     }
   }
 
-  /// All edges that hang together with this one.
+  /// All kept edges connected with this one.
   std::vector<int> network_of(int edge, std::vector<char>& seen) const {
     std::vector<int> network = {edge};
     seen[idx(edge)] = 1;
@@ -198,7 +198,7 @@ class FeatureSearch {
     return network;
   }
 
-  /// Edges that end at a corner, counted at both ends.
+  /// Number of edges that end at a corner, counted at both ends.
   int curve_ends(const std::vector<int>& network) const {
     int ends = 0;
     for (int e : network)

@@ -1,31 +1,34 @@
-// Sharp edges that belong to the shape, told apart from noise: chains found with hysteresis.
-// Hysteresis after J. Canny, "A computational approach to edge detection", 1986.
+// Detects creases: chains of sharp edges that belong to the shape, as opposed to noise, by hysteresis
+// thresholding.
+// J. Canny, "A computational approach to edge detection", 1986.
 #pragma once
 
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 
+/// The bend ratio of an edge compares the flattest continuation of its faces with the edge itself: for each
+/// face the smaller angle at its two other edges over the angle at the edge; the larger of both faces.
 struct CreaseOptions {
   double angle = 40;        // degrees between the normals of two faces; sharp above; 180: no creases
-  double weak = .6;         // of that angle: edges that go on in the direction of a crease belong to it
-  double turn = 35;         // degrees; greatest change of direction from edge to edge of a chain
-  double bend = .25;        // least bend of a face beside a sharp edge, over the edge's; else it is a curve
-  double chain_bend = .1;   // the same for the median of a chain with a loose end
-  double sharp_share = .3;  // least part of sharp edges in a chain with a loose end
-  int min_edges = 12;       // of a chain with a loose end
-  double min_length = 8;    // of a chain with a loose end, in target lengths
-  double min_curve = 5;     // mean number of edges from corner to corner in a network of chains, unless
-  double flat_bend = .02;   // the median of its bends is below this: flat faces may have short edges; asked
-                            // too of chains that may be short, or that lie in the midst of the surface
+  double weak = .6;         // fraction of `angle` above which an edge may continue a crease
+  double turn = 35;         // degrees; maximum change of direction from edge to edge of a chain
+  double bend = .25;        // maximum bend ratio of a crease edge; above it the surface is round
+  double chain_bend = .1;   // maximum median bend ratio of a chain with a loose end
+  double sharp_share = .3;  // minimum fraction of sharp edges in a chain with a loose end
+  int min_edges = 12;       // minimum number of edges of a chain with a loose end
+  double min_length = 8;    // minimum length of a chain with a loose end, in target lengths
+  double min_curve = 5;     // minimum mean number of edges between the corners of a network, unless flat
+  double flat_bend = .02;   // maximum median bend ratio of a chain or network between flat faces
 };
 
-/// The crease edges, ascending. An edge counts when its faces meet at a sharp angle while each of them goes
-/// on nearly flat across one of its other edges: a coarse mesh of a round body bends everywhere. Chains end
-/// loosely where no other crease or chain goes on from their last vertex; such ones must be long, straight
-/// and clean, since noise makes short ones; so must those from the boundary, unless all their edges are sharp
-/// between flat faces and they lead to a crease or to the boundary. What is left hangs together in networks;
-/// noise makes such of many corners between rough faces.
+/// The crease edges, ascending. An edge qualifies if its faces meet at a sharp angle while each of them
+/// continues nearly flat across one of its other edges: a coarse mesh of a round body bends at every edge. A
+/// chain has a loose end where no other crease or chain continues from its last vertex. Noise makes short
+/// chains, so chains with a loose end must be long, straight and clean; so must chains from the boundary,
+/// unless all their edges are sharp between flat faces and they lead to a crease or to the boundary. The
+/// chains that remain form networks; networks with many corners between rough faces are noise.
+/// `vertex_length` is the target length at each vertex.
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options);
 

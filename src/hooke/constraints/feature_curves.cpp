@@ -15,7 +15,7 @@ CurveProjection foot_on_segment(const Curve& curve, const Vec3& x, int segment) 
   const Vec3 ab = curve.points.col(next) - a;
   const double length2 = ab.squaredNorm();
   const double t = length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
-  // Blended tangents let a vertex pass a point of the polyline without a kink in its direction.
+  // Interpolated tangents let a vertex pass a point of the polyline without a kink in its direction.
   const Vec3 tangent = (1 - t) * curve.tangents.col(segment) + t * curve.tangents.col(next);
   return {t < 1 ? Vec3(a + t * ab) : Vec3(curve.points.col(next)), tangent.stableNormalized(), segment};
 }
@@ -24,7 +24,7 @@ std::array<double, 3> key_of(const Vec3& point) {
   return {point[0], point[1], point[2]};
 }
 
-/// UniformVector along the curve up to each of its points, the first again at the end of a closed one.
+/// Arc length up to each point of the curve; a closed curve ends with its first point again.
 std::vector<double> arc_lengths(const Curve& curve) {
   const Eigen::Index n = curve.points.cols();
   std::vector<double> lengths = {0};
@@ -33,7 +33,7 @@ std::vector<double> arc_lengths(const Curve& curve) {
   return lengths;
 }
 
-/// Greatest distance of the curve from `count` chords of equal arcs.
+/// Maximum distance of the points of the curve from `count` chords of equal arc length.
 double chord_error_of(const Curve& curve, const std::vector<double>& arcs, int count) {
   const Eigen::Index n = curve.points.cols();
   const auto at = [&](double arc, size_t& s) -> Vec3 {
@@ -62,7 +62,7 @@ CurveProjection project_to_curve(const Curve& curve, const Vec3& x, int segment)
   CurveProjection best = foot_on_segment(curve, x, segment);
   double best2 = (x - best.point).squaredNorm();
   for (int direction : {1, -1}) {
-    // Two segments without gain end the walk: one may be hidden behind a reflex point.
+    // The search ends after two segments without gain: a closer one may lie behind a reflex point.
     for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n;
          s += direction, ++steps) {
       if (!curve.closed && (s < 0 || s >= n)) break;
@@ -92,18 +92,18 @@ int wanted_edges(const Curve& curve, double target, double chord_error) {
 CurveFinder::CurveFinder(const std::vector<Curve>& curves) : curves_(&curves) {
   for (size_t c = 0; c < curves.size(); ++c)
     for (Eigen::Index i = 0; i < curves[c].points.cols(); ++i)
-      places_[key_of(curves[c].points.col(i))].push_back(
+      locations_[key_of(curves[c].points.col(i))].push_back(
           {static_cast<int>(c), std::min(static_cast<int>(i), curves[c].segment_count() - 1)});
 }
 
-CurveFinder::Place CurveFinder::common(const Vec3& a, const Vec3& b) const {
-  const auto at_a = places_.find(key_of(a)), at_b = places_.find(key_of(b));
-  if (at_a == places_.end() || at_b == places_.end()) return {};
+CurveFinder::Location CurveFinder::common(const Vec3& a, const Vec3& b) const {
+  const auto at_a = locations_.find(key_of(a)), at_b = locations_.find(key_of(b));
+  if (at_a == locations_.end() || at_b == locations_.end()) return {};
   const Vec3 middle = .5 * a + .5 * b;
-  Place best;
+  Location best;
   double least = std::numeric_limits<double>::infinity();
-  for (const Place& p : at_a->second)
-    for (const Place& q : at_b->second) {
+  for (const Location& p : at_a->second)
+    for (const Location& q : at_b->second) {
       if (p.curve != q.curve) continue;
       const int halfway = (p.segment + q.segment) / 2;
       const CurveProjection projection =

@@ -18,43 +18,43 @@ struct Curve {
   int segment_count() const { return static_cast<int>(points.cols()) - (closed ? 0 : 1); }
 };
 
-/// A place on a curve.
+/// A point projected to a curve.
 struct CurveProjection {
   Vec3 point;
-  Vec3 tangent;  // unit
-  int segment = 0;
+  Vec3 tangent;     // unit
+  int segment = 0;  // segment of the curve on which the point lies
 };
 
-/// Closest point of the curve to x, found by walking from `segment`.
+/// Closest point of the curve to x, found by a local search from `segment`.
 CurveProjection project_to_curve(const Curve& curve, const Vec3& x, int segment);
 
-/// The curves of the input by the points they pass through: an edge between two corners does not say along
-/// which curve it runs.
+/// Finds the curves of the input by the points they pass through: the two corners of an edge do not tell
+/// along which curve it runs. Keeps a reference to the curves, which must outlive it.
 class CurveFinder {
  public:
-  struct Place {
+  struct Location {
     int curve = -1;
     int segment = 0;
   };
 
   explicit CurveFinder(const std::vector<Curve>& curves);
 
-  /// The curve that has both points, which are points of the input; curve -1 if there is none. Where there
-  /// are several, the one closest to the middle of the two.
-  Place common(const Vec3& a, const Vec3& b) const;
+  /// The curve through both points, which are points of the input; curve -1 if there is none. Of several, the
+  /// one closest to the midpoint.
+  Location common(const Vec3& a, const Vec3& b) const;
 
  private:
   const std::vector<Curve>* curves_;
-  std::map<std::array<double, 3>, std::vector<Place>> places_;
+  std::map<std::array<double, 3>, std::vector<Location>> locations_;
 };
 
-/// How many edges each curve has, and how many it is to have.
+/// Present and target number of edges of each curve.
 struct CurveEdges {
-  std::vector<int> present, wanted;
+  std::vector<int> present, target;
 };
 
-/// Edges for the curve: one per target length, and as many more as it takes to keep the chords within
-/// `chord_error` target lengths of the curve, but no more than it has segments.
+/// Target number of edges of the curve: one per target length, and, up to the number of its segments, as many
+/// more as it takes to keep the chords within `chord_error` target lengths of the curve.
 int wanted_edges(const Curve& curve, double target, double chord_error);
 
 }  // namespace hooke

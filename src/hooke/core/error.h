@@ -1,4 +1,5 @@
-// What is thrown. Broken input and I/O throw; not converging is a result.
+// The exceptions of the library. Bad input and failed I/O throw; an optimization that does not converge is a
+// result and throws nothing.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +7,8 @@
 
 namespace hooke {
 
-/// Base of all our exceptions. The message is one line: what; what was expected; what to do.
+/// Base class of all exceptions of the library. The message is one line: the problem; what was expected; what
+/// to do about it.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -18,19 +20,19 @@ class InputError : public Error {
   using Error::Error;
 };
 
-/// The input was read, but is not a mesh we can work on (non-manifold, mixed orientation, no area ...).
+/// The input was read, but its mesh is not supported: non-manifold, inconsistently oriented, without area.
 class MeshError : public Error {
  public:
   using Error::Error;
 };
 
-/// An output could not be written; whatever stood there before is untouched.
+/// An output could not be written; an existing file of that name is unchanged.
 class OutputError : public Error {
  public:
   using Error::Error;
 };
 
-/// A memory or time limit forbids the work; the message says how much would be needed.
+/// The computation exceeds a memory or time limit; the message says how much would be needed.
 class LimitError : public Error {
  public:
   using Error::Error;

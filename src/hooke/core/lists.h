@@ -1,4 +1,5 @@
-// Lists of ints in one array.
+// Containers for many integers: lists of ints stored in one array, vectors whose elements stay uninitialized,
+// and short lists without heap memory.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -16,15 +17,15 @@ namespace hooke {
 
 /// Lists of ints, one per index, stored end to end.
 struct IntLists {
-  std::vector<int> first;  // size n + 1
-  std::vector<int> items;
+  std::vector<int> first;  // start of each list in `items`; size n + 1
+  std::vector<int> items;  // all lists, end to end
 
   std::span<const int> operator[](int i) const {
     return {items.data() + first[static_cast<size_t>(i)], items.data() + first[static_cast<size_t>(i) + 1]};
   }
 };
 
-/// What the lists of these indices hold, each once, ascending.
+/// The sorted union of the lists with these indices, without duplicates.
 inline std::vector<int> sorted_union(const IntLists& lists, const std::vector<int>& indices) {
   std::vector<int> all;
   for (int i : indices) all.insert(all.end(), lists[i].begin(), lists[i].end());
@@ -33,13 +34,14 @@ inline std::vector<int> sorted_union(const IntLists& lists, const std::vector<in
   return all;
 }
 
-/// For each index in [0, count) the places of the rows that name it, ascending. A row is a range of indices.
-/// Each thread looks through all rows for the indices of its share: what it writes stays in its caches.
+/// The inverse of an incidence: for each index in [0, count), the ids of the rows that contain it, ascending.
+/// A row is a range of indices. Each thread scans all rows for the indices of its share, so that what it
+/// writes stays in its caches.
 template <typename Rows>
 IntLists inverse(int count, const Rows& rows) {
   constexpr int min_share = 1 << 14;
   const int shares = std::clamp(count / min_share, 1, thread_count());
-  const auto for_each_share = [&](const auto& use) {  // use(row, index) for the indices of one share
+  const auto for_each_share = [&](const auto& use) {  // calls use(row, index) for the indices of each share
     parallel_for(static_cast<size_t>(shares), 1, [&](size_t first, size_t last) {
       const auto bound = [&](size_t share) {
         return static_cast<int>(static_cast<size_t>(count) * share / static_cast<size_t>(shares));
@@ -60,31 +62,29 @@ IntLists inverse(int count, const Rows& rows) {
   return lists;
 }
 
-// Large arrays whose items are written by all cores. An ordinary vector fills them beforehand, on one core,
-// and that costs more than what is written then: memory is handed out as it is first touched.
+// Uninitialized vectors. An ordinary vector zeroes a large array on one thread, which costs more than filling
+// it in parallel later, because the system provides memory pages when they are first touched.
 
 template <typename T>
-struct UnfilledAllocator : std::allocator<T> {
+struct UninitializedAllocator : std::allocator<T> {
   template <typename U>
   struct rebind {
-    using other = UnfilledAllocator<U>;
+    using other = UninitializedAllocator<U>;
   };
   template <typename U>
   void construct(U*) noexcept {}
   template <typename U, typename... Args>
-  void construct(U* place, Args&&... args) {
-    std::construct_at(place, std::forward<Args>(args)...);
+  void construct(U* pointer, Args&&... args) {
+    std::construct_at(pointer, std::forward<Args>(args)...);
   }
 };
 
-/// Items that are given no value have none: each must be written before it is read. For plain values, which
-/// need neither be built nor destroyed.
+/// A vector whose new elements are uninitialized unless a value is given: each must be written before it is
+/// read. For types with trivial constructor and destructor.
 template <typename T>
-using UnfilledVector = std::vector<T, UnfilledAllocator<T>>;
+using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 
-// A list of the few ids about a vertex.
-
-/// As many as most vertices have take no memory of their own.
-using ShortList = boost::container::small_vector<int, 12>;
+/// The ids of the neighbours of a vertex. Up to 12, enough for most vertices, need no heap memory.
+using SmallIntList = boost::container::small_vector<int, 12>;
 
 }  // namespace hooke

@@ -12,7 +12,7 @@
 namespace hooke {
 
 struct ThreadLimit::Impl {
-  // Built in place: a copy of a global_control is not registered and limits nothing.
+  // Constructed in place, because a copy of a global_control is not registered and has no effect.
   explicit Impl(size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
   tbb::global_control control;
 };

@@ -1,4 +1,4 @@
-// Text of unknown origin (file names, file content) made fit for a message.
+// Escapes text of unknown origin (file names, file content) for use in messages.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace hooke {
 
-/// The text with control characters and bytes that are not UTF-8 written as \n, \t, \x1b ...: one line, and
-/// nothing that a terminal would obey.
+/// The text with control characters and bytes that are not UTF-8 escaped as \n, \t, \x1b ...: a single line
+/// without terminal control sequences.
 std::string printable(std::string_view text);
 
-/// 'text', printable and cut after 40 bytes.
+/// The printable text in single quotes, truncated after 40 bytes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace hooke

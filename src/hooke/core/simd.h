@@ -1,4 +1,4 @@
-// Four numbers at a time, for the kernels in which the time goes.
+// SIMD vectors of four doubles for the inner loops, with products of 3-vectors, logarithm and angle.
 #pragma once
 
 #include <algorithm>
@@ -7,25 +7,25 @@
 #include <cstdint>
 #include <cstring>
 
-// Compiled twice, and the processor picks when the program starts. Without fused multiply-add, so that both
-// give the same results.
+// Functions marked with this are compiled with and without AVX2; the version is selected at program start by
+// the processor. Neither uses fused multiply-add, so that both give the same results.
 #if defined(__x86_64__) && defined(__GNUC__)
 #define HOOKE_SIMD [[gnu::target_clones("avx2", "default")]]
 #else
 #define HOOKE_SIMD
 #endif
-// Lanes have no calling convention of their own: what takes them is inlined, and takes them by reference.
+// Lanes have no portable calling convention: functions take them by reference and are always inlined.
 #define HOOKE_INLINE [[gnu::always_inline]] inline
 
 namespace hooke {
 
-/// Four doubles; + - * / and comparisons act on each. One register where there is AVX2, two where there is
-/// not: the results are the same.
+/// Four doubles; + - * / and comparisons act elementwise. They take one register with AVX2 and two without;
+/// the results are the same.
 using Lanes = double __attribute__((vector_size(32)));
-using LaneMask = long long __attribute__((vector_size(32)));  // of a comparison: -1 or 0 in each
+using LaneMask = long long __attribute__((vector_size(32)));  // result of a comparison: -1 or 0 in each lane
 constexpr std::size_t lane_count = 4;
 
-/// The least multiple of the lanes that holds so many.
+/// `count` rounded up to a multiple of the number of lanes.
 constexpr std::size_t padded_to_lanes(std::size_t count) {
   return (count + lane_count - 1) / lane_count * lane_count;
 }
@@ -52,7 +52,7 @@ HOOKE_INLINE double sum_of(const Lanes& x) {
   return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/// Three coordinates, lane by lane.
+/// Four 3-vectors, one per lane.
 struct LaneVec {
   Lanes x, y, z;
 };
@@ -75,8 +75,6 @@ HOOKE_INLINE void cross(const LaneVec& a, const LaneVec& b, LaneVec& product) {
   product.z = a.x * b.y - a.y * b.x;
 }
 
-// Functions of four numbers at a time: the natural logarithm and the angle of a vector.
-
 /// 1/3 + q/5 + q^2/7 + ... + q^((last - 3) / 2) / last, by Horner's rule.
 template <int last>
 HOOKE_INLINE void sum_odd_series(const Lanes& q, Lanes& series) {
@@ -85,7 +83,7 @@ HOOKE_INLINE void sum_odd_series(const Lanes& q, Lanes& series) {
   for (int n = last - 2; n >= 3; n -= 2) series = q * series + 1. / n;
 }
 
-/// x := log x, to a relative error of some 1e-15. Pre-condition: finite, positive and not subnormal.
+/// x := ln x, with a relative error of about 1e-15. Pre-condition: x is finite, positive and not subnormal.
 HOOKE_INLINE void take_log(Lanes& x) {
   using Bits = long long __attribute__((vector_size(32)));
   // x = 2^e m with m from sqrt(1/2) to sqrt(2); the offset makes the mantissa wrap at sqrt(2) instead of 2.
@@ -105,10 +103,10 @@ HOOKE_INLINE void take_log(Lanes& x) {
   x = e * log_2 + 2. * s * (1. + q * series);
 }
 
-/// The angle between the vector (x, y) and the first axis, to a relative error of some 1e-15 up to 90
-/// degrees. Pre-condition: y > 0; r is the vector's length.
+/// The angle in radians between the vector (x, y) and the first axis, with a relative error of about 1e-15 up
+/// to 90 degrees. Pre-condition: y > 0 and r is the length of the vector.
 HOOKE_INLINE void take_angle(const Lanes& x, const Lanes& y, const Lanes& r, Lanes& angle) {
-  Lanes t = y / (r + x);  // tan of the half angle, then of the quarter, then of the eighth
+  Lanes t = y / (r + x);  // tan of half the angle, then of a quarter, then of an eighth
   for (int halving = 0; halving < 2; ++halving) {
     Lanes root = 1. + t * t;
     take_sqrt(root);

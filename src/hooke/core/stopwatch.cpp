@@ -19,9 +19,9 @@ double seconds_of(clockid_t clock) {
 
 size_t Stopwatch::find(const std::string& name) {
   const auto known = std::ranges::find(stages_, name, &StageTime::name);
-  const auto place = static_cast<size_t>(known - stages_.begin());
+  const auto index = static_cast<size_t>(known - stages_.begin());
   if (known == stages_.end()) stages_.push_back({.name = name});
-  return place;
+  return index;
 }
 
 Stage::Stage(Stopwatch* stopwatch, const char* name) : stopwatch_(stopwatch) {

@@ -1,4 +1,4 @@
-// How long each part of the work takes, and how much memory the process has used by then.
+// Measures the time of each stage of a run and the peak memory of the process.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 namespace hooke {
 
-/// All calls of one stage together.
+/// Totals over all calls of one stage.
 struct StageTime {
-  std::string name;  // a stage within another one carries its name too: "measure/distances"
+  std::string name;  // with the names of the enclosing stages: "measure/distances"
   long long calls = 0;
   double wall_s = 0;
-  double cpu_s = 0;              // of all threads of the process
-  long long peak_rss_bytes = 0;  // of the process so far, at the end of the last call
+  double cpu_s = 0;              // all threads of the process
+  long long peak_rss_bytes = 0;  // of the process, at the end of the last call
 };
 
-/// Keeps the account; each Stage adds to it. To be used by one thread, the one that calls the stages.
+/// Collects the times of the stages. Not thread-safe: all stages must run on the same thread.
 class Stopwatch {
  public:
-  /// In the order in which they were first begun; a stage stands before the ones within it.
+  /// In the order in which they were first started; a stage precedes those nested in it.
   const std::vector<StageTime>& stages() const { return stages_; }
 
  private:
@@ -27,10 +27,10 @@ class Stopwatch {
   size_t find(const std::string& name);
 
   std::vector<StageTime> stages_;
-  std::string running_;  // the names of the stages begun and not ended, '/' between them
+  std::string running_;  // names of the running stages, separated by '/'
 };
 
-/// A stage that lasts as long as this object. Without a stopwatch nothing is measured.
+/// Times a stage for the lifetime of this object. Without a stopwatch (null) nothing is measured.
 class Stage {
  public:
   Stage(Stopwatch* stopwatch, const char* name);
@@ -41,21 +41,21 @@ class Stage {
  private:
   Stopwatch* stopwatch_;
   size_t stage_ = 0;
-  size_t outer_length_ = 0;  // of the running names without ours
+  size_t outer_length_ = 0;  // of `running_` without this stage
   double wall_ = 0, cpu_ = 0;
 };
 
-/// What work() returns; it is timed as a stage.
+/// Returns work(), timed as a stage.
 template <typename Work>
 auto timed(Stopwatch* stopwatch, const char* name, const Work& work) {
   const Stage stage(stopwatch, name);
   return work();
 }
 
-/// The account as CSV text: a line of column names, then a line per stage.
+/// The stages as CSV text: a line of column names, then a line per stage.
 std::string trace_csv(const std::vector<StageTime>& stages);
 
-/// What the process has used so far.
+/// Resources that the process has used so far.
 struct ProcessUse {
   double cpu_s = 0;
   long long peak_rss_bytes = 0;

@@ -1,4 +1,4 @@
-// A symmetric 3 x 3 matrix in single precision, for what is kept per vertex and need not be exact.
+// A symmetric 3 x 3 matrix in single precision, compact storage for per-vertex data that need not be exact.
 #pragma once
 
 #include "hooke/core/types.h"

@@ -1,4 +1,4 @@
-// UniformVector that mostly are all the same.
+// A vector of numbers that are often all equal, stored compactly.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace hooke {
 
-/// A length per item, kept once where all items have the same.
+/// One number per item, stored once if all items have the same.
 class UniformVector {
  public:
   UniformVector() = default;
@@ -27,17 +27,19 @@ class UniformVector {
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
 
-  /// Are there several lengths?
-  bool vary() const { return values_.size() > 1; }
+  /// Whether the values differ between items.
+  bool is_varying() const { return values_.size() > 1; }
 
-  std::vector<double> values() const { return vary() || empty() ? values_ : std::vector(size_, values_[0]); }
+  std::vector<double> values() const {
+    return is_varying() || empty() ? values_ : std::vector(size_, values_[0]);
+  }
 
   bool operator==(const UniformVector&) const = default;
 
  private:
   std::vector<double> values_;
   std::size_t size_ = 0;
-  std::size_t mask_ = ~std::size_t{0};  // of the item's number
+  std::size_t mask_ = ~std::size_t{0};  // applied to the index: 0 if a single value is stored
 };
 
 }  // namespace hooke

@@ -23,7 +23,7 @@ Projection project_by_newton(const ScalarField& psi, const Vec3& x, int hint, co
     projection.point -=
         std::clamp(distance, -options.longest_step, options.longest_step) * projection.normal;  // [16]
     if (!((projection.point - x).norm() <= options.longest_move)) return fail(ProjectionStatus::too_far);
-    // Newton converges faster and faster: the rate of the last step bounds what this one leaves.
+    // Convergence accelerates: the rate of the last step bounds the error that this one leaves.
     if (distance * distance <= options.tolerance * std::abs(last_distance)) return projection;
     last_distance = distance;
   }

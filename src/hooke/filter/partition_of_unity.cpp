@@ -8,8 +8,8 @@
 namespace hooke {
 namespace {
 
-constexpr double min_normal_agreement = -.2;  // with the centre: stops at the other sheet of a thin body
-constexpr double tie = 1 + 1e-6;              // of distances: rounding must not choose between equals
+constexpr double min_normal_agreement = -.2;  // minimum cosine with the axis: excludes the opposite sheet
+constexpr double tie = 1 + 1e-6;              // for distances: rounding must not choose between equal ones
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
@@ -52,12 +52,12 @@ bool PatchGrower::is_inside(int vertex) const {
                              [&](int n) { return held_by_[idx(n)] == round_ || !is_admitted(n); });
 }
 
-/// A folded vertex is admitted whatever its normal, which means nothing.
+/// Folded vertices are always admitted: their normals are meaningless.
 bool PatchGrower::is_admitted(int vertex) const {
   return !unfolded_[idx(vertex)] || normals_.col(vertex).dot(axis_) > min_normal_agreement;
 }
 
-/// The normal of the centre or, where that means nothing, of its neighbours.
+/// The normal of the centre or, where that is meaningless, the mean normal of its unfolded neighbours.
 Vec3 PatchGrower::axis_at(int centre) const {
   Vec3 sum = Vec3::Zero();
   if (!unfolded_[idx(centre)])
@@ -81,7 +81,7 @@ void PatchGrower::search(int centre, std::size_t most) {
 
 namespace {
 
-constexpr double reach = .9;  // radius over the distance of the farthest vertex
+constexpr double reach = .9;  // radius of a patch over the distance of its farthest vertex
 
 }  // namespace
 
@@ -131,12 +131,12 @@ void PatchCover::add_patch(int centre, PatchList& patches) {
 
 namespace {
 
-constexpr double min_fold_agreement = .3;       // of a vertex normal with its faces: else the ring is folded
-constexpr std::size_t min_quadratic_size = 15;  // vertices of a patch that get a quadratic part
-constexpr double coincidence = 1e-6;            // in radii: two centres closer than this count once
-constexpr double min_height = 1e-8;             // in radii: less is no offset
+constexpr double min_fold_agreement = .3;       // minimum cosine of a vertex normal with its faces
+constexpr std::size_t min_quadratic_size = 15;  // minimum number of patch vertices for a quadratic part
+constexpr double coincidence = 1e-6;            // in radii; centres closer than this are dropped
+constexpr double min_height = 1e-8;             // in radii; smaller values are not offsets
 
-/// Many in a large mesh: small pieces of memory that come and go between those that stay leave holes.
+/// Patches per batch: many in a large mesh, so that short-lived small allocations do not fragment memory.
 std::size_t patches_of_batch(int vertices) {
   return std::clamp<std::size_t>(idx(vertices) / 1000, 32, 512);
 }
@@ -147,7 +147,7 @@ double weight(double r2) {
   return s * s * (4 * r + 1);
 }
 
-/// Vertices whose normal is on the outer side of all their faces.
+/// Marks the vertices whose normal is on the outer side of all their faces.
 std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                                     const Mat3X& normals) {
   const Mat3X of_faces = face_normals(points, adjacency);
@@ -162,15 +162,17 @@ std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const
   return unfolded;
 }
 
-/// Every third vertex of a patch has an offset point, outside and inside in turn. (All of them: no better.)
+/// Every third vertex of a patch has an offset point, outside and inside in turn; more offsets do not improve
+/// the fit.
 constexpr std::size_t offset_stride = 3;
 
-/// Vertices and offsets of a patch: at most this many.
+/// Maximum number of centres of a patch: its vertices and their offset points.
 std::size_t max_centres(std::size_t vertices) {
   return vertices + (vertices + offset_stride - 1) / offset_stride;
 }
 
-/// The way for patches that the group has no spline for. Nothing where there is none.
+/// Fits a single patch that SplineGroup has no spline for: without repeated centres, and with an affine part
+/// if the quadratic one is not determined. Returns nothing if that fails too.
 std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std::size_t vertices,
                                             SplineWorkspace& workspace, PatchFit& fit) {
   data.drop_repeated(coincidence);
@@ -178,7 +180,7 @@ std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std
   const auto values = data.values.head(data.count);
   const bool quadratic = vertices >= min_quadratic_size;
   fit = PatchFit::failed;
-  if (data.count == 0 || values.isZero(min_height)) return std::nullopt;  // no offset says where outside is
+  if (data.count == 0 || values.isZero(min_height)) return std::nullopt;  // the outside is unknown
   std::optional<SplineCoefficients> spline;
   if (quadratic && (spline = fit_spline(centres, values, kernel, 2, workspace)))
     fit = PatchFit::as_wanted;
@@ -215,8 +217,8 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
   }
 }
 
-/// In radii about the centre: zero at the vertices [11], a distance near them [13]. The value of a snapped
-/// centre changes by its way along the normal.
+/// Coordinates are relative to the centre, in radii. The field is zero at the vertices [11] and a distance
+/// near them [13]; snapping a centre changes its value by the displacement along the normal.
 void PartitionOfUnity::gather(const Samples& samples, const PatchList& list, std::size_t patch,
                               SplineData& data) {
   const auto& [points, normals, edge_lengths, unfolded, offset] = samples;

@@ -13,11 +13,11 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 256;
+constexpr size_t retraction_block = 256;
 
-constexpr double short_way = .1;  // in mean target lengths: however the surface bends
+constexpr double short_way = .1;  // maximal drift in the tangent plane, in mean target lengths
 
-/// The sides of vertices that stand still are not written by a step.
+/// Copies the extra wedges: a step does not write those of fixed vertices.
 void copy_sides(const SurfacePositions& from, SurfacePositions& to) {
   to.other_wedge = from.other_wedge;
   to.normals.resize(3, from.normals.cols());
@@ -28,10 +28,10 @@ void copy_sides(const SurfacePositions& from, SurfacePositions& to) {
   }
 }
 
-/// Few vertices share a tally, so that threads seldom meet there.
+/// Few vertices share a set of counters, so that threads rarely contend for one.
 constexpr size_t vertices_of_tally = 64;
 constexpr size_t statuses = std::tuple_size_v<decltype(ProjectionCounts::by_status)>;
-constexpr size_t tally_size = statuses + 1;  // the last is of evaluations
+constexpr size_t tally_size = statuses + 1;  // the last one counts evaluations
 
 size_t tallies_for(size_t vertices) {
   return (vertices / vertices_of_tally + 1) * tally_size;
@@ -119,7 +119,7 @@ SurfacePosition Retraction::on_surface(SurfacePosition place, int vertex, Freedo
     place.other_normal = on_other_side.normal;
     place.other_hint = on_other_side.hint;
   }
-  // On a curve or a corner the surface only tells the normal: the curve itself is the constraint.
+  // On a curve or at a corner the surface determines only the normal: the curve itself is the constraint.
   if (freedom == Freedom::surface) place.point = on_side.point;
   place.normal = on_side.normal;
   place.hint = on_side.hint;
@@ -154,17 +154,18 @@ SurfacePosition Retraction::moved(SurfacePosition place, int vertex, Freedom fre
   place.drift += length;
   if (freedom == Freedom::curve) place = on_curve(place, vertex);
   const ShapeOperator bend = surface_.shape_operator(place.hint);
-  const double error = .5 * bend.change * place.drift * place.drift;  // off the surface
+  const double error = .5 * bend.change * place.drift * place.drift;  // distance from the surface
   if (error < options_.lazy_error) {
     place = drifted(place, place.point - start, bend, freedom);
     if (place.drift < options_.lazy) return place;
   } else if (place.drift < std::min(short_way, options_.lazy)) {
-    return place;  // in the tangent plane: bends say little here
+    return place;  // in the tangent plane: the shape operator is inaccurate here
   }
   return on_surface(place, vertex, freedom);
 }
 
-/// `way` led to the place, in the tangent plane or along a chord.
+/// Corrects a position that was reached by the displacement `way`, in the tangent plane or along a chord, by
+/// the shape operator.
 SurfacePosition Retraction::drifted(SurfacePosition place, const Vec3& way, const ShapeOperator& bend,
                                     Freedom freedom) const {
   const Vec3 turn = bend.shape * way;
@@ -190,13 +191,13 @@ SurfacePositions Retraction::place(const Mat3X& points, std::vector<int> hints, 
   p.segments = std::move(segments);
   p.drift.assign(static_cast<size_t>(points.cols()), 0);
   p.other_wedge = other_wedges(p.drift.size(), further);
-  parallel_for(static_cast<size_t>(points.cols()), block, [&](size_t begin, size_t end) {
+  parallel_for(static_cast<size_t>(points.cols()), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
       projected(SurfacePosition(p, v), v).write_to(p, v);
     }
   });
-  for (size_t s = 0; s < further.size(); ++s) {  // third and further sides of corners
+  for (size_t s = 0; s < further.size(); ++s) {  // third and later wedges of corners
     const size_t wedge = p.drift.size() + s;
     const int v = further[s];
     if (p.other_wedge_of(v) == static_cast<int>(wedge)) continue;
@@ -210,7 +211,7 @@ SurfacePositions Retraction::place(const Mat3X& points, std::vector<int> hints, 
 
 void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, std::span<const int> vertices,
                       SurfacePositions& to) {
-  parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(vertices.size(), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
       moved(from, vertices[i], displacement.col(vertices[i])).write_to(to, vertices[i]);
   });
@@ -222,7 +223,7 @@ void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, S
   copy_sides(from, to);
   to.segments.resize(from.segments.size());
   to.drift.resize(from.drift.size());
-  parallel_for(static_cast<size_t>(from.points.cols()), block, [&](size_t begin, size_t end) {
+  parallel_for(static_cast<size_t>(from.points.cols()), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
       moved(from, v, displacement.col(v)).write_to(to, v);
@@ -232,7 +233,7 @@ void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, S
 }
 
 void Retraction::project_drifted(SurfacePositions& positions) {
-  parallel_for(positions.drift.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(positions.drift.size(), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
       if (positions.drift[i] > 0)
@@ -243,7 +244,7 @@ void Retraction::project_drifted(SurfacePositions& positions) {
 }
 
 void Retraction::project_drifted(std::span<const int> vertices, SurfacePositions& positions) {
-  parallel_for(vertices.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(vertices.size(), retraction_block, [&](size_t begin, size_t end) {
     for (int v : vertices.subspan(begin, end - begin))
       projected(SurfacePosition(positions, v), v).write_to(positions, v);
   });

@@ -1,4 +1,4 @@
-// Motion on the surface: tangent vectors, and the way back after a step along one.
+// Retraction: motion of vertices along tangent vectors, followed by the projection back to the surface.
 #pragma once
 
 #include <span>
@@ -9,30 +9,29 @@
 
 namespace hooke {
 
-/// How the vertices sit on the surface and its curves. Where creases part the surface, normals and hints go
-/// on after those of the vertices with those of their further sides.
+/// Positions of all vertices on the surface and its curves. Normals and hints are per wedge: those of the
+/// extra wedges follow those of the vertices.
 struct SurfacePositions {
   Mat3X points;
-  Mat3X normals;                 // unit, outward, of the surface; per side
-  std::vector<int> hints;        // where on the surface each side is tracked
-  std::vector<int> segments;     // where on its curve
-  std::vector<double> drift;     // length moved since the last projection
-  std::vector<int> other_wedge;  // of a vertex on a crease, -1 without one; empty without creases
+  Mat3X normals;                 // unit outward normals of the surface, per wedge
+  std::vector<int> hints;        // per wedge: reference vertex where its projection starts to search
+  std::vector<int> segments;     // per vertex: segment of its curve
+  std::vector<double> drift;     // per vertex: length moved since the last projection
+  std::vector<int> other_wedge;  // per vertex: its second wedge, -1 without one; empty without creases
 
   int other_wedge_of(int vertex) const {
     return other_wedge.empty() ? -1 : other_wedge[static_cast<size_t>(vertex)];
   }
 };
 
-/// One vertex of a placement. Where more than two sides meet the vertex stands still: it has no more than two
-/// here.
+/// Surface position of one vertex. It holds at most two wedges: vertices with more stand still.
 struct SurfacePosition {
   Vec3 point;
   Vec3 normal;
   int hint;
   int segment;
   double drift;
-  int other_wedge;  // -1 without
+  int other_wedge;  // -1 without one
   Vec3 other_normal = Vec3::Zero();
   int other_hint = -1;
 
@@ -40,7 +39,7 @@ struct SurfacePosition {
   void write_to(SurfacePositions& positions, int vertex) const;
 };
 
-/// Calls and failures of the projection.
+/// Number of projections, in total and by status, and of field evaluations.
 struct ProjectionCounts {
   long long calls = 0;
   long long evaluations = 0;
@@ -51,56 +50,60 @@ struct ProjectionCounts {
 
 struct RetractionOptions {
   double tolerance = 1e-6;  // of a projection, in mean target lengths
-  /// A vertex that moved less than this since its last projection follows the bend of the surface, where that
-  /// takes it no farther off than `lazy_error`; elsewhere its tangent plane, for a way of .1.
+  /// A vertex that moved less than this since its last projection is not projected. It follows the shape
+  /// operator of the surface if that keeps it within `lazy_error` of the surface; otherwise it stays in its
+  /// tangent plane, for at most 0.1. All three are lengths in mean target lengths.
   double lazy = 0;
   double lazy_error = 1e-3;
 };
 
-/// Keeps references to the surface and the constraints: they must outlive it.
+/// Moves vertices on the surface under their constraints. Keeps a reference to the constraints, which must
+/// outlive it; so must all that the surface refers to.
 class Retraction {
  public:
   Retraction(Surface surface, const Constraints& constraints, const RetractionOptions& options);
 
-  /// Puts every point on the surface or its curve. `hints` are those of all sides.
+  /// Projects every point to the surface or its curve. `hints` are per wedge, `segments` per vertex.
   SurfacePositions place(const Mat3X& points, std::vector<int> hints, std::vector<int> segments);
 
-  /// to = retract(from + displacement) for the given vertices; all other entries of `to` stay.
+  /// to = retract(from + displacement) for the given vertices; all other entries of `to` are unchanged.
   void step(const SurfacePositions& from, const Mat3X& displacement, std::span<const int> vertices,
             SurfacePositions& to);
 
   /// The same for all vertices; `to` is resized.
   void step(const SurfacePositions& from, const Mat3X& displacement, SurfacePositions& to);
 
-  /// Where one vertex comes to lie; safe to call for different vertices at once. Call count() after a batch.
+  /// The position of one vertex after a displacement. Thread-safe for different vertices; call count() after
+  /// a batch.
   SurfacePosition moved(const SurfacePositions& from, int vertex, const Vec3& displacement);
 
-  /// Of a vertex that is yet to come, free on the surface, which starts where this one is, with this hint.
+  /// The same for a new vertex, free on the surface, that starts at the position of `vertex` with this hint.
   SurfacePosition moved_copy(const SurfacePositions& from, int vertex, int hint, const Vec3& displacement);
 
-  /// Adds the projections since the last call to counts().
+  /// Adds the projections made since the last call to counts().
   void count();
 
-  /// Projects the vertices that have drifted.
+  /// Projects the vertices that have drifted since their last projection.
   void project_drifted(SurfacePositions& positions);
 
-  /// Projects these vertices, each named once.
+  /// Projects these vertices. Pre-condition: each is listed once.
   void project_drifted(std::span<const int> vertices, SurfacePositions& positions);
 
-  /// Unit, of the curve along which the vertex slides; zero for all others.
+  /// Unit tangent of the curve along which the vertex slides; zero for all other vertices.
   Vec3 tangent(const SurfacePositions& at, int vertex) const;
 
-  /// Removes what a vertex may not do: the normal part, all but the part along its curve, or everything.
+  /// Removes what the constraints forbid: the normal part for a vertex on the surface, all but the tangential
+  /// part on a curve, everything for a fixed vertex.
   void constrain(const SurfacePositions& at, Mat3X& vectors) const;
 
-  /// To be called when the constraints have come to be of another number of vertices, or to be ready for as
-  /// many.
+  /// Adapts to another number of vertices in the constraints. To be called when it has changed, or beforehand
+  /// with the largest number to come.
   void resize(size_t vertices);
 
   const ProjectionCounts& counts() const { return counts_; }
   bool stands_still(int vertex) const;
 
-  /// Sets the option from now on; returns what it was.
+  /// Sets options().lazy_error; returns the previous value.
   double set_lazy_error(double error) { return std::exchange(options_.lazy_error, error); }
 
   const Surface& surface() const { return surface_; }
@@ -120,7 +123,7 @@ class Retraction {
   Surface surface_;
   const Constraints& constraints_;
   RetractionOptions options_;
-  std::vector<long long> uncounted_;  // tallies of groups of vertices, one after the other
+  std::vector<long long> uncounted_;  // counters per group of vertices, end to end
   ProjectionCounts counts_;
 };
 

@@ -10,16 +10,16 @@
 namespace hooke {
 namespace {
 
-// The equations of four splines with a quadratic part, one in each lane, and their solution.
+// The equations of four splines with a quadratic part, one per lane, and their solution.
 
-constexpr std::size_t monomials = monomial_count(2);
+constexpr std::size_t quadratic_monomials = monomial_count(2);
 
-/// Row i of a lower triangle begins here.
+/// Start of row i of a packed lower triangle.
 constexpr std::size_t row_of(std::size_t i) {
   return i * (i + 1) / 2;
 }
 
-/// An array of numbers in lanes.
+/// An array of lanes.
 class LaneArray {
  public:
   explicit LaneArray(double* data) : data_(data) {}
@@ -31,25 +31,25 @@ class LaneArray {
   double* data_;
 };
 
-/// The system of a group. `rows` centres, of which those that a lane lacks are filled up: their rows hold
-/// nothing but a 1 in the diagonal.
+/// The linear system of a group with `rows` centres. Lanes with fewer centres are padded: their extra rows
+/// hold only a 1 on the diagonal.
 struct System {
   std::size_t rows;
   LaneArray centres, present;
   LaneArray A;  // lower triangle, row by row
-  LaneArray P;  // column by column; R, and below it the reflectors
+  LaneArray P;  // column by column; after the factorization R, and below it the reflectors
   LaneArray d, a, v, w;
-  Lanes tau[monomials];
+  Lanes tau[quadratic_monomials];
   LaneMask solved;
 };
 
-/// Leaves the coefficients of the centres in `a`, those of the polynomials in the first rows of `d`, and in
+/// Computes the coefficients of the centres in `a`, those of the polynomials in the first rows of `d`, and in
 /// `solved` which lanes have a solution. [31], [32]
 void solve_system(System& system, Kernel kernel, double min_distance);
 
-/// Adds the products of two arrays to the sum.
+/// Adds the dot product of two arrays to the sum.
 HOOKE_INLINE void add_products(const LaneArray& a, const LaneArray& b, std::size_t count, Lanes& sum) {
-  Lanes even = {}, odd = {}, x, y;  // two sums: one waits for the other
+  Lanes even = {}, odd = {}, x, y;  // two sums shorten the dependency chain
   for (std::size_t i = 0; i < count; ++i) {
     a.get(i, x);
     b.get(i, y);
@@ -76,16 +76,16 @@ HOOKE_INLINE void fill_polynomials(System& s) {
     s.centres.get(3 * i + 1, y);
     s.centres.get(3 * i + 2, z);
     s.present.get(i, p);
-    const Lanes row[monomials] = {p, x, y, z, x * x, y * y, z * z, x * y, y * z, z * x};
-    for (std::size_t k = 0; k < monomials; ++k) s.P.set(k * s.rows + i, row[k]);
+    const Lanes row[quadratic_monomials] = {p, x, y, z, x * x, y * y, z * z, x * y, y * z, z * x};
+    for (std::size_t k = 0; k < quadratic_monomials; ++k) s.P.set(k * s.rows + i, row[k]);
   }
 }
 
-/// P = Q R by Householder's reflectors I - tau v v^T.
+/// P = Q R by Householder reflectors I - tau v v^T.
 HOOKE_INLINE void factor_polynomials(System& s) {
-  constexpr double min_column_ratio = 1e-8;  // of a column's part that those before it do not explain
+  constexpr double min_column_ratio = 1e-8;  // minimum part of a column independent of those before it
   const Lanes zero = {}, one = zero + 1.;
-  for (std::size_t k = 0; k < monomials; ++k) {
+  for (std::size_t k = 0; k < quadratic_monomials; ++k) {
     const LaneArray column = s.P.from(k * s.rows), below = column.from(k + 1);
     const std::size_t rest = s.rows - k - 1;
     Lanes tail = zero, head, explained = zero;
@@ -106,7 +106,7 @@ HOOKE_INLINE void factor_polynomials(System& s) {
       below.set(i, x * scale);
     }
     s.solved &= beta * beta > min_column_ratio * min_column_ratio * (explained + beta * beta);
-    for (std::size_t j = k + 1; j < monomials; ++j) {
+    for (std::size_t j = k + 1; j < quadratic_monomials; ++j) {
       const LaneArray other = s.P.from(j * s.rows);
       Lanes along;
       other.get(k, along);
@@ -207,11 +207,11 @@ HOOKE_INLINE void reflect(System& s, std::size_t k) {
   }
 }
 
-/// Cholesky's factor of the part of A that lies across the polynomials, in its place.
+/// In-place Cholesky factorization of A restricted to the complement of the polynomials.
 HOOKE_INLINE void factor_kernel_matrix(System& s) {
-  constexpr double min_pivot_ratio = 1e-7;  // of the diagonal: beyond, coefficients are noise
+  constexpr double min_pivot_ratio = 1e-7;  // on the diagonal; below, the coefficients are noise
   Lanes least = Lanes{} + std::numeric_limits<double>::infinity(), most = {};
-  for (std::size_t k = monomials; k < s.rows; ++k) {
+  for (std::size_t k = quadratic_monomials; k < s.rows; ++k) {
     Lanes pivot, p, x, y;
     s.A.get(row_of(k) + k, pivot);
     s.present.get(k, p);
@@ -235,10 +235,10 @@ HOOKE_INLINE void factor_kernel_matrix(System& s) {
   s.solved &= least > min_pivot_ratio * most;
 }
 
-/// [31] in the coordinates of the reflectors: A22 z = d2, then R c = d1 - A12 z, and a = Q [0; z]. Leaves c
-/// in the first rows of d.
+/// Solves [31] in the coordinates of the reflectors: A22 z = d2, then R c = d1 - A12 z, and a = Q [0; z]. c
+/// is left in the first rows of d.
 HOOKE_INLINE void solve(System& s) {
-  constexpr std::size_t m = monomials;
+  constexpr std::size_t m = quadratic_monomials;
   Lanes x, y, pivot;
   for (std::size_t k = m; k < s.rows; ++k) {
     const LaneArray row = s.A.from(row_of(k));
@@ -280,7 +280,7 @@ HOOKE_SIMD void solve_system(System& s, Kernel kernel, double min_distance) {
   fill_polynomials(s);
   factor_polynomials(s);
   fill_kernel_matrix(kernel, min_distance, s);
-  for (std::size_t k = 0; k < monomials; ++k) reflect(s, k);
+  for (std::size_t k = 0; k < quadratic_monomials; ++k) reflect(s, k);
   factor_kernel_matrix(s);
   solve(s);
 }
@@ -332,7 +332,7 @@ void SplineGroup::gather(const Data& data, const Flags& wanted) {
     }
   }
   matrix_.resize(row_of(size_) * lane_count);
-  monomials_.resize(monomials * size_ * lane_count);
+  monomials_.resize(quadratic_monomials * size_ * lane_count);
   solution_.resize(size_ * lane_count);
   work_.resize(2 * size_ * lane_count);
 }
@@ -340,7 +340,7 @@ void SplineGroup::gather(const Data& data, const Flags& wanted) {
 SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kernel kernel,
                                     double min_distance) {
   gather(data, wanted);
-  if (size_ <= monomials) return {};
+  if (size_ <= quadratic_monomials) return {};
   System s{.rows = size_,
            .centres = LaneArray(centres_.data()),
            .present = LaneArray(present_.data()),
@@ -358,7 +358,7 @@ SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kerne
     solved[lane] = wanted[lane] && s.solved[lane] != 0;
     for (std::size_t i = 0; i < size_ && solved[lane]; ++i)
       solved[lane] = std::isfinite(solution_[i * lane_count + lane]) &&
-                     (i >= monomials || std::isfinite(right_side_[i * lane_count + lane]));
+                     (i >= quadratic_monomials || std::isfinite(right_side_[i * lane_count + lane]));
   }
   return solved;
 }
@@ -366,7 +366,7 @@ SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kerne
 SplineCoefficients SplineGroup::solution(std::size_t lane, std::size_t centres) const {
   SplineCoefficients spline{.radial = std::vector<double>(centres)};
   for (std::size_t i = 0; i < centres; ++i) spline.radial[i] = solution_[i * lane_count + lane];
-  for (std::size_t k = 0; k < monomials; ++k) spline.polynomial[k] = right_side_[k * lane_count + lane];
+  for (std::size_t k = 0; k < quadratic_monomials; ++k) spline.polynomial[k] = right_side_[k * lane_count + lane];
   return spline;
 }
 

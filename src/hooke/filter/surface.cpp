@@ -9,12 +9,12 @@
 namespace hooke {
 namespace {
 
-constexpr std::size_t block = 1024;
+constexpr std::size_t surface_block = 1024;
 
-/// Of the edges across their main direction, over that along it, squared.
+/// Minimum spread of the edges across their main direction over that along it, squared.
 constexpr double min_spread = 1e-3;
 
-/// Its shape operator: M with M d = turn in the sense of least squares, made symmetric.
+/// Shape operator at a vertex: the least-squares solution M of M d = turn over its edges, made symmetric.
 ShapeOperator bend_at(const Mat3X& points, const Mat3X& normals, const Adjacency& c, int v) {
   const auto neighbours = c.vertex_neighbours[v];
   if (neighbours.empty() || normals.col(v).isZero(0)) return unknown_shape_operator();
@@ -45,14 +45,14 @@ ShapeOperator unknown_shape_operator() {
 std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& normals, const Adjacency& c) {
   const auto n = static_cast<std::size_t>(c.vertex_count);
   std::vector<ShapeOperator> shape_operators(n);
-  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, surface_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
       shape_operators[v] = bend_at(points, normals, c, static_cast<int>(v));
   });
   std::vector<float> change(n);
-  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, surface_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      change[v] = shape_operators[v].change;  // so far infinite or none
+      change[v] = shape_operators[v].change;  // still infinite or 0
       if (std::isinf(change[v])) continue;
       double squares = 0;
       const auto neighbours = c.vertex_neighbours[static_cast<int>(v)];
@@ -60,14 +60,14 @@ std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& nor
         const Vec3 way = points.col(w) - points.col(static_cast<Eigen::Index>(v));
         const auto normal = normals.col(static_cast<Eigen::Index>(v));
         Vec3 turn = shape_operators[v].shape * way - shape_operators[static_cast<std::size_t>(w)].shape * way;
-        turn -= normal.dot(turn) * normal;  // the tangent plane turns too
+        turn -= normal.dot(turn) * normal;  // without the rotation of the tangent plane
         if (!way.isZero(0)) squares += turn.squaredNorm() / way.squaredNorm();
       }
       if (!neighbours.empty())
         change[v] = static_cast<float>(std::sqrt(squares / static_cast<double>(neighbours.size())));
     }
   });
-  parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n, surface_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       shape_operators[v].change = change[v];
       for (int w : c.vertex_neighbours[static_cast<int>(v)])

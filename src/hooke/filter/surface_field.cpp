@@ -15,7 +15,7 @@
 namespace hooke {
 namespace {
 
-/// From x to the box about the corners, which no point of the face is closer than.
+/// Squared distance of x to the box of the corners: a lower bound on that to the face.
 double squared_distance_to_box(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
   const Vec3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
   return (lower - x).cwiseMax(x - upper).cwiseMax(0).squaredNorm();
@@ -43,7 +43,7 @@ Projection NearFaces::closest_point_of_ring(const Vec3& x, int hint) const {
   const auto visit = [&](int v) {
     for (int f : adjacency.vertex_faces[v]) {
       const Triangle& face = adjacency.faces[static_cast<std::size_t>(f)];
-      if (v != hint && std::ranges::find(face, hint) != face.end()) continue;  // seen with the hint
+      if (v != hint && std::ranges::find(face, hint) != face.end()) continue;  // visited with the hint
       const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
       if (squared_distance_to_box(a, b, c, x) >= least) continue;
       const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
@@ -86,18 +86,18 @@ Projection NearFaces::closest_point(const Vec3& x, int hint) const {
 
 namespace {
 
-// A bound on how far a fitted surface may swing out from the faces it was fitted to: splines do where long
-// faces lie beside short ones.
+// Deviation bound: splines may overshoot the faces they were fitted to where long faces lie beside short
+// ones.
 
-/// How far the surface may be from the faces about each vertex: `reach` times the vertex's length (empty: 1),
-/// and infinity where it could only come that far by bending several times more than the normals turn along
-/// edges. Empty: no limit anywhere.
+/// Maximum distance of the surface from the faces at each vertex: `max_deviation` times the vertex's length
+/// (empty: 1), or infinity where the surface could get that far only by bending several times more than the
+/// normals turn along edges. Empty: no limit anywhere.
 std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviation,
                                        const std::vector<double>& lengths);
 
-/// The foot of x, unless it is beyond its hint's reach: then a place on the same side at that distance from
-/// the faces, above their point next to x when x is more than half as far from them, else above that next to
-/// the foot.
+/// The projection of x, unless it exceeds the deviation bound of its hint: then the point at that distance
+/// from the faces on the same side, above their closest point to x if x is more than half the bound away from
+/// them on that side, otherwise above their closest point to the projection.
 Projection within_deviation_bound(const NearFaces& faces, const std::vector<float>& deviation_bounds,
                                   const Vec3& x, const Projection& projection);
 
@@ -155,11 +155,11 @@ Projection within_deviation_bound(const NearFaces& faces, const std::vector<floa
           projection.evaluations};
 }
 
-constexpr double longest_step = .5;  // of Newton, in mean edge lengths at the hint
+constexpr double longest_step = .5;  // of Newton's method, in mean edge lengths at the hint
 constexpr double longest_move = 2;
 constexpr double convergence = 2;  // of Newton's method, over the mean edge length at the hint
 
-/// Vertices of the piece that have faces, without the repetitions of one place.
+/// Vertices of the piece that have faces, one per distinct position.
 std::vector<int> distinct_vertices(const Mat3X& points, const Adjacency& adjacency,
                                    const std::vector<int>& pieces, int piece) {
   std::vector<int> vertices;
@@ -182,7 +182,8 @@ double mean_edge_length(const Mat3X& points, const Adjacency& adjacency) {
   return adjacency.edges.empty() ? 0 : sum / static_cast<double>(adjacency.edges.size());
 }
 
-/// One spline through the vertices [11]-[13], grown outward; the value rho instead of 1 makes it a distance.
+/// One spline through the vertices [11]-[13], increasing outward; offset values of rho instead of 1 make it a
+/// distance.
 ThinPlateSpline fit_global_spline(const Mat3X& points, const std::vector<int>& vertices, const Mat3X& normals,
                                   double rho, const FilterOptions& options) {
   Mat3X centres(3, 2 * static_cast<Eigen::Index>(vertices.size()));
@@ -213,9 +214,9 @@ struct SurfaceField::State {
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
   std::vector<ShapeOperator> shape_operators;
-  std::vector<float> deviation_bounds;  // see field_reach.h
+  std::vector<float> deviation_bounds;  // per vertex, see deviation_bounds_of(); empty: no limit
   std::optional<PartitionOfUnity> partition;
-  std::vector<int> pieces;               // per vertex; empty: one
+  std::vector<int> pieces;               // per vertex; empty: one piece
   std::vector<ThinPlateSpline> splines;  // per piece
 
   NearFaces faces() const { return {*points, normals, *adjacency}; }

@@ -1,5 +1,5 @@
-// Closest points of a surface's faces, for points that are tracked near one of its vertices. Those of any
-// point: bounding_volume_tree.h.
+// The surface that a mesh represents, as a field psi that is zero on it, and the projection to it: Newtonian
+// filtering. "Hooke's Optimization for 3D triangular mesh", sections 3.3, 4.4 and 4.5.
 #pragma once
 
 #include <cstddef>
@@ -13,36 +13,34 @@
 
 namespace hooke {
 
-/// Refers to the mesh: cheap to make, and must not outlive it.
+/// Closest points on the faces of a mesh, for points that are tracked near one of its vertices; for arbitrary
+/// points see geometry/aabb_tree.h. Refers to the mesh, which must outlive it; cheap to create.
 struct NearFaces {
   const Mat3X& points;
-  const Mat3X& normals;  // unit, of the vertices
+  const Mat3X& normals;  // unit vertex normals
   const Adjacency& adjacency;
 
-  /// Walks from the vertex over edges while that brings it closer to x: steepest descent of the distance.
+  /// The vertex reached from `vertex` by steepest descent of the distance to x over mesh edges.
   int nearest_vertex(const Vec3& x, int vertex) const;
 
-  /// Has a face at the hint a point within the distance? No more than that: others may be closer.
+  /// Whether a face at the hint has a point within the distance of x. Other faces may be closer.
   bool has_face_within(const Vec3& x, int hint, double distance) const;
 
-  /// Closest point of the faces about the hint and about its neighbours, from where it walks on while that
-  /// brings it closer. Its normal is blended from those of the corners, its hint the nearest corner. x
-  /// itself, normal zero and no_cover where the hint has no faces.
+  /// Closest point on the faces at the hint and at its neighbours; the search moves on to the nearest corner
+  /// while that gets closer to x. The normal is interpolated from the corners, the hint is the nearest
+  /// corner. Returns x with normal zero and no_cover if the hint has no faces.
   Projection closest_point(const Vec3& x, int hint) const;
 
  private:
   Projection closest_point_of_ring(const Vec3& x, int hint) const;
 };
 
-// The surface that a mesh stands for, as a field psi that is zero on it, and the way back to it: Newtonian
-// filtering. "Hooke's Optimization for 3D triangular mesh", sections 3.3, 4.4 and 4.5.
-
-/// How points are put back on the surface.
+/// How points are projected to the surface.
 enum class FilterKind {
-  local,    // splines on patches, blended: any size
-  global,   // the paper's one dense spline [30]: a few thousand vertices
-  closest,  // closest point of the faces
-  none,     // points stay where they are
+  local,    // blended splines on patches: meshes of any size
+  global,   // the paper's single dense spline [30]: a few thousand vertices
+  closest,  // closest point on the faces
+  none,     // points are not projected
 };
 
 struct FilterOptions {
@@ -50,42 +48,42 @@ struct FilterOptions {
   Kernel kernel = Kernel::r3;
   double offset = .3;  // rho of [13] over the mean edge length: at each vertex (local), of the mesh (global)
   std::size_t memory_limit_bytes = SIZE_MAX;  // of the dense fit (global)
-  /// Greatest distance of the surface from the faces, over the vertices' lengths, where splines may swing far
-  /// out: about long edges along which the normals turn.
+  /// Maximum distance of the surface from the faces, in vertex lengths, where splines may overshoot: near
+  /// long edges along which the normals turn.
   double max_deviation = std::numeric_limits<double>::infinity();
 };
 
-/// The field of a mesh with vertices on the surface (the reference). It keeps what it needs, may outlive the
-/// mesh, is cheap to copy, and may be asked by several threads at once.
+/// The field of a reference mesh, whose vertices lie on the surface. Shares ownership of what it needs, is
+/// cheap to copy, and is thread-safe.
 class SurfaceField {
  public:
-  /// Throws LimitError when the global fit needs more than the memory limit, NumericalError when it has no
-  /// solution (all vertices in one place, or two nearly so).
-  /// `pieces` numbers the parts of the surface by vertex, for the global fit to give each a spline of its
-  /// own; empty: one spline. `lengths` of the vertices are what options.reach counts in; empty: 1.
+  /// Throws LimitError if the global fit needs more than the memory limit, NumericalError if it has no
+  /// solution (all vertices coincide, or two nearly do).
+  /// `pieces` numbers the parts of the surface by vertex, so that the global fit gives each a spline of its
+  /// own; empty: one spline. `lengths`, per vertex, are the unit of options.max_deviation; empty: 1.
   SurfaceField(std::shared_ptr<const Mat3X> points, std::shared_ptr<const Adjacency> adjacency,
                const FilterOptions& options = {}, std::vector<int> pieces = {},
                const std::vector<double>& lengths = {});
 
-  /// Puts x, tracked near the reference vertex `hint`, back on the surface to within `tolerance` (a
-  /// length). The hint first walks over mesh edges to the nearest vertex it can reach downhill. Where
-  /// Newton fails, the foot is the closest point of the faces about the hint and the status says why; where
-  /// options.reach holds it back, as field_reach.h tells. On a
-  /// vertex without faces: x itself, normal zero, no_cover.
+  /// Projects x, tracked near the reference vertex `hint`, to within `tolerance` (a length) of the surface.
+  /// The hint first walks over mesh edges to the nearest vertex that descent can reach. If Newton's method
+  /// fails, the result is the closest point on the faces near the hint and the status tells why. A result
+  /// beyond the deviation bound (options.max_deviation) is moved back to it. At a vertex without faces: x,
+  /// normal zero, no_cover.
   Projection project(const Vec3& x, int hint, double tolerance) const;
 
-  /// psi at x: zero on the surface, about the distance near it, growing outward. The hint does not walk.
-  /// Zero value and gradient mean that the field does not reach x. For `closest` the signed distance; for
-  /// `none` always 0.
+  /// psi at x: zero on the surface, approximately the signed distance near it, positive outside. The hint
+  /// does not walk. Zero value and gradient mean that the field does not cover x. For `closest` the exact
+  /// signed distance; for `none` always 0.
   FieldSample sample(const Vec3& x, int hint) const;
 
-  /// project() as the optimizer wants it; keeps the field alive.
+  /// The projection and the shape operators as a Surface, which keeps the field alive.
   Surface surface() const;
 
   const Mat3X& points() const;
-  /// Unit vertex normals of the reference; zero where there are no faces.
+  /// Unit vertex normals of the reference; zero for vertices without faces.
   const Mat3X& normals() const;
-  /// Bytes held by the field and its reference, connectivity excluded.
+  /// Bytes held by the field and its reference, adjacency excluded.
   std::size_t memory_bytes() const;
 
  private:

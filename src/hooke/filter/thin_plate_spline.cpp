@@ -11,9 +11,9 @@
 namespace hooke {
 namespace {
 
-// Coordinates: x[n], y[n], z[n]. Coefficients: a[n], then the polynomial's. n is rounded up to whole groups
-// of lanes, and the extra centres have coefficient 0. Fixed groups, so that sums run in the same order
-// wherever the data lie.
+// Memory layout: coordinates x[n], y[n], z[n]; coefficients a[n], then those of the polynomial. n is the
+// number of centres rounded up to whole groups of lanes; the padding has coefficient 0. Sums run over whole
+// groups, so that their order does not depend on where the data lie.
 
 template <typename Coordinate>
 constexpr double unit = 1;
@@ -30,7 +30,7 @@ FieldSample evaluate_polynomial(const double* c, const Vec3& p) {
   return s;
 }
 
-/// Adds the radial part of [30] and [35]; n whole groups of lanes.
+/// Adds the radial part of [30] and [35]; n is a multiple of lane_count.
 template <typename Coordinate>
 HOOKE_INLINE void sum_radial_part(const Coordinate* centres, const double* a, std::size_t n, Kernel kernel,
                                   const Vec3& p, FieldSample& sample) {
@@ -119,8 +119,8 @@ namespace {
 
 constexpr std::size_t polynomial_size = monomial_count(2);
 
-constexpr double min_column_ratio = 1e-8;  // of a polynomial's part that the ones before it do not explain
-constexpr double min_pivot_ratio = 1e-7;   // of the Cholesky diagonal: beyond, coefficients are noise
+constexpr double min_column_ratio = 1e-8;  // minimum part of a monomial independent of those before it
+constexpr double min_pivot_ratio = 1e-7;   // on the Cholesky diagonal; below, the coefficients are noise
 
 using Monomials = Eigen::Matrix<double, polynomial_size, 1>;
 Monomials monomials(double x, double y, double z) {

@@ -1,7 +1,7 @@
-// Thin-plate splines in space: a radial part and a polynomial, fitted to values at centres. Points only.
-// "Hooke's Optimization for 3D triangular mesh", sections 3.3 and 4.4, equations [27]-[35]. The system is
-// solved on the null space of the polynomials, where the kernel matrix is positive definite (H. Wendland,
-// "Scattered Data Approximation", 2005, chapter 8).
+// Thin-plate splines in space: a radial part and a polynomial, fitted to values at centres, and their
+// evaluation in SIMD lanes. "Hooke's Optimization for 3D triangular mesh", sections 3.3 and 4.4, equations
+// [27]-[35]. The system is solved on the null space of the polynomials, where the kernel matrix is positive
+// definite (H. Wendland, "Scattered Data Approximation", 2005, chapter 8).
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace hooke {
 
-/// r2logr is the paper's [27]. Both are conditionally positive definite of order 2: an affine part is the
-/// least.
+/// r2logr is the paper's [27]. Both kernels are conditionally positive definite of order 2: they need at
+/// least an affine part.
 enum class Kernel { r2logr, r3 };
 
 /// Polynomial part: 1 affine [29], 2 quadratic.
@@ -35,32 +35,33 @@ struct SplineWorkspace {
   Eigen::VectorXd right_side;
 };
 
-/// What a spline is made of: the kernel's coefficient at each centre, and those of the monomials 1, x, y, z,
-/// x x, y y, z z, x y, y z, z x.
+/// Coefficients of a spline: of the kernel at each centre, and of the monomials 1, x, y, z, x x, y y, z z, x
+/// y, y z, z x.
 struct SplineCoefficients {
   std::vector<double> radial;
   std::array<double, monomial_count(2)> polynomial{};
 };
 
 /// Fits a spline to values at centres [31]. The centres should be of size 1 about the origin, for
-/// conditioning. Nothing when the centres do not determine it: too few for the polynomials, on a surface of
-/// that degree, or (nearly) coincident.
+/// conditioning. Returns nothing if they do not determine the spline: too few for the polynomials, on an
+/// algebraic surface of that degree, or (nearly) coincident.
 std::optional<SplineCoefficients> fit_spline(const Eigen::Ref<const Mat3X>& centres,
                                              const Eigen::Ref<const Eigen::VectorXd>& values, Kernel kernel,
                                              SplineDegree degree, SplineWorkspace& workspace);
 
-/// Bytes needed while a spline of so many centres is fitted: the kernel matrix, worked on in place.
+/// Bytes needed to fit a spline of this many centres: mostly the kernel matrix, factorized in place.
 std::size_t spline_fit_bytes(std::size_t centres);
 
-/// One spline on its own, in any coordinates: it is fitted in coordinates centred and scaled to size 1.
+/// A single spline in any coordinates; it is fitted in coordinates centred and scaled to size 1.
 class ThinPlateSpline {
  public:
-  /// Nothing when the centres do not determine the spline (see fit_spline).
-  /// Throws LimitError, naming the bytes, when the fit would take more than `memory_limit_bytes`.
+  /// Returns nothing if the centres do not determine the spline (see fit_spline()).
+  /// Throws LimitError, naming the bytes, if the fit would take more than `memory_limit_bytes`.
   static std::optional<ThinPlateSpline> fit(const Mat3X& centres, const Eigen::VectorXd& values,
                                             Kernel kernel, SplineDegree degree,
                                             std::size_t memory_limit_bytes = SIZE_MAX);
 
+  /// Value [30] and gradient [35] at x.
   FieldSample operator()(const Vec3& x) const;
 
   std::size_t memory_bytes() const {
@@ -75,7 +76,7 @@ class ThinPlateSpline {
   std::vector<double> coordinates_, coefficients_;
 };
 
-// The radial function of thin-plate splines, four values at a time.
+// The radial kernels, one value per lane.
 
 /// The kernel [27] and its derivative over r, at r2 = r^2.
 struct KernelSample {
@@ -97,22 +98,23 @@ HOOKE_INLINE void sample_kernel(Kernel kernel, const Lanes& r2, KernelSample& sa
   }
 }
 
-// Thin-plate splines as they are kept to be evaluated again and again.
+// Splines stored for repeated evaluation.
 
-/// A centre's coordinate in parts of 2^-30: half the memory of a double, and as good for centres of size 1
-/// about the origin.
+/// A centre's coordinate in units of 2^-30: half the memory of a double, and as accurate for centres of size
+/// 1 about the origin.
 using SnappedCoordinate = std::int32_t;
 
-/// The place nearest to a point that snapped coordinates tell exactly. They reach from -2 to 2.
+/// The point nearest to `point` that snapped coordinates represent exactly. They range from -2 to 2.
 Vec3 snapped(const Vec3& point);
 
-/// Where a spline is kept. `Coordinate`: double or SnappedCoordinate.
+/// A stored spline, which refers to memory held elsewhere. `Coordinate`: double or SnappedCoordinate.
 template <typename Coordinate>
 struct StoredSpline {
-  const Coordinate* coordinates = nullptr;  // of the centres: coordinates_size() of them
-  const double* coefficients = nullptr;     // coefficients_size()
+  const Coordinate* coordinates = nullptr;  // of the centres: coordinates_size() numbers
+  const double* coefficients = nullptr;     // coefficients_size() numbers
   std::size_t centres = 0;
 
+  /// Numbers that a spline of this many centres takes.
   static std::size_t coordinates_size(std::size_t centres);
   static std::size_t coefficients_size(std::size_t centres);
 
@@ -120,7 +122,8 @@ struct StoredSpline {
   FieldSample operator()(Kernel kernel, const Vec3& x) const;
 };
 
-/// Keeps a spline in this memory. Pre-condition: the coordinates tell the centres exactly.
+/// Stores a spline in the given memory, which must outlive the result. Pre-condition: the coordinates
+/// represent the centres exactly.
 template <typename Coordinate>
 StoredSpline<Coordinate> store_spline(const Eigen::Ref<const Mat3X>& centres,
                                       const SplineCoefficients& spline, Coordinate* coordinates,

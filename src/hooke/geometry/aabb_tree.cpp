@@ -12,9 +12,9 @@ namespace hooke {
 namespace {
 
 constexpr size_t sort_block = 4096;
-constexpr unsigned bits = 16;  // of each axis
+constexpr unsigned bits = 16;  // per axis
 
-/// Two zeros before each bit.
+/// Inserts two zero bits before each bit.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 16) & 0x0000ff0000ff;
   x = (x | x << 8) & 0x00f00f00f00f;
@@ -22,7 +22,7 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x249249249249;
 }
 
-/// The number of a cell along the curve. J. Skilling, "Programming the Hilbert curve", 2004.
+/// Index of a grid cell along the Hilbert curve. J. Skilling, "Programming the Hilbert curve", 2004.
 std::uint64_t place_on_curve(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   const auto turn = [&x](std::uint32_t& coordinate, std::uint32_t bit) {
     const bool inverts = coordinate & bit;
@@ -73,7 +73,7 @@ std::vector<int> spatial_order(const std::vector<Vec3>& points) {
 
 namespace {
 
-constexpr size_t block = 1024;
+constexpr size_t tree_block = 1024;
 
 Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
@@ -82,7 +82,7 @@ Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   return a + std::clamp(d.dot(x - a) / squared_length, 0., 1.) * d;
 }
 
-/// Eigen's squaredExteriorDistance without branches: they are unpredictable here.
+/// Eigen's squaredExteriorDistance without branches, which would be mispredicted here.
 double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& x) {
   return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
 }
@@ -94,13 +94,13 @@ AabbTree::Face face_of(const Mat3X& points, const std::vector<Triangle>& faces, 
 
 std::vector<Vec3> centres(const Mat3X& points, const std::vector<Triangle>& faces) {
   std::vector<Vec3> centres(faces.size());
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), tree_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) centres[f] = face_of(points, faces, f).box().center();
   });
   return centres;
 }
 
-/// Better than `best`: closer, or as close and of a lower id.
+/// Keeps the face in `best` if it is closer, or as close and of a lower id.
 void try_face(const Vec3& x, const AabbTree::Face& face, ClosestPoint& best) {
   const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
   const double d = candidate.squared_distance;
@@ -152,7 +152,7 @@ AabbTree::AabbTree(const Mat3X& points, const std::vector<Triangle>& faces,
   const std::vector<int> own_order =
       given_order.empty() ? spatial_order(centres(points, faces)) : std::vector<int>();
   const std::vector<int>& order = given_order.empty() ? own_order : given_order;
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), tree_block, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) faces_[k] = face_of(points, faces, static_cast<size_t>(order[k]));
   });
   while (faces.size() > leaf_size << depth_) ++depth_;
@@ -167,7 +167,7 @@ std::vector<int> AabbTree::order() const {
   return ids;
 }
 
-/// The subtrees of the upper levels in parallel.
+/// Computes the boxes of a subtree; the subtrees of the upper levels run in parallel.
 void AabbTree::enclose(size_t node, int level) {
   constexpr int upper_levels = 7;
   if (is_leaf(node)) {

@@ -1,5 +1,5 @@
-// Sorting by the digits of a number, the highest first: for the millions of a large mesh much faster than
-// comparing. P. M. McIlroy, K. Bostic, M. D. McIlroy, "Engineering radix sort", 1993.
+// An axis-aligned bounding box (AABB) tree over triangles, for closest points and pairs of faces whose boxes
+// overlap, and the spatial sort that orders its faces.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,16 @@
 
 namespace hooke {
 
-/// Sorts by one digit of key(item), an unsigned number, of the range in which the keys are, and returns where
-/// the items of each digit end; nothing when all are in order. Items of a digit keep their order. What the
-/// buffer holds is lost.
+// Most-significant-digit radix sort, much faster than comparison sorts for millions of items.
+// P. M. McIlroy, K. Bostic, M. D. McIlroy, "Engineering radix sort", 1993.
+
+/// Sorts the items by the leading digit of key(item), an unsigned integer, within the range of the keys.
+/// Returns the end of each digit's items, or nothing if the items are fully sorted. Stable; the contents of
+/// the buffer are overwritten.
 template <typename Item, typename Key>
 std::vector<size_t> sort_by_first_digit(std::span<Item> items, std::span<Item> buffer, const Key& key) {
-  constexpr int max_bits = 9;  // more places to write to are too many for the caches
-  constexpr size_t few = 16;   // as quick by insertion
+  constexpr int max_bits = 9;  // more output positions would exceed the caches
+  constexpr size_t few = 16;   // insertion sort is as fast up to this size
   const size_t n = items.size();
   if (n <= few) {
     for (size_t i = 1; i < n; ++i) {
@@ -38,7 +41,7 @@ std::vector<size_t> sort_by_first_digit(std::span<Item> items, std::span<Item> b
   }
   if (least == greatest) return {};
 
-  const int bits = std::min(max_bits, static_cast<int>(std::bit_width(n)) - 3);  // a handful to each digit
+  const int bits = std::min(max_bits, static_cast<int>(std::bit_width(n)) - 3);  // a few items per digit
   const int shift = std::max(0, static_cast<int>(std::bit_width(greatest - least)) - bits);
   const auto digit = [&](const Item& item) { return static_cast<size_t>((key(item) - least) >> shift); };
   std::vector<size_t> end((size_t{1} << bits) + 1, 0);
@@ -50,8 +53,8 @@ std::vector<size_t> sort_by_first_digit(std::span<Item> items, std::span<Item> b
   return shift == 0 ? std::vector<size_t>{} : end;
 }
 
-/// Ascending by key(item), an unsigned number; items with equal keys keep their order. The buffer is as large
-/// as the items.
+/// Sorts ascending by key(item), an unsigned integer. Stable. Pre-condition: the buffer is as large as the
+/// items.
 template <typename Item, typename Key>
 void radix_sort(std::span<Item> items, std::span<Item> buffer, const Key& key) {
   size_t begin = 0;
@@ -62,7 +65,7 @@ void radix_sort(std::span<Item> items, std::span<Item> buffer, const Key& key) {
   }
 }
 
-/// The same in parallel.
+/// radix_sort() in parallel.
 template <typename Item, typename Key>
 void parallel_radix_sort(std::span<Item> items, std::span<Item> buffer, const Key& key) {
   const std::vector<size_t> ends = sort_by_first_digit(items, buffer, key);
@@ -74,33 +77,34 @@ void parallel_radix_sort(std::span<Item> items, std::span<Item> buffer, const Ke
   });
 }
 
-// An order in which what is close in space mostly stands close.
+// Spatial order: points that are close in space are mostly close in the order.
 
-/// The ids [0, points.size()) along a Hilbert curve through the cube about the points; ascending where they
-/// coincide. D. Hilbert, "Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck", 1891.
-/// Pre-condition: finite.
+/// The ids [0, points.size()) in the order of a Hilbert curve through the bounding cube of the points;
+/// coincident points ascending. D. Hilbert, "Ueber die stetige Abbildung einer Linie auf ein Flaechenstueck",
+/// 1891.
+/// Pre-condition: finite coordinates.
 std::vector<int> spatial_order(const std::vector<Vec3>& points);
 
-// Axis-parallel boxes around triangles, as a binary tree: closest points and candidates for intersections.
+// Closest points and the AABB tree.
 
 struct ClosestPoint {
   Vec3 point = Vec3::Zero();
   double squared_distance = 0;
-  int face = -1;  // the lowest id among equals that were visited; -1 when the tree is empty
+  int face = -1;  // lowest id among the equally close faces visited; -1 if the tree is empty
 };
 
-/// Thinner triangles have no normal to speak of: their edges are as close as their inside. Doubled, over the
-/// fourth power of the longest edge.
+/// Minimum squared doubled area of a triangle over the fourth power of its longest edge. Thinner triangles
+/// have no reliable normal and are treated as their edges.
 inline constexpr double min_triangle_squared_area = 1e-24;
 
-/// Closest point of one triangle. Exact in the cases: a triangle without area is taken as its edges.
+/// Closest point to x on the triangle a b c. A triangle without area is treated as its edges.
 ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Weights of the corners at a point of the triangle, not negative, with sum 1.
+/// Barycentric weights of a point of the triangle a b c: non-negative, with sum 1.
 Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Owns a copy of its triangles. Of faces at the same distance the order of faces() decides which one
-/// is told; else answers depend on nothing but the triangles. Const calls are safe from several threads.
+/// Owns a copy of its triangles. Among faces at the same distance the order of faces() decides which one is
+/// returned; otherwise results depend on the triangles only. Const calls are thread-safe.
 class AabbTree {
  public:
   using Box = Eigen::AlignedBox3d;
@@ -116,37 +120,38 @@ class AabbTree {
     }
   };
 
-  /// The faces are halved again and again down to the leaves. Node 1 is the root, and the children of node i
-  /// are 2 i and 2 i + 1: a level stands together.
+  /// Maximum depth. The faces are split in half recursively down to the leaves. Node 1 is the root and the
+  /// children of node i are 2 i and 2 i + 1, so that the nodes of a level are consecutive.
   static constexpr int max_depth = 32;
 
-  /// A triangle may repeat a vertex id: it then stands for a segment. `order`, where given, becomes that of
-  /// faces(): what is close there should be close in space.
+  /// A triangle may repeat a vertex id and then stands for a segment. `order`, if given, becomes the order of
+  /// faces(): faces close in it should be close in space.
   AabbTree(const Mat3X& points, const std::vector<Triangle>& faces, const std::vector<int>& order = {});
 
   bool empty() const { return faces_.empty(); }
 
-  /// All faces along a curve that fills space: those that stand close here are close in space.
+  /// All faces in the order of a space-filling curve: faces close in it are close in space.
   std::span<const Face> faces() const { return faces_; }
 
-  /// The ids of faces().
+  /// The ids of faces(), in that order.
   std::vector<int> order() const;
 
   ClosestPoint closest(const Vec3& x) const;
 
-  /// The boxes of all nodes, and the leaves among them.
+  /// The boxes of all nodes; the leaves are the nodes from leaf_count() on.
   std::span<const Box> boxes() const { return boxes_; }
   size_t leaf_count() const { return boxes_.size() / 2; }
   bool is_leaf(size_t node) const { return node >= leaf_count(); }
 
-  /// Place in faces() of the first face of a leaf, counted from 0. Those of leaf_count() follow the last.
+  /// Index in faces() of the first face of a leaf, leaves counted from 0. For leaf_count() the number of
+  /// faces.
   size_t first_face(size_t leaf) const { return (leaf * faces_.size()) >> depth_; }
   std::span<const Face> faces_of(size_t leaf) const {
     return faces().subspan(first_face(leaf), first_face(leaf + 1) - first_face(leaf));
   }
 
-  /// Calls visit(leaf) for the leaves from `first` on, ascending, for whose boxes and those of all nodes
-  /// above them reaches(box) is true.
+  /// Calls visit(leaf), in ascending order, for the leaves from `first` on for which reaches(box) is true of
+  /// their own box and of the boxes of all their ancestors.
   template <typename Reaches, typename Visit>
   void for_each_leaf(size_t first, const Reaches& reaches, const Visit& visit) const {
     size_t stack[max_depth + 1];
@@ -166,8 +171,8 @@ class AabbTree {
     }
   }
 
-  /// The pairs of faces whose boxes meet come in parts: with parts [begin, end) visit(f, g) is called for
-  /// theirs. All parts together have each pair once.
+  /// Pairs of faces whose boxes overlap are grouped in parts. for_each_meeting_pair() calls visit(f, g) for
+  /// the pairs of the parts [begin, end); each pair belongs to exactly one part.
   size_t parts() const { return (faces_.size() + faces_of_part - 1) / faces_of_part; }
   template <typename Visit>
   void for_each_meeting_pair(size_t begin, size_t end, const Visit& visit) const {
@@ -178,18 +183,18 @@ class AabbTree {
   static constexpr size_t leaf_size = 4;
   static constexpr size_t faces_of_part = 16;
 
-  /// The boxes of a part, coordinate by coordinate.
+  /// The boxes of a part's faces, coordinate by coordinate.
   struct PartBoxes {
     std::array<std::array<double, faces_of_part>, 3> low, high;
     Box all;
 
     explicit PartBoxes(std::span<const Face> faces);
 
-    /// Which of them meet another box: bit by bit.
+    /// Bit mask of the faces whose boxes overlap `other`.
     unsigned meeting(const Box& other) const;
   };
 
-  /// The pairs of the faces of the part that begins at place `first` with later ones.
+  /// Visits the pairs of a face of the part that begins at index `first` and a later face.
   template <typename Visit>
   void visit_pairs(size_t first, const Visit& visit) const {
     const PartBoxes boxes(faces().subspan(first, std::min(faces_of_part, faces_.size() - first)));
@@ -208,8 +213,8 @@ class AabbTree {
   void enclose(size_t node, int level);
 
   int depth_ = 0;               // levels below the root
-  UnfilledVector<Face> faces_;  // leaf by leaf
-  UnfilledVector<Box> boxes_;   // by node; that of node 0 is not used
+  UninitializedVector<Face> faces_;  // leaf by leaf
+  UninitializedVector<Box> boxes_;   // by node; entry 0 is unused
 };
 
 }  // namespace hooke

@@ -11,12 +11,12 @@
 namespace hooke {
 namespace {
 
-// Distances of four points at a time to one face. To the last bit those of closest_point() of the tree.
+// Distances of four points at a time to one face, bitwise equal to those of closest_point().
 
-/// Times this, what is a lower bound but for rounding surely is one.
+/// Factor that keeps a lower bound valid under rounding.
 constexpr double surely = 1 - 1e-9;
 
-/// A face and all about it that is the same for every point.
+/// A face with everything that does not depend on the query point.
 struct PreparedFace {
   PreparedFace() = default;
   PreparedFace(const AabbTree::Face& face, size_t its_place)
@@ -36,26 +36,27 @@ struct PreparedFace {
     squared_normal = has_area ? nn : 1;
     if (!(nn > min_for_bounds * longest * longest)) return;
     height_weight = 1 / nn;
-    beside_weight = height_weight / longest;  // of the longest side: less than that of the others
+    beside_weight = height_weight / longest;  // for the longest edge, the smallest of the three
   }
 
-  /// Rounding of a thin triangle's normal could make a bound of it too large.
+  /// Minimum of the same ratio for a bound: thinner triangles could get too large a bound from the rounding
+  /// of their normal.
   static constexpr double min_for_bounds = 1e-4;
 
   std::array<Vec3, 3> corners;
   long long place = 0;
   Vec3 normal;
-  std::array<Vec3, 3> sides;  // from corner k to corner k + 1
+  std::array<Vec3, 3> sides;  // edge vectors from corner k to corner k + 1
   std::array<double, 3> squared_sides;
-  std::array<Vec3, 3> beside;  // in the plane, off side k to the inside
+  std::array<Vec3, 3> beside;  // in the plane, perpendicular to edge k, pointing inside
   bool has_area = false;
   double squared_normal = 1;
-  // Squares times these are squared distances; 0 where they would not be trusted.
+  // Factors from squared products to squared distances; 0 where the result would be unreliable.
   double beside_weight = 0;
   double height_weight = 0;
 };
 
-/// Added in Eigen's order, so that the results are the same as those of closest_point().
+/// Sums in Eigen's order, so that the results equal those of closest_point().
 HOOKE_INLINE void dot(const LaneVec& a, const Vec3& b, Lanes& product) {
   product = a.x * b[0] + a.y * b[1] + a.z * b[2];
 }
@@ -76,7 +77,7 @@ HOOKE_INLINE void distances_to_side(const PreparedFace& face, size_t k, const La
   dot(way, way, squared);
 }
 
-/// Of faces at the same distance the first one wins.
+/// Updates the nearest face of four points. Among faces at the same distance the first one wins.
 HOOKE_INLINE void try_face(const PreparedFace& face, const LaneVec& x, Lanes& best, LaneMask& places) {
   std::array<LaneVec, 3> from;
   std::array<Lanes, 3> beside;
@@ -129,11 +130,11 @@ HOOKE_INLINE void distances_to(const Box& box, const LaneVec& x, Lanes& squared)
 
 }  // namespace
 
-/// Points in lanes, and what is known of them.
+/// Query points in lanes, with the nearest face found so far.
 struct NearestFaceSearch::Packet {
   static constexpr size_t max_points = 160;
 
-  size_t groups = 0;  // of four; the last one is filled up with its first point
+  size_t groups = 0;  // of four points; the last one is padded with its first point
   std::array<double, 3 * max_points> points;
   std::array<double, max_points> squared_distance;
   std::array<long long, max_points> place;
@@ -159,7 +160,7 @@ struct NearestFaceSearch::Packet {
   }
 };
 
-/// Faces that may be nearest, and their boxes, coordinate by coordinate.
+/// Candidate faces and their boxes, coordinate by coordinate.
 struct NearestFaceSearch::Candidates {
   static constexpr size_t most = 192;
 
@@ -183,7 +184,7 @@ struct NearestFaceSearch::Candidates {
     }
   }
 
-  /// Fills the last lanes with boxes that are nowhere near.
+  /// Pads the last lanes with boxes at infinity.
   void pad() {
     for (size_t d = 0; d < 3; ++d)
       for (size_t k = faces.size(); k < padded_to_lanes(faces.size()); ++k)
@@ -214,7 +215,7 @@ HOOKE_INLINE double max_of(const Lanes& x) {
   return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
-/// First the faces whose boxes meet that of the four points, then those that may be closer still.
+/// Tests the faces whose boxes overlap that of the four points, then those that may still be closer.
 HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
   std::array<double, Candidates::most> distances;
   const size_t count = candidates.faces.size();
@@ -231,7 +232,7 @@ HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
       low[d] = std::min(std::min(t[0], t[1]), std::min(t[2], t[3]));
       high[d] = std::max(std::max(t[0], t[1]), std::max(t[2], t[3]));
     }
-    Lanes least = Lanes{} + std::numeric_limits<double>::infinity();  // of those that do not meet
+    Lanes least = Lanes{} + std::numeric_limits<double>::infinity();  // over the boxes that do not overlap
     for (size_t k = 0; k < count; k += lane_count) {
       Lanes squared;
       distances_between(low, high, candidates, k, squared);
@@ -258,7 +259,7 @@ HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
   }
 }
 
-/// One walk for four points: down wherever one of them may come closer, first where they are closer together.
+/// One traversal for four points: descends wherever one of them may get closer, into the closer child first.
 HOOKE_SIMD void walk(const AabbTree& tree, Packet& packet) {
   const Box* const boxes = tree.boxes().data();
   LaneVec x;
@@ -300,8 +301,8 @@ NearestFaceSearch::NearestFaceSearch(const AabbTree& tree)
 
 NearestFaceSearch::~NearestFaceSearch() = default;
 
-/// Tries the faces with a squared distance to the box of the packet beyond the one and within the other
-/// limit, unless they are too many to be tried with each point.
+/// Tests the faces whose squared distance to the box of the packet lies in (beyond, within]. Returns false if
+/// there are too many to test with each point.
 bool NearestFaceSearch::try_faces(double beyond, double within, Packet& packet) {
   Candidates& candidates = *candidates_;
   candidates.clear();
@@ -322,8 +323,8 @@ bool NearestFaceSearch::try_faces(double beyond, double within, Packet& packet) 
   return true;
 }
 
-/// What is near to the box of all points first; it is enough when none of them finds its nearest face farther
-/// away.
+/// Tests the faces near the box of all points first; this is enough if no nearest face is farther away.
+/// Returns false if there are too many candidates.
 bool NearestFaceSearch::find_together(Packet& packet) {
   const double near = std::min(expected_, packet.box.sizes().squaredNorm() / 16);
   if (!try_faces(-1, near, packet)) return false;

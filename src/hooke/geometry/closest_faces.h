@@ -1,4 +1,4 @@
-// The nearest faces of many points at once.
+// Nearest-face queries for many points at once.
 #pragma once
 
 #include <memory>
@@ -8,19 +8,21 @@
 namespace hooke {
 
 struct NearestFace {
-  double squared_distance = 0;  // to the last bit that of closest_point() for this face
-  long long place = -1;         // in the faces() of the tree; -1 when it is empty
+  double squared_distance = 0;  // bitwise equal to that of closest_point() for this face
+  long long place = -1;         // index in faces() of the tree; -1 if the tree is empty
 };
 
-/// Keeps a reference to the tree. One thread each; what it tells of ties depends on what it was asked before.
+/// Keeps a reference to the tree, which must outlive it. Use one object per thread. Which of several equally
+/// close faces is returned depends on earlier queries.
 class NearestFaceSearch {
  public:
   explicit NearestFaceSearch(const AabbTree& tree);
   ~NearestFaceSearch();
 
-  /// For each point the nearest face; of those at the same distance up to rounding any. Fast where points
-  /// that stand next to each other are close in space: they look for what is near to all of them together,
-  /// and four at a time for their own nearest.
+  /// Finds the nearest face of each point; among faces at the same distance up to rounding, any of them. Fast
+  /// if consecutive points are close in space: the candidates are collected for many points together and
+  /// tested for four points at a time.
+  /// Pre-condition: as many results as points.
   void operator()(std::span<const Vec3> points, std::span<NearestFace> results);
 
   struct Packet;
@@ -33,7 +35,7 @@ class NearestFaceSearch {
 
   const AabbTree& tree_;
   std::unique_ptr<Candidates> candidates_;
-  double expected_ = 0;  // squared distance, by what was found last
+  double expected_ = 0;  // squared distance, from the last points
 };
 
 }  // namespace hooke

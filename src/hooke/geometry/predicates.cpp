@@ -20,7 +20,7 @@ using WideInteger = FixedInteger<6400>;  // for any three factors: doubles span 
 // Shewchuk's bounds (3 + 16 eps) eps and (7 + 56 eps) eps, rounded up.
 constexpr double relative_error_2d = 3.4e-16;
 constexpr double relative_error_3d = 7.8e-16;
-// The bounds do not cover underflow. With differences below 1e100 all that underflow can add is below this.
+// The bounds do not cover underflow. For differences below 1e100 underflow adds less than this.
 constexpr double underflow_error = 1e-200;
 constexpr double max_difference = 1e100;
 
@@ -38,7 +38,8 @@ Binary to_binary(double x) {
   return {mantissa >> zeros, exponent - 53 + zeros};
 }
 
-/// The exponents that hold all digits of the numbers: each is an integer times 2^lowest, below 2^highest.
+/// Range of exponents of all binary digits: each number is an integer times 2^lowest and below 2^highest in
+/// size.
 struct Digits {
   int lowest = 0;
   int highest = 0;
@@ -65,7 +66,7 @@ Integer to_integer(const Binary& b, int lowest) {
   return i;
 }
 
-/// Coordinates as integers of a common scale; it does not change the sign of a determinant.
+/// Coordinates as integers at a common scale, which does not change the sign of a determinant.
 template <typename Integer, size_t n>
 std::array<Integer, n> to_integers(const std::array<Binary, n>& numbers, int lowest) {
   std::array<Integer, n> integers;
@@ -141,7 +142,7 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double greatest =
       std::max({u.lpNorm<Eigen::Infinity>(), v.lpNorm<Eigen::Infinity>(), w.lpNorm<Eigen::Infinity>()});
   if (std::abs(determinant) > bound && greatest < max_difference) return determinant > 0 ? 1 : -1;
-  for (int k = 0; k < 3; ++k)  // meshes in an axis-parallel plane are common, and exact already
+  for (int k = 0; k < 3; ++k)  // common: a mesh in an axis-parallel plane
     if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;
   return exact_orient3d(a, b, c, d);
 }

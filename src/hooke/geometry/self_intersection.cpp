@@ -16,12 +16,12 @@ Vec2 drop_axis(const Vec3& p, int axis) {
   return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
 }
 
-/// An axis along which the triangle can be flattened without losing its area.
+/// An axis along which the triangle can be projected without losing its area.
 int flattening_axis(const Corners& t) {
   const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs();
   std::array<int, 3> axes = {0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) { return n[i] > n[j]; });
-  for (int axis : axes)  // rounding may have misled us
+  for (int axis : axes)  // the order of the axes is subject to rounding
     if (orient2d(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0) return axis;
   return axes[0];
 }
@@ -58,15 +58,16 @@ bool segment_meets_triangle_in_plane(const Vec3& p, const Vec3& q, const Corners
   return false;
 }
 
-/// `side_p` and `side_q` are the sides of the triangle's plane on which p and q lie.
+/// Whether the segment p q meets the triangle; `side_p` and `side_q` are the sides of its plane on which p
+/// and q lie.
 bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Corners& t, int side_p, int side_q) {
   if (side_p * side_q > 0) return false;
   if (side_p == 0 && side_q == 0) return segment_meets_triangle_in_plane(p, q, t);
   return same_side(orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0]));
 }
 
-/// More than what rounding adds to a product of the differences of points with a vector, in parts of the
-/// sum of its terms' sizes.
+/// Bounds on the rounding error of the dot product of a vector with a difference of points: relative to the
+/// sum of the absolute values of its terms, and absolute for underflow.
 constexpr double rounding = 1e-14;
 constexpr double underflow = 1e-280;
 
@@ -74,8 +75,8 @@ double size_of(const Vec3& v) {
   return v.lpNorm<1>();
 }
 
-/// Whether a plane between the centres surely has one triangle on each side. Most pairs that are asked for
-/// are: their boxes meet as they are next to each other.
+/// Whether a plane between the centres certainly separates the triangles. It does for most candidate pairs,
+/// whose boxes overlap only because they are close.
 bool surely_apart(const Corners& s, const Corners& t) {
   const Vec3 across = (t[0] - s[0]) + (t[1] - s[1]) + (t[2] - s[2]);
   double last_of_s = 0, first_of_t = std::numeric_limits<double>::infinity(), farthest = 0;
@@ -88,7 +89,7 @@ bool surely_apart(const Corners& s, const Corners& t) {
   return first_of_t - last_of_s > rounding * farthest * size_of(across) + underflow;
 }
 
-/// The same for two triangles that share their corner 0, where the plane goes through it.
+/// surely_apart() for two triangles that share their corner 0, with the plane through that corner.
 bool surely_apart_but_for_corner(const Corners& s, const Corners& t) {
   const Vec3 s1 = s[1] - s[0], s2 = s[2] - s[0], t1 = t[1] - t[0], t2 = t[2] - t[0];
   const Vec3 across = (t1 + t2).normalized() - (s1 + s2).normalized();
@@ -99,8 +100,8 @@ bool surely_apart_but_for_corner(const Corners& s, const Corners& t) {
   return last_of_s < -margin && first_of_t > margin;
 }
 
-/// Two triangles that share their corner 0. If they share any further point, then the ray from the corner to
-/// it leaves one of them, through the opposite edge, inside the other.
+/// Whether two triangles that share their corner 0 share any further point. If they do, the ray from the
+/// corner to that point leaves one of them, through the opposite edge, inside the other.
 bool fans_meet(const Corners& s, const Corners& t) {
   if (surely_apart_but_for_corner(s, t)) return false;
   const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
@@ -112,7 +113,7 @@ bool fans_meet(const Corners& s, const Corners& t) {
   return segment_meets_triangle(s[1], s[2], t, s1, s2) || segment_meets_triangle(t[1], t[2], s, t1, t2);
 }
 
-/// Two triangles that share the edge of their corners 0 and 1: folded flat onto each other?
+/// Whether two triangles that share the edge of their corners 0 and 1 are folded flat onto each other.
 bool hinge_is_shut(const Corners& s, const Vec3& tip) {
   if (orient3d(s[0], s[1], s[2], tip) != 0) return false;
   const int axis = flattening_axis(s);
@@ -122,13 +123,13 @@ bool hinge_is_shut(const Corners& s, const Vec3& tip) {
 
 using Face = AabbTree::Face;
 
-/// The corners in their order, beginning with `first`.
+/// The corners in cyclic order, beginning with `first`.
 Corners corners_from(const Face& face, size_t first) {
   return {face.corners[first], face.corners[(first + 1) % 3], face.corners[(first + 2) % 3]};
 }
 
 bool faces_meet(const Face& s, const Face& t) {
-  std::array<size_t, 3> in_s{}, in_t{};  // places of the common vertices
+  std::array<size_t, 3> in_s{}, in_t{};  // corner indices of the common vertices
   size_t common = 0;
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 3; ++j)
@@ -182,7 +183,7 @@ std::vector<std::array<int, 2>> find_self_intersections(const AabbTree& tree) {
   });
   std::vector<std::array<int, 2>> pairs;
   for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-  std::sort(pairs.begin(), pairs.end());  // the tree has its own order
+  std::sort(pairs.begin(), pairs.end());  // the tree visits the pairs in its own order
   return pairs;
 }
 

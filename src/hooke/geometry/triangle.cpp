@@ -37,7 +37,7 @@ TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3
     }
   }
 
-  // Outside, or without area: on one of the sides.
+  // Outside, or without area: on one of the edges.
   const std::array<Vec3, 3> corners = {a, b, c};
   TrianglePoint best;
   for (int k = 0; k < 3; ++k) {
@@ -62,15 +62,15 @@ double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 
 namespace {
 
-/// Twice the area: by the two shorter edges, whose cross product has the least rounding.
+/// Twice the area, from the two shorter edges, whose cross product has the smallest rounding error.
 double doubled_area(const Vec3& ab, const Vec3& bc, const Vec3& ca, const Vec3& lengths) {
   Eigen::Index longest = 0;
   lengths.maxCoeff(&longest);
   return (longest == 0 ? bc.cross(ca) : longest == 1 ? ca.cross(ab) : ab.cross(bc)).norm();
 }
 
-/// Degrees; 0 when an edge has no length. The arc tangent keeps all digits near 0 and 180, where that of the
-/// cosine loses half of them.
+/// Angle in degrees; 0 if an edge has no length. The arc tangent keeps all digits near 0 and 180, where the
+/// arc cosine loses half of them.
 double angle_of(double product, double doubled_area) {
   return std::atan2(doubled_area, product + 0.) * (180 / std::numbers::pi);  // atan2(0, -0) would be 180
 }

@@ -1,4 +1,5 @@
-// Closest point of one triangle. For the nearest of many see bounding_volume_tree.h.
+// Geometry of single triangles: closest points, shape measures, angles, areas and normals. For the nearest of
+// many triangles see geometry/aabb_tree.h.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3
 /// Distance of x to the segment a b, which may have no length.
 double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b);
 
-// Measures of a single triangle. Those that need an area are infinite or NaN without one.
+// Shape measures. Those that need an area are infinite or NaN without one.
 // P. P. Pebay and T. J. Baker, "Analysis of triangle quality measures", 2003.
 
 struct TriangleShape {
@@ -33,22 +34,21 @@ struct TriangleShape {
 
 TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
-// The least corner angle of a face, by its cotangent, which costs no trigonometry and falls as the angle
-// grows.
+// The minimum corner angle, by its cotangent, which needs no trigonometry and decreases as the angle grows.
 
-/// Cotangent of the least angle of a face, which is across from its shortest edge; infinite without area.
+/// Cotangent of the minimum angle of a face, which is opposite its shortest edge; infinite without area.
 double max_cotangent(const Mat3X& points, const Triangle& face);
 
-/// The greatest of all faces; infinite without faces.
+/// Maximum over all faces of the above; infinite without faces.
 double max_cotangent(const Mat3X& points, const std::vector<Triangle>& faces);
 
-/// The angle, degrees.
+/// The angle with this cotangent, degrees.
 double angle_with_cotangent(double cotangent);
 
-/// Least corner angle of all faces, degrees; 0 without faces.
+/// Minimum corner angle of all faces, degrees; 0 without faces.
 double min_angle(const Mat3X& points, const std::vector<Triangle>& faces);
 
-// Area and normal of one triangle, and when it has none.
+// Area and normal, and the criterion for degenerate faces.
 
 struct FaceShape {
   double area = 0;
@@ -58,14 +58,14 @@ struct FaceShape {
   bool degenerate() const { return normal.isZero(0); }
 };
 
-/// Its length is twice the area.
+/// Normal of the face with twice the area as its length.
 inline Vec3 doubled_area_vector(const Mat3X& points, const Triangle& face) {
   const Vec3 a = points.col(face[0]);
   return (points.col(face[1]) - a).cross(points.col(face[2]) - a);
 }
 
-/// A face is degenerate when its double area is below 1e-12 of its longest edge squared: then rounding of the
-/// coordinates decides where its normal points.
+/// A face is degenerate if its doubled area is below 1e-12 of its longest edge squared: then the rounding of
+/// the coordinates determines the direction of its normal.
 inline FaceShape face_shape(const Eigen::Ref<const Mat3X>& points, const Triangle& face) {
   const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
   const Vec3 cross = (b - a).cross(c - a);
@@ -76,19 +76,19 @@ inline FaceShape face_shape(const Eigen::Ref<const Mat3X>& points, const Triangl
   return shape;
 }
 
-// How a face and an edge lie on the surface whose normals are given, and faces to each other.
+// Alignment of faces and edges with the normals of a surface, and of faces with each other.
 
-/// Cosine between the face and the sum of the surface normals at its corners; 0 without area. `sides` are the
-/// columns of the corners' normals.
+/// Cosine between the normal of the face and the sum of the surface normals at its corners; 0 without area.
+/// `sides` are the wedges of the corners: the columns of their normals.
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face, const Triangle& sides);
 
-/// The same away from creases, where the corners are the columns.
+/// The same away from creases, where the wedges are the vertices.
 inline double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
   return face_alignment(points, normals, face, face);
 }
 
-/// Sagitta (l / 2) tan(theta / 4) of a circular arc over a chord of length l whose ends' normals differ by
-/// theta. `sides` are the columns of the ends' normals.
+/// Sagitta (l / 2) tan(theta / 4) of a circular arc over an edge of length l whose end normals differ by
+/// theta. `sides` are the wedges of the ends: the columns of their normals.
 double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides);
 
 inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge) {
@@ -98,7 +98,7 @@ inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge
 /// Cosine between the normals of two faces; 1 where one has no area.
 double cosine_between(const Mat3X& points, const Triangle& face, const Triangle& other);
 
-/// The same from the vectors of their areas.
+/// The same from the area vectors of the faces.
 double cosine_between(const Vec3& area_vector, const Vec3& other);
 
 }  // namespace hooke

@@ -16,13 +16,13 @@
 namespace hooke {
 namespace {
 
-/// Works on one vertex at a time; made once for many, for its memory. Keeps references.
+/// Searches for one vertex at a time; reused for many vertices to save allocations. Keeps references.
 class VertexSearch {
  public:
   VertexSearch(Relaxation& relaxation, const VertexSearchOptions& options, const GuardOptions& guards);
 
-  /// Moves the vertex, as far as the guards let it, until no cotangent about it is above the goal or it finds
-  /// nothing better. Returns whether it moved.
+  /// Moves the vertex, within the guards, until no cotangent around it exceeds the goal or no candidate is
+  /// better. Returns whether it moved.
   bool improve(int vertex, double goal);
 
  private:
@@ -31,21 +31,22 @@ class VertexSearch {
     RingShape before, after;
   };
 
-  void look(int vertex);
-  double outcome(const SurfacePosition& place);
-  bool may_go() const;
-  bool try_all(int vertex, double step);
+  void gather(int vertex);
+  double max_cotangent_at(const SurfacePosition& position);
+  bool guards_allow() const;
+  bool move_to_best(int vertex, double step);
 
   Relaxation& r_;
   const VertexSearchOptions& o_;
   const GuardOptions& guards_;
   std::vector<Eigen::Vector2d> directions_;
   std::array<Wedge, 2> wedges_;
-  int count_ = 1;     // of the sides
-  double worst_ = 0;  // greatest cotangent about the vertex
+  int count_ = 1;     // number of wedges
+  double worst_ = 0;  // largest cotangent around the vertex
 };
 
-constexpr double far_off = 1.1;  // times the greatest cotangent: what the surface's bend may make of a place
+/// Factor by which a candidate may exceed the cotangent to beat before it is projected to the surface.
+constexpr double projection_allowance = 1.1;
 
 }  // namespace
 
@@ -65,11 +66,11 @@ bool VertexSearch::improve(int vertex, double goal) {
   if (r_.coloring.rings[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
   bool moved = false;
   double step = o_.first_step;
-  look(vertex);
+  gather(vertex);
   while (worst_ > goal && step >= o_.last_step) {
-    if (try_all(vertex, step)) {
+    if (move_to_best(vertex, step)) {
       moved = true;
-      look(vertex);
+      gather(vertex);
     } else {
       step /= 2;
     }
@@ -77,8 +78,8 @@ bool VertexSearch::improve(int vertex, double goal) {
   return moved;
 }
 
-/// Takes in the rings about the vertex as they lie.
-void VertexSearch::look(int vertex) {
+/// Gathers the rings around the vertex and measures them at its current position.
+void VertexSearch::gather(int vertex) {
   const SurfacePositions& at = r_.positions;
   count_ = 1 + (at.other_wedge_of(vertex) >= 0);
   worst_ = 0;
@@ -91,25 +92,25 @@ void VertexSearch::look(int vertex) {
   }
 }
 
-/// The greatest cotangent about the vertex if it went there, whether it may or not.
-double VertexSearch::outcome(const SurfacePosition& place) {
+/// The largest cotangent around the vertex at this position, whether or not the guards allow it.
+double VertexSearch::max_cotangent_at(const SurfacePosition& position) {
   double worst = 0;
   for (int s = 0; s < count_; ++s) {
     auto& [ring, before, after] = wedges_[static_cast<size_t>(s)];
-    ring.shape(place.point, s == 0 ? place.normal : place.other_normal, after);
+    ring.shape(position.point, s == 0 ? position.normal : position.other_normal, after);
     worst = std::max(worst, ring.max_cotangent(after));
   }
   return worst;
 }
 
-/// May the vertex go where outcome() looked last?
-bool VertexSearch::may_go() const {
+/// Do the guards allow the position evaluated last by max_cotangent_at()?
+bool VertexSearch::guards_allow() const {
   return std::all_of(wedges_.begin(), wedges_.begin() + count_,
                      [&](const Wedge& s) { return s.ring.obeys(s.before, s.after, guards_); });
 }
 
-/// Goes to the best of the places at this distance, if one is better than where the vertex is.
-bool VertexSearch::try_all(int vertex, double step) {
+/// Moves the vertex to the best candidate at this distance if it is better than the current position.
+bool VertexSearch::move_to_best(int vertex, double step) {
   SurfacePositions& at = r_.positions;
   const Vec3 tangent = r_.retraction.tangent(at, vertex), normal = at.normals.col(vertex);
   const bool on_curve = !tangent.isZero(0);
@@ -118,35 +119,36 @@ bool VertexSearch::try_all(int vertex, double step) {
   const Vec3 u = on_curve ? tangent : Vec3((edge - normal * normal.dot(edge)).normalized());
   const Vec3 v = normal.cross(u);
   const double length = step * r_.vertex_length[static_cast<size_t>(vertex)];
-  // A face without area: any finite angle is better.
-  double best =
-      std::isfinite(worst_) ? worst_ - o_.min_gain * std::abs(worst_) : std::numeric_limits<double>::max();
-  std::optional<SurfacePosition> best_place;
-  const auto look_at = [&](const Vec3& way) {
-    SurfacePosition place(at, vertex);
-    place.point += way;
-    if (outcome(place) > far_off * best) return;  // nor will it be better once it is on the surface
-    place = r_.retraction.moved(at, vertex, way);
-    const double worst = outcome(place);
-    if (worst >= best || !may_go()) return;
-    best = worst;
-    best_place = place;
+  // At a face without area any finite angle is better.
+  double cotangent_to_beat = std::isfinite(worst_) ? worst_ - o_.min_relative_gain * std::abs(worst_)
+                                                   : std::numeric_limits<double>::max();
+  std::optional<SurfacePosition> best;
+  const auto test = [&](const Vec3& displacement) {
+    SurfacePosition candidate(at, vertex);
+    candidate.point += displacement;
+    if (max_cotangent_at(candidate) > projection_allowance * cotangent_to_beat)
+      return;  // the projection would not make it better
+    candidate = r_.retraction.moved(at, vertex, displacement);
+    const double worst = max_cotangent_at(candidate);
+    if (worst >= cotangent_to_beat || !guards_allow()) return;
+    cotangent_to_beat = worst;
+    best = candidate;
   };
   if (on_curve) {
-    look_at(length * u);
-    look_at(-length * u);
+    test(length * u);
+    test(-length * u);
   } else {
-    for (const Eigen::Vector2d& d : directions_) look_at(length * (d[0] * u + d[1] * v));
+    for (const Eigen::Vector2d& d : directions_) test(length * (d[0] * u + d[1] * v));
   }
-  if (best_place) best_place->write_to(at, vertex);
-  return best_place.has_value();
+  if (best) best->write_to(at, vertex);
+  return best.has_value();
 }
 
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t angle_search_block = 4096;
 
-constexpr double max_least_angle = 60;  // degrees; of an equilateral triangle
+constexpr double ideal_min_angle = 60;  // degrees, of an equilateral triangle
 
 double cotangent_of(double degrees) {
   return 1 / std::tan(degrees * std::numbers::pi / 180);
@@ -187,24 +189,25 @@ EdgeErrors errors_of(const Relaxation& r, const std::vector<int>& edges) {
 
 EdgeErrors errors_of_all(const Relaxation& r) {
   const size_t count = r.adjacency.edges.size();
-  std::vector<EdgeErrors> parts((count + block - 1) / block);
+  std::vector<EdgeErrors> parts((count + angle_search_block - 1) / angle_search_block);
   parallel_for(parts.size(), 1, [&](size_t begin, size_t end) {
     for (size_t part = begin; part < end; ++part)
-      for (size_t e = part * block; e < std::min(count, (part + 1) * block); ++e) parts[part].add(r, e);
+      for (size_t e = part * angle_search_block; e < std::min(count, (part + 1) * angle_search_block); ++e)
+        parts[part].add(r, e);
   });
   EdgeErrors errors;
   for (const EdgeErrors& part : parts) errors += part;
   return errors;
 }
 
-/// The faces and edges as they lie. Faces with small angles stand in a list of their own: rounds look at no
-/// others.
+/// Measures of all faces and edges. Faces with small angles are kept in a separate list, the only one that a
+/// round searches.
 class Measures {
  public:
   explicit Measures(const Relaxation& r)
       : r_(r), cotangents_(r.adjacency.faces.size()), errors_(errors_of_all(r)) {
-    parallel_for(cotangents_.size(), block, [&](size_t begin, size_t end) {
-      for (size_t f = begin; f < end; ++f) look(f);
+    parallel_for(cotangents_.size(), angle_search_block, [&](size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) measure_face(f);
     });
     start_deviation_ = deviation();
     list_worst();
@@ -215,10 +218,10 @@ class Measures {
     return angle_with_cotangent(max_cotangent_of(listed_));
   }
 
-  /// Of l / L_e, over that at the start.
+  /// Standard deviation of l / L_e, relative to its start.
   double edge_error() const { return start_deviation_ > 0 ? deviation() / start_deviation_ : 1; }
 
-  /// The corners of the worst faces, worst first: those with an angle below `goal`.
+  /// The corners of at most `max_faces` faces with an angle below `goal` (degrees), worst face first.
   std::vector<int> worst_corners(double goal, int max_faces) {
     const double limit = cotangent_of(goal);
     if (limit < listed_from_) list_below(goal + listed_above);
@@ -236,29 +239,29 @@ class Measures {
     return corners;
   }
 
-  /// Calls `move` and takes in what it does to these vertices.
+  /// Calls `move`, which moves these vertices, and updates the measures around them.
   template <typename Move>
-  void follow(const std::vector<int>& vertices, const Move& move) {
+  void update_around(const std::vector<int>& vertices, const Move& move) {
     const std::vector<int> edges = sorted_union(r_.adjacency.vertex_edges, vertices);
     errors_ -= errors_of(r_, edges);
     move();
     errors_ += errors_of(r_, edges);
     for (int f : sorted_union(r_.adjacency.vertex_faces, vertices)) {
-      look(static_cast<size_t>(f));
+      measure_face(static_cast<size_t>(f));
       list_if_low(f);
     }
   }
 
  private:
-  static constexpr double listed_above = 3;  // degrees, above what is asked for
+  static constexpr double listed_above = 3;  // degrees by which the list reaches beyond the angle asked for
 
-  void look(size_t f) { cotangents_[f] = max_cotangent(r_.positions.points, r_.adjacency.faces[f]); }
+  void measure_face(size_t f) { cotangents_[f] = max_cotangent(r_.positions.points, r_.adjacency.faces[f]); }
   double deviation() const { return errors_.deviation(r_.adjacency.edges.size()); }
 
   double max_cotangent_of(const std::vector<int>& faces) const {
-    double greatest = -std::numeric_limits<double>::infinity();
-    for (int f : faces) greatest = std::max(greatest, cotangents_[static_cast<size_t>(f)]);
-    return greatest;
+    double largest = -std::numeric_limits<double>::infinity();
+    for (int f : faces) largest = std::max(largest, cotangents_[static_cast<size_t>(f)]);
+    return largest;
   }
 
   void list_worst() {
@@ -280,15 +283,15 @@ class Measures {
   }
 
   const Relaxation& r_;
-  std::vector<double> cotangents_;  // the greatest of each face
-  double listed_from_ = 0;          // cotangent of an angle
+  std::vector<double> cotangents_;  // largest cotangent per face
+  double listed_from_ = 0;          // cotangent of the angle below which faces are listed
   std::vector<int> listed_;         // all faces with a smaller angle, and some that had one
   std::vector<char> is_listed_;     // per face
   EdgeErrors errors_;
   double start_deviation_ = 0;
 };
 
-/// Improves each of the vertices, which ascend, in turn; returns how many moved.
+/// Improves each of the vertices (ascending) in turn; returns how many moved.
 int improve(Relaxation& r, const std::vector<int>& vertices, const VertexSearchOptions& options,
             const GuardOptions& guards, double goal) {
   std::vector<char> moved(vertices.size(), 0);
@@ -302,37 +305,37 @@ int improve(Relaxation& r, const std::vector<int>& vertices, const VertexSearchO
   return static_cast<int>(std::ranges::count(moved, 1));
 }
 
-/// Goes on until no round raises the least angle any more.
+/// Runs rounds until none raises the minimum angle any more.
 void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards, Measures& measures,
                    AngleSearchResult& result) {
-  double least = measures.min_angle();
-  double above = o.above_least;
+  double min_angle = measures.min_angle();
+  double range = o.angle_range;
   VertexSearchOptions vertex = o.vertex;
-  while (result.rounds < o.max_rounds && above > o.min_rise && least + o.min_rise < max_least_angle) {
-    const double goal = least + above;
+  while (result.rounds < o.max_rounds && range > o.min_rise && min_angle + o.min_rise < ideal_min_angle) {
+    const double goal = min_angle + range;
     std::vector<int> vertices = with_rings(r.adjacency, measures.worst_corners(goal, o.max_faces), o.rings);
     std::ranges::sort(vertices);
     std::vector<SurfacePosition> before;
     for (int v : vertices) before.emplace_back(r.positions, v);
     int moves = 0;
-    measures.follow(vertices, [&] {
+    measures.update_around(vertices, [&] {
       for (int sweep = 0, moved = 1; sweep < o.sweeps && moved > 0; ++sweep)
         moves += moved = improve(r, vertices, vertex, guards, cotangent_of(goal));
     });
     ++result.rounds;
-    if (moves == 0) return;  // nor will fewer of them
+    if (moves == 0) return;  // a smaller range of angles would not move any either
     const double now = measures.min_angle();
-    if (now < least + o.min_rise || measures.edge_error() > o.edge_error_limit) {
-      measures.follow(vertices, [&] {
+    if (now < min_angle + o.min_rise || measures.edge_error() > o.edge_error_limit) {
+      measures.update_around(vertices, [&] {
         for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(r.positions, vertices[i]);
       });
-      above /= 2;  // less, and with shorter steps, which cost less
+      range /= 2;  // fewer faces and shorter steps lengthen the edges less
       vertex.first_step = std::max(vertex.last_step, vertex.first_step / 2);
       continue;
     }
     result.moves += moves;
     result.vertices.insert(result.vertices.end(), vertices.begin(), vertices.end());
-    least = now;
+    min_angle = now;
   }
 }
 

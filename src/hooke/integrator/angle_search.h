@@ -1,4 +1,5 @@
-// Pattern search for the place of one vertex where the least angle about it is greatest.
+// Pattern search on single vertices that raises the minimum angle of the mesh directly. It runs last, where
+// the springs are at rest, because the minimum angle has no gradient where it matters.
 #pragma once
 
 #include <array>
@@ -7,39 +8,36 @@
 
 namespace hooke {
 
+/// Pattern search for the position of one vertex that maximises the smallest angle around it.
 struct VertexSearchOptions {
-  int directions = 8;      // that a vertex looks into
-  double first_step = .3;  // target lengths, halved ...
-  double last_step = .01;  // ... down to this
-  double min_gain = 1e-3;  // of the cotangent; less is not worth a move
+  int directions = 8;               // directions tested in the tangent plane
+  double first_step = .3;           // in target lengths; the step is halved when no direction helps
+  double last_step = .01;           // in target lengths; the search ends below it
+  double min_relative_gain = 1e-3;  // minimum relative gain of the cotangent for a move
 };
-
-// The worst corners, last: where springs have settled against a guard or against each other, a vertex may
-// still find a better place by trying. Maximises the least angle itself, which has no gradient where it
-// matters.
 
 struct AngleSearchOptions {
   VertexSearchOptions vertex = {};
-  double above_least = 1;           // degrees; faces up to so much above the least angle are worked on
-  int max_faces = 500;              // the worst of them
-  int rings = 1;                    // about their corners, within which vertices move
-  int sweeps = 3;                   // over these in a round
-  double edge_error_limit = 1.005;  // of the standard deviation of l / L_e at its start
-  double sagitta = .3;              // over the target length, as guards have one: worth a better least angle
-  int max_rounds = 40;              // of both; each must raise the least angle by ...
-  double min_rise = .02;            // ... this many degrees
+  double angle_range = 1;           // degrees; faces whose angle exceeds the minimum by less are treated
+  int max_faces = 500;              // maximal number of these faces, worst first
+  int rings = 1;                    // rings around their corners within which vertices move
+  int sweeps = 3;                   // per round
+  double edge_error_limit = 1.005;  // maximal standard deviation of l / L_e, relative to its start
+  double sagitta = .3;              // limit of a second pass, over the target length; looser than the guards'
+  int max_rounds = 40;              // of both passes
+  double min_rise = .02;            // degrees by which each round must raise the minimum angle
 };
 
 struct AngleSearchResult {
   int rounds = 0;
-  int moves = 0;
-  std::vector<int> vertices;  // that may have moved, ascending
+  int moves = 0;              // accepted moves
+  std::vector<int> vertices;  // vertices that may have moved, ascending
 };
 
-/// Raises the least angle of all as far as edges may pay for it. No face about a vertex that moves has a
-/// smaller angle than the least of them had before; all moves obey the guards, but for a looser limit of
-/// sagittas once nothing else helps. After one look at all faces and edges only those about the vertices that
-/// may move are looked at again.
+/// Raises the minimum angle of the mesh while the edge lengths stay within `edge_error_limit`. Each move
+/// raises the smallest angle around the moved vertex. All moves obey the guards; a second pass allows larger
+/// sagittas once the first one has ended. All faces and edges are measured once, afterwards only those around
+/// vertices that may have moved.
 AngleSearchResult search_angles(Relaxation& relaxation, const AngleSearchOptions& options);
 
 }  // namespace hooke

@@ -36,7 +36,7 @@ double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edg
 
 namespace {
 
-/// The corners of all faces with an angle below the threshold (degrees) and `rings` rings around them.
+/// The corners of all faces with an angle below the threshold (degrees), and `rings` rings around them.
 std::vector<int> around_bad_faces(const Mat3X& points, const Adjacency& c, double threshold, int rings) {
   const double limit = 1 / std::tan(threshold * std::numbers::pi / 180);
   std::vector<char> bad(c.faces.size());
@@ -49,7 +49,7 @@ std::vector<int> around_bad_faces(const Mat3X& points, const Adjacency& c, doubl
   return with_rings(c, vertices, rings);
 }
 
-/// One stage: sweeps over what lies around faces with an angle below the threshold.
+/// One stage: sweeps over the vertices around faces with an angle below the threshold.
 void raise(Relaxation& r, double threshold, const AngleSpringOptions& o, const Observer& observer,
            AngleSpringResult& result) {
   const auto watch = [&](Progress p) {
@@ -76,7 +76,7 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
 
   double best = result.min_angle_before;
   double threshold = std::max(o.first_threshold, best + o.margin);
-  double too_high = o.last_threshold + 1e-9;  // the first that is
+  double too_high = o.last_threshold + 1e-9;  // the lowest threshold known to cost too much
   if (threshold >= too_high) return result;
   const EnergyTerms terms = r.energy.terms;
   r.energy.terms.altitude = 0;
@@ -84,7 +84,7 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
   int kept_stages = 0;
   double last_error = result.edge_error_before, last_threshold = best;  // of the last state kept
   double step = o.threshold_step;
-  double reached = best;  // the last threshold that was not too much
+  double reached = best;  // the highest threshold known not to cost too much
   while (threshold < too_high && !result.interrupted) {
     r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
     r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
@@ -93,9 +93,9 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
 
     const double angle = min_angle(r.positions.points, faces);
     const double error = relative_edge_deviation(r.positions.points, edges, targets);
-    if (kept_stages > 0 && angle < best - o.keep_within) break;  // what bounds it is not the threshold
+    if (kept_stages > 0 && angle < best - o.keep_within) break;  // the threshold is not what limits the angle
     const double limit = result.edge_error_before * (kept_stages > 0 ? o.edge_error_limit : 1);
-    if (error > limit) {  // too far: half the way, from where it was not
+    if (error > limit) {  // half the threshold step, from the last state kept
       r.positions = kept;
       too_high = threshold;
       step = (threshold - reached) / 2;
@@ -110,7 +110,7 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
       ++kept_stages;
       result.min_angle_after = angle;
       result.edge_error_after = error;
-      // Errors rise ever faster: what would be too much need not be tried.
+      // The error grows faster than linearly: a step predicted to exceed the limit is not tested.
       const double rise = 2 * std::max(0., error - last_error) / (threshold - last_threshold);  // per degree
       const double left = o.edge_error_limit * result.edge_error_before - error;
       if (rise * step > left) {

@@ -1,5 +1,5 @@
-// Angle springs on the worst corners, after the equilibrium of the edges: the modified Hooke's law's
-// repulsive branch on corner angles below a threshold that rises in stages.
+// Angle springs at the worst corners, applied after the equilibrium of the edges: the repulsive branch of the
+// modified Hooke's law acts on corner angles below a threshold that rises in stages.
 #pragma once
 
 #include "hooke/integrator/relaxation.h"
@@ -9,17 +9,17 @@ namespace hooke {
 struct TargetLengths;
 
 struct AngleSpringOptions {
-  double first_threshold = 20;     // degrees; at least least angle + margin
+  double first_threshold = 20;     // degrees; at least the minimum angle + margin
   double margin = 2;               // degrees
-  double threshold_step = 2;       // degrees per stage
-  double min_step = 1;             // degrees; to which steps halve where a stage or the next costs too much
+  double threshold_step = 2;       // degrees between stages; halved when a stage costs too much
+  double min_step = 1;             // degrees; no shorter threshold steps
   double last_threshold = 32;      // degrees
-  double first_weight = 30;        // w of the first stage
-  double weight = 100;             // w of the others
-  int sweeps = 3;                  // per stage, of Newton's method vertex by vertex
-  int rings = 2;                   // around the faces below the threshold, within which vertices move
-  double rest = .01;               // of a target length; what moves less in a sweep sits out the next
-  double edge_error_limit = .995;  // of l / L_e's deviation at the start, for all stages after the first kept
+  double first_weight = 30;        // weight w of the first stage
+  double weight = 100;             // weight w of the other stages
+  int sweeps = 3;                  // Gauss-Seidel sweeps per stage
+  int rings = 2;                   // rings around the faces below the threshold within which vertices move
+  double rest = .01;               // in target lengths; a vertex that moves less skips the next sweep
+  double edge_error_limit = .995;  // maximal deviation of l / L_e over its start, after the first stage kept
   double keep_within = .1;         // degrees below the best angle at which a later state is still kept
 };
 
@@ -31,7 +31,8 @@ struct AngleSpringResult {
   bool interrupted = false;
 };
 
-/// Raises the least angle as long as the standard deviation of l / L_e stays within its limit.
+/// Raises the minimum angle in stages while the standard deviation of l / L_e stays within its limit.
+/// Restores the best state and the energy terms.
 AngleSpringResult raise_angles(Relaxation& relaxation, const TargetLengths& targets,
                                const AngleSpringOptions& options, const Observer& observer);
 

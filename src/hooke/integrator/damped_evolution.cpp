@@ -58,7 +58,7 @@ Motion motion_of(TriMesh& mesh) {
           1 / static_cast<double>(mesh.n_vertices())};
 }
 
-void come_to_rest(Motion& motion) {
+void reset_motion(Motion& motion) {
   motion.velocities.setZero();
   motion.forces.setZero();
 }
@@ -109,7 +109,7 @@ EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& c, std::span<const
                               const Observer& observer) {
   require_valid(options.damped);
   Motion motion = motion_of(mesh);
-  come_to_rest(motion);
+  reset_motion(motion);
   EvolutionResult result;
   const auto measure = [&] {
     result.max_length_error = max_length_error(motion.points, c, target_lengths);
@@ -120,7 +120,7 @@ EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& c, std::span<const
     return result;
   };
   measure();
-  double factor = first_factor;
+  double factor = initial_factor;
   while (!(result.max_length_error < options.tolerance)) {
     if (result.steps >= options.max_steps) return stopped(StopReason::step_limit);
     const EvolutionStep step = evolution_step(motion, c, target_lengths, options, restraint, factor);
@@ -142,11 +142,12 @@ EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& c, std::span<const
 
 namespace {
 
-constexpr double growth = 1.1;  // of epsilon after an accepted step
-constexpr double floor = 1e-9;  // of epsilon; jammed below
-constexpr int patience = 10;    // damped steps for one of L-BFGS, when rest is looked for
+constexpr double growth = 1.1;  // factor of epsilon after an accepted step
+constexpr double floor = 1e-9;  // of epsilon; a run below it is jammed
+constexpr int steps_per_lbfgs_step =
+    10;  // damped steps that count as one step of L-BFGS in the test for rest
 
-/// Forces at a placement, split because only the torque has no potential.
+/// Forces at the current positions. The torque is kept apart because it has no potential.
 struct Forces {
   double energy = 0;
   Mat3X total;   // lambda * (minus the gradient of the energy) + mu * torque, in the tangent space
@@ -166,11 +167,11 @@ void compute(const Relaxation& r, const SurfacePositions& at, const DampedOption
   r.retraction.constrain(at, forces.total);
 }
 
-/// Takes from the velocities the share of the way that the vertices were not let go.
-void slow_down(Motion& motion, const Mat3X& wanted, const Mat3X& granted) {
-  for (Eigen::Index v = 0; v < wanted.cols(); ++v) {
-    const double way = wanted.col(v).norm(), part = granted.col(v).norm();
-    if (part < way) motion.velocities.col(v) *= part / way;
+/// Scales the velocity of each vertex by the part of its displacement that the cap and the guards allowed.
+void scale_velocities(Motion& motion, const Mat3X& proposed, const Mat3X& allowed) {
+  for (Eigen::Index v = 0; v < proposed.cols(); ++v) {
+    const double proposed_length = proposed.col(v).norm(), allowed_length = allowed.col(v).norm();
+    if (allowed_length < proposed_length) motion.velocities.col(v) *= allowed_length / proposed_length;
   }
 }
 
@@ -181,7 +182,7 @@ void keep_in_tangent_space(const Relaxation& r, Motion& motion) {
 }
 
 RestDetector rest_detector(IntegrationOptions options) {
-  options.window *= patience;
+  options.window *= steps_per_lbfgs_step;
   return RestDetector(options);
 }
 
@@ -191,14 +192,14 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
                                const DampedOptions& damped, const Observer& observer) {
   require_valid(damped);
   Motion motion = motion_of(mesh);
-  come_to_rest(motion);
+  reset_motion(motion);
   motion.points = r.positions.points;
   const double base = std::sqrt(motion.mass / damped.string);
-  double factor = first_factor;  // epsilon
+  double factor = initial_factor;  // epsilon
   IntegrationResult result;
   RestDetector rest = rest_detector(options);
-  Forces forces, trial_forces;
-  SurfacePositions trial;
+  Forces forces, candidate_forces;
+  SurfacePositions candidate;
 
   compute(r, r.positions, damped, forces);
   if (!std::isfinite(forces.energy) || !forces.total.allFinite())
@@ -210,16 +211,16 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
 
   while (result.evaluations < options.max_steps) {
     const double dt = factor * base;
-    const Mat3X wanted = displacement(motion, damped.friction, dt);
-    Mat3X granted = wanted;
-    cap_displacement(r.vertex_length, options.max_move, granted);
+    const Mat3X proposed = displacement(motion, damped.friction, dt);
+    Mat3X allowed = proposed;
+    cap_displacement(r.vertex_length, options.max_move, allowed);
     result.limited_steps +=
-        static_cast<long long>(r.guards.step(r.retraction, r.positions, granted, trial).size());
-    compute(r, trial, damped, trial_forces);
+        static_cast<long long>(r.guards.step(r.retraction, r.positions, allowed, candidate).size());
+    compute(r, candidate, damped, candidate_forces);
     ++result.evaluations;
 
-    const double torque_work = forces.torque.cwiseProduct(trial.points - r.positions.points).sum();
-    if (!(damped.string * (trial_forces.energy - forces.energy) <= torque_work)) {
+    const double torque_work = forces.torque.cwiseProduct(candidate.points - r.positions.points).sum();
+    if (!(damped.string * (candidate_forces.energy - forces.energy) <= torque_work)) {
       motion.velocities.setZero();
       factor /= 2;
       if (factor >= floor) continue;
@@ -227,9 +228,9 @@ IntegrationResult relax_damped(Relaxation& r, TriMesh& mesh, const IntegrationOp
       break;
     }
     accelerate(motion, damped.friction, dt);
-    slow_down(motion, wanted, granted);
-    std::swap(r.positions, trial);
-    std::swap(forces, trial_forces);
+    scale_velocities(motion, proposed, allowed);
+    std::swap(r.positions, candidate);
+    std::swap(forces, candidate_forces);
     keep_in_tangent_space(r, motion);
     motion.points = r.positions.points;
     motion.forces = forces.total;

@@ -1,5 +1,6 @@
-// The damped evolution of a mesh under string and torque forces: what both the paper's Algorithm 2 and the
-// guarded relaxation on the surface share, and Algorithm 2 itself.
+// Damped evolution of a mesh under string and torque forces: the paper's Algorithm 2, and a relaxation on the
+// surface whose steps are projected and guarded per vertex, so that a collapsing face does not stop the whole
+// mesh.
 // "Hooke's Optimization for 3D triangular mesh", sections 4.1 to 4.3, equations [17]-[26].
 #pragma once
 
@@ -11,39 +12,39 @@
 
 namespace hooke {
 
-/// The constants of [17], section 4.6. They expect target lengths of about 1: a string force is a length, a
+/// The constants of [17], section 4.6. They assume target lengths of about 1: a string force is a length, a
 /// torque force has no unit.
 struct DampedOptions {
-  double string = 2;       // string tension; positive; lambda
-  double torque = 1;       // torque coefficient; mu
-  double friction = 1000;  // one over a time; positive; tau
+  double string = 2;       // lambda, the string tension; positive
+  double torque = 1;       // mu, the torque coefficient
+  double friction = 1000;  // tau, one over a time; positive
 };
 
 /// Throws Error if the string tension or the friction is not a positive number.
 void require_valid(const DampedOptions& options);
 
-/// What moves: views of the points of a mesh and of its vertex properties `v:velocity` and `v:force`, 3 x
-/// |V|. Dies when vertices are added or removed.
+/// The state of motion: views of the points of a mesh and of its vertex properties `v:velocity` and
+/// `v:force`, 3 x |V|. Invalid once vertices are added or removed.
 struct Motion {
   Eigen::Map<Mat3X> points;      // v
   Eigen::Map<Mat3X> velocities;  // u
   Eigen::Map<Mat3X> forces;      // lambda F_string + mu F_torque
-  double mass;                   // of one vertex, 1 / |V|; m
+  double mass;                   // m, of one vertex: 1 / |V|
 };
 
-/// Views a mesh that has at least one vertex; creates the two properties if it does not have them.
+/// Views of a mesh with at least one vertex; creates the two properties where they are missing.
 Motion motion_of(TriMesh& mesh);
 
-/// Forgets velocities and forces of an earlier run. [18]
-void come_to_rest(Motion& motion);
+/// Sets velocities and forces to zero. [18]
+void reset_motion(Motion& motion);
 
-/// How far the points go in the time dt, first line of [22].
+/// Displacement of the points in the time dt, first line of [22].
 Mat3X displacement(const Motion& motion, double friction, double dt);
 
-/// The velocities after the time dt, second line of [22].
+/// Advances the velocities by the time dt, second line of [22].
 void accelerate(Motion& motion, double friction, double dt);
 
-/// Greatest |l - L| of all edges; `target_lengths` has one positive length per edge.
+/// Maximum of |l - L| over the edges; `target_lengths` has one positive length per edge.
 double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                         std::span<const double> target_lengths);
 
@@ -54,61 +55,58 @@ struct EvolutionOptions {
   int max_steps = 400;      // accepted steps
 };
 
-/// Takes from the forces what some vertices may not do.
+/// Removes from the forces (3 x |V|) the components along which vertices must not move.
 using Restraint = std::function<void(Mat3X& forces)>;
 
 /// One step of Algorithm 2.
 struct EvolutionStep {
-  bool at_rest = false;      // no force and no velocity: there was nothing to do
-  AdaptedStep adapted = {};  // time, epsilon, the tests that bound it
+  bool at_rest = false;      // no force and no velocity: no step was made
+  AdaptedStep adapted = {};  // time, epsilon, and the tests that limited it
 };
 
-/// Makes the largest step that the tests of [26] allow for the whole mesh at once: forces, points,
-/// velocities. A jam or rest leaves points and velocities alone. `last_factor` is epsilon of the step before.
+/// Makes the largest step that passes the tests of [26] for the whole mesh at once, and updates forces,
+/// points and velocities. When jammed or at rest, points and velocities stay. `last_factor` is the epsilon of
+/// the previous step.
 EvolutionStep evolution_step(Motion& motion, const Adjacency& adjacency,
                              std::span<const double> target_lengths, const EvolutionOptions& options,
                              const Restraint& restraint, double last_factor);
 
-/// What Algorithm 2 returns. The energy is that of the strings, in parts of their rest lengths.
+/// Result of Algorithm 2. The energy is that of the strings, relative to their rest lengths.
 struct EvolutionResult : IntegrationResult {
   BoundCounts bound;            // of the accepted steps
-  FailedTests jam;              // what the last trial failed, when jammed
+  FailedTests jam;              // tests failed by the last candidate step, when jammed
   double time = 0;              // t_n, the sum of the time steps
   double max_length_error = 0;  // max |l - L| at the end, a length
 };
 
-/// Algorithm 2: steps from rest until max |l - L| < tolerance (converged), nothing pulls (stalled), no time
-/// step passes the tests (jammed), or the step limit. A mesh that fulfils the tolerance already is not
-/// touched (the paper's loop makes one step before it looks). With fixed connectivity the tolerance is mostly
-/// out of reach; then another condition ends the run. `evaluations` counts all trials.
+/// Algorithm 2: steps from rest until max |l - L| < tolerance (converged), no force acts (stalled), no time
+/// step passes the tests (jammed), or the step limit. A mesh within the tolerance at the start stays
+/// unchanged (the paper's loop makes one step before its test). With fixed connectivity the tolerance is
+/// mostly out of reach, and another condition ends the run. `evaluations` counts all candidate steps. Throws
+/// Error if the string tension or the friction is not positive.
 ///
-/// Nothing here holds the mesh on its surface. The strings alone fold it as they shorten and lengthen edges,
-/// with torque or without, and next to a fold (theta near pi) the torque of [6] is so large that it can throw
-/// vertices many lengths away without failing a test of [26].
+/// Nothing here keeps the mesh on its surface. The strings alone fold it as they shorten and lengthen edges,
+/// with torque or without, and next to a fold (theta near pi) the torque of [6] is so large that it can move
+/// vertices by many edge lengths without failing a test of [26].
 EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& adjacency,
                               std::span<const double> target_lengths, const EvolutionOptions& options,
                               const Restraint& restraint = nullptr, const Observer& observer = nullptr);
 
-// Relaxation by the damped evolution [17] on the surface: every step is retracted through the filter and
-// guarded per vertex, so that one collapsing face does not stop the whole mesh.
-// "Hooke's Optimization for 3D triangular mesh", sections 4.1 to 4.3.
-
-/// Moves relaxation.placement from rest toward an equilibrium on the surface. The forces are
-/// lambda * (minus the gradient of relaxation.energy) + mu * F_torque, less what the vertices may not do;
-/// they, the velocities and the points stand on `mesh` (v:force, v:velocity), whatever was there before. A
-/// vertex that the cap (options.max_move) or the guards hold back keeps that part of its velocity.
+/// Moves relaxation.positions from rest toward an equilibrium on the surface. The forces are lambda * (minus
+/// the gradient of relaxation.energy) + mu * F_torque, projected to the directions in which vertices may
+/// move; forces, velocities and points are written to `mesh` (v:force, v:velocity). A vertex whose
+/// displacement is shortened by the cap (options.max_move) or the guards keeps the same part of its velocity.
 /// Pre-condition: the mesh has the vertices of the relaxation.
 ///
-/// Time step: dt = epsilon sqrt(m / lambda), in parts of the period of a string of rest length 1, instead of
-/// [24], which one short edge or one large force would drive to zero; the cap takes care of those vertices.
-/// epsilon starts at 1/2, grows a little with every accepted step, and halves when a step is rejected: when
-/// it raises the energy by more than the work that the torque did. A rejected step also brings the mesh to
-/// rest.
+/// Time step: dt = epsilon sqrt(m / lambda), in units of the period of a string of rest length 1, instead of
+/// [24], which one short edge or one large force would drive to zero; the cap limits those vertices. epsilon
+/// starts at 1/2, grows by 10% with every accepted step, and is halved when a step is rejected because it
+/// raises the energy by more than the work of the torque. A rejected step also resets the velocities.
 ///
-/// A trial counts as one of options.max_steps. Ends at rest (stalled; over ten times options.window steps,
-/// which are shorter than those of L-BFGS), at that limit, or jammed when no time step is accepted. Throws
-/// Error if the string tension or the friction is not positive, NumericalError if the forces at the start are
-/// not finite.
+/// Every candidate step counts toward options.max_steps. The run ends at rest (stalled; over ten times
+/// options.window steps, because these steps are shorter than those of L-BFGS), at the step limit, or jammed
+/// when no time step is accepted. Throws Error if the string tension or the friction is not positive,
+/// NumericalError if the forces at the start are not finite.
 IntegrationResult relax_damped(Relaxation& relaxation, TriMesh& mesh, const IntegrationOptions& options,
                                const DampedOptions& damped, const Observer& observer);
 

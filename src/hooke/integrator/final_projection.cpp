@@ -16,12 +16,12 @@
 namespace hooke {
 namespace {
 
-constexpr double slack = .05;  // two fields of one surface differ a little, and that is no fold
+constexpr double slack = .05;  // two fields of one surface differ slightly without a fold
 
 constexpr double area_ratio = .01;
 
-/// Steps keep this much from the least angle, in parts of its cotangent, so that the projection need not fall
-/// below it.
+/// Relative margin of the cotangent limit of the steps, so that the projection need not go below the minimum
+/// angle.
 constexpr double cotangent_reserve = 3e-3;
 
 std::vector<int> revert(const Guards& guards, const SurfacePositions& from, std::vector<int> offending,
@@ -52,8 +52,8 @@ std::vector<int> corners_of(const FacePairs& pairs, const std::vector<Triangle>&
   return corners;
 }
 
-/// Marks the vertices of faces that cross and those within so many rings about them.
-std::vector<char> about_crossings(const SurfacePositions& p, const Adjacency& c, int rings) {
+/// Marks the vertices of intersecting faces and of `rings` rings around them.
+std::vector<char> mark_around_crossings(const SurfacePositions& p, const Adjacency& c, int rings) {
   std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
   for (int v : with_rings(c, corners_of(find_self_intersections(p.points, c.faces), c.faces), rings))
     marked[static_cast<size_t>(v)] = 1;
@@ -74,13 +74,13 @@ std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& 
 std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacency,
                                   const SurfacePositions& from, SurfacePositions& to) {
   constexpr int max_rounds = 8;
-  constexpr int rings_along = 2;  // about what crossed before, within which it may go on to
+  constexpr int rings_along = 2;  // rings around an intersection of `from` within which it may go on
   std::vector<int> all;
   std::optional<std::vector<char>> crossed;
   for (int round = 0; round < max_rounds; ++round) {
     FacePairs crossings = find_self_intersections(to.points, adjacency.faces);
     if (crossings.empty()) break;
-    if (!crossed) crossed = about_crossings(from, adjacency, rings_along);
+    if (!crossed) crossed = mark_around_crossings(from, adjacency, rings_along);
     const auto touches = [&](int f) {
       return std::ranges::any_of(adjacency.faces[static_cast<size_t>(f)],
                                  [&](int v) { return (*crossed)[static_cast<size_t>(v)] != 0; });
@@ -107,12 +107,12 @@ void project_drifted(const Guards& guards, Retraction& retraction, const Surface
 }
 
 void project_drifted(const Guards& guards, Retraction& retraction, SurfacePositions& positions) {
-  SurfacePositions settled;
-  project_drifted(guards, retraction, positions, settled);
-  positions = std::move(settled);
+  SurfacePositions projected;
+  project_drifted(guards, retraction, positions, projected);
+  positions = std::move(projected);
 }
 
-double cotangent_to_keep(const Mat3X& points, const std::vector<Triangle>& faces) {
+double cotangent_limit(const Mat3X& points, const std::vector<Triangle>& faces) {
   return max_cotangent(points, faces) / (1 + cotangent_reserve);
 }
 
@@ -153,7 +153,7 @@ int FinalProjection::project(const std::vector<int>& vertices) {
   return static_cast<int>(unprojected_.size());
 }
 
-/// The vertices are all tracked on the input's field again.
+/// Pre-condition: all vertices are tracked on the field of the input again.
 void FinalProjection::undo_crossings() {
   const Stage stage(work_.stopwatch, "crossings");
   const Projected before = *std::exchange(before_refit_, std::nullopt);

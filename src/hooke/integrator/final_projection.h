@@ -1,4 +1,5 @@
-// Ways that end on the surface, taken back where a guard breaks on them or faces come to cross.
+// Projection of the vertices to the field of the input, and the reversal of displacements that break a guard
+// or make faces intersect.
 #pragma once
 
 #include <optional>
@@ -9,53 +10,52 @@
 
 namespace hooke {
 
-/// Puts vertices back from `to` to where they were in `from`, point and normal, until no guard breaks on the
-/// way. Returns these.
+/// Reverts vertices of `to` to their point and normal in `from` until no displacement breaks a guard. Returns
+/// the reverted vertices.
 std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from, SurfacePositions& to);
 
-/// The same where no vertices moved but these.
+/// The same where only the vertices `moved` differ.
 std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from,
                                   const std::vector<int>& moved, SurfacePositions& to);
 
-/// Puts the vertices of faces that have come to cross each other back to where they were, with them those
-/// that a guard then wants back, and in each of a few rounds a ring more about what still crosses. Parts that
-/// crossed before go on to cross along the same curve: what is close to it stays. Returns these vertices,
+/// Reverts the vertices of faces that intersect in `to` but did not in `from`, and the vertices that the
+/// guards then require; each of a few rounds takes in one more ring around the remaining intersections.
+/// Intersections next to one that `from` already has are not reverted. Returns the reverted vertices,
 /// ascending.
 std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacency,
                                   const SurfacePositions& from, SurfacePositions& to);
 
-/// to = from with the vertices projected that have drifted, but for those where that would break a guard:
-/// they stay drifted.
+/// to = from with drifted vertices projected; a vertex whose projection would break a guard stays drifted.
 void project_drifted(const Guards& guards, Retraction& retraction, const SurfacePositions& from,
                      SurfacePositions& to);
 
 /// The same in place.
 void project_drifted(const Guards& guards, Retraction& retraction, SurfacePositions& positions);
 
-/// The cotangent that guards have where no face's least angle may fall below the least of all as they are
-/// now, with room for the final projection.
-double cotangent_to_keep(const Mat3X& points, const std::vector<Triangle>& faces);
+/// The cotangent limit for guards that must keep the minimum angle of the faces as it is now, with a reserve
+/// for the final projection.
+double cotangent_limit(const Mat3X& points, const std::vector<Triangle>& faces);
 
-/// Puts the vertices of a workspace on the field of the input, within guards that are looser than those of
-/// the steps. Keeps a reference to the workspace.
+/// Projects the vertices of a workspace to the field of the input, under guards looser than those of the
+/// steps. Keeps a reference to the workspace.
 class FinalProjection {
  public:
   /// `guards` are those of the steps.
   FinalProjection(Workspace& work, const GuardOptions& guards);
 
-  /// Fits a new field to the vertices as they lie now, see Workspace::refit(). Fields fitted again and again
-  /// may let thin sheets drift through each other: project() takes that back.
+  /// Fits a new field to the current vertices, see Workspace::refit(). Repeated fits may let thin sheets
+  /// drift through each other; the next project() reverts that.
   void refit();
 
-  /// Projects the vertices. One whose way would break a guard stays where it is; returns their number. Faces
-  /// that have come to cross since refit() go back to where they were, see revert_crossings().
+  /// Projects all vertices. A vertex whose projection would break a guard stays where it is; returns the
+  /// number of these. Faces that have come to intersect since refit() are reverted, see revert_crossings().
   int project();
 
-  /// Projects vertices, ascending, each named once, that have moved on the field of the input since, after
-  /// Workspace::return_to_input(); returns how many of all stay where they are.
+  /// Projects only `vertices` (ascending, unique), which have moved on the field of the input after
+  /// Workspace::return_to_input(). Returns the number of all vertices that are not projected.
   int project(const std::vector<int>& vertices);
 
-  /// Did the last projection of all take crossings back?
+  /// Did the last projection of all vertices revert intersections?
   bool reverted_crossings() const { return reverted_crossings_; }
 
  private:
@@ -64,12 +64,12 @@ class FinalProjection {
 
   Workspace& work_;
   GuardOptions step_guards_;
-  std::vector<int> unprojected_;  // vertices that stayed where they were
+  std::vector<int> unprojected_;  // vertices that the guards kept from being projected
   struct Projected {
     SurfacePositions positions;
     std::vector<int> unprojected;
   };
-  std::optional<Projected> before_refit_;  // until the next projection
+  std::optional<Projected> before_refit_;  // reset by the next projection
   bool reverted_crossings_ = false;
 };
 

@@ -12,10 +12,10 @@
 namespace hooke {
 namespace {
 
-constexpr double min_curvature = .1;  // of the largest
+constexpr double min_curvature = .1;  // of the largest eigenvalue
 
-/// Two unit vectors that span the plane across the normal. The first leans on an edge, not on a coordinate
-/// axis, so that a turned mesh has turned vectors.
+/// Two orthonormal vectors that span the plane across the normal. The first follows an edge instead of a
+/// coordinate axis, so that the basis rotates with the mesh.
 Mat32 tangent_basis(const Vec3& normal, const Vec3& edge) {
   Mat32 basis;
   basis.col(0) = (edge - normal * normal.dot(edge)).normalized();
@@ -23,8 +23,7 @@ Mat32 tangent_basis(const Vec3& normal, const Vec3& edge) {
   return basis;
 }
 
-/// |H|^-1 and the mean of its eigenvalues, for H symmetric, by its two eigenprojections (1 +- (H - m) / r)
-/// / 2.
+/// |H|^-1 and the mean of its eigenvalues, for symmetric H, from the eigenprojections (1 +- (H - m) / r) / 2.
 double invert_by_size(const Eigen::Matrix2d& H, Eigen::Matrix2d& inverse) {
   const double m = .5 * (H(0, 0) + H(1, 1));
   const double d = .5 * (H(0, 0) - H(1, 1));
@@ -41,7 +40,7 @@ double invert_by_size(const Eigen::Matrix2d& H, Eigen::Matrix2d& inverse) {
 
 LocalCurvature curvature_of(const RingModel& model, const Mat32& basis) {
   LocalCurvature c;
-  if (basis.col(1).isZero(0)) {  // on a curve
+  if (basis.col(1).isZero(0)) {  // slides along a curve
     c.mean = std::abs(model.hessian(0, 0));
     if (c.mean > 0) c.inverse = basis.col(0) * basis.col(0).transpose() / c.mean;
     return c;
@@ -57,7 +56,7 @@ LocalCurvature curvature_of(const RingModel& model, const Mat32& basis) {
 LocalNewton::LocalNewton(Relaxation& relaxation)
     : r_(relaxation),
       wedge_{VertexRing(relaxation.coloring.rings, relaxation.energy.targets()), {}, {}},
-      other_side_(wedge_) {}
+      other_wedge_(wedge_) {}
 
 Mat32 LocalNewton::directions(int vertex) const {
   const SurfacePositions& at = r_.positions;
@@ -68,8 +67,8 @@ Mat32 LocalNewton::directions(int vertex) const {
   return tangent_basis(at.normals.col(vertex), at.points.col(neighbour) - at.points.col(vertex));
 }
 
-/// Takes in the ring of a vertex and the model of its energy; false where there is nothing to do.
-bool LocalNewton::look(int vertex) {
+/// Gathers the ring of a vertex and the model of its energy; false for a vertex that cannot move.
+bool LocalNewton::gather(int vertex) {
   const SurfacePositions& at = r_.positions;
   if (r_.coloring.rings[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
   basis_ = directions(vertex);
@@ -82,21 +81,21 @@ bool LocalNewton::look(int vertex) {
   const int other = at.other_wedge_of(vertex);
   two_wedges_ = other >= 0;
   if (!two_wedges_) return true;
-  const RingModel more = model(other_side_, other);
+  const RingModel more = model(other_wedge_, other);
   model_.energy += more.energy;
   model_.gradient += more.gradient;
   model_.hessian += more.hessian;
   return true;
 }
 
-/// A face that is unfolded gets the springs of all others, which cost more than what unfolding gains: such a
-/// move needs no lower energy.
-bool LocalNewton::may_move(const SurfacePosition& place) {
+/// An unfolded face is subject to the springs of all others, which cost more than unfolding gains: a step
+/// that unfolds a face need not lower the energy.
+bool LocalNewton::may_move(const SurfacePosition& candidate) {
   double energy = 0;
   int unfolded = 0;
   const EnergyTerms& terms = r_.energy.terms;
   const auto obeys = [&](Wedge& s, const Vec3& normal) {
-    s.ring.shape(place.point, normal, s.after);
+    s.ring.shape(candidate.point, normal, s.after);
     if (!s.ring.obeys(s.before, s.after, r_.guards.options())) return false;
     energy += s.ring.energy(s.after, terms);
     if (terms.unfold > 0)
@@ -104,16 +103,16 @@ bool LocalNewton::may_move(const SurfacePosition& place) {
                   s.ring.folded_faces(s.after, terms.unfold_below);
     return true;
   };
-  return obeys(wedge_, place.normal) && (!two_wedges_ || obeys(other_side_, place.other_normal)) &&
+  return obeys(wedge_, candidate.normal) && (!two_wedges_ || obeys(other_wedge_, candidate.other_normal)) &&
          (unfolded > 0 || energy <= model_.energy);
 }
 
 LocalCurvature LocalNewton::curvature(int vertex) {
-  return look(vertex) ? curvature_of(model_, basis_) : LocalCurvature{};
+  return gather(vertex) ? curvature_of(model_, basis_) : LocalCurvature{};
 }
 
 double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
-  if (!look(vertex)) return 0;
+  if (!gather(vertex)) return 0;
   SurfacePositions& at = r_.positions;
   const double length = r_.vertex_length[static_cast<size_t>(vertex)];
   Vec3 step = -options.over_relaxation * (curvature_of(model_, basis_).inverse * (basis_ * model_.gradient));
@@ -122,11 +121,11 @@ double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
   if (size > cap) step *= cap / size;
 
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
-    const SurfacePosition place = r_.retraction.moved(at, vertex, step);
-    if (may_move(place)) {
-      const double way = (place.point - at.points.col(vertex)).norm();
-      place.write_to(at, vertex);
-      return way / length;
+    const SurfacePosition candidate = r_.retraction.moved(at, vertex, step);
+    if (may_move(candidate)) {
+      const double distance = (candidate.point - at.points.col(vertex)).norm();
+      candidate.write_to(at, vertex);
+      return distance / length;
     }
   }
   return 0;
@@ -147,12 +146,12 @@ std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& a
 
 namespace {
 
-constexpr double still = .3;  // of `rest`: a vertex that wants to move less is not moved at all
+constexpr double min_step_factor = .3;  // of `rest`: a vertex with a shorter step is not moved at all
 
-/// Marks those of the vertices that moved farther than `rest` and the neighbours of those: all others have
-/// found their place. Returns whether there are any.
-bool mark_restless(const Adjacency& c, const std::vector<int>& vertices, const std::vector<double>& moves,
-                   double rest, std::vector<char>& active) {
+/// Marks as active the vertices that moved farther than `rest` and their neighbours. Returns whether there
+/// are any.
+bool mark_active(const Adjacency& c, const std::vector<int>& vertices, const std::vector<double>& moves,
+                 double rest, std::vector<char>& active) {
   const auto moved = [&](int v) { return moves[static_cast<size_t>(v)] > rest; };
   parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
@@ -164,18 +163,18 @@ bool mark_restless(const Adjacency& c, const std::vector<int>& vertices, const s
 
 }  // namespace
 
-/// Steps are Newton's, not longer: where guards hold and springs end, longer ones magnify every difference,
-/// and a mesh that is moved or turned would come out another.
+/// By default the steps are not over-relaxed: where guards limit vertices and springs end, longer steps
+/// magnify rounding, and a translated or rotated mesh would get another result.
 LocalRelaxationResult relax_locally(Relaxation& r, const std::vector<int>& vertices,
                                     const LocalRelaxationOptions& o, const Observer& observer) {
   LocalRelaxationResult result;
   std::vector<char> active(static_cast<size_t>(r.adjacency.vertex_count), 0);
   for (int v : vertices) active[static_cast<size_t>(v)] = 1;
-  bool restless = !vertices.empty();
-  while (restless && result.sweeps < o.sweeps && !result.interrupted) {
-    const std::vector<double> moves =
-        local_newton_sweep(r, active, {.over_relaxation = o.over_relaxation, .rest = still * o.rest});
-    restless = mark_restless(r.adjacency, vertices, moves, o.rest, active);
+  bool any_active = !vertices.empty();
+  while (any_active && result.sweeps < o.sweeps && !result.interrupted) {
+    const std::vector<double> moves = local_newton_sweep(
+        r, active, {.over_relaxation = o.over_relaxation, .rest = min_step_factor * o.rest});
+    any_active = mark_active(r.adjacency, vertices, moves, o.rest, active);
     result.interrupted = observer && !observer({.step = result.sweeps});
     ++result.sweeps;
   }

@@ -1,5 +1,6 @@
-// Newton's method vertex by vertex (nonlinear Gauss-Seidel): each vertex in turn goes to the minimum of the
-// energy around it, in its tangent plane, guarded.
+// Newton's method vertex by vertex (nonlinear Gauss-Seidel): each vertex in turn moves toward the minimum of
+// the energy around it, in its tangent plane and within the guards. Sweeps cover all vertices, or only some
+// regions that need local relaxation.
 #pragma once
 
 #include "hooke/integrator/relaxation.h"
@@ -9,7 +10,7 @@ namespace hooke {
 
 using Mat32 = Eigen::Matrix<double, 3, 2>;
 
-/// How the energy around one vertex curves in the directions the vertex may move in.
+/// The Hessian of the energy around one vertex in the directions in which the vertex may move.
 struct LocalCurvature {
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // |H|^-1 in the tangent space, zero across it
   double mean = 0;                                    // mean of the eigenvalues of |H|
@@ -18,52 +19,51 @@ struct LocalCurvature {
 struct LocalNewtonOptions {
   double max_move = .5;  // of a vertex, in its target lengths
   double over_relaxation = 1;
-  int max_halvings = 5;  // of a move that breaks a guard or raises the energy, before the vertex stays
-  double rest = 0;       // a vertex that wants to move less, in its target length, stays
+  int max_halvings = 5;  // of a step that breaks a guard or raises the energy
+  double rest = 0;       // in target lengths; a vertex with a shorter step stays
 };
 
-/// Works on one vertex at a time; made once for many, for its memory. Keeps a reference to the relaxation.
+/// Works on one vertex at a time; reused for many vertices to save allocations. Keeps a reference to the
+/// relaxation.
 class LocalNewton {
  public:
   explicit LocalNewton(Relaxation& relaxation);
 
-  /// Eigenvalues count by their size, and those below a part of the largest are raised to it: the step
-  /// -inverse * gradient descends from saddles too. None for a vertex that stands still.
+  /// Eigenvalues count by their absolute value, and those below a part of the largest are raised to it, so
+  /// that the step -inverse * gradient also descends from saddles. Zero for a fixed vertex.
   LocalCurvature curvature(int vertex);
 
-  /// Moves the vertex to where its energy is least, as far as the guards let it; returns how far that was, in
-  /// its target length.
+  /// Moves the vertex toward the minimum of its energy, within the guards; returns the distance moved in its
+  /// target lengths.
   double improve(int vertex, const LocalNewtonOptions& options);
 
  private:
-  /// The ring of one side of the vertex, where it is and where it is to go.
+  /// The ring of one wedge of the vertex, at the current position and at the candidate.
   struct Wedge {
     VertexRing ring;
     RingShape before, after;
   };
 
-  bool look(int vertex);
+  bool gather(int vertex);
   Mat32 directions(int vertex) const;
-  bool may_move(const SurfacePosition& place);
+  bool may_move(const SurfacePosition& candidate);
 
   Relaxation& r_;
-  Wedge wedge_, other_side_;
+  Wedge wedge_, other_wedge_;
   bool two_wedges_ = false;
   Mat32 basis_ = Mat32::Zero();
   RingModel model_;
 };
 
-/// One sweep over all vertices; those with `active` false stay (empty: all move). Returns how far each
-/// vertex moved, in its target length.
+/// One sweep over all vertices; those with `active` false stay (empty: all move). Returns the distance each
+/// vertex moved, in its target lengths.
 std::vector<double> local_newton_sweep(Relaxation& relaxation, const std::vector<char>& active,
                                        const LocalNewtonOptions& options);
 
-// Newton's method vertex by vertex about some places of the mesh, where the rest is well as it is.
-
 struct LocalRelaxationOptions {
   int sweeps = 8;
-  double over_relaxation = 1;  // more is faster where vertices have far to go, but magnifies rounding
-  double rest = 3e-3;          // of a target length; what moves less in a sweep sits out the next
+  double over_relaxation = 1;  // above 1: faster where vertices move far, but magnifies rounding
+  double rest = 3e-3;          // in target lengths; a vertex that moves less skips the next sweep
 };
 
 struct LocalRelaxationResult {
@@ -71,7 +71,7 @@ struct LocalRelaxationResult {
   bool interrupted = false;
 };
 
-/// Sweeps over the vertices until all are at rest or the sweeps are used up. Nothing else moves.
+/// Sweeps over `vertices` until all are at rest or the sweeps are used up. No other vertex moves.
 LocalRelaxationResult relax_locally(Relaxation& relaxation, const std::vector<int>& vertices,
                                     const LocalRelaxationOptions& options, const Observer& observer);
 

@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 2048;
+constexpr size_t guards_block = 2048;
 
 void sort_unique(std::vector<int>& ids) {
   std::sort(ids.begin(), ids.end());
@@ -21,9 +21,9 @@ void sort_unique(std::vector<int>& ids) {
 
 /// The indices in [0, count) that pass a test, ascending.
 template <typename Test>
-std::vector<int> all_that(size_t count, const Test& test) {
+std::vector<int> indices_where(size_t count, const Test& test) {
   std::vector<char> passes(count);
-  parallel_for(count, block, [&](size_t begin, size_t end) {
+  parallel_for(count, guards_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) passes[i] = test(i);
   });
   std::vector<int> indices;
@@ -41,33 +41,34 @@ Vec3 sum_of_normals(const Mat3X& normals, const Triangle& wedges) {
   return normals.col(wedges[0]) + normals.col(wedges[1]) + normals.col(wedges[2]);
 }
 
-// What most faces and edges pass without a root or a measure of what was before. They hold with a margin, so
-// that they never contradict the rules.
+// Sufficient tests that most faces and edges pass without a square root and without measuring the state
+// before. They keep a margin, so that they never contradict the exact rules.
 constexpr double rounding = 1e-9;
 
-/// Cosine between two vectors of these squared lengths, not below a limit.
+/// Is the cosine between two vectors, given their product and squared lengths, above the limit?
 bool cosine_exceeds(double limit, double product, double square, double other_square) {
   return product > 0 && product * product > limit * limit * (1 + rounding) * square * other_square;
 }
 
-/// `n` is the face's doubled area vector.
-bool area_and_alignment_are_well(const GuardOptions& o, const Vec3& n_before, const Vec3& n,
-                                 const Vec3& normals) {
+/// `n` is the doubled area vector of the face.
+bool area_and_alignment_within_limit(const GuardOptions& o, const Vec3& n_before, const Vec3& n,
+                                     const Vec3& normals) {
   const double square = n.squaredNorm();
   return square > o.area_ratio * o.area_ratio * (1 + rounding) * n_before.squaredNorm() &&
          cosine_exceeds(o.alignment, n.dot(normals), square, normals.squaredNorm());
 }
 
-bool angles_are_well(const GuardOptions& o, const Mat3X& points, const Triangle& t, const Vec3& n) {
+bool angles_within_limit(const GuardOptions& o, const Mat3X& points, const Triangle& t, const Vec3& n) {
   const Vec3 p = points.col(t[0]), q = points.col(t[1]), r = points.col(t[2]);
   const double a2 = (r - q).squaredNorm(), b2 = (p - r).squaredNorm(), c2 = (q - p).squaredNorm();
   const double cosine =
-      .5 * (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // of the least angle, times its sides
+      .5 *
+      (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // of the smallest angle, times the lengths of its edges
   return cosine * cosine < o.cotangent * o.cotangent * (1 - rounding) * n.squaredNorm();
 }
 
-/// (l / 2) tan(theta / 4) is no more than (l / 2) sin(theta / 2).
-bool sagitta_is_well(const GuardOptions& o, double target, const Vec3& edge, double cosine) {
+/// Uses (l / 2) tan(theta / 4) <= (l / 2) sin(theta / 2).
+bool sagitta_within_limit(const GuardOptions& o, double target, const Vec3& edge, double cosine) {
   const double limit = o.sagitta * (1 - rounding) * target;
   return .125 * edge.squaredNorm() * (1 - cosine) < limit * limit;
 }
@@ -94,8 +95,8 @@ bool Guards::face_breaks(const SurfacePositions& from, const SurfacePositions& t
   const Vec3 n = doubled_area_vector(to.points, t), n_before = doubled_area_vector(from.points, t);
   const Vec3 normals = sum_of_normals(to.normals, adjacency_.wedges_of_faces()[f]);
   const bool angles_are_free = !std::isfinite(options_.cotangent);
-  if (area_and_alignment_are_well(options_, n_before, n, normals) &&
-      (angles_are_free || angles_are_well(options_, to.points, t, n)))
+  if (area_and_alignment_within_limit(options_, n_before, n, normals) &&
+      (angles_are_free || angles_within_limit(options_, to.points, t, n)))
     return false;
   const double before = alignment(from, f);
   return hooke::face_breaks(options_, .5 * n_before.norm(), .5 * n.norm(), before, cosine(n, normals, 0)) ||
@@ -118,8 +119,8 @@ bool Guards::edge_breaks(const SurfacePositions& from, const SurfacePositions& t
   const auto& [a, b] = adjacency_.edges[e];
   const auto& [wedge, other_wedge] = adjacency_.wedges_of_edges()[e];
   const double target = targets_.edge[e];
-  return (!sagitta_is_well(options_, target, to.points.col(b) - to.points.col(a),
-                           to.normals.col(wedge).dot(to.normals.col(other_wedge))) &&
+  return (!sagitta_within_limit(options_, target, to.points.col(b) - to.points.col(a),
+                                to.normals.col(wedge).dot(to.normals.col(other_wedge))) &&
           sagitta_breaks(options_, target, sagitta(from, e), sagitta(to, e))) ||
          fold_breaks(from, to, e);
 }
@@ -129,8 +130,8 @@ void Guards::add_corners(int face, std::vector<int>& vertices) const {
   vertices.insert(vertices.end(), t.begin(), t.end());
 }
 
-/// The ends, and for a fold all corners of the two faces.
-void Guards::add_vertices_about(int edge, bool folds, std::vector<int>& vertices) const {
+/// The ends of the edge and, for a fold, all corners of its two faces.
+void Guards::add_vertices_around(int edge, bool folds, std::vector<int>& vertices) const {
   const auto e = static_cast<size_t>(edge);
   vertices.insert(vertices.end(), adjacency_.edges[e].begin(), adjacency_.edges[e].end());
   if (!folds) return;
@@ -139,10 +140,10 @@ void Guards::add_vertices_about(int edge, bool folds, std::vector<int>& vertices
 
 std::vector<int> Guards::offenders(const SurfacePositions& from, const SurfacePositions& to) const {
   std::vector<int> vertices;
-  for (int f : all_that(adjacency_.faces.size(), [&](size_t f) { return face_breaks(from, to, f); }))
+  for (int f : indices_where(adjacency_.faces.size(), [&](size_t f) { return face_breaks(from, to, f); }))
     add_corners(f, vertices);
-  for (int e : all_that(adjacency_.edges.size(), [&](size_t e) { return edge_breaks(from, to, e); }))
-    add_vertices_about(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
+  for (int e : indices_where(adjacency_.edges.size(), [&](size_t e) { return edge_breaks(from, to, e); }))
+    add_vertices_around(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
@@ -150,7 +151,7 @@ std::vector<int> Guards::offenders(const SurfacePositions& from, const SurfacePo
 std::vector<int> Guards::offenders_around(const SurfacePositions& from, const SurfacePositions& to,
                                           const std::vector<int>& moved) const {
   std::vector<int> vertices;
-  std::vector<int> edges;  // of the faces around: those across from a moved vertex fold too
+  std::vector<int> edges;  // of the faces around: those opposite a moved vertex fold too
   for (int f : sorted_union(adjacency_.vertex_faces, moved)) {
     const auto face = static_cast<size_t>(f);
     edges.insert(edges.end(), adjacency_.face_edges[face].begin(), adjacency_.face_edges[face].end());
@@ -159,7 +160,7 @@ std::vector<int> Guards::offenders_around(const SurfacePositions& from, const Su
   sort_unique(edges);
   for (int e : edges)
     if (edge_breaks(from, to, static_cast<size_t>(e)))
-      add_vertices_about(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
+      add_vertices_around(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
@@ -171,30 +172,30 @@ std::vector<int> Guards::step(Retraction& retraction, const SurfacePositions& fr
   if (offending.empty()) return {};
 
   std::vector<unsigned char> halvings(static_cast<size_t>(adjacency_.vertex_count), 0);
-  std::vector<int> held;
+  std::vector<int> limited;
   while (!offending.empty()) {
     std::vector<int> slowed;
     for (int v : offending) {
       auto u = displacement.col(v);
       if (u.isZero(0)) continue;
       auto& count = halvings[static_cast<size_t>(v)];
-      if (++count == 1) held.push_back(v);
+      if (++count == 1) limited.push_back(v);
       if (count > options_.max_halvings)
         u.setZero();
       else
         u *= .5;
       slowed.push_back(v);
     }
-    if (slowed.empty()) break;  // nothing there moves any more: it is as it was
+    if (slowed.empty()) break;  // none of the offending vertices moves any more
     timed(stopwatch, "projection", [&] { retraction.step(from, displacement, slowed, to); });
     offending = offenders_around(from, to, slowed);
   }
-  return held;
+  return limited;
 }
 
 std::vector<int> Guards::vertices_at_limits(const SurfacePositions& p) const {
   constexpr double cosine_margin = .02, sagitta_part = .95;
-  const auto leans = [&](size_t f) { return alignment(p, f) < options_.alignment + cosine_margin; };
+  const auto is_misaligned = [&](size_t f) { return alignment(p, f) < options_.alignment + cosine_margin; };
   const auto folds = [&](size_t e) {
     return !adjacency_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
   };
@@ -202,15 +203,16 @@ std::vector<int> Guards::vertices_at_limits(const SurfacePositions& p) const {
     return folds(e) || !(sagitta(p, e) < sagitta_part * options_.sagitta * targets_.edge[e]);
   };
   std::vector<int> vertices;
-  for (int f : all_that(adjacency_.faces.size(), leans)) add_corners(f, vertices);
-  for (int e : all_that(adjacency_.edges.size(), is_at_limit))
-    add_vertices_about(e, folds(static_cast<size_t>(e)), vertices);
+  for (int f : indices_where(adjacency_.faces.size(), is_misaligned)) add_corners(f, vertices);
+  for (int e : indices_where(adjacency_.edges.size(), is_at_limit))
+    add_vertices_around(e, folds(static_cast<size_t>(e)), vertices);
   sort_unique(vertices);
   return vertices;
 }
 
 std::vector<int> Guards::folded_faces(const SurfacePositions& p) const {
-  return all_that(adjacency_.faces.size(), [&](size_t f) { return alignment(p, f) < options_.alignment; });
+  return indices_where(adjacency_.faces.size(),
+                       [&](size_t f) { return alignment(p, f) < options_.alignment; });
 }
 
 }  // namespace hooke

@@ -14,6 +14,7 @@
 namespace hooke {
 namespace {
 
+/// The limited memory of L-BFGS: the last steps with their gradient changes, and their product with a vector.
 class LbfgsMemory {
  public:
   explicit LbfgsMemory(const LbfgsMemoryOptions& options) : options_(options), scale_(options.first_step) {}
@@ -21,14 +22,14 @@ class LbfgsMemory {
   bool empty() const { return pairs_.empty(); }
   void clear();
 
-  /// Takes in a step and what it did to the gradient; not if the energy did not curve along it.
+  /// Stores a step and its gradient change, unless the energy has no positive curvature along the step.
   void push(const Relaxation& r, const Preconditioner& h0, const Mat3X& step, const Mat3X& gradient_change);
 
-  /// q = H q, H the inverse Hessian as far as it is known.
+  /// q = H q, H the approximate inverse Hessian.
   void apply(const Relaxation& r, const Preconditioner& h0, Mat3X& q) const;
 
  private:
-  /// Directs the next steps and need not be exact: half the memory, half the time.
+  /// Single precision is enough for a search direction, and halves memory and time.
   using Kept = Eigen::Matrix<float, 3, Eigen::Dynamic>;
   struct Pair {
     Kept s, y;
@@ -40,7 +41,7 @@ class LbfgsMemory {
   int pushed_ = 0;
 };
 
-// Arithmetic on matrices of one column per vertex, by all threads.
+// Parallel arithmetic on matrices of one column per vertex.
 
 /// Calls body(first, count) on blocks of columns.
 template <typename Body>
@@ -50,7 +51,7 @@ void for_columns(Eigen::Index columns, const Body& body) {
   });
 }
 
-/// Sum of all products of their entries; of any precision, in double precision.
+/// Sum of the products of all entries, of any precision, in double precision.
 template <typename A, typename B>
 double dot(const A& a, const B& b) {
   return parallel_sum(static_cast<std::size_t>(a.cols()), 4096, [&](std::size_t begin, std::size_t end) {
@@ -89,7 +90,7 @@ void assign_scaled(double factor, const B& b, A& a) {
   });
 }
 
-/// difference = a - b, which may be one of them
+/// difference = a - b; it may alias either.
 inline void subtract(const Mat3X& a, const Mat3X& b, Mat3X& difference) {
   difference.resize(3, a.cols());
   for_columns(a.cols(), [&](Eigen::Index first, Eigen::Index count) {
@@ -115,7 +116,7 @@ void LbfgsMemory::push(const Relaxation& r, const Preconditioner& h0, const Mat3
   }
   if (options_.pairs == 0) return;
   Pair pair;
-  if (pairs_.size() == static_cast<size_t>(options_.pairs)) {  // its memory serves again
+  if (pairs_.size() == static_cast<size_t>(options_.pairs)) {  // reuses the memory of the oldest pair
     pair = std::move(pairs_.front());
     pairs_.pop_front();
   }
@@ -145,17 +146,17 @@ void clear_columns(const std::vector<int>& columns, Mat3X& matrix) {
   for (int v : columns) matrix.col(v).setZero();
 }
 
-/// Part of the vertices that go as far as they may.
-double carried_share(const Relaxation& r, double max_move, const Mat3X& d) {
+/// The part of the vertices whose step has the length of the cap.
+double capped_fraction(const Relaxation& r, double max_move, const Mat3X& d) {
   constexpr double almost = 1 - 1e-6;
-  Eigen::Index carried = 0;
+  Eigen::Index capped = 0;
   for (Eigen::Index v = 0; v < d.cols(); ++v)
-    carried += d.col(v).norm() >= almost * max_move * r.vertex_length[static_cast<size_t>(v)];
-  return static_cast<double>(carried) / static_cast<double>(d.cols());
+    capped += d.col(v).norm() >= almost * max_move * r.vertex_length[static_cast<size_t>(v)];
+  return static_cast<double>(capped) / static_cast<double>(d.cols());
 }
 
-/// Makes d a descent direction in the tangent space, no vertex longer than the cap; blocked vertices neither
-/// move nor pull at others. Falls back to the gradient.
+/// Makes d a descent direction in the tangent space, no vertex beyond the cap; blocked vertices neither move
+/// nor act on others. Falls back to the preconditioned gradient.
 void find_descent(const Relaxation& r, double max_move, const Mat3X& gradient,
                   const std::vector<int>& blocked, const Preconditioner& h0, LbfgsMemory& memory, Mat3X& d) {
   for (;;) {
@@ -170,7 +171,7 @@ void find_descent(const Relaxation& r, double max_move, const Mat3X& gradient,
   }
 }
 
-/// The retraction is content with less while this lives.
+/// Raises the lazy error of the retraction during its lifetime.
 class LooseRetraction {
  public:
   LooseRetraction(Retraction& retraction, double lazy_error)
@@ -185,18 +186,20 @@ class LooseRetraction {
   double before_;
 };
 
-/// What the guards hold back is out of step with what is around it: lets these places find their own way.
-void relax_about(Relaxation& r, const std::vector<int>& held, const LbfgsOptions& lbfgs,
-                 SurfacePositions& trial) {
-  std::swap(r.positions, trial);
-  relax_locally(r, with_rings(r.adjacency, held, lbfgs.relaxed_rings), {.sweeps = lbfgs.local_sweeps},
+/// Relaxes the candidate locally around vertices limited by guards, which no longer match their
+/// neighbourhood.
+void relax_around(Relaxation& r, const std::vector<int>& limited, const LbfgsOptions& lbfgs,
+                  SurfacePositions& candidate) {
+  std::swap(r.positions, candidate);
+  relax_locally(r, with_rings(r.adjacency, limited, lbfgs.relaxed_rings), {.sweeps = lbfgs.local_sweeps},
                 nullptr);
-  std::swap(r.positions, trial);
+  std::swap(r.positions, candidate);
 }
 
-/// Leaves the vertices where they have drifted to. The trial is for its memory: its values mean nothing.
+/// Leaves drifted vertices unprojected. `candidate` only provides memory: its values on return have no
+/// meaning.
 IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
-                          const Observer& observer, SurfacePositions& trial) {
+                          const Observer& observer, SurfacePositions& candidate) {
   const LooseRetraction loose(r.retraction, lbfgs.lazy_error);
   IntegrationResult result;
   for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep) {
@@ -213,9 +216,9 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
   Preconditioner h0(r, lbfgs.preconditioner);
   RestDetector rest(options);
   Mat3X gradient, step;
-  Mat3X trial_gradient;      // until the energy is known it holds the step, which the guards shorten
-  std::vector<int> held;     // by the guards, in the last trial
-  std::vector<int> blocked;  // held in the last step: they sit out this one
+  Mat3X candidate_gradient;  // first holds the step, which the guards shorten, then the gradient
+  std::vector<int> limited;  // vertices limited by guards in the last candidate
+  std::vector<int> blocked;  // vertices limited in the last step, which skip this one
   double max_move = options.max_move;
 
   result.energy = r.energy(r.positions.points, r.positions.normals, &gradient);
@@ -231,32 +234,34 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     timed(r.stopwatch, "direction", find_step);
     bool accepted = false;
     bool relaxed_locally = false;
-    double trial_energy = 0;
+    double candidate_energy = 0;
     for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
-      if (tries > 0 && (held.empty() || relaxed_locally)) {
+      if (tries > 0 && (limited.empty() || relaxed_locally)) {
         assign_scaled(.5, step, step);
-      } else if (tries > 0) {  // what the guards hold back spoils the step of the others
-        if (max_move > lbfgs.min_cap && carried_share(r, max_move, step) > lbfgs.carried) {
+      } else if (tries > 0) {  // limited vertices spoil the step of the others
+        if (max_move > lbfgs.min_cap && capped_fraction(r, max_move, step) > lbfgs.max_capped_fraction) {
           max_move /= 2;
-          result.limited_steps -= static_cast<long long>(held.size());  // but by what ran over them
+          // The long cap is what limited them.
+          result.limited_steps -= static_cast<long long>(limited.size());
         } else {
-          blocked.insert(blocked.end(), held.begin(), held.end());
+          blocked.insert(blocked.end(), limited.begin(), limited.end());
         }
         find_step();
       }
-      assign_scaled(1, step, trial_gradient);
-      held = timed(r.stopwatch, "guards", [&] {
-        return r.guards.step(r.retraction, r.positions, trial_gradient, trial, r.stopwatch);
+      assign_scaled(1, step, candidate_gradient);
+      limited = timed(r.stopwatch, "guards", [&] {
+        return r.guards.step(r.retraction, r.positions, candidate_gradient, candidate, r.stopwatch);
       });
-      result.limited_steps += static_cast<long long>(held.size());
-      relaxed_locally = !held.empty() && static_cast<double>(held.size()) <=
-                                             lbfgs.locally_relaxable * r.adjacency.vertex_count;
-      if (relaxed_locally) timed(r.stopwatch, "mending", [&] { relax_about(r, held, lbfgs, trial); });
-      trial_energy = timed(r.stopwatch, "energy",
-                           [&] { return r.energy(trial.points, trial.normals, &trial_gradient); });
+      result.limited_steps += static_cast<long long>(limited.size());
+      relaxed_locally = !limited.empty() && static_cast<double>(limited.size()) <=
+                                                lbfgs.locally_relaxable * r.adjacency.vertex_count;
+      if (relaxed_locally) timed(r.stopwatch, "mending", [&] { relax_around(r, limited, lbfgs, candidate); });
+      candidate_energy = timed(r.stopwatch, "energy", [&] {
+        return r.energy(candidate.points, candidate.normals, &candidate_gradient);
+      });
       ++result.evaluations;
-      const double slope = dot_with_difference(gradient, trial.points, r.positions.points);
-      accepted = trial_energy <= result.energy + lbfgs.armijo * std::min(0., slope);
+      const double slope = dot_with_difference(gradient, candidate.points, r.positions.points);
+      accepted = candidate_energy <= result.energy + lbfgs.armijo * std::min(0., slope);
     }
     if (!accepted) {
       if (!memory.empty()) {
@@ -267,17 +272,17 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
       result.reason = StopReason::stalled;
       break;
     }
-    r.retraction.constrain(trial, trial_gradient);
-    subtract(trial_gradient, gradient, gradient);
-    subtract(trial.points, r.positions.points, step);
+    r.retraction.constrain(candidate, candidate_gradient);
+    subtract(candidate_gradient, gradient, gradient);
+    subtract(candidate.points, r.positions.points, step);
     memory.push(r, h0, step, gradient);
-    std::swap(r.positions, trial);
-    std::swap(gradient, trial_gradient);
+    std::swap(r.positions, candidate);
+    std::swap(gradient, candidate_gradient);
     if (relaxed_locally)
       blocked.clear();
     else
-      blocked = held;
-    result.energy = trial_energy;
+      blocked = limited;
+    result.energy = candidate_energy;
     ++result.steps;
     if (observer && !observer({"", 0, result.steps, result.energy})) {
       result.reason = StopReason::interrupted;
@@ -295,11 +300,11 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
 
 IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
                               const Observer& observer) {
-  SurfacePositions trial;
-  IntegrationResult result = descend(r, options, lbfgs, observer, trial);
+  SurfacePositions candidate;
+  IntegrationResult result = descend(r, options, lbfgs, observer, candidate);
   if (!lbfgs.projects_at_end) return result;
-  project_drifted(r.guards, r.retraction, r.positions, trial);
-  std::swap(r.positions, trial);
+  project_drifted(r.guards, r.retraction, r.positions, candidate);
+  std::swap(r.positions, candidate);
   result.energy = r.energy(r.positions.points, r.positions.normals, nullptr);
   return result;
 }

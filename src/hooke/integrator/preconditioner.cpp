@@ -10,9 +10,9 @@
 namespace hooke {
 namespace {
 
-constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the last
+constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the coarsest
 constexpr int max_levels = 24;
-constexpr size_t max_parts = 8, min_part = 4096;  // of the vertices, summed on their own
+constexpr size_t max_parts = 8, min_part = 4096;  // of the vertices, summed separately
 
 using Cell = std::array<int, 3>;
 
@@ -24,7 +24,7 @@ struct CellHash {
   }
 };
 
-/// Numbers the nodes of one grid in the order in which they are named.
+/// Numbers the nodes of one grid in the order of their first use.
 class NodeNumbers {
  public:
   int operator[](const Cell& cell) {
@@ -39,7 +39,7 @@ class NodeNumbers {
   std::vector<Cell> cells_;
 };
 
-/// Right-handed axes from three vertices chosen by number; they turn with the mesh.
+/// Right-handed axes through three vertices chosen by index; they rotate with the mesh.
 Eigen::Matrix3d frame_of(const Mat3X& points) {
   const Eigen::Index n = points.cols();
   const Vec3 origin = points.col(0);
@@ -59,7 +59,7 @@ Eigen::Matrix3d frame_of(const Mat3X& points) {
   return Eigen::Matrix3d::Identity();
 }
 
-/// The corner k of a cell is high in direction d where bit d of k is set.
+/// Corner k of a cell is at the upper end in direction d if bit d of k is set.
 bool is_high(unsigned k, unsigned d) {
   return (k >> d) & 1;
 }
@@ -71,8 +71,8 @@ std::array<int, 8> corners_of(const Cell& cell, NodeNumbers& nodes) {
   return ids;
 }
 
-/// Of the corners of a cell, at a place within it.
-std::array<float, 8> hats(const Eigen::Vector3f& t) {
+/// Values of the hat functions of a cell's corners at the offset t within the cell.
+std::array<float, 8> hat_values(const Eigen::Vector3f& t) {
   std::array<float, 8> weights;
   for (unsigned k = 0; k < 8; ++k) {
     float weight = 1;
@@ -89,27 +89,27 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
   const Eigen::Matrix3d frame = frame_of(points);
   const Vec3 origin = points.col(0);
   const auto n = static_cast<size_t>(points.cols());
-  places_.resize(n);
+  grid_positions_.resize(n);
   std::vector<Cell> cells(n);
   parallel_for(n, 4096, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
-      // Half a cell off the origin: the first vertex would lie on a corner of four cells.
+      // Half a cell off the origin, so that the first vertex does not lie on a corner shared by cells.
       const Vec3 x = frame * (points.col(static_cast<Eigen::Index>(v)) - origin) / cell + Vec3::Constant(.5);
       const Vec3 low = x.array().floor();
       cells[v] = {static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
-      places_[v].within = (x - low).cast<float>();
+      grid_positions_[v].within = (x - low).cast<float>();
     }
   });
   NodeNumbers nodes;
   std::unordered_map<Cell, int, CellHash> cell_ids;
-  int id = -1;  // of the cell in which the next vertex mostly lies too
+  int id = -1;  // cell of the previous vertex, which mostly holds the next one too
   for (size_t v = 0; v < n; ++v) {
     if (v == 0 || cells[v] != cells[v - 1]) {
       const auto [it, fresh] = cell_ids.try_emplace(cells[v], static_cast<int>(cells_.size()));
       if (fresh) cells_.push_back(corners_of(cells[v], nodes));
       id = it->second;
     }
-    places_[v].cell = id;
+    grid_positions_[v].cell = id;
   }
   for (;;) {
     Level level;
@@ -120,8 +120,8 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
     }
     NodeNumbers coarser;
     for (const Cell& at : nodes.cells()) {
-      // A node with an even coordinate lies on a coarser node, with an odd one half way between two.
-      Weighted row;
+      // A node with an even coordinate lies on a coarser node, one with an odd coordinate midway between two.
+      Interpolation row;
       for (unsigned k = 0; k < 8; ++k) {
         Cell corner;
         double weight = 1;
@@ -143,12 +143,13 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
 }
 
 std::vector<GridHierarchy::Part> GridHierarchy::part_vertices() const {
-  std::vector<Part> parts(std::clamp<size_t>(places_.size() / min_part, 1, max_parts));
+  std::vector<Part> parts(std::clamp<size_t>(grid_positions_.size() / min_part, 1, max_parts));
   for (size_t i = 0; i < parts.size(); ++i) {
     Part& part = parts[i];
-    part = {i * places_.size() / parts.size(), (i + 1) * places_.size() / parts.size(), levels_[0].nodes, 0};
+    part = {i * grid_positions_.size() / parts.size(), (i + 1) * grid_positions_.size() / parts.size(),
+            levels_[0].nodes, 0};
     for (size_t v = part.first_vertex; v < part.last_vertex; ++v)
-      for (int node : cells_[static_cast<size_t>(places_[v].cell)]) {
+      for (int node : cells_[static_cast<size_t>(grid_positions_[v].cell)]) {
         part.first_node = std::min(part.first_node, node);
         part.last_node = std::max(part.last_node, node + 1);
       }
@@ -156,7 +157,7 @@ std::vector<GridHierarchy::Part> GridHierarchy::part_vertices() const {
   return parts;
 }
 
-/// P^T residual on the finest grid. Parts of the vertices are summed on their own, then added in order.
+/// P^T residual on the finest grid. Parts of the vertices are summed separately, then added in order.
 Mat3X GridHierarchy::collect(const Mat3X& residual) const {
   std::vector<Mat3X> sums(parts_.size());
   parallel_for(parts_.size(), 1, [&](size_t begin, size_t end) {
@@ -164,8 +165,8 @@ Mat3X GridHierarchy::collect(const Mat3X& residual) const {
       const Part& part = parts_[i];
       sums[i] = Mat3X::Zero(3, part.last_node - part.first_node);
       for (size_t v = part.first_vertex; v < part.last_vertex; ++v) {
-        const auto& nodes = cells_[static_cast<size_t>(places_[v].cell)];
-        const auto weights = hats(places_[v].within);
+        const auto& nodes = cells_[static_cast<size_t>(grid_positions_[v].cell)];
+        const auto weights = hat_values(grid_positions_[v].within);
         for (size_t k = 0; k < 8; ++k)
           sums[i].col(nodes[k] - part.first_node) += weights[k] * residual.col(static_cast<Eigen::Index>(v));
       }
@@ -198,10 +199,10 @@ GridHierarchy::Correction GridHierarchy::solve(const Mat3X& residual) const {
 }
 
 void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vectors) const {
-  parallel_for(places_.size(), 4096, [&](size_t begin, size_t end) {
+  parallel_for(grid_positions_.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
-      const auto& nodes = cells_[static_cast<size_t>(places_[v].cell)];
-      const auto weights = hats(places_[v].within);
+      const auto& nodes = cells_[static_cast<size_t>(grid_positions_[v].cell)];
+      const auto weights = hat_values(grid_positions_[v].within);
       for (size_t k = 0; k < 8; ++k)
         vectors.col(static_cast<Eigen::Index>(v)) += weight * weights[k] * correction.at_nodes.col(nodes[k]);
     }
@@ -211,7 +212,7 @@ void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vect
 void Preconditioner::refresh(Relaxation& r) {
   const auto n = static_cast<size_t>(r.adjacency.vertex_count);
   inverse_.resize(n);
-  std::vector<float> mean(n, 0);  // a weight need not be exact, and memory is scarcest here
+  std::vector<float> mean(n, 0);  // single precision suffices for a weight, and saves memory at the peak
   parallel_for(n, 256, [&](size_t begin, size_t end) {
     LocalNewton newton(r);
     for (size_t v = begin; v < end; ++v) {

@@ -1,5 +1,5 @@
-// What every integrator takes and returns: a relaxation moves the vertices of a mesh on its surface toward
-// the rest lengths of their springs.
+// Inputs and results common to all integrators. A relaxation moves the vertices of a mesh on its surface
+// toward the rest lengths of their springs.
 #pragma once
 
 #include "hooke/core/types.h"
@@ -16,25 +16,25 @@ struct VertexColoring;
 
 enum class StopReason {
   converged,    // every edge within the tolerance of its target length
-  stalled,      // at rest as far as the springs allow: the energy no longer falls
+  stalled,      // at rest: the energy no longer falls
   step_limit,   // the allowed number of steps or evaluations is used up
   jammed,       // no step is accepted any more
   interrupted,  // the observer asked to stop
 };
 
-/// Where the work stands.
+/// Progress of the optimization as reported to the observer. The stage is one of "untangle", "adapt", "flow",
+/// "springs", "flips", "relax", "polish", "mend" and "paper".
 struct Progress {
-  const char* stage =
-      "";  // "untangle", "adapt", "flow", "springs", "flips", "relax", "polish", "mend", "paper"
+  const char* stage = "";
   int outer = 0;
   int step = 0;
   double energy = 0;
 };
 
-/// Called after every step; returns false to stop the work with what has been reached.
+/// Called after every step; returns false to stop and keep what has been reached.
 using Observer = std::function<bool(const Progress&)>;
 
-/// The parts that a relaxation works on. All are references to objects that outlive it.
+/// The objects that a relaxation works on. All references must outlive it.
 struct Relaxation {
   const Adjacency& adjacency;
   const VertexColoring& coloring;
@@ -48,23 +48,23 @@ struct Relaxation {
 
 struct IntegrationOptions {
   int max_steps = 2000;       // evaluations of the energy (lbfgs) or time steps (damped)
-  double energy_drop = 2e-3;  // at rest when the energy falls by less than this part of itself ...
-  int window = 3;             // ... over this many steps
-  double max_move = 2;        // of a vertex in a step, in its target lengths
+  double energy_drop = 2e-3;  // relative fall of the energy over the window, below which it is at rest
+  int window = 3;             // steps
+  double max_move = 2;        // of a vertex in one step, in its target lengths
 };
 
 struct IntegrationResult {
   int steps = 0;
   int evaluations = 0;          // of the energy or the forces
   double energy = 0;            // at the end
-  long long limited_steps = 0;  // vertex steps shortened by the guards
+  long long limited_steps = 0;  // vertex displacements shortened by the guards
   StopReason reason = StopReason::stalled;
 };
 
 /// Shortens the displacement of every vertex to at most max_move of its target length.
 void cap_displacement(const std::vector<double>& vertex_length, double max_move, Mat3X& displacement);
 
-/// Tells when the energy has come to rest.
+/// Detects when the energy has come to rest. at_rest() is called once per step with the current energy.
 class RestDetector {
  public:
   explicit RestDetector(const IntegrationOptions& options) : options_(options) {}

@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-/// Combines value(i) over [0, count). The grouping is fixed, so threads change nothing.
+/// Combines value(i) over [0, count). The grouping is fixed, so that the result does not depend on threads.
 template <typename T, typename Value, typename Combine>
 T reduce(std::size_t count, T start, const Value& value, const Combine& combine) {
   constexpr std::size_t block = 1024;
@@ -34,12 +34,12 @@ double longest_column(const Eigen::Ref<const Mat3X>& m) {
       [](double a, double b) { return std::max(a, b); });
 }
 
-FailedTests join(const FailedTests& a, const FailedTests& b) {
+FailedTests union_of(const FailedTests& a, const FailedTests& b) {
   return {a.angle || b.angle, a.expansion || b.expansion, a.displacement || b.displacement,
           a.area_bound || b.area_bound};
 }
 
-/// Written so that NaN fails.
+/// The comparisons are written so that NaN fails.
 FailedTests test_face(const FaceShape& before, const FaceShape& after, const TimeStepOptions& o) {
   FailedTests failed;
   if (before.degenerate()) return failed;
@@ -65,7 +65,7 @@ StepScales step_scales(const Eigen::Ref<const Mat3X>& points, const Eigen::Ref<c
 
 double base_step(const StepScales& s, double mass) {
   assert(mass > 0);
-  // The root of [24] without the difference of near equals, which also has its limits at velocity or force 0.
+  // The root of [24] without cancellation, which also has its limits at velocity or force 0.
   return 2 * s.edge / (s.velocity + std::hypot(s.velocity, std::sqrt(2 * s.force * s.edge / mass)));
 }
 
@@ -79,8 +79,8 @@ FailedTests test_step(const Eigen::Ref<const Mat3X>& before, const Eigen::Ref<co
     failed.displacement = !((after.col(v) - before.col(v)).norm() < options.displacement * shortest_edge);
     return failed;
   };
-  return join(reduce(c.faces.size(), FailedTests{}, face, join),
-              reduce(before.cols(), FailedTests{}, vertex, join));
+  return union_of(reduce(c.faces.size(), FailedTests{}, face, union_of),
+                  reduce(before.cols(), FailedTests{}, vertex, union_of));
 }
 
 void BoundCounts::add(const FailedTests& bound) {
@@ -101,11 +101,11 @@ BoundCounts& BoundCounts::operator+=(const BoundCounts& other) {
 }
 
 AdaptedStep adapt_step(double base, double last_factor, double floor,
-                       const std::function<FailedTests(double time)>& trial) {
+                       const std::function<FailedTests(double time)>& test) {
   AdaptedStep step;
   for (step.factor = 2 * last_factor; base * step.factor >= floor; step.factor /= 2) {
     step.time = base * step.factor;
-    const FailedTests failed = trial(step.time);
+    const FailedTests failed = test(step.time);
     if (!failed.any()) return step;
     step.bound = failed;
     ++step.rejected;

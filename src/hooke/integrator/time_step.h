@@ -1,4 +1,4 @@
-// How far the damped evolution may go at once: the base step and the four tests that a step must pass.
+// The time step of the damped evolution: the base step, and the four tests that limit it.
 // "Hooke's Optimization for 3D triangular mesh", section 4.3, equations [19]-[21] and [24]-[26].
 #pragma once
 
@@ -11,27 +11,27 @@ namespace hooke {
 
 /// Thresholds of the tests of [26].
 struct TimeStepOptions {
-  double angle = .9;          // least cosine between a face's normals before and after; delta_angle
-  double expansion = .01;     // greatest relative change of a face's area; delta_expansion
-  double displacement = .01;  // greatest move of a vertex, times the shortest edge; xi, eta_n = xi l_edge
-  double area_bound = 0;      // least area of a face after the step, a squared length; delta_bound
-  double floor = 1e-12;  // jammed when only shorter time steps pass; a time, 1e-9 / tau at the usual friction
+  double angle = .9;          // delta_angle: minimum cosine between a face's normals before and after
+  double expansion = .01;     // delta_expansion: maximum relative change of a face's area
+  double displacement = .01;  // xi: maximum displacement over the shortest edge; eta_n = xi l_edge
+  double area_bound = 0;      // delta_bound: minimum area of a face after the step, a squared length
+  double floor = 1e-12;       // time below which the search is jammed; 1e-9 / tau at the usual friction
 };
 
-/// What the base step is made of.
+/// The scales that determine the base step.
 struct StepScales {
-  double edge = 0;      // shortest edge of positive length; l_edge [19]
-  double velocity = 0;  // greatest speed; l_velocity [20]
-  double force = 0;     // greatest force; l_force [21]
+  double edge = 0;      // l_edge [19]: shortest edge of positive length
+  double velocity = 0;  // l_velocity [20]: maximum speed
+  double force = 0;     // l_force [21]: maximum force
 };
 
-/// Edges of length 0 are left out of [19]: they would forbid every step for good.
-/// Without an edge of positive length `edge` is infinite.
+/// Edges of length 0 are left out of [19], because they would forbid every step. Without an edge of positive
+/// length `edge` is infinite.
 StepScales step_scales(const Eigen::Ref<const Mat3X>& points, const Eigen::Ref<const Mat3X>& velocities,
                        const Eigen::Ref<const Mat3X>& forces, const Adjacency& adjacency);
 
-/// omega: the longest time in which no vertex, were it free, would travel further than the shortest edge.
-/// [24] Not finite when nothing moves and nothing pulls. `mass` is the mass of one vertex.
+/// omega, the longest time in which no vertex, if unconstrained, moves farther than the shortest edge. [24]
+/// Not finite when velocities and forces are zero. `mass` is that of one vertex.
 double base_step(const StepScales& scales, double mass);
 
 /// The tests of [26] that failed.
@@ -44,41 +44,40 @@ struct FailedTests {
   bool any() const { return angle || expansion || displacement || area_bound; }
 };
 
-/// Steps by the test that set their length; a step that several tests cut counts for each.
+/// Numbers of steps by the test that limited them; a step limited by several tests counts for each.
 struct BoundCounts {
   int angle = 0;
   int expansion = 0;
   int displacement = 0;
   int area_bound = 0;
-  int none = 0;
+  int none = 0;  // steps that no test limited
 
   void add(const FailedTests& bound);
   BoundCounts& operator+=(const BoundCounts& other);
 };
 
-/// Tests the move of the points from `before` to `after`. A value that is not a number fails.
-/// A face that was degenerate before is exempt from the three face tests: it has no normal and no area to
-/// compare with, and one such face in the input would reject all steps.
+/// Tests the displacement of the points from `before` to `after`. NaN fails. A face that was degenerate
+/// before is exempt from the three face tests: it has no normal and no area to compare with, and one such
+/// face in the input would reject all steps.
 FailedTests test_step(const Eigen::Ref<const Mat3X>& before, const Eigen::Ref<const Mat3X>& after,
                       const Adjacency& adjacency, double shortest_edge, const TimeStepOptions& options);
 
-/// What became of one search for a time step.
+/// Result of one search for a time step.
 struct AdaptedStep {
-  double time = 0;    // dt_n = omega_n epsilon_n [25]
-  double factor = 0;  // epsilon_n
-  int rejected = 0;   // trials that failed a test
-  FailedTests
-      bound;  // tests that failed in the last rejected trial: they set the step; none if it grew freely
+  double time = 0;      // dt_n = omega_n epsilon_n [25]
+  double factor = 0;    // epsilon_n
+  int rejected = 0;     // candidates that failed a test
+  FailedTests bound;    // tests failed by the last rejected candidate; none if none was rejected
   bool jammed = false;  // the time fell below the floor: there is no step
 };
 
 /// epsilon_{-1} of [26].
-inline constexpr double first_factor = .5;
+inline constexpr double initial_factor = .5;
 
-/// Tries 2, 1, 1/2, 1/4 ... times the factor of the last step and takes the first that passes. [25][26]
-/// `trial(dt)` makes the step in a copy and tests it. Jams when the time falls below `floor`; `bound` is
-/// empty then if the first time was below it already.
+/// Tests 2, 1, 1/2, 1/4 ... times the last factor and returns the first that passes. [25][26] `test(dt)`
+/// makes the step on a copy and returns the failed tests. Jams when the time falls below `floor`; `bound` is
+/// then empty if the first time was already below it.
 AdaptedStep adapt_step(double base, double last_factor, double floor,
-                       const std::function<FailedTests(double time)>& trial);
+                       const std::function<FailedTests(double time)>& test);
 
 }  // namespace hooke

@@ -26,9 +26,10 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
 
   const EnergyTerms terms = r.energy.terms;
   r.energy.terms.unfold = 1;
-  size_t least = result.folded.size();
-  for (int round = 0, in_vain = 0;
-       round < o.rounds && in_vain < o.patience && !result.folded.empty() && !result.interrupted; ++round) {
+  size_t fewest = result.folded.size();
+  for (int round = 0, rounds_without_gain = 0;
+       round < o.rounds && rounds_without_gain < o.patience && !result.folded.empty() && !result.interrupted;
+       ++round) {
     const LocalRelaxationResult relaxed = relax_locally(
         r,
         with_rings(r.adjacency, corners_of(r.adjacency, result.folded), o.first_rings + round * o.more_rings),
@@ -36,8 +37,8 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
     result.sweeps += relaxed.sweeps;
     result.interrupted = relaxed.interrupted;
     result.folded = r.guards.folded_faces(r.positions);
-    in_vain = result.folded.size() < least ? 0 : in_vain + 1;
-    least = std::min(least, result.folded.size());
+    rounds_without_gain = result.folded.size() < fewest ? 0 : rounds_without_gain + 1;
+    fewest = std::min(fewest, result.folded.size());
   }
   r.energy.terms = terms;
   return result;

@@ -1,5 +1,5 @@
-// Faces that lie folded away from the surface, before the springs: unsigned altitudes would push them the
-// wrong way, so they first feel a spring on their signed area.
+// Unfolds faces that lie folded away from the surface, before the springs act: springs on unsigned altitudes
+// would push such faces the wrong way, so a spring on their signed area unfolds them first.
 #pragma once
 
 #include "hooke/integrator/relaxation.h"
@@ -7,22 +7,22 @@
 namespace hooke {
 
 struct UntangleOptions {
-  int rounds = 12;               // at most; each takes in more about the folded faces than the one before
-  int first_rings = 2;           // about the folded faces, within which vertices move in the first round
-  int more_rings = 2;            // in each round
-  int sweeps = 30;               // per round, at most
-  int patience = 3;              // rounds without fewer folded faces, after which it gives up
+  int rounds = 12;               // maximal number; each covers more rings than the one before
+  int first_rings = 2;           // around the folded faces, within which vertices move in the first round
+  int more_rings = 2;            // added in each round
+  int sweeps = 30;               // maximal number per round
+  int patience = 3;              // rounds without fewer folded faces before giving up
   double over_relaxation = 1.5;  // of the sweeps: faces unfold sooner
 };
 
 struct UntangleResult {
   int folded_before = 0;
-  std::vector<int> folded;  // faces that are still folded, in the numbering of the connectivity
+  std::vector<int> folded;  // ids in the adjacency of the faces that are still folded
   int sweeps = 0;
   bool interrupted = false;
 };
 
-/// Unfolds faces whose alignment with the surface is below the guards' threshold, as far as possible.
+/// Unfolds, as far as possible, the faces whose alignment with the surface is below the guards' limit.
 UntangleResult untangle(Relaxation& relaxation, const UntangleOptions& options, const Observer& observer);
 
 }  // namespace hooke

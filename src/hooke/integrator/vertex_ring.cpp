@@ -8,15 +8,15 @@
 namespace hooke {
 namespace {
 
-// The guards' absolute limits on a ring, four faces at a time.
+// The absolute limits of the guards on a ring, four faces at a time.
 
-/// Whether no absolute limit is broken and no face shrinks too far: the rules have nothing to say then. The
-/// two views differ in their place only.
+/// True if no absolute limit is broken and no face shrinks too far, so that the exact rules need no
+/// evaluation. The two views differ in the vertex position only.
 bool within_limits(const RingView& before, const RingView& after, const GuardOptions& options);
 
 using namespace ring;
 
-constexpr double rounding = 1e-9;  // margin of tests that must not contradict the rules
+constexpr double rounding = 1e-9;  // margin of the tests, so that they never contradict the exact rules
 
 HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, const GuardOptions& o) {
   const std::size_t stride = after.stride;
@@ -40,8 +40,8 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     Lanes along, size;
     dot(n, m, along);
     dot(m, m, size);
-    const double least = o.alignment * o.alignment * (1 + rounding);
-    const LaneMask aligned = (along > 0.) & (along * along >= least * (area * area) * size);
+    const double min_square_cosine = o.alignment * o.alignment * (1 + rounding);
+    const LaneMask aligned = (along > 0.) & (along * along >= min_square_cosine * (area * area) * size);
     const LaneMask shrinks = area < o.area_ratio * (1 + rounding) * old_area;
     broken |= (face > 0.) & (~aligned | shrinks);
 
@@ -52,10 +52,10 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     f = {f.x - e.x, f.y - e.y, f.z - e.z};
     dot(f, f, opposite);
     const Lanes a = length * length, b = far * far;
-    Lanes min_side = a < b ? a : b;
-    min_side = min_side < opposite ? min_side : opposite;
-    const Lanes cosine_at_least = .5 * (a + b + opposite) - min_side;  // times the sides there
-    broken |= (face > 0.) & (cosine_at_least > o.cotangent * (1 - rounding) * area);
+    Lanes min_edge = a < b ? a : b;
+    min_edge = min_edge < opposite ? min_edge : opposite;
+    const Lanes cosine_at_min_angle = .5 * (a + b + opposite) - min_edge;  // times the lengths of its edges
+    broken |= (face > 0.) & (cosine_at_min_angle > o.cotangent * (1 - rounding) * area);
 
     load(fixed + edge_normal * stride, stride, m);
     Lanes c = m.x * after.normal[0] + m.y * after.normal[1] + m.z * after.normal[2];
@@ -109,7 +109,7 @@ HOOKE_SIMD void make_shape(const double* fixed, std::size_t stride, const Vec3& 
   }
 }
 
-double cotangent_of_least_angle(const double* moving, std::size_t stride) {
+double cotangent_of_min_angle(const double* moving, std::size_t stride) {
   const Vec3 e = get(moving + to_near * stride, stride), f = get(moving + to_far * stride, stride);
   const double a = e.squaredNorm(), b = f.squaredNorm(), c = (f - e).squaredNorm();
   const double area = moving[doubled_area * stride];
@@ -121,21 +121,22 @@ double cotangent_of_least_angle(const double* moving, std::size_t stride) {
 
 void VertexRing::gather(const SurfacePositions& at, int wedge) {
   wedge_ = wedge;
-  const auto ring = rings();
+  const auto ring = entries();
   const std::size_t count = ring.size();
   stride_ = padded_to_lanes(count);
   const std::size_t S = stride_;
   columns_.resize(fixed_columns * S);
   double* const data = columns_.data();
-  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(wedge)]);
-  if (begins_at_crease()) mate_ = at.points.col(spokes_.mate[static_cast<std::size_t>(wedge)]);
+  const auto item = static_cast<std::size_t>(rings_.first[static_cast<std::size_t>(wedge)]);
+  if (begins_at_crease())
+    crease_opposite_ = at.points.col(rings_.crease_opposite[static_cast<std::size_t>(wedge)]);
   const auto normal = [&](std::size_t i) {
-    return at.normals.col(spokes_.wedges.empty() ? ring[i].neighbour : spokes_.wedges[item + i]);
+    return at.normals.col(rings_.wedges.empty() ? ring[i].neighbour : rings_.wedges[item + i]);
   };
   for (std::size_t i = 0; i < count; ++i) {
     const RingEntry& entry = ring[i];
     const bool face = entry.face >= 0;
-    // The last edge of an open fan has no face: one across the edge before keeps the numbers finite.
+    // The last edge of an open fan has no face: the face of the previous edge keeps the numbers finite.
     const std::size_t j = face ? (i + 1) % count : i - 1;
     const RingEntry& next = ring[j];
     put(at.points.col(entry.neighbour), data + near * S + i, S);
@@ -151,7 +152,7 @@ void VertexRing::gather(const SurfacePositions& at, int wedge) {
     data[edge_target * S + i] = targets_.edge[static_cast<std::size_t>(entry.edge)];
     data[face_target * S + i] =
         face ? targets_.face[static_cast<std::size_t>(entry.face)] : data[edge_target * S + i];
-    data[has_edge * S + i] = spokes_.owned.empty() || spokes_.owned[item + i];
+    data[has_edge * S + i] = rings_.owned.empty() || rings_.owned[item + i];
     data[has_face * S + i] = face;
   }
   for (std::size_t c = 0; c < fixed_columns; ++c)
@@ -160,7 +161,7 @@ void VertexRing::gather(const SurfacePositions& at, int wedge) {
 }
 
 void VertexRing::shape(const Vec3& point, const Vec3& normal, RingShape& shape) const {
-  const std::size_t S = stride_, count = rings().size();
+  const std::size_t S = stride_, count = entries().size();
   shape.point = point;
   shape.normal = normal;
   shape.columns.resize(moving_columns * S);
@@ -168,49 +169,49 @@ void VertexRing::shape(const Vec3& point, const Vec3& normal, RingShape& shape) 
   make_shape(columns_.data(), S, point, data);
   for (std::size_t i = 0; i < S; ++i) {
     const std::size_t before = i == 0 ? count - 1 : i - 1;
-    const bool pair = i < count && rings()[i].face >= 0 && rings()[before].face >= 0;
+    const bool pair = i < count && entries()[i].face >= 0 && entries()[before].face >= 0;
     for (std::size_t k = 0; k < 3; ++k)
       data[(previous_vector + k) * S + i] = pair ? data[(area_vector + k) * S + before] : 0;
     data[previous_area * S + i] = pair ? data[doubled_area * S + before] : 0;
   }
   if (!begins_at_crease()) return;
-  const Vec3 beyond_crease = (mate_ - point).cross(get(data + to_near * S, S));
+  const Vec3 beyond_crease = (crease_opposite_ - point).cross(get(data + to_near * S, S));
   put(beyond_crease, data + previous_vector * S, S);
   data[previous_area * S] = beyond_crease.norm();
 }
 
 double VertexRing::energy(const RingShape& shape, const EnergyTerms& terms) const {
-  std::vector<double> unfolded;
+  std::vector<double> face_mask;
   const double folded =
-      terms.unfold > 0 ? unfold(shape, terms, Vec3::Zero(), Vec3::Zero(), unfolded).energy : 0;
-  return folded + ring_energy(view(shape), unfolded.empty() ? nullptr : unfolded.data(), terms);
+      terms.unfold > 0 ? unfold(shape, terms, Vec3::Zero(), Vec3::Zero(), face_mask).energy : 0;
+  return folded + ring_energy(view(shape), face_mask.empty() ? nullptr : face_mask.data(), terms);
 }
 
 RingModel VertexRing::model(const RingShape& shape, const EnergyTerms& terms, const Vec3& u,
                             const Vec3& v) const {
   RingModel model;
-  std::vector<double> unfolded;
-  if (terms.unfold > 0) model = unfold(shape, terms, u, v, unfolded);
-  add_ring_model(view(shape), unfolded.empty() ? nullptr : unfolded.data(), terms, u, v, model);
+  std::vector<double> face_mask;
+  if (terms.unfold > 0) model = unfold(shape, terms, u, v, face_mask);
+  add_ring_model(view(shape), face_mask.empty() ? nullptr : face_mask.data(), terms, u, v, model);
   return model;
 }
 
-/// 3/2 ((d - s) / d)^2 of the folded faces, s = (2 A n) . r / (.866 L^2); tells which faces are left for the
-/// other terms.
+/// 3/2 ((d - s) / d)^2 of the folded faces, s = (2 A n) . r / (.866 L^2); `face_mask` marks the faces to
+/// which the other terms apply.
 RingModel VertexRing::unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
-                             std::vector<double>& unfolded) const {
+                             std::vector<double>& face_mask) const {
   const std::size_t S = stride_;
   RingModel model;
-  unfolded.assign(columns_.begin() + static_cast<std::ptrdiff_t>(has_face * S),
-                  columns_.begin() + static_cast<std::ptrdiff_t>((has_face + 1) * S));
+  face_mask.assign(columns_.begin() + static_cast<std::ptrdiff_t>(has_face * S),
+                   columns_.begin() + static_cast<std::ptrdiff_t>((has_face + 1) * S));
   for (std::size_t i = 0; i < S; ++i) {
-    if (unfolded[i] == 0) continue;
+    if (face_mask[i] == 0) continue;
     const Vec3 n = get(shape.columns.data() + area_vector * S + i, S);
     const Vec3 r = get(columns_.data() + face_normals * S + i, S) + shape.normal;
     const double lengths = std::sqrt(n.squaredNorm() * r.squaredNorm());
     const double d = terms.unfold_below;
     if (lengths > 0 && n.dot(r) / lengths >= d) continue;
-    unfolded[i] = 0;
+    face_mask[i] = 0;
     const double target = columns_[face_target * S + i];
     const double unit = altitude_ratio * target * target;
     const Vec3 up = r.stableNormalized();
@@ -235,14 +236,14 @@ RingMeasures VertexRing::measures(const RingShape& shape) const {
     return lengths > 0 ? a.dot(b) / lengths : 1;
   };
   RingMeasures m;
-  for (std::size_t i = 0; i < rings().size(); ++i) {
+  for (std::size_t i = 0; i < entries().size(); ++i) {
     const Vec3 n = get(data + area_vector * S + i, S);
     const Vec3 r = get(columns_.data() + face_normals * S + i, S) + shape.normal;
     const double c = std::clamp(get(columns_.data() + edge_normal * S + i, S).dot(shape.normal), -1., 1.);
     const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
-    const bool face = rings()[i].face >= 0;
+    const bool face = entries()[i].face >= 0;
     m.area.push_back(face ? .5 * data[doubled_area * S + i] : 0);
-    m.cotangent.push_back(face ? cotangent_of_least_angle(data + i, S) : 0);
+    m.cotangent.push_back(face ? cotangent_of_min_angle(data + i, S) : 0);
     m.alignment.push_back(!face ? 1 : n.isZero(0) || r.isZero(0) ? 0 : cosine(n, r));
     m.sagitta.push_back(.5 * data[near_length * S + i] * tan_quarter);
     m.fold.push_back(face ? cosine(n, get(data + previous_vector * S + i, S)) : 1);
@@ -252,11 +253,11 @@ RingMeasures VertexRing::measures(const RingShape& shape) const {
 }
 
 double VertexRing::max_cotangent(const RingShape& shape) const {
-  double greatest = 0;
-  for (std::size_t i = 0; i < rings().size(); ++i)
-    if (rings()[i].face >= 0)
-      greatest = std::max(greatest, cotangent_of_least_angle(shape.columns.data() + i, stride_));
-  return greatest;
+  double largest = 0;
+  for (std::size_t i = 0; i < entries().size(); ++i)
+    if (entries()[i].face >= 0)
+      largest = std::max(largest, cotangent_of_min_angle(shape.columns.data() + i, stride_));
+  return largest;
 }
 
 int VertexRing::folded_faces(const RingShape& shape, double limit) const {
@@ -269,8 +270,8 @@ bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMea
   const auto breaks = [&](bool crease, double before, double after) {
     return crease ? crease_fold_breaks(o, before, after) : hooke::fold_breaks(o, before, after);
   };
-  const auto item = static_cast<std::size_t>(spokes_.first[static_cast<std::size_t>(wedge_)]) + i;
-  const bool far_crease = !spokes_.far_crease.empty() && spokes_.far_crease[item];
+  const auto item = static_cast<std::size_t>(rings_.first[static_cast<std::size_t>(wedge_)]) + i;
+  const bool far_crease = !rings_.far_crease.empty() && rings_.far_crease[item];
   return breaks(i == 0 && begins_at_crease(), b.fold[i], a.fold[i]) ||
          breaks(far_crease, b.far_fold[i], a.far_fold[i]);
 }
@@ -278,7 +279,7 @@ bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMea
 bool VertexRing::obeys(const RingShape& before, const RingShape& after, const GuardOptions& o) const {
   if (within_limits(view(before), view(after), o)) return true;
   const RingMeasures b = measures(before), a = measures(after);
-  for (std::size_t i = 0; i < rings().size(); ++i)
+  for (std::size_t i = 0; i < entries().size(); ++i)
     if (face_breaks(o, b.area[i], a.area[i], b.alignment[i], a.alignment[i]) ||
         angle_breaks(o, b.alignment[i], b.cotangent[i], a.cotangent[i]) ||
         sagitta_breaks(o, columns_[edge_target * stride_ + i], b.sagitta[i], a.sagitta[i]) ||

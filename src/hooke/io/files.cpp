@@ -24,7 +24,7 @@
 namespace hooke {
 namespace {
 
-// An open file of the operating system, closed at the end of its scope.
+// A POSIX file descriptor, closed at the end of its scope.
 
 class FileDescriptor {
  public:
@@ -41,7 +41,7 @@ class FileDescriptor {
     descriptor_ = descriptor;
   }
 
-  /// False if the system reports that something was not written; errno says why.
+  /// False if closing fails, which can mean lost writes; errno has the reason.
   bool close() { return !is_open() || ::close(std::exchange(descriptor_, -1)) == 0; }
 
  private:
@@ -63,10 +63,10 @@ std::string reason(int error) {
                          reason(error)));
 }
 
-// Where the bytes will stand, and what stands there now.
+// The file that the output will create or replace.
 struct Target {
-  fs::path path;               // links resolved
-  std::optional<mode_t> mode;  // of the file to be replaced
+  fs::path path;               // with links resolved
+  std::optional<mode_t> mode;  // of the existing file; none if there is none
 };
 
 Target find_target(const fs::path& path) {
@@ -96,14 +96,14 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// A new file beside the target; removed at the end of its scope unless it was renamed.
+// A new file in the folder of the target, removed at the end of its scope unless it was renamed.
 class TemporaryFile {
  public:
-  // `name` is what messages speak of, `target` where the file is to go.
+  // `name`: the path used in messages; `target`: the path that the file will be renamed to.
   TemporaryFile(const fs::path& name, const fs::path& target) : name_(name), file_(-1) {
-    constexpr int attempts = 100;
+    constexpr int max_tries = 100;
     std::random_device random;
-    for (int k = 0; k < attempts && !file_.is_open(); ++k) {
+    for (int k = 0; k < max_tries && !file_.is_open(); ++k) {
       const auto number = static_cast<std::uint64_t>(random()) << 32 | random();
       path_ = folder_of(target) / fmt::format(".hooke-{:016x}.tmp", number);
       file_.reset(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -151,7 +151,7 @@ void sync_folder(const fs::path& name, const fs::path& target) {
   FileDescriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder.is_open()) return;  // a folder may be writable without being readable
   const bool synced = ::fsync(folder.get()) == 0;
-  if (!synced && errno != EINVAL && errno != ENOTSUP)  // not every file system can
+  if (!synced && errno != EINVAL && errno != ENOTSUP)  // not supported by every file system
     fail(name,
          fmt::format("was written, but its folder cannot be synced: {}; it may be lost in a power failure",
                      reason(errno)));
@@ -159,7 +159,7 @@ void sync_folder(const fs::path& name, const fs::path& target) {
 
 }  // namespace
 
-/// With the place it is to go to.
+/// The temporary file and its target.
 class PendingFile::Written {
  public:
   Written(const fs::path& path, std::string_view bytes)
@@ -215,7 +215,8 @@ std::string kind_of(mode_t mode) {
   return "a device";
 }
 
-/// Reads `count` bytes from `offset` on to `to`, fewer only where the file ends. Returns how many.
+/// Reads `count` bytes, starting at `offset`, into `to`; fewer only at the end of the file. Returns the
+/// number of bytes read.
 size_t read_range(int descriptor, size_t offset, size_t count, char* to, const std::string& name) {
   size_t used = 0;
   while (used < count) {
@@ -230,18 +231,18 @@ size_t read_range(int descriptor, size_t offset, size_t count, char* to, const s
   return used;
 }
 
-/// Reads as many bytes as expected on all cores, then whatever has come to be there since.
+/// Reads the expected number of bytes in parallel, then any bytes that were appended meanwhile.
 FileBytes read_to_end(int descriptor, size_t expected_size, const std::string& name) {
   constexpr size_t block = size_t{1} << 22;
-  FileBytes file{UnfilledVector<char>(expected_size + 1)};
-  UnfilledVector<char>& bytes = file.bytes;
+  FileBytes file{UninitializedVector<char>(expected_size + 1)};
+  UninitializedVector<char>& bytes = file.bytes;
   std::vector<size_t> counts((expected_size + block - 1) / block);
   parallel_for(counts.size(), 1, [&](size_t first, size_t last) {
     for (size_t b = first; b < last; ++b)
       counts[b] = read_range(descriptor, b * block, std::min(block, expected_size - b * block),
                              bytes.data() + b * block, name);
   });
-  size_t used = 0;  // up to the first block that was not there
+  size_t used = 0;  // bytes up to the first incomplete block
   for (size_t b = 0; b < counts.size() && used == b * block; ++b) used += counts[b];
   while (true) {
     const size_t room = bytes.size() - used;
@@ -259,7 +260,7 @@ FileBytes read_to_end(int descriptor, size_t expected_size, const std::string& n
 FileBytes read_regular_file(const std::filesystem::path& path) {
   if (path.empty()) throw InputError("'': the input has no name; expected a mesh file; name one");
   const std::string name = printable(path.native());
-  // O_NONBLOCK: opening a pipe without a writer would wait for ever.
+  // O_NONBLOCK: otherwise opening a pipe without a writer would block.
   FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   if (!file.is_open())
     throw InputError(

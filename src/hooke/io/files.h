@@ -1,4 +1,5 @@
-// A file is there whole, or as it was before: written beside its place, checked, synced, renamed.
+// File input and output: reads whole files, and replaces files atomically (written to a temporary file,
+// checked, synced, renamed), so that a target is either complete or unchanged.
 #pragma once
 
 #include <filesystem>
@@ -9,19 +10,19 @@
 
 namespace hooke {
 
-/// A file that is written, checked and synced beside its place, where commit() puts it. Without commit() it
-/// is removed, and nothing has changed: so several files can be there all or not at all.
+/// A complete, synced temporary file that commit() renames to its target. Without commit() it is removed and
+/// nothing changes, so a set of files can be written all or none.
 class PendingFile {
  public:
-  /// Writes the bytes to a temporary file in the folder of `path`. A symbolic link is followed: the file it
-  /// points to is to be replaced. The mode is that of the file to be replaced, or what the umask gives a new
-  /// file. Throws OutputError that names the file and the system's reason; then no temporary is left.
+  /// Writes the bytes to a temporary file in the folder of `path`. Symbolic links are followed: the file they
+  /// point to will be replaced. The mode is that of the file to be replaced, or given by the umask for a new
+  /// file. Throws OutputError with the file name and the system's reason; then no temporary file is left.
   PendingFile(const std::filesystem::path& path, std::string_view bytes);
   PendingFile(PendingFile&&) noexcept;
   ~PendingFile();
 
-  /// Puts the file in its place, once. Throws OutputError; then an old file is as it was (but for a failing
-  /// sync of the folder after the rename, which the message says).
+  /// Renames the temporary file to its target. To be called at most once. Throws OutputError; an existing
+  /// file is then unchanged, unless only the sync of the folder failed, as the message says.
   void commit();
 
  private:
@@ -29,25 +30,24 @@ class PendingFile {
   std::unique_ptr<Written> written_;
 };
 
-/// Throws OutputError if a PendingFile could not be made: a missing or read-only folder, a target that
-/// is a folder, a device, a dangling link or write-protected. Creates and removes a temporary file to find
-/// out.
+/// Throws OutputError if a PendingFile could not be created: the folder is missing or read-only, or the
+/// target is a folder, a device, a dangling link or write-protected. Creates and removes a temporary file.
 void require_writable(const std::filesystem::path& path);
 
-/// Do both names lead to the same file, directly or by a link of any kind? A file need not be there yet.
+/// Whether both paths name the same file, directly or through links. The files need not exist.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-// All bytes of a regular file.
+/// The bytes of a file.
 
 struct FileBytes {
-  UnfilledVector<char> bytes;
+  UninitializedVector<char> bytes;
 
   std::string_view text() const& { return {bytes.data(), bytes.size()}; }
-  std::string_view text() const&& = delete;  // it would outlive them
+  std::string_view text() const&& = delete;  // the view would outlive the bytes
 };
 
-/// Throws InputError if the file is missing, not a regular file (a folder, a pipe, a device ...), empty or
-/// unreadable, and LimitError if it does not fit in memory. Never blocks on a pipe.
+/// Reads a whole regular file. Throws InputError if it is missing, not a regular file (such as a folder
+/// or a pipe), empty or unreadable, and LimitError if it does not fit in memory. Does not block on a pipe.
 FileBytes read_regular_file(const std::filesystem::path& path);
 
 }  // namespace hooke

@@ -24,7 +24,7 @@ namespace {
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) return false;
   std::uint32_t triangles = 0;
-  std::memcpy(&triangles, bytes.data() + 80, 4);  // little endian, as the machines that we run on
+  std::memcpy(&triangles, bytes.data() + 80, 4);  // little-endian, like all supported machines
   return bytes.size() == 84 + 50 * static_cast<size_t>(triangles);
 }
 
@@ -36,7 +36,7 @@ bool is_off_keyword(std::string_view word) {
   return word.size() >= 3 && word.size() <= 8 && equal_ignoring_case(word.substr(word.size() - 3), "OFF");
 }
 
-/// What the bytes seem to be: "obj", "ply", "off", another kind of file, or nothing that we know.
+/// The probable kind of the content: "obj", "ply", "off", the name of another kind, or empty if unknown.
 std::string guess_content(std::string_view bytes) {
   if (bytes.starts_with("\x1f\x8b")) return "gzip";
   if (bytes.starts_with("PK\x03\x04")) return "zip";
@@ -136,18 +136,18 @@ void end_polygon(MeshFile& file) {
 
 void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds) {
   if (kinds.empty()) return;
-  constexpr size_t most = 20;
+  constexpr size_t max_listed = 20;
   const std::vector<std::string> named(
-      kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(std::min(kinds.size(), most)));
+      kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(std::min(kinds.size(), max_listed)));
   const std::string others =
-      kinds.size() > most ? fmt::format(" and {} more kinds", kinds.size() - most) : "";
+      kinds.size() > max_listed ? fmt::format(" and {} more kinds", kinds.size() - max_listed) : "";
   file.warnings.push_back({"attributes_not_kept", fmt::format("{}: not kept in the output: {}{}", file.name,
                                                               fmt::join(named, ", "), others)});
 }
 
 namespace {
 
-/// Greatest value of an unsigned integer type; 1 for others.
+/// Maximum of an 8-bit or 16-bit unsigned integer type; 1 for other types.
 double full_scale(NumberType type) {
   switch (type) {
     case NumberType::uint8:
@@ -163,7 +163,8 @@ VertexChannel scaled(const VertexChannel& channel, NumberType type) {
   VertexChannel result{channel.name, type, channel.values};
   for (double& value : result.values) {
     value *= full_scale(type) / full_scale(channel.type);
-    if (is_integer(type)) value = std::round(std::min(std::max(0., value), full_scale(type)));  // no NaN
+    if (is_integer(type))
+      value = std::round(std::min(std::max(0., value), full_scale(type)));  // std::max turns NaN into 0
   }
   return result;
 }
@@ -179,7 +180,7 @@ bool is_one_of(const std::string& name, ChannelNames names) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// The texture coordinates of PLY files have two sets of names.
+/// Renames texture coordinates to the names s and t; PLY files also use texture_u and texture_v.
 VertexData with_common_names(VertexData data) {
   constexpr std::array others = {"texture_u", "texture_v"};
   if (has_all(data, others) && channels_named(data, texture_names).empty())
@@ -187,7 +188,7 @@ VertexData with_common_names(VertexData data) {
   return data;
 }
 
-/// What a format holds of data that other formats hold too.
+/// The colours, normals and texture coordinates in the data that a format can hold.
 class CommonData {
  public:
   CommonData(const VertexData& data, const std::string& format) {
@@ -219,7 +220,7 @@ FormatData data_for_format(const VertexData& data, const std::string& from, cons
     else if (to == "ply" || common.has(channel.name))
       result.data.push_back(channel);
     else
-      result.left_out.push_back(channel.name);
+      result.dropped.push_back(channel.name);
   }
   if (to == "off" && common.is_colour("red") && !find_channel(named, "alpha"))
     result.data.push_back({"alpha", NumberType::uint8, std::vector(named.front().values.size(), 255.)});

@@ -1,4 +1,5 @@
-// What a mesh file holds, in plain arrays, before anybody asks whether it is a good mesh.
+// The content of a mesh file (OBJ, PLY or OFF) as plain arrays, before validation, and the conversion of
+// vertex data between these formats.
 #pragma once
 
 #include <filesystem>
@@ -11,51 +12,51 @@ namespace hooke {
 
 enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
 
-/// Invariant: points are finite, every polygon has at least three corners, corners are ids in [0,
-/// points.cols()).
+/// The content of a mesh file. Invariant: points are finite, every polygon has at least three corners, and
+/// corners are vertex ids in [0, points.cols()).
 struct MeshFile {
-  std::string name;                                          // of the file, printable, for messages
+  std::string name;                                          // printable name of the file, for messages
   std::string format;                                        // "obj", "ply" or "off"
-  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a ply file
-  Mat3X points;                                              // in file order
-  IntLists polygons{{0}, {}};  // corner ids (0-based) of each face, in file order
-  std::vector<int> lines;      // line of each polygon in the file; empty for binary files
-  VertexData vertex_data;      // what the format tells of vertices besides, in file order
+  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a PLY file
+  Mat3X points;                                              // vertices in file order
+  IntLists polygons{{0}, {}};  // vertex ids (0-based) of each face, in file order
+  std::vector<int> lines;      // line number of each polygon; empty for binary files
+  VertexData vertex_data;      // other values of the vertices, in file order
   Warnings warnings;
 };
 
-/// "obj", "ply" or "off", from the path's extension in any case. Throws Error if it is none of them.
+/// The format given by the file extension, ignoring case: "obj", "ply" or "off". Throws Error for others.
 std::string format_of(const std::filesystem::path& path);
 
-/// The same, but InputError: for a file that is to be read.
+/// The same for an input file: throws InputError.
 std::string input_format_of(const std::filesystem::path& path);
 
-/// Reads the mesh file that the bytes are; `format` as from format_of, `name` is printable and begins the
-/// messages. Throws InputError "NAME:LINE: what; what was expected; what to do" on anything that is not as
-/// the format wants it.
+/// Parses the bytes of a mesh file. `format` is as returned by format_of(); `name` is printable and begins
+/// all messages. Throws InputError "NAME:LINE: problem; what was expected; what to do" for malformed bytes.
 MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const std::string& format);
 
-/// Ends the polygon whose corners were appended to file.polygons.items. Throws LimitError beyond 2^31 - 1
-/// corners.
+/// Completes the polygon whose corners were appended to file.polygons.items. Throws LimitError for more than
+/// 2^31 - 1 corners in all.
 void end_polygon(MeshFile& file);
 
-/// Appends the polygons and lines of the parts, in order. Throws LimitError beyond 2^31 - 1 corners.
+/// Appends the polygons and line numbers of the parts, in order. Throws LimitError beyond 2^31 - 1 corners.
 void append_faces(MeshFile& file, const std::vector<MeshFile>& parts);
 
-/// Adds the warning `attributes_not_kept` that names the kinds of content a reader passed over; none if none.
+/// Adds the warning `attributes_not_kept` that lists the kinds of content ignored by a reader, if any.
 void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds);
 
-// What of the data of vertices a file format can hold.
+/// Vertex data converted to a file format.
 
 struct FormatData {
   VertexData data;
-  std::vector<std::string> left_out;  // names of channels
+  std::vector<std::string> dropped;  // names of channels that the format cannot hold
 };
 
-/// Data that was read from one format, as another holds it: PLY any; OBJ colours, normals and texture
-/// coordinates if finite; OFF these with an alpha, but no third texture coordinate. Colours of integer types
-/// count up to the type's greatest value, others to 1; they become 8-bit ones, but in OBJ numbers from 0
-/// to 1. The names texture_u and texture_v of PLY mean s and t.
+/// Converts vertex data read from the format `from` to the format `to`. PLY holds any channel; OBJ holds
+/// colours, normals and texture coordinates if they are finite; OFF holds the same with alpha, but without a
+/// third texture coordinate. Colours of integer types range up to the maximum of the type, others up to 1;
+/// they become 8-bit integers, but numbers from 0 to 1 in OBJ. The PLY names texture_u and texture_v stand
+/// for s and t.
 FormatData data_for_format(const VertexData& data, const std::string& from, const std::string& to);
 
 }  // namespace hooke

@@ -16,19 +16,19 @@
 namespace hooke {
 namespace {
 
-// A kind of content that is passed over.
+// A kind of content that is ignored.
 struct NotKept {
   std::string kind;
   bool unknown = false;
   bool operator==(const NotKept&) const = default;
 };
 
-// The numbers of all elements in the text.
+// The coordinates of all elements in the text, one column per element.
 struct ObjNumbers {
   Mat3X points, texture, normals;
 };
 
-// A piece of the text, and what was read from it.
+// A piece of the text and the content read from it.
 struct ObjReader {
   ObjReader(const Scanner& text, ObjNumbers& all)
       : scanner(text),
@@ -40,11 +40,11 @@ struct ObjReader {
   MeshFile part{};
   ObjElements vertices, texture, normals;
   std::vector<NotKept> not_kept{};
-  std::vector<Vec3> colours{};  // of the vertices that have one
+  std::vector<Vec3> colours{};  // of the vertices that have a colour
 };
 
 void note(std::vector<NotKept>& noted, NotKept content) {
-  constexpr size_t named = 10;  // a file of another kind would name hundreds
+  constexpr size_t named = 10;  // a file of another format would have hundreds
   if (content.unknown && noted.size() >= named) content.kind = "other unknown statements";
   if (std::ranges::find(noted, content) == noted.end()) noted.push_back(std::move(content));
 }
@@ -130,7 +130,7 @@ void read_statement(ObjReader& obj, std::string_view keyword) {
   }
 }
 
-// Gives the corners of the piece that have none yet an id, where there are elements at all.
+// Extends the element ids to all corners of the piece (-1 for none), if the text has such elements.
 void end_corners(const ObjReader& obj, ObjElements& elements) {
   if (elements.values.cols() > 0) elements.of_corners.resize(obj.part.polygons.items.size(), -1);
 }
@@ -141,16 +141,16 @@ void read_piece(ObjReader& obj) {
   end_corners(obj, obj.normals);
 }
 
-// Keywords of what faces refer to by number, and their places in TextPiece::rows_of.
+// Keywords of the elements that faces refer to by number, and their indices in TextPiece::rows_of.
 constexpr std::array<std::string_view, 3> numbered = {"v", "vt", "vn"};
 enum : size_t { of_vertices, of_texture, of_normals };
 
-// Readers of the pieces, each of which knows how much stands before it; makes room for the numbers.
+// Creates a reader per piece, with the element counts of the pieces before it, and allocates the coordinates.
 std::vector<ObjReader> start_readers(const std::vector<TextPiece>& pieces, const std::string& name,
                                      ObjNumbers& all) {
   std::vector<ObjReader> readers;
   long long vertices = 0, texture = 0, normals = 0;
-  const auto limited = [](long long count) {  // count_one() refuses what is beyond
+  const auto limited = [](long long count) {  // count_one() throws for larger counts
     return static_cast<int>(std::min<long long>(count, std::numeric_limits<int>::max()));
   };
   for (const TextPiece& piece : pieces) {
@@ -174,7 +174,7 @@ ObjElementPieces pieces_of(const std::vector<ObjReader>& readers, const ObjEleme
   return pieces;
 }
 
-// The colours as vertex data of the file where every vertex has one.
+// Adds the colours to the vertex data of the file if every vertex has one.
 void keep_colours(const std::vector<ObjReader>& readers, MeshFile& file, std::vector<std::string>& not_kept) {
   size_t coloured = 0;
   for (const ObjReader& reader : readers) coloured += reader.colours.size();
@@ -196,14 +196,15 @@ constexpr CornerDataKind texture_kind = {.channels = texture_names,
                                          .element = "vt",
                                          .seams = "seams",
                                          .code = "texture_seams"};
-constexpr CornerDataKind normal_kind = {.channels = normal_names,
-                                        .type = NumberType::float32,  // made anew, and shorter
-                                        .what = "normals",
-                                        .element = "vn",
-                                        .seams = "hard edges",
-                                        .code = "hard_edges"};
+constexpr CornerDataKind normal_kind = {
+    .channels = normal_names,
+    .type = NumberType::float32,  // recomputed on output, so single precision suffices
+    .what = "normals",
+    .element = "vn",
+    .seams = "hard edges",
+    .code = "hard_edges"};
 
-void append_passed_over(const std::vector<ObjReader>& readers, std::vector<std::string>& not_kept) {
+void append_ignored(const std::vector<ObjReader>& readers, std::vector<std::string>& not_kept) {
   std::vector<NotKept> noted;
   for (const ObjReader& reader : readers)
     for (const NotKept& content : reader.not_kept) note(noted, content);
@@ -226,7 +227,7 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   const ObjElementPieces texture = pieces_of(readers, &ObjReader::texture);
   const ObjElementPieces normals = pieces_of(readers, &ObjReader::normals);
   for (const ObjElementPieces& elements : {pieces_of(readers, &ObjReader::vertices), texture, normals})
-    check_greatest(name, elements);
+    check_max_index(name, elements);
   if (numbers.points.cols() == 0)
     throw InputError(name + ": no vertices; expected v lines; is this an OBJ file?");
   file.points = std::move(numbers.points);
@@ -237,7 +238,7 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   keep_colours(readers, file, not_kept);
   keep_elements(texture, texture_kind, file, not_kept);
   keep_elements(normals, normal_kind, file, not_kept);
-  append_passed_over(readers, not_kept);
+  append_ignored(readers, not_kept);
   warn_not_kept(file, not_kept);
   return file;
 }
@@ -246,8 +247,7 @@ std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
                       const VertexData& data) {
   const ChannelList texture = channels_named(data, texture_names);
   const ChannelList normals = channels_named(data, normal_names);
-  std::vector<const char*>
-      repeats;  // every vertex has the texture coordinate and the normal of its own number
+  std::vector<const char*> repeats;  // indices of vt and vn, equal to that of the vertex
   if (!texture.empty()) repeats.push_back("/");
   if (!normals.empty()) repeats.push_back(texture.empty() ? "//" : "/");
   std::string text;

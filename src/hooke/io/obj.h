@@ -1,4 +1,4 @@
-// Wavefront OBJ: vertices, faces, and what belongs to vertices; all else is passed over with a warning.
+// Reader and writer of Wavefront OBJ: vertices, faces and vertex data. Warns of all other content.
 // Source: Wavefront Technologies, "Advanced Visualizer Manual, Appendix B1: Object Files (.obj)", 1990s.
 #pragma once
 
@@ -9,16 +9,16 @@
 
 namespace hooke {
 
-/// Reads `v` (3 numbers; a fourth must be 1; six: with a colour, kept when all vertices have one) and `f` (v,
-/// v/vt, v//vn, v/vt/vn; negative indices count back from the last element so far; positive ones may point
-/// forward). Texture coordinates (s, t, p of the vertex data) and normals are kept when each vertex has the
-/// same in all its corners; where it has several, the warning `texture_seams` or `hard_edges` names the
-/// places. Groups, materials, lines and unknown statements are not kept: one warning says what is not.
-/// Throws InputError "NAME:LINE: ...", but not for broken numbers of `vt` and `vn`: those are not kept.
+/// Reads `v` (3 numbers; a fourth must be 1; six include a colour, kept if all vertices have one) and `f` (v,
+/// v/vt, v//vn, v/vt/vn; negative indices count back from the last element so far; positive ones may refer to
+/// later elements). Texture coordinates (s, t, p of the vertex data) and normals are kept if each vertex has
+/// the same values at all its corners; otherwise the warning `texture_seams` or `hard_edges` names the
+/// vertices. Groups, materials, lines and unknown statements are not kept; one warning lists them. Throws
+/// InputError "NAME:LINE: ...", but not for invalid numbers in `vt` and `vn`, which are then not kept.
 MeshFile read_obj(std::string_view text, const std::string& name);
 
-/// `v`, `vt`, `vn` and `f` lines whose numbers read back as exactly the same; of the data colours, texture
-/// coordinates and normals.
+/// The text of an OBJ file with `v`, `vt`, `vn` and `f` lines. Numbers read back exactly. Of the data it
+/// holds colours, texture coordinates and normals.
 std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
                       const VertexData& data = {});
 

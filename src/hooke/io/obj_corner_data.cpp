@@ -16,15 +16,15 @@ bool same_values(const CornerData& data, int a, int b) {
   return a == b || data.values.col(a) == data.values.col(b);
 }
 
-// An edge of a polygon, and the elements that the corners at its ends have there.
-struct Side {
-  Edge ends;  // ascending
+// An edge of a polygon and the elements of the two corners at its ends.
+struct PolygonEdge {
+  Edge ends;  // vertex ids, ascending
   std::array<int, 2> elements;
 };
 
-std::vector<Side> sides_at(const std::vector<char>& chosen, const CornerData& data,
-                           const IntLists& polygons) {
-  std::vector<Side> sides;
+std::vector<PolygonEdge> edges_at(const std::vector<char>& chosen, const CornerData& data,
+                                  const IntLists& polygons) {
+  std::vector<PolygonEdge> edges;
   for (size_t f = 0; f + 1 < polygons.first.size(); ++f) {
     const int begin = polygons.first[f], end = polygons.first[f + 1];
     for (int c = begin; c < end; ++c) {
@@ -32,18 +32,19 @@ std::vector<Side> sides_at(const std::vector<char>& chosen, const CornerData& da
       if (polygons.items[from] > polygons.items[to]) std::swap(from, to);
       const Edge ends{polygons.items[from], polygons.items[to]};
       if (chosen[static_cast<size_t>(ends[0])] || chosen[static_cast<size_t>(ends[1])])
-        sides.push_back({ends, {data.elements[from], data.elements[to]}});
+        edges.push_back({ends, {data.elements[from], data.elements[to]}});
     }
   }
-  return sides;
+  return edges;
 }
 
-size_t count_edges_that_differ(std::vector<Side> sides, const CornerData& data) {
-  std::ranges::stable_sort(sides, {}, &Side::ends);
+size_t count_edges_that_differ(std::vector<PolygonEdge> edges, const CornerData& data) {
+  std::ranges::stable_sort(edges, {}, &PolygonEdge::ends);
   size_t count = 0;
-  for (auto first = sides.begin(); first != sides.end();) {
-    const auto next = std::find_if(first, sides.end(), [&](const Side& s) { return s.ends != first->ends; });
-    count += std::any_of(first, next, [&](const Side& s) {
+  for (auto first = edges.begin(); first != edges.end();) {
+    const auto next =
+        std::find_if(first, edges.end(), [&](const PolygonEdge& s) { return s.ends != first->ends; });
+    count += std::any_of(first, next, [&](const PolygonEdge& s) {
       return !same_values(data, s.elements[0], first->elements[0]) ||
              !same_values(data, s.elements[1], first->elements[1]);
     });
@@ -63,15 +64,16 @@ void append_channels(VertexData& to, const Mat3X& values, const std::vector<int>
 }
 
 Warning warning_of(const Seams& seams, const std::string& name, const CornerDataKind& kind) {
-  constexpr size_t most = 10;
-  std::vector<int> numbers;  // as the file counts them
-  for (size_t k = 0; k < std::min(most, seams.vertices.size()); ++k) numbers.push_back(seams.vertices[k] + 1);
+  constexpr size_t max_listed = 10;
+  std::vector<int> numbers;  // 1-based, as in the file
+  for (size_t k = 0; k < std::min(max_listed, seams.vertices.size()); ++k)
+    numbers.push_back(seams.vertices[k] + 1);
   return {
       kind.code,
       fmt::format("{}: not kept in the output: {}, because of {} (edges: {}; vertices with several {}: {}, "
                   "numbers {}{}); to keep them cut the mesh open there, so that each vertex has one {}",
                   name, kind.what, kind.seams, seams.edges, kind.element, seams.vertices.size(),
-                  fmt::join(numbers, " "), seams.vertices.size() > most ? " ..." : "", kind.element)};
+                  fmt::join(numbers, " "), seams.vertices.size() > max_listed ? " ..." : "", kind.element)};
 }
 
 }  // namespace
@@ -94,7 +96,7 @@ Seams find_seams(const CornerData& data, const IntLists& polygons, const std::ve
   Seams seams;
   for (size_t v = 0; v < on_seam.size(); ++v)
     if (on_seam[v]) seams.vertices.push_back(static_cast<int>(v));
-  if (!seams.vertices.empty()) seams.edges = count_edges_that_differ(sides_at(on_seam, data, polygons), data);
+  if (!seams.vertices.empty()) seams.edges = count_edges_that_differ(edges_at(on_seam, data, polygons), data);
   return seams;
 }
 
@@ -139,8 +141,8 @@ int read_index(const Scanner& in, std::string_view text, std::string_view corner
     in.fail(
         fmt::format("{} index 0; expected 1 or more, or a negative one; OBJ counts from 1", elements.kind));
   const int id = static_cast<int>(index > 0 ? index - 1 : elements.count + index);
-  if (id > elements.greatest) {
-    elements.greatest = id;
+  if (id > elements.max_index) {
+    elements.max_index = id;
     elements.max_line = in.line();
   }
   return id;
@@ -153,15 +155,15 @@ void read_corner_index(const Scanner& in, std::string_view text, std::string_vie
   elements.of_corners.push_back(id);
 }
 
-void check_greatest(const std::string& name, const ObjElementPieces& pieces) {
+void check_max_index(const std::string& name, const ObjElementPieces& pieces) {
   if (pieces.empty()) return;
   const ObjElements& asked =
-      **std::ranges::max_element(pieces, {}, [](const ObjElements* elements) { return elements->greatest; });
+      **std::ranges::max_element(pieces, {}, [](const ObjElements* elements) { return elements->max_index; });
   const int count = pieces.back()->count;
-  if (asked.greatest >= count)
+  if (asked.max_index >= count)
     throw InputError(
         fmt::format("{}:{}: {} index {}; expected at most {}, the number in the file; correct the index",
-                    name, asked.max_line, asked.kind, asked.greatest + 1LL, count));
+                    name, asked.max_line, asked.kind, asked.max_index + 1LL, count));
 }
 
 void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, MeshFile& file,

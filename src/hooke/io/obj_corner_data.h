@@ -1,4 +1,5 @@
-// What a file tells of the corners of faces, such as texture coordinates, as data of vertices.
+// Data of face corners, such as the texture coordinates and normals of an OBJ file, read by index and
+// converted to vertex data where it is unique per vertex.
 #pragma once
 
 #include <string>
@@ -8,79 +9,80 @@
 
 namespace hooke {
 
-/// Elements of one kind, each of up to three numbers, to which the corners of polygons refer.
+/// Corner data of one kind: elements of up to three numbers each, and the element of every polygon corner.
 struct CornerData {
   const Mat3X& values;        // one column per element
-  std::vector<int> elements;  // of each corner, in the order of the polygons' items; -1 for none
+  std::vector<int> elements;  // per corner, in the order of the polygons' items; -1 for none
 };
 
-/// Where the corners of a vertex have different values.
+/// The vertices and edges across which corner data is discontinuous.
 struct Seams {
-  std::vector<int> vertices;  // ids, ascending
-  size_t edges = 0;           // along which the values of two faces differ
+  std::vector<int> vertices;  // with different values at their corners; ids, ascending
+  size_t edges = 0;           // number of edges along which the values of two faces differ
 };
 
-/// Element of each vertex, that of its first corner; -1 for a vertex without corners.
+/// The element of each vertex, taken from its first corner; -1 for a vertex without corners.
 std::vector<int> elements_of_vertices(const CornerData& data, const IntLists& polygons, int vertex_count);
 
-/// `of_vertices`: from elements_of_vertices(). Pre-condition: every corner has an element.
+/// Finds the discontinuities of corner data. `of_vertices` is the result of elements_of_vertices().
+/// Pre-condition: every corner has an element.
 Seams find_seams(const CornerData& data, const IntLists& polygons, const std::vector<int>& of_vertices);
 
-/// How channels and messages name a kind of corner data.
+/// The names of a kind of corner data in vertex channels and messages.
 struct CornerDataKind {
-  ChannelNames channels;  // of its numbers
+  ChannelNames channels;  // one per number of an element
   NumberType type;        // of the channels
-  const char* what;       // "texture coordinates"
-  const char* element;    // "vt"
-  const char* seams;      // what edges are along which they differ: "seams"
-  const char* code;       // of the warning that names those
+  const char* what;       // plural name: "texture coordinates"
+  const char* element;    // keyword: "vt"
+  const char* seams;      // name of edges along which the values differ: "seams"
+  const char* code;       // code of the warning that lists these edges
 };
 
-/// Adds the data to file.vertex_data where each vertex has the same values in all its corners, 0 where it has
-/// none. Else adds the warning that names the seams. `width`: how many numbers an element has.
-/// Pre-condition: every corner has an element.
+/// Adds the data to file.vertex_data if each vertex has the same values at all its corners; vertices without
+/// corners get 0. Otherwise adds the warning that lists the seams. `width` is the number of values per
+/// element. Pre-condition: every corner has an element.
 void keep_as_vertex_data(MeshFile& file, const CornerData& data, size_t width, const CornerDataKind& kind);
 
-// Vertices, texture coordinates and normals of an OBJ file, to which its faces refer by number.
-
-/// The elements of one kind, as far as a piece of the text has been read.
+/// The elements of one kind in an OBJ file (vertices, texture coordinates or normals), as read so far from a
+/// piece of its text.
 struct ObjElements {
   const char* kind;
-  Mat3X& values;      // of the whole text, one column per element
-  int count = 0;      // from the beginning of the text
-  int greatest = -1;  // 0-based index that a face of the piece asked for
-  int max_line = 0;
-  // Of texture coordinates and normals, without which we can do:
-  int min_numbers = 3;
-  int numbers = 0;                // most that an element of the piece has
-  int broken_line = 0;            // the first whose numbers cannot be used
-  std::vector<int> of_corners{};  // their ids, as far as corners of the piece have one; -1 for none
+  Mat3X& values;       // of all elements in the text, one per column
+  int count = 0;       // number of elements from the beginning of the text
+  int max_index = -1;  // largest index (0-based) that a face of the piece refers to
+  int max_line = 0;    // line of that face
+  // For texture coordinates and normals only, which are optional:
+  int min_numbers = 3;            // minimum count of numbers per element
+  int numbers = 0;                // maximum count of numbers of an element in the piece
+  int broken_line = 0;            // first line with unusable numbers; 0 for none
+  std::vector<int> of_corners{};  // element of each corner of the piece so far; -1 for none
 };
 
-/// Throws InputError beyond 2^31 - 1.
+/// Increments the count of elements. Throws InputError beyond 2^31 - 1.
 void count_one(const Scanner& in, ObjElements& elements);
 
-/// The rest of the line of a texture coordinate or a normal. Broken numbers are noted: they are common, such
-/// as the "nan" of faces without area.
+/// Reads the rest of the line of a texture coordinate or a normal. Invalid numbers are recorded rather than
+/// thrown, since they are common, such as "nan" for faces without area.
 void read_numbers(Scanner& in, ObjElements& elements);
 
-/// 0-based id of `text`, the index of one of the elements in the face corner `corner`. Throws InputError
-/// unless it is an integer that can point to one.
+/// Converts `text`, the index of an element in the face corner `corner`, to a 0-based id. Throws InputError
+/// unless it is an integer that can refer to an element.
 int read_index(const Scanner& in, std::string_view text, std::string_view corner, ObjElements& elements);
 
-/// The same for a texture coordinate or a normal, which becomes that of the piece's corner of this number.
+/// The same for a texture coordinate or a normal, which is assigned to corner `number` of the piece.
 void read_corner_index(const Scanner& in, std::string_view text, std::string_view corner, size_t number,
                        ObjElements& elements);
 
-/// The same kind of elements from all pieces of the text, in order.
+/// The elements of one kind in all pieces of the text, in order.
 using ObjElementPieces = std::vector<const ObjElements*>;
 
-/// Positive indices may point forward, so their upper bound is known only at the end. Throws InputError.
-void check_greatest(const std::string& name, const ObjElementPieces& pieces);
+/// Throws InputError if a face refers to an element that does not exist. Positive indices may refer to later
+/// elements, so this can be checked only after reading all pieces.
+void check_max_index(const std::string& name, const ObjElementPieces& pieces);
 
-/// Makes texture coordinates or normals vertex data of the file, or says why they are not kept: in `not_kept`
-/// or in a warning of the file. Pre-condition: in every piece of_corners has all corners, unless the whole
-/// text has no elements.
+/// Adds texture coordinates or normals to the vertex data of the file, or reports in `not_kept` or in a
+/// warning of the file why they are not kept. Pre-condition: in every piece `of_corners` has an entry per
+/// corner, unless the text has no elements of this kind.
 void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, MeshFile& file,
                    std::vector<std::string>& not_kept);
 

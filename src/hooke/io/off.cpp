@@ -16,11 +16,11 @@ namespace hooke {
 namespace {
 
 struct OffHeader {
-  bool texture = false, colours = false, normals = false;  // ST, C, N: numbers after the coordinates
+  bool texture = false, colours = false, normals = false;  // prefixes ST, C, N
   int vertices = 0, faces = 0;
 };
 
-// The letters before OFF, as far as we can read them.
+// Parses the keyword OFF and its prefixes; none if the word is no such keyword.
 std::optional<OffHeader> parse_keyword(const Scanner& in, std::string_view word) {
   if (word.size() < 3 || !equal_ignoring_case(word.substr(word.size() - 3), "OFF")) return std::nullopt;
   OffHeader header;
@@ -32,7 +32,7 @@ std::optional<OffHeader> parse_keyword(const Scanner& in, std::string_view word)
   };
   header.texture = take("ST");
   header.colours = take("C");
-  // 'N' is normals, 'n' is the dimension: the only letter whose case matters.
+  // 'N' stands for normals, 'n' for the dimension: the only letter whose case matters.
   header.normals = !letters.empty() && letters[0] == 'N';
   if (header.normals) letters.remove_prefix(1);
   if (!letters.empty())
@@ -75,7 +75,8 @@ OffHeader read_header(Scanner& in) {
   return header;
 }
 
-// How many numbers follow the coordinates in this line. They go to `data` as far as it has channels.
+// Reads a vertex line and stores the numbers after the coordinates in the channels of `data`, as many as
+// there are. Returns the count of these numbers.
 int read_vertex(Scanner& in, double* coordinates, VertexData& data, size_t vertex) {
   for (const char* what : {"x", "y", "z"}) *coordinates++ = in.number(what);
   size_t extra = 0;
@@ -86,7 +87,7 @@ int read_vertex(Scanner& in, double* coordinates, VertexData& data, size_t verte
   return static_cast<int>(extra);
 }
 
-// How many numbers follow the coordinates on the first vertex line, and so on all of them.
+// The count of numbers after the coordinates on the first vertex line, which determines that of all vertices.
 int numbers_after_coordinates(const std::vector<TextPiece>& pieces, const OffHeader& header) {
   if (header.vertices == 0 || pieces.empty()) return 0;
   const auto first = std::ranges::find_if(pieces, [](const TextPiece& piece) { return piece.rows > 0; });
@@ -98,8 +99,8 @@ int numbers_after_coordinates(const std::vector<TextPiece>& pieces, const OffHea
   return read_vertex(in, coordinates, none, 0);
 }
 
-// Room for what the keyword tells of that many more numbers of vertices, in their order; none where it tells
-// of another count.
+// Allocates the channels that the keyword announces, in file order. Returns none unless they take exactly
+// `extra` numbers per vertex.
 VertexData allocate_data(const OffHeader& header, int extra, size_t vertices) {
   const int colours = extra - (header.normals ? 3 : 0) - (header.texture ? 2 : 0);
   if (header.colours ? colours != 3 && colours != 4 : colours != 0) return {};
@@ -113,31 +114,31 @@ VertexData allocate_data(const OffHeader& header, int extra, size_t vertices) {
   return data;
 }
 
-// Whole numbers up to 255 count to 255, unless all are 0 or 1.
+// Colours are 8-bit integers if all are integers up to 255, unless all are 0 or 1.
 void find_type_of_colours(VertexData& data) {
-  double greatest = 0;
+  double maximum = 0;
   for (const VertexChannel* channel : channels_named(data, colour_names))
     for (const double value : channel->values) {
       if (value != std::round(value) || value < 0 || value > 255) return;
-      greatest = std::max(greatest, value);
+      maximum = std::max(maximum, value);
     }
-  if (greatest <= 1) return;
+  if (maximum <= 1) return;
   for (const char* name : colour_names)
     if (VertexChannel* channel = find_channel(data, name)) channel->type = NumberType::uint8;
 }
 
-void check_vertex(const Scanner& in, const OffHeader& header, int vertex, int extra, int wanted_extra) {
-  if (extra != wanted_extra)
+void check_vertex(const Scanner& in, const OffHeader& header, int vertex, int extra, int expected_extra) {
+  if (extra != expected_extra)
     in.fail(fmt::format(
         "vertex {} with {} numbers; expected {} as on the first vertex line; is the vertex count right?",
-        vertex, 3 + extra, 3 + wanted_extra));
+        vertex, 3 + extra, 3 + expected_extra));
   const int by_keyword = (header.normals ? 3 : 0) + (header.colours ? 1 : 0) + (header.texture ? 2 : 0);
   if (vertex == header.vertices - 1 && extra < by_keyword)
     in.fail(fmt::format("vertices have {} numbers; expected at least {} by the keyword; correct the keyword",
                         3 + extra, 3 + by_keyword));
 }
 
-// Returns whether the line ends in a colour.
+// Reads a face line. Returns whether it ends with a colour.
 bool read_face(Scanner& in, int face, int vertex_count, MeshFile& part) {
   const long long corners = in.integer("face size");
   if (corners < 3)
@@ -173,7 +174,7 @@ std::vector<std::string> kinds_not_kept(const OffHeader& header, int vertex_extr
   return kinds;
 }
 
-// Where the rows end before all elements are there.
+// Throws the error for a text that ends before all elements.
 [[noreturn]] void fail_at_end(Scanner in, const OffHeader& header, long long rows) {
   while (in.next_line()) continue;
   const bool vertex = rows < header.vertices;

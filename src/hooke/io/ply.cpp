@@ -21,7 +21,7 @@ bool is_index_list(const PlyProperty& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }
 
-// Which coordinate a vertex property is; -1 for none.
+// Index (0 to 2) of the coordinate that the vertex property is; -1 for none.
 int coordinate_of(const PlyProperty& property) {
   return property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
 }
@@ -49,7 +49,7 @@ void check_face_element(const PlyElement& face, const std::string& name) {
         "{}: faces without one integer list 'vertex_indices'; expected it once; correct the header", name));
 }
 
-// Makes room for the vertices and what is told of them.
+// Allocates the vertices and their data.
 void allocate_vertices(const PlyElement& vertex, MeshFile& file) {
   file.points.resize(3, vertex.count);
   for (const PlyProperty& property : vertex.properties)
@@ -107,14 +107,14 @@ void read_faces(Body& body, const PlyElement& face, const PlyRows& rows, long lo
   }
 }
 
-// The elements that a mesh is made of, and all that the header names.
+// The header and its elements for vertices and faces.
 struct Elements {
   const PlyHeader& header;
   const PlyElement& vertex;
   const PlyElement& face;
 };
 
-// Vertices go to their places in `file`, faces to the end of `part`.
+// Stores vertices at their indices in `file` and appends faces to `part`.
 template <typename Body>
 void read_rows(Body& body, const Elements& elements, const PlyElement& element, const PlyRows& rows,
                MeshFile& file, MeshFile& part) {
@@ -126,7 +126,7 @@ void read_rows(Body& body, const Elements& elements, const PlyElement& element, 
     skip_rows(body, element, rows);
 }
 
-// Without properties its rows take no bytes, however many there are.
+// An element without properties has no rows in the file, whatever its count.
 long long row_count(const PlyElement& element) {
   return element.properties.empty() ? 0 : element.count;
 }
@@ -141,14 +141,14 @@ void read_body(Body body, const Elements& elements, MeshFile& file) {
   body.finish();
 }
 
-// A body with just as many lines as the header tells, in pieces.
+// Reads a body with exactly as many lines as the header announces, in parallel pieces.
 void read_pieces_of_body(const std::vector<TextPiece>& pieces, const Elements& elements, MeshFile& file) {
   allocate_vertices(elements.vertex, file);
   std::vector<MeshFile> parts(pieces.size());
   read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
     AsciiPlyBody body(piece.scanner);
     parts[p].name = file.name;
-    long long before = 0;  // rows of the elements before
+    long long before = 0;  // rows of the preceding elements
     for (const PlyElement& element : elements.header.elements) {
       const auto row = [&](long long of_body) {
         return std::clamp(of_body - before, 0LL, row_count(element));
@@ -165,13 +165,13 @@ void read_ascii_body(AsciiPlyBody body, const Elements& elements, MeshFile& file
   if (body.one_line()) return read_body(std::move(body), elements, file);
   const std::vector<TextPiece> pieces = remaining_pieces(body.scanner());
   const long long there = pieces.empty() ? 0 : pieces.back().first_row + pieces.back().rows;
-  double expected = 0;  // counts may be anything
+  double expected = 0;  // a double, as counts from the header may overflow an integer
   for (const PlyElement& element : elements.header.elements)
     expected += static_cast<double>(row_count(element));
   if (static_cast<double>(there) == expected)
     read_pieces_of_body(pieces, elements, file);
   else
-    read_body(std::move(body), elements, file);  // which finds where it goes wrong
+    read_body(std::move(body), elements, file);  // reports the position of the error
 }
 
 std::string kind_of(const PlyElement& element, const PlyProperty& property) {
@@ -257,7 +257,7 @@ std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encodin
       name_of(encoding), vertices, channels, faces);
 }
 
-/// The value's bytes at `at`, which moves on.
+/// Writes the bytes of the value at `at` and advances it.
 template <typename T>
 void put(char*& at, T value, bool swap) {
   auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);

@@ -85,7 +85,8 @@ void read_property(Scanner& in, PlyHeader& header) {
   header.elements.back().properties.push_back(std::move(property));
 }
 
-// The body begins right after the line end that the header uses: its first byte may look like another one.
+// Length of the line end that the header uses. A binary body starts right after it and may itself begin with
+// a byte that looks like a line end.
 size_t line_end_size(std::string_view text) {
   const size_t end = text.find_first_of("\r\n");
   return end != text.npos && text[end] == '\r' && text.substr(end + 1, 1) == "\n" ? 2 : 1;
@@ -175,7 +176,8 @@ AsciiPlyBody::AsciiPlyBody(std::string_view text, const std::string& name, const
       one_line_(is_one_line(text.substr(header.size))) {}
 
 void AsciiPlyBody::begin_element(const PlyElement& element) {
-  const size_t shortest_row = 2 * element.properties.size();  // a digit and a blank or line end each
+  const size_t shortest_row =
+      2 * element.properties.size();  // each value takes at least a digit and a separator
   if (!fits(element.count, shortest_row, in_.remaining() + 1)) fail(too_few_bytes(element, in_.remaining()));
 }
 
@@ -240,7 +242,7 @@ void BinaryPlyBody::begin_row(const PlyElement&, long long row) {
 }
 
 void BinaryPlyBody::finish() const {
-  // Some writers end with a line end.
+  // Line ends after the last element are accepted, as some writers add them.
   if (std::any_of(cursor_, end_, [](char c) { return !is_line_end(c); }))
     throw InputError(
         fmt::format("{}: {} bytes after the last element; expected the end of the file; are the counts of "

@@ -1,4 +1,5 @@
-// The header of a PLY file: which elements follow, and how their values are written.
+// The header of a PLY file, which describes its elements and properties, and readers of its body, as text and
+// binary.
 // Source: Greg Turk, "The PLY Polygon File Format", Stanford University, 1994.
 #pragma once
 
@@ -15,15 +16,15 @@
 
 namespace hooke {
 
-using PlyType = NumberType;  // PLY has just these
+using PlyType = NumberType;  // PLY has exactly these types
 
-/// Bytes of a value in a binary file.
+/// Size in bytes of a value in a binary file.
 size_t size_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::int32;      // of the value, or of the entries of a list
-  std::optional<PlyType> count_type;  // of a list's length; none for a scalar
+  PlyType type = PlyType::int32;      // of the value, or of the entries of a list property
+  std::optional<PlyType> count_type;  // type of a list's length; none for a scalar property
 };
 
 struct PlyElement {
@@ -35,33 +36,34 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement>
-      elements;     // in the order of the body; names differ, and so do those of their properties
-  size_t size = 0;  // bytes up to the body
-  int lines = 0;
+      elements;     // in file order; element names are unique, and so are property names within an element
+  size_t size = 0;  // bytes before the body
+  int lines = 0;    // lines before the body
 };
 
-/// Throws InputError "NAME:LINE: ...". Counts are not negative; whether the body holds that many is not known
-/// yet.
+/// Parses the header. Throws InputError "NAME:LINE: ...". Counts are not negative, but not checked against
+/// the size of the body.
 PlyHeader read_ply_header(std::string_view text, const std::string& name);
 
-/// The element of that name. Throws InputError "NAME: ..." without one.
+/// The element of that name. Throws InputError "NAME: ..." if there is none.
 const PlyElement& find_element(const PlyHeader& header, std::string_view element_name,
                                const std::string& name);
 
-// The two ways in which the values of a PLY body are written, behind one face: rows of numbers and lists.
+// Readers of the body with a common interface: an element is a sequence of rows of numbers and lists.
 
-/// Values in text: one row on a line, or the whole body on a single line.
+/// Reads values as text: one row per line, or the whole body on a single line.
 class AsciiPlyBody {
  public:
   AsciiPlyBody(std::string_view text, const std::string& name, const PlyHeader& header);
 
-  /// Rows on lines of their own that the scanner comes to.
+  /// Reads rows, one per line, from the current position of the scanner.
   explicit AsciiPlyBody(Scanner rows) : in_(std::move(rows)), one_line_(false) {}
 
   bool one_line() const { return one_line_; }
   const Scanner& scanner() const { return in_; }
 
-  /// Throws InputError if the rows of the element cannot be there, before anybody allocates memory for them.
+  /// Throws InputError if the rest of the file is too short for the rows of the element. To be called before
+  /// memory is allocated for them.
   void begin_element(const PlyElement& element);
   void begin_row(const PlyElement& element, long long row);
   void end_row();
@@ -69,7 +71,7 @@ class AsciiPlyBody {
   void finish();
 
   double number(PlyType, const char* what) { return in_.number(what); }
-  /// A number that need not be finite.
+  /// Reads a number that need not be finite.
   double any_number(PlyType type, const std::string& what);
   long long integer(PlyType, const char* what) { return in_.integer(what); }
   int line() const { return in_.line(); }
@@ -81,7 +83,7 @@ class AsciiPlyBody {
   bool started_ = false;
 };
 
-/// Values as bytes. A place in an error message is the element, its row and the byte offset.
+/// Reads binary values. Error messages give the element, its row and the byte offset.
 class BinaryPlyBody {
  public:
   BinaryPlyBody(std::string_view bytes, const std::string& name, const PlyHeader& header);
@@ -112,7 +114,7 @@ class BinaryPlyBody {
   long long row_ = 0;
 };
 
-/// Passes over a value or a list.
+/// Skips a value or a list.
 template <typename Body>
 void skip_property(Body& body, const PlyProperty& property) {
   long long count = 1;
@@ -121,12 +123,12 @@ void skip_property(Body& body, const PlyProperty& property) {
   for (long long k = 0; k < count; ++k) body.skip(property.type);
 }
 
-/// Rows of an element, counted from 0.
+/// The range [begin, end) of rows of an element, 0-based.
 struct PlyRows {
   long long begin = 0, end = 0;
 };
 
-/// Passes over rows of the element.
+/// Skips a range of rows of the element.
 template <typename Body>
 void skip_rows(Body& body, const PlyElement& element, const PlyRows& rows) {
   for (long long row = rows.begin; row < rows.end; ++row) {
@@ -136,10 +138,10 @@ void skip_rows(Body& body, const PlyElement& element, const PlyRows& rows) {
   }
 }
 
-/// Passes over all rows of the element.
+/// Skips all rows of the element.
 template <typename Body>
 void skip_element(Body& body, const PlyElement& element) {
-  if (element.properties.empty()) return;  // its rows take no bytes, however many there are
+  if (element.properties.empty()) return;  // an element without properties has no rows in the file
   skip_rows(body, element, {0, element.count});
 }
 

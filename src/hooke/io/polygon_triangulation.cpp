@@ -17,16 +17,16 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-// 1 for an equilateral triangle, 0 for one without area, negative if it is flipped.
+// Shape of a triangle in the plane: 1 if equilateral, 0 without area, negative if flipped.
 double shape(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
   return squares > 0 ? 2 * std::sqrt(3.) * turn(a, b, c) / squares : 0;
 }
 
-// Below this shape a corner counts as straight.
+// Corners whose triangle has a smaller shape count as straight.
 constexpr double straight = 1e-10;
 
-// The corners in the plane of the Newell normal, seen from outside, the polygon's size being 1.
+// Projects the corners to the plane of the Newell normal, seen from outside and scaled to a size of about 1.
 void project(const Mat3X& points, std::span<const int> corners, std::vector<Vec2>& plane) {
   const Vec3 origin = points.col(corners[0]);
   double size = 0;
@@ -43,10 +43,11 @@ void project(const Mat3X& points, std::span<const int> corners, std::vector<Vec2
   for (size_t k = 0; k < corners.size(); ++k) plane.emplace_back(u.dot(local(k)), w.dot(local(k)));
 }
 
-// One polygon while its ears are clipped. Corners are counted from 0 within the polygon.
+// Clips the ears of one polygon. Corners are numbered from 0 within the polygon.
 class EarClipper {
  public:
-  // Corner triples of the triangles, appended to `out`. False if some ear was not clean.
+  // Appends the triangles, as triples of corners, to `out`. Returns false if no valid ear was found
+  // at some step or the last triangle is degenerate.
   bool clip(const std::vector<Vec2>& plane, std::vector<Triangle>& out) {
     plane_ = &plane;
     const int n = static_cast<int>(plane.size());
@@ -56,11 +57,11 @@ class EarClipper {
       int ear = best_ear();
       if (ear < 0) {
         for (int i = 0; i < n; ++i)
-          if (live_[at(i)]) push_if_ear(i);  // what blocked them may be gone
+          if (live_[at(i)]) push_if_ear(i);  // the corner that blocked them may be clipped
         ear = best_ear();
       }
       clean &= ear >= 0;
-      cut(ear >= 0 ? ear : roundest_corner(), out);
+      cut(ear >= 0 ? ear : best_shaped_corner(), out);
     }
     const int last = next_live(0);
     clean &= shape_at(last) > straight;
@@ -69,7 +70,7 @@ class EarClipper {
   }
 
  private:
-  using Candidate = std::tuple<double, int, int>;  // shape, -corner (the first of equals wins), stamp
+  using Candidate = std::tuple<double, int, int>;  // shape, -corner (lower corners first), stamp
 
   static size_t at(int i) { return static_cast<size_t>(i); }
   const Vec2& point(int i) const { return (*plane_)[at(i)]; }
@@ -91,7 +92,8 @@ class EarClipper {
     for (int i = 0; i < n; ++i) push_if_ear(i);
   }
 
-  // Only corners that are not convex can lie in an ear.
+  // Whether the triangle of corner i is convex and contains no other corner. Only corners that are not convex
+  // need testing.
   bool is_ear(int i) const {
     if (shape_at(i) <= straight) return false;
     const Vec2 &a = point(previous_[at(i)]), &b = point(i), &c = point(next_[at(i)]);
@@ -123,7 +125,7 @@ class EarClipper {
     return i;
   }
 
-  int roundest_corner() const {
+  int best_shaped_corner() const {
     int best = next_live(0);
     for (int i = 0; i < static_cast<int>(live_.size()); ++i)
       if (live_[at(i)] && shape_at(i) > shape_at(best)) best = i;
@@ -147,7 +149,7 @@ class EarClipper {
   std::priority_queue<Candidate> candidates_;
 };
 
-// The better diagonal of a quadrilateral. False if neither is inside.
+// Cuts a quadrilateral along the better diagonal. Returns false if neither lies inside.
 bool cut_quadrilateral(const std::vector<Vec2>& p, std::vector<Triangle>& out) {
   const double first = std::min(shape(p[0], p[1], p[2]), shape(p[0], p[2], p[3]));
   const double second = std::min(shape(p[0], p[1], p[3]), shape(p[1], p[2], p[3]));

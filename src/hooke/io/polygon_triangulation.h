@@ -1,4 +1,4 @@
-// Polygons cut into triangles by ear clipping.
+// Triangulation of polygons by ear clipping.
 // Source: G. H. Meisters, "Polygons have ears", American Mathematical Monthly 82 (1975).
 #pragma once
 
@@ -10,21 +10,22 @@
 
 namespace hooke {
 
+/// The triangles of a set of polygons.
 struct TriangulatedPolygons {
-  std::vector<Triangle> triangles;  // those of a polygon stand together, polygons in their order
-  std::vector<int> polygon;         // from which each triangle was cut
-  int polygons_cut = 0;             // polygons with more than three corners
-  int not_simple = 0;  // of these, the ones without a clean cut: crossing or folded sides, no area
+  std::vector<Triangle> triangles;  // grouped by polygon, in the order of the polygons
+  std::vector<int> polygon;         // the polygon of each triangle
+  int polygons_cut = 0;             // number of polygons with more than three corners
+  int not_simple = 0;               // of these, self-crossing, folded or without area
 };
 
 /// Cuts every polygon with n corners into n - 2 triangles of the same orientation, in the plane of its Newell
-/// normal, best-shaped ears first; a quadrilateral is cut along the diagonal whose worse triangle is the
-/// better one. In a simple polygon no triangle is flipped, and none has zero area unless corners coincide.
-/// Time grows with the square of a polygon's concave corners: 1.4 s for a star of 20 000.
-/// Pre-condition: corners are columns of `points`, three or more a polygon.
+/// normal, best-shaped ears first. A quadrilateral is cut along the diagonal with the better worst triangle.
+/// In a simple polygon no triangle is flipped, and none has zero area unless corners coincide. Time is
+/// quadratic in the number of concave corners of a polygon: 1.4 s for a star with 20 000 corners.
+/// Pre-condition: corners are columns of `points`; every polygon has at least three.
 TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons);
 
-/// The warnings `polygons_triangulated` and `polygons_not_simple` of that, none if nothing was cut.
+/// The warnings `polygons_triangulated` and `polygons_not_simple`, if they apply; `name` is the file name.
 Warnings warnings_of(const TriangulatedPolygons& triangulation, const std::string& name);
 
 }  // namespace hooke

@@ -18,8 +18,8 @@ void append(Warnings& warnings, Warnings more) {
   warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// Of a mesh that can be worked on. It is looked at in memory order, where that is quick; what is wrong, or
-/// worth a warning, is then told in the order of the file.
+/// The memory order and adjacency of a mesh, after validation. The mesh is checked in memory order, which is
+/// faster; errors and warnings are then generated in file order.
 MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, Permutation order,
                          const MeshSource& source, Warnings& warnings, Stopwatch* stopwatch) {
   const auto explain = [&] { append(warnings, require_valid(points, triangles, source)); };
@@ -58,14 +58,14 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
     faces_hash = connectivity_sha256(triangles);
   };
   timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
-  content = {};  // the memory is wanted for the mesh
+  content = {};  // frees memory for the mesh
 
   const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
   MemoryOrder memory_order =
       valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
   require_workable_size(file.points, file.name);
   triangulation = {};
-  // Built in place: OpenMesh has no move, and copies all of a mesh.
+  // Constructed in place, because OpenMesh meshes can only be copied, not moved.
   return {
       timed(stopwatch, "build",
             [&] { return build_mesh(file.points, *memory_order.adjacency, memory_order.order.old_ids()); }),

@@ -1,4 +1,4 @@
-// From a file to a mesh that can be worked on.
+// Reads a mesh file into a validated triangle mesh.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,21 @@
 
 namespace hooke {
 
-/// A mesh, and what the report and the writer want to know about its file.
+/// A mesh with the data of its file that the report and the writer need.
 struct LoadedMesh {
-  TriMesh mesh;              // vertices in file order; triangles too, those of a polygon together
-  MemoryOrder memory_order;  // of the mesh
+  TriMesh mesh;              // vertices and faces in file order; triangles of a polygon are consecutive
+  MemoryOrder memory_order;  // memory order of the mesh, with its adjacency
   std::string format;        // "obj", "ply" or "off"
-  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a ply file
-  std::string sha256;                                        // of the file's bytes, hex
+  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a PLY file
+  std::string sha256;                                        // of the bytes of the file, hexadecimal
   std::string connectivity_sha256;                           // see sha256.h
-  VertexData vertex_data;                                    // of the file
-  Warnings warnings;  // of reading, triangulation and validation, in this order
+  VertexData vertex_data;                                    // values of the vertices in the file
+  Warnings warnings;  // from reading, triangulation and validation, in this order
 };
 
-/// Reads, triangulates, validates and builds. Throws InputError for what is not a well-formed mesh file,
-/// MeshError for what is not an oriented manifold with area, LimitError for what does not fit in memory.
+/// Reads a mesh file, triangulates its polygons, validates and builds the mesh. Throws InputError if the file
+/// is not a well-formed mesh file, MeshError if the mesh is not an oriented manifold with area, and
+/// LimitError if it does not fit in memory.
 LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

@@ -19,8 +19,7 @@ std::string_view without_plus(std::string_view token) {
   return plus ? token.substr(1) : token;
 }
 
-// from_chars does not say on which side a number is out of range; strtod does. The program's locale must not
-// matter.
+// Distinguishes overflow from underflow, which from_chars does not, with strtod in the C locale.
 NumberError parse_out_of_range(std::string_view token, double& value) {
   const std::string text(token);
   const locale_t c_locale = newlocale(LC_ALL_MASK, "C", nullptr);

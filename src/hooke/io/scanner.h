@@ -1,4 +1,4 @@
-// Walks over a text held in memory: lines, tokens, numbers. Shared by the readers of text formats.
+// Scanner for text in memory: lines, tokens and numbers. Shared by the readers of text formats.
 #pragma once
 
 #include <array>
@@ -7,49 +7,47 @@
 
 namespace hooke {
 
-/// Why a token is not the number it should be.
+/// The error of parsing a number.
 enum class NumberError { none, malformed, too_large };
 
-/// Reads all of `token` as a decimal number: finite, '.' as decimal point whatever the locale, a leading '+'
-/// allowed, no hex, no Fortran exponent. Below the least subnormal it is the nearest double, 0.
+/// Parses all of `token` as a finite decimal number, independent of the locale. A leading '+' is allowed;
+/// hexadecimal numbers and Fortran exponents are not. Numbers below the smallest subnormal become 0.
 NumberError parse_number(std::string_view token, double& value);
 
-/// Reads all of `token` as a decimal integer, a leading '+' allowed.
+/// Parses all of `token` as a decimal integer. A leading '+' is allowed.
 NumberError parse_integer(std::string_view token, long long& value);
 
-/// Whether two texts are equal but for the case of ASCII letters.
+/// Whether two texts are equal, ignoring the case of ASCII letters.
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
-/// A cursor on a text. Lines end at LF, CR LF or CR and are counted from 1; tokens are separated by blanks.
+/// A cursor in a text. Lines end with LF, CR LF or CR and count from 1; blanks separate tokens.
 class Scanner {
  public:
   struct Syntax {
-    bool comments = false;  // '#' hides the rest of its line
-    bool continuations =
-        false;  // a '\' before the line end joins the next line to this one (not in comments)
+    bool comments = false;       // '#' starts a comment up to the end of the line
+    bool continuations = false;  // '\' before a line end continues the line (not in comments)
   };
 
   Scanner(std::string_view text, std::string name, Syntax syntax, int first_line = 1);
 
-  /// Goes to the next line that has a token (on the first call: the first one). False at the end of the text.
+  /// Advances to the next line with a token; on the first call, to the first. False at the end of the text.
   bool next_line();
 
   /// The next token of this line; empty at its end.
   std::string_view token();
 
-  /// The next token of this line as a number. `what` names it in the message of the InputError thrown
-  /// otherwise.
+  /// The next token of this line as a number, called `what` in messages. Throws InputError if it is none.
   double number(std::string_view what);
   long long integer(std::string_view what);
 
-  /// The same for a token at hand.
+  /// Converts a token that was read before.
   double number(std::string_view token, std::string_view what) const;
   long long integer(std::string_view token, std::string_view what) const;
 
-  /// Goes past the end of this line, where next_line() begins.
+  /// Advances past the end of this line; next_line() then starts with the line after it.
   void finish_line();
 
-  /// What has not been read yet.
+  /// The text after the cursor.
   std::string_view rest() const { return {cursor_, remaining()}; }
 
   /// A scanner with the same name and syntax on another text.
@@ -79,13 +77,13 @@ class Scanner {
   bool started_ = false;
 };
 
-// The hot part, inline: a text is looked at letter by letter.
+// Character classification and tokenization, inline because they run per character.
 
 enum class LetterKind : unsigned char {
   plain,
   blank,
   line_end,
-  mark,  // a '#' or a '\\': what it means depends on the syntax
+  mark,  // '#' or '\\', whose meaning depends on the syntax
 };
 
 inline constexpr std::array<LetterKind, 256> letter_kinds = [] {

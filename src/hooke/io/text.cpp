@@ -5,7 +5,7 @@
 namespace hooke {
 namespace {
 
-/// Appends what append(text, i) appends for i in [0, count), made in parallel piece by piece.
+/// Calls append(text, i) for i in [0, count), in parallel on separate pieces that are then concatenated.
 template <typename Append>
 void append_rows(std::string& text, size_t count, const Append& append) {
   constexpr size_t block = 4096;
@@ -77,7 +77,7 @@ namespace {
 
 constexpr size_t piece_size = size_t{1} << 17;  // bytes
 
-/// The place after the first line end from `from` on at which the text can be cut.
+/// The offset after the first line end at or after `from` that is not continued by a '\\'.
 size_t cut_after(std::string_view text, size_t from) {
   for (size_t end = text.find('\n', from); end != text.npos; end = text.find('\n', end + 1)) {
     const size_t last = end > 0 && text[end - 1] == '\r' ? end - 1 : end;
@@ -86,7 +86,7 @@ size_t cut_after(std::string_view text, size_t from) {
   return text.size();
 }
 
-/// Sets the counts of rows in the piece. Returns the number of its lines.
+/// Counts the rows of the piece. Returns the number of its lines.
 int count_rows(TextPiece& piece, std::span<const std::string_view> keywords) {
   piece.rows_of.assign(keywords.size(), 0);
   Scanner counter = piece.scanner;

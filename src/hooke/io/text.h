@@ -1,4 +1,5 @@
-// Numbers as text, for the writers.
+// Conversion between meshes and text: numbers and rows for the writers, and division of a long text into
+// pieces that are read in parallel.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +15,10 @@
 
 namespace hooke {
 
-/// Appends the shortest text that reads back as exactly this number; independent of the locale.
+/// Appends the shortest text that reads back exactly as this number, independent of the locale.
 template <typename Number>
 void append_number(std::string& text, Number value) {
-  char digits[32];  // the longest double takes 24
+  char digits[32];  // a double takes at most 24
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
@@ -31,37 +32,33 @@ void append_three(std::string& text, const Numbers& three, char separator = ' ')
   append_number(text, three[2]);
 }
 
-// Vertices and faces as rows of text, for the writers of text formats.
-
-/// A row per vertex: `prefix`, then x, y, z and the values of the channels as the shortest numbers that read
-/// back as exactly the same.
+/// Appends a row per vertex: `prefix`, x, y, z and the values of the channels. Numbers read back exactly.
 void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix,
                         const ChannelList& channels = {});
 
-/// A row per vertex: `prefix`, then after a blank each value of the channels; no rows without channels.
+/// Appends a row per vertex: `prefix`, then each value of the channels after a blank. Without channels it
+/// appends nothing.
 void append_value_rows(std::string& text, const char* prefix, const ChannelList& channels);
 
-/// A row per face: `prefix`, then after a blank each vertex id, counted from `first_id`. An id is followed by
-/// each of `repeats` and the id again: { "/" } makes 7/7 of 7.
+/// Appends a row per face: `prefix`, then each vertex id after a blank, numbered from `first_id`. Each of
+/// `repeats` appends that separator and the id again: { "/" } gives 7/7 for id 7.
 void append_face_rows(std::string& text, const std::vector<Triangle>& faces, const char* prefix, int first_id,
                       const std::vector<const char*>& repeats = {});
 
-// A long text in pieces that are read at the same time.
-
-/// Whole lines of a text.
+/// A piece of a text, made of whole lines.
 struct TextPiece {
-  Scanner scanner;                   // on its first line, which is not begun
-  long long first_row = 0;           // rows before it; a row is a line with a token
-  long long rows = 0;                // in it
-  std::vector<long long> rows_of{};  // of them, with each of the keywords asked for as their first token
+  Scanner scanner;                   // before the first line of the piece
+  long long first_row = 0;           // rows before the piece; a row is a line with a token
+  long long rows = 0;                // rows in the piece
+  std::vector<long long> rows_of{};  // rows that start with each of the requested keywords
 };
 
-/// What is left of the scanner's text after its line, all of it, in order. How it is cut depends on the text
-/// only; no line that a '\' continues is cut.
+/// Divides the text after the scanner's current line into pieces, in order. The division depends on the text
+/// only and does not separate lines joined by '\'.
 std::vector<TextPiece> remaining_pieces(Scanner scanner, std::span<const std::string_view> keywords = {});
 
-/// Calls read(piece, index) for every piece, in parallel. Of the exceptions thrown, that of the first piece
-/// goes on: it tells of the first error in the text.
+/// Calls read(piece, index) for every piece, in parallel. If several throw, the exception of the first piece
+/// is rethrown, which reports the first error in the text.
 template <typename Read>
 void read_pieces(const std::vector<TextPiece>& pieces, const Read& read) {
   std::vector<std::exception_ptr> errors(pieces.size());

@@ -50,8 +50,8 @@ std::string map_text(const std::vector<MapEntry>& map) {
   for (const MapEntry& entry : map) {
     append_number(text, entry.vertex);
     text += ' ';
-    append_number(text, entry.place.face);
-    for (double weight : entry.place.weights) {
+    append_number(text, entry.position.face);
+    for (double weight : entry.position.weights) {
       text += ' ';
       append_number(text, weight + 0.);  // no -0
     }

@@ -1,4 +1,4 @@
-// A file of target lengths, one a line.
+// Text files with one line per vertex: target lengths, vertex ids, and the map of a result to its input.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,17 @@
 
 namespace hooke {
 
-/// Reads `count` positive numbers, one a line; '#' starts a comment. Throws InputError with the line for
-/// anything else, and when there are more or fewer.
+/// Reads `count` positive target lengths, one per line; '#' starts a comment. Throws InputError with the line
+/// number for anything else, and if there are more or fewer.
 std::vector<double> read_length_list(const std::filesystem::path& path, int count);
 
-// A file of vertex ids, one a line.
-
-/// Reads 0-based ids, one a line; '#' starts a comment. Throws InputError with the line for anything else and
-/// for ids that are not in [0, count).
+/// Reads 0-based vertex ids, one per line; '#' starts a comment. Throws InputError with the line number for
+/// anything else and for ids outside [0, count).
 std::vector<int> read_id_list(const std::filesystem::path& path, int count);
 
-// The map of a result onto its input, as a text.
-
-/// One line per vertex of the result: the vertex of the input that it was, or -1; a face of the input, or -1;
-/// and the barycentric weights of that face's corners, in their order there. Ids count from 0; triangles of a
-/// polygon count one by one.
+/// The map of a result to its input as text. One line per vertex of the result: its vertex id in the input or
+/// -1; a face of the input or -1; and the barycentric weights of the corners of that face, in their order.
+/// Ids are 0-based; each triangle of a polygon counts as a face.
 std::string map_text(const std::vector<MapEntry>& map);
 
 }  // namespace hooke

@@ -1,4 +1,4 @@
-// From a mesh to a file.
+// Writes a mesh to a file in any of the formats.
 #pragma once
 
 #include <filesystem>
@@ -11,20 +11,21 @@
 
 namespace hooke {
 
-/// The bytes of the mesh in a format ("obj", "ply" or "off"); `encoding` is of a ply file. Coordinates read
-/// back as exactly the same; vertices and faces keep their order. Of the data the format's part is written:
-/// see format_data.h. Throws Error for another format.
+/// The bytes of a mesh file in the format "obj", "ply" or "off"; `encoding` applies to PLY only. Coordinates
+/// read back exactly; vertices and faces keep their order. Of the data, the channels that the format can hold
+/// are written (see data_for_format()). Throws Error for another format.
 std::string mesh_bytes(const TriMesh& mesh, const std::string& format,
                        PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
 
+/// A mesh file that is written but not yet committed.
 struct PendingMesh {
-  PendingFile file;                 // to be committed
-  std::string sha256;               // of its bytes, hex
+  PendingFile file;                 // to be committed by the caller
+  std::string sha256;               // of its bytes, hexadecimal
   std::string connectivity_sha256;  // see sha256.h
 };
 
-/// Writes these bytes beside their place, which is `path` (see atomic_write.h for what it throws). The usual
-/// format is format_of(path).
+/// Writes mesh_bytes() to a temporary file for `path`. Throws what PendingFile and mesh_bytes() throw.
+/// `format` is usually format_of(path).
 PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
                          PlyEncoding encoding = PlyEncoding::binary_little_endian,
                          const VertexData& data = {}, Stopwatch* stopwatch = nullptr);

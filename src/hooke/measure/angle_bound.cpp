@@ -13,15 +13,16 @@
 namespace hooke {
 namespace {
 
-/// What is left to share out once every angle has its t: a transport of degrees from faces to vertices.
-/// Whole numbers keep the flow exact.
+/// The bound is found as a transport of degrees from faces to vertices: what remains of the angle sums once
+/// every angle has its t. Integer units of this size keep the flow exact.
 constexpr double units_per_degree = 1e6;
 
 using Amount = std::int64_t;
 
+/// Faces around a face, with their vertices.
 struct Patch {
   std::vector<int> faces, vertices;            // ascending
-  std::vector<std::array<size_t, 3>> corners;  // per face: places in `vertices`
+  std::vector<std::array<size_t, 3>> corners;  // per face: indices in `vertices`
   std::vector<double> angle_sum;               // per vertex, degrees, over all its faces
   std::vector<int> face_count;                 // per vertex, in the mesh
   std::vector<char> enclosed;                  // per vertex: all its faces are in the patch
@@ -46,7 +47,7 @@ std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {
   return vertices;
 }
 
-Patch patch_about(const Mat3X& points, const Adjacency& c, int face, int rings) {
+Patch patch_around(const Mat3X& points, const Adjacency& c, int face, int rings) {
   Patch patch;
   patch.faces = {face};
   for (int ring = 0; ring < rings; ++ring) {
@@ -56,13 +57,13 @@ Patch patch_about(const Mat3X& points, const Adjacency& c, int face, int rings) 
     sort_unique(patch.faces);
   }
   patch.vertices = corners_of(c, patch.faces);
-  const auto place = [](const std::vector<int>& ids, int id) {
+  const auto index_of = [](const std::vector<int>& ids, int id) {
     return static_cast<size_t>(std::ranges::lower_bound(ids, id) - ids.begin());
   };
   for (int f : patch.faces) {
     const Triangle& t = c.faces[static_cast<size_t>(f)];
     patch.corners.push_back(
-        {place(patch.vertices, t[0]), place(patch.vertices, t[1]), place(patch.vertices, t[2])});
+        {index_of(patch.vertices, t[0]), index_of(patch.vertices, t[1]), index_of(patch.vertices, t[2])});
   }
   for (int v : patch.vertices) {
     double sum = 0;
@@ -95,8 +96,8 @@ class Network {
 
   Amount max_flow() { return boost::boykov_kolmogorov_max_flow(graph_, size_t{0}, size_t{1}); }
 
-  /// After max_flow(): is the node on the source's side of the smallest cut?
-  bool cut_off(size_t node) const {
+  /// After max_flow(): is the node on the source's side of the minimum cut?
+  bool on_source_side(size_t node) const {
     return boost::get(boost::vertex_color, graph_, node) ==
            boost::get(boost::vertex_color, graph_, size_t{0});
   }
@@ -118,24 +119,24 @@ Amount amount(double degrees) {
   return static_cast<Amount>(std::llround(std::max(degrees, 0.) * units_per_degree));
 }
 
-/// Can one side send all it must to the other? If not, the vertices that stand in the way.
-struct Verdict {
+/// Whether the sending side can transport all its degrees; if not, the vertices of the minimum cut.
+struct TransportResult {
   bool possible = true;
   std::vector<int> vertices;
 };
 
-/// Faces must share out 180 - 3 t each (`faces_send`), or enclosed vertices must receive all that their sum
-/// leaves them. Either can be met with the other side's amounts as limits; then both can at once (Mendelsohn
-/// and Dulmage, "Some generalizations of the problem of distinct representatives", 1958).
-Verdict share_out(const Patch& p, double t, bool faces_send) {
+/// Either the faces must send 180 - 3 t each (`faces_send`), or the enclosed vertices must receive all of
+/// their remaining sum. If each is possible with the other side's amounts as limits, both are possible at
+/// once (Mendelsohn and Dulmage, "Some generalizations of the problem of distinct representatives", 1958).
+TransportResult solve_transport(const Patch& p, double t, bool faces_send) {
   const size_t faces = p.faces.size(), vertices = p.vertices.size();
   const auto face_node = [](size_t f) { return 2 + f; };
   const auto vertex_node = [faces](size_t v) { return 2 + faces + v; };
   Network network(faces + vertices);
-  Amount wanted = 0;
+  Amount demand = 0;
   for (size_t f = 0; f < faces; ++f) {
     const Amount share = amount(180 - 3 * t);
-    if (faces_send) wanted += share;
+    if (faces_send) demand += share;
     faces_send ? network.connect(0, face_node(f), share) : network.connect(face_node(f), 1, share);
     for (size_t v : p.corners[f])
       faces_send ? network.connect(face_node(f), vertex_node(v), share)
@@ -148,28 +149,28 @@ Verdict share_out(const Patch& p, double t, bool faces_send) {
       network.connect(vertex_node(v), 1, amount(room));
     } else if (p.enclosed[v]) {
       network.connect(0, vertex_node(v), amount(room));
-      wanted += amount(room);
+      demand += amount(room);
     }
   }
-  const Amount slack = static_cast<Amount>(faces + vertices);  // of rounding
-  if (network.max_flow() >= wanted - slack) return {};
-  Verdict verdict{.possible = false, .vertices = {}};
+  const Amount slack = static_cast<Amount>(faces + vertices);  // for rounding
+  if (network.max_flow() >= demand - slack) return {};
+  TransportResult result{.possible = false, .vertices = {}};
   for (size_t v = 0; v < vertices; ++v)
-    if (network.cut_off(vertex_node(v))) verdict.vertices.push_back(p.vertices[v]);
-  return verdict;
+    if (network.on_source_side(vertex_node(v))) result.vertices.push_back(p.vertices[v]);
+  return result;
 }
 
-Verdict share_out(const Patch& p, double t) {
-  const Verdict sent = share_out(p, t, true);
-  return sent.possible ? share_out(p, t, false) : sent;
+TransportResult solve_transport(const Patch& p, double t) {
+  const TransportResult sent = solve_transport(p, t, true);
+  return sent.possible ? solve_transport(p, t, false) : sent;
 }
 
-/// Of its angle sum, for each face.
+/// The vertex's angle sum per face.
 double share_of(const Patch& p, size_t vertex) {
   return p.angle_sum[vertex] / p.face_count[vertex];
 }
 
-/// The vertex that leaves each of its faces the least.
+/// The vertex with the smallest angle sum per face.
 size_t tightest_vertex(const Patch& p) {
   size_t tightest = 0;
   for (size_t v = 1; v < p.vertices.size(); ++v)
@@ -179,8 +180,8 @@ size_t tightest_vertex(const Patch& p) {
 
 }  // namespace
 
-AngleBound bound_least_angle(const Mat3X& points, const Adjacency& adjacency, int face, int rings) {
-  const Patch patch = patch_about(points, adjacency, face, rings);
+AngleBound bound_min_angle(const Mat3X& points, const Adjacency& adjacency, int face, int rings) {
+  const Patch patch = patch_around(points, adjacency, face, rings);
   AngleBound bound;
   const auto unknown = [](double sum) { return !std::isfinite(sum); };
   if (std::ranges::any_of(patch.angle_sum, unknown)) return bound;
@@ -190,17 +191,17 @@ AngleBound bound_least_angle(const Mat3X& points, const Adjacency& adjacency, in
     impossible = share;
     bound.vertices = {patch.vertices[tightest]};
   }
-  Verdict at_most = share_out(patch, impossible);
-  if (at_most.possible) {  // most often
+  TransportResult at_most = solve_transport(patch, impossible);
+  if (at_most.possible) {  // the usual case
     bound.degrees = impossible;
     return bound;
   }
   bound.vertices = std::move(at_most.vertices);
   while (impossible - possible > 1e-3) {
     const double t = .5 * (possible + impossible);
-    Verdict verdict = share_out(patch, t);
-    (verdict.possible ? possible : impossible) = t;
-    if (!verdict.possible) bound.vertices = std::move(verdict.vertices);
+    TransportResult result = solve_transport(patch, t);
+    (result.possible ? possible : impossible) = t;
+    if (!result.possible) bound.vertices = std::move(result.vertices);
   }
   bound.degrees = possible;
   return bound;
@@ -208,15 +209,15 @@ AngleBound bound_least_angle(const Mat3X& points, const Adjacency& adjacency, in
 
 namespace {
 
-constexpr int rings = 2;  // about the face, within which its bound is found
+constexpr int rings = 2;  // around the face for which a bound is computed
 
-/// All faces about the vertices of those rings, as a mesh of its own.
+/// All faces around the vertices of those rings, as a mesh of its own.
 struct SubMesh {
-  std::vector<int> vertices;  // in the mesh, ascending
+  std::vector<int> vertices;  // ids in the mesh, ascending
   std::vector<Triangle> faces;
-  int face = 0;  // the one in question
+  int face = 0;  // index of the face for which a bound is computed
 
-  int place_of(int vertex) const {
+  int local_index(int vertex) const {
     const auto found = std::ranges::lower_bound(vertices, vertex);
     return found != vertices.end() && *found == vertex ? static_cast<int>(found - vertices.begin()) : -1;
   }
@@ -232,47 +233,47 @@ SubMesh cut_out(const Adjacency& c, int face) {
     part.vertices.insert(part.vertices.end(), corners.begin(), corners.end());
   sort_unique(part.vertices);
   for (Triangle& corners : part.faces)
-    for (int& v : corners) v = part.place_of(v);
+    for (int& v : corners) v = part.local_index(v);
   return part;
 }
 
-AngleBound bound_in_pieces(const MeasuredSurface& surface, int face, const std::vector<Edge>& creases) {
+AngleBound bound_in_submesh(const MeasuredSurface& surface, int face, const std::vector<Edge>& creases) {
   const SubMesh part = cut_out(surface.adjacency, face);
   std::vector<Edge> here;
   for (const Edge& crease : creases) {
-    const Edge e = {part.place_of(crease[0]), part.place_of(crease[1])};
+    const Edge e = {part.local_index(crease[0]), part.local_index(crease[1])};
     if (std::min(e[0], e[1]) >= 0) here.push_back(e);
   }
   Adjacency c = make_adjacency(static_cast<int>(part.vertices.size()), part.faces);
   split_wedges(c, here);
   const Mat3X points = surface.points(Eigen::all, part.vertices);
-  AngleBound bound = bound_least_angle(wedge_points(points, c), cut_open(c), part.face, rings);
+  AngleBound bound = bound_min_angle(wedge_points(points, c), cut_open(c), part.face, rings);
   for (int& v : bound.vertices)
     v = surface.ids.vertex(part.vertices[static_cast<size_t>(c.vertex_of_wedge(v))]);
   sort_unique(bound.vertices);
   return bound;
 }
 
-/// Where an id stands in a list of all of them.
-std::vector<int> places(std::span<const int> ids, size_t count) {
-  std::vector<int> places(count);
+/// The inverse of a list of ids: the index of each id.
+std::vector<int> inverse_of(std::span<const int> ids, size_t count) {
+  std::vector<int> inverse(count);
   for (size_t i = 0; i < count; ++i)
-    places[ids.empty() ? i : static_cast<size_t>(ids[i])] = static_cast<int>(i);
-  return places;
+    inverse[ids.empty() ? i : static_cast<size_t>(ids[i])] = static_cast<int>(i);
+  return inverse;
 }
 
 }  // namespace
 
-std::vector<AngleBound> bound_least_angles(const MeasuredSurface& surface, const std::vector<int>& faces,
-                                           const std::vector<Edge>& creases) {
+std::vector<AngleBound> bound_min_angles(const MeasuredSurface& surface, const std::vector<int>& faces,
+                                         const std::vector<Edge>& creases) {
   const Adjacency& c = surface.adjacency;
-  const std::vector<int> vertex_at = places(surface.ids.vertices, static_cast<size_t>(c.vertex_count));
-  const std::vector<int> face_at = places(surface.ids.faces, c.faces.size());
+  const std::vector<int> vertex_at = inverse_of(surface.ids.vertices, static_cast<size_t>(c.vertex_count));
+  const std::vector<int> face_at = inverse_of(surface.ids.faces, c.faces.size());
   std::vector<Edge> edges = creases;
   for (Edge& e : edges)
     for (int& v : e) v = vertex_at[static_cast<size_t>(v)];
   std::vector<AngleBound> bounds;
-  for (int f : faces) bounds.push_back(bound_in_pieces(surface, face_at[static_cast<size_t>(f)], edges));
+  for (int f : faces) bounds.push_back(bound_in_submesh(surface, face_at[static_cast<size_t>(f)], edges));
   return bounds;
 }
 

@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 1024;
+constexpr size_t deviation_block = 1024;
 
 using Face = AabbTree::Face;
 
@@ -21,7 +21,7 @@ double area_of(const Face& face) {
   return .5 * (b - a).cross(c - a).norm();
 }
 
-/// The samples of a few faces: those that faces have in common once, and those of a face in one group.
+/// The samples of a few faces. Those shared by faces occur once; those inside a face are consecutive.
 class Samples {
  public:
   static constexpr size_t max_faces = 16;
@@ -44,13 +44,13 @@ class Samples {
   std::span<const Vec3> points() const { return {points_.data(), count_}; }
   static size_t centre_of(size_t face) { return 4 * face; }
 
-  double greatest(std::span<const NearestFace> nearest, size_t face) const {
-    double most = 0;
-    for (size_t k = 0; k < 4; ++k) most = std::max(most, nearest[4 * face + k].squared_distance);
+  double max_squared(std::span<const NearestFace> nearest, size_t face) const {
+    double largest = 0;
+    for (size_t k = 0; k < 4; ++k) largest = std::max(largest, nearest[4 * face + k].squared_distance);
     for (size_t k = 0; k < 3; ++k)
-      most = std::max({most, nearest[faces_[face].corners[k]].squared_distance,
-                       nearest[faces_[face].midpoints[k]].squared_distance});
-    return most;
+      largest = std::max({largest, nearest[faces_[face].corners[k]].squared_distance,
+                          nearest[faces_[face].midpoints[k]].squared_distance});
+    return largest;
   }
 
   /// Mean of the squares over the face: each of its four quarters by the rule that is exact for quadratics,
@@ -67,7 +67,7 @@ class Samples {
 
  private:
   struct OfFace {
-    std::array<size_t, 3> corners, midpoints;  // places among the points
+    std::array<size_t, 3> corners, midpoints;  // indices into the points
   };
   static constexpr size_t max_points = 10 * max_faces;
 
@@ -105,9 +105,9 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
                         std::vector<ClosestFacePoint>* centres) {
   const std::span<const Face> faces = from.tree.faces();
   if (centres) centres->assign(faces.size(), {});
-  std::vector<double> greatest(faces.size() / block + 1, 0);
+  std::vector<double> max_squared(faces.size() / deviation_block + 1, 0);
   std::vector<double> integrals(faces.size());  // by id
-  const auto look = [&](size_t begin, size_t end) {
+  const auto measure_block = [&](size_t begin, size_t end) {
     NearestFaceSearch find(to.tree);
     std::vector<NearestFace> nearest;
     for (size_t first = begin; first < end; first += Samples::max_faces) {
@@ -117,7 +117,8 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
       find(samples.points(), nearest);
       for (size_t k = 0; k < some.size(); ++k) {
         const auto id = static_cast<size_t>(some[k].id);
-        greatest[begin / block] = std::max(greatest[begin / block], samples.greatest(nearest, k));
+        max_squared[begin / deviation_block] =
+            std::max(max_squared[begin / deviation_block], samples.max_squared(nearest, k));
         integrals[id] = area_of(some[k]) * samples.mean(nearest, k);
         const size_t centre = Samples::centre_of(k);
         if (!centres || nearest[centre].place < 0) continue;
@@ -127,21 +128,23 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
       }
     }
   };
-  parallel_for(greatest.size(), 1, [&](size_t begin, size_t end) {  // one thread: all blocks
-    for (size_t k = begin; k < end; ++k) look(k * block, std::min(faces.size(), (k + 1) * block));
-  });
-  const double integral = parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(max_squared.size(), 1,
+               [&](size_t begin, size_t end) {  // a single thread gets all blocks at once
+                 for (size_t k = begin; k < end; ++k)
+                   measure_block(k * deviation_block, std::min(faces.size(), (k + 1) * deviation_block));
+               });
+  const double integral = parallel_sum(faces.size(), deviation_block, [&](size_t begin, size_t end) {
     double sum = 0;
     for (size_t f = begin; f < end; ++f) sum += integrals[f];
     return sum;
   });
   const double area = from.extent.area;
-  return {std::sqrt(*std::ranges::max_element(greatest)), area > 0 ? std::sqrt(integral / area) : 0};
+  return {std::sqrt(*std::ranges::max_element(max_squared)), area > 0 ? std::sqrt(integral / area) : 0};
 }
 
 namespace {
 
-/// Along the normal, twice the area long.
+/// Normal vector whose length is twice the area.
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a);
 }
@@ -156,14 +159,14 @@ Vec3 area_vector(const Face& face) {
 }
 
 const Face& face_at(const MeasuredSurface& surface, const ClosestFacePoint& projection) {
-  return surface.tree.faces()[static_cast<size_t>(projection.place)];
+  return surface.tree.faces()[static_cast<size_t>(projection.face_index)];
 }
 
 Vec3 weights_at(const Face& face, const ClosestFacePoint& projection) {
   return barycentric(projection.point, face.corners[0], face.corners[1], face.corners[2]);
 }
 
-/// In the order of the ids that the vertices have in their mesh.
+/// Points in the order of the vertex ids of the mesh.
 Mat3X points_by_id(const MeasuredSurface& surface) {
   Mat3X points(3, surface.points.cols());
   for (int v = 0; v < surface.adjacency.vertex_count; ++v)
@@ -184,17 +187,17 @@ MaxRms measure_displacement(const Mat3X& before, const Mat3X& after) {
   return displacement;
 }
 
-/// Degrees between two vectors along normals; NaN when one has no length: no normal, no angle.
+/// Angle in degrees between two normal vectors of any length; NaN if one is zero.
 double angle_between(const Vec3& n, const Vec3& m) {
   if (!(n.squaredNorm() > 0 && m.squaredNorm() > 0)) return std::numeric_limits<double>::quiet_NaN();
   return std::atan2(n.cross(m).norm(), n.dot(m)) * (180 / std::numbers::pi);
 }
 
-/// Does a face with this area vector oppose one of the reference's faces that fold at the closest point?
-/// Where that is on an edge or a vertex, it is the closest point of several faces.
+/// Does a face with this area vector oppose one of the reference's folded faces at the closest point? On an
+/// edge or a vertex this is the closest point of several faces.
 bool opposes_at_fold(const MeasuredSurface& reference, const ClosestFacePoint& at, const Vec3& n) {
   constexpr double on_side = 1e-9;  // of a barycentric weight
-  constexpr double fold = -.1;      // cosine; a crease of a right angle is none
+  constexpr double fold = -.1;      // cosine; a right-angled crease is no fold
   const Face& face = face_at(reference, at);
   const Triangle& t = face.vertices;
   const Vec3 weights = weights_at(face, at);
@@ -216,14 +219,14 @@ bool opposes_at_fold(const MeasuredSurface& reference, const ClosestFacePoint& a
   return false;
 }
 
-/// `closest` belongs to the centres of the result's faces, in the order of its tree.
+/// `closest` has one entry per face centre of the result, in the order of its tree.
 MaxRms measure_normal_deviation(const MeasuredSurface& reference, const MeasuredSurface& result,
                                 const std::vector<ClosestFacePoint>& closest) {
   const std::span<const Face> faces = result.tree.faces();
   std::vector<double> angles(closest.size()), weights(closest.size());
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
-      if (closest[k].place < 0) continue;
+      if (closest[k].face_index < 0) continue;
       const auto f = static_cast<size_t>(faces[k].id);
       const Vec3 n = area_vector(faces[k]);
       angles[f] = angle_between(n, area_vector(face_at(reference, closest[k])));
@@ -242,14 +245,14 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
   return deviation;
 }
 
-/// Unit normals; faces weigh by their area, so that a folded sliver does not turn them.
-Mat3X vertex_normals(const MeasuredSurface& side) {
-  Mat3X normals = Mat3X::Zero(3, side.adjacency.vertex_count);
-  parallel_for(static_cast<size_t>(normals.cols()), block, [&](size_t begin, size_t end) {
+/// Unit vertex normals, weighted by face area, so that a folded sliver does not turn them.
+Mat3X vertex_normals(const MeasuredSurface& surface) {
+  Mat3X normals = Mat3X::Zero(3, surface.adjacency.vertex_count);
+  parallel_for(static_cast<size_t>(normals.cols()), deviation_block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       Vec3 sum = Vec3::Zero();
-      for (int f : side.adjacency.vertex_faces[v])
-        sum += area_vector(side.points, side.adjacency.faces[static_cast<size_t>(f)]);
+      for (int f : surface.adjacency.vertex_faces[v])
+        sum += area_vector(surface.points, surface.adjacency.faces[static_cast<size_t>(f)]);
       normals.col(v) = sum.normalized();
     }
   });
@@ -263,15 +266,15 @@ Vec3 normal_at(const Mat3X& normals, const Face& face, const ClosestFacePoint& a
   return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
 }
 
-/// `closest` belongs to the centres of the result's faces, in the order of its tree.
+/// `closest` has one entry per face centre of the result, in the order of its tree.
 void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
                          const std::vector<ClosestFacePoint>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
   std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
   const std::span<const Face> faces = result.tree.faces();
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
-      if (closest[k].place < 0) continue;
+      if (closest[k].face_index < 0) continue;
       const auto f = static_cast<size_t>(faces[k].id);
       const Vec3 n = area_vector(faces[k]);
       const Face& there = face_at(reference, closest[k]);
@@ -285,7 +288,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
   std::ranges::sort(deviation.opposing_faces);
 }
 
-/// Boundary edges as triangles without area, which is how the tree takes segments.
+/// Boundary edges as degenerate triangles, the form in which the tree accepts segments.
 std::vector<Triangle> boundary_segments(const Adjacency& adjacency) {
   std::vector<Triangle> segments;
   for (size_t e = 0; e < adjacency.edges.size(); ++e) {
@@ -297,16 +300,16 @@ std::vector<Triangle> boundary_segments(const Adjacency& adjacency) {
 
 double max_distance(const Mat3X& points, const std::vector<Triangle>& segments, const AabbTree& to) {
   constexpr int samples = 8;
-  std::vector<double> greatest(segments.size());
-  parallel_for(segments.size(), block, [&](size_t begin, size_t end) {
+  std::vector<double> max_squared(segments.size());
+  parallel_for(segments.size(), deviation_block, [&](size_t begin, size_t end) {
     for (size_t s = begin; s < end; ++s)
       for (int k = 0; k < samples; ++k) {
         const double share = static_cast<double>(k) / samples;
         const Vec3 x = (1 - share) * points.col(segments[s][0]) + share * points.col(segments[s][1]);
-        greatest[s] = std::max(greatest[s], to.closest(x).squared_distance);
+        max_squared[s] = std::max(max_squared[s], to.closest(x).squared_distance);
       }
   });
-  return std::sqrt(*std::max_element(greatest.begin(), greatest.end()));
+  return std::sqrt(*std::max_element(max_squared.begin(), max_squared.end()));
 }
 
 std::optional<double> relative_change(std::optional<double> before, std::optional<double> after) {
@@ -336,11 +339,13 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
   d.volume_change = relative_change(reference.extent.volume, result.extent.volume);
 
   const Stage stage(stopwatch, "boundary");
-  const auto old_rim = boundary_segments(reference.adjacency);
-  const auto new_rim = boundary_segments(result.adjacency);
-  if (!old_rim.empty() && !new_rim.empty()) {
-    d.boundary_to_reference = max_distance(result.points, new_rim, AabbTree(reference.points, old_rim));
-    d.boundary_from_reference = max_distance(reference.points, old_rim, AabbTree(result.points, new_rim));
+  const auto reference_boundary = boundary_segments(reference.adjacency);
+  const auto result_boundary = boundary_segments(result.adjacency);
+  if (!reference_boundary.empty() && !result_boundary.empty()) {
+    d.boundary_to_reference =
+        max_distance(result.points, result_boundary, AabbTree(reference.points, reference_boundary));
+    d.boundary_from_reference =
+        max_distance(reference.points, reference_boundary, AabbTree(result.points, result_boundary));
   }
   return d;
 }

@@ -4,10 +4,10 @@
 
 namespace hooke {
 
-MeasuredSurface::MeasuredSurface(Mat3X own_points, const Adjacency& its_connectivity, const MeshIds& mesh_ids,
+MeasuredSurface::MeasuredSurface(Mat3X own_points, const Adjacency& its_adjacency, const MeshIds& mesh_ids,
                                  const std::vector<int>& tree_order)
     : points(std::move(own_points)),
-      adjacency(its_connectivity),
+      adjacency(its_adjacency),
       ids(mesh_ids),
       extent(measure_extent(points, adjacency)),
       tree(points, adjacency.faces, tree_order) {}

@@ -1,4 +1,4 @@
-// A mesh and what several of its measures need alike.
+// A mesh with the data that several measures share: ids, extent and a tree of its faces.
 #pragma once
 
 #include "hooke/geometry/aabb_tree.h"
@@ -8,11 +8,11 @@
 
 namespace hooke {
 
-/// Keeps a reference to the connectivity and to the lists of ids, which must outlive it, and its own copy of
+/// Keeps a reference to the adjacency and views of the id lists, which must outlive it, and its own copy of
 /// the points.
 struct MeasuredSurface {
-  /// `ids`: those by which measures name vertices and faces. `tree_order`: tree.order() of a surface with the
-  /// same connectivity, whose faces lie about the same, saves the time to find one.
+  /// `ids` are those that the measures report for vertices and faces. `tree_order`, the tree.order() of a
+  /// surface with the same connectivity and similar geometry, saves the time of building one.
   MeasuredSurface(Mat3X points, const Adjacency& adjacency, const MeshIds& ids = {},
                   const std::vector<int>& tree_order = {});
 

@@ -16,13 +16,13 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 1024;
+constexpr size_t quality_block = 1024;
 
-using FaceShapes = UnfilledVector<TriangleShape>;
+using FaceShapes = UninitializedVector<TriangleShape>;
 
 FaceShapes measure_faces(const Mat3X& points, const std::vector<Triangle>& faces) {
   FaceShapes shapes(faces.size());
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), quality_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [a, b, c] = faces[f];
       shapes[f] = measure_triangle(points.col(a), points.col(b), points.col(c));
@@ -33,17 +33,17 @@ FaceShapes measure_faces(const Mat3X& points, const std::vector<Triangle>& faces
 
 std::vector<double> measure_edges(const Mat3X& points, const std::vector<Edge>& edges) {
   std::vector<double> lengths(edges.size());
-  parallel_for(edges.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(edges.size(), quality_block, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e)
       lengths[e] = (points.col(edges[e][0]) - points.col(edges[e][1])).norm();
   });
   return lengths;
 }
 
-/// Cross products of two edges of every face: along the normal, twice the area long.
+/// Cross product of two edges of every face: a normal vector whose length is twice the area.
 Mat3X area_vectors(const Mat3X& points, const std::vector<Triangle>& faces) {
   Mat3X vectors(3, static_cast<Eigen::Index>(faces.size()));
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), quality_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const Vec3 a = points.col(faces[f][0]), b = points.col(faces[f][1]), c = points.col(faces[f][2]);
       vectors.col(static_cast<Eigen::Index>(f)) = (b - a).cross(c - a);
@@ -52,10 +52,10 @@ Mat3X area_vectors(const Mat3X& points, const std::vector<Triangle>& faces) {
   return vectors;
 }
 
-/// Sum over [0, count) of what is 1 or 0.
+/// Number of indices in [0, count) for which the condition holds.
 template <typename Condition>
 size_t count_where(size_t count, const Condition& condition) {
-  const double sum = parallel_sum(count, block, [&](size_t begin, size_t end) {
+  const double sum = parallel_sum(count, quality_block, [&](size_t begin, size_t end) {
     size_t found = 0;
     for (size_t i = begin; i < end; ++i) found += condition(i);
     return static_cast<double>(found);
@@ -63,14 +63,14 @@ size_t count_where(size_t count, const Condition& condition) {
   return static_cast<size_t>(sum);
 }
 
-/// Creases of a right angle are no folds, whichever way they are rounded.
+/// The tolerance keeps right-angled creases from counting as folds.
 constexpr double min_fold = -1e-6;
 
 size_t count_folded_edges(const Mat3X& area_vector, const Adjacency& adjacency) {
   return count_where(adjacency.edge_faces.size(), [&](size_t e) {
     const auto [left, right] = adjacency.edge_faces[e];
     if (right < 0) return false;
-    // Unit normals first: the plain product of two small faces' vectors could vanish.
+    // Normalised first: the product of the area vectors of two small faces could vanish.
     const Vec3 n = area_vector.col(left).normalized(), m = area_vector.col(right).normalized();
     return n.dot(m) < min_fold;
   });
@@ -84,11 +84,11 @@ size_t count_degenerate_faces(const Mat3X& area_vector, double min_area) {
 }
 
 std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const FaceShapes& shapes,
-                                        size_t wanted) {
+                                        size_t max_count) {
   const Mat3X& X = surface.points;
   std::vector<int> order(shapes.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto count = static_cast<std::ptrdiff_t>(std::min(wanted, order.size()));
+  const auto count = static_cast<std::ptrdiff_t>(std::min(max_count, order.size()));
   const auto min_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
   std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int f, int g) {
     return std::pair(min_angle(f), surface.ids.face(f)) < std::pair(min_angle(g), surface.ids.face(g));
@@ -99,7 +99,7 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const Fa
       const int f = order[i];
       const Triangle& t = surface.adjacency.faces[static_cast<size_t>(f)];
       worst[i] = {surface.ids.face(f), min_angle(f), surface.ids.corners(t),
-                  (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3, bound_least_angle(X, surface.adjacency, f)};
+                  (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3, bound_min_angle(X, surface.adjacency, f)};
       std::vector<int>& bounding = worst[i].bound.vertices;
       std::ranges::transform(bounding, bounding.begin(), [&](int v) { return surface.ids.vertex(v); });
       std::ranges::sort(bounding);
@@ -120,8 +120,8 @@ void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, 
     for (size_t f = 0; f < shapes.size(); ++f) values[f] = shapes[f].*measure;
     return values;
   };
-  // Fixed bins where the range is known, so that before and after can be laid side by side.
-  // In an order of which two threads get halves that take as long: there are more edges than faces.
+  // Fixed bins where the range is known, so that histograms can be compared. The order balances two threads:
+  // there are more edges than faces.
   const std::function<void()> parts[] = {
       [&] { q.edge_length = describe(lengths); },
       [&] {
@@ -191,7 +191,7 @@ void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface&
   if (creases.empty()) return;
   std::vector<int> ids;
   for (const WorstFace& f : faces) ids.push_back(f.face);
-  std::vector<AngleBound> bounds = bound_least_angles(surface, ids, creases);
+  std::vector<AngleBound> bounds = bound_min_angles(surface, ids, creases);
   for (size_t i = 0; i < faces.size(); ++i) faces[i].bound = std::move(bounds[i]);
 }
 

@@ -1,4 +1,5 @@
-// How good the triangles of a mesh are.
+// Quality of the triangles of a mesh: statistics of angles, shapes and edge lengths, defects, and the worst
+// faces.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +14,27 @@
 
 namespace hooke {
 
-/// NaN when the curvature is nowhere defined.
+/// Range of a curvature; NaN if it is nowhere defined.
 struct Range {
   double min = Statistics::none;
   double mean = Statistics::none;
   double max = Statistics::none;
 };
 
+/// A face with one of the smallest angles of the mesh.
 struct WorstFace {
   int face = -1;
   double min_angle = 0;  // degrees
   Triangle vertices{};
   Vec3 centre = Vec3::Zero();
-  AngleBound bound;  // what the connectivity about it allows
-  std::vector<std::string> reasons =
-      {};  // what bounds the angle, see limiting_factors.h; none where it is unknown
+  AngleBound bound;  // upper bound of the angle for the given connectivity
+  /// What limits the angle, see limiting_factors.h; empty where unknown.
+  std::vector<std::string> reasons = {};
 };
 
+/// Lengths are in the unit of the points, angles in degrees.
 struct Quality {
-  // Per face, see triangle_shape.h.
+  // Per face, see geometry/triangle.h.
   Statistics min_angle;
   Statistics max_angle;
   Statistics shape;
@@ -40,32 +43,32 @@ struct Quality {
   Statistics edge_ratio;
   // Per edge.
   Statistics edge_length;
-  Statistics length_error;  // (l - L_e) / L_e; empty when no target lengths were given
+  Statistics length_error;  // (l - L_e) / L_e; empty without target lengths
 
-  std::size_t folded_edges = 0;                   // the unit normals on both sides have a product below -1e-6
-  std::size_t degenerate_faces = 0;               // area below 1e-14 times the squared diagonal of the box
-  std::optional<std::size_t> self_intersections;  // pairs of faces; none when not asked for
+  std::size_t folded_edges = 0;      // unit normals on both sides have a dot product below -1e-6
+  std::size_t degenerate_faces = 0;  // area below 1e-14 times the squared diagonal of the bounding box
+  std::optional<std::size_t> self_intersections;  // pairs of faces; empty if not requested
   Valence valence;
   Range mean_curvature;                // over the interior vertices, see curvature.h
   Range gaussian_curvature;            // likewise
-  std::vector<WorstFace> worst_faces;  // smallest angles first, ties by face id
+  std::vector<WorstFace> worst_faces;  // smallest angle first, ties by face id
 
   Topology topology;
   Extent extent;
 };
 
 struct QualityOptions {
-  bool self_intersections = true;  // the slow part: exact, but several times the time of all the rest
-  std::size_t worst_faces = 10;    // how many to name
+  bool self_intersections = true;  // exact, but slow: several times the time of all the rest
+  std::size_t worst_faces = 10;    // number to report
 };
 
-/// `edge_target_length` holds L_e for every edge of the connectivity, or nothing.
+/// `edge_target_length` holds L_e for every edge of the adjacency, or nothing.
 Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edge_target_length,
                         const QualityOptions& options = {}, Stopwatch* stopwatch = nullptr);
 Quality measure_quality(const Mat3X& points, const Adjacency& adjacency,
                         const UniformVector& edge_target_length, const QualityOptions& options = {});
 
-/// Bounds the least angles of these faces anew for creases that stay, see bound_least_angles().
+/// Recomputes the angle bounds of these faces for fixed creases, see bound_min_angles().
 void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,
                            const std::vector<Edge>& creases);
 

@@ -6,20 +6,18 @@
 namespace hooke {
 namespace {
 
-/// Even bins between two numbers, up to rounding.
+/// Bins of equal width between two numbers, up to rounding.
 class EvenBins {
  public:
-  EvenBins(double least, double greatest, size_t count)
-      : least_(least),
-        scale_(static_cast<double>(count) / (greatest - least)),
-        last_(static_cast<double>(count - 1)) {}
+  EvenBins(double min, double max, size_t count)
+      : min_(min), scale_(static_cast<double>(count) / (max - min)), last_(static_cast<double>(count - 1)) {}
 
   size_t operator()(double x) const {
-    return static_cast<size_t>(std::min(last_, std::max(0., (x - least_) * scale_)));
+    return static_cast<size_t>(std::min(last_, std::max(0., (x - min_) * scale_)));
   }
 
  private:
-  double least_, scale_, last_;
+  double min_, scale_, last_;
 };
 
 struct Percentile {
@@ -29,15 +27,15 @@ struct Percentile {
 constexpr Percentile percentiles[] = {
     {.01, &Statistics::p01}, {.05, &Statistics::p05}, {.5, &Statistics::median}, {.95, &Statistics::p95}};
 
-/// By linear interpolation between the numbers as they would stand sorted; changes their order.
+/// Linear interpolation between the sorted numbers; changes the order of `values`.
 void take_percentiles(std::vector<double>& values, Statistics& s) {
-  auto begin = values.begin();  // what is before is less: shares ascend
+  auto begin = values.begin();  // all values before it are smaller, because shares ascend
   for (const Percentile& p : percentiles) {
-    const double place = p.share * static_cast<double>(values.size() - 1);
-    const auto below = values.begin() + static_cast<std::ptrdiff_t>(place);
+    const double position = p.share * static_cast<double>(values.size() - 1);
+    const auto below = values.begin() + static_cast<std::ptrdiff_t>(position);
     std::nth_element(begin, below, values.end());
     const double next = below + 1 == values.end() ? *below : *std::min_element(below + 1, values.end());
-    s.*p.figure = *below + (place - std::floor(place)) * (next - *below);
+    s.*p.figure = *below + (position - std::floor(position)) * (next - *below);
     begin = below;
   }
 }
@@ -58,7 +56,7 @@ Histogram make_histogram(const std::vector<double>& values, const Statistics& s,
   }
   const EvenBins near(lower, upper, n);
   for (double x : values) {
-    size_t k = near(x);  // but for rounding
+    size_t k = near(x);  // exact up to rounding
     while (k > 0 && x < h.edges[k]) --k;
     while (k + 1 < n && x >= h.edges[k + 1]) ++k;
     ++h.counts[k];
@@ -84,9 +82,9 @@ Statistics describe(std::vector<double> values, const Bins& bins) {
   for (double x : values) squares += (x - s.mean) * (x - s.mean);
   s.std = std::sqrt(squares / n);
 
-  const auto [least, greatest] = std::ranges::minmax(values);
-  s.min = least;
-  s.max = greatest;
+  const auto [min, max] = std::ranges::minmax(values);
+  s.min = min;
+  s.max = max;
   take_percentiles(values, s);
   s.histogram = make_histogram(values, s, bins);
   return s;

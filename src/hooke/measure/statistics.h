@@ -1,4 +1,4 @@
-// What a list of numbers looks like: range, percentiles, spread, histogram.
+// Statistics of a list of numbers: range, percentiles, standard deviation and histogram.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace hooke {
 
-/// counts[k] numbers lie in [edges[k], edges[k + 1]); the last bin holds its upper edge too.
+/// counts[k] numbers lie in [edges[k], edges[k + 1]); the last bin includes its upper edge.
 struct Histogram {
   std::vector<double> edges;
   std::vector<std::size_t> counts;
 };
 
-/// All figures are NaN, and the histogram is empty, when there was no finite number.
+/// All values are NaN, and the histogram is empty, if there was no finite number.
 struct Statistics {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double min = none;
@@ -23,19 +23,20 @@ struct Statistics {
   double mean = none;
   double p95 = none;
   double max = none;
-  double std = none;  // of the population: divided by n
+  double std = none;  // of the population: divides by n
   Histogram histogram;
-  std::size_t count = 0;       // finite numbers: all that the figures above speak of
+  std::size_t count = 0;       // finite numbers, to which the values above refer
   std::size_t non_finite = 0;  // numbers left out
 };
 
-/// Where the histogram lies. With lower >= upper it covers the range of the numbers themselves.
+/// Bins of a histogram. With lower >= upper they cover the range of the numbers.
 struct Bins {
   double lower = 0;
-  double upper = 0;  // numbers beyond the ends count in the first and the last bin
+  double upper = 0;  // numbers outside count in the first or the last bin
   int count = 20;
 };
 
+/// Statistics of the finite values.
 Statistics describe(std::vector<double> values, const Bins& bins = {});
 
 }  // namespace hooke

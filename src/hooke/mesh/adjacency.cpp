@@ -9,15 +9,15 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 1024;
+constexpr size_t adjacency_block = 1024;
 
-/// A face as one of its corners sees it.
+/// A face as seen from one of its corners.
 struct RingEntry {
-  int out, in;         // half-edges that leave the corner and come to it
+  int out, in;         // half-edges that leave and enter the corner
   int next, previous;  // the other corners
 };
 
-/// Ascending by the previous corner. Rings are short, and hubs are rare.
+/// Sorts ascending by the previous corner. Rings are short; vertices of high valence are rare.
 void sort_by_previous(std::vector<RingEntry>& ring) {
   constexpr size_t short_ring = 16;
   if (ring.size() > short_ring) {
@@ -28,7 +28,7 @@ void sort_by_previous(std::vector<RingEntry>& ring) {
     for (size_t k = i; k > 0 && ring[k].previous < ring[k - 1].previous; --k) std::swap(ring[k], ring[k - 1]);
 }
 
-/// The spokes of the vertex, ascending by their previous corner.
+/// Collects the ring entries of the vertex, ascending by their previous corner.
 void collect(int vertex, std::span<const int> its_faces, const std::vector<Triangle>& faces,
              std::vector<RingEntry>& ring) {
   ring.clear();
@@ -41,7 +41,7 @@ void collect(int vertex, std::span<const int> its_faces, const std::vector<Trian
   sort_by_previous(ring);
 }
 
-/// Place of a spoke of the face across the half-edge that leaves with `spoke`; ring.size() if there is none.
+/// Index of the entry of the face across the outgoing half-edge of `spoke`; ring.size() if there is none.
 size_t follower(const std::vector<RingEntry>& ring, const RingEntry& spoke) {
   const auto found = std::ranges::lower_bound(ring, spoke.next, {}, &RingEntry::previous);
   const bool there = found != ring.end() && found->previous == spoke.next;
@@ -52,9 +52,9 @@ Fan classify(const std::vector<RingEntry>& ring, std::vector<char>& followed) {
   if (ring.empty()) return Fan::isolated;
   followed.assign(ring.size() + 1, 0);
   for (const RingEntry& spoke : ring)
-    if (std::exchange(followed[follower(ring, spoke)], 1)) return Fan::broken;  // two ends, or one after two
-  // Every spoke has another one after it, none has two before it, and at most one is the end: what is left to
-  // know is whether all are in one chain or cycle.
+    if (std::exchange(followed[follower(ring, spoke)], 1)) return Fan::broken;  // two ends, or a branch
+  // No entry follows two others, and at most one has no follower: it remains to check whether all entries
+  // form one chain or cycle.
   const auto first = static_cast<size_t>(std::ranges::find(followed, 0) - followed.begin());
   const size_t start = first < ring.size() ? first : 0;
   size_t reached = 1;
@@ -68,7 +68,7 @@ Fan classify(const std::vector<RingEntry>& ring, std::vector<char>& followed) {
 template <typename Look>
 void look_at_rings(int vertex_count, const std::vector<Triangle>& faces, HalfEdges& half_edges,
                    const Look& look) {
-  parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
+  parallel_for(static_cast<size_t>(vertex_count), adjacency_block, [&](size_t begin, size_t end) {
     std::vector<RingEntry> ring;
     std::vector<char> memory;
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
@@ -107,23 +107,23 @@ int first_broken(const VertexFans& fans) {
 
 namespace {
 
-/// Whether the face of half-edge h is the first that names its edge.
+/// Whether half-edge h is the first that names its edge.
 bool names_edge(const std::vector<int>& twins, size_t h) {
   return twins[h] < 0 || static_cast<int>(h) < twins[h];
 }
 
 /// Numbers the edges in the order of the half-edges that name them.
 void number_edges(const std::vector<int>& twins, Adjacency& c) {
-  std::vector<int> first(twins.size() / block + 2, 0);  // edge of each block of half-edges
-  parallel_for(twins.size(), block, [&](size_t begin, size_t end) {
-    for (size_t h = begin; h < end; ++h) first[h / block + 1] += names_edge(twins, h);
+  std::vector<int> first(twins.size() / adjacency_block + 2, 0);  // first edge of each block of half-edges
+  parallel_for(twins.size(), adjacency_block, [&](size_t begin, size_t end) {
+    for (size_t h = begin; h < end; ++h) first[h / adjacency_block + 1] += names_edge(twins, h);
   });
   std::partial_sum(first.begin(), first.end(), first.begin());
   c.edges.resize(static_cast<size_t>(first.back()));
   c.edge_faces.resize(c.edges.size());
   c.face_edges.resize(c.faces.size());
-  parallel_for(twins.size(), block, [&](size_t begin, size_t end) {
-    int edge = first[begin / block];
+  parallel_for(twins.size(), adjacency_block, [&](size_t begin, size_t end) {
+    int edge = first[begin / adjacency_block];
     for (size_t h = begin; h < end; ++h) {
       if (!names_edge(twins, h)) continue;
       const Triangle& t = c.faces[h / 3];
@@ -140,7 +140,7 @@ void number_edges(const std::vector<int>& twins, Adjacency& c) {
 /// The other end of every edge in c.vertex_edges.
 IntLists other_ends(const Adjacency& c) {
   IntLists lists = c.vertex_edges;
-  parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
+  parallel_for(static_cast<size_t>(c.vertex_count), adjacency_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
       for (auto i = static_cast<size_t>(lists.first[v]); i < static_cast<size_t>(lists.first[v + 1]); ++i)
         lists.items[i] = c.other_end(lists.items[i], static_cast<int>(v));

@@ -1,4 +1,5 @@
-// The faces around each vertex as one fan: what makes a triangle mesh a manifold with an orientation.
+// Adjacency of a triangle mesh in plain arrays: twins of half-edges, the check that the faces around each
+// vertex form one fan (an oriented manifold), and incidences of vertices, edges and faces.
 #pragma once
 
 #include "hooke/core/lists.h"
@@ -6,16 +7,17 @@
 
 namespace hooke {
 
+/// How the faces around a vertex are connected.
 enum class Fan : char {
   isolated,  // no faces
-  whole,     // faces in one chain or cycle, oriented alike
-  broken,    // anything else: not a manifold there, or not oriented, or a face twice
+  whole,     // faces in one chain or cycle, consistently oriented
+  broken,    // anything else: non-manifold, not consistently oriented, or a duplicate face
 };
 
 struct HalfEdges {
   IntLists faces;  // of each vertex, ascending
-  /// The half-edge across each half-edge. Half-edge 3 f + k runs from corner k of face f to the next corner;
-  /// its twin runs back, or is -1 on the boundary. Says nothing at a broken ring.
+  /// The twin of each half-edge, -1 on the boundary. Half-edge 3 f + k runs from corner k of face f to the
+  /// next corner; its twin runs back. Meaningless at a broken fan.
   std::vector<int> twins;
 };
 
@@ -23,33 +25,32 @@ struct VertexFans : HalfEdges {
   std::vector<Fan> kinds;  // per vertex
 };
 
-/// Pre-condition of both: corners in [0, vertex_count), three different ones to a face.
+/// Twins of half-edges, without and with a check of the fans.
+/// Pre-condition: corners in [0, vertex_count), three different ones per face.
 HalfEdges pair_half_edges(int vertex_count, const std::vector<Triangle>& faces);
 VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces);
 
-/// The first vertex whose ring is broken; -1 for a manifold.
+/// The first vertex whose fan is broken; -1 for a manifold.
 int first_broken(const VertexFans& fans);
 
-// Flat connectivity: who touches whom, in plain arrays for the hot loops.
-
-/// Invariant: faces, edges and vertices have the ids of the triangles it was made from; edges are numbered in
-/// the order in which the faces first name them.
+/// Incidences in flat arrays. Faces and vertices have the ids of the triangles that it was made from; edges
+/// are numbered in the order in which the faces first name them.
 struct Adjacency {
   int vertex_count = 0;
   std::vector<Triangle> faces;
-  std::vector<Edge> edges;                     // as the first face runs through it
+  std::vector<Edge> edges;                     // directed as in their first face
   std::vector<std::array<int, 2>> edge_faces;  // second is -1 on the boundary
   std::vector<Triangle> face_edges;            // edge k joins corners k and k + 1
   IntLists vertex_faces;                       // ascending
   IntLists vertex_edges;                       // ascending
   IntLists vertex_neighbours;                  // in the order of vertex_edges
 
-  // Creases part the faces about a vertex; each part sees a side of its own of it. Sides [0, vertex_count)
-  // are the first ones of the vertices. All empty without creases; set by split_wedges().
+  // Creases divide the faces around a vertex into wedges, see mesh/wedges.h. Wedges [0, vertex_count) are the
+  // first ones of the vertices, extra wedges follow. All empty without creases; set by split_wedges().
   std::vector<char> creases;         // per edge
-  std::vector<Triangle> side_faces;  // the corners' sides
-  std::vector<Edge> side_edges;      // the ends' sides, as the edge's first face sees them
-  std::vector<int> extra_wedges;     // the vertex of each further side, ascending
+  std::vector<Triangle> wedge_faces;  // wedges of the corners
+  std::vector<Edge> wedge_edges;      // wedges of the ends in the edge's first face
+  std::vector<int> extra_wedges;     // vertex of each extra wedge, ascending
 
   bool is_boundary_edge(int edge) const { return edge_faces[static_cast<size_t>(edge)][1] < 0; }
   bool is_crease(int edge) const { return !creases.empty() && creases[static_cast<size_t>(edge)] != 0; }
@@ -63,18 +64,18 @@ struct Adjacency {
     return wedge < vertex_count ? wedge : extra_wedges[static_cast<size_t>(wedge - vertex_count)];
   }
 
-  /// What normals are looked up by: the sides of corners and of ends, which are the vertices without creases.
-  const std::vector<Triangle>& wedges_of_faces() const { return creases.empty() ? faces : side_faces; }
-  const std::vector<Edge>& wedges_of_edges() const { return creases.empty() ? edges : side_edges; }
+  /// Indices of normals: the wedges of corners and of edge ends, which are the vertices without creases.
+  const std::vector<Triangle>& wedges_of_faces() const { return creases.empty() ? faces : wedge_faces; }
+  const std::vector<Edge>& wedges_of_edges() const { return creases.empty() ? edges : wedge_edges; }
 };
 
 /// Pre-condition: manifold, consistently oriented triangles on vertices [0, vertex_count).
 Adjacency make_adjacency(int vertex_count, std::vector<Triangle> faces);
 
-/// The same where their half-edges have been paired before.
+/// The same with half-edges that are already paired.
 Adjacency make_adjacency(std::vector<Triangle> faces, HalfEdges half_edges);
 
-/// These vertices and those within so many rings about them.
+/// The given vertices and those within this number of rings around them.
 std::vector<int> with_rings(const Adjacency& adjacency, const std::vector<int>& vertices, int rings);
 
 }  // namespace hooke

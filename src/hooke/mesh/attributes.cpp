@@ -11,18 +11,18 @@ namespace {
 
 double value_at(const MapEntry& entry, const std::vector<double>& values,
                 const std::vector<Triangle>& faces) {
-  if (entry.place.face < 0) return entry.vertex < 0 ? 0 : values[static_cast<size_t>(entry.vertex)];
-  const Triangle& corners = faces[static_cast<size_t>(entry.place.face)];
+  if (entry.position.face < 0) return entry.vertex < 0 ? 0 : values[static_cast<size_t>(entry.vertex)];
+  const Triangle& corners = faces[static_cast<size_t>(entry.position.face)];
   double value = 0, least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (size_t k = 0; k < 3; ++k) {  // a corner without weight may be without a number
-    const double weight = entry.place.weights[static_cast<Eigen::Index>(k)];
+  for (size_t k = 0; k < 3; ++k) {  // the value of a corner without weight may be NaN
+    const double weight = entry.position.weights[static_cast<Eigen::Index>(k)];
     if (!(weight > 0)) continue;
     const double corner = values[static_cast<size_t>(corners[k])];
     value += weight * corner;
     least = std::min(least, corner);
     greatest = std::max(greatest, corner);
   }
-  return std::isfinite(value) ? std::clamp(value, least, greatest) : value;  // what rounding adds
+  return std::isfinite(value) ? std::clamp(value, least, greatest) : value;  // against rounding
 }
 
 }  // namespace

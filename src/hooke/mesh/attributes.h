@@ -1,4 +1,4 @@
-// Numbers that belong to the vertices besides their coordinates: colours, normals, any values of a file.
+// Vertex attributes besides coordinates: colours, normals, any values of a file.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace hooke {
 
-/// How a number is written in a file.
+/// How a number is stored in a file.
 enum class NumberType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 inline bool is_integer(NumberType type) {
@@ -18,35 +18,35 @@ inline bool is_integer(NumberType type) {
 
 /// One number per vertex.
 struct VertexChannel {
-  std::string name;  // as PLY files have it: red, nx, quality
+  std::string name;  // as in PLY files: red, nx, quality
   NumberType type = NumberType::float64;
   std::vector<double> values = {};
 };
 using VertexData = std::vector<VertexChannel>;
 
-/// Channels that all formats know, by the names that PLY files have for them.
+/// Channels that all formats support, by their names in PLY files.
 inline constexpr std::array colour_names = {"red", "green", "blue", "alpha"};
 inline constexpr std::array normal_names = {"nx", "ny", "nz"};
 inline constexpr std::array texture_names = {"s", "t", "p"};
 
-/// The channel of that name; null without.
+/// The channel with this name; null if there is none.
 VertexChannel* find_channel(VertexData& data, const std::string& name);
 const VertexChannel* find_channel(const VertexData& data, const std::string& name);
 
-/// The channels of these names that there are, in the order of the names.
+/// The existing channels among these names, in the order of the names.
 using ChannelNames = std::span<const char* const>;
 using ChannelList = std::vector<const VertexChannel*>;
 ChannelList channels_named(const VertexData& data, ChannelNames names);
 
-/// The values at the places of the map, linear in the faces there and never beyond the values of their
-/// corners; integers rounded. Vertices on no face keep the value of the vertex that they were.
+/// Interpolates all channels at the surface points of the map: linear in the faces, never beyond the values
+/// of their corners, integers rounded. Vertices on no face keep the value of their old vertex.
 VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
                        const std::vector<Triangle>& faces);
 
-/// Are there nx, ny and nz?
+/// Whether the channels nx, ny and nz exist.
 bool has_normals(const VertexData& data);
 
-/// Writes normals to these channels. Pre-condition: has_normals().
+/// Writes normals, 3 x |V|, to these channels. Pre-condition: has_normals().
 void set_normals(VertexData& data, const Mat3X& normals);
 
 }  // namespace hooke

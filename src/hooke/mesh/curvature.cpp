@@ -20,10 +20,10 @@ double cotangent_at(const Vec3& opposite_vertex, const Vec3& next, const Vec3& l
   return (next - opposite_vertex).dot(last - opposite_vertex) / twice_area;
 }
 
-/// Angles between 0 and pi, added as complex numbers are multiplied: with one arc tangent for all.
+/// Sum of angles between 0 and pi by multiplication of complex numbers, with one arc tangent for all.
 class AngleSum {
  public:
-  /// The angle of (x, y), y > 0.
+  /// Adds the angle of (x, y), y > 0.
   void add(double x, double y) {
     const double u = x_ * x - y_ * y, v = x_ * y + y_ * x;
     const double size = std::abs(u) + std::abs(v);
@@ -42,7 +42,7 @@ class AngleSum {
   int turns_ = 0;
 };
 
-/// What the faces around one vertex add up to.
+/// Sums over the faces around one vertex.
 struct RingSums {
   Vec3 normal = Vec3::Zero();  // sum of (cot a + cot b) (x - x_j), Meyer et al. [8]
   AngleSum angle;
@@ -97,19 +97,19 @@ VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacenc
 
 namespace {
 
-constexpr size_t enough = 9;  // vertices for the six coefficients, with some to spare against noise
+constexpr size_t enough = 9;  // vertices for six coefficients, with a margin against noise
 constexpr double any_side = -2;
-constexpr double same_sheet = .2;  // least cosine of a normal with the axis
+constexpr double same_sheet = .2;  // minimum cosine of a normal with the axis
 
-/// Mean normal of the vertex and its neighbours: their majority stands where one ring is folded.
+/// Mean normal of the vertex and its neighbours, robust where one ring is folded.
 Vec3 axis_at(const Adjacency& c, const Mat3X& normals, int vertex) {
   Vec3 sum = normals.col(vertex);
   for (int w : c.vertex_neighbours[vertex]) sum += normals.col(w);
   return sum.normalized();
 }
 
-/// The vertices within some rings of `centre`, which comes first, whose normals lean at most so far from the
-/// axis.
+/// The vertices within two or three rings of `centre`, which comes first, whose normals have at least this
+/// cosine with the axis.
 std::vector<int> neighbourhood(const Adjacency& c, const Mat3X& normals, int centre, const Vec3& axis,
                                double min_cosine) {
   std::vector<int> found = {centre};
@@ -124,7 +124,7 @@ std::vector<int> neighbourhood(const Adjacency& c, const Mat3X& normals, int cen
   return found;
 }
 
-/// Largest eigenvalue by size of the shape operator of z = f0 + d x + e y + (a x^2 + 2 b x y + c y^2) / 2.
+/// Maximum absolute eigenvalue of the shape operator of z = f0 + d x + e y + (a x^2 + 2 b x y + c y^2) / 2.
 double largest_curvature(double a, double b, double c, double d, double e) {
   Eigen::Matrix2d first, second;
   first << 1 + d * d, d * e, d * e, 1 + e * e;
@@ -140,7 +140,7 @@ double fit_curvature(const Mat3X& points, const Vec3& n, const std::vector<int>&
   double radius = 0;
   for (int v : vertices) radius = std::max(radius, (points.col(v) - origin).norm());
   if (!(radius > 0)) return 0;
-  // Leaning on an edge, not on a coordinate axis, so that a turned mesh has the same fit.
+  // Aligned with an edge, not with a coordinate axis, so that a rotated mesh has the same fit.
   const Vec3 edge = points.col(vertices[1]) - origin;
   const Vec3 u = (edge - n * n.dot(edge)).normalized(), v = n.cross(u);
 
@@ -153,7 +153,7 @@ double fit_curvature(const Mat3X& points, const Vec3& n, const std::vector<int>&
     monomials.row(i) << 1, x, y, .5 * x * x, x * y, .5 * y * y;
     height[i] = n.dot(p);
   }
-  // Of the least norm where the vertices do not settle all coefficients.
+  // Minimum-norm solution where the vertices do not determine all coefficients.
   const Eigen::Matrix<double, 6, 1> k = monomials.completeOrthogonalDecomposition().solve(height);
   return largest_curvature(k[3], k[4], k[5], k[1], k[2]) / radius;
 }

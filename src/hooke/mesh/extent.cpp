@@ -7,26 +7,26 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t extent_block = 4096;
 
 double face_area(const Mat3X& points, const Triangle& t) {
   const Vec3 a = points.col(t[0]);
   return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
 }
 
-/// Sums over the faces, block by block.
+/// Sums over the faces, block by extent_block.
 struct Sums {
   double area = 0;
-  double volume = 0;  // of the cones to the centre
+  double volume = 0;  // of the tetrahedra to the centre
 };
 
 Sums sum_up(const Mat3X& points, const std::vector<Triangle>& faces, const Vec3& centre) {
-  std::vector<Sums> blocks(faces.size() / block + 1);
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  std::vector<Sums> blocks(faces.size() / extent_block + 1);
+  parallel_for(faces.size(), extent_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const Vec3 a = points.col(faces[f][0]), b = points.col(faces[f][1]), c = points.col(faces[f][2]);
-      blocks[f / block].area += .5 * (b - a).cross(c - a).norm();
-      blocks[f / block].volume += (a - centre).dot((b - centre).cross(c - centre)) / 6;
+      blocks[f / extent_block].area += .5 * (b - a).cross(c - a).norm();
+      blocks[f / extent_block].volume += (a - centre).dot((b - centre).cross(c - centre)) / 6;
     }
   });
   Sums all;
@@ -48,7 +48,7 @@ Extent measure_extent(const Mat3X& points, const Adjacency& adjacency) {
   extent.lower = box.min();
   extent.upper = box.max();
   extent.diagonal = box.diagonal().norm();
-  const Vec3 centre = box.center();  // keeps the cones small, and the rounding with them
+  const Vec3 centre = box.center();  // keeps the tetrahedra and their rounding small
   const Sums sums = sum_up(points, adjacency.faces, centre);
   extent.area = sums.area;
   const bool closed =
@@ -58,7 +58,7 @@ Extent measure_extent(const Mat3X& points, const Adjacency& adjacency) {
 }
 
 double total_area(const Mat3X& points, const std::vector<Triangle>& faces) {
-  return parallel_sum(faces.size(), block, [&](size_t begin, size_t end) {
+  return parallel_sum(faces.size(), extent_block, [&](size_t begin, size_t end) {
     double sum = 0;
     for (size_t f = begin; f < end; ++f) sum += face_area(points, faces[f]);
     return sum;

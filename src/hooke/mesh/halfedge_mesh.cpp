@@ -1,4 +1,3 @@
-// The unused ids of a triangulation: given up, and the others put in order.
 #include "hooke/mesh/halfedge_mesh.h"
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace hooke {
 
 HalfedgeMesh::HalfedgeMesh(const Adjacency& c)
     : faces_(c.faces),
-      wedges_(c.side_faces),
+      wedges_(c.wedge_faces),
       twins_(3 * c.faces.size(), -1),
       outgoing_halfedge_(static_cast<size_t>(c.wedge_count()), -1),
       valences_(static_cast<size_t>(c.wedge_count()), -1),
@@ -41,13 +40,13 @@ HalfedgeMesh::HalfedgeMesh(const Adjacency& c)
 int HalfedgeMesh::first_outgoing(int vertex) const {
   const int any = outgoing_halfedge_[static_cast<size_t>(vertex)];
   int start = any;
-  if (any >= 0 && on_boundary(vertex))  // as far clockwise as there are faces
+  if (any >= 0 && on_boundary(vertex))  // rotate clockwise to the boundary
     for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
   return start;
 }
 
-ShortList HalfedgeMesh::outgoing(int vertex) const {
-  ShortList spokes;
+SmallIntList HalfedgeMesh::outgoing(int vertex) const {
+  SmallIntList spokes;
   const int first = first_outgoing(vertex);
   for (int h = first; h >= 0;) {
     spokes.push_back(h);
@@ -57,8 +56,8 @@ ShortList HalfedgeMesh::outgoing(int vertex) const {
   return spokes;
 }
 
-ShortList HalfedgeMesh::neighbours(int vertex) const {
-  ShortList ring;
+SmallIntList HalfedgeMesh::neighbours(int vertex) const {
+  SmallIntList ring;
   const int first = first_outgoing(vertex);
   for (int h = first; h >= 0;) {
     ring.push_back(to(h));
@@ -70,10 +69,10 @@ ShortList HalfedgeMesh::neighbours(int vertex) const {
   return ring;
 }
 
-ShortList HalfedgeMesh::sector(int h) const {
+SmallIntList HalfedgeMesh::sector(int h) const {
   const int any = h;
   while (!is_feature_edge(h) && next(twin(h)) != any) h = next(twin(h));
-  ShortList spokes = {h};
+  SmallIntList spokes = {h};
   for (int wedge = previous(h); !is_feature_edge(wedge) && twin(wedge) != spokes.front();
        wedge = previous(twin(wedge)))
     spokes.push_back(twin(wedge));
@@ -103,7 +102,7 @@ void HalfedgeMesh::flip(int h) {
   const int f = h / 3, g = t / 3;
   const auto mark = [this](int wedge) { return constrained_[static_cast<size_t>(wedge)]; };
   const std::array<char, 4> marks = {mark(previous(h)), mark(next(t)), mark(previous(t)), mark(next(h))};
-  if (!wedges_.empty()) {  // neither face leaves its sector
+  if (!wedges_.empty()) {  // both faces stay in their wedges
     const int sa = wedge(h), sb = wedge(t), sc = wedge(previous(h)), sd = wedge(previous(t));
     wedges_[static_cast<size_t>(f)] = {sc, sa, sd};
     wedges_[static_cast<size_t>(g)] = {sd, sb, sc};
@@ -127,8 +126,8 @@ void HalfedgeMesh::flip(int h) {
   ++valences_[static_cast<size_t>(d)];
 }
 
-/// Cuts the face of h between its opposite_vertex and the new vertex, of which it sees `side`: h ends there,
-/// and the last face goes on.
+/// Splits the face of h between its opposite vertex and the new vertex, whose wedge there is `wedge`. h then
+/// ends at the new vertex; the other half is a new face at the end.
 void HalfedgeMesh::split(int h, int vertex, int wedge) {
   const int b = to(h), c = opposite_vertex(h), across = twin(next(h));
   const auto f = static_cast<size_t>(h / 3), cut = static_cast<size_t>(next(h));
@@ -175,13 +174,13 @@ bool HalfedgeMesh::may_collapse(int h) const {
     if (wedge >= 0 && (!may_lose(opposite_vertex(wedge)) ||
                        (is_feature_edge(next(wedge)) && is_feature_edge(previous(wedge)))))
       return false;
-  const ShortList ring = neighbours(a);
+  const SmallIntList ring = neighbours(a);
   int common = 0;
   for (int v : neighbours(b)) common += std::ranges::count(ring, v) > 0;
   return common == (t < 0 ? 1 : 2);
 }
 
-/// Removes the face of h, whose other two sides fall together.
+/// Removes the face of h and links the faces across its other two edges.
 void HalfedgeMesh::close(int h) {
   const int b = to(h), c = opposite_vertex(h);
   const int left = twin(next(h)), right = twin(previous(h));
@@ -200,7 +199,7 @@ void HalfedgeMesh::close(int h) {
   }
 }
 
-int HalfedgeMesh::side_after_collapse(int h, int stays, int spoke) const {
+int HalfedgeMesh::wedge_after_collapse(int h, int stays, int spoke) const {
   if (from(spoke) == stays) return wedge(spoke);
   const auto at = [this](int along, int end) { return wedge(from(along) == end ? along : next(along)); };
   const bool on_the_left = twin(h) < 0 || wedge(spoke) == at(h, from(spoke));
@@ -210,15 +209,15 @@ int HalfedgeMesh::side_after_collapse(int h, int stays, int spoke) const {
 void HalfedgeMesh::collapse(int h, int stays) {
   assert(may_collapse(h));
   const int goes = from(h) == stays ? to(h) : from(h), t = twin(h);
-  const ShortList spokes = outgoing(goes);
-  ShortList wedges;
-  for (int spoke : spokes) wedges.push_back(side_after_collapse(h, stays, spoke));
+  const SmallIntList spokes = outgoing(goes);
+  SmallIntList wedges;
+  for (int spoke : spokes) wedges.push_back(wedge_after_collapse(h, stays, spoke));
   for (size_t i = 0; i < spokes.size(); ++i) {
     const auto f = static_cast<size_t>(spokes[i] / 3), k = static_cast<size_t>(spokes[i] % 3);
     faces_[f][k] = stays;
     if (!wedges_.empty()) wedges_[f][k] = wedges[i];
   }
-  // Every edge of the one but those to the other and to the apexes is new there.
+  // `stays` gains the edges of `goes`, except those to `stays` and to the opposite vertices.
   valences_[static_cast<size_t>(stays)] += valences_[static_cast<size_t>(goes)] - (t < 0 ? 3 : 4);
   on_boundary_[static_cast<size_t>(stays)] |= on_boundary_[static_cast<size_t>(goes)];
   close(h);
@@ -228,7 +227,7 @@ void HalfedgeMesh::collapse(int h, int stays) {
 }
 
 void HalfedgeMesh::set_wedges(const Adjacency& c) {
-  wedges_ = c.side_faces;
+  wedges_ = c.wedge_faces;
   valences_.resize(static_cast<size_t>(c.wedge_count()), -1);
   outgoing_halfedge_.resize(valences_.size(), -1);
   on_boundary_.resize(valences_.size(), 0);
@@ -263,7 +262,7 @@ std::vector<int> HalfedgeMesh::compact() {
   std::vector<int> vertex_id(valences_.size(), -1);
   for (size_t i = 0; i < kept.size(); ++i) vertex_id[static_cast<size_t>(kept[i])] = static_cast<int>(i);
 
-  std::vector<std::array<int, 1>> first_corners(left.size());  // faces follow theirs
+  std::vector<std::array<int, 1>> first_corners(left.size());  // smallest vertex of each face
   for_each_index(left.size(), [&](size_t i) {
     for (int& v : faces[i]) v = vertex_id[static_cast<size_t>(v)];
     first_corners[i][0] = std::ranges::min(faces[i]);

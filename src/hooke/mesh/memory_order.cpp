@@ -8,10 +8,10 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 8192;
+constexpr size_t order_block = 8192;
 
 std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours) {
-  constexpr size_t cluster_size = 256;  // vertices whose data stay in the first cache
+  constexpr size_t cluster_size = 256;  // vertices whose data fit in the first-level cache
   const auto n = static_cast<size_t>(vertex_count);
   std::vector<int> order;
   order.reserve(n);
@@ -47,12 +47,12 @@ std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours)
   return order;
 }
 
-/// The next corner of each face about a vertex: all its neighbours where faces are oriented alike, but for
-/// one at a boundary, which has it for a neighbour; elsewhere fewer, which costs order only. Looked up
-/// beforehand on all cores, not one after the other on the way.
+/// The next corner of each face around a vertex. These are all its neighbours where faces are consistently
+/// oriented, except for one at a boundary, which has the vertex among its own; elsewhere there may be fewer,
+/// which only affects the order. Computed in parallel beforehand, not during the sequential search.
 IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
   IntLists corners = inverse(vertex_count, faces);
-  parallel_for(static_cast<size_t>(vertex_count), block, [&](size_t begin, size_t end) {
+  parallel_for(static_cast<size_t>(vertex_count), order_block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       for (int i = corners.first[static_cast<size_t>(v)]; i < corners.first[static_cast<size_t>(v) + 1];
            ++i) {
@@ -67,12 +67,12 @@ IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
 /// Calls each(new id, old id).
 template <class Each>
 void for_each_vertex(const Permutation& order, const Each& each) {
-  parallel_for(order.old_vertex.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(order.old_vertex.size(), order_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) each(v, static_cast<size_t>(order.old_vertex[v]));
   });
 }
 
-/// What a matrix or a list holds for a vertex.
+/// The entry of a vertex in a matrix or a list.
 template <class Values>
 decltype(auto) item(Values& values, size_t vertex) {
   if constexpr (requires { values.cols(); })
@@ -127,7 +127,7 @@ std::vector<double> Permutation::scatter(const std::vector<double>& fresh) const
 
 std::vector<Triangle> Permutation::scatter(const std::vector<Triangle>& fresh) const {
   std::vector<Triangle> old(fresh.size());
-  parallel_for(fresh.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(fresh.size(), order_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f)
       for (size_t k = 0; k < 3; ++k)
         old[static_cast<size_t>(old_face[f])][k] = old_vertex[static_cast<size_t>(fresh[f][k])];
@@ -139,7 +139,7 @@ Permutation reorder(std::vector<Triangle> faces, const std::vector<int>& order) 
   std::vector<int> fresh(order.size());
   for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);
   std::vector<std::array<int, 1>> smallest(faces.size());  // vertex of each face
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), order_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       for (int& v : faces[f]) v = fresh[static_cast<size_t>(v)];
       smallest[f][0] = std::ranges::min(faces[f]);
@@ -149,7 +149,7 @@ Permutation reorder(std::vector<Triangle> faces, const std::vector<int>& order) 
   r.old_vertex = order;
   r.old_face = inverse(static_cast<int>(order.size()), smallest).items;
   r.faces.resize(faces.size());
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), order_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) r.faces[f] = faces[static_cast<size_t>(r.old_face[f])];
   });
   return r;

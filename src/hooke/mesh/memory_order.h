@@ -1,4 +1,5 @@
-// Ids of vertices and faces that stand in another order than in the mesh they belong to.
+// Memory order: vertices and faces are renumbered so that neighbours on the mesh are neighbours in the
+// arrays.
 #pragma once
 
 #include <span>
@@ -8,7 +9,8 @@
 
 namespace hooke {
 
-/// By their place in that order; without a list they are the places themselves. Keeps no copy of the lists.
+/// Mesh ids of vertices and faces that are stored in another order, by their index in that order; without
+/// lists the ids are the indices. Refers to the lists, which must outlive it.
 struct MeshIds {
   std::span<const int> vertices = {}, faces = {};
 
@@ -17,34 +19,33 @@ struct MeshIds {
   int face(int f) const { return faces.empty() ? f : faces[static_cast<std::size_t>(f)]; }
 };
 
-// Order in memory: neighbours on the mesh become neighbours in the arrays.
-
 /// order[new] = old vertex id: clusters grown breadth-first over the mesh, so that a ring mostly lies within
-/// one cluster. Depends on the connectivity only, never on coordinates: a moved or turned mesh has the same
-/// order.
+/// one cluster. Depends on the faces only, never on coordinates: a moved or rotated mesh has the same order.
 std::vector<int> bfs_cluster_order(int vertex_count, const std::vector<Triangle>& faces);
 
-/// A mesh in another order, and the way back.
+/// A mesh in another order, and the mapping back to its old order.
 struct Permutation {
-  std::vector<int> old_vertex;  // of a new one
-  std::vector<int> old_face;    // of a new one; faces follow their smallest vertex
+  std::vector<int> old_vertex;  // old id of each new vertex
+  std::vector<int> old_face;    // old id of each new face; faces are sorted by their smallest vertex
   std::vector<Triangle> faces;  // in new vertex ids
 
   MeshIds old_ids() const& { return {old_vertex, old_face}; }
-  MeshIds old_ids() const&& = delete;  // they would outlive the lists
+  MeshIds old_ids() const&& = delete;  // the result would outlive the lists
 
   /// The new ids of these old vertices.
   std::vector<int> new_vertices(const std::vector<int>& old) const;
 
-  /// What belongs to the vertices, from the one order to the other.
+  /// Vertex data from the old order to the new one (gather) and back (scatter).
   Mat3X gather(const Eigen::Ref<const Mat3X>& old) const;
   std::vector<double> gather(const std::vector<double>& old) const;
   Mat3X scatter(const Mat3X& fresh) const;
   std::vector<double> scatter(const std::vector<double>& fresh) const;
 
-  /// Faces in new vertex ids and new order, as they were.
+  /// Faces given in new vertex ids and new order, in old ids and old order.
   std::vector<Triangle> scatter(const std::vector<Triangle>& fresh) const;
 };
+
+/// Renumbers the vertices: new vertex i is the old one order[i].
 Permutation reorder(std::vector<Triangle> faces, const std::vector<int>& order);
 
 }  // namespace hooke

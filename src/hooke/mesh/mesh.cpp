@@ -10,11 +10,11 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t mesh_block = 4096;
 
 using OpenMesh::HalfedgeHandle, OpenMesh::FaceHandle, OpenMesh::VertexHandle;
 
-/// OpenMesh's half-edge that runs along side k of the face.
+/// OpenMesh's half-edge along edge k of the face.
 HalfedgeHandle half_edge(const Adjacency& c, size_t face, size_t k) {
   const auto edge = static_cast<size_t>(c.face_edges[face][k]);
   const bool along = c.edge_faces[edge][0] == static_cast<int>(face);
@@ -22,7 +22,7 @@ HalfedgeHandle half_edge(const Adjacency& c, size_t face, size_t k) {
 }
 
 void link_inside(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
-  parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(c.faces.size(), mesh_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const FaceHandle face(ids.face(static_cast<int>(f)));
       for (size_t k = 0; k < 3; ++k) {
@@ -36,9 +36,9 @@ void link_inside(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
   });
 }
 
-/// A vertex points to a half-edge that leaves it: on the boundary to the one without a face.
+/// Sets the outgoing half-edge of each vertex; link_boundary() replaces it by the one without a face.
 void link_vertices(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
-  parallel_for(static_cast<size_t>(c.vertex_count), block, [&](size_t begin, size_t end) {
+  parallel_for(static_cast<size_t>(c.vertex_count), mesh_block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       const VertexHandle vertex(ids.vertex(v));
       const auto ring = c.vertex_faces[v];
@@ -84,7 +84,7 @@ TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles) 
   return build_mesh(points, make_adjacency(triangles, std::move(fans)));
 }
 
-// Straight into the kernel's arrays: adding face by face looks at every ring again and again.
+// Writes the arrays of the kernel directly: adding face by face would search the rings repeatedly.
 void replace_faces(TriMesh& mesh, const Adjacency& adjacency, const MeshIds& ids) {
   mesh.resize(mesh.n_vertices(), 0, 0);  // properties of edges and faces go with them
   mesh.resize(mesh.n_vertices(), adjacency.edges.size(), adjacency.faces.size());
@@ -129,7 +129,7 @@ void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<do
 
 std::vector<Triangle> triangles_of(const TriMesh& mesh) {
   std::vector<Triangle> triangles(mesh.n_faces());
-  parallel_for(triangles.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(triangles.size(), mesh_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       auto corner = mesh.cfv_begin(FaceHandle(static_cast<int>(f)));
       for (int& v : triangles[f]) v = (corner++)->idx();

@@ -1,4 +1,4 @@
-// The mesh: an OpenMesh TriMesh in double precision with Eigen points, seen as matrices where we compute.
+// The mesh: an OpenMesh TriMesh in double precision with Eigen points, viewed as matrices for computations.
 #pragma once
 
 #include <memory>
@@ -29,47 +29,47 @@ using VProp = OpenMesh::PropertyManager<OpenMesh::VPropHandleT<T>>;
 inline constexpr char velocity_property[] = "v:velocity";  // Vec3, u of [17]
 inline constexpr char force_property[] = "v:force";        // Vec3, lambda F_string + mu F_torque
 inline constexpr char target_length_property[] =
-    "v:target_length";  // double; an edge wants the mean of its ends
+    "v:target_length";  // double; the target of an edge is the mean of its ends
 
-/// Mesh from points, by vertex id, and a connectivity, of which vertices and faces have these ids in the mesh
-/// and edges their own.
+/// Builds a mesh from points, by vertex id, and an adjacency, whose vertices and faces get these ids; edges
+/// keep theirs.
 TriMesh build_mesh(const Mat3X& points, const Adjacency& adjacency, const MeshIds& ids = {});
 
-/// The same from triangles, which need not have been looked at before. Throws MeshError unless they are
-/// manifold and consistently oriented (validation.h tells more).
+/// Builds a mesh from triangles that need not be valid. Throws MeshError unless they are manifold and
+/// consistently oriented (mesh/validation.h tells more).
 TriMesh build_mesh(const Mat3X& points, const std::vector<Triangle>& triangles);
 
-/// Gives the mesh other faces on the same vertices, which keep their ids, points and properties. Properties
-/// of edges and faces start anew. `ids` as for build_mesh(). Pre-condition: as many vertices.
+/// Replaces the faces of the mesh. Vertices keep their ids, points and properties; the properties of edges
+/// and faces are reset. `ids` as for build_mesh(). Pre-condition: the adjacency has as many vertices.
 void replace_faces(TriMesh& mesh, const Adjacency& adjacency, const MeshIds& ids = {});
 
-/// The points as a 3 x |V| matrix over the mesh's own storage. Dies when vertices are added or removed.
+/// The points as a 3 x |V| matrix over the storage of the mesh. Invalidated when vertices are added or
+/// removed.
 Eigen::Map<Mat3X> vertex_points(TriMesh& mesh);
 Eigen::Map<const Mat3X> vertex_points(const TriMesh& mesh);
 
-/// A Vec3 vertex property as a 3 x |V| matrix over the mesh's own storage. Same life as above.
+/// A Vec3 vertex property as a 3 x |V| matrix over the storage of the mesh. Invalidated as above.
 Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property);
 
-/// A vertex property of doubles, by vertex id. Pre-condition: the mesh has it.
+/// The values of a vertex property of doubles, by vertex id. Throws Error if the mesh does not have it.
 std::vector<double> vertex_values(const TriMesh& mesh, const char* property);
 
-/// Gives every vertex the same value of a property of doubles, which is added where it is missing.
+/// Sets a vertex property of doubles to the same value everywhere; it is added if missing.
 void set_vertex_values(TriMesh& mesh, const char* property, double value);
 
-/// Gives every vertex its own value of a property of doubles, by vertex id; it is added where it is missing.
+/// Sets a vertex property of doubles to these values, by vertex id; it is added if missing.
 void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<double>& values);
 
 /// Vertex ids of every face, in face order.
 std::vector<Triangle> triangles_of(const TriMesh& mesh);
 
-// How a mesh lies in memory while we work on it and measure it, however its file has it.
-
+/// The order in which a mesh is stored while it is optimized and measured, whatever the order of its file.
 struct MemoryOrder {
-  Permutation order;  // against the mesh; without its faces, which the connectivity has
+  Permutation order;  // relative to the mesh; its faces are moved to the adjacency
   std::shared_ptr<const Adjacency> adjacency;
 };
 
-/// In memory order.
+/// The memory order of the mesh, and its adjacency in that order.
 MemoryOrder find_memory_order(const TriMesh& mesh);
 
 }  // namespace hooke

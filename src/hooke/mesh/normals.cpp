@@ -5,7 +5,7 @@
 namespace hooke {
 namespace {
 
-constexpr std::size_t block = 1024;
+constexpr std::size_t normals_block = 1024;
 
 Vec3 unit_or_zero(const Vec3& v) {
   const double length = v.norm();
@@ -25,7 +25,7 @@ Vec3 weighted_corner_normal(const Eigen::Ref<const Mat3X>& points, const Triangl
 
 Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
   Mat3X normals(3, static_cast<Eigen::Index>(adjacency.faces.size()));
-  parallel_for(adjacency.faces.size(), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(adjacency.faces.size(), normals_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const auto& [a, b, c] = adjacency.faces[f];
       const Vec3 ab = points.col(b) - points.col(a), ac = points.col(c) - points.col(a);
@@ -37,7 +37,7 @@ Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjac
 
 Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
   Mat3X normals(3, points.cols());
-  parallel_for(static_cast<std::size_t>(points.cols()), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(static_cast<std::size_t>(points.cols()), normals_block, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       Vec3 sum = Vec3::Zero();
       for (int f : adjacency.vertex_faces[v])
@@ -50,7 +50,7 @@ Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adj
 
 Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
   Eigen::VectorXd lengths(points.cols());
-  parallel_for(static_cast<std::size_t>(points.cols()), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(static_cast<std::size_t>(points.cols()), normals_block, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       const auto neighbours = adjacency.vertex_neighbours[v];
       double sum = 0;

@@ -1,4 +1,5 @@
-// Normals of faces and vertices, outward when the faces are counter-clockwise seen from outside.
+// Normals of faces and vertices, outward if the faces are counter-clockwise seen from outside, and mean edge
+// lengths.
 #pragma once
 
 #include "hooke/core/types.h"
@@ -10,7 +11,7 @@ namespace hooke {
 Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);
 
 /// Unit normal per vertex; zero for a vertex without faces of positive area. The faces are weighted so that
-/// the normal is exact wherever the ring lies on a sphere (N. Max, "Weights for computing vertex normals from
+/// the normal is exact if the one-ring lies on a sphere (N. Max, "Weights for computing vertex normals from
 /// facet normals", 1999).
 Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);
 

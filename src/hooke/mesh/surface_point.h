@@ -1,4 +1,4 @@
-// A point on a mesh by face and weights: what carries values from one mesh to another.
+// A point on a mesh given by a face and barycentric weights, which maps values from one mesh to another.
 #pragma once
 
 #include "hooke/mesh/adjacency.h"
@@ -6,18 +6,18 @@
 namespace hooke {
 
 struct SurfacePoint {
-  int face = -1;                // -1: on no face, for a vertex that has none
+  int face = -1;                // -1: on no face, for an isolated vertex
   Vec3 weights = Vec3::Zero();  // barycentric, of the face's corners in their order; none negative, sum 1
 };
 
-/// Where a vertex of the result lies on the mesh it was made from.
+/// The position of a vertex of the result on the mesh it was made from.
 struct MapEntry {
-  int vertex = -1;     // the vertex there that it was; -1 for a new one
-  SurfacePoint place;  // on the faces there
+  int vertex = -1;        // its id in that mesh; -1 for a new vertex
+  SurfacePoint position;  // on the faces of that mesh
 };
 
-/// The closest point to x of the faces about `hint`, a vertex that is near, and of those it meets when it
-/// walks on from there as long as that brings it closer.
+/// The closest point to x on the faces at `hint`, a vertex nearby, and at its neighbours; the search moves on
+/// to the nearest corner while that gets closer to x.
 SurfacePoint locate(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
 
 }  // namespace hooke

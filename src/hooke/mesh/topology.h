@@ -1,4 +1,4 @@
-// How a mesh hangs together, regardless of where its vertices are.
+// Topology and valences of a mesh, independent of the positions of its vertices.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ struct Topology {
   int vertices = 0;
   int edges = 0;
   int faces = 0;
-  int isolated_vertices = 0;  // without a face; they belong to no component and are not in `euler`
+  int isolated_vertices = 0;  // without a face; not counted in `components` and `euler`
   int components = 0;
   int boundary_edges = 0;
   int boundary_loops = 0;
@@ -20,7 +20,7 @@ struct Topology {
   bool closed() const { return faces > 0 && boundary_edges == 0; }
 };
 
-/// counts[k] vertices have k edges. Isolated vertices are not counted.
+/// Histograms: entry k is the number of vertices with k edges. Isolated vertices are not counted.
 struct Valence {
   std::vector<int> interior;
   std::vector<int> boundary;
@@ -29,7 +29,7 @@ struct Valence {
 Topology measure_topology(const Adjacency& adjacency);
 Valence count_valences(const Adjacency& adjacency);
 
-/// For every vertex: does it lie on a boundary edge?
+/// Whether each vertex lies on a boundary edge.
 std::vector<char> boundary_vertices(const Adjacency& adjacency);
 
 }  // namespace hooke

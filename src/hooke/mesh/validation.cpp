@@ -14,7 +14,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 1024;
+constexpr size_t validation_block = 1024;
 
 // Collects the problems, each kind once.
 class Findings {
@@ -39,15 +39,15 @@ class Findings {
   std::vector<Problem> problems_;
 };
 
-// A side of a face, kept with the smaller of its two vertices.
+// An edge of a face, stored with the smaller of its two vertices.
 struct Side {
-  int to;  // the greater vertex
+  int to;  // the larger vertex
   int face;
   int opposite;  // third vertex of the face
-  bool upward;   // runs from the smaller to the greater vertex
+  bool upward;   // runs from the smaller to the larger vertex
 };
 
-// Lists of one entry per vertex and item, stored end to end.
+// One list of items per vertex, stored end to end.
 template <typename Item>
 struct Buckets {
   std::vector<size_t> first;
@@ -56,7 +56,7 @@ struct Buckets {
   Item* end(size_t i) { return items.data() + first[i + 1]; }
 };
 
-// `each(face, add)` calls add(vertex, item) for what the face puts into buckets. Items are in face order.
+// Fills buckets in face order: each(face, add) calls add(vertex, item) for every item of the face.
 template <typename Item, typename Each>
 Buckets<Item> fill_buckets(size_t vertices, size_t faces, const Each& each) {
   Buckets<Item> buckets;
@@ -86,7 +86,7 @@ void find_bad_corners(const Mat3X& points, const std::vector<Triangle>& triangle
     if (!points.col(v).allFinite()) findings.add(ProblemKind::not_finite, {}, {v});
 }
 
-// What is wrong with the faces [begin, end) on the edge from `from`, sorted by their opposite vertex.
+// Reports what is wrong with the faces [begin, end) on the edge from `from`, sorted by their opposite vertex.
 void judge_edge(int from, const Side* begin, const Side* end, Findings& findings) {
   bool duplicates = false;
   for (const Side* side = begin + 1; side < end; ++side) {
@@ -112,7 +112,7 @@ void find_bad_edges(size_t vertices, const std::vector<Triangle>& triangles, Fin
       add(std::min(a, b), Side{std::max(a, b), static_cast<int>(f), triangles[f][(k + 2) % 3], a < b});
     }
   });
-  parallel_for(vertices, block, [&](size_t begin, size_t end) {
+  parallel_for(vertices, validation_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
       std::sort(sides.begin(v), sides.end(v), [](const Side& a, const Side& b) {
         return std::tie(a.to, a.opposite, a.face) < std::tie(b.to, b.opposite, b.face);
@@ -127,7 +127,7 @@ void find_bad_edges(size_t vertices, const std::vector<Triangle>& triangles, Fin
   }
 }
 
-// Number of connected parts of a graph whose edges join the ids of each pair.
+// Number of connected components of a graph with these edges.
 int count_parts(const Edge* begin, const Edge* end, std::vector<int>& nodes, std::vector<size_t>& parent) {
   nodes.clear();
   for (const Edge* e = begin; e < end; ++e) nodes.insert(nodes.end(), e->begin(), e->end());
@@ -159,7 +159,7 @@ void find_bad_vertices(size_t vertices, const std::vector<Triangle>& triangles, 
     add(c, Edge{a, b});
   });
   std::vector<int> parts(vertices);
-  parallel_for(vertices, block, [&](size_t begin, size_t end) {
+  parallel_for(vertices, validation_block, [&](size_t begin, size_t end) {
     std::vector<int> nodes;
     std::vector<size_t> parent;
     for (size_t v = begin; v < end; ++v) parts[v] = count_parts(links.begin(v), links.end(v), nodes, parent);
@@ -177,17 +177,17 @@ void find_lone_parts(const IntLists& vertex_faces, size_t faces, Findings& findi
   if (!shared && faces > 1) findings.add(ProblemKind::unconnected_triangles, {}, {});
 }
 
-// Quick, and false only where has_no_area() has to look.
+// Fast test; if it is false, has_no_area() decides.
 bool surely_has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
   const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
   const double longest2 = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
-  // The height over the longest side against the size, squared; far from where numbers under- or overflow.
+  // Squared height over the longest edge, relative to the size; far from underflow and overflow.
   return size > 1e-50 && size < 1e50 && u.cross(v).squaredNorm() > 1e-26 * longest2 * size * size;
 }
 
-// Zero up to the rounding of the coordinates. UniformVector are taken relative to them, then heights to
-// lengths: no product underflows or overflows.
+// Zero up to the rounding of the coordinates. Lengths are taken relative to the size of the coordinates,
+// heights relative to lengths: no product underflows or overflows.
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
   if (size == 0) return true;
@@ -200,7 +200,7 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 void find_zero_areas(const Mat3X& points, const std::vector<Triangle>& triangles, Findings& findings) {
   std::vector<char> flat(triangles.size());
-  parallel_for(triangles.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(triangles.size(), validation_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [a, b, c] = triangles[f];
       const Vec3 p = points.col(a), q = points.col(b), r = points.col(c);
@@ -222,7 +222,7 @@ std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triang
   if (!findings.empty()) return findings.sorted();
   const auto vertices = static_cast<size_t>(points.cols());
   VertexFans own_fans = examine_fans(static_cast<int>(vertices), triangles);
-  if (first_broken(own_fans) >= 0) {  // then what, and where
+  if (first_broken(own_fans) >= 0) {  // find out what and where
     find_bad_edges(vertices, triangles, findings);
     find_bad_vertices(vertices, triangles, findings);
   }
@@ -277,7 +277,7 @@ std::string face_text(int triangle, const MeshSource& source) {
                              : fmt::format("{} (line {})", face, source.line[static_cast<size_t>(face)]);
 }
 
-// The places of a problem: "edges 3-5, 5-9; faces 1, 2, 7".
+// The locations of a problem: "edges 3-5, 5-9; faces 1, 2, 7".
 std::string places_text(const Problem& problem, const MeshSource& source) {
   const bool edges =
       problem.kind == ProblemKind::non_manifold_edge || problem.kind == ProblemKind::inconsistent_orientation;

@@ -1,4 +1,5 @@
-// What can be wrong with points and triangles that should be an oriented manifold, and where.
+// Validation of points and triangles that should form an oriented manifold: what is wrong, where, and what to
+// do.
 #pragma once
 
 #include <string>
@@ -19,51 +20,50 @@ enum class ProblemKind {
   inconsistent_orientation,  // two faces run through their common edge in the same direction
   non_manifold_vertex,       // the faces around it form more than one fan
   no_area,                   // all faces have zero area
-  // The mesh is acceptable all the same:
+  // A mesh with one of these is still acceptable:
   zero_area_faces,
   isolated_vertices,      // in no face
   unconnected_triangles,  // no two of the faces share a vertex
 };
 
-/// At most so many places of a problem are kept.
+/// Maximum number of locations kept per problem.
 inline constexpr size_t max_places = 10;
 
 struct Problem {
   ProblemKind kind;
   size_t count = 0;           // how often it occurs
-  std::vector<int> faces;     // the first places, at most max_places: face ids ...
-  std::vector<int> vertices;  // ... and vertex ids; of an edge, both its ends follow each other
+  std::vector<int> faces;     // face ids of the first locations, at most max_places
+  std::vector<int> vertices;  // vertex ids of the first locations; two consecutive ones for an edge
 };
 
-/// Each kind of problem at most once, in the order of the enumeration. What only makes sense in a mesh
-/// without the first four is not looked for if one of them is there. Zero area is zero up to the rounding of
-/// the coordinates.
-/// `fans`, where given, gets the fans of the vertices, unless there are problems of these four kinds.
+/// Finds each kind of problem at most once, in the order of the enumeration. If one of the first four kinds
+/// is present, the checks that require their absence are skipped. Zero area is zero up to the rounding of the
+/// coordinates.
+/// `fans`, if given, receives the fans of the vertices, unless there are problems of these four kinds.
 std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triangle>& triangles,
                                    VertexFans* fans = nullptr);
 
-// Is this a mesh we can work on: an oriented manifold with area? If not: what is wrong, where, and what
-// helps.
+// Acceptance of a mesh, with messages.
 
-/// Snake case, for scripts: "non_manifold_edge".
+/// The name in snake case, for scripts: "non_manifold_edge".
 std::string name_of(ProblemKind kind);
 
-/// Whether a mesh with this problem can be worked on; then it is a warning.
+/// Whether a mesh with this problem can be processed; the problem is then a warning.
 bool is_acceptable(ProblemKind kind);
 
-/// Where the triangles come from, for messages.
+/// The origin of the triangles, for messages.
 struct MeshSource {
   std::string name;       // of the file, printable
-  std::vector<int> face;  // of the file, per triangle; empty: the same ids
-  std::vector<int> line;  // of each face of the file; empty: not known
+  std::vector<int> face;  // per triangle: face of the file; empty: the same ids
+  std::vector<int> line;  // per face of the file; empty: unknown
 };
 
 /// Throws MeshError "NAME: what, where; what was expected; what to do" for problems that are not acceptable.
-/// Returns the others as warnings, with name_of as code.
+/// Returns the others as warnings, with name_of() as code.
 Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source);
 
-/// Throws MeshError when the box of the points is so small or so large that the squares of areas would leave
-/// the range of numbers.
+/// Throws MeshError if the bounding box of the points is so small or so large that squares of areas would
+/// underflow or overflow.
 void require_workable_size(const Mat3X& points, const std::string& name);
 
 }  // namespace hooke

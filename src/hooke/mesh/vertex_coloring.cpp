@@ -8,9 +8,9 @@
 namespace hooke {
 namespace {
 
-constexpr size_t fan_block = 1024;  // vertices whose spokes one task finds
+constexpr size_t fan_block = 1024;  // vertices per parallel task
 
-/// Small meshes get small blocks, so that a wave has work for several threads.
+/// Small meshes get small blocks, so that a colour has work for several threads.
 int block_size(int vertex_count) {
   return std::clamp(vertex_count / 128, 8, 256);
 }
@@ -20,40 +20,40 @@ size_t corner_of(const Triangle& face, int vertex) {
 }
 
 /// The face on the other side of the edge; -1 without one.
-int beyond(const Adjacency& c, int edge, int face) {
+int face_across(const Adjacency& c, int edge, int face) {
   const auto [a, b] = c.edge_faces[static_cast<size_t>(edge)];
   return a == face ? b : a;
 }
 
-/// The vertex across the edge k of the face; -1 without one.
+/// The opposite vertex across edge k of the face; -1 without one.
 int vertex_across(const Adjacency& c, int face, size_t k) {
   const int edge = c.face_edges[static_cast<size_t>(face)][k];
-  const int other = beyond(c, edge, face);
+  const int other = face_across(c, edge, face);
   if (other < 0) return -1;
   for (int v : c.faces[static_cast<size_t>(other)])
     if (v != c.edges[static_cast<size_t>(edge)][0] && v != c.edges[static_cast<size_t>(edge)][1]) return v;
   return -1;
 }
 
-/// The first face of a fan: the one at the boundary, clockwise, or the face itself.
+/// The first face of a fan: the clockwise one at the boundary, or the given face of a closed fan.
 int first_of_fan(const Adjacency& c, int vertex, int start) {
   for (int face = start;;) {
     const auto f = static_cast<size_t>(face);
-    const int before = beyond(c, c.face_edges[f][corner_of(c.faces[f], vertex)], face);
+    const int before = face_across(c, c.face_edges[f][corner_of(c.faces[f], vertex)], face);
     if (before < 0) return face;
     if (before == start) return start;
     face = before;
   }
 }
 
-/// Writes the spokes of one fan, beginning with this face; returns the end.
+/// Writes the ring entries of one fan, beginning with this face; returns the end.
 RingEntry* write_fan(const Adjacency& c, int vertex, int start, RingEntry* out) {
   for (int face = start;;) {
     const auto f = static_cast<size_t>(face);
     const Triangle& t = c.faces[f];
     const size_t k = corner_of(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
     *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next)};
-    const int after = beyond(c, c.face_edges[f][last], face);
+    const int after = face_across(c, c.face_edges[f][last], face);
     if (after < 0) *out++ = {t[last], c.face_edges[f][last], -1, -1};
     if (after < 0 || after == start) return out;
     face = after;
@@ -66,7 +66,7 @@ void write_spokes(const Adjacency& c, int vertex, RingEntry* out) {
   const RingEntry* begin = out;
   const RingEntry* end = begin + c.vertex_edges[vertex].size();
   out = write_fan(c, vertex, first_of_fan(c, vertex, faces[0]), out);
-  for (size_t i = 1; out < end && i < faces.size(); ++i) {  // fans that touch in a point
+  for (size_t i = 1; out < end && i < faces.size(); ++i) {  // fans that touch only at the vertex
     const int first = first_of_fan(c, vertex, faces[i]);
     const bool written = std::any_of(begin, static_cast<const RingEntry*>(out),
                                      [&](const RingEntry& s) { return s.face == first; });
@@ -85,7 +85,7 @@ VertexRings make_spokes(const Adjacency& c) {
   return rings;
 }
 
-/// VertexRings of the mesh cut open at its creases, in terms of the mesh itself.
+/// Rings of the mesh cut open at its creases, in vertices of the mesh itself.
 VertexRings make_parted_spokes(const Adjacency& c) {
   const Adjacency cut = cut_open(c);
   VertexRings rings = make_spokes(cut);
@@ -95,7 +95,7 @@ VertexRings make_parted_spokes(const Adjacency& c) {
   for (int s = 0; s < cut.vertex_count; ++s) {
     const int v = vertex_of(s);
     int face = -1;
-    rings.mate.push_back(-1);
+    rings.crease_opposite.push_back(-1);
     for (int i = rings.first[static_cast<size_t>(s)]; i < rings.first[static_cast<size_t>(s) + 1]; ++i) {
       RingEntry& entry = rings.items[static_cast<size_t>(i)];
       rings.wedges.push_back(entry.neighbour);
@@ -107,20 +107,20 @@ VertexRings make_parted_spokes(const Adjacency& c) {
       rings.far_crease.push_back(entry.face >= 0 && c.is_crease(c.face_edges[f][far]));
       entry.edge = c.face_edges[f][entry.face >= 0 ? k : (k + 2) % 3];
       if (i == rings.first[static_cast<size_t>(s)] && c.is_crease(entry.edge))
-        rings.mate.back() = vertex_across(c, face, k);
+        rings.crease_opposite.back() = vertex_across(c, face, k);
       const auto e = static_cast<size_t>(entry.edge);
-      rings.owned.push_back(c.side_edges[e][c.edges[e][0] == v ? 0 : 1] == s);
+      rings.owned.push_back(c.wedge_edges[e][c.edges[e][0] == v ? 0 : 1] == s);
     }
   }
   return rings;
 }
 
-/// The other blocks that the vertices of each block look at, and those that look at them.
+/// Block adjacency: the other blocks on which the vertices of each block depend, which is symmetric.
 std::vector<std::vector<int>> blocks_seen(const VertexRings& rings, const Adjacency& c, int block) {
   const int vertex_count = c.vertex_count;
   const auto blocks = static_cast<size_t>((vertex_count + block - 1) / block);
   std::vector<std::vector<int>> seen(blocks);
-  const auto extra_wedge = [&](int vertex) {  // the first of this vertex or a later one
+  const auto extra_wedge = [&](int vertex) {  // first one of this vertex or a later one
     return static_cast<size_t>(std::ranges::lower_bound(c.extra_wedges, vertex) - c.extra_wedges.begin());
   };
   parallel_for(blocks, 8, [&](size_t begin, size_t end) {
@@ -139,10 +139,10 @@ std::vector<std::vector<int>> blocks_seen(const VertexRings& rings, const Adjace
       seen[b].erase(std::unique(seen[b].begin(), seen[b].end()), seen[b].end());
     }
   });
-  return seen;  // what lies across from a vertex has it across: the relation is symmetric
+  return seen;  // symmetric: each vertex is opposite to its opposite vertices
 }
 
-/// First fit in the order of the blocks.
+/// First-fit colouring in the order of the blocks.
 std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighbours) {
   std::vector<int> color(neighbours.size(), -1);
   std::vector<std::vector<int>> colors;

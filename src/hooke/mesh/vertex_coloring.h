@@ -1,30 +1,31 @@
-// How sweeps over the vertices run: what each vertex looks at, and which vertices may move at once.
+// Sweeps over the vertices: the one-ring of each vertex, and a colouring of blocks of vertices that can be
+// processed in parallel.
 #pragma once
 
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 
-/// An edge of a vertex, and the face between it and the next spoke about that vertex.
+/// An edge of a vertex, and the face between it and the next ring entry.
 struct RingEntry {
-  int neighbour;  // the other end
+  int neighbour;  // other end of the edge
   int edge;
   int face;    // -1 after the last edge of an open fan
-  int across;  // corner of the face beyond that face's far edge; -1 without one
+  int across;  // vertex opposite the face's far edge on its other side; -1 without one
 };
 
-/// The spokes of each vertex or, where creases part it, of each of its sides, counter-clockwise; a closed fan
-/// ends where it begins, an open one begins at the boundary or a crease.
+/// The one-ring of each vertex or, where creases divide it, of each of its wedges, counter-clockwise. A
+/// closed fan ends where it begins, an open one begins at a feature edge.
 struct VertexRings {
-  std::vector<int> first;  // size: sides + 1
+  std::vector<int> first;  // size: wedges + 1
   std::vector<RingEntry> items;
   // Per item; empty without creases:
-  std::vector<int> wedges;       // the neighbour's side, as the spoke sees it
-  std::vector<char> owned;       // 0 for a crease that is counted on the vertex's other side
+  std::vector<int> wedges;       // wedge of the neighbour
+  std::vector<char> owned;       // 0 for a crease edge that is counted in another wedge of the vertex
   std::vector<char> far_crease;  // 1 where the face's far edge is a crease
-  // Per side; empty without creases: corner of the face beyond the crease with which the side begins, -1
+  // Per wedge; empty without creases: opposite vertex across the crease edge with which the wedge begins; -1
   // where it begins otherwise.
-  std::vector<int> mate;
+  std::vector<int> crease_opposite;
 
   std::span<const RingEntry> operator[](int wedge) const {
     const auto s = static_cast<size_t>(wedge);
@@ -32,20 +33,21 @@ struct VertexRings {
   }
 };
 
-/// Sweeps go wave by wave over blocks of consecutive vertices. No vertex of a block looks at a vertex of
-/// another block of its wave: they may be worked at the same time, each from its first vertex to its last.
+/// Sweeps go colour by colour over blocks of consecutive vertices. No vertex depends on a vertex of another
+/// block of the same colour: these blocks may be processed concurrently, each from its first vertex to its
+/// last.
 struct VertexColoring {
   VertexRings rings;
   int vertices = 0;
-  int block = 1;  // vertices of a block
-  std::vector<std::vector<int>> colors;
+  int block = 1;                         // vertices per block
+  std::vector<std::vector<int>> colors;  // blocks of each colour
 };
 VertexColoring color_vertices(const Adjacency& adjacency);
 
-/// A plan of one block, for small meshes that one thread works on.
+/// A colouring with a single block, for small meshes that one thread processes.
 VertexColoring color_as_one_block(const Adjacency& adjacency);
 
-/// Calls body(begin, end) on each block of vertices, wave by wave.
+/// Calls body(begin, end) on each block of vertices, colour by colour, in parallel within a colour.
 void for_each_block(const VertexColoring& plan, const std::function<void(int begin, int end)>& body);
 
 }  // namespace hooke

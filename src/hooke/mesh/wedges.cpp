@@ -10,7 +10,7 @@ size_t corner_of(const Triangle& face, int vertex) {
   return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
 }
 
-/// The sectors about one vertex.
+/// The sectors of faces between feature edges around one vertex.
 class Sectors {
  public:
   Sectors(const Adjacency& c, int vertex) : c_(c), vertex_(vertex) {
@@ -63,7 +63,7 @@ void mark(Adjacency& c, const std::vector<Edge>& creases) {
 void split_wedges(Adjacency& c, const std::vector<Edge>& creases) {
   if (creases.empty()) return;
   mark(c, creases);
-  c.side_faces = c.faces;
+  c.wedge_faces = c.faces;
   c.extra_wedges.clear();
   std::vector<int> touched;
   for (size_t e = 0; e < c.edges.size(); ++e)
@@ -75,22 +75,22 @@ void split_wedges(Adjacency& c, const std::vector<Edge>& creases) {
     for (size_t s = 1; s < sectors.count(); ++s) {
       const int wedge = c.wedge_count();
       sectors.for_each_face(s, [&](int f) {
-        c.side_faces[static_cast<size_t>(f)][corner_of(c.faces[static_cast<size_t>(f)], v)] = wedge;
+        c.wedge_faces[static_cast<size_t>(f)][corner_of(c.faces[static_cast<size_t>(f)], v)] = wedge;
       });
       c.extra_wedges.push_back(v);
     }
   }
-  c.side_edges.resize(c.edges.size());
+  c.wedge_edges.resize(c.edges.size());
   for (size_t e = 0; e < c.edges.size(); ++e) {
     const auto f = static_cast<size_t>(c.edge_faces[e][0]);
-    for (size_t k = 0; k < 2; ++k) c.side_edges[e][k] = c.side_faces[f][corner_of(c.faces[f], c.edges[e][k])];
+    for (size_t k = 0; k < 2; ++k) c.wedge_edges[e][k] = c.wedge_faces[f][corner_of(c.faces[f], c.edges[e][k])];
   }
 }
 
 Adjacency without_creases(Adjacency c) {
   c.creases.clear();
-  c.side_faces.clear();
-  c.side_edges.clear();
+  c.wedge_faces.clear();
+  c.wedge_edges.clear();
   c.extra_wedges.clear();
   return c;
 }

@@ -11,13 +11,13 @@
 namespace hooke {
 namespace {
 
-/// Degrees below the bound from which on something else is to blame.
-constexpr double reached = 1;
+/// Degrees below the bound up to which the bound counts as reached.
+constexpr double bound_tolerance = 1;
 
 unsigned char limit_of_curve(const Workspace& work, size_t vertex) {
   const int curve = work.constraints.curve[vertex];
   const int creases = static_cast<int>(work.constraints.curves.size()) - work.constraints.crease_curves;
-  return curve < 0 ? held_by_nothing : curve < creases ? limited_by_boundary : limited_by_crease;
+  return curve < 0 ? not_limited : curve < creases ? limited_by_boundary : limited_by_crease;
 }
 
 }  // namespace
@@ -54,18 +54,18 @@ std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const 
 
 std::vector<std::string> limiting_factors(const WorstFace& face,
                                           const std::vector<unsigned char>& vertex_limits) {
-  const bool bounded = face.min_angle >= face.bound.degrees - reached;
+  const bool bounded = face.min_angle >= face.bound.degrees - bound_tolerance;
   unsigned char all = 0;
   bool inside = false;
-  const auto look = [&](int v) {
+  const auto add = [&](int v) {
     const unsigned char limit = vertex_limits[static_cast<size_t>(v)];
-    inside = inside || (limit & ~limited_by_guard) == held_by_nothing;
+    inside = inside || (limit & ~limited_by_guard) == not_limited;
     all |= limit;
   };
   if (bounded)
-    std::ranges::for_each(face.bound.vertices, look);
+    std::ranges::for_each(face.bound.vertices, add);
   else
-    std::ranges::for_each(face.vertices, look);
+    std::ranges::for_each(face.vertices, add);
 
   std::vector<std::string> names;
   if (all & limited_at_corner) names.push_back("corner");

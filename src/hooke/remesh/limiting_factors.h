@@ -1,4 +1,5 @@
-// Why an angle is no larger: what holds the vertices of a result, and which of that bounds a face.
+// Limiting factors of the minimum angle: what restricts the vertices of a result, and which of these limits
+// bounds the angle of a given face.
 #pragma once
 
 #include "hooke/core/types.h"
@@ -11,24 +12,26 @@ struct Workspace;
 
 struct WorstFace;
 
-/// What holds a vertex, as bits.
-enum Hold : unsigned char {
-  held_by_nothing = 0,
-  limited_by_boundary = 1,  // slides along it or lies on it
-  limited_by_crease = 2,    // slides along it or lies on it
-  limited_at_corner = 4,    // stands still, where curves of the input end, turn or lie on each other
-  limited_by_request = 8,   // stands still, because it was asked to
+/// The limits of a vertex, as bits.
+enum VertexLimit : unsigned char {
+  not_limited = 0,
+  limited_by_boundary = 1,  // lies on the boundary
+  limited_by_crease = 2,    // lies on a crease
+  limited_at_corner = 4,    // fixed where feature curves of the input end, turn or overlap
+  limited_by_request = 8,   // fixed by the options
   limited_by_guard = 16,    // next to a face or an edge that is at a limit of the guards
 };
 
-/// Per vertex of the result, where `asked` is what the constraints of the work were made from.
+/// The limits of each vertex of the result, as bits of VertexLimit. `asked`: the options from which the
+/// constraints of the workspace were made.
 std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const Guards& guards,
                                                    const ConstraintOptions& asked);
 
-/// What bounds the least angle of a face, by name. Where the connectivity does, what the vertices are that
-/// set the bound: "corner", "fixed", "crease", "boundary", or "valence" inside. Otherwise what holds the
-/// face's own vertices, "guard" included, or "lengths" when it is only the aim of equal edges. Pre-condition:
-/// the face has been measured on the mesh that has these holds.
+/// Names of what bounds the minimum angle of a face. If the bound by the connectivity is reached (see
+/// angle_bound.h), these are the kinds of the vertices that set it: "corner", "fixed", "crease", "boundary",
+/// or "valence" for others. Otherwise they are the limits of the face's own vertices, including "guard", or
+/// "lengths" if there is only the objective of equal edges. Pre-condition: the face was measured on the mesh
+/// to which `vertex_limits` belongs.
 std::vector<std::string> limiting_factors(const WorstFace& face,
                                           const std::vector<unsigned char>& vertex_limits);
 

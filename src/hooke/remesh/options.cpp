@@ -3,12 +3,12 @@
 namespace hooke {
 namespace {
 
-/// Adaptation has spread the vertices out.
+/// Less flow and fewer springs: the vertices are distributed after the adaptation.
 void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
   switch (effort) {
     case Effort::fast:
       flips.flow.rounds = 12;
-      flips.spring_rounds = 0;  // those before the pass do
+      flips.spring_rounds = 0;  // those before the pass suffice
       flips.passes.passes = 1;
       flips.passes.rounds = 3;
       flips.passes.sweeps = 2;
@@ -23,20 +23,20 @@ void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
   }
 }
 
-/// Flips alone pay for a larger least angle with their edges' lengths.
-void set_sliver_removal(SliverTrialOptions& trials, ConnectivityMode mode, Effort effort) {
+/// Mode `flip` omits the larger sliver angles: flips alone reach them only with less equal edges.
+void set_sliver_removal(SliverOptions& slivers, ConnectivityMode mode, Effort effort) {
   const bool adapts = mode == ConnectivityMode::adapt;
   switch (effort) {
     case Effort::fast:
-      trials.rounds = 2;
-      trials.sliver_angles = {30};
+      slivers.rounds = 2;
+      slivers.sliver_angles = {30};
       break;
     case Effort::standard:
-      if (!adapts) trials.sliver_angles = {25, 30, 35};
+      if (!adapts) slivers.sliver_angles = {25, 30, 35};
       break;
     case Effort::thorough:
-      trials.searched = 100;
-      if (adapts) trials.sliver_angles = {25, 30, 35, 40, 45};
+      slivers.searched = 100;
+      if (adapts) slivers.sliver_angles = {25, 30, 35, 40, 45};
       break;
   }
 }
@@ -48,18 +48,18 @@ void set_effort(RemeshOptions& options, Effort effort) {
   options.adaptation = adapt_options(effort);
   if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
   if (options.connectivity != ConnectivityMode::fixed) {
-    set_sliver_removal(options.slivers.trials, options.connectivity, effort);
+    set_sliver_removal(options.slivers.pass, options.connectivity, effort);
     return;
   }
   switch (effort) {
-    case Effort::fast:  // one round, and angle springs once, not in rising stages
+    case Effort::fast:  // one outer iteration, and angle springs in a single stage
       options.max_outer = 1;
       options.angle_springs.first_threshold = options.angle_springs.last_threshold = 24;
       options.angle_springs.sweeps = 8;
       break;
     case Effort::standard:
       break;
-    case Effort::thorough:  // smaller stages, and edges pay a little for the angles
+    case Effort::thorough:  // smaller stages; edges may become a little less equal
       options.max_outer = 12;
       options.integration.energy_drop = 2e-3;
       options.outer_drop = 1e-3;

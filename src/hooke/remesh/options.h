@@ -1,4 +1,4 @@
-// What a run is to do: the options of all its parts, and what an effort stands for.
+// The options of a remeshing run, including those of all its steps, and their presets for the effort levels.
 #pragma once
 
 #include "hooke/connectivity/adaptation.h"
@@ -16,55 +16,57 @@
 
 namespace hooke {
 
+/// When a new surface field is fitted: before each outer iteration that follows one in which guards limited
+/// vertices, or once. Mode `adapt` always fits once.
 enum class Refit { each, once };
 
-/// What brings the springs to their equilibrium; untangling and polishing go vertex by vertex.
+/// The method that finds the equilibrium of the springs. Untangling and angle optimisation work vertex by
+/// vertex with either.
 enum class IntegratorKind {
   lbfgs,   // minimises the energy
   damped,  // follows the evolution [17], torque included
 };
 
-/// What a mesh that is good already must not lose. Equal edges and great angles are two aims: a mesh whose
-/// angles are all good could pay for the one with the other.
+/// Preserves near-regular meshes: equal edges and large angles are two objectives, and a mesh whose angles
+/// are all good could lose angles for more equal edges. A mesh is near-regular if it is within both `angle`
+/// and `deviation`.
 struct NearRegularOptions {
-  double angle = 35;        // degrees; a mesh is near-regular if no angle is below ...
-  double deviation = .25;   // ... and the standard deviation of l / L_e is at most this part of its mean
-  double max_travel = .19;  // of its target length, that a vertex of a near-regular mesh may travel
+  double angle = 35;        // degrees; minimum angle of a near-regular mesh
+  double deviation = .25;   // maximum standard deviation of l / L_e, over its mean
+  double max_travel = .19;  // maximum travel of a vertex of a near-regular mesh, in its target lengths
 };
 
 struct RemeshOptions {
   ConnectivityMode connectivity = ConnectivityMode::fixed;
   FlipOptions flips = flip_options(Effort::standard);  // in the modes `flip` and `adapt`
   AdaptOptions adaptation;                             // in mode `adapt`
-  bool map = false;                                    // RemeshResult::map is wanted
+  bool map = false;                                    // compute RemeshResult::map
   IntegratorKind integrator = IntegratorKind::lbfgs;
-  IntegrationOptions integration{.energy_drop = 4e-3};  // its energy_drop is that of mode `fixed`
+  IntegrationOptions integration{.energy_drop = 4e-3};  // energy_drop: in mode `fixed`
   LbfgsOptions lbfgs;
   DampedOptions damped;
-  double altitude = 1;  // beta, weight of the altitude springs against the strings
+  double altitude = 1;  // beta, weight of the altitude springs relative to the strings
   GuardOptions guards;
   NearRegularOptions near_regular;  // in mode `fixed`
   UntangleOptions untangle;
   AngleSpringOptions angle_springs;
-  bool polish_angles = true;
-  AngleSearchOptions search;     // after the polish
-  SliverRemovalOptions slivers;  // after that, in the modes `flip` and `adapt`
+  bool polish_angles = true;     // run angle springs, search and sliver removal
+  AngleSearchOptions search;     // after the angle springs
+  SliverRemovalOptions slivers;  // after the search, in the modes `flip` and `adapt`
   FilterOptions filter{.max_deviation = .35};
-  // Of the field: before each outer iteration, where the guards guard_limited the last; or once, which
-  // `adapt` always does.
   Refit refit = Refit::each;
   RetractionOptions retraction{.tolerance = 1e-5, .lazy = 2};
   ConstraintOptions constraints;
-  double tolerance = 1e-3;   // of every edge, in parts of its target length
-  int max_outer = 6;         // outer iterations
-  double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this part ...
-  /// ... or comes to rest where guards held back no more of the vertices' steps than this part, all trials
-  /// counted.
+  double tolerance = 1e-3;   // converged when max |l - L_e| / L_e is below this
+  int max_outer = 6;         // maximum number of outer iterations
+  double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this share
+  /// Also stalled when an iteration comes to rest and guards limited no more than this share of all evaluated
+  /// vertex steps.
   double guard_limited = 2.5e-4;
 };
 
-/// Sets the counts and limits that an effort stands for, in the connectivity mode of the options. `standard`
-/// is what the options are by default.
+/// Sets the options for an effort level, in the connectivity mode of the options. `standard` is the default
+/// of mode `fixed`.
 void set_effort(RemeshOptions& options, Effort effort);
 
 }  // namespace hooke

@@ -13,7 +13,7 @@
 namespace hooke {
 namespace {
 
-/// The work in hand and the account of it.
+/// A run of Algorithm 1.
 class PaperRun {
  public:
   PaperRun(const TriMesh& mesh, MemoryOrder memory_order, const PaperOptions& options,
@@ -63,8 +63,8 @@ class PaperRun {
     vertex_points(mesh_) = p.points;
   }
 
-  /// What curve and fixed vertices may not do, where the user asked for more than the paper. All others stay
-  /// free in space, as they are there.
+  /// Restricts the forces on curve and fixed vertices, if the options have any, beyond the paper. All other
+  /// vertices move freely in space, as in the paper.
   Restraint boundary_rule() const {
     const bool all_free =
         std::ranges::all_of(work_.constraints.freedom, [](Freedom f) { return f == Freedom::surface; });
@@ -89,16 +89,16 @@ class PaperRun {
     };
   }
 
-  /// Faces of the present points against the surface of the input: the field of a folded mesh is no judge.
+  /// Faces of the present points that are folded against the surface of the input; a field fitted to a folded
+  /// mesh would not show them.
   std::vector<int> folded_faces() {
-    SurfacePositions seen =
-        to_input_.place(work_.positions.points, input_anchors(), work_.positions.segments);
+    SurfacePositions seen = to_input_.place(work_.positions.points, input_hints(), work_.positions.segments);
     seen.points = work_.positions.points;
     const Guards guards(*work_.adjacency, work_.targets, {});
     return faces_of_result(work_, guards.folded_faces(seen));
   }
 
-  std::vector<int> input_anchors() const {
+  std::vector<int> input_hints() const {
     std::vector<int> hints(work_.positions.hints.size());
     std::iota(hints.begin(), hints.end(), 0);
     return hints;
@@ -122,9 +122,9 @@ class PaperRun {
   const PaperOptions& options_;
   const Observer& observer_;
   Workspace work_;
-  Retraction to_input_;  // to the field of the input, for the last look
+  Retraction to_input_;  // to the field of the input, for folded_faces()
   Energy strings_;
-  TriMesh mesh_;  // in motion
+  TriMesh mesh_;  // with the moving vertices
   RemeshResult result_;
   int outer_ = 0;
   bool done_ = false;

@@ -18,7 +18,7 @@
 namespace hooke {
 namespace {
 
-/// Standard deviation of l / L_e in parts of its mean.
+/// Standard deviation of l / L_e over its mean.
 double spread_of_edges(const Workspace& work) {
   const auto& edges = work.adjacency->edges;
   double sum = 0, squares = 0;
@@ -37,8 +37,8 @@ double spread_of_edges(const Workspace& work) {
 bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards) {
   const bool near_regular = min_angle(*work.start, work.adjacency->faces) >= options.angle &&
                             spread_of_edges(work) <= options.deviation;
-  if (near_regular || !work.graded())
-    guards.cotangent = cotangent_to_keep(work.positions.points, work.adjacency->faces);
+  if (near_regular || !work.has_varying_lengths())
+    guards.cotangent = cotangent_limit(work.positions.points, work.adjacency->faces);
   if (near_regular) {
     work.constraints.rest_position = *work.start;
     for (double length : work.vertex_length)
@@ -49,9 +49,9 @@ bool keep_near_regular(Workspace& work, const NearRegularOptions& options, Guard
 
 namespace {
 
-/// What every connectivity mode ends with, on faces that stay: unfolds, relaxes and puts the vertices back on
-/// the surface until they are at rest, then raises the least angles. They have landed on the field of the
-/// input in the end, interrupted or not.
+/// The common last part of all connectivity modes, with fixed faces: unfolds the mesh, alternates relaxation
+/// and projection to the surface until the vertices are at rest, then raises the minimum angles. In the end
+/// the vertices are projected to the field of the input, even if interrupted.
 class OuterIterations {
  public:
   OuterIterations(Workspace& work, const RemeshOptions& options, const Observer& observer)
@@ -62,7 +62,7 @@ class OuterIterations {
         guards_(*work_.adjacency, work_.targets, options.guards),
         projection_(work, options.guards) {}
 
-  /// `flips` is what the mode has done before: nothing more is done if it was interrupted.
+  /// `flips`: the result of the connectivity mode; if it was interrupted, vertices are only projected.
   RemeshResult run(const FlipResult& flips) {
     result_.flips = flips;
     if (flips.interrupted)
@@ -76,13 +76,13 @@ class OuterIterations {
     if (!interrupted() && options_.polish_angles)
       raise_angles();
     else if (outer_ == 0)
-      project_to_input();  // no iteration has
+      project_to_input();  // no iteration has done so
     conclude();
     return std::move(result_);
   }
 
-  /// Other faces about the worst corners: these are searched again, for the `result` of a run so far, which
-  /// has taken so long.
+  /// Searches the angles again after edges near slivers have changed. `result`: of the run so far, which took
+  /// `seconds`.
   RemeshResult search_again(RemeshResult result, double seconds) {
     result_ = std::move(result);
     seconds_before_ = seconds;
@@ -121,12 +121,12 @@ class OuterIterations {
     if (unfolded.sweeps > 0) record("untangle", {.steps = unfolded.sweeps});
   }
 
-  /// The sweeps take out slivers, of which hardly any are left after flow, or after an iteration that no
-  /// guard held back.
+  /// Newton sweeps remove slivers. Hardly any are left after Lloyd flow or an iteration without limiting
+  /// guards.
   LbfgsOptions lbfgs() const {
     LbfgsOptions lbfgs = options_.lbfgs;
     const bool flowed = options_.connectivity != ConnectivityMode::fixed;
-    if (flowed || !held_back_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
+    if (flowed || !guard_limited_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
     lbfgs.projects_at_end = !goes_on();
     return lbfgs;
   }
@@ -151,23 +151,23 @@ class OuterIterations {
     throw Error("unknown integrator");
   }
 
-  /// A coarser mesh knows less of the surface than the input does.
+  /// Mode `adapt` keeps the field of the input, as a coarser mesh has less detail.
   bool refits() const {
     return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt &&
            !free_of_guards_;
   }
 
-  /// Came to rest where the guards had next to nothing to hold back: there the surface is smooth under the
-  /// mesh. A field fitted to vertices on it is the same surface again, and the minimum the same, unless the
-  /// vertices have come to places with other target lengths.
+  /// Did the relaxation come to rest with hardly a step limited by guards? Then the surface is smooth at the
+  /// scale of the mesh, a new field fitted to it is the same surface, and the minimum is the same, unless
+  /// target lengths vary.
   bool is_free_of_guards(const IntegrationResult& relaxed) const {
     const double vertex_steps = static_cast<double>(relaxed.evaluations) * work_.adjacency->vertex_count;
-    return options_.integrator == IntegratorKind::lbfgs && !work_.graded() &&
+    return options_.integrator == IntegratorKind::lbfgs && !work_.has_varying_lengths() &&
            relaxed.reason == StopReason::stalled &&
            static_cast<double>(relaxed.limited_steps) <= options_.guard_limited * vertex_steps;
   }
 
-  /// The next iteration or the polish goes on from where the vertices are, on the same field.
+  /// Does the next iteration or the angle optimisation continue on the same field, without projection?
   bool goes_on() const {
     return options_.polish_angles && (free_of_guards_ || options_.connectivity == ConnectivityMode::adapt);
   }
@@ -177,7 +177,7 @@ class OuterIterations {
     if (refits() && outer_ > 1) projection_.refit();
     const double energy = energy_(work_.positions.points, work_.positions.normals, nullptr);
     IntegrationResult relaxed = relax();
-    held_back_ = relaxed.limited_steps > 0;
+    guard_limited_ = relaxed.limited_steps > 0;
     free_of_guards_ = is_free_of_guards(relaxed);
     if (!goes_on() || relaxed.reason == StopReason::interrupted) {
       project_to_input();
@@ -215,21 +215,21 @@ class OuterIterations {
                       .energy = energy_(work_.positions.points, work_.positions.normals, nullptr)});
   }
 
-  /// On the field fitted last, where vertices can move that will not land; then, where landing has changed
-  /// what is worst, on that of the input.
+  /// Searches on the field fitted last, where vertices can move that the final projection would revert, and
+  /// again on the field of the input, as the projection may have changed the worst angles.
   void search() {
     if (work_.refitted()) {
       project_drifted(guards_, *work_.retraction, work_.positions);
-      search_here();
+      search_on_current_field();
     }
     project_to_input();
     work_.return_to_input();
-    result_.unprojected = projection_.project(search_here());
+    result_.unprojected = projection_.project(search_on_current_field());
     work_.resample_lengths();
   }
 
   /// Returns the vertices that may have moved.
-  std::vector<int> search_here() {
+  std::vector<int> search_on_current_field() {
     return timed(work_.stopwatch, "search", [&] {
       Relaxation r = relaxation();
       return search_angles(r, options_.search).vertices;
@@ -275,13 +275,13 @@ class OuterIterations {
   RemeshResult result_;
   double seconds_before_ = 0;
   int outer_ = 0;
-  bool held_back_ = true;  // by the guards, in the last relaxation
+  bool guard_limited_ = true;  // did guards limit steps of the last relaxation?
   bool free_of_guards_ = false;
   bool done_ = false;
 };
 
-/// A coarser mesh was relaxed before: these vertices started where they are nearly at rest.
-RemeshOptions relaxing_little(RemeshOptions options) {
+/// Fewer iterations after a coarser mesh, which leaves the vertices nearly at rest.
+RemeshOptions after_coarse_levels(RemeshOptions options) {
   options.max_outer = std::min(options.max_outer, options.adaptation.last_outer);
   int& steps = options.integration.max_steps;
   if (options.integrator == IntegratorKind::lbfgs)
@@ -289,7 +289,7 @@ RemeshOptions relaxing_little(RemeshOptions options) {
   return options;
 }
 
-/// Slivers that are left get other edges. Returns whether there was any such change.
+/// One pass of sliver removal. Returns whether an edge was changed.
 bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Observer& observer,
                          RemeshResult& result) {
   const auto start = std::chrono::steady_clock::now();
@@ -302,13 +302,13 @@ bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Ob
     return remove_slivers(work, options.connectivity, {.altitude = options.altitude}, options.slivers,
                           options.guards, options.constraints.corner_angle, watch);
   });
-  result.sliver_tries += changes.tries;
+  result.sliver_tests += changes.tested;
   if (changes.count() == 0) return false;
   RemeshOptions rest = options;
-  rest.search.sagitta = options.slivers.trials.change.sagitta;
+  rest.search.sagitta = options.slivers.pass.change.sagitta;
   const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
-  const std::chrono::duration<double> trials = std::chrono::steady_clock::now() - start;
-  result = OuterIterations(work, rest, observer).search_again(std::move(result), before + trials.count());
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  result = OuterIterations(work, rest, observer).search_again(std::move(result), before + elapsed.count());
   result.flips.flips += changes.flips;
   result.adaptation.splits += changes.splits;
   result.adaptation.collapses += changes.collapses;
@@ -348,12 +348,12 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
   if (options.connectivity != ConnectivityMode::fixed && !flips.interrupted)
     flips = timed(stopwatch, "flip", [&] {
       const FlipOptions then = flips_after(adapted, options.adaptation, options.flips);
-      return flip_connectivity(work, then, terms, options.guards, corner_angle, observer);
+      return run_flip_mode(work, then, terms, options.guards, corner_angle, observer);
     });
   RemeshOptions then = options;
   const bool near_regular = options.connectivity == ConnectivityMode::fixed &&
                             keep_near_regular(work, options.near_regular, then.guards);
-  if (adapted.levels > 0 && options.polish_angles) then = relaxing_little(std::move(then));
+  if (adapted.levels > 0 && options.polish_angles) then = after_coarse_levels(std::move(then));
   RemeshResult result = OuterIterations(work, then, observer).run(flips);
   result.near_regular = near_regular;
   result.adaptation = adapted;

@@ -1,4 +1,5 @@
-// Filtered Hooke's Optimization, Algorithm 1: relaxation and filtering by turns until the mesh is regular.
+// Filtered Hooke's Optimization, Algorithm 1: alternates relaxation and filtering until the mesh is regular.
+// Also runs the connectivity modes before it, and angle optimisation and sliver removal after it.
 // "Hooke's Optimization for 3D triangular mesh".
 #pragma once
 
@@ -9,22 +10,22 @@ namespace hooke {
 
 class Stopwatch;
 
-/// Moves the vertices of the mesh on its own surface until its edges are as near to their target lengths
-/// (v:target_length) as the connectivity allows, then raises its least angles. Ids stay, and in mode `fixed`
-/// connectivity; in mode `flip` the mesh gets new faces, of as many ids, and its vertices may travel far from
-/// where they were. In mode `adapt` it gets other vertices too: first those that are left of its own, in
-/// their order, then new ones. The mesh is always left valid; an observer that returns false stops with what
-/// has been reached.
+/// Moves the vertices of the mesh on its own surface until its edges are as close to their target lengths
+/// (v:target_length) as the connectivity allows, then raises its minimum angles. Mode `fixed` keeps vertices,
+/// faces and their ids. Mode `flip` keeps the vertex ids and the number of faces, but replaces the faces, and
+/// vertices may travel far. Mode `adapt` replaces the vertices too: the remaining ones come first, in their
+/// order, then new ones. The mesh is always left valid; an observer that returns false stops the run with the
+/// result reached so far. Throws LimitError or NumericalError if the surface field cannot be fitted.
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr,
                     Stopwatch* stopwatch = nullptr);
 
-/// The same with the mesh's layout, where it is known already.
+/// The same for a mesh whose memory order is known.
 RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                     const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
 
-/// Lets the guards keep the least angle where all edges are to have one length or the mesh is near-regular,
-/// and the vertices of a near-regular mesh within reach. Returns whether it is near-regular. Pre-condition:
-/// no vertex has moved.
+/// Makes the guards preserve the minimum angle if the mesh is near-regular or has a uniform target length,
+/// and limits the travel of the vertices of a near-regular mesh. Returns whether the mesh is near-regular.
+/// Pre-condition: no vertex has moved.
 bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards);
 
 }  // namespace hooke

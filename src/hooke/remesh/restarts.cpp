@@ -19,9 +19,9 @@ namespace {
 struct Run {
   TriMesh mesh;
   RemeshResult result;
-  std::size_t flaws = 0;  // flipped faces, and pairs of faces that cross beyond those of the input
-  double angle = 0;       // the least, degrees
-  double bound = 60;      // of that face
+  std::size_t flaws = 0;  // flipped faces, and intersecting pairs of faces in excess of the input's
+  double angle = 0;       // minimum angle, degrees
+  double bound = 60;      // upper bound of the minimum angle of that face, degrees
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -47,19 +47,19 @@ class Restarts {
 
   Run best() const {
     Run best = make(0);
-    const auto most =
-        std::min<double>(restarts_.most, restarts_.max_faces / static_cast<double>(best.face_count()));
-    if (most < 2 || best.is_interrupted()) return best;
+    const auto max_runs =
+        std::min<double>(restarts_.max_runs, restarts_.max_faces / static_cast<double>(best.face_count()));
+    if (max_runs < 2 || best.is_interrupted()) return best;
     judge(best);
-    int tries = best.result.sliver_tries, kept = 1, made = 1;
-    while (made + 1 <= most && tries < restarts_.max_tries && !is_good(best)) {
+    int tests = best.result.sliver_tests, kept = 1, made = 1;
+    while (made + 1 <= max_runs && tests < restarts_.max_sliver_tests && !is_good(best)) {
       Run next = make(made);
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
         break;
       }
       ++made;
-      tries += next.result.sliver_tries;
+      tests += next.result.sliver_tests;
       judge(next);
       if (!next.is_better_than(best)) continue;
       best = std::move(next);
@@ -76,8 +76,8 @@ class Restarts {
     return a.flaws == 0 && a.angle >= std::min(restarts_.good_angle, close * a.bound);
   }
 
-  /// Another start: edges are split a little sooner or later, flow goes on for a little longer or shorter,
-  /// and the surface is drawn closer to its faces.
+  /// The options of a restart: edges are split at a slightly different length, Lloyd flow has a few more or
+  /// fewer rounds, and the deviation bound of the surface is smaller.
   RemeshOptions varied(int number) const {
     RemeshOptions o = options_;
     if (number == 0) return o;
@@ -129,11 +129,11 @@ class Restarts {
 RestartOptions restart_options(Effort effort) {
   switch (effort) {
     case Effort::fast:
-      return {.most = 1};
+      return {.max_runs = 1};
     case Effort::standard:
       break;
     case Effort::thorough:
-      return {.most = 20, .max_faces = 2e5, .max_tries = 4000};
+      return {.max_runs = 20, .max_faces = 2e5, .max_sliver_tests = 4000};
   }
   return {};
 }
@@ -142,7 +142,7 @@ RemeshResult remesh_with_restarts(TriMesh& mesh, MemoryOrder memory_order, const
                                   const RestartOptions& restarts, const Observer& observer,
                                   Stopwatch* stopwatch) {
   const bool small = 2 * static_cast<double>(memory_order.adjacency->faces.size()) <= restarts.max_faces;
-  if (options.connectivity == ConnectivityMode::fixed || restarts.most < 2 || !small)
+  if (options.connectivity == ConnectivityMode::fixed || restarts.max_runs < 2 || !small)
     return remesh(mesh, std::move(memory_order), options, observer, stopwatch);
   Run best = Restarts(mesh, memory_order, options, restarts, observer, stopwatch).best();
   mesh = std::move(best.mesh);

@@ -1,5 +1,5 @@
-// Small meshes again from other starts. On rough coarse surfaces, thin sheets above all, small differences at
-// the start decide what becomes of the worst faces; what can be paid for is tried more than once.
+// Restarts: remeshes a small mesh several times with varied options and keeps the best result. On rough
+// coarse surfaces, thin sheets in particular, the worst faces depend on small differences at the start.
 #pragma once
 
 #include "hooke/remesh/options.h"
@@ -8,19 +8,19 @@
 namespace hooke {
 
 struct RestartOptions {
-  int most = 12;           // attempts
-  double max_faces = 4e4;  // of the results of all attempts together; a larger mesh is made once
-  int max_tries = 1000;    // no further attempt after so many sliver_tries: there is little to be gained
-  double good_angle = 30;  // degrees; a result with a smaller one, which might be larger, is not good
+  int max_runs = 12;            // maximum number of runs, including the first
+  double max_faces = 4e4;       // maximum sum of the faces of all results; a larger mesh has one run
+  int max_sliver_tests = 1000;  // sum of RemeshResult::sliver_tests after which further runs gain little
+  double good_angle = 30;  // degrees; minimum angle of a good result, or nearly the bound if that is smaller
 };
 
-/// The options that an effort stands for.
+/// The options for an effort level.
 RestartOptions restart_options(Effort effort);
 
-/// remesh(), in the modes `flip` and `adapt` again from other starts while the result is not good: while
-/// faces are flipped, more pairs cross than before, or the least angle is small and its bound (see
-/// crease_bound.h) is not. The best result is kept: by flipped faces and crossings, then by the least angle.
-/// An interrupted attempt after the first counts for nothing.
+/// Like remesh(), but in the modes `flip` and `adapt` restarted while the result is not good: while it has
+/// flipped faces, more intersecting pairs of faces than the input, or a small minimum angle whose bound (see
+/// angle_bound.h) is larger. Keeps the best result, by flipped faces and intersections, then by the minimum
+/// angle. The result of an interrupted restart is discarded.
 RemeshResult remesh_with_restarts(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                                   const RestartOptions& restarts = {}, const Observer& observer = nullptr,
                                   Stopwatch* stopwatch = nullptr);

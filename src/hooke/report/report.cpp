@@ -128,8 +128,6 @@ Json to_json(const Topology& t, const Extent& e) {
   return json;
 }
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 Json file_json(const FileRecord& file, const Quality& quality) {
@@ -181,7 +179,7 @@ Json geometry_json(const RunRecord& run) {
   return j;
 }
 
-/// Null where none were found.
+/// Null if no creases were found.
 Json creases_json(const RunRecord& run) {
   if (!run.result || run.result->creases.edges == 0) return nullptr;
   const CreaseCounts& c = run.result->creases;
@@ -193,8 +191,8 @@ Json creases_json(const RunRecord& run) {
           {"charts", c.charts}};
 }
 
-/// What mode `flip` did, and mode `adapt` after it had adapted: null without. Travel is in target lengths,
-/// null where vertices came and went.
+/// Counts of mode `flip`, which also runs after the adaptation in mode `adapt`; null in mode `fixed`. Travel
+/// is in target lengths, null in mode `adapt`.
 Json flips_json(const RunRecord& run) {
   if (!run.result || run.parameters.value("connectivity", "fixed") == "fixed") return nullptr;
   const FlipResult& f = run.result->flips;
@@ -204,14 +202,14 @@ Json flips_json(const RunRecord& run) {
   return j;
 }
 
-/// What mode `adapt` did: null without it.
+/// Counts of mode `adapt`, null in the other modes.
 Json adaptation_json(const RunRecord& run) {
   if (!run.result || run.result->adaptation.rounds == 0) return nullptr;
   const AdaptResult& a = run.result->adaptation;
   return {{"coarse_levels", a.levels},      {"rounds", a.rounds},
           {"count_rounds", a.count_rounds}, {"splits", a.splits},
           {"collapses", a.collapses},       {"flips", a.flips},
-          {"wanted_faces", a.wanted_faces}};
+          {"wanted_faces", a.target_faces}};
 }
 
 Json stages_json(const std::vector<StageTime>& stages) {
@@ -292,8 +290,6 @@ std::string report_text(const RunRecord& run) {
   return report_json(run).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 const char* name_of(FilterKind kind) {
@@ -346,7 +342,7 @@ const char* name_of(Effort effort) {
   return "";
 }
 
-/// The value where it has an effect.
+/// The value if it has an effect, else null.
 template <typename Value>
 Json where(bool effective, const Value& value) {
   return effective ? Json(value) : Json();
@@ -364,21 +360,21 @@ void add_filter(Json& j, const FilterOptions& filter) {
   j["reach"] = where(splines && std::isfinite(filter.max_deviation), filter.max_deviation);
 }
 
-void add_polish(Json& j, const RemeshOptions& o) {
-  const AngleSpringOptions& polish =
+void add_angle_springs(Json& j, const RemeshOptions& o) {
+  const AngleSpringOptions& springs =
       o.connectivity == ConnectivityMode::fixed ? o.angle_springs : o.flips.angle_springs;
   const bool on = o.polish_angles;
   j["polish"] = on;
-  j["polish_from"] = where(on, polish.first_threshold);
-  j["polish_margin"] = where(on, polish.margin);
-  j["polish_step"] = where(on, polish.threshold_step);
-  j["polish_up_to"] = where(on, polish.last_threshold);
-  j["polish_sweeps"] = where(on, polish.sweeps);
-  j["polish_edge_limit"] = where(on, polish.edge_error_limit);
+  j["polish_from"] = where(on, springs.first_threshold);
+  j["polish_margin"] = where(on, springs.margin);
+  j["polish_step"] = where(on, springs.threshold_step);
+  j["polish_up_to"] = where(on, springs.last_threshold);
+  j["polish_sweeps"] = where(on, springs.sweeps);
+  j["polish_edge_limit"] = where(on, springs.edge_error_limit);
 }
 
-/// Of a mesh that is near-regular already.
-void add_harm(Json& j, const RemeshOptions& o) {
+/// Parameters that preserve near-regular meshes, null unless in mode `fixed`.
+void add_near_regular(Json& j, const RemeshOptions& o) {
   const bool fixed = o.connectivity == ConnectivityMode::fixed;
   j["near_regular_angle"] = where(fixed, o.near_regular.angle);
   j["near_regular_deviation"] = where(fixed, o.near_regular.deviation);
@@ -395,18 +391,18 @@ Json parameters_json(const RemeshOptions& o, const RestartOptions& restarts, Eff
   j["paper"] = false;
   j["connectivity"] = name_of(o.connectivity);
   j["effort"] = name_of(effort);
-  j["most_attempts"] = fixed ? 1 : restarts.most;
+  j["most_attempts"] = fixed ? 1 : restarts.max_runs;
   j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;
   j["last_outer"] = where(adapts && o.polish_angles, o.adaptation.last_outer);
   j["last_steps"] = where(adapts && o.polish_angles && !damped && o.adaptation.last_steps,
                           o.adaptation.last_steps.value_or(0));
-  j["coarse_flow_rounds"] = adapts ? o.adaptation.coarse_flow : 0;  // of what follows where there are any
+  j["coarse_flow_rounds"] = adapts ? o.adaptation.coarse_flow : 0;  // if there are coarse levels
   j["last_flow_rounds"] = adapts ? o.adaptation.last_flow : 0;
   j["integrator"] = damped ? "damped" : "lbfgs";
-  add_polish(j, o);
-  add_harm(j, o);
+  add_angle_springs(j, o);
+  add_near_regular(j, o);
   add_filter(j, o.filter);
   j["refit"] = where(has_splines(o.filter.kind), o.refit == Refit::each && !adapts ? "each" : "once");
   j["altitude"] = o.altitude;
@@ -428,10 +424,10 @@ Json parameters_json(const RemeshOptions& o, const RestartOptions& restarts, Eff
   j["guard_fold"] = o.guards.fold;
   j["guard_sagitta"] = o.guards.sagitta;
   j["search_sagitta"] = where(o.polish_angles, o.search.sagitta);
-  const bool mends = o.polish_angles && !fixed;
-  j["sliver_angles"] = where(mends, o.slivers.trials.sliver_angles);
-  j["sliver_passes"] = where(mends, o.slivers.passes);
-  j["sliver_sagitta"] = where(mends, o.slivers.trials.change.sagitta);
+  const bool removes_slivers = o.polish_angles && !fixed;
+  j["sliver_angles"] = where(removes_slivers, o.slivers.pass.sliver_angles);
+  j["sliver_passes"] = where(removes_slivers, o.slivers.passes);
+  j["sliver_sagitta"] = where(removes_slivers, o.slivers.pass.change.sagitta);
   return j;
 }
 

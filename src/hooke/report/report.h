@@ -1,5 +1,6 @@
-// The measured figures as JSON, for the report. Degrees, file units, 0-based ids; `null` for what does not
-// exist.
+// The JSON report of a run, schema hooke-remesh/report/1: parameters, measures of the input and the result,
+// iterations and resources. Degrees, file units, 0-based ids; `null` for what does not exist. Values that
+// vary from run to run stand only under `resources` and in keys that end in _s.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +19,7 @@ struct PaperOptions;
 struct RemeshOptions;
 
 /// {min, p01, p05, median, mean, p95, max, std, histogram: {edges, counts}, non_finite}; the figures and the
-/// histogram are null when there was no finite number.
+/// histogram are null if there was no finite value.
 nlohmann::ordered_json to_json(const Statistics& statistics);
 
 /// The blocks `before` and `after`.
@@ -30,14 +31,10 @@ nlohmann::ordered_json to_json(const Deviation& deviation);
 /// The figures of the mesh itself in the blocks `input` and `output`, from `vertices` to `volume`.
 nlohmann::ordered_json to_json(const Topology& topology, const Extent& extent);
 
-// The JSON report of a run: what went in, what came out, and what the way cost. Schema hooke-remesh/report/1:
-// degrees, file units, 0-based ids; `null` for what does not exist. What varies from run to run stands only
-// under `resources` and in keys that end in _s.
-
 /// A mesh file and the mesh in it.
 struct FileRecord {
   std::string path;
-  std::string sha256;  // of the bytes
+  std::string sha256;  // of the bytes of the file
   std::string format;
   std::string connectivity_sha256;
 };
@@ -49,16 +46,16 @@ struct Resources {
   long long peak_rss_bytes = 0;
 };
 
-/// What the process has used so far.
+/// The resources that the process has used so far.
 Resources resources_used(double wall_seconds);
 
-/// All that a report tells. What a run has not done stays empty.
+/// The contents of a report. Parts that a run did not produce stay empty.
 struct RunRecord {
   std::string tool_version;
   std::string status;  // see status_of()
   FileRecord input;
   std::optional<FileRecord> output;
-  nlohmann::ordered_json parameters;  // see parameters_json.h
+  nlohmann::ordered_json parameters;  // see parameters_json()
   Quality before;
   std::optional<Quality> after;
   std::optional<Deviation> deviation;
@@ -71,21 +68,22 @@ struct RunRecord {
 /// "converged", "stalled", "iteration_limit" or "interrupted".
 std::string status_of(StopReason reason);
 
-/// Ids, ascending, of the result's faces that lie against the surface, by the optimizer's measure or by the
-/// deviation's, or at folds of the input. Pre-condition: the run has a result and a deviation.
+/// Ids, ascending, of the result's folded faces: those that face against the input surface by the measure of
+/// the guards or of the deviation, folds of the input included. Pre-condition: the run has a result and a
+/// deviation.
 std::vector<int> folded_faces(const RunRecord& run);
 
+/// The whole report.
 nlohmann::ordered_json report_json(const RunRecord& run);
 
-/// The report as a text. What is not UTF-8 in names is replaced.
+/// The report as indented text. Bytes that are not UTF-8 are replaced.
 std::string report_text(const RunRecord& run);
 
-// The parameters of a run, for its report.
-
-/// Every effective value of a run, `null` for what has no effect in it. `effort` is what the options were set
-/// for.
+/// The effective parameters of a run for its report, `null` for those without effect. `effort`: the level for
+/// which the options were set.
 nlohmann::ordered_json parameters_json(const RemeshOptions& options, const RestartOptions& restarts,
                                        Effort effort);
+/// The same for paper_remesh().
 nlohmann::ordered_json parameters_json(const PaperOptions& options);
 
 }  // namespace hooke

@@ -21,7 +21,7 @@ std::string text(std::optional<size_t> n) {
   return n ? text(*n) : "-";
 }
 
-/// Root of the mean square; NaN when there is nothing.
+/// Root mean square; NaN if there are no values.
 double rms(const Statistics& s) {
   return std::hypot(s.mean, s.std);
 }
@@ -33,15 +33,15 @@ struct Row {
 
 std::vector<Row> rows_of(const Quality& q) {
   return {
-      {"least angle (deg)", text(q.min_angle.min)},
+      {"minimum angle (deg)", text(q.min_angle.min)},
       {"  5th percentile", text(q.min_angle.p05)},
       {"  median", text(q.min_angle.median)},
-      {"greatest angle (deg)", text(q.max_angle.max)},
+      {"maximum angle (deg)", text(q.max_angle.max)},
       {"edge length, mean", text(q.edge_length.mean)},
       {"  standard deviation", text(q.edge_length.std)},
       {"  std / mean", text(q.edge_length.std / q.edge_length.mean)},
       {"length error, rms", text(rms(q.length_error))},
-      {"shape, least", text(q.shape.min)},
+      {"shape, minimum", text(q.shape.min)},
       {"  mean", text(q.shape.mean)},
       {"folded edges", text(q.folded_edges)},
       {"self-intersections", text(q.self_intersections)},
@@ -57,13 +57,13 @@ std::string deviation_rows(const Deviation& d) {
   };
   std::string out = "\n";
   const auto moved = d.displacement;
-  out += row("greatest displacement", text(moved ? std::optional(moved->max) : std::nullopt),
+  out += row("maximum displacement", text(moved ? std::optional(moved->max) : std::nullopt),
              moved ? share(moved->max) : "");
   out += row("distance to the input", text(d.to_reference.max), share(d.to_reference.max));
   out += row("distance from the input", text(d.from_reference.max), share(d.from_reference.max));
   if (d.boundary_to_reference && d.boundary_from_reference) {
-    const double rim = std::max(*d.boundary_to_reference, *d.boundary_from_reference);
-    out += row("distance of the boundary", text(rim), share(rim));
+    const double boundary = std::max(*d.boundary_to_reference, *d.boundary_from_reference);
+    out += row("distance of the boundary", text(boundary), share(boundary));
   }
   out += row("flipped faces", text(d.flipped_faces), "");
   return out;

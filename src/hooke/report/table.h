@@ -1,4 +1,4 @@
-// The measured figures as text for people: one table, at most 80 columns wide.
+// The measures as a text table, at most 80 columns wide.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace hooke {
 
-/// One mesh on its own.
+/// The table of one mesh.
 std::string quality_table(const Quality& mesh);
 
-/// Before and after side by side, and what the way from one to the other has cost.
+/// Before and after side by side, followed by the deviation between them.
 std::string quality_table(const Quality& before, const Quality& after, const Deviation& deviation);
 
-/// A row of blocks, one per bin, the fullest eight eighths high; a bin that holds anything is never blank.
+/// A row of block characters, one per bin, scaled to the fullest bin; a bin that is not empty is never blank.
 std::string text_histogram(const Histogram& histogram);
 
 }  // namespace hooke

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
 
-/// An edge and what the energy changes by with its length.
+/// An edge, and the derivative of the energy by its length.
 struct EdgeLanes {
   LaneVec vector;
   Lanes length, by_length;
@@ -48,10 +48,10 @@ HOOKE_INLINE void add_strings(const FaceSprings& f, double weight, EdgeLanes (&e
     load(f.has_edge + lane_count * k, has);
     EdgeLanes& e = edges[k];
     const LaneMask stretched = e.length >= L, counts = has > 0.;
-    const Lanes excess = e.length / L - 1.;
-    sum += has * (stretched ? .5 * excess * excess : excess);
+    const Lanes strain = e.length / L - 1.;
+    sum += has * (stretched ? .5 * strain * strain : strain);
     ratios *= counts & ~stretched ? L / e.length : one;
-    e.by_length = weight * has * excess / (stretched ? L : e.length);
+    e.by_length = weight * has * strain / (stretched ? L : e.length);
   }
   take_log(ratios);
   energy += weight * (sum + ratios);
@@ -123,15 +123,15 @@ HOOKE_SIMD void evaluate_face_springs(double string, double altitude, FaceSpring
 
 namespace {
 
-constexpr size_t block = 1024;  // faces, a multiple of the lanes
-// Parts large enough for several threads, and so many that what is kept of one does not count.
-constexpr size_t max_parts = 16, min_part = 32 * block;
+constexpr size_t energy_block = 1024;  // faces, a multiple of the lanes
+// Parts are large enough for several threads, and numerous enough for the memory of one part to be small.
+constexpr size_t max_parts = 16, min_part = 32 * energy_block;
 
-/// One face with what all terms need of it.
+/// The quantities of one face that several terms share.
 struct FaceFrame {
-  std::array<Vec3, 3> opposite;  // edge vector across from corner k, from corner k + 1 to corner k + 2
+  std::array<Vec3, 3> opposite;  // edge vector opposite corner k, from corner k + 1 to corner k + 2
   std::array<double, 3> length;  // of it
-  Vec3 normal;                   // unit; of the surface where the face has no area
+  Vec3 normal;                   // unit; the surface normal if the face has no area
   double doubled_area;
 };
 
@@ -198,7 +198,7 @@ double altitude_energy(const FaceFrame& f, double weight, double h0, double& by_
 }
 
 /// 3/2 ((d - s) / d)^2 with the signed area s = (2 A n) . r / (.866 L^2), r the surface normal. Unlike
-/// springs on unsigned altitudes it pushes a folded face the right way round.
+/// springs on unsigned altitudes it turns a folded face the right way round.
 double unfold_energy(const Vec3& r, const FaceFrame& f, const EnergyTerms& terms, double target,
                      std::array<Vec3, 3>& gradient) {
   const double d = terms.unfold_below;
@@ -220,7 +220,7 @@ size_t corner_of(const Triangle& face, int vertex) {
 Energy::Energy(const Adjacency& adjacency, const TargetLengths& targets, const EnergyTerms& energy_terms)
     : terms(energy_terms), adjacency_(adjacency), targets_(targets) {
   const auto& faces = adjacency.faces;
-  const size_t size = std::max(min_part, (faces.size() / max_parts / block + 1) * block);
+  const size_t size = std::max(min_part, (faces.size() / max_parts / energy_block + 1) * energy_block);
   for (size_t begin = 0; begin < faces.size(); begin += size) {
     Part part{begin, std::min(begin + size, faces.size()), adjacency.vertex_count, 0};
     for (size_t f = part.begin; f < part.end; ++f) {
@@ -269,7 +269,7 @@ double Energy::face_energy(const Points& at, size_t face, double* corner_gradien
   return energy;
 }
 
-/// Four faces from `face` on or as many as there are, together where nothing but springs acts on them.
+/// Up to four faces from `face` on, evaluated together where only strings and altitude springs act.
 double Energy::energy_of_four(const Points& at, size_t face, double* corner_gradients) const {
   const size_t count = std::min(lane_count, adjacency_.faces.size() - face);
   if (terms.unfold <= 0 && terms.angle <= 0) {
@@ -306,7 +306,7 @@ void Energy::gather_faces(const Points& at, size_t face, size_t count, FaceSprin
   }
 }
 
-/// Adds the gradients of the part's faces to those of the vertices, in the order of each one's fan.
+/// Adds the gradients of the part's faces to those of the vertices, in the order of each vertex's fan.
 void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
   const auto first = static_cast<size_t>(part.first_vertex);
   parallel_for(static_cast<size_t>(part.last_vertex) + 1 - first, 2048, [&](size_t begin, size_t end) {
@@ -325,13 +325,13 @@ void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
 
 double Energy::operator()(const Mat3X& points, const Mat3X& normals, Mat3X* gradient) {
   if (gradient) gradient->setZero(3, adjacency_.vertex_count);
-  std::vector<double> energies((adjacency_.faces.size() + block - 1) / block);
+  std::vector<double> energies((adjacency_.faces.size() + energy_block - 1) / energy_block);
   for (const Part& part : parts_) {
-    const size_t blocks = (part.end - part.begin + block - 1) / block;
+    const size_t blocks = (part.end - part.begin + energy_block - 1) / energy_block;
     parallel_for(blocks, 1, [&](size_t begin, size_t end) {
       for (size_t b = begin; b < end; ++b)
-        for (size_t f = b * block; f < std::min((b + 1) * block, part.end - part.begin); f += lane_count)
-          energies[part.begin / block + b] += energy_of_four(
+        for (size_t f = b * energy_block; f < std::min((b + 1) * energy_block, part.end - part.begin); f += lane_count)
+          energies[part.begin / energy_block + b] += energy_of_four(
               {points, normals}, part.begin + f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
     });
     if (gradient) add_corner_gradients(part, *gradient);

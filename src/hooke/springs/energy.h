@@ -1,4 +1,6 @@
-// Strings and altitude springs [2]-[4] of faces, four at a time: the bulk of every relaxation.
+// The energy that relaxation minimises: springs on edges, altitudes and corner angles, all under the modified
+// Hooke's law [4] and relative to their rest lengths. Its negative gradient is the force. Strings and
+// altitude springs, the bulk of the work, are evaluated for four faces at a time.
 #pragma once
 
 #include "hooke/core/simd.h"
@@ -7,29 +9,26 @@
 
 namespace hooke {
 
-/// Four faces, one in each lane. All but `flat` are columns of one entry a lane.
+/// The springs of four faces, one per lane. All arrays are columns with one value per lane.
 struct FaceSprings {
-  static constexpr double min_length = 1e-9;  // of the face's target: a zero edge has a force, not a NaN
+  /// Minimum length relative to the face's target: a zero edge has a force instead of NaN.
+  static constexpr double min_length = 1e-9;
 
-  // What is asked:
+  // Input:
   double corners[9 * lane_count];      // x, y, z of each corner
-  double edge_target[3 * lane_count];  // of the edge across from each corner
-  double has_edge[3 * lane_count];     // 1 where that edge counts with this face, else 0
+  double edge_target[3 * lane_count];  // of the edge opposite each corner
+  double has_edge[3 * lane_count];     // 1 where that edge belongs to this face, else 0
   double face_target[lane_count];
-  double has_face[lane_count];  // 1; 0 in a lane without a face, which must hold the numbers of another
+  double has_face[lane_count];  // 1, or 0 in an unused lane, which must repeat another face
 
-  // What is found:
-  double energy;                    // of all four, the weights included
-  double gradient[9 * lane_count];  // by each corner
-  bool flat;                        // a face has no area to speak of: energy and gradient mean nothing
+  // Output:
+  double energy;                    // weighted sum over all four faces
+  double gradient[9 * lane_count];  // with respect to each corner
+  bool flat;                        // true if a face has almost no area; energy and gradient are then invalid
 };
 
-/// `string` and `altitude` weigh the terms U(l; L_e) / L_e^2 and U(h; h0) / h0^2, h0 = (sqrt 3 / 2) L_f.
+/// `string` and `altitude` weight U(l; L_e) / L_e^2 and U(h; h0) / h0^2, h0 = (sqrt 3 / 2) L_f. [2]-[4]
 void evaluate_face_springs(double string, double altitude, FaceSprings& faces);
-
-// The energy that relaxation minimises: springs on edges, on altitudes and on corner angles, all under the
-// modified Hooke's law [4], each measured in parts of its own rest length. Its negative gradient is the
-// force.
 
 struct FaceSprings;
 
@@ -39,18 +38,19 @@ struct EnergyTerms {
   double altitude = 1;         // beta: U(h; h0) / h0^2 per altitude h < h0 = (sqrt 3 / 2) L_f
   double angle = 0;            // w: U(theta; t) / t^2 per corner angle theta < t
   double angle_threshold = 0;  // t, radians, below pi / 2
-  double unfold = 0;           // weight of 3/2 ((d - s) / d)^2 for faces with alignment < d; replaces the
-                               // altitude and angle terms of such a face
+  double unfold = 0;           // of 3/2 ((d - s) / d)^2 with the signed area s, for faces with alignment < d;
+                               // replaces the altitude and angle terms of such a face
   double unfold_below = .3;    // d
 };
 
+/// The energy of a whole mesh. Evaluations use parallel sums in a fixed order.
 class Energy {
  public:
-  /// Keeps references to the connectivity and the targets.
+  /// Keeps references to the adjacency and the targets.
   Energy(const Adjacency& adjacency, const TargetLengths& targets, const EnergyTerms& terms);
 
-  /// Energy of the vertices at these points, `normals` those of the surface there, per side: they count as
-  /// constant. With `gradient` also its gradient by the points.
+  /// The energy at these points, 3 x |V|. `normals` are the unit surface normals, one column per wedge; they
+  /// count as constant. A non-null `gradient` receives the gradient with respect to the points, 3 x |V|.
   double operator()(const Mat3X& points, const Mat3X& normals, Mat3X* gradient);
 
   const TargetLengths& targets() const { return targets_; }
@@ -66,7 +66,7 @@ class Energy {
   void gather_faces(const Points& at, size_t face, size_t count, FaceSprings& four) const;
   double face_energy(const Points& at, size_t face, double* corner_gradients) const;
 
-  /// Faces whose gradients are added up together, and the vertices among which all their corners are.
+  /// Faces whose gradients are summed together, and the range of the vertices at their corners.
   struct Part {
     size_t begin, end;
     int first_vertex, last_vertex;
@@ -76,7 +76,7 @@ class Energy {
   const Adjacency& adjacency_;
   const TargetLengths& targets_;
   std::vector<Part> parts_;
-  std::vector<double> corner_gradients_;  // 9 per face of a part: gradient by each of its corners
+  std::vector<double> corner_gradients_;  // 9 per face of a part: gradients with respect to its corners
 };
 
 }  // namespace hooke

@@ -10,10 +10,10 @@
 namespace hooke {
 namespace {
 
-constexpr std::size_t block = 1024;
+constexpr std::size_t forces_block = 1024;
 
-/// T^{j,j*} = n^j x n^{j,j*}: what [6] leaves of the torque on face j by face j*. The part of n^{j,j*} along
-/// n^j drops out, and with s = sin theta, c = cos theta it is (n^j x n^{j*}) theta / (s (1 + c) d).
+/// T^{j,j*} = n^j x n^{j,j*}: the effective part of the torque [6] of face j* on face j. The component of
+/// n^{j,j*} along n^j drops out; with s = sin theta, c = cos theta T is (n^j x n^{j*}) theta / (s (1 + c) d).
 Vec3 torque_across(const FaceShape& face, const FaceShape& other, const Vec3& edge_middle) {
   constexpr double folded = 1e-12;  // of 1 + cos theta
   const Vec3 axis = face.normal.cross(other.normal);
@@ -27,7 +27,7 @@ Vec3 torque_across(const FaceShape& face, const FaceShape& other, const Vec3& ed
 
 std::vector<FaceShape> face_shapes(const Eigen::Ref<const Mat3X>& points, const Adjacency& c) {
   std::vector<FaceShape> shapes(c.faces.size());
-  parallel_for(shapes.size(), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(shapes.size(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) shapes[f] = face_shape(points, c.faces[f]);
   });
   return shapes;
@@ -37,7 +37,7 @@ std::vector<FaceShape> face_shapes(const Eigen::Ref<const Mat3X>& points, const 
 Mat3X edge_torques(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                    const std::vector<FaceShape>& shapes) {
   Mat3X torques = Mat3X::Zero(3, static_cast<Eigen::Index>(c.edges.size()));
-  parallel_for(c.edges.size(), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(c.edges.size(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const auto [first, second] = c.edge_faces[e];
       if (second < 0 || shapes[first].degenerate() || shapes[second].degenerate()) continue;
@@ -54,8 +54,8 @@ void string_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                    std::span<const double> target_lengths, Eigen::Ref<Mat3X> forces) {
   assert(points.cols() == c.vertex_count && forces.cols() == points.cols());
   assert(target_lengths.size() == c.edges.size());
-  Mat3X pull(3, static_cast<Eigen::Index>(c.edges.size()));  // on the first end of every edge
-  parallel_for(c.edges.size(), block, [&](std::size_t begin, std::size_t end) {
+  Mat3X pull(3, static_cast<Eigen::Index>(c.edges.size()));  // on the first end of each edge
+  parallel_for(c.edges.size(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const Vec3 d = points.col(c.edges[e][1]) - points.col(c.edges[e][0]);
       const double l = d.norm();
@@ -65,7 +65,7 @@ void string_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
         pull.col(e).setZero();
     }
   });
-  parallel_for(forces.cols(), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(forces.cols(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       Vec3 sum = Vec3::Zero();
       for (int e : c.vertex_edges[v]) sum += (c.edges[e][0] == static_cast<int>(v) ? 1 : -1) * pull.col(e);
@@ -79,7 +79,7 @@ void torque_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& c, Ei
   const std::vector<FaceShape> shapes = face_shapes(points, c);
   const Mat3X across = edge_torques(points, c, shapes);
   Mat3X torque(3, static_cast<Eigen::Index>(c.faces.size()));
-  parallel_for(c.faces.size(), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(c.faces.size(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       Vec3 sum = Vec3::Zero();
       for (int e : c.face_edges[f])
@@ -87,7 +87,7 @@ void torque_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& c, Ei
       torque.col(f) = sum;  // n^j x [8]
     }
   });
-  parallel_for(forces.cols(), block, [&](std::size_t begin, std::size_t end) {
+  parallel_for(forces.cols(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       Vec3 sum = Vec3::Zero();
       for (int f : c.vertex_faces[v]) sum += torque.col(f).cross(points.col(v) - shapes[f].centre);  // [9]

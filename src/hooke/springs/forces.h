@@ -1,4 +1,4 @@
-// The two forces of the evolution: strings along the edges and torques on the faces.
+// The two forces of the damped evolution: strings along the edges and torques on the faces.
 // "Hooke's Optimization for 3D triangular mesh", sections 3.1 and 3.2, equations [2]-[10].
 #pragma once
 
@@ -22,9 +22,9 @@ void string_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjac
 ///
 /// Normals may all point inward, as in the paper, or all outward: [9] needs n^j x n^{j,j*} only, which is
 /// n^j x n^{j*} times a function of their angle, and both are the same for -n^j and -n^{j*}.
-/// A degenerate face has no normal: it is not turned and turns no other. Two faces folded onto each other
+/// A degenerate face has no normal: it neither turns nor turns others. Two faces folded onto each other
 /// (within about 1e-6 of theta = pi) do not turn each other either: [6] ends before pi, where the force is
-/// infinite and rounding decides which way it points.
+/// infinite and rounding decides its direction.
 void torque_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                    Eigen::Ref<Mat3X> forces);
 

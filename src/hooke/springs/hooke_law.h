@@ -6,7 +6,7 @@
 
 namespace hooke {
 
-/// A potential and its derivative by the quantity it acts on.
+/// A potential and its derivative by the quantity that it depends on.
 struct Potential {
   double value = 0;
   double slope = 0;  // dU/dl; the force along the growing quantity is -slope

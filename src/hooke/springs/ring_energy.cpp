@@ -9,7 +9,7 @@
 namespace hooke {
 namespace {
 
-// Sums over a ring in lanes: an energy, and its derivatives along two directions.
+// Sums over a ring in lanes: the energy and its derivatives along two directions.
 
 struct RingSums {
   Lanes energy = {}, gu = {}, gv = {}, huu = {}, huv = {}, hvv = {};
@@ -43,7 +43,7 @@ HOOKE_INLINE void add_product(const Lanes& weight, const LanePair& a, const Lane
   s.hvv += 2. * weight * a.v * b.v;
 }
 
-/// Adds weight * the unit matrix in the two directions; a missing one has none.
+/// Adds weight * the identity in the two directions; a zero direction contributes nothing.
 HOOKE_INLINE void add_unit(const Lanes& weight, const Directions& d, RingSums& s) {
   s.huu += weight;
   s.hvv += weight * d.v.squaredNorm();
@@ -55,15 +55,15 @@ using namespace ring;
 
 namespace {
 
-constexpr double min_length = 1e-9;  // of the target: a zero edge has a force, not a NaN
+constexpr double min_length = 1e-9;  // relative to the target: keeps a zero edge from giving NaN
 
-/// What the terms share of four faces of the ring.
+/// The quantities of four faces of the ring that several terms share.
 struct FaceLanes {
   LaneVec e, f, n;   // to the neighbours a and b; unit normal
-  Lanes la, lb, lc;  // lengths of them and of the far edge c
+  Lanes la, lb, lc;  // of e, f and the far edge c
   LaneVec c;         // from a to b
   Lanes area;        // doubled
-  Lanes face, edge;  // 1 where there is one
+  Lanes face, edge;  // 1 if the entry has one, else 0
   LanePair eu, fu, nu;
 };
 
@@ -90,7 +90,7 @@ HOOKE_INLINE void load_face(const RingView& r, std::size_t i, FaceLanes& q) {
 
   const Lanes min_area = floor * target;
   const LaneMask flat = ~(q.area > min_area);
-  if (any(flat)) {  // without an area: the surface's normal
+  if (any(flat)) {  // no area: uses the surface normal
     LaneVec m;
     Lanes size;
     load(fixed + face_normals * stride, stride, m);
@@ -114,12 +114,12 @@ HOOKE_INLINE void add_strings(const FaceLanes& q, const Lanes& L, double weight,
   const LaneMask stretched = q.la >= L;
   Lanes log_ratio = ratio;
   take_log(log_ratio);
-  const Lanes excess = q.la / L - 1.;
+  const Lanes strain = q.la / L - 1.;
   const Lanes w = weight * q.edge;
-  s.energy += w * (stretched ? .5 * excess * excess : log_ratio + excess);
+  s.energy += w * (stretched ? .5 * strain * strain : log_ratio + strain);
   if constexpr (second_order) {
-    // By the length over the length, and twice by the length, times L^2.
-    const Lanes first = (stretched ? Lanes{} + 1. : ratio) * excess * ratio;
+    // First derivative by the length, over the length, and second derivative, both times L^2.
+    const Lanes first = (stretched ? Lanes{} + 1. : ratio) * strain * ratio;
     const Lanes second = stretched ? Lanes{} + 1. : ratio * ratio;
     const Lanes scale = w / (L * L);
     s.gu -= scale * first * q.eu.u;
@@ -146,7 +146,7 @@ HOOKE_INLINE void add_altitudes(const FaceLanes& q, const Lanes& h0, double weig
     cross(q.n, q.c, lift);
     LanePair g;  // gradient of the doubled area
     along(lift, d, g);
-    const Lanes area_curve = q.lc * q.lc / q.area;  // of the area, along the normal
+    const Lanes area_curve = q.lc * q.lc / q.area;  // second derivative of the doubled area along the normal
     // Derivatives of ln z - 1 + 1 / z by h.
     const Lanes over_h0 = 1. / h0;
     const auto terms_of = [&](const LaneMask& on, const Lanes& z, Lanes& slope, Lanes& curvature) {
@@ -161,14 +161,14 @@ HOOKE_INLINE void add_altitudes(const FaceLanes& q, const Lanes& h0, double weig
 
     const auto add_at_neighbour = [&](const LanePair& x, const Lanes& length) {  // h = area / |x|
       const Lanes i1 = 1. / length, i3 = i1 * i1 * i1;
-      const Lanes bend = q.area * i3;
-      const LanePair gh = {g.u * i1 + bend * x.u, g.v * i1 + bend * x.v};
+      const Lanes altitude_slope = q.area * i3;
+      const LanePair gh = {g.u * i1 + altitude_slope * x.u, g.v * i1 + altitude_slope * x.v};
       add_square(curvature, gh, s);
       add_product(slope * i3, g, x, s);
-      add_square(3. * slope * bend * i1 * i1, x, s);
-      add_unit(-slope * bend, d, s);
-      s.gu += slope * bend * x.u;
-      s.gv += slope * bend * x.v;
+      add_square(3. * slope * altitude_slope * i1 * i1, x, s);
+      add_unit(-slope * altitude_slope, d, s);
+      s.gu += slope * altitude_slope * x.u;
+      s.gv += slope * altitude_slope * x.v;
       by_area += slope * i1;
     };
     terms_of(on_a, za, slope, curvature);
@@ -181,20 +181,20 @@ HOOKE_INLINE void add_altitudes(const FaceLanes& q, const Lanes& h0, double weig
   }
 }
 
-/// The angle up to which springs act, the one up to which the model feels them, and a number that its tangent
-/// stays below: tan x < pi^2 x / (pi^2 - 4 x^2) (M. Becker, E. Stark, 1978).
+/// The angle up to which springs act, the angle up to which the model includes them, and an upper bound of
+/// the latter's tangent: tan x < pi^2 x / (pi^2 - 4 x^2) (M. Becker, E. Stark, 1978).
 struct Threshold {
-  Threshold(double t, double felt_above) : angle(t), felt(felt_above * t) {
+  Threshold(double t, double fade_out_factor) : angle(t), fade_out(fade_out_factor * t) {
     constexpr double square = std::numbers::pi * std::numbers::pi;
-    const double rest = square - 4 * felt * felt;
-    tangent = rest > 0 ? square * felt / rest : std::numeric_limits<double>::infinity();
+    const double rest = square - 4 * fade_out * fade_out;
+    tangent = rest > 0 ? square * fade_out / rest : std::numeric_limits<double>::infinity();
   }
-  double angle, felt, tangent;
+  double angle, fade_out, tangent;
 };
 
 /// Corner angles below the threshold t: U(theta; t) / t^2 = ln z - 1 + 1 / z, z = t / theta. Their curvature
-/// ends at t with a leap, and Newton's steps would leap with it wherever springs have brought an angle to t:
-/// the model lets it fade out beyond.
+/// is discontinuous at t, where springs bring angles to, and Newton's steps would be too; the model lets it
+/// fade out beyond t.
 template <bool second_order>
 HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, double weight,
                              const Directions& d, RingSums& s) {
@@ -219,12 +219,12 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
     take_sqrt(r);
     take_angle(cosine, q.area, r, angle);
     angle = angle > 1e-6 ? angle : zero + 1e-6;
-    part = on ? (threshold.felt - angle) / (threshold.felt - t) : zero;
+    part = on ? (threshold.fade_out - angle) / (threshold.fade_out - t) : zero;
     part = part < 1. ? part : one;
     part = part > 0. ? part : zero;
     angle = on & (angle < t) ? angle : zero + t;
   };
-  Lanes x, a, b, part_x, part_a, part_b;  // the angles, and what part of their curvature counts
+  Lanes x, a, b, part_x, part_a, part_b;  // the angles, and the weights of their curvature
   angle_of(on_x, at_x, x, part_x);
   angle_of(on_a, at_a, a, part_a);
   angle_of(on_b, at_b, b, part_b);
@@ -243,7 +243,7 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
     terms_of(part_b, b, slope_b, curvature_b);
     const Lanes ia = one / (q.la * q.la), ib = one / (q.lb * q.lb);
     LaneVec turned;
-    LanePair ga, gb;  // gradients of the angles at a and b; that of the vertex's own is minus their sum
+    LanePair ga, gb;  // gradients of the angles at a and b; that of the vertex's own angle is minus their sum
     cross(q.n, q.e, turned);
     along(turned, d, ga);
     ga = {-ga.u * ia, -ga.v * ia};
@@ -256,7 +256,7 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
     add_square(curvature_x, gx, s);
     add_square(curvature_a, ga, s);
     add_square(curvature_b, gb, s);
-    // In polar coordinates about a the angle there curves by -(e_r e_t + e_t e_r) / r^2 + cot n n / r^2.
+    // In polar coordinates around a its angle has the Hessian -(e_r e_t + e_t e_r) / r^2 + cot n n / r^2.
     const Lanes pull_a = (slope_a - slope_x) * ia, pull_b = (slope_b - slope_x) * ib;
     add_product(pull_a, q.eu, ga, s);
     add_product(pull_b, q.fu, gb, s);
@@ -265,13 +265,13 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
 }
 
 template <bool second_order>
-HOOKE_INLINE void sum_ring(const RingView& r, const double* unfolded, const EnergyTerms& terms,
+HOOKE_INLINE void sum_ring(const RingView& r, const double* face_mask, const EnergyTerms& terms,
                            const Directions& d, RingSums& s) {
-  const Threshold t(terms.angle_threshold, second_order ? angle_felt : 1);
+  const Threshold t(terms.angle_threshold, second_order ? angle_fade_out : 1);
   for (std::size_t i = 0; i < r.stride; i += lane_count) {
     FaceLanes q;
     load_face(r, i, q);
-    if (unfolded) load(unfolded + i, q.face);
+    if (face_mask) load(face_mask + i, q.face);
     if constexpr (second_order) {
       along(q.e, d, q.eu);
       along(q.f, d, q.fu);
@@ -290,16 +290,16 @@ HOOKE_INLINE void sum_ring(const RingView& r, const double* unfolded, const Ener
 
 }  // namespace
 
-HOOKE_SIMD double ring_energy(const RingView& ring, const double* unfolded, const EnergyTerms& terms) {
+HOOKE_SIMD double ring_energy(const RingView& ring, const double* face_mask, const EnergyTerms& terms) {
   RingSums s;
-  sum_ring<false>(ring, unfolded, terms, {Vec3::Zero(), Vec3::Zero()}, s);
+  sum_ring<false>(ring, face_mask, terms, {Vec3::Zero(), Vec3::Zero()}, s);
   return sum_of(s.energy);
 }
 
-HOOKE_SIMD void add_ring_model(const RingView& ring, const double* unfolded, const EnergyTerms& terms,
+HOOKE_SIMD void add_ring_model(const RingView& ring, const double* face_mask, const EnergyTerms& terms,
                                const Vec3& u, const Vec3& v, RingModel& model) {
   RingSums s;
-  sum_ring<true>(ring, unfolded, terms, {u, v}, s);
+  sum_ring<true>(ring, face_mask, terms, {u, v}, s);
   model.energy += sum_of(s.energy);
   model.gradient += Eigen::Vector2d(sum_of(s.gu), sum_of(s.gv));
   model.hessian(0, 0) += sum_of(s.huu);

@@ -1,4 +1,6 @@
-// How the numbers of a ring lie in memory: columns of one entry a spoke, in whole groups of lanes.
+// The energy around one vertex from its ring: strings, altitude and angle springs, to second order, for four
+// faces at a time. A ring is stored as columns with one value per ring entry, padded to whole groups of
+// lanes.
 #pragma once
 
 #include "hooke/core/simd.h"
@@ -9,26 +11,26 @@ namespace hooke {
 
 namespace ring {
 
-/// Columns of what stays as it is while the vertex moves. A vector takes three.
+/// Columns that do not depend on the vertex position. A vector takes three.
 enum Fixed : std::size_t {
-  near = 0,          // the neighbour a
-  far = 3,           // the next neighbour b
+  near = 0,          // position of the neighbour a
+  far = 3,           // position of the next neighbour b
   face_normals = 6,  // sum of the surface normals at a and b
   edge_normal = 9,   // surface normal at a
-  beyond = 12,       // doubled area vector of the face beyond a and b; zero without one
+  beyond = 12,       // doubled area vector of the face beyond the edge a b; zero without one
   edge_target = 15,
   face_target = 16,
-  has_edge = 17,  // 1 or 0; columns are filled up to whole groups of lanes with a copy of the first spoke
+  has_edge = 17,  // 1 or 0; the padding repeats the first entry with 0
   has_face = 18,
   fixed_columns = 19
 };
 
-/// Columns of the ring's shape with its vertex at one place.
+/// Columns that depend on the vertex position.
 enum Moving : std::size_t {
-  to_near = 0,  // from the vertex
-  to_far = 3,
+  to_near = 0,          // from the vertex to a
+  to_far = 3,           // from the vertex to b
   area_vector = 6,      // doubled
-  previous_vector = 9,  // that of the face before, across the edge to a; zero without one
+  previous_vector = 9,  // that of the previous face, across the edge to a; zero without one
   doubled_area = 12,
   previous_area = 13,
   near_length = 14,
@@ -38,42 +40,44 @@ enum Moving : std::size_t {
 
 }  // namespace ring
 
-/// A ring with its vertex at one place.
+/// A ring for one position of its vertex.
 struct RingView {
   const double* fixed;
   const double* moving;
-  std::size_t stride;  // entries of a column
+  std::size_t stride;  // values per column
   Vec3 normal;         // of the surface at the vertex
 };
 
+/// Writes a vector to three columns.
 HOOKE_INLINE void put(const Vec3& x, double* columns, std::size_t stride) {
   columns[0] = x[0];
   columns[stride] = x[1];
   columns[2 * stride] = x[2];
 }
 
+/// Reads a vector from three columns.
 inline Vec3 get(const double* columns, std::size_t stride) {
   return {columns[0], columns[stride], columns[2 * stride]};
 }
 
-// The energy around one vertex from its ring: strings, altitudes and angles of four faces at a time.
-
 constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
 
-constexpr double angle_felt = 1.06;  // of the threshold, to where the curvature of angle springs fades out
+/// Up to this multiple of the threshold the curvature of angle springs fades out.
+constexpr double angle_fade_out = 1.06;
 
-/// The energy around a vertex to second order in two directions.
+/// The energy around a vertex to second order in two directions u and v.
 struct RingModel {
   double energy = 0;  // up to a constant
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
   Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
 };
 
-/// The terms of an energy but `unfold`. `unfolded` tells by 1 and 0 which faces they are for; null: all.
-double ring_energy(const RingView& ring, const double* unfolded, const EnergyTerms& terms);
+/// All terms of the energy except `unfold`. `face_mask` (null: all ones) has 1 for each face to which the
+/// face terms apply, else 0.
+double ring_energy(const RingView& ring, const double* face_mask, const EnergyTerms& terms);
 
-/// The same with its derivatives along u and v, of which v may be zero, added to the model.
-void add_ring_model(const RingView& ring, const double* unfolded, const EnergyTerms& terms, const Vec3& u,
+/// The same with its derivatives along u and v, of which v may be zero; adds to the model.
+void add_ring_model(const RingView& ring, const double* face_mask, const EnergyTerms& terms, const Vec3& u,
                     const Vec3& v, RingModel& model);
 
 }  // namespace hooke

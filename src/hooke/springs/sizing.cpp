@@ -31,13 +31,13 @@ SizingSource parse_curvature(std::string_view error) {
   return source;
 }
 
-/// Finds the factor for which measure(factor), which grows with it, is the goal, by secants in logarithms.
-/// The last call of `measure` is with that factor.
+/// Finds the factor for which measure(factor), an increasing function, equals the goal, by the secant method
+/// in logarithms. The last call of `measure` is with that factor.
 template <typename Measure>
 void scale_to(double goal, double factor, const Measure& measure) {
   constexpr int tries = 20;
   constexpr double close = 1e-6;
-  double slope = 1;  // d log(measure) / d log(factor): less where a limit holds lengths back
+  double slope = 1;  // d log(measure) / d log(factor): below 1 where the gradation limits lengths
   double reached = measure(factor);
   for (int i = 0; i < tries && std::abs(reached / goal - 1) > close; ++i) {
     const double next = factor * std::pow(goal / reached, 1 / slope);
@@ -115,7 +115,7 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
   const auto size_of = [&](const TargetLengths& t) {
     return by_area ? covering_length(points, c, t) : mean_length(points, c, t);
   };
-  // Over the greatest, so that equal lengths become exactly 1.
+  // Relative to the maximum, so that equal lengths become exactly 1.
   const double greatest = *std::ranges::max_element(lengths);
   for (double& l : lengths) l /= greatest;
   const std::vector<double> shares = lengths;
@@ -132,7 +132,7 @@ std::vector<double> curvature_lengths(const Mat3X& points, const Adjacency& c, d
                                       double longest) {
   std::vector<double> lengths = largest_curvatures(points, c);
   for (double& l : lengths) {
-    const double radius = std::max(1 / l, chord_error);  // infinite where it is flat
+    const double radius = std::max(1 / l, chord_error);  // infinite where the surface is flat
     l = std::min(std::sqrt((8 * radius - 4 * chord_error) * chord_error), longest);
   }
   return lengths;
@@ -144,7 +144,7 @@ void limit_gradation(const Mat3X& points, const Adjacency& c, double slope, std:
   const auto limit = [&](int from, int to) {
     return at(from) + slope * (points.col(to) - points.col(from)).norm();
   };
-  // The smallest first, as in Dijkstra's shortest paths: a vertex that comes up has its final length.
+  // Smallest first, as in Dijkstra's algorithm: a length is final when its vertex leaves the queue.
   using Item = std::pair<double, int>;
   std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
   for (const auto& [a, b] : c.edges) {

@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-constexpr size_t block = 4096;
+constexpr size_t length_block = 4096;
 
 double face_area(const Mat3X& points, const Triangle& t) {
   const Vec3 a = points.col(t[0]);
@@ -22,9 +22,9 @@ double natural_length(double area, std::size_t face_count) {
 }
 
 double covering_length(const Mat3X& points, const Adjacency& c, const TargetLengths& targets) {
-  if (!targets.face.vary()) return targets.face[0];
+  if (!targets.face.is_varying()) return targets.face[0];
   const auto sum = [&](const auto& weight) {
-    return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
+    return parallel_sum(c.faces.size(), length_block, [&](size_t begin, size_t end) {
       double part = 0;
       for (size_t f = begin; f < end; ++f) part += weight(f) * face_area(points, c.faces[f]);
       return part;
@@ -36,9 +36,9 @@ double covering_length(const Mat3X& points, const Adjacency& c, const TargetLeng
 
 double mean_length(const Mat3X& points, const Adjacency& c, const TargetLengths& targets) {
   const double first = targets.edge[0];
-  if (!targets.edge.vary()) return first;
+  if (!targets.edge.is_varying()) return first;
   const auto sum = [&](const auto& value) {
-    return parallel_sum(c.faces.size(), block, [&](size_t begin, size_t end) {
+    return parallel_sum(c.faces.size(), length_block, [&](size_t begin, size_t end) {
       double part = 0;
       for (size_t f = begin; f < end; ++f) {
         double of_edges = 0;
@@ -60,13 +60,13 @@ TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double
             UniformVector(c.faces.size(), mean_of_three(length, length, length))};
   }
   std::vector<double> edge(c.edges.size()), face(c.faces.size());
-  parallel_for(c.edges.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(c.edges.size(), length_block, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       const auto& [a, b] = c.edges[e];
       edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
     }
   });
-  parallel_for(c.faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(c.faces.size(), length_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [a, b, d] = c.face_edges[f];
       face[f] = mean_of_three(edge[static_cast<size_t>(a)], edge[static_cast<size_t>(b)],

@@ -22,39 +22,40 @@ class PatchCutter {
     copy_vertices();
   }
 
-  /// False where more than `most` vertices would move.
-  bool cut(int half_edge, int rings, size_t most) {
+  /// False if there would be more than `max_vertices` movable vertices, or one with a larger valence.
+  bool cut(int half_edge, int rings, size_t max_vertices) {
     add(half_edge);
     add(HalfedgeMesh::next(half_edge));
     for (size_t begin = 0; rings > 0; --rings)
       for (const size_t end = patch_.wedges.size(); begin < end; ++begin) {
-        if (has_more_edges(patch_.vertices[begin], most)) return false;
+        if (has_more_edges(patch_.vertices[begin], max_vertices)) return false;
         add_neighbours(begin);
-        if (patch_.wedges.size() > most) return false;
+        if (patch_.wedges.size() > max_vertices) return false;
       }
     patch_.movable = patch_.wedges.size();
-    if (std::ranges::any_of(patch_.vertices, [&](int v) { return has_more_edges(v, most); })) return false;
+    if (std::ranges::any_of(patch_.vertices, [&](int v) { return has_more_edges(v, max_vertices); }))
+      return false;
     const std::vector<int> faces = add_faces();
     copy_vertices();
-    add_rim(faces);
+    add_boundary(faces);
     return true;
   }
 
  private:
-  bool has_more_edges(int vertex, size_t most) const {
-    return m_.halfedges.valence(vertex) > static_cast<int>(most);
+  bool has_more_edges(int vertex, size_t limit) const {
+    return m_.halfedges.valence(vertex) > static_cast<int>(limit);
   }
 
-  /// Half-edges that leave the vertex within the sector of its side.
-  ShortList outgoing(size_t id) const {
-    ShortList spokes;
+  /// Half-edges that leave the vertex within its wedge.
+  SmallIntList outgoing(size_t id) const {
+    SmallIntList halfedges;
     for (int h : m_.halfedges.outgoing(patch_.vertices[id]))
-      if (m_.halfedges.wedge(h) == patch_.wedges[id]) spokes.push_back(h);
-    return spokes;
+      if (m_.halfedges.wedge(h) == patch_.wedges[id]) halfedges.push_back(h);
+    return halfedges;
   }
 
-  /// The id in the patch of the corner where the half-edge leaves. Patches are small: looking through them is
-  /// the fastest.
+  /// The id in the patch of the corner at the origin of the half-edge. Patches are small, so that a linear
+  /// search is fastest.
   int add(int half_edge) {
     const int wedge = m_.halfedges.wedge(half_edge);
     const auto found = std::ranges::find(patch_.wedges, wedge);
@@ -69,12 +70,13 @@ class PatchCutter {
   void add_neighbours(size_t id) {
     for (int h : outgoing(id)) {
       add(HalfedgeMesh::next(h));
-      const int last = HalfedgeMesh::previous(h);  // the next half-edge out begins there, if there is one
+      const int last = HalfedgeMesh::previous(h);  // where the next outgoing half-edge, if any, begins
       if (m_.halfedges.is_feature_edge(last)) add(last);
     }
   }
 
-  /// Those of the movable vertices, each once: at its corner of the least id. Returns their ids in the mesh.
+  /// Adds the faces of the movable vertices, each at its corner with the smallest id. Returns their ids in
+  /// the mesh.
   std::vector<int> add_faces() {
     std::vector<int> faces;
     const int movable = static_cast<int>(patch_.movable);
@@ -90,8 +92,8 @@ class PatchCutter {
     return faces;
   }
 
-  /// All faces about a movable vertex are in the patch, as far as creases: it ends with other edges.
-  void add_rim(const std::vector<int>& faces) {
+  /// The patch holds all faces around a movable vertex up to creases; at all other edges it ends.
+  void add_boundary(const std::vector<int>& faces) {
     const HalfedgeMesh& t = m_.halfedges;
     const int movable = static_cast<int>(patch_.movable);
     for (size_t f = 0; f < faces.size(); ++f)
@@ -103,13 +105,13 @@ class PatchCutter {
         const auto across = std::ranges::find(faces, t.twin(h) / 3);
         const bool inside = across != faces.end();
         if (inside && !t.is_crease(h)) continue;
-        PatchBoundary rim = {h, from, to, {-1, -1}};
+        PatchBoundary edge = {h, from, to, {-1, -1}};
         if (inside) {
           const Triangle& other = patch_.faces[static_cast<size_t>(across - faces.begin())];
           const auto i = static_cast<size_t>(t.twin(h) % 3);
-          rim.beyond = {other[i], other[(i + 1) % 3]};
+          edge.twin_ends = {other[i], other[(i + 1) % 3]};
         }
-        patch_.rim.push_back(rim);
+        patch_.boundary.push_back(edge);
       }
   }
 
@@ -127,11 +129,11 @@ class PatchCutter {
   void copy_vertex(size_t id) {
     const int wedge = patch_.wedges[id], vertex = patch_.vertices[id];
     const auto v = static_cast<size_t>(vertex);
-    SurfacePosition place(m_.positions, vertex);
-    place.normal = m_.positions.normals.col(wedge);
-    place.hint = m_.positions.hints[static_cast<size_t>(wedge)];
-    place.other_wedge = -1;
-    place.write_to(patch_.positions, static_cast<int>(id));
+    SurfacePosition position(m_.positions, vertex);
+    position.normal = m_.positions.normals.col(wedge);
+    position.hint = m_.positions.hints[static_cast<size_t>(wedge)];
+    position.other_wedge = -1;
+    position.write_to(patch_.positions, static_cast<int>(id));
     const bool free = id < patch_.movable && m_.constraints.freedom[v] == Freedom::surface &&
                       (m_.constraints.creases.empty() || !m_.halfedges.on_crease(vertex));
     patch_.vertex_length.push_back(m_.vertex_length[v]);
@@ -144,13 +146,13 @@ class PatchCutter {
   EdgePatch& patch_;
 };
 
-/// A face of the patch's edge, and its corner across.
+/// A face of the patch's edge, and the vertex opposite the edge.
 struct FaceOfEdge {
   size_t face;
   int opposite_vertex;
 };
 
-/// The one that runs from 0 to 1, then that from 1 to 0.
+/// The face with the half-edge 0 -> 1, then that with 1 -> 0.
 std::array<FaceOfEdge, 2> faces_of_edge(const std::vector<Triangle>& faces) {
   std::array<FaceOfEdge, 2> found{};
   for (size_t f = 0; f < faces.size(); ++f)
@@ -163,9 +165,9 @@ std::array<FaceOfEdge, 2> faces_of_edge(const std::vector<Triangle>& faces) {
 
 }  // namespace
 
-std::optional<EdgePatch> cut_patch(const FlippableMesh& mesh, int half_edge, int rings, size_t most) {
+std::optional<EdgePatch> cut_patch(const FlippableMesh& mesh, int half_edge, int rings, size_t max_vertices) {
   std::optional<EdgePatch> patch(std::in_place);
-  if (!PatchCutter(mesh, *patch).cut(half_edge, rings, most)) patch.reset();
+  if (!PatchCutter(mesh, *patch).cut(half_edge, rings, max_vertices)) patch.reset();
   return patch;
 }
 
@@ -184,9 +186,9 @@ const Triangle& face_along(const std::vector<Triangle>& faces, int from, int to)
 std::vector<Triangle> flipped_faces(const EdgePatch& patch) {
   std::vector<Triangle> faces = patch.faces;
   const auto [left, right] = faces_of_edge(faces);
-  const int apex_left = left.opposite_vertex, apex_right = right.opposite_vertex;
-  faces[left.face] = {apex_left, 0, apex_right};
-  faces[right.face] = {apex_right, 1, apex_left};
+  const int opposite_left = left.opposite_vertex, opposite_right = right.opposite_vertex;
+  faces[left.face] = {opposite_left, 0, opposite_right};
+  faces[right.face] = {opposite_right, 1, opposite_left};
   return faces;
 }
 
@@ -209,7 +211,7 @@ std::vector<Triangle> collapsed_faces(const EdgePatch& patch, int stays) {
   return faces;
 }
 
-int append_vertex(EdgePatch& patch, int like) {
+int append_vertex(EdgePatch& patch, int source) {
   const int v = static_cast<int>(patch.wedges.size());
   patch.vertices.push_back(-1);
   patch.wedges.push_back(-1);
@@ -218,13 +220,13 @@ int append_vertex(EdgePatch& patch, int like) {
   patch.constraints.segment.push_back(0);
   patch.constraints.curve.push_back(-1);
   SurfacePositions& p = patch.positions;
-  const SurfacePosition place(p, like);
+  const SurfacePosition position(p, source);
   p.points.conservativeResize(3, v + 1);
   p.normals.conservativeResize(3, v + 1);
   p.hints.push_back(0);
   p.segments.push_back(0);
   p.drift.push_back(0);
-  place.write_to(p, v);
+  position.write_to(p, v);
   return v;
 }
 

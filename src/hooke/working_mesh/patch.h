@@ -1,4 +1,4 @@
-// The neighbourhood of an edge as a small mesh of its own, in which a change of the edge is tried.
+// The neighbourhood of an edge as a small mesh of its own, in which a flip, split or collapse is tested.
 #pragma once
 
 #include <optional>
@@ -8,48 +8,49 @@
 
 namespace hooke {
 
-/// An edge with which a patch ends though the mesh goes on, or a crease that ends within it.
+/// An edge at which the patch ends but the mesh does not, or a crease within the patch.
 struct PatchBoundary {
-  int half_edge;  // of the mesh, on the patch's side
-  int from, to;   // its ends, in ids of the patch
-  Edge beyond;    // those of the half-edge across, if its face is in the patch too; else -1
+  int half_edge;   // of the mesh, on the side of the patch
+  int from, to;    // its ends, as ids of the patch
+  Edge twin_ends;  // ends of the twin, as ids of the patch; -1 if its face is not in the patch
 };
 
+/// The faces, vertices and constraints around an edge, whose ends are the vertices 0 and 1 of the patch.
 struct EdgePatch {
-  /// Of the whole mesh: the edge's ends first, then the others that may move, then those around.
+  /// Ids in the whole mesh: the ends of the edge, then the other movable vertices, then those around them.
   std::vector<int> vertices, wedges;
-  size_t movable = 0;           // so many may move, but for those on creases and boundaries
-  std::vector<Triangle> faces;  // all that the movable ones have, in ids of the patch
-  std::vector<PatchBoundary> rim;
+  size_t movable = 0;           // the first vertices, of which those on feature edges stay fixed
+  std::vector<Triangle> faces;  // all faces of the movable vertices, in ids of the patch
+  std::vector<PatchBoundary> boundary;
   SurfacePositions positions;
   std::vector<double> vertex_length;
   Constraints constraints;
 };
 
-/// The vertices within so many rings about an inner edge, as far as creases. Nothing where more than `most`
-/// vertices would move, or one of them has more edges.
-std::optional<EdgePatch> cut_patch(const FlippableMesh& mesh, int half_edge, int rings, size_t most);
+/// The vertices within `rings` rings around an inner edge, up to creases. Empty if there would be more than
+/// `max_vertices` movable vertices, or if one of them has a valence above `max_vertices`.
+std::optional<EdgePatch> cut_patch(const FlippableMesh& mesh, int half_edge, int rings, size_t max_vertices);
 
-/// Only the two faces of the edge, of which no vertex may move.
+/// Only the two faces of the edge, without movable vertices.
 EdgePatch cut_pair(const FlippableMesh& mesh, int half_edge);
 
-/// The one of these faces that runs along from one vertex to the other. Pre-condition: there is one.
+/// The face with the half-edge `from` -> `to`. Pre-condition: there is one.
 const Triangle& face_along(const std::vector<Triangle>& faces, int from, int to);
 
 /// The faces of the patch after the flip of its edge.
 std::vector<Triangle> flipped_faces(const EdgePatch& patch);
 
-/// After its edge has been halved by this vertex.
+/// The faces of the patch after the split of its edge by this vertex.
 std::vector<Triangle> split_faces(const EdgePatch& patch, int vertex);
 
-/// After its edge has become one of its ends: 0 or 1.
+/// The faces of the patch after the collapse of its edge to the end `stays`, 0 or 1.
 std::vector<Triangle> collapsed_faces(const EdgePatch& patch, int stays);
 
-/// Appends a vertex that is where another one is, free to move on the surface; the whole mesh has none for it
-/// yet. Its target length is that of the middle of the edge. Returns its id.
-int append_vertex(EdgePatch& patch, int like);
+/// Appends a vertex at the position of the vertex `source`, free on the surface and with the target length of
+/// the edge's midpoint; the whole mesh has no such vertex yet. Returns its id in the patch.
+int append_vertex(EdgePatch& patch, int source);
 
-/// Moves the vertices of the mesh to where those of the patch are.
+/// Writes the positions of the patch's free vertices to those of the whole mesh.
 void move_vertices(const EdgePatch& patch, SurfacePositions& positions);
 
 }  // namespace hooke

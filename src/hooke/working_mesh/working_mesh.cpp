@@ -14,21 +14,21 @@
 namespace hooke {
 namespace {
 
-/// Room for so many ids, with room to spare: columns cost a copy of the matrix.
-void make_room(WorkingMesh& m, size_t ids) {
+/// Ensures capacity for `ids` ids. It grows geometrically, because resizing copies the matrices.
+void reserve_ids(WorkingMesh& m, size_t ids) {
   SurfacePositions& p = m.positions;
   if (p.drift.size() >= ids) return;
-  const size_t room = std::max<size_t>(16, 2 * p.hints.size());
+  const size_t capacity = std::max<size_t>(16, 2 * p.hints.size());
   for (Mat3X* matrix : {&p.points, &p.normals})
-    matrix->conservativeResize(3, static_cast<Eigen::Index>(room));
-  p.hints.resize(room, 0);
-  p.segments.resize(room, 0);
-  p.drift.resize(room, 0);
-  if (!p.other_wedge.empty()) p.other_wedge.resize(room, -1);
-  m.retraction.resize(room);
+    matrix->conservativeResize(3, static_cast<Eigen::Index>(capacity));
+  p.hints.resize(capacity, 0);
+  p.segments.resize(capacity, 0);
+  p.drift.resize(capacity, 0);
+  if (!p.other_wedge.empty()) p.other_wedge.resize(capacity, -1);
+  m.retraction.resize(capacity);
 }
 
-/// Gives the lists an entry for each of so many ids, or takes the last ones away.
+/// Resizes the lists to `ids` entries.
 void resize_lists(WorkingMesh& m, int ids) {
   const auto n = static_cast<size_t>(ids);
   m.constraints.freedom.resize(n, Freedom::fixed);
@@ -48,7 +48,7 @@ void keep_only(std::vector<T>& values, const std::vector<int>& kept) {
 
 }  // namespace
 
-CurveFinder::Place curve_of(const WorkingMesh& m, int h) {
+CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
   const int a = m.halfedges.from(h), b = m.halfedges.to(h);
   for (int v : {a, b})
     if (const int curve = m.constraints.curve[static_cast<size_t>(v)]; curve >= 0)
@@ -64,11 +64,11 @@ double relative_length(const WorkingMesh& m, int h) {
 void count_curve_edges(WorkingMesh& m, double chord_error) {
   const HalfedgeMesh& t = m.halfedges;
   const size_t curves = m.constraints.curves.size();
-  std::vector<double> lengths(curves, 0);  // sum of the target lengths of its edges
+  std::vector<double> lengths(curves, 0);  // sum of the target lengths of the edges, per curve
   m.curve_edges.present.assign(curves, 0);
-  m.curve_edges.wanted.assign(curves, 0);
+  m.curve_edges.target.assign(curves, 0);
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.is_gone(h / 3) || !is_feature_edge(t, h) || t.twin(h) > h) continue;
+    if (t.is_gone(h / 3) || !t.is_feature_edge(h) || t.twin(h) > h) continue;
     const int curve = curve_of(m, h).curve;
     if (curve < 0) continue;
     lengths[static_cast<size_t>(curve)] += target_length(m, t.from(h), t.to(h));
@@ -76,11 +76,11 @@ void count_curve_edges(WorkingMesh& m, double chord_error) {
   }
   for (size_t c = 0; c < curves; ++c)
     if (m.curve_edges.present[c] > 0)
-      m.curve_edges.wanted[c] =
+      m.curve_edges.target[c] =
           wanted_edges(m.constraints.curves[c], lengths[c] / m.curve_edges.present[c], chord_error);
 }
 
-SurfacePosition middle_of(const WorkingMesh& m, int h) {
+SurfacePosition project_midpoint(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
   const int a = t.from(h), hint = m.positions.hints[static_cast<size_t>(t.wedge(h))];
   const Vec3 half_way = .5 * (m.positions.points.col(t.to(h)) - m.positions.points.col(a));
@@ -91,9 +91,9 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
   const HalfedgeMesh& t = m.halfedges;
   const int a = t.from(h), b = t.to(h), v = t.id_count(), twin = t.twin(h);
   const int other_wedge = t.is_crease(h) ? v + 1 : -1;
-  const CurveFinder::Place on = is_feature_edge(t, h) ? curve_of(m, h) : CurveFinder::Place{};
+  const CurveFinder::Location on = t.is_feature_edge(h) ? curve_of(m, h) : CurveFinder::Location{};
   const int ids = std::max(v, other_wedge) + 1;
-  make_room(m, static_cast<size_t>(ids));
+  reserve_ids(m, static_cast<size_t>(ids));
   resize_lists(m, ids);
   const auto i = static_cast<size_t>(v);
   m.constraints.freedom[i] = on.curve >= 0 ? Freedom::curve : Freedom::surface;
@@ -121,7 +121,7 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
   return v;
 }
 
-void drop_vertex(WorkingMesh& m) {
+void remove_last_vertex(WorkingMesh& m) {
   resize_lists(m, m.halfedges.id_count());
 }
 

@@ -1,5 +1,5 @@
-// A mesh whose vertices come and go: its triangles with all that belongs to each vertex, and what is to
-// become of its curves.
+// The working mesh of the algorithms that change connectivity: a half-edge mesh with the data of each vertex
+// (position, constraints, target length), and the edit of a workspace through it.
 #pragma once
 
 #include "hooke/constraints/constraints.h"
@@ -11,21 +11,21 @@ namespace hooke {
 
 struct Workspace;
 
-/// A mesh whose edges are flipped and whose vertices move on the surface. All are references to objects that
-/// outlive it.
+/// A mesh whose edges are flipped and whose vertices move on the surface. All references must outlive it.
 struct FlippableMesh {
   HalfedgeMesh& halfedges;
   SurfacePositions& positions;
   Retraction& retraction;
   const Constraints& constraints;
   const std::vector<double>& vertex_length;  // target length per vertex
-  const std::vector<int>& corner_valences;   // per side: wanted at corners, 0 elsewhere: corner_rule.h
-  /// Called when vertices have moved, so that their target lengths can become those of their new places.
+  /// Per wedge: target valence of a corner, else 0; see corner_valences().
+  const std::vector<int>& corner_valences;
+  /// Called after vertices have moved, to update their target lengths to their new positions.
   std::function<void()> after_move = nullptr;
 };
 
-/// All references are to objects that outlive it. Until compact() the arrays are by the ids of the
-/// triangulation, and may have room for more.
+/// A mesh whose edges are flipped, split and collapsed. All references must outlive it. Until compact() the
+/// arrays are indexed by the ids of the half-edge mesh, and may have spare capacity.
 struct WorkingMesh {
   HalfedgeMesh& halfedges;
   SurfacePositions& positions;
@@ -33,7 +33,7 @@ struct WorkingMesh {
   Constraints& constraints;
   std::vector<double>& vertex_length;
   std::vector<int>& corner_valences;
-  std::vector<int>& origins;  // what the vertex was before vertices came and went: an id, -1 if it is new
+  std::vector<int>& origins;  // id of the vertex before any split or collapse, -1 for a new one
   const CurveFinder& curve_finder;
   CurveEdges& curve_edges;
 
@@ -42,15 +42,10 @@ struct WorkingMesh {
   }
 };
 
-/// Does the edge lie along a curve: a boundary or a crease?
-inline bool is_feature_edge(const HalfedgeMesh& t, int h) {
-  return t.twin(h) < 0 || t.is_crease(h);
-}
+/// The curve on which a feature edge lies; curve -1 if none is known.
+CurveFinder::Location curve_of(const WorkingMesh& mesh, int half_edge);
 
-/// The curve along which the edge of a rim runs; curve -1 where none is known.
-CurveFinder::Place curve_of(const WorkingMesh& mesh, int half_edge);
-
-/// Of an edge between the vertices.
+/// Target length of an edge between the vertices.
 inline double target_length(const WorkingMesh& m, int v, int w) {
   return .5 * (m.vertex_length[static_cast<size_t>(v)] + m.vertex_length[static_cast<size_t>(w)]);
 }
@@ -58,41 +53,40 @@ inline double target_length(const WorkingMesh& m, int v, int w) {
 /// Length of the edge over its target length.
 double relative_length(const WorkingMesh& mesh, int half_edge);
 
-/// Fills curve_edges: one edge per target length, and as many more as it takes to keep the chords within
-/// `chord_error` target lengths of the curve.
+/// Updates curve_edges: the edges present per curve, and their target number, which is one per target length,
+/// plus what it takes to keep the chords within `chord_error` target lengths of the curve.
 void count_curve_edges(WorkingMesh& mesh, double chord_error);
 
-/// Adds what belongs to a vertex in the middle of the edge, on its curve or on the surface, and to its sides:
-/// the only place where a vertex is born. The triangles do not know it yet. Returns the id that a split of
-/// the edge will give it. `middle` is that of the edge if it is known, else null.
+/// Adds the data of a vertex in the middle of the edge, on its curve or on the surface, and of its wedges; no
+/// other function adds vertices. The half-edge mesh is not changed. Returns the id that a split of the edge
+/// will assign. `middle` is the result of project_midpoint() if known, else null.
 int add_vertex(WorkingMesh& mesh, int half_edge, const SurfacePosition* middle = nullptr);
 
-/// Where the middle of an edge that is no rim comes to lie on the surface; safe for different edges at once.
-SurfacePosition middle_of(const WorkingMesh& mesh, int half_edge);
+/// The surface position of the midpoint of an edge that is no feature edge; safe for different edges at once.
+SurfacePosition project_midpoint(const WorkingMesh& mesh, int half_edge);
 
-/// Takes back what was added last.
-void drop_vertex(WorkingMesh& mesh);
+/// Removes the data added last, when the split was not made.
+void remove_last_vertex(WorkingMesh& mesh);
 
-/// Gives up the ids that are unused, numbers the sides as split_wedges() does, and writes the creases to
-/// the constraints.
+/// Removes unused ids, numbers the wedges as split_wedges() does, and writes the creases to the constraints.
 void compact(WorkingMesh& mesh);
 
-// The mesh of a work as one whose vertices come and go.
-
-/// Pre-condition: the vertices lie on the field of the input, see Workspace::replace_faces().
+/// Edits the mesh of a workspace as a WorkingMesh. Pre-condition: the vertices lie on the field of the input,
+/// see Workspace::replace_faces().
 class WorkspaceEdit {
  public:
-  /// Keeps a reference to the work. `corner_angle`: degrees, see corner_rule.h.
+  /// Keeps a reference to the workspace. `corner_angle`: degrees, see corner_valences().
   WorkspaceEdit(Workspace& work, double corner_angle);
   WorkspaceEdit(const WorkspaceEdit&) = delete;
 
   WorkingMesh& mesh() { return mesh_; }
   const WorkingMesh& mesh() const { return mesh_; }
 
-  /// Gives the work the faces as they are now. Pre-condition: there were only flips.
+  /// Writes the current faces to the workspace. Pre-condition: there were only flips.
   void replace_faces();
 
-  /// Gives the work the mesh as it is now, which ends this one. Pre-condition: it is compact.
+  /// Writes the current mesh to the workspace; this edit must not be used afterwards. Pre-condition:
+  /// compact() was called.
   void replace_mesh();
 
  private:

@@ -25,7 +25,7 @@ Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& l
   return n;
 }
 
-constexpr double landing_tolerance = 1e-9;  // in mean target lengths
+constexpr double final_projection_tolerance = 1e-9;  // in mean target lengths
 
 std::vector<int> identity(int count) {
   std::vector<int> ids(static_cast<size_t>(count));
@@ -57,17 +57,17 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   start_length_ = vertex_length;
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  if (graded()) reordered.even_crease = 0;  // even edges are not what is asked for
+  if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
   origins = identity(adjacency->vertex_count);
-  input_connectivity_ = adjacency;
+  input_adjacency_ = adjacency;
 
   const Stage stage(stopwatch, "fit");
   const SurfaceField field = fit(start);
   input_hints_ = identity(adjacency->wedge_count());
   to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
-                                           RetractionOptions{.tolerance = landing_tolerance});
+                                           RetractionOptions{.tolerance = final_projection_tolerance});
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   positions = retraction->place(*start, input_hints_, constraints.segment);
 }
@@ -75,17 +75,17 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
 void Workspace::connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases) {
   adjacency = std::move(smooth);
   if (!creases.empty()) {
-    Adjacency parted = *adjacency;
-    split_wedges(parted, creases);
-    adjacency = std::make_shared<const Adjacency>(std::move(parted));
+    Adjacency with_wedges = *adjacency;
+    split_wedges(with_wedges, creases);
+    adjacency = std::make_shared<const Adjacency>(std::move(with_wedges));
   }
   coloring = color_vertices(*adjacency);
   targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
-/// A field of which each side of a crease has its own. What it may swing out is counted in target lengths, or
-/// in those that are natural for these faces where targets are shorter: a coarse mesh of a round body is no
-/// polyhedron.
+/// Fits a field, separate on both sides of each crease. Its deviation bound is measured in target lengths, or
+/// in the natural length of these faces where targets are shorter: a coarse mesh of a round body is not to be
+/// taken for a polyhedron.
 SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> shared_points) const {
   const Mat3X& points = *shared_points;
   const double natural = natural_length(total_area(points, adjacency->faces), adjacency->faces.size());
@@ -109,7 +109,7 @@ void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;
   const SurfaceField field = fit(std::make_shared<const Mat3X>(positions.points));
-  finished_ += retraction->counts();
+  past_counts_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   positions = retraction->place(positions.points, identity(adjacency->wedge_count()), positions.segments);
 }
@@ -124,25 +124,25 @@ SurfacePositions Workspace::project_to_input() {
 void Workspace::return_to_input() {
   if (!refitted_) return;
   refitted_ = false;
-  finished_ += retraction->counts();
+  past_counts_ += retraction->counts();
   retraction = std::make_unique<Retraction>(to_input_->surface(), constraints, retraction_options_);
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {
   connect(std::make_shared<const Adjacency>(make_adjacency(adjacency->vertex_count, std::move(faces))),
           constraints.creases);
-  input_hints_ = positions.hints;  // vertices may be far from where they were
+  input_hints_ = positions.hints;  // vertices may have moved far
   faces_replaced_ = true;
 }
 
 void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges,
                              const std::vector<int>& before) {
   const auto n = before.size();
-  std::vector<int> kept_as(order.old_vertex.size(), -1);  // by the ids of before
+  std::vector<int> kept_as(order.old_vertex.size(), -1);  // by previous id in the result
   for (size_t v = 0; v < n; ++v)
     if (before[v] >= 0)
       kept_as[static_cast<size_t>(order.old_vertex[static_cast<size_t>(before[v])])] = static_cast<int>(v);
-  std::vector<int> by_id;  // in the order of the result
+  std::vector<int> by_id;  // vertices in the order of the result
   by_id.reserve(n);
   std::ranges::copy_if(kept_as, std::back_inserter(by_id), [](int v) { return v >= 0; });
   for (size_t v = 0; v < n; ++v)
@@ -155,10 +155,11 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   const std::vector<int> local = bfs_cluster_order(static_cast<int>(n), faces);
   order = reorder(std::move(faces), local);
 
-  std::vector<int> source(n), place(n);  // where each vertex comes from, and goes to
+  // Index of the caller for each index in memory order, and its inverse.
+  std::vector<int> source(n), inverse(n);
   for (size_t v = 0; v < n; ++v) {
     source[v] = by_id[static_cast<size_t>(order.old_vertex[v])];
-    place[static_cast<size_t>(source[v])] = static_cast<int>(v);
+    inverse[static_cast<size_t>(source[v])] = static_cast<int>(v);
   }
   const auto arrange = [&](auto& values) {
     const auto old = values;
@@ -172,7 +173,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   arrange(constraints.curve);
   arrange(constraints.segment);
   for (Edge& crease : constraints.creases)
-    for (int& v : crease) v = place[static_cast<size_t>(v)];
+    for (int& v : crease) v = inverse[static_cast<size_t>(v)];
   std::vector<int> from(n, -1);
   for (size_t v = 0; v < n; ++v)
     if (const int old = before[static_cast<size_t>(source[v])]; old >= 0)
@@ -198,33 +199,33 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   vertices_replaced_ = true;
 }
 
-SurfacePoint Workspace::place_on_input(int v) const {
+SurfacePoint Workspace::locate_on_input(int v) const {
   const std::vector<int>& hints = refitted_ ? input_hints_ : positions.hints;
-  return locate(*start, *input_connectivity_, positions.points.col(v),
-                input_connectivity_->vertex_of_wedge(hints[static_cast<size_t>(v)]));
+  return locate(*start, *input_adjacency_, positions.points.col(v),
+                input_adjacency_->vertex_of_wedge(hints[static_cast<size_t>(v)]));
 }
 
 void Workspace::resample_lengths() {
-  if (!graded()) return;
+  if (!has_varying_lengths()) return;
   vertex_length = input_lengths();
   targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
-bool Workspace::graded() const {
-  return start_length_.vary();
+bool Workspace::has_varying_lengths() const {
+  return start_length_.is_varying();
 }
 
 std::vector<double> Workspace::input_lengths() const {
   std::vector<double> lengths = vertex_length;
   parallel_for(lengths.size(), 256, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
-      const SurfacePoint place = place_on_input(static_cast<int>(v));
-      if (place.face < 0) continue;
+      const SurfacePoint point = locate_on_input(static_cast<int>(v));
+      if (point.face < 0) continue;
       lengths[v] = 0;
       for (size_t k = 0; k < 3; ++k)
-        lengths[v] += place.weights[static_cast<Eigen::Index>(k)] *
-                      start_length_[static_cast<size_t>(
-                          input_connectivity_->faces[static_cast<size_t>(place.face)][k])];
+        lengths[v] +=
+            point.weights[static_cast<Eigen::Index>(k)] *
+            start_length_[static_cast<size_t>(input_adjacency_->faces[static_cast<size_t>(point.face)][k])];
     }
   });
   return lengths;
@@ -240,9 +241,9 @@ std::vector<MapEntry> Workspace::map() const {
   parallel_for(entries.size(), 256, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       MapEntry& entry = entries[static_cast<size_t>(order.old_vertex[v])];
-      entry.place = place_on_input(static_cast<int>(v));
-      if (entry.place.face >= 0)
-        entry.place.face = input_order().old_face[static_cast<size_t>(entry.place.face)];
+      entry.position = locate_on_input(static_cast<int>(v));
+      if (entry.position.face >= 0)
+        entry.position.face = input_order().old_face[static_cast<size_t>(entry.position.face)];
       entry.vertex = vertex_of_input(static_cast<int>(v));
     }
   });
@@ -254,20 +255,20 @@ Mat3X Workspace::copy_back(TriMesh& target) const {
   Mat3X points(3, positions.points.cols());
   std::vector<double> lengths(vertex_length.size());
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    const auto place = static_cast<size_t>(order.old_vertex[static_cast<size_t>(v)]);
+    const auto id = static_cast<size_t>(order.old_vertex[static_cast<size_t>(v)]);
     const int origin = origins[static_cast<size_t>(v)];
     const bool stayed = origin >= 0 && positions.points.col(v) == start->col(origin);
-    points.col(static_cast<Eigen::Index>(place)) =
+    points.col(static_cast<Eigen::Index>(id)) =
         stayed ? Vec3(input.col(input_order().old_vertex[static_cast<size_t>(origin)]))
                : Vec3(normalisation.centre + normalisation.unit * positions.points.col(v));
-    lengths[place] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
+    lengths[id] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
   }
   if (vertices_replaced_)
     target = build_mesh(points, *adjacency, order.old_ids());
   else if (faces_replaced_)
     hooke::replace_faces(target, *adjacency, order.old_ids());
   vertex_points(target) = points;
-  if (graded() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
+  if (has_varying_lengths() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
   return input;
 }
 
@@ -277,7 +278,7 @@ MemoryOrder Workspace::memory_order() const {
 }
 
 ProjectionCounts Workspace::projection_counts() const {
-  ProjectionCounts counts = finished_;
+  ProjectionCounts counts = past_counts_;
   counts += retraction->counts();
   counts += to_input_->counts();
   return counts;

@@ -1,4 +1,5 @@
-// The mesh as the optimizer works on it: normalised, in memory order, with its constraints and its surface.
+// The workspace of the optimizer: the normalised mesh in memory order, with its constraints, target lengths
+// and surface fields.
 #pragma once
 
 #include <memory>
@@ -16,94 +17,96 @@
 namespace hooke {
 
 /// x = centre + unit * x'. The unit is the mean target length and the centre that of the bounding box, so
-/// that a mesh scaled by a power of two has the same normalised coordinates to the last bit.
+/// that a mesh scaled by a power of two has bitwise the same normalised coordinates.
 struct Normalisation {
   Vec3 centre = Vec3::Zero();
   double unit = 1;
 };
 
+/// Vertices are tracked on two surface fields: that of the input, on which they lie in the end, and the one
+/// fitted last. Both are the same until the first refit().
 struct Workspace {
-  /// Takes the target lengths from v:target_length. The layout is that of the mesh.
+  /// Reads the target lengths from v:target_length. `memory_order` must belong to `mesh`. Keeps no reference
+  /// to the mesh.
   Workspace(const TriMesh& mesh, MemoryOrder memory_order, const ConstraintOptions& constraints,
             const FilterOptions& filter, const RetractionOptions& retraction, Stopwatch* stopwatch = nullptr);
 
-  /// Fits a new field to the vertices as they lie now and makes it the one that moves are projected to.
-  /// [11]-[14]
+  /// Fits a new field to the current vertices; displacements are projected to it from now on. [11]-[14]
   void refit();
 
-  /// Where the vertices come to lie on the field of the input, which is what they are to lie on in the end.
-  /// From there on they are tracked on it.
+  /// The positions of the vertices projected to the field of the input, on which they are tracked from now
+  /// on. `positions` does not change.
   SurfacePositions project_to_input();
 
-  /// Where on the input the vertices are tracked from now on, per side.
+  /// Sets the hints for projections to the field of the input, one per wedge.
   void track_on_input(std::vector<int> hints) { input_hints_ = std::move(hints); }
 
-  /// To the field of the input.
+  /// The retraction to the field of the input.
   Retraction& to_input() { return *to_input_; }
 
   /// Is the field fitted last another one than that of the input?
   bool refitted() const { return refitted_; }
 
-  /// Takes back refit(): the vertices, which have landed, are tracked on the field of the input again.
+  /// Reverts refit(): the vertices, which must be projected to the input, are tracked on its field again.
   void return_to_input();
 
-  /// Gives the work other faces on the same vertices, whose ids go on to count as those of the input's faces.
-  /// The vertices must still be on the field of the input: before the first refit(), or after
-  /// return_to_input().
+  /// Replaces the faces and keeps the vertices; in the result the new faces take the ids of the input's
+  /// faces. Pre-condition: the vertices are tracked on the field of the input, that is before the first
+  /// refit() or after return_to_input().
   void replace_faces(std::vector<Triangle> faces);
 
-  /// Gives the work other vertices and faces. The caller has changed what the work holds per vertex and side
-  /// in public members, `faces` join the vertices as they stand there, `sides` are those of their corners,
-  /// and `origins` tells for each vertex which one it was before: -1 for a new one. All are put into memory
-  /// order; in the result the vertices that were there keep their order, and new ones follow. Pre-condition
-  /// as for replace_faces().
+  /// Replaces vertices and faces. The caller has already changed the public members with data per vertex and
+  /// wedge; `faces` and the `wedges` of their corners refer to these, and `origins` gives the previous id of
+  /// each vertex, -1 for a new one. Everything is put into memory order; in the result the kept vertices keep
+  /// their order, and new ones follow. Pre-condition as for replace_faces().
   void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges,
                     const std::vector<int>& origins);
 
-  /// Do target lengths vary?
-  bool graded() const;
+  /// Do the target lengths vary?
+  bool has_varying_lengths() const;
 
-  /// Target lengths of the input at the places of the vertices, linear in its faces.
+  /// Target lengths of the input, interpolated linearly in its faces at the positions of the vertices.
   std::vector<double> input_lengths() const;
 
-  /// Gives the vertices the target lengths of the places they have come to, where these vary. The targets
-  /// change in place.
+  /// Updates varying target lengths to the current positions of the vertices. References to the targets stay
+  /// valid.
   void resample_lengths();
 
-  /// Writes the points of all vertices that moved back to the mesh it was made from, and v:target_length
-  /// where it varies; where they were replaced, the faces, or a new mesh. Returns the points that the mesh
-  /// had.
+  /// Writes the points to `target`, the mesh that the workspace was made from; vertices that did not move
+  /// keep their coordinates. Also writes v:target_length where it varies, and the new faces, or a new mesh if
+  /// vertices were replaced. Returns the previous points of `target`.
   Mat3X copy_back(TriMesh& target) const;
 
-  /// That of the result.
+  /// The memory order of the result.
   MemoryOrder memory_order() const;
 
-  /// The id that a vertex of the work had in the mesh the work was made from; -1 for a new one.
+  /// The id of a vertex in the mesh that the workspace was made from; -1 for a new one.
   int vertex_of_input(int vertex) const;
 
-  /// Where the vertices of the result, in their order there, lie on the mesh the work was made from.
+  /// The positions of the result's vertices, in their order there, on the mesh that the workspace was made
+  /// from.
   std::vector<MapEntry> map() const;
 
   ProjectionCounts projection_counts() const;
 
-  /// Smooth pieces of the surface: the components of the mesh cut open at its creases.
+  /// Number of smooth charts: the connected components of the mesh cut open along its creases.
   int chart_count() const;
 
   Stopwatch* stopwatch;
   Normalisation normalisation;
-  Permutation order;  // ids in the result, those of the input while its vertices stay; without its faces
+  Permutation order;  // to the ids of the result, those of the input until replace_mesh(); `faces` is empty
   std::shared_ptr<const Adjacency> adjacency;  // with its creases
   VertexColoring coloring;
-  std::vector<double> vertex_length;  // target lengths, normalised, at the vertices' places when last sampled
+  std::vector<double> vertex_length;  // normalised target lengths, at the positions sampled last
   TargetLengths targets;
   Constraints constraints;
-  std::shared_ptr<const Mat3X> start;      // the points of the input
-  std::vector<int> origins;                // per vertex: which of `start` it was, -1 for a new one
-  SurfacePositions positions;              // of the vertices on the field fitted last
-  std::unique_ptr<Retraction> retraction;  // to that field
+  std::shared_ptr<const Mat3X> start;      // points of the input
+  std::vector<int> origins;                // per vertex: its index in `start`, -1 for a new one
+  SurfacePositions positions;              // on the field fitted last
+  std::unique_ptr<Retraction> retraction;  // to the field fitted last
 
  private:
-  SurfacePoint place_on_input(int vertex) const;
+  SurfacePoint locate_on_input(int vertex) const;
   const Permutation& input_order() const { return input_order_ ? *input_order_ : order; }
   void connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases);
   SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
@@ -112,13 +115,13 @@ struct Workspace {
   RetractionOptions retraction_options_;
   bool faces_replaced_ = false;
   bool vertices_replaced_ = false;
-  std::optional<Permutation> input_order_;               // the ids in the input, once `order` has others
-  std::shared_ptr<const Adjacency> input_connectivity_;  // on `start`
-  UniformVector start_length_;                           // target lengths there
-  bool refitted_ = false;                                // until then both fields are the same
-  std::vector<int> input_hints_;                         // where each vertex is tracked on the input
-  std::unique_ptr<Retraction> to_input_;                 // to the field of the input
-  ProjectionCounts finished_;                            // of the retractions that are gone
+  std::optional<Permutation> input_order_;            // ids in the input, once vertices were replaced
+  std::shared_ptr<const Adjacency> input_adjacency_;  // with the points `start`
+  UniformVector start_length_;                        // target lengths with the points `start`
+  bool refitted_ = false;                             // false: both fields are the same
+  std::vector<int> input_hints_;                      // per wedge: hint on the field of the input
+  std::unique_ptr<Retraction> to_input_;              // to the field of the input
+  ProjectionCounts past_counts_;                      // of retractions that no longer exist
 };
 
 }  // namespace hooke
