@@ -152,7 +152,8 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option("--tolerance", raw.tolerance, "Converged when every edge is this near to the target length")
       ->type_name("X%")
       ->capture_default_str();
-  add_number<int>(app, "--max-outer", raw.max_outer, "Outer iterations: relaxation and filtering", whole_number)
+  add_number<int>(app, "--max-outer", raw.max_outer, "Outer iterations: relaxation and filtering",
+                  whole_number)
       ->default_str("6; 10 with --paper");
   add_number<int>(app, "--max-steps", raw.max_steps, "Steps per outer iteration", whole_number)
       ->default_str("2000; 400 with --paper");
@@ -206,7 +207,8 @@ void add_reports(CLI::App& app, Settings& s) {
 void add_run(CLI::App& app, Settings& s) {
   add_number<int>(
       app, "-j,--threads", s.threads,
-      "Threads (default: SLURM_CPUS_PER_TASK, OMP_NUM_THREADS, or all); results do not depend on it", whole_number);
+      "Threads (default: SLURM_CPUS_PER_TASK, OMP_NUM_THREADS, or all); results do not depend on it",
+      whole_number);
   app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");
   app.add_flag("-v,--verbose", s.verbose, "Print every outer iteration");
   add_choice(

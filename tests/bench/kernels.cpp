@@ -29,7 +29,7 @@ struct Sphere {
                natural_length(total_area(start.points, start.faces), start.faces.size())) {
     std::vector<int> hints(length.size());
     std::iota(hints.begin(), hints.end(), 0);
-    positions = retraction.place(start.points, hints, constraints.segment);
+    positions = retraction.project_all(start.points, hints, constraints.segment);
   }
 
   Relaxation relaxation() { return {*adjacency, coloring, length, energy, retraction, guards, positions}; }

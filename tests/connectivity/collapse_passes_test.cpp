@@ -154,7 +154,7 @@ TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
     EXPECT_EQ(collapse_edge(s.working, h, {}), collapse ? collapse->stays : -1);
     if (collapse) {
       EXPECT_EQ(Vec3(s.positions.points.col(collapse->stays)), collapse->position.point);
-      EXPECT_TRUE(s.halfedges.is_gone(h / 3));
+      EXPECT_TRUE(s.halfedges.is_removed(h / 3));
     }
   }
 }
@@ -290,7 +290,7 @@ struct FaceSummary {
 FaceSummary summarize(const WorkingMesh& m) {
   FaceSummary summary;
   for (size_t f = 0; f < m.halfedges.faces().size(); ++f) {
-    if (m.halfedges.is_gone(static_cast<int>(f))) continue;
+    if (m.halfedges.is_removed(static_cast<int>(f))) continue;
     const Triangle& t = m.halfedges.faces()[f];
     ++summary.faces;
     summary.min_alignment =

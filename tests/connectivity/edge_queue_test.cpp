@@ -144,7 +144,7 @@ void expect_all_of(const HalfedgeMesh& t, EdgeQueue& queue, const std::set<int>&
 std::set<int> urgent_edges(const HalfedgeMesh& t) {
   std::set<int> urgent;
   for (int h = 0; h < t.half_edge_count(); ++h)
-    if (!t.is_gone(h / 3) && t.twin(h) < h && urgency(t, h) > 0) urgent.insert(h);
+    if (!t.is_removed(h / 3) && t.twin(h) < h && urgency(t, h) > 0) urgent.insert(h);
   return urgent;
 }
 
@@ -171,7 +171,7 @@ TEST(EdgeQueue, LosesNoEdgeWhereOthersCollapse) {
     queue.push_around(stays);
   }
   for (int h : refused)
-    if (!t.is_gone(h / 3)) queue.push(h);
+    if (!t.is_removed(h / 3)) queue.push(h);
   expect_all_of(t, queue, urgent_edges(t));
 }
 

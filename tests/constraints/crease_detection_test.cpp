@@ -63,8 +63,8 @@ TEST(Features, AWeakerEdgeGoesOnFromASharpOne) {
   const auto edges = [](const CreaseOptions& options) {
     return static_cast<double>(features_of(fading_sheet(), options).size());
   };
-  EXPECT_NEAR(edges({}), 36, 1);           // to 24 degrees
-  EXPECT_NEAR(edges({.weak = 1}), 20, 1);  // to 40
+  EXPECT_NEAR(edges({}), 36, 1);                 // to 24 degrees
+  EXPECT_NEAR(edges({.hysteresis = 1}), 20, 1);  // to 40
 }
 
 TEST(Features, AChainWithALooseEndIsLong) {
@@ -112,7 +112,7 @@ TEST(Features, AShortFoldFromBoundaryToBoundaryIsOneBetweenFlatSides) {
 TEST(Features, AChainInTheMidstOfTheSurfaceLiesBetweenFlatFaces) {
   EXPECT_GE(features_of(creased_sheet(1000)).size(), 20u);
   EXPECT_TRUE(features_of(creased_sheet(15)).empty());
-  EXPECT_FALSE(features_of(creased_sheet(15), {.flat_bend = .1}).empty());
+  EXPECT_FALSE(features_of(creased_sheet(15), {.flat_bend_ratio = .1}).empty());
 }
 
 TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {

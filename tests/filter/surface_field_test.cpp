@@ -420,7 +420,7 @@ TEST(PartitionOfUnity, LeavesNoVertexWithoutAPatchAndFitsThemAllAsWanted) {
   const auto c = shared_connectivity(t);
   const Mat3X normals = vertex_normals(t.points, *c);
   const PartitionOfUnity psi(t.points, *c, normals, mean_edge_lengths(t.points, *c));
-  EXPECT_EQ(psi.count(PatchFit::as_wanted), psi.patch_count());
+  EXPECT_EQ(psi.count(PatchFit::as_requested), psi.patch_count());
   EXPECT_LT(psi.memory_bytes() / 642, 500u);
   for (int v = 0; v < c->vertex_count; ++v) EXPECT_NEAR(psi(t.points.col(v), v).gradient.norm(), 1, .1);
 }

@@ -98,8 +98,8 @@ TEST(AabbTree, PairsOfBoxesThatMeetAreAllVisitedOnce) {
     visited.insert({std::min(f.id, g.id), std::max(f.id, g.id)});
   };
   const size_t half = tree.parts() / 2;  // parts may be asked for in any grouping
-  tree.for_each_meeting_pair(half, tree.parts(), visit);
-  tree.for_each_meeting_pair(0, half, visit);
+  tree.for_each_overlapping_pair(half, tree.parts(), visit);
+  tree.for_each_overlapping_pair(0, half, visit);
   for (const Face& f : tree.faces())
     for (const Face& g : tree.faces())
       if (f.id < g.id && f.box().intersects(g.box())) expected.insert({f.id, g.id});
@@ -145,7 +145,7 @@ TEST(AabbTree, EmptyTreeFindsNothing) {
   EXPECT_TRUE(tree.empty());
   EXPECT_EQ(tree.closest({0, 0, 0}).face, -1);
   EXPECT_EQ(tree.closest({0, 0, 0}).squared_distance, std::numeric_limits<double>::infinity());
-  tree.for_each_meeting_pair(0, tree.parts(), [](const auto&, const auto&) { FAIL(); });
+  tree.for_each_overlapping_pair(0, tree.parts(), [](const auto&, const auto&) { FAIL(); });
 }
 
 struct Item {

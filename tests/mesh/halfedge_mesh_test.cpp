@@ -110,7 +110,7 @@ HalfedgeMesh shaken(HalfedgeMesh t, int steps, unsigned seed) {
   std::mt19937 random(seed);
   for (int i = 0; i < steps; ++i) {
     const int h = static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count()));
-    if (t.is_gone(h / 3)) continue;
+    if (t.is_removed(h / 3)) continue;
     if (random() % 3 == 0)
       t.split(h);
     else if (t.may_collapse(h))
@@ -151,7 +151,7 @@ TEST(HalfedgeMesh, SplitsAndCollapsesKeepTheWedges) {
     int collapses = 0;
     for (int i = 0; i < 3000; ++i) {
       const int h = static_cast<int>(random() % static_cast<unsigned>(t.half_edge_count()));
-      if (t.is_gone(h / 3)) continue;
+      if (t.is_removed(h / 3)) continue;
       if (random() % 3 == 0) {
         t.split(h);
       } else if (is_free_to_go(t, h, t.from(h)) && t.may_collapse(h)) {

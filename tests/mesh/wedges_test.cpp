@@ -77,7 +77,7 @@ TEST(Creases, FlipsOfOtherEdgesKeepTheWedges) {
 TEST(Creases, ASectorRunsFromCreaseToCrease) {
   const HalfedgeMesh t(parted(test::irregular_cube(4)));
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    const SmallIntList sector = t.sector(h);
+    const SmallIntList sector = t.wedge_halfedges(h);
     EXPECT_NE(std::ranges::find(sector, h), sector.end());
     for (int s : sector) {
       EXPECT_EQ(t.from(s), t.from(h));

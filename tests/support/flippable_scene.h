@@ -46,8 +46,8 @@ struct FlippableScene {
       : adjacency(part_at(creases, make_adjacency(static_cast<int>(t.points.cols()), t.faces))),
         constraints(find_constraints(t.points, adjacency, {})),
         retraction(surface, constraints, {}),
-        positions(retraction.place(t.points, std::vector<int>(static_cast<size_t>(adjacency.wedge_count())),
-                                   constraints.segment)),
+        positions(retraction.project_all(
+            t.points, std::vector<int>(static_cast<size_t>(adjacency.wedge_count())), constraints.segment)),
         halfedges(adjacency),
         vertex_length(static_cast<size_t>(t.points.cols()),
                       natural_length(total_area(t.points, t.faces), t.faces.size())),

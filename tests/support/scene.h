@@ -56,7 +56,7 @@ struct Scene {
         guards(adjacency, targets, o.guards) {
     std::vector<int> hints(length.size());
     for (size_t v = 0; v < hints.size(); ++v) hints[v] = static_cast<int>(v);
-    positions = retraction.place(t.points, std::move(hints), constraints.segment);
+    positions = retraction.project_all(t.points, std::move(hints), constraints.segment);
   }
   Scene(const Scene&) = delete;
 

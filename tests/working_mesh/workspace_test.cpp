@@ -45,7 +45,7 @@ void shake(Workspace& w) {
 /// Largest distance of the points to the field of the input.
 double off_the_input(const TriMesh& input, const Mat3X& points) {
   const Workspace w = on(input);
-  const SurfacePositions p = w.retraction->place(points, w.positions.hints, w.positions.segments);
+  const SurfacePositions p = w.retraction->project_all(points, w.positions.hints, w.positions.segments);
   return (p.points - points).colwise().norm().maxCoeff();
 }
 

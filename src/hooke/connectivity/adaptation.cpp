@@ -279,7 +279,7 @@ void AdaptationSteps::compact_ids() {
 
 void AdaptationSteps::relax_springs() {
   const Stage stage(work_.stopwatch, "springs");
-  Adjacency c = connectivity_of(m_.halfedges, static_cast<int>(m_.positions.points.cols()));
+  Adjacency c = adjacency_of(m_.halfedges, static_cast<int>(m_.positions.points.cols()));
   split_wedges(c, m_.constraints.creases);
   const VertexColoring coloring = color_vertices(c);
   const TargetLengths targets = spread_target_lengths(c, m_.vertex_length);

@@ -96,7 +96,7 @@ class BlockCollapses {
     while (!waiting_.empty()) {
       const auto [length, h] = waiting_.top();
       waiting_.pop();
-      if (!t_.is_gone(h / 3) && !t_.is_feature_edge(h) && relative_length(m_, h) == length) return h;
+      if (!t_.is_removed(h / 3) && !t_.is_feature_edge(h) && relative_length(m_, h) == length) return h;
     }
     return -1;
   }
@@ -123,7 +123,7 @@ double share_of_shorter(const WorkingMesh& m, double length) {
       double sum = 0;
       for (size_t i = begin; i < end; ++i) {
         const int h = static_cast<int>(i);
-        sum += !t.is_gone(h / 3) && counts(h);
+        sum += !t.is_removed(h / 3) && counts(h);
       }
       return sum;
     });
@@ -214,7 +214,8 @@ int collapse_folded_faces(WorkingMesh& m, const CollapseOptions& options) {
   };
   const int count = t.half_edge_count() / 3;
   int collapses = 0;
-  for (int f = 0; f < count; ++f) collapses += !t.is_gone(f) && is_folded(f) && collapse_about(m, f, options);
+  for (int f = 0; f < count; ++f)
+    collapses += !t.is_removed(f) && is_folded(f) && collapse_about(m, f, options);
   m.retraction.count();
   return collapses;
 }

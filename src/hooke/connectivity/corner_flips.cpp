@@ -37,7 +37,7 @@ class Corner {
  private:
   SmallIntList corner_edges() const {
     for (int h : t_.outgoing(vertex_))
-      if (t_.wedge(h) == wedge_) return t_.sector(h);
+      if (t_.wedge(h) == wedge_) return t_.wedge_halfedges(h);
     return {};
   }
 

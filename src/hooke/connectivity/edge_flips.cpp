@@ -104,7 +104,7 @@ double opposite_angles(const HalfedgeMesh& t, const Mat3X& points, int h) {
 CornerValence corner_valence(const FlippableMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
   const int target = m.corner_valences[static_cast<size_t>(t.wedge(h))];
-  return {target, target > 0 ? static_cast<int>(t.sector(h).size()) + 1 : t.valence(t.from(h))};
+  return {target, target > 0 ? static_cast<int>(t.wedge_halfedges(h).size()) + 1 : t.valence(t.from(h))};
 }
 
 bool may_flip(const FlippableMesh& m, int h, const FlipGuardOptions& o) {

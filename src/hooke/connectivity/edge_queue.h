@@ -21,7 +21,7 @@ class EdgeQueue {
     queued_.resize(static_cast<size_t>(t_.half_edge_count()), 0);
     parallel_for(queued_.size(), 4096, [this](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
-        if (const int h = static_cast<int>(i); !t_.is_gone(h / 3) && t_.twin(h) < h)
+        if (const int h = static_cast<int>(i); !t_.is_removed(h / 3) && t_.twin(h) < h)
           queued_[i] = std::max(urgency_(h), 0.);
     });
   }
@@ -54,7 +54,7 @@ class EdgeQueue {
       entries_.pop();
       if (queued_[static_cast<size_t>(h)] != urgency) continue;  // outdated entry
       queued_[static_cast<size_t>(h)] = 0;
-      if (!t_.is_gone(h / 3)) return h;
+      if (!t_.is_removed(h / 3)) return h;
     }
     return -1;
   }

@@ -14,7 +14,7 @@ namespace {
 
 int face_count(const HalfedgeMesh& t) {
   int count = 0;
-  for (int f = 0; f < t.half_edge_count() / 3; ++f) count += !t.is_gone(f);
+  for (int f = 0; f < t.half_edge_count() / 3; ++f) count += !t.is_removed(f);
   return count;
 }
 
@@ -39,7 +39,7 @@ std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count
   const HalfedgeMesh& t = m.halfedges;
   std::vector<Candidate> edges;
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.is_gone(h / 3) || t.is_feature_edge(h) || t.twin(h) > h) continue;
+    if (t.is_removed(h / 3) || t.is_feature_edge(h) || t.twin(h) > h) continue;
     const int twin = t.twin(h);
     const int ends = valence_excess(m, h) + valence_excess(m, twin);
     const int opposite =
@@ -112,7 +112,7 @@ CountChanges approach_face_count(WorkingMesh& m, double target, const CountOptio
        candidates(m, split, 8 * static_cast<size_t>(count) + 64, options.valence_weight)) {
     if (done == count) break;
     const int h = c.half_edge;
-    if (t.is_gone(h / 3) || t.twin(h) < 0) continue;
+    if (t.is_removed(h / 3) || t.twin(h) < 0) continue;
     const auto near = [&](int v) { return touched[static_cast<size_t>(v)] != 0; };
     if (near(t.from(h)) || near(t.to(h))) continue;
     const int v = split ? split_edge(m, h, options.split) : collapse_edge(m, h, options.collapse);

@@ -217,7 +217,7 @@ LloydFlowResult flow(FlippableMesh& m, const LloydFlowOptions& options, const Fl
   LloydFlowResult result;
   result.interrupted = observer && !observer({.stage = "flow"});
   const auto connect = [&m] {
-    Adjacency c = connectivity_of(m.halfedges, static_cast<int>(m.positions.points.cols()));
+    Adjacency c = adjacency_of(m.halfedges, static_cast<int>(m.positions.points.cols()));
     split_wedges(c, m.constraints.creases);
     return c;
   };

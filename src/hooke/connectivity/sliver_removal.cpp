@@ -70,7 +70,7 @@ class SliverPass {
     return max_cotangent(m_.positions.points, t_.faces()[static_cast<size_t>(f)]);
   }
 
-  bool is_sliver(int f) const { return !t_.is_gone(f) && cotangent(f) > sliver_cotangent_; }
+  bool is_sliver(int f) const { return !t_.is_removed(f) && cotangent(f) > sliver_cotangent_; }
 
   /// Worst first.
   std::vector<int> slivers() const {

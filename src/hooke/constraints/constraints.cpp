@@ -15,11 +15,11 @@ std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Adjacen
   std::vector<int> boundary;
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.is_boundary_edge(static_cast<int>(e))) boundary.push_back(c.edges[e][0]);
-  const auto place = [&](int v) { return std::tuple(points(0, v), points(1, v), points(2, v)); };
-  std::ranges::sort(boundary, [&](int a, int b) { return place(a) < place(b); });
+  const auto coordinates = [&](int v) { return std::tuple(points(0, v), points(1, v), points(2, v)); };
+  std::ranges::sort(boundary, [&](int a, int b) { return coordinates(a) < coordinates(b); });
   std::vector<int> coincident;
   for (size_t begin = 0, end = 0; begin < boundary.size(); begin = end) {
-    while (end < boundary.size() && place(boundary[end]) == place(boundary[begin])) ++end;
+    while (end < boundary.size() && coordinates(boundary[end]) == coordinates(boundary[begin])) ++end;
     if (end - begin > 1)
       coincident.insert(coincident.end(), boundary.begin() + static_cast<std::ptrdiff_t>(begin),
                         boundary.begin() + static_cast<std::ptrdiff_t>(end));
@@ -150,11 +150,11 @@ class CreaseTracer {
   void add_crease(const std::vector<int>& vertices, bool closed) {
     add_curve(points_, vertices, closed, result_);
     ++result_.crease_curves;
-    hold_bends(vertices, closed);
+    fix_bends(vertices, closed);
   }
 
   /// Fixes the vertices at the bends of an even crease: sliding past a bend cuts it off and gains nothing.
-  void hold_bends(const std::vector<int>& vertices, bool closed) {
+  void fix_bends(const std::vector<int>& vertices, bool closed) {
     const size_t n = vertices.size(), segments = closed ? n : n - 1;
     const auto point = [&](size_t i) { return points_.col(vertices[i % n]); };
     double sum = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
@@ -229,12 +229,12 @@ Constraints find_constraints(const Mat3X& points, const Adjacency& c, const Cons
 
 std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const Constraints& constraints,
                                  double corner_angle) {
-  std::vector<int> borders(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<int> feature_edge_count(static_cast<size_t>(c.vertex_count), 0);
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.is_feature_edge(static_cast<int>(e)))
-      for (int v : c.edges[e]) ++borders[static_cast<size_t>(v)];
+      for (int v : c.edges[e]) ++feature_edge_count[static_cast<size_t>(v)];
   const auto is_corner = [&](int v) {
-    return borders[static_cast<size_t>(v)] >= 2 &&
+    return feature_edge_count[static_cast<size_t>(v)] >= 2 &&
            constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed;
   };
   std::vector<double> angles(static_cast<size_t>(c.wedge_count()), 0);  // degrees
@@ -248,11 +248,11 @@ std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const 
           std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
     }
   }
-  std::vector<int> wanted(angles.size(), 0);
+  std::vector<int> target(angles.size(), 0);
   for (size_t wedge = 0; wedge < angles.size(); ++wedge)
     if (angles[wedge] > 0 && std::abs(180 - angles[wedge]) >= corner_angle)
-      wanted[wedge] = 1 + std::max(1, static_cast<int>(std::lround(angles[wedge] / 60)));
-  return wanted;
+      target[wedge] = 1 + std::max(1, static_cast<int>(std::lround(angles[wedge] / 60)));
+  return target;
 }
 
 }  // namespace hooke

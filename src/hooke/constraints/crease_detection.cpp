@@ -40,7 +40,7 @@ class FeatureSearch {
         o_(o),
         angle_(edge_angles(points, c)),
         kept_(c.edges.size(), 0),
-        cos_turn_(std::cos(o.turn * std::numbers::pi / 180)) {}
+        cos_turn_(std::cos(o.max_turn * std::numbers::pi / 180)) {}
 
   std::vector<int> run() {
     if (grow() > 0) {
@@ -56,19 +56,19 @@ class FeatureSearch {
  private:
   /// Bend ratio of the edge, see CreaseOptions. Boundary edges count as flat or, with `goes_on`, where the
   /// surface evidently continues, are left out.
-  double bend(int edge, bool goes_on = false) const {
+  double bend_ratio(int edge, bool goes_on = false) const {
     double worst = 0;
     for (int f : c_.edge_faces[idx(edge)]) {
-      double least = 180;
+      double smallest = 180;
       for (int e : c_.face_edges[idx(f)])
-        if (e != edge && !(goes_on && c_.is_boundary_edge(e))) least = std::min(least, angle_[idx(e)]);
-      worst = std::max(worst, least);
+        if (e != edge && !(goes_on && c_.is_boundary_edge(e))) smallest = std::min(smallest, angle_[idx(e)]);
+      worst = std::max(worst, smallest);
     }
     return worst / angle_[idx(edge)];
   }
 
   bool may_belong(int edge, double min_angle) const {
-    return angle_[idx(edge)] > min_angle && bend(edge) <= o_.bend;
+    return angle_[idx(edge)] > min_angle && bend_ratio(edge) <= o_.max_bend_ratio;
   }
 
   int other_end(int edge, int vertex) const {
@@ -103,7 +103,8 @@ class FeatureSearch {
       ++count;
       for (int v : c_.edges[idx(edge)])
         for (int next : c_.vertex_edges[v]) {
-          if (kept_[idx(next)] || !may_belong(next, o_.weak * o_.angle) || !goes_on(edge, next, v)) continue;
+          if (kept_[idx(next)] || !may_belong(next, o_.hysteresis * o_.angle) || !goes_on(edge, next, v))
+            continue;
           kept_[idx(next)] = 1;
           front.push_back(next);
         }
@@ -136,11 +137,11 @@ class FeatureSearch {
     }
   }
 
-  double median_bend(const std::vector<int>& edges, bool goes_on = false) const {
-    std::vector<double> bends;
-    for (int e : edges) bends.push_back(bend(e, goes_on));
-    const auto middle = bends.begin() + std::ssize(bends) / 2;
-    std::nth_element(bends.begin(), middle, bends.end());
+  double median_bend_ratio(const std::vector<int>& edges, bool goes_on = false) const {
+    std::vector<double> ratios;
+    for (int e : edges) ratios.push_back(bend_ratio(e, goes_on));
+    const auto middle = ratios.begin() + std::ssize(ratios) / 2;
+    std::nth_element(ratios.begin(), middle, ratios.end());
     return *middle;
   }
 
@@ -162,14 +163,14 @@ class FeatureSearch {
       sharp += angle_[idx(e)] > o_.angle;
     }
     const auto edges = static_cast<int>(chain.edges.size());
-    const double bend = median_bend(chain.edges);
+    const double ratio = median_bend_ratio(chain.edges);
     if (on_boundary(chain.first) && edges > 1 && sharp == edges) {
-      if (kept_edges(chain.last).size() > 1 && bend <= o_.flat_bend) return true;
-      if (on_boundary(chain.last) && median_bend(chain.edges, true) <= o_.flat_bend) return true;
+      if (kept_edges(chain.last).size() > 1 && ratio <= o_.flat_bend_ratio) return true;
+      if (on_boundary(chain.last) && median_bend_ratio(chain.edges, true) <= o_.flat_bend_ratio) return true;
     }
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
     return edges >= o_.min_edges && sum >= o_.min_length && sharp >= o_.sharp_share * edges &&
-           bend <= (is_lone ? o_.flat_bend : o_.chain_bend);
+           ratio <= (is_lone ? o_.flat_bend_ratio : o_.max_chain_bend_ratio);
   }
 
   void drop_loose_chains() {
@@ -215,7 +216,7 @@ class FeatureSearch {
       if (!kept_[e] || seen[e]) continue;
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
       const bool short_curves = 2 * static_cast<double>(network.size()) < o_.min_curve * curve_ends(network);
-      if (short_curves && median_bend(network) > o_.flat_bend)
+      if (short_curves && median_bend_ratio(network) > o_.flat_bend_ratio)
         for (int i : network) kept_[idx(i)] = 0;
     }
   }

@@ -10,16 +10,16 @@ namespace hooke {
 /// The bend ratio of an edge compares the flattest continuation of its faces with the edge itself: for each
 /// face the smaller angle at its two other edges over the angle at the edge; the larger of both faces.
 struct CreaseOptions {
-  double angle = 40;        // degrees between the normals of two faces; sharp above; 180: no creases
-  double weak = .6;         // fraction of `angle` above which an edge may continue a crease
-  double turn = 35;         // degrees; maximum change of direction from edge to edge of a chain
-  double bend = .25;        // maximum bend ratio of a crease edge; above it the surface is round
-  double chain_bend = .1;   // maximum median bend ratio of a chain with a loose end
-  double sharp_share = .3;  // minimum fraction of sharp edges in a chain with a loose end
-  int min_edges = 12;       // minimum number of edges of a chain with a loose end
-  double min_length = 8;    // minimum length of a chain with a loose end, in target lengths
-  double min_curve = 5;     // minimum mean number of edges between the corners of a network, unless flat
-  double flat_bend = .02;   // maximum median bend ratio of a chain or network between flat faces
+  double angle = 40;                 // degrees between the normals of two faces; sharp above; 180: no creases
+  double hysteresis = .6;            // fraction of `angle` above which an edge may continue a crease
+  double max_turn = 35;              // degrees; maximum change of direction from edge to edge of a chain
+  double max_bend_ratio = .25;       // of a crease edge; above it the surface is round
+  double max_chain_bend_ratio = .1;  // maximum median bend ratio of a chain with a loose end
+  double sharp_share = .3;           // minimum fraction of sharp edges in a chain with a loose end
+  int min_edges = 12;                // minimum number of edges of a chain with a loose end
+  double min_length = 8;             // minimum length of a chain with a loose end, in target lengths
+  double min_curve = 5;          // minimum mean number of edges between the corners of a network, unless flat
+  double flat_bend_ratio = .02;  // maximum median bend ratio of a chain or network between flat faces
 };
 
 /// The crease edges, ascending. An edge qualifies if its faces meet at a sharp angle while each of them

@@ -9,7 +9,7 @@
 namespace hooke {
 namespace {
 
-CurveProjection foot_on_segment(const Curve& curve, const Vec3& x, int segment) {
+CurveProjection project_to_segment(const Curve& curve, const Vec3& x, int segment) {
   const int next = (segment + 1) % static_cast<int>(curve.points.cols());
   const Vec3 a = curve.points.col(segment);
   const Vec3 ab = curve.points.col(next) - a;
@@ -59,14 +59,14 @@ double chord_error_of(const Curve& curve, const std::vector<double>& arcs, int c
 
 CurveProjection project_to_curve(const Curve& curve, const Vec3& x, int segment) {
   const int n = curve.segment_count();
-  CurveProjection best = foot_on_segment(curve, x, segment);
+  CurveProjection best = project_to_segment(curve, x, segment);
   double best2 = (x - best.point).squaredNorm();
   for (int direction : {1, -1}) {
     // The search ends after two segments without gain: a closer one may lie behind a reflex point.
     for (int s = segment + direction, misses = 0, steps = 0; misses < 2 && steps < n;
          s += direction, ++steps) {
       if (!curve.closed && (s < 0 || s >= n)) break;
-      const CurveProjection projection = foot_on_segment(curve, x, ((s % n) + n) % n);
+      const CurveProjection projection = project_to_segment(curve, x, ((s % n) + n) % n);
       const double distance2 = (x - projection.point).squaredNorm();
       if (distance2 < best2) {
         best = projection;
@@ -80,12 +80,12 @@ CurveProjection project_to_curve(const Curve& curve, const Vec3& x, int segment)
   return best;
 }
 
-int wanted_edges(const Curve& curve, double target, double chord_error) {
+int target_edge_count(const Curve& curve, double target_length, double chord_error) {
   const std::vector<double> arcs = arc_lengths(curve);
-  const int most = std::max(curve.segment_count(), 3);
-  int count = std::max(curve.closed ? 3 : 1, static_cast<int>(std::lround(arcs.back() / target)));
-  while (count < most && chord_error_of(curve, arcs, count) > chord_error * target)
-    count = std::min(most, count + std::max(1, count / 16));
+  const int max_count = std::max(curve.segment_count(), 3);
+  int count = std::max(curve.closed ? 3 : 1, static_cast<int>(std::lround(arcs.back() / target_length)));
+  while (count < max_count && chord_error_of(curve, arcs, count) > chord_error * target_length)
+    count = std::min(max_count, count + std::max(1, count / 16));
   return count;
 }
 
@@ -101,7 +101,7 @@ CurveFinder::Location CurveFinder::common(const Vec3& a, const Vec3& b) const {
   if (at_a == locations_.end() || at_b == locations_.end()) return {};
   const Vec3 middle = .5 * a + .5 * b;
   Location best;
-  double least = std::numeric_limits<double>::infinity();
+  double smallest = std::numeric_limits<double>::infinity();
   for (const Location& p : at_a->second)
     for (const Location& q : at_b->second) {
       if (p.curve != q.curve) continue;
@@ -109,8 +109,8 @@ CurveFinder::Location CurveFinder::common(const Vec3& a, const Vec3& b) const {
       const CurveProjection projection =
           project_to_curve((*curves_)[static_cast<size_t>(p.curve)], middle, halfway);
       const double distance = (projection.point - middle).squaredNorm();
-      if (distance >= least) continue;
-      least = distance;
+      if (distance >= smallest) continue;
+      smallest = distance;
       best = {p.curve, projection.segment};
     }
   return best;

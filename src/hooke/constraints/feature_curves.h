@@ -55,6 +55,6 @@ struct CurveEdges {
 
 /// Target number of edges of the curve: one per target length, and, up to the number of its segments, as many
 /// more as it takes to keep the chords within `chord_error` target lengths of the curve.
-int wanted_edges(const Curve& curve, double target, double chord_error);
+int target_edge_count(const Curve& curve, double target_length, double chord_error);
 
 }  // namespace hooke

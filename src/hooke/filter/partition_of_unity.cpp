@@ -11,7 +11,7 @@ namespace {
 constexpr double min_normal_agreement = -.2;  // minimum cosine with the axis: excludes the opposite sheet
 constexpr double tie = 1 + 1e-6;              // for distances: rounding must not choose between equal ones
 
-std::size_t idx(int i) {
+std::size_t to_index(int i) {
   return static_cast<std::size_t>(i);
 }
 
@@ -23,12 +23,12 @@ PatchGrower::PatchGrower(const Eigen::Ref<const Mat3X>& points, const Adjacency&
       adjacency_(adjacency),
       normals_(normals),
       unfolded_(unfolded),
-      met_by_(idx(adjacency.vertex_count), -1),
-      held_by_(idx(adjacency.vertex_count), -1) {}
+      visited_in_(to_index(adjacency.vertex_count), -1),
+      member_in_(to_index(adjacency.vertex_count), -1) {}
 
 void PatchGrower::grow(int centre, int size) {
   axis_ = axis_at(centre);
-  search(centre, idx(size + size / 2));
+  search(centre, to_index(size + size / 2));
   distances_.clear();
   for (int m : members_) distances_.push_back((points_.col(m) - points_.col(centre)).norm());
   std::vector<double> sorted = distances_;
@@ -41,7 +41,7 @@ void PatchGrower::grow(int centre, int size) {
     if (distances_[i] > farthest_ * tie) continue;
     members_[kept] = members_[i];
     distances_[kept++] = distances_[i];
-    held_by_[idx(members_[i])] = round_;
+    member_in_[to_index(members_[i])] = round_;
   }
   members_.resize(kept);
   distances_.resize(kept);
@@ -49,39 +49,39 @@ void PatchGrower::grow(int centre, int size) {
 
 bool PatchGrower::is_inside(int vertex) const {
   return std::ranges::all_of(adjacency_.vertex_neighbours[vertex],
-                             [&](int n) { return held_by_[idx(n)] == round_ || !is_admitted(n); });
+                             [&](int n) { return member_in_[to_index(n)] == round_ || !is_admitted(n); });
 }
 
 /// Folded vertices are always admitted: their normals are meaningless.
 bool PatchGrower::is_admitted(int vertex) const {
-  return !unfolded_[idx(vertex)] || normals_.col(vertex).dot(axis_) > min_normal_agreement;
+  return !unfolded_[to_index(vertex)] || normals_.col(vertex).dot(axis_) > min_normal_agreement;
 }
 
 /// The normal of the centre or, where that is meaningless, the mean normal of its unfolded neighbours.
 Vec3 PatchGrower::axis_at(int centre) const {
   Vec3 sum = Vec3::Zero();
-  if (!unfolded_[idx(centre)])
+  if (!unfolded_[to_index(centre)])
     for (int n : adjacency_.vertex_neighbours[centre])
-      if (unfolded_[idx(n)]) sum += normals_.col(n);
+      if (unfolded_[to_index(n)]) sum += normals_.col(n);
   return sum.isZero(0) ? Vec3(normals_.col(centre)) : sum.normalized();
 }
 
-void PatchGrower::search(int centre, std::size_t most) {
+void PatchGrower::search(int centre, std::size_t max_size) {
   ++round_;
   members_.assign(1, centre);
-  met_by_[idx(centre)] = round_;
+  visited_in_[to_index(centre)] = round_;
   for (std::size_t i = 0; i < members_.size(); ++i)
     for (int n : adjacency_.vertex_neighbours[members_[i]]) {
-      if (members_.size() >= most) return;
-      if (met_by_[idx(n)] == round_) continue;
-      met_by_[idx(n)] = round_;
+      if (members_.size() >= max_size) return;
+      if (visited_in_[to_index(n)] == round_) continue;
+      visited_in_[to_index(n)] = round_;
       if (is_admitted(n)) members_.push_back(n);
     }
 }
 
 namespace {
 
-constexpr double reach = .9;  // radius of a patch over the distance of its farthest vertex
+constexpr double patch_radius_ratio = .9;  // radius of a patch over the distance of its farthest vertex
 
 }  // namespace
 
@@ -119,7 +119,8 @@ bool PatchCover::is_centre(int vertex) const {
 void PatchCover::add_patch(int centre, PatchList& patches) {
   grower_.grow(centre, options_.patch_size);
   const std::vector<int>& members = grower_.members();
-  const double radius = grower_.farthest() > 0 ? reach * grower_.farthest() : 2 * edge_lengths_[centre];
+  const double radius =
+      grower_.farthest() > 0 ? patch_radius_ratio * grower_.farthest() : 2 * edge_lengths_[centre];
   for (size_t i = 0; i < members.size(); ++i)
     if (i == 0 || (grower_.distances()[i] <= options_.coverage * radius && grower_.is_inside(members[i])))
       covered_[static_cast<size_t>(members[i])] = 1;
@@ -138,7 +139,7 @@ constexpr double min_height = 1e-8;             // in radii; smaller values are 
 
 /// Patches per batch: many in a large mesh, so that short-lived small allocations do not fragment memory.
 std::size_t patches_of_batch(int vertices) {
-  return std::clamp<std::size_t>(idx(vertices) / 1000, 32, 512);
+  return std::clamp<std::size_t>(to_index(vertices) / 1000, 32, 512);
 }
 
 /// Wendland's C2 function of the squared distance over the squared radius, for r2 < 1.
@@ -151,12 +152,13 @@ double weight(double r2) {
 std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                                     const Mat3X& normals) {
   const Mat3X of_faces = face_normals(points, adjacency);
-  std::vector<char> unfolded(idx(adjacency.vertex_count), 0);
+  std::vector<char> unfolded(to_index(adjacency.vertex_count), 0);
   parallel_for(unfolded.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-      double least = normals.col(v).squaredNorm();
-      for (int f : adjacency.vertex_faces[v]) least = std::min(least, of_faces.col(f).dot(normals.col(v)));
-      unfolded[idx(v)] = least >= min_fold_agreement;
+      double smallest = normals.col(v).squaredNorm();
+      for (int f : adjacency.vertex_faces[v])
+        smallest = std::min(smallest, of_faces.col(f).dot(normals.col(v)));
+      unfolded[to_index(v)] = smallest >= min_fold_agreement;
     }
   });
   return unfolded;
@@ -173,8 +175,8 @@ std::size_t max_centres(std::size_t vertices) {
 
 /// Fits a single patch that SplineGroup has no spline for: without repeated centres, and with an affine part
 /// if the quadratic one is not determined. Returns nothing if that fails too.
-std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std::size_t vertices,
-                                            SplineWorkspace& workspace, PatchFit& fit) {
+std::optional<SplineCoefficients> fit_single(SplineData& data, Kernel kernel, std::size_t vertices,
+                                             SplineWorkspace& workspace, PatchFit& fit) {
   data.drop_repeated(coincidence);
   const auto centres = data.centres.leftCols(data.count);
   const auto values = data.values.head(data.count);
@@ -183,9 +185,9 @@ std::optional<SplineCoefficients> fit_alone(SplineData& data, Kernel kernel, std
   if (data.count == 0 || values.isZero(min_height)) return std::nullopt;  // the outside is unknown
   std::optional<SplineCoefficients> spline;
   if (quadratic && (spline = fit_spline(centres, values, kernel, 2, workspace)))
-    fit = PatchFit::as_wanted;
+    fit = PatchFit::as_requested;
   else if ((spline = fit_spline(centres, values, kernel, 1, workspace)))
-    fit = quadratic ? PatchFit::affine : PatchFit::as_wanted;
+    fit = quadratic ? PatchFit::affine : PatchFit::as_requested;
   return spline;
 }
 
@@ -199,13 +201,13 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
   const Samples samples{points, normals, edge_lengths, unfolded, options.offset};
   PatchCover cover(points, adjacency, normals, edge_lengths, unfolded, options.cover);
   std::deque<Batch> batches;
-  const auto place = [&]() -> Batch* {
+  const auto next_batch = [&]() -> Batch* {
     PatchList list = cover.next(patches_of_batch(adjacency.vertex_count));
     if (list.size() == 0) return nullptr;
     batches.push_back({std::move(list), {}, {}});
     return &batches.back();
   };
-  parallel_pipeline<Batch>(place, [&](Batch& batch) { fit(samples, batch); });
+  parallel_pipeline<Batch>(next_batch, [&](Batch& batch) { fit(samples, batch); });
   index_patches(adjacency.vertex_count, batches);
   std::size_t count = 0;
   for (const Batch& batch : batches) count += batch.patches.size();
@@ -227,14 +229,14 @@ void PartitionOfUnity::gather(const Samples& samples, const PatchList& list, std
   const double radius = list.radii[patch];
   data.clear(max_centres(vertices.size()));
   if (!(radius > 0)) return;
-  const auto add = [&](const Vec3& place, int v, double height) {
-    const Vec3 local = (place - centre) / radius, snap = snapped(local);
+  const auto add = [&](const Vec3& position, int v, double height) {
+    const Vec3 local = (position - centre) / radius, snap = snapped(local);
     data.add(snap, height / radius + normals.col(v).dot(snap - local));
   };
   for (int v : vertices) add(points.col(v), v, 0);
   for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {
     const int v = vertices[i];
-    if (!unfolded[idx(v)]) continue;
+    if (!unfolded[to_index(v)]) continue;
     const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * offset * edge_lengths[v];
     add(points.col(v) + rho * normals.col(v), v, rho);
   }
@@ -265,19 +267,19 @@ void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
   SplineGroup group;
   SplineGroup::Data data;
   for (std::size_t first = 0; first < list.size(); first += lane_count) {
-    SplineGroup::Flags wanted{};
+    SplineGroup::Flags requested{};
     const std::size_t count = std::min(lane_count, list.size() - first);
     for (std::size_t k = 0; k < count; ++k) {
       gather(samples, list, first + k, data[k]);
-      wanted[k] = vertices(first + k) >= min_quadratic_size &&
-                  static_cast<std::size_t>(data[k].count) > vertices(first + k);
+      requested[k] = vertices(first + k) >= min_quadratic_size &&
+                     static_cast<std::size_t>(data[k].count) > vertices(first + k);
     }
-    const SplineGroup::Flags fitted = group.fit(data, wanted, kernel_, coincidence);
+    const SplineGroup::Flags fitted = group.fit(data, requested, kernel_, coincidence);
     for (std::size_t k = 0; k < count; ++k) {
       Patch patch{samples.points.col(list.centres[first + k]), list.radii[first + k]};
       if (fitted[k])
         patch.spline = store(data[k], group.solution(k, static_cast<std::size_t>(data[k].count)));
-      else if (const auto spline = fit_alone(data[k], kernel_, vertices(first + k), workspace, patch.fit))
+      else if (const auto spline = fit_single(data[k], kernel_, vertices(first + k), workspace, patch.fit))
         patch.spline = store(data[k], *spline);
       batch.patches.push_back(patch);
     }
@@ -290,22 +292,22 @@ void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& 
     for (const Batch& batch : batches)
       for (std::size_t p = 0; p < batch.patches.size(); ++p, ++id)
         if (batch.patches[p].fit != PatchFit::failed)
-          for (int v : batch.list.members[static_cast<int>(p)]) visit(idx(v), id);
+          for (int v : batch.list.members[static_cast<int>(p)]) visit(to_index(v), id);
   };
   auto& [first, items] = vertex_patches_;
-  first.assign(idx(vertex_count) + 1, 0);
+  first.assign(to_index(vertex_count) + 1, 0);
   for_each_pair([&](std::size_t v, int) { ++first[v + 1]; });
   for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  items.resize(idx(first.back()));
+  items.resize(to_index(first.back()));
   std::vector<int> next = first;
-  for_each_pair([&](std::size_t v, int p) { items[idx(next[v]++)] = p; });
+  for_each_pair([&](std::size_t v, int p) { items[to_index(next[v]++)] = p; });
 }
 
 FieldSample PartitionOfUnity::operator()(const Vec3& x, int hint) const {
   FieldSample sum;
   double total = 0;
   for (int p : vertex_patches_[hint]) {
-    const Patch& patch = patches_[idx(p)];
+    const Patch& patch = patches_[to_index(p)];
     const Vec3 local = (x - patch.centre) / patch.radius;
     const double r2 = local.squaredNorm();
     if (!(r2 < 1)) continue;

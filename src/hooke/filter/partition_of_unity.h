@@ -38,15 +38,15 @@ class PatchGrower {
  private:
   bool is_admitted(int vertex) const;
   Vec3 axis_at(int centre) const;
-  void search(int centre, std::size_t most);
+  void search(int centre, std::size_t max_size);
 
   Eigen::Ref<const Mat3X> points_;
   const Adjacency& adjacency_;
   const Mat3X& normals_;
   const std::vector<char>& unfolded_;
-  Vec3 axis_ = Vec3::Zero();  // of the cone
-  std::vector<int> met_by_;   // last round whose search visited the vertex
-  std::vector<int> held_by_;  // last round whose patch contains the vertex
+  Vec3 axis_ = Vec3::Zero();     // of the cone
+  std::vector<int> visited_in_;  // last round whose search visited the vertex
+  std::vector<int> member_in_;   // last round whose patch contains the vertex
   std::vector<int> members_;
   std::vector<double> distances_;
   double farthest_ = 0;
@@ -103,9 +103,9 @@ struct PartitionOptions {
 
 /// The polynomial part of a patch's spline.
 enum class PatchFit : unsigned char {
-  as_wanted,  // quadratic; affine in a patch of few vertices
-  affine,     // the quadratic part is not determined
-  failed,     // no spline: no vertex refers to the patch
+  as_requested,  // quadratic; affine in a patch of few vertices
+  affine,        // the quadratic part is not determined
+  failed,        // no spline: no vertex refers to the patch
 };
 
 /// The field is zero at every vertex, to 2^-30 of a patch's radius, approximately the distance near them, and
@@ -135,7 +135,7 @@ class PartitionOfUnity {
     Vec3 centre;
     double radius = 0;
     StoredSpline<SnappedCoordinate> spline = {};
-    PatchFit fit = PatchFit::as_wanted;
+    PatchFit fit = PatchFit::as_requested;
   };
   /// Memory of the splines of a batch.
   struct Storage {

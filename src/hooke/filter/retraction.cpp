@@ -15,10 +15,10 @@ namespace {
 
 constexpr size_t retraction_block = 256;
 
-constexpr double short_way = .1;  // maximal drift in the tangent plane, in mean target lengths
+constexpr double max_tangent_drift = .1;  // maximal drift in the tangent plane, in mean target lengths
 
 /// Copies the extra wedges: a step does not write those of fixed vertices.
-void copy_sides(const SurfacePositions& from, SurfacePositions& to) {
+void copy_extra_wedges(const SurfacePositions& from, SurfacePositions& to) {
   to.other_wedge = from.other_wedge;
   to.normals.resize(3, from.normals.cols());
   to.hints.resize(from.hints.size());
@@ -29,16 +29,16 @@ void copy_sides(const SurfacePositions& from, SurfacePositions& to) {
 }
 
 /// Few vertices share a set of counters, so that threads rarely contend for one.
-constexpr size_t vertices_of_tally = 64;
+constexpr size_t vertices_per_counter_set = 64;
 constexpr size_t statuses = std::tuple_size_v<decltype(ProjectionCounts::by_status)>;
-constexpr size_t tally_size = statuses + 1;  // the last one counts evaluations
+constexpr size_t counter_set_size = statuses + 1;  // the last one counts evaluations
 
-size_t tallies_for(size_t vertices) {
-  return (vertices / vertices_of_tally + 1) * tally_size;
+size_t counters_for(size_t vertices) {
+  return (vertices / vertices_per_counter_set + 1) * counter_set_size;
 }
 
-void add(int count, long long& tally) {
-  std::atomic_ref(tally).fetch_add(count, std::memory_order_relaxed);
+void add(int count, long long& counter) {
+  std::atomic_ref(counter).fetch_add(count, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ Retraction::Retraction(Surface surface, const Constraints& constraints, const Re
     : surface_(std::move(surface)),
       constraints_(constraints),
       options_(options),
-      uncounted_(tallies_for(constraints.freedom.size()), 0) {}
+      uncounted_(counters_for(constraints.freedom.size()), 0) {}
 
 SurfacePosition::SurfacePosition(const SurfacePositions& p, int vertex)
     : point(p.points.col(vertex)),
@@ -79,14 +79,15 @@ void SurfacePosition::write_to(SurfacePositions& p, int vertex) const {
   p.hints[static_cast<size_t>(other_wedge)] = other_hint;
 }
 
-Vec3 Retraction::within_deviation_bound(const Vec3& point, int vertex) const {
+Vec3 Retraction::within_max_travel(const Vec3& point, int vertex) const {
   if (constraints_.max_travel.empty()) return point;
-  const Vec3 rest = constraints_.rest_position.col(vertex), way = point - rest;
-  const double length = way.norm(), reach = constraints_.max_travel[static_cast<size_t>(vertex)];
-  return length > reach ? Vec3(rest + way * (reach / length)) : point;
+  const Vec3 rest = constraints_.rest_position.col(vertex), displacement = point - rest;
+  const double length = displacement.norm(),
+               max_travel = constraints_.max_travel[static_cast<size_t>(vertex)];
+  return length > max_travel ? Vec3(rest + displacement * (max_travel / length)) : point;
 }
 
-CurveProjection Retraction::foot_on_curve(const Vec3& point, int segment, int vertex) const {
+CurveProjection Retraction::project_to_curve_of(const Vec3& point, int segment, int vertex) const {
   const auto curve = static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)]);
   return project_to_curve(constraints_.curves[curve], point, segment);
 }
@@ -94,37 +95,38 @@ CurveProjection Retraction::foot_on_curve(const Vec3& point, int segment, int ve
 Vec3 Retraction::tangent(const SurfacePositions& at, int vertex) const {
   const auto v = static_cast<size_t>(vertex);
   if (constraints_.freedom[v] != Freedom::curve) return Vec3::Zero();
-  return foot_on_curve(at.points.col(vertex), at.segments[v], vertex).tangent;
+  return project_to_curve_of(at.points.col(vertex), at.segments[v], vertex).tangent;
 }
 
-SurfacePosition Retraction::on_curve(SurfacePosition place, int vertex) const {
-  const CurveProjection projection = foot_on_curve(place.point, place.segment, vertex);
-  place.point = projection.point;
-  place.segment = projection.segment;
-  return place;
+SurfacePosition Retraction::on_curve(SurfacePosition position, int vertex) const {
+  const CurveProjection projection = project_to_curve_of(position.point, position.segment, vertex);
+  position.point = projection.point;
+  position.segment = projection.segment;
+  return position;
 }
 
 Projection Retraction::projection(const Vec3& point, int hint, int vertex) {
   const Projection projection = surface_(point, hint, options_.tolerance);
-  long long* const tally = &uncounted_[static_cast<size_t>(vertex) / vertices_of_tally * tally_size];
-  add(1, tally[static_cast<size_t>(projection.status)]);
-  add(projection.evaluations, tally[statuses]);
+  long long* const counters =
+      &uncounted_[static_cast<size_t>(vertex) / vertices_per_counter_set * counter_set_size];
+  add(1, counters[static_cast<size_t>(projection.status)]);
+  add(projection.evaluations, counters[statuses]);
   return projection;
 }
 
-SurfacePosition Retraction::on_surface(SurfacePosition place, int vertex, Freedom freedom) {
-  const Projection on_side = projection(place.point, place.hint, vertex);
-  if (place.other_wedge >= 0) {
-    const Projection on_other_side = projection(place.point, place.other_hint, vertex);
-    place.other_normal = on_other_side.normal;
-    place.other_hint = on_other_side.hint;
+SurfacePosition Retraction::on_surface(SurfacePosition position, int vertex, Freedom freedom) {
+  const Projection on_wedge = projection(position.point, position.hint, vertex);
+  if (position.other_wedge >= 0) {
+    const Projection on_other_wedge = projection(position.point, position.other_hint, vertex);
+    position.other_normal = on_other_wedge.normal;
+    position.other_hint = on_other_wedge.hint;
   }
   // On a curve or at a corner the surface determines only the normal: the curve itself is the constraint.
-  if (freedom == Freedom::surface) place.point = on_side.point;
-  place.normal = on_side.normal;
-  place.hint = on_side.hint;
-  place.drift = 0;
-  return place;
+  if (freedom == Freedom::surface) position.point = on_wedge.point;
+  position.normal = on_wedge.normal;
+  position.hint = on_wedge.hint;
+  position.drift = 0;
+  return position;
 }
 
 bool Retraction::stands_still(int vertex) const {
@@ -138,72 +140,76 @@ SurfacePosition Retraction::moved(const SurfacePositions& from, int vertex, cons
 
 SurfacePosition Retraction::moved_copy(const SurfacePositions& from, int vertex, int hint,
                                        const Vec3& displacement) {
-  SurfacePosition place(from, vertex);
-  place.hint = hint;
-  place.drift = 0;
-  place.other_wedge = -1;
-  return moved(place, vertex, Freedom::surface, displacement);
+  SurfacePosition position(from, vertex);
+  position.hint = hint;
+  position.drift = 0;
+  position.other_wedge = -1;
+  return moved(position, vertex, Freedom::surface, displacement);
 }
 
-SurfacePosition Retraction::moved(SurfacePosition place, int vertex, Freedom freedom,
+SurfacePosition Retraction::moved(SurfacePosition position, int vertex, Freedom freedom,
                                   const Vec3& displacement) {
   const double length = displacement.norm();
-  if (length == 0 || freedom == Freedom::fixed) return place;
-  const Vec3 start = place.point;
-  place.point = within_deviation_bound(start + displacement, vertex);
-  place.drift += length;
-  if (freedom == Freedom::curve) place = on_curve(place, vertex);
-  const ShapeOperator bend = surface_.shape_operator(place.hint);
-  const double error = .5 * bend.change * place.drift * place.drift;  // distance from the surface
+  if (length == 0 || freedom == Freedom::fixed) return position;
+  const Vec3 start = position.point;
+  position.point = within_max_travel(start + displacement, vertex);
+  position.drift += length;
+  if (freedom == Freedom::curve) position = on_curve(position, vertex);
+  const ShapeOperator shape_operator = surface_.shape_operator(position.hint);
+  const double error =
+      .5 * shape_operator.change * position.drift * position.drift;  // distance from the surface
   if (error < options_.lazy_error) {
-    place = drifted(place, place.point - start, bend, freedom);
-    if (place.drift < options_.lazy) return place;
-  } else if (place.drift < std::min(short_way, options_.lazy)) {
-    return place;  // in the tangent plane: the shape operator is inaccurate here
+    position = drifted(position, position.point - start, shape_operator, freedom);
+    if (position.drift < options_.lazy) return position;
+  } else if (position.drift < std::min(max_tangent_drift, options_.lazy)) {
+    return position;  // in the tangent plane: the shape operator is inaccurate here
   }
-  return on_surface(place, vertex, freedom);
+  return on_surface(position, vertex, freedom);
 }
 
-/// Corrects a position that was reached by the displacement `way`, in the tangent plane or along a chord, by
-/// the shape operator.
-SurfacePosition Retraction::drifted(SurfacePosition place, const Vec3& way, const ShapeOperator& bend,
-                                    Freedom freedom) const {
-  const Vec3 turn = bend.shape * way;
-  if (freedom == Freedom::surface) place.point -= (way.dot(place.normal) + .5 * way.dot(turn)) * place.normal;
-  place.normal = (place.normal + turn).normalized();
-  if (place.other_wedge >= 0)
-    place.other_normal =
-        (place.other_normal + surface_.shape_operator(place.other_hint).shape * way).normalized();
-  return place;
+/// Corrects a position that was reached by this displacement, in the tangent plane or along a chord, by the
+/// shape operator.
+SurfacePosition Retraction::drifted(SurfacePosition position, const Vec3& displacement,
+                                    const ShapeOperator& shape_operator, Freedom freedom) const {
+  const Vec3 turn = shape_operator.shape * displacement;
+  if (freedom == Freedom::surface)
+    position.point -= (displacement.dot(position.normal) + .5 * displacement.dot(turn)) * position.normal;
+  position.normal = (position.normal + turn).normalized();
+  if (position.other_wedge >= 0)
+    position.other_normal =
+        (position.other_normal + surface_.shape_operator(position.other_hint).shape * displacement)
+            .normalized();
+  return position;
 }
 
-SurfacePosition Retraction::projected(SurfacePosition place, int vertex) {
+SurfacePosition Retraction::projected(SurfacePosition position, int vertex) {
   const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
-  return on_surface(freedom == Freedom::curve ? on_curve(place, vertex) : place, vertex, freedom);
+  return on_surface(freedom == Freedom::curve ? on_curve(position, vertex) : position, vertex, freedom);
 }
 
-SurfacePositions Retraction::place(const Mat3X& points, std::vector<int> hints, std::vector<int> segments) {
+SurfacePositions Retraction::project_all(const Mat3X& points, std::vector<int> hints,
+                                         std::vector<int> segments) {
   SurfacePositions p;
   p.points = points;
-  const auto& further = constraints_.extra_wedges;
-  p.normals = Mat3X::Zero(3, points.cols() + std::ssize(further));
+  const auto& extra_wedges = constraints_.extra_wedges;
+  p.normals = Mat3X::Zero(3, points.cols() + std::ssize(extra_wedges));
   p.hints = std::move(hints);
   p.segments = std::move(segments);
   p.drift.assign(static_cast<size_t>(points.cols()), 0);
-  p.other_wedge = other_wedges(p.drift.size(), further);
+  p.other_wedge = other_wedges(p.drift.size(), extra_wedges);
   parallel_for(static_cast<size_t>(points.cols()), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
       projected(SurfacePosition(p, v), v).write_to(p, v);
     }
   });
-  for (size_t s = 0; s < further.size(); ++s) {  // third and later wedges of corners
+  for (size_t s = 0; s < extra_wedges.size(); ++s) {  // third and later wedges of corners
     const size_t wedge = p.drift.size() + s;
-    const int v = further[s];
+    const int v = extra_wedges[s];
     if (p.other_wedge_of(v) == static_cast<int>(wedge)) continue;
-    const Projection on_side = projection(p.points.col(v), p.hints[wedge], v);
-    p.normals.col(static_cast<Eigen::Index>(wedge)) = on_side.normal;
-    p.hints[wedge] = on_side.hint;
+    const Projection on_wedge = projection(p.points.col(v), p.hints[wedge], v);
+    p.normals.col(static_cast<Eigen::Index>(wedge)) = on_wedge.normal;
+    p.hints[wedge] = on_wedge.hint;
   }
   count();
   return p;
@@ -220,7 +226,7 @@ void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, s
 
 void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, SurfacePositions& to) {
   to.points.resize(3, from.points.cols());
-  copy_sides(from, to);
+  copy_extra_wedges(from, to);
   to.segments.resize(from.segments.size());
   to.drift.resize(from.drift.size());
   parallel_for(static_cast<size_t>(from.points.cols()), retraction_block, [&](size_t begin, size_t end) {
@@ -275,13 +281,13 @@ void Retraction::constrain(const SurfacePositions& at, Mat3X& vectors) const {
 
 void Retraction::resize(size_t vertices) {
   count();
-  uncounted_.resize(tallies_for(vertices), 0);
+  uncounted_.resize(counters_for(vertices), 0);
 }
 
 void Retraction::count() {
   for (size_t i = 0; i < uncounted_.size(); ++i) {
     const long long n = std::exchange(uncounted_[i], 0);
-    const size_t counter = i % tally_size;
+    const size_t counter = i % counter_set_size;
     if (counter == statuses) {
       counts_.evaluations += n;
     } else {

@@ -64,7 +64,7 @@ class Retraction {
   Retraction(Surface surface, const Constraints& constraints, const RetractionOptions& options);
 
   /// Projects every point to the surface or its curve. `hints` are per wedge, `segments` per vertex.
-  SurfacePositions place(const Mat3X& points, std::vector<int> hints, std::vector<int> segments);
+  SurfacePositions project_all(const Mat3X& points, std::vector<int> hints, std::vector<int> segments);
 
   /// to = retract(from + displacement) for the given vertices; all other entries of `to` are unchanged.
   void step(const SurfacePositions& from, const Mat3X& displacement, std::span<const int> vertices,
@@ -110,14 +110,14 @@ class Retraction {
   const RetractionOptions& options() const { return options_; }
 
  private:
-  SurfacePosition moved(SurfacePosition place, int vertex, Freedom freedom, const Vec3& displacement);
-  Vec3 within_deviation_bound(const Vec3& point, int vertex) const;
-  CurveProjection foot_on_curve(const Vec3& point, int segment, int vertex) const;
-  SurfacePosition on_curve(SurfacePosition place, int vertex) const;
-  SurfacePosition on_surface(SurfacePosition place, int vertex, Freedom freedom);
-  SurfacePosition projected(SurfacePosition place, int vertex);
-  SurfacePosition drifted(SurfacePosition place, const Vec3& way, const ShapeOperator& bend,
-                          Freedom freedom) const;
+  SurfacePosition moved(SurfacePosition position, int vertex, Freedom freedom, const Vec3& displacement);
+  Vec3 within_max_travel(const Vec3& point, int vertex) const;
+  CurveProjection project_to_curve_of(const Vec3& point, int segment, int vertex) const;
+  SurfacePosition on_curve(SurfacePosition position, int vertex) const;
+  SurfacePosition on_surface(SurfacePosition position, int vertex, Freedom freedom);
+  SurfacePosition projected(SurfacePosition position, int vertex);
+  SurfacePosition drifted(SurfacePosition position, const Vec3& displacement,
+                          const ShapeOperator& shape_operator, Freedom freedom) const;
   Projection projection(const Vec3& point, int hint, int vertex);
 
   Surface surface_;

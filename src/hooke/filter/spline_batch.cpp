@@ -210,7 +210,7 @@ HOOKE_INLINE void reflect(System& s, std::size_t k) {
 /// In-place Cholesky factorization of A restricted to the complement of the polynomials.
 HOOKE_INLINE void factor_kernel_matrix(System& s) {
   constexpr double min_pivot_ratio = 1e-7;  // on the diagonal; below, the coefficients are noise
-  Lanes least = Lanes{} + std::numeric_limits<double>::infinity(), most = {};
+  Lanes smallest = Lanes{} + std::numeric_limits<double>::infinity(), largest = {};
   for (std::size_t k = quadratic_monomials; k < s.rows; ++k) {
     Lanes pivot, p, x, y;
     s.A.get(row_of(k) + k, pivot);
@@ -218,8 +218,8 @@ HOOKE_INLINE void factor_kernel_matrix(System& s) {
     s.solved &= pivot > 0.;
     take_sqrt(pivot);
     s.A.set(row_of(k) + k, pivot);
-    least = (p > 0.) & (pivot < least) ? pivot : least;
-    most = (p > 0.) & (pivot > most) ? pivot : most;
+    smallest = (p > 0.) & (pivot < smallest) ? pivot : smallest;
+    largest = (p > 0.) & (pivot > largest) ? pivot : largest;
     const Lanes one_over = 1. / pivot;
     for (std::size_t i = k + 1; i < s.rows; ++i) {
       s.A.get(row_of(i) + k, x);
@@ -232,7 +232,7 @@ HOOKE_INLINE void factor_kernel_matrix(System& s) {
       subtract_scaled(y, s.v.from(k + 1), i - k, s.A.from(row_of(i) + k + 1));
     }
   }
-  s.solved &= least > min_pivot_ratio * most;
+  s.solved &= smallest > min_pivot_ratio * largest;
 }
 
 /// Solves [31] in the coordinates of the reflectors: A22 z = d2, then R c = d1 - A12 z, and a = Q [0; z]. c
@@ -312,15 +312,15 @@ void SplineData::drop_repeated(double distance) {
   count = kept;
 }
 
-void SplineGroup::gather(const Data& data, const Flags& wanted) {
+void SplineGroup::gather(const Data& data, const Flags& requested) {
   size_ = 0;
   for (std::size_t lane = 0; lane < lane_count; ++lane)
-    if (wanted[lane]) size_ = std::max(size_, static_cast<std::size_t>(data[lane].count));
+    if (requested[lane]) size_ = std::max(size_, static_cast<std::size_t>(data[lane].count));
   centres_.assign(3 * size_ * lane_count, 0);
   present_.assign(size_ * lane_count, 0);
   right_side_.assign(size_ * lane_count, 0);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    if (!wanted[lane]) continue;
+    if (!requested[lane]) continue;
     const SplineData& one = data[lane];
     for (Eigen::Index i = 0; i < one.count; ++i) {
       const std::size_t at = static_cast<std::size_t>(i) * lane_count + lane;
@@ -334,12 +334,12 @@ void SplineGroup::gather(const Data& data, const Flags& wanted) {
   matrix_.resize(row_of(size_) * lane_count);
   monomials_.resize(quadratic_monomials * size_ * lane_count);
   solution_.resize(size_ * lane_count);
-  work_.resize(2 * size_ * lane_count);
+  workspace_.resize(2 * size_ * lane_count);
 }
 
-SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kernel kernel,
+SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& requested, Kernel kernel,
                                     double min_distance) {
-  gather(data, wanted);
+  gather(data, requested);
   if (size_ <= quadratic_monomials) return {};
   System s{.rows = size_,
            .centres = LaneArray(centres_.data()),
@@ -348,14 +348,14 @@ SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kerne
            .P = LaneArray(monomials_.data()),
            .d = LaneArray(right_side_.data()),
            .a = LaneArray(solution_.data()),
-           .v = LaneArray(work_.data()),
-           .w = LaneArray(work_.data() + size_ * lane_count),
+           .v = LaneArray(workspace_.data()),
+           .w = LaneArray(workspace_.data() + size_ * lane_count),
            .tau = {},
            .solved = ~LaneMask{}};
   solve_system(s, kernel, min_distance);
   Flags solved;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    solved[lane] = wanted[lane] && s.solved[lane] != 0;
+    solved[lane] = requested[lane] && s.solved[lane] != 0;
     for (std::size_t i = 0; i < size_ && solved[lane]; ++i)
       solved[lane] = std::isfinite(solution_[i * lane_count + lane]) &&
                      (i >= quadratic_monomials || std::isfinite(right_side_[i * lane_count + lane]));
@@ -366,7 +366,8 @@ SplineGroup::Flags SplineGroup::fit(const Data& data, const Flags& wanted, Kerne
 SplineCoefficients SplineGroup::solution(std::size_t lane, std::size_t centres) const {
   SplineCoefficients spline{.radial = std::vector<double>(centres)};
   for (std::size_t i = 0; i < centres; ++i) spline.radial[i] = solution_[i * lane_count + lane];
-  for (std::size_t k = 0; k < quadratic_monomials; ++k) spline.polynomial[k] = right_side_[k * lane_count + lane];
+  for (std::size_t k = 0; k < quadratic_monomials; ++k)
+    spline.polynomial[k] = right_side_[k * lane_count + lane];
   return spline;
 }
 

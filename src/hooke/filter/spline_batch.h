@@ -26,22 +26,22 @@ class SplineGroup {
   using Data = std::array<SplineData, lane_count>;
   using Flags = std::array<bool, lane_count>;
 
-  /// Fits the lanes flagged in `wanted`; returns which of these have a solution. There is none if the centres
-  /// do not determine it, or if two are closer than `min_distance`.
-  Flags fit(const Data& data, const Flags& wanted, Kernel kernel, double min_distance);
+  /// Fits the lanes flagged in `requested`; returns which of these have a solution. There is none if the
+  /// centres do not determine it, or if two are closer than `min_distance`.
+  Flags fit(const Data& data, const Flags& requested, Kernel kernel, double min_distance);
 
   /// The spline of a lane. Pre-condition: fit() found one for this lane and this number of centres.
   SplineCoefficients solution(std::size_t lane, std::size_t centres) const;
 
  private:
-  void gather(const Data& data, const Flags& wanted);
+  void gather(const Data& data, const Flags& requested);
 
   std::size_t size_ = 0;           // centres of the largest set
   std::vector<double> centres_;    // x, y, z of each
   std::vector<double> present_;    // 1 where the lane has that centre, 0 for padding
   std::vector<double> matrix_;     // lower triangle, row by row
   std::vector<double> monomials_;  // ten columns; after the factorization R and the reflectors
-  std::vector<double> right_side_, solution_, work_;
+  std::vector<double> right_side_, solution_, workspace_;
 };
 
 }  // namespace hooke

@@ -15,7 +15,7 @@ constexpr std::size_t surface_block = 1024;
 constexpr double min_spread = 1e-3;
 
 /// Shape operator at a vertex: the least-squares solution M of M d = turn over its edges, made symmetric.
-ShapeOperator bend_at(const Mat3X& points, const Mat3X& normals, const Adjacency& c, int v) {
+ShapeOperator fit_shape_operator(const Mat3X& points, const Mat3X& normals, const Adjacency& c, int v) {
   const auto neighbours = c.vertex_neighbours[v];
   if (neighbours.empty() || normals.col(v).isZero(0)) return unknown_shape_operator();
   const Vec3 n = normals.col(v);
@@ -24,10 +24,10 @@ ShapeOperator bend_at(const Mat3X& points, const Mat3X& normals, const Adjacency
   basis.col(1) = n.cross(basis.col(0));
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero(), turned = Eigen::Matrix2d::Zero();
   for (int w : neighbours) {
-    const Eigen::Vector2d way = basis.transpose() * (points.col(w) - points.col(v));
+    const Eigen::Vector2d edge = basis.transpose() * (points.col(w) - points.col(v));
     const Eigen::Vector2d turn = basis.transpose() * (normals.col(w) - normals.col(v));
-    spread += way * way.transpose();
-    turned += turn * way.transpose();
+    spread += edge * edge.transpose();
+    turned += turn * edge.transpose();
   }
   const double size = spread.trace();
   if (!(spread.determinant() > min_spread * size * size)) return unknown_shape_operator();
@@ -47,7 +47,7 @@ std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& nor
   std::vector<ShapeOperator> shape_operators(n);
   parallel_for(n, surface_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
-      shape_operators[v] = bend_at(points, normals, c, static_cast<int>(v));
+      shape_operators[v] = fit_shape_operator(points, normals, c, static_cast<int>(v));
   });
   std::vector<float> change(n);
   parallel_for(n, surface_block, [&](std::size_t begin, std::size_t end) {
@@ -57,11 +57,12 @@ std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& nor
       double squares = 0;
       const auto neighbours = c.vertex_neighbours[static_cast<int>(v)];
       for (int w : neighbours) {
-        const Vec3 way = points.col(w) - points.col(static_cast<Eigen::Index>(v));
+        const Vec3 edge = points.col(w) - points.col(static_cast<Eigen::Index>(v));
         const auto normal = normals.col(static_cast<Eigen::Index>(v));
-        Vec3 turn = shape_operators[v].shape * way - shape_operators[static_cast<std::size_t>(w)].shape * way;
+        Vec3 turn =
+            shape_operators[v].shape * edge - shape_operators[static_cast<std::size_t>(w)].shape * edge;
         turn -= normal.dot(turn) * normal;  // without the rotation of the tangent plane
-        if (!way.isZero(0)) squares += turn.squaredNorm() / way.squaredNorm();
+        if (!edge.isZero(0)) squares += turn.squaredNorm() / edge.squaredNorm();
       }
       if (!neighbours.empty())
         change[v] = static_cast<float>(std::sqrt(squares / static_cast<double>(neighbours.size())));

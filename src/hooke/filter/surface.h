@@ -50,12 +50,12 @@ class Surface {
   /// surface.
   using Project = std::function<Projection(const Vec3& point, int hint, double tolerance)>;
   /// Shape operator near the vertex `hint`.
-  using Bend = std::function<ShapeOperator(int hint)>;
+  using ShapeOperatorAt = std::function<ShapeOperator(int hint)>;
 
   template <typename F>
   requires std::convertible_to<F, Project> &&(!std::same_as<std::remove_cvref_t<F>, Surface>)Surface(
-      F&& project, Bend bend = [](int) { return ShapeOperator{}; })
-      : project_(std::forward<F>(project)), shape_operator_(std::move(bend)) {}
+      F&& project, ShapeOperatorAt shape_operator_at = [](int) { return ShapeOperator{}; })
+      : project_(std::forward<F>(project)), shape_operator_(std::move(shape_operator_at)) {}
 
   Projection operator()(const Vec3& point, int hint, double tolerance) const {
     return project_(point, hint, tolerance);
@@ -64,7 +64,7 @@ class Surface {
 
  private:
   Project project_;
-  Bend shape_operator_;
+  ShapeOperatorAt shape_operator_;
 };
 
 }  // namespace hooke

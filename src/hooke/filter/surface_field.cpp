@@ -24,13 +24,13 @@ double squared_distance_to_box(const Vec3& a, const Vec3& b, const Vec3& c, cons
 }  // namespace
 
 int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
-  double least = (points.col(vertex) - x).squaredNorm();
+  double smallest = (points.col(vertex) - x).squaredNorm();
   for (int from = -1; from != vertex;) {
     from = vertex;
     for (int n : adjacency.vertex_neighbours[from]) {
       const double distance2 = (points.col(n) - x).squaredNorm();
-      if (!(distance2 < least)) continue;  // ends the walk for NaN too
-      least = distance2;
+      if (!(distance2 < smallest)) continue;  // ends the walk for NaN too
+      smallest = distance2;
       vertex = n;
     }
   }
@@ -39,16 +39,16 @@ int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
 
 Projection NearFaces::closest_point_of_ring(const Vec3& x, int hint) const {
   Projection projection{x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
-  double least = std::numeric_limits<double>::infinity();
+  double smallest = std::numeric_limits<double>::infinity();
   const auto visit = [&](int v) {
     for (int f : adjacency.vertex_faces[v]) {
       const Triangle& face = adjacency.faces[static_cast<std::size_t>(f)];
       if (v != hint && std::ranges::find(face, hint) != face.end()) continue;  // visited with the hint
       const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
-      if (squared_distance_to_box(a, b, c, x) >= least) continue;
+      if (squared_distance_to_box(a, b, c, x) >= smallest) continue;
       const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
-      if (near.squared_distance >= least) continue;
-      least = near.squared_distance;
+      if (near.squared_distance >= smallest) continue;
+      smallest = near.squared_distance;
       projection.point = near.point;
       projection.normal.setZero();
       for (int k = 0; k < 3; ++k)
@@ -90,8 +90,8 @@ namespace {
 // ones.
 
 /// Maximum distance of the surface from the faces at each vertex: `max_deviation` times the vertex's length
-/// (empty: 1), or infinity where the surface could get that far only by bending several times more than the
-/// normals turn along edges. Empty: no limit anywhere.
+/// (empty: 1), or infinity where the surface could get that far only by bending_factor several times more
+/// than the normals turn along edges. Empty: no limit anywhere.
 std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviation,
                                        const std::vector<double>& lengths);
 
@@ -105,29 +105,29 @@ constexpr float no_limit = std::numeric_limits<float>::infinity();
 
 std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviation,
                                        const std::vector<double>& lengths) {
-  constexpr double bending = 4;
+  constexpr double bending_factor = 4;
   const auto& [points, normals, adjacency] = faces;
   std::vector<float> deviation_bounds;
   if (max_deviation == std::numeric_limits<double>::infinity()) return deviation_bounds;
-  const auto most = [&](int v) {
+  const auto max_deviation_at = [&](int v) {
     return lengths.empty() ? max_deviation : max_deviation * lengths[static_cast<std::size_t>(v)];
   };
-  std::vector<char> shape_operators(adjacency.edges.size());
-  parallel_for(shape_operators.size(), 4096, [&](std::size_t begin, std::size_t end) {
+  std::vector<char> bends_sharply(adjacency.edges.size());
+  parallel_for(bends_sharply.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const auto& [a, b] = adjacency.edges[e];
       const double sagitta =
           (normals.col(a) - normals.col(b)).norm() * (points.col(a) - points.col(b)).norm() / 8;
-      shape_operators[e] = bending * sagitta > std::min(most(a), most(b));
+      bends_sharply[e] = bending_factor * sagitta > std::min(max_deviation_at(a), max_deviation_at(b));
     }
   });
-  for (std::size_t e = 0; e < shape_operators.size(); ++e) {
-    if (!shape_operators[e]) continue;
+  for (std::size_t e = 0; e < bends_sharply.size(); ++e) {
+    if (!bends_sharply[e]) continue;
     deviation_bounds.resize(static_cast<std::size_t>(adjacency.vertex_count), no_limit);
     for (int end : adjacency.edges[e]) {
-      deviation_bounds[static_cast<std::size_t>(end)] = static_cast<float>(most(end));
+      deviation_bounds[static_cast<std::size_t>(end)] = static_cast<float>(max_deviation_at(end));
       for (int v : adjacency.vertex_neighbours[end])
-        deviation_bounds[static_cast<std::size_t>(v)] = static_cast<float>(most(v));
+        deviation_bounds[static_cast<std::size_t>(v)] = static_cast<float>(max_deviation_at(v));
     }
   }
   return deviation_bounds;
@@ -139,19 +139,19 @@ Projection within_deviation_bound(const NearFaces& faces, const std::vector<floa
   const double max_deviation = deviation_bounds[static_cast<std::size_t>(projection.hint)];
   if (max_deviation == no_limit || faces.has_face_within(projection.point, projection.hint, max_deviation))
     return projection;
-  Projection below = faces.closest_point(projection.point, projection.hint);
-  Vec3 height = projection.point - below.point;
+  Projection nearest = faces.closest_point(projection.point, projection.hint);
+  Vec3 height = projection.point - nearest.point;
   if (!(height.squaredNorm() > max_deviation * max_deviation)) return projection;
 
-  const double side = height.dot(below.normal) < 0 ? -1 : 1;
-  const Projection below_start = faces.closest_point(x, projection.hint);
-  const Vec3 start_height = x - below_start.point;
-  if (side * start_height.dot(below_start.normal) > 0 && start_height.norm() > .5 * max_deviation) {
-    below = below_start;
+  const double side = height.dot(nearest.normal) < 0 ? -1 : 1;
+  const Projection nearest_to_start = faces.closest_point(x, projection.hint);
+  const Vec3 start_height = x - nearest_to_start.point;
+  if (side * start_height.dot(nearest_to_start.normal) > 0 && start_height.norm() > .5 * max_deviation) {
+    nearest = nearest_to_start;
     height = start_height;
   }
   height.normalize();
-  return {below.point + max_deviation * height, side * height, below.hint, ProjectionStatus::converged,
+  return {nearest.point + max_deviation * height, side * height, nearest.hint, ProjectionStatus::converged,
           projection.evaluations};
 }
 
@@ -167,11 +167,11 @@ std::vector<int> distinct_vertices(const Mat3X& points, const Adjacency& adjacen
     if (!adjacency.vertex_faces[v].empty() &&
         (pieces.empty() || pieces[static_cast<std::size_t>(v)] == piece))
       vertices.push_back(v);
-  const auto place = [&](int v) { return std::array{points(0, v), points(1, v), points(2, v)}; };
-  std::ranges::stable_sort(vertices, {}, place);
-  vertices.erase(
-      std::unique(vertices.begin(), vertices.end(), [&](int a, int b) { return place(a) == place(b); }),
-      vertices.end());
+  const auto coordinates = [&](int v) { return std::array{points(0, v), points(1, v), points(2, v)}; };
+  std::ranges::stable_sort(vertices, {}, coordinates);
+  vertices.erase(std::unique(vertices.begin(), vertices.end(),
+                             [&](int a, int b) { return coordinates(a) == coordinates(b); }),
+                 vertices.end());
   std::ranges::sort(vertices);
   return vertices;
 }
@@ -304,11 +304,11 @@ Surface SurfaceField::surface() const {
   const auto project = [state = state_](const Vec3& x, int hint, double tolerance) {
     return state->project(x, hint, tolerance);
   };
-  const auto bend = [state = state_](int hint) {
+  const auto shape_operator_at = [state = state_](int hint) {
     if (state->shape_operators.empty()) return unknown_shape_operator();
     return state->shape_operators[static_cast<std::size_t>(hint)];
   };
-  return {project, bend};
+  return {project, shape_operator_at};
 }
 
 const Mat3X& SurfaceField::points() const {

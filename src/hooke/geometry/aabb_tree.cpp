@@ -12,9 +12,9 @@ namespace hooke {
 namespace {
 
 constexpr size_t sort_block = 4096;
-constexpr unsigned bits = 16;  // per axis
+constexpr unsigned bits_per_axis = 16;  // per axis
 
-/// Inserts two zero bits before each bit.
+/// Inserts two zero bits_per_axis before each bit.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 16) & 0x0000ff0000ff;
   x = (x | x << 8) & 0x00f00f00f00f;
@@ -23,14 +23,14 @@ std::uint64_t spread(std::uint64_t x) {
 }
 
 /// Index of a grid cell along the Hilbert curve. J. Skilling, "Programming the Hilbert curve", 2004.
-std::uint64_t place_on_curve(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   const auto turn = [&x](std::uint32_t& coordinate, std::uint32_t bit) {
     const bool inverts = coordinate & bit;
     const std::uint32_t exchanged = (x ^ coordinate) & (bit - 1);
     x ^= inverts ? bit - 1 : exchanged;
     coordinate ^= inverts ? 0 : exchanged;
   };
-  for (std::uint32_t bit = std::uint32_t{1} << (bits - 1); bit > 1; bit >>= 1) {
+  for (std::uint32_t bit = std::uint32_t{1} << (bits_per_axis - 1); bit > 1; bit >>= 1) {
     x ^= x & bit ? bit - 1 : 0;
     turn(y, bit);
     turn(z, bit);
@@ -38,7 +38,7 @@ std::uint64_t place_on_curve(std::uint32_t x, std::uint32_t y, std::uint32_t z) 
   y ^= x;
   z ^= y;
   std::uint32_t flipped = 0;
-  for (std::uint32_t bit = std::uint32_t{1} << (bits - 1); bit > 1; bit >>= 1)
+  for (std::uint32_t bit = std::uint32_t{1} << (bits_per_axis - 1); bit > 1; bit >>= 1)
     flipped ^= z & bit ? bit - 1 : 0;
   return spread(x ^ flipped) << 2 | spread(y ^ flipped) << 1 | spread(z ^ flipped);
 }
@@ -57,9 +57,9 @@ std::vector<int> spatial_order(const std::vector<Vec3>& points) {
   std::vector<Item> items(points.size()), buffer(points.size());
   parallel_for(points.size(), sort_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const Vec3 cell = (points[i] - box.min()) / size * ((std::uint32_t{1} << bits) - 1);
-      items[i] = {place_on_curve(static_cast<std::uint32_t>(cell[0]), static_cast<std::uint32_t>(cell[1]),
-                                 static_cast<std::uint32_t>(cell[2])),
+      const Vec3 cell = (points[i] - box.min()) / size * ((std::uint32_t{1} << bits_per_axis) - 1);
+      items[i] = {hilbert_index(static_cast<std::uint32_t>(cell[0]), static_cast<std::uint32_t>(cell[1]),
+                                static_cast<std::uint32_t>(cell[2])),
                   static_cast<int>(i)};
     }
   });
@@ -101,7 +101,7 @@ std::vector<Vec3> centres(const Mat3X& points, const std::vector<Triangle>& face
 }
 
 /// Keeps the face in `best` if it is closer, or as close and of a lower id.
-void try_face(const Vec3& x, const AabbTree::Face& face, ClosestPoint& best) {
+void update_closest(const Vec3& x, const AabbTree::Face& face, ClosestPoint& best) {
   const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
   const double d = candidate.squared_distance;
   if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
@@ -158,7 +158,7 @@ AabbTree::AabbTree(const Mat3X& points, const std::vector<Triangle>& faces,
   while (faces.size() > leaf_size << depth_) ++depth_;
   boxes_.resize(size_t{2} << depth_);
   boxes_[0] = Box();
-  enclose(1, 0);
+  compute_boxes(1, 0);
 }
 
 std::vector<int> AabbTree::order() const {
@@ -168,7 +168,7 @@ std::vector<int> AabbTree::order() const {
 }
 
 /// Computes the boxes of a subtree; the subtrees of the upper levels run in parallel.
-void AabbTree::enclose(size_t node, int level) {
+void AabbTree::compute_boxes(size_t node, int level) {
   constexpr int upper_levels = 7;
   if (is_leaf(node)) {
     Box box;
@@ -176,13 +176,13 @@ void AabbTree::enclose(size_t node, int level) {
     boxes_[node] = box;
     return;
   }
-  const auto enclose_children = [&](size_t begin, size_t end) {
-    for (size_t child = begin; child < end; ++child) enclose(2 * node + child, level + 1);
+  const auto compute_children = [&](size_t begin, size_t end) {
+    for (size_t child = begin; child < end; ++child) compute_boxes(2 * node + child, level + 1);
   };
   if (level < upper_levels)
-    parallel_for(2, 1, enclose_children);
+    parallel_for(2, 1, compute_children);
   else
-    enclose_children(0, 2);
+    compute_children(0, 2);
   boxes_[node] = boxes_[2 * node].merged(boxes_[2 * node + 1]);
 }
 
@@ -198,19 +198,19 @@ AabbTree::PartBoxes::PartBoxes(std::span<const Face> faces) {
   }
 }
 
-HOOKE_SIMD unsigned AabbTree::PartBoxes::meeting(const Box& other) const {
+HOOKE_SIMD unsigned AabbTree::PartBoxes::overlapping(const Box& other) const {
   constexpr LaneMask bits = {1, 2, 4, 8};
   LaneMask found = {};
   for (size_t k = 0; k < faces_of_part; k += lane_count) {
-    LaneMask meet = bits << static_cast<int>(k);
+    LaneMask overlap = bits << static_cast<int>(k);
     for (size_t d = 0; d < 3; ++d) {
       const auto axis = static_cast<Eigen::Index>(d);
       Lanes lows, highs;
       load(&low[d][k], lows);
       load(&high[d][k], highs);
-      meet &= (lows <= other.max()[axis]) & (highs >= other.min()[axis]);
+      overlap &= (lows <= other.max()[axis]) & (highs >= other.min()[axis]);
     }
-    found |= meet;
+    found |= overlap;
   }
   return static_cast<unsigned>(found[0] | found[1] | found[2] | found[3]);
 }
@@ -232,7 +232,7 @@ ClosestPoint AabbTree::closest(const Vec3& x) const {
     if (visit.distance > best.squared_distance) continue;
     if (is_leaf(visit.node)) {
       for (const Face& face : faces_of(visit.node - leaf_count()))
-        if (squared_distance(face.box(), x) <= best.squared_distance) try_face(x, face, best);
+        if (squared_distance(face.box(), x) <= best.squared_distance) update_closest(x, face, best);
       continue;
     }
     Visit near{2 * visit.node, squared_distance(boxes_[2 * visit.node], x)};

@@ -34,16 +34,16 @@ std::vector<size_t> sort_by_first_digit(std::span<Item> items, std::span<Item> b
     }
     return {};
   }
-  std::uint64_t least = key(items[0]), greatest = least;
+  std::uint64_t smallest = key(items[0]), largest = smallest;
   for (const Item& item : items) {
-    least = std::min(least, key(item));
-    greatest = std::max(greatest, key(item));
+    smallest = std::min(smallest, key(item));
+    largest = std::max(largest, key(item));
   }
-  if (least == greatest) return {};
+  if (smallest == largest) return {};
 
   const int bits = std::min(max_bits, static_cast<int>(std::bit_width(n)) - 3);  // a few items per digit
-  const int shift = std::max(0, static_cast<int>(std::bit_width(greatest - least)) - bits);
-  const auto digit = [&](const Item& item) { return static_cast<size_t>((key(item) - least) >> shift); };
+  const int shift = std::max(0, static_cast<int>(std::bit_width(largest - smallest)) - bits);
+  const auto digit = [&](const Item& item) { return static_cast<size_t>((key(item) - smallest) >> shift); };
   std::vector<size_t> end((size_t{1} << bits) + 1, 0);
   for (const Item& item : items) ++end[digit(item) + 1];
   for (size_t d = 1; d < end.size(); ++d) end[d] += end[d - 1];
@@ -150,10 +150,10 @@ class AabbTree {
     return faces().subspan(first_face(leaf), first_face(leaf + 1) - first_face(leaf));
   }
 
-  /// Calls visit(leaf), in ascending order, for the leaves from `first` on for which reaches(box) is true of
-  /// their own box and of the boxes of all their ancestors.
-  template <typename Reaches, typename Visit>
-  void for_each_leaf(size_t first, const Reaches& reaches, const Visit& visit) const {
+  /// Calls visit(leaf), in ascending order, for the leaves from `first` on for which is_relevant(box) is true
+  /// of their own box and of the boxes of all their ancestors.
+  template <typename IsRelevant, typename Visit>
+  void for_each_leaf(size_t first, const IsRelevant& is_relevant, const Visit& visit) const {
     size_t stack[max_depth + 1];
     int size = 0;
     stack[size++] = 1;
@@ -161,7 +161,7 @@ class AabbTree {
       const size_t i = stack[--size];
       const int level = static_cast<int>(std::bit_width(i)) - 1;
       const size_t leaves_end = ((i + 1) << (depth_ - level)) - leaf_count();
-      if (leaves_end <= first || !reaches(boxes_[i])) continue;
+      if (leaves_end <= first || !is_relevant(boxes_[i])) continue;
       if (is_leaf(i)) {
         visit(i - leaf_count());
         continue;
@@ -171,11 +171,11 @@ class AabbTree {
     }
   }
 
-  /// Pairs of faces whose boxes overlap are grouped in parts. for_each_meeting_pair() calls visit(f, g) for
-  /// the pairs of the parts [begin, end); each pair belongs to exactly one part.
+  /// Pairs of faces whose boxes overlap are grouped in parts. for_each_overlapping_pair() calls visit(f, g)
+  /// for the pairs of the parts [begin, end); each pair belongs to exactly one part.
   size_t parts() const { return (faces_.size() + faces_of_part - 1) / faces_of_part; }
   template <typename Visit>
-  void for_each_meeting_pair(size_t begin, size_t end, const Visit& visit) const {
+  void for_each_overlapping_pair(size_t begin, size_t end, const Visit& visit) const {
     for (size_t part = begin; part < end; ++part) visit_pairs(part * faces_of_part, visit);
   }
 
@@ -191,7 +191,7 @@ class AabbTree {
     explicit PartBoxes(std::span<const Face> faces);
 
     /// Bit mask of the faces whose boxes overlap `other`.
-    unsigned meeting(const Box& other) const;
+    unsigned overlapping(const Box& other) const;
   };
 
   /// Visits the pairs of a face of the part that begins at index `first` and a later face.
@@ -201,18 +201,18 @@ class AabbTree {
     for_each_leaf(
         (first << depth_) / faces_.size(), [&](const Box& box) { return box.intersects(boxes.all); },
         [&](size_t leaf) {
-          for (size_t place = std::max(first_face(leaf), first + 1); place < first_face(leaf + 1); ++place) {
-            unsigned meeting = boxes.meeting(faces_[place].box());
-            if (place - first < faces_of_part) meeting &= (1U << (place - first)) - 1;
-            for (; meeting != 0; meeting &= meeting - 1)
-              visit(faces_[first + static_cast<size_t>(std::countr_zero(meeting))], faces_[place]);
+          for (size_t index = std::max(first_face(leaf), first + 1); index < first_face(leaf + 1); ++index) {
+            unsigned overlapping = boxes.overlapping(faces_[index].box());
+            if (index - first < faces_of_part) overlapping &= (1U << (index - first)) - 1;
+            for (; overlapping != 0; overlapping &= overlapping - 1)
+              visit(faces_[first + static_cast<size_t>(std::countr_zero(overlapping))], faces_[index]);
           }
         });
   }
 
-  void enclose(size_t node, int level);
+  void compute_boxes(size_t node, int level);
 
-  int depth_ = 0;               // levels below the root
+  int depth_ = 0;                    // levels below the root
   UninitializedVector<Face> faces_;  // leaf by leaf
   UninitializedVector<Box> boxes_;   // by node; entry 0 is unused
 };

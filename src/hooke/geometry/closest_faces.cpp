@@ -14,29 +14,29 @@ namespace {
 // Distances of four points at a time to one face, bitwise equal to those of closest_point().
 
 /// Factor that keeps a lower bound valid under rounding.
-constexpr double surely = 1 - 1e-9;
+constexpr double safety_factor = 1 - 1e-9;
 
 /// A face with everything that does not depend on the query point.
 struct PreparedFace {
   PreparedFace() = default;
-  PreparedFace(const AabbTree::Face& face, size_t its_place)
-      : corners(face.corners), place(static_cast<long long>(its_place)) {
+  PreparedFace(const AabbTree::Face& face, size_t its_index)
+      : corners(face.corners), index(static_cast<long long>(its_index)) {
     const auto& [a, b, c] = corners;
     normal = (b - a).cross(c - a);
     double longest = 0;
     for (size_t k = 0; k < 3; ++k) {
-      sides[k] = corners[(k + 1) % 3] - corners[k];
-      squared_sides[k] = sides[k].squaredNorm();
-      longest = std::max(longest, squared_sides[k]);
-      if (!(squared_sides[k] > 0)) squared_sides[k] = 1;
-      beside[k] = normal.cross(sides[k]);
+      edges[k] = corners[(k + 1) % 3] - corners[k];
+      squared_edges[k] = edges[k].squaredNorm();
+      longest = std::max(longest, squared_edges[k]);
+      if (!(squared_edges[k] > 0)) squared_edges[k] = 1;
+      inward[k] = normal.cross(edges[k]);
     }
     const double nn = normal.squaredNorm();
     has_area = nn > min_triangle_squared_area * longest * longest;
     squared_normal = has_area ? nn : 1;
     if (!(nn > min_for_bounds * longest * longest)) return;
     height_weight = 1 / nn;
-    beside_weight = height_weight / longest;  // for the longest edge, the smallest of the three
+    inward_weight = height_weight / longest;  // for the longest edge, the smallest of the three
   }
 
   /// Minimum of the same ratio for a bound: thinner triangles could get too large a bound from the rounding
@@ -44,15 +44,15 @@ struct PreparedFace {
   static constexpr double min_for_bounds = 1e-4;
 
   std::array<Vec3, 3> corners;
-  long long place = 0;
+  long long index = 0;
   Vec3 normal;
-  std::array<Vec3, 3> sides;  // edge vectors from corner k to corner k + 1
-  std::array<double, 3> squared_sides;
-  std::array<Vec3, 3> beside;  // in the plane, perpendicular to edge k, pointing inside
+  std::array<Vec3, 3> edges;  // edge vectors from corner k to corner k + 1
+  std::array<double, 3> squared_edges;
+  std::array<Vec3, 3> inward;  // in the plane, perpendicular to edge k, pointing inside
   bool has_area = false;
   double squared_normal = 1;
   // Factors from squared products to squared distances; 0 where the result would be unreliable.
-  double beside_weight = 0;
+  double inward_weight = 0;
   double height_weight = 0;
 };
 
@@ -64,51 +64,52 @@ HOOKE_INLINE void difference(const LaneVec& x, const Vec3& a, LaneVec& d) {
   d = {x.x - a[0], x.y - a[1], x.z - a[2]};
 }
 
-HOOKE_INLINE void distances_to_side(const PreparedFace& face, size_t k, const LaneVec& x,
+HOOKE_INLINE void distances_to_edge(const PreparedFace& face, size_t k, const LaneVec& x,
                                     const LaneVec& from_corner, Lanes& squared) {
-  const Vec3 &a = face.corners[k], &d = face.sides[k];
+  const Vec3 &a = face.corners[k], &d = face.edges[k];
   const Lanes zero = {}, one = zero + 1.;
   Lanes t;
   dot(from_corner, d, t);
-  t /= zero + face.squared_sides[k];
+  t /= zero + face.squared_edges[k];
   t = t > zero ? t : zero;
   t = t < one ? t : one;
-  const LaneVec way = {x.x - (a[0] + t * d[0]), x.y - (a[1] + t * d[1]), x.z - (a[2] + t * d[2])};
-  dot(way, way, squared);
+  const LaneVec difference_vector = {x.x - (a[0] + t * d[0]), x.y - (a[1] + t * d[1]),
+                                     x.z - (a[2] + t * d[2])};
+  dot(difference_vector, difference_vector, squared);
 }
 
 /// Updates the nearest face of four points. Among faces at the same distance the first one wins.
-HOOKE_INLINE void try_face(const PreparedFace& face, const LaneVec& x, Lanes& best, LaneMask& places) {
+HOOKE_INLINE void test_face(const PreparedFace& face, const LaneVec& x, Lanes& best, LaneMask& indices) {
   std::array<LaneVec, 3> from;
-  std::array<Lanes, 3> beside;
+  std::array<Lanes, 3> inward;
   Lanes height, outside = {};
   for (size_t k = 0; k < 3; ++k) {
     difference(x, face.corners[k], from[k]);
-    dot(from[k], face.beside[k], beside[k]);
-    outside = outside < beside[k] ? outside : beside[k];
+    dot(from[k], face.inward[k], inward[k]);
+    outside = outside < inward[k] ? outside : inward[k];
   }
   dot(from[0], face.normal, height);
   const Lanes bound =
-      (height * height * face.height_weight + outside * outside * face.beside_weight) * surely;
+      (height * height * face.height_weight + outside * outside * face.inward_weight) * safety_factor;
   const LaneMask promising = bound <= best;
   if (!any(promising)) return;
 
   const LaneMask everywhere = ~LaneMask{}, nowhere = {};
   const LaneMask inside =
-      ((beside[0] >= 0.) & (beside[1] >= 0.) & (beside[2] >= 0.)) & (face.has_area ? everywhere : nowhere);
+      ((inward[0] >= 0.) & (inward[1] >= 0.) & (inward[2] >= 0.)) & (face.has_area ? everywhere : nowhere);
   Lanes squared = height * height / (Lanes{} + face.squared_normal);
-  Lanes to_side = Lanes{} + std::numeric_limits<double>::infinity(), other;
+  Lanes to_edge = Lanes{} + std::numeric_limits<double>::infinity(), other;
   if (any(promising & ~inside)) {
-    distances_to_side(face, 0, x, from[0], to_side);
-    distances_to_side(face, 1, x, from[1], other);
-    to_side = other < to_side ? other : to_side;
-    distances_to_side(face, 2, x, from[2], other);
-    to_side = other < to_side ? other : to_side;
+    distances_to_edge(face, 0, x, from[0], to_edge);
+    distances_to_edge(face, 1, x, from[1], other);
+    to_edge = other < to_edge ? other : to_edge;
+    distances_to_edge(face, 2, x, from[2], other);
+    to_edge = other < to_edge ? other : to_edge;
   }
-  squared = inside ? squared : to_side;
-  const LaneMask closer = (squared < best) | ((squared == best) & (places > face.place));
+  squared = inside ? squared : to_edge;
+  const LaneMask closer = (squared < best) | ((squared == best) & (indices > face.index));
   best = closer ? squared : best;
-  places = closer ? face.place + LaneMask{} : places;
+  indices = closer ? face.index + LaneMask{} : indices;
 }
 
 using Box = AabbTree::Box;
@@ -137,7 +138,7 @@ struct NearestFaceSearch::Packet {
   size_t groups = 0;  // of four points; the last one is padded with its first point
   std::array<double, 3 * max_points> points;
   std::array<double, max_points> squared_distance;
-  std::array<long long, max_points> place;
+  std::array<long long, max_points> index;
   Box box;
 
   explicit Packet(std::span<const Vec3> given) : groups(padded_to_lanes(given.size()) / lane_count) {
@@ -146,7 +147,7 @@ struct NearestFaceSearch::Packet {
       for (size_t d = 0; d < 3; ++d)
         points[(i / lane_count * 3 + d) * lane_count + i % lane_count] = p[static_cast<Eigen::Index>(d)];
       squared_distance[i] = std::numeric_limits<double>::infinity();
-      place[i] = -1;
+      index[i] = -1;
       box.extend(p);
     }
   }
@@ -156,28 +157,28 @@ struct NearestFaceSearch::Packet {
                              squared_distance.begin() + static_cast<std::ptrdiff_t>(groups * lane_count));
   }
   void store(std::span<NearestFace> results) const {
-    for (size_t i = 0; i < results.size(); ++i) results[i] = {squared_distance[i], place[i]};
+    for (size_t i = 0; i < results.size(); ++i) results[i] = {squared_distance[i], index[i]};
   }
 };
 
 /// Candidate faces and their boxes, coordinate by coordinate.
 struct NearestFaceSearch::Candidates {
-  static constexpr size_t most = 192;
+  static constexpr size_t max_count = 192;
 
   std::vector<PreparedFace> faces;
   bool too_many = false;
-  std::array<std::array<double, most>, 3> low, high;
+  std::array<std::array<double, max_count>, 3> low, high;
 
   void clear() {
     faces.clear();
     too_many = false;
   }
 
-  void add(const Face& face, size_t place, const Box& box) {
+  void add(const Face& face, size_t index, const Box& box) {
     const size_t k = faces.size();
-    too_many = too_many || k == most;
+    too_many = too_many || k == max_count;
     if (too_many) return;
-    faces.emplace_back(face, place);
+    faces.emplace_back(face, index);
     for (size_t d = 0; d < 3; ++d) {
       low[d][k] = box.min()[static_cast<Eigen::Index>(d)];
       high[d][k] = box.max()[static_cast<Eigen::Index>(d)];
@@ -216,82 +217,82 @@ HOOKE_INLINE double max_of(const Lanes& x) {
 }
 
 /// Tests the faces whose boxes overlap that of the four points, then those that may still be closer.
-HOOKE_SIMD void try_all(const Candidates& candidates, Packet& packet) {
-  std::array<double, Candidates::most> distances;
+HOOKE_SIMD void test_all(const Candidates& candidates, Packet& packet) {
+  std::array<double, Candidates::max_count> distances;
   const size_t count = candidates.faces.size();
   for (size_t g = 0; g < packet.groups; ++g) {
     LaneVec x;
     Lanes best;
-    LaneMask places;
+    LaneMask indices;
     load(&packet.points[g * 3 * lane_count], lane_count, x);
     load(&packet.squared_distance[g * lane_count], best);
-    std::memcpy(&places, &packet.place[g * lane_count], sizeof(places));
+    std::memcpy(&indices, &packet.index[g * lane_count], sizeof(indices));
     std::array<double, 3> low, high;
     for (size_t d = 0; d < 3; ++d) {
       const double* const t = &packet.points[(g * 3 + d) * lane_count];
       low[d] = std::min(std::min(t[0], t[1]), std::min(t[2], t[3]));
       high[d] = std::max(std::max(t[0], t[1]), std::max(t[2], t[3]));
     }
-    Lanes least = Lanes{} + std::numeric_limits<double>::infinity();  // over the boxes that do not overlap
+    Lanes smallest = Lanes{} + std::numeric_limits<double>::infinity();  // over the boxes that do not overlap
     for (size_t k = 0; k < count; k += lane_count) {
       Lanes squared;
       distances_between(low, high, candidates, k, squared);
-      squared *= surely;
+      squared *= safety_factor;
       store(squared, &distances[k]);
       const LaneMask meets = squared <= 0.;
-      least = meets | (squared > least) ? least : squared;
+      smallest = meets | (squared > smallest) ? smallest : squared;
       if (!any(meets)) continue;
       for (size_t i = 0; i < lane_count; ++i)
-        if (meets[i]) try_face(candidates.faces[k + i], x, best, places);
+        if (meets[i]) test_face(candidates.faces[k + i], x, best, indices);
     }
     double farthest = max_of(best);
-    for (size_t k = 0; k < count && any(least <= farthest); k += lane_count) {
+    for (size_t k = 0; k < count && any(smallest <= farthest); k += lane_count) {
       Lanes squared;
       load(&distances[k], squared);
       farthest = max_of(best);
       const LaneMask near = (squared > 0.) & (squared <= farthest);
       if (!any(near)) continue;
       for (size_t i = 0; i < std::min(lane_count, count - k); ++i)
-        if (near[i]) try_face(candidates.faces[k + i], x, best, places);
+        if (near[i]) test_face(candidates.faces[k + i], x, best, indices);
     }
     store(best, &packet.squared_distance[g * lane_count]);
-    std::memcpy(&packet.place[g * lane_count], &places, sizeof(places));
+    std::memcpy(&packet.index[g * lane_count], &indices, sizeof(indices));
   }
 }
 
 /// One traversal for four points: descends wherever one of them may get closer, into the closer child first.
-HOOKE_SIMD void walk(const AabbTree& tree, Packet& packet) {
+HOOKE_SIMD void traverse(const AabbTree& tree, Packet& packet) {
   const Box* const boxes = tree.boxes().data();
   LaneVec x;
   Lanes best, near, far;
-  LaneMask places;
+  LaneMask indices;
   load(packet.points.data(), lane_count, x);
   load(packet.squared_distance.data(), best);
-  std::memcpy(&places, packet.place.data(), sizeof(places));
+  std::memcpy(&indices, packet.index.data(), sizeof(indices));
   size_t stack[AabbTree::max_depth + 1];
   int size = 0;
   stack[size++] = 1;
   while (size > 0) {
     const size_t i = stack[--size];
     distances_to(boxes[i], x, near);
-    if (!any(near * surely <= best)) continue;
+    if (!any(near * safety_factor <= best)) continue;
     if (tree.is_leaf(i)) {
       const size_t leaf = i - tree.leaf_count();
       for (size_t k = tree.first_face(leaf); k < tree.first_face(leaf + 1); ++k)
-        try_face(PreparedFace(tree.faces()[k], k), x, best, places);
+        test_face(PreparedFace(tree.faces()[k], k), x, best, indices);
       continue;
     }
     const size_t left = 2 * i, right = left + 1;
     distances_to(boxes[left], x, near);
     distances_to(boxes[right], x, far);
     const bool left_first = sum_of(near) <= sum_of(far);
-    const bool wants_left = any(near * surely <= best), wants_right = any(far * surely <= best);
+    const bool wants_left = any(near * safety_factor <= best), wants_right = any(far * safety_factor <= best);
     if (left_first && wants_right) stack[size++] = right;
     if (wants_left) stack[size++] = left;
     if (!left_first && wants_right) stack[size++] = right;
   }
   store(best, packet.squared_distance.data());
-  std::memcpy(packet.place.data(), &places, sizeof(places));
+  std::memcpy(packet.index.data(), &indices, sizeof(indices));
 }
 
 }  // namespace
@@ -303,23 +304,25 @@ NearestFaceSearch::~NearestFaceSearch() = default;
 
 /// Tests the faces whose squared distance to the box of the packet lies in (beyond, within]. Returns false if
 /// there are too many to test with each point.
-bool NearestFaceSearch::try_faces(double beyond, double within, Packet& packet) {
+bool NearestFaceSearch::test_candidates(double beyond, double within, Packet& packet) {
   Candidates& candidates = *candidates_;
   candidates.clear();
-  const auto distance_to = [&](const Box& box) { return box.squaredExteriorDistance(packet.box) * surely; };
+  const auto distance_to = [&](const Box& box) {
+    return box.squaredExteriorDistance(packet.box) * safety_factor;
+  };
   tree_.for_each_leaf(
       0, [&](const Box& box) { return !candidates.too_many && distance_to(box) <= within; },
       [&](size_t leaf) {
-        for (size_t place = tree_.first_face(leaf); place < tree_.first_face(leaf + 1); ++place) {
-          const Face& face = tree_.faces()[place];
+        for (size_t index = tree_.first_face(leaf); index < tree_.first_face(leaf + 1); ++index) {
+          const Face& face = tree_.faces()[index];
           const Box box = face.box();
           const double squared = distance_to(box);
-          if (squared > beyond && squared <= within) candidates.add(face, place, box);
+          if (squared > beyond && squared <= within) candidates.add(face, index, box);
         }
       });
   if (candidates.too_many) return false;
   candidates.pad();
-  try_all(candidates, packet);
+  test_all(candidates, packet);
   return true;
 }
 
@@ -327,16 +330,16 @@ bool NearestFaceSearch::try_faces(double beyond, double within, Packet& packet) 
 /// Returns false if there are too many candidates.
 bool NearestFaceSearch::find_together(Packet& packet) {
   const double near = std::min(expected_, packet.box.sizes().squaredNorm() / 16);
-  if (!try_faces(-1, near, packet)) return false;
+  if (!test_candidates(-1, near, packet)) return false;
   const double farthest = packet.farthest();
   expected_ = 4 * farthest;
-  return farthest <= near || try_faces(near, farthest, packet);
+  return farthest <= near || test_candidates(near, farthest, packet);
 }
 
 void NearestFaceSearch::find(std::span<const Vec3> points, std::span<NearestFace> results) {
   Packet packet(points);
   if (packet.groups == 1) {
-    walk(tree_, packet);
+    traverse(tree_, packet);
   } else if (!find_together(packet)) {
     const size_t half = packet.groups / 2 * lane_count;
     find(points.first(half), results.first(half));

@@ -9,7 +9,7 @@ namespace hooke {
 
 struct NearestFace {
   double squared_distance = 0;  // bitwise equal to that of closest_point() for this face
-  long long place = -1;         // index in faces() of the tree; -1 if the tree is empty
+  long long index = -1;         // index in faces() of the tree; -1 if the tree is empty
 };
 
 /// Keeps a reference to the tree, which must outlive it. Use one object per thread. Which of several equally
@@ -31,7 +31,7 @@ class NearestFaceSearch {
  private:
   void find(std::span<const Vec3> points, std::span<NearestFace> results);
   bool find_together(Packet& packet);
-  bool try_faces(double beyond, double within, Packet& packet);
+  bool test_candidates(double beyond, double within, Packet& packet);
 
   const AabbTree& tree_;
   std::unique_ptr<Candidates> candidates_;

@@ -124,8 +124,8 @@ int orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   if ((u.x() == 0 && v.x() == 0) || (u.y() == 0 && v.y() == 0)) return 0;  // on an axis-parallel line
   const double determinant = left - right;
   const double bound = relative_error_2d * (std::abs(left) + std::abs(right)) + underflow_error;
-  const double greatest = std::max(u.lpNorm<Eigen::Infinity>(), v.lpNorm<Eigen::Infinity>());
-  if (std::abs(determinant) > bound && greatest < max_difference) return determinant > 0 ? 1 : -1;
+  const double largest = std::max(u.lpNorm<Eigen::Infinity>(), v.lpNorm<Eigen::Infinity>());
+  if (std::abs(determinant) > bound && largest < max_difference) return determinant > 0 ? 1 : -1;
   return exact_orient2d(a, b, c);
 }
 
@@ -139,9 +139,9 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                            std::abs(w.y()) * (std::abs(zx) + std::abs(xz)) +
                            std::abs(w.z()) * (std::abs(xy) + std::abs(yx));
   const double bound = relative_error_3d * permanent + underflow_error;
-  const double greatest =
+  const double largest =
       std::max({u.lpNorm<Eigen::Infinity>(), v.lpNorm<Eigen::Infinity>(), w.lpNorm<Eigen::Infinity>()});
-  if (std::abs(determinant) > bound && greatest < max_difference) return determinant > 0 ? 1 : -1;
+  if (std::abs(determinant) > bound && largest < max_difference) return determinant > 0 ? 1 : -1;
   for (int k = 0; k < 3; ++k)  // common: a mesh in an axis-parallel plane
     if (u[k] == 0 && v[k] == 0 && w[k] == 0) return 0;
   return exact_orient3d(a, b, c, d);

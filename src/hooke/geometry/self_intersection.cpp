@@ -66,10 +66,10 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Corners& t, int 
   return same_side(orient3d(p, q, t[0], t[1]), orient3d(p, q, t[1], t[2]), orient3d(p, q, t[2], t[0]));
 }
 
-/// Bounds on the rounding error of the dot product of a vector with a difference of points: relative to the
-/// sum of the absolute values of its terms, and absolute for underflow.
-constexpr double rounding = 1e-14;
-constexpr double underflow = 1e-280;
+/// Bounds on the rounding error of the dot product of a vector with a difference of points: relative to
+/// the sum of the absolute values of its terms, and absolute for underflow.
+constexpr double rounding_bound = 1e-14;
+constexpr double underflow_bound = 1e-280;
 
 double size_of(const Vec3& v) {
   return v.lpNorm<1>();
@@ -86,7 +86,7 @@ bool surely_apart(const Corners& s, const Corners& t) {
     first_of_t = std::min(first_of_t, across.dot(to_t));
     farthest = std::max({farthest, size_of(to_s), size_of(to_t)});
   }
-  return first_of_t - last_of_s > rounding * farthest * size_of(across) + underflow;
+  return first_of_t - last_of_s > rounding_bound * farthest * size_of(across) + underflow_bound;
 }
 
 /// surely_apart() for two triangles that share their corner 0, with the plane through that corner.
@@ -96,13 +96,13 @@ bool surely_apart_but_for_corner(const Corners& s, const Corners& t) {
   const double last_of_s = std::max(across.dot(s1), across.dot(s2));
   const double first_of_t = std::min(across.dot(t1), across.dot(t2));
   const double farthest = std::max({size_of(s1), size_of(s2), size_of(t1), size_of(t2)});
-  const double margin = rounding * farthest * size_of(across) + underflow;
+  const double margin = rounding_bound * farthest * size_of(across) + underflow_bound;
   return last_of_s < -margin && first_of_t > margin;
 }
 
 /// Whether two triangles that share their corner 0 share any further point. If they do, the ray from the
 /// corner to that point leaves one of them, through the opposite edge, inside the other.
-bool fans_meet(const Corners& s, const Corners& t) {
+bool corner_sharing_triangles_meet(const Corners& s, const Corners& t) {
   if (surely_apart_but_for_corner(s, t)) return false;
   const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
   if (s1 * s2 > 0) return false;
@@ -114,7 +114,7 @@ bool fans_meet(const Corners& s, const Corners& t) {
 }
 
 /// Whether two triangles that share the edge of their corners 0 and 1 are folded flat onto each other.
-bool hinge_is_shut(const Corners& s, const Vec3& tip) {
+bool is_folded_flat(const Corners& s, const Vec3& tip) {
   if (orient3d(s[0], s[1], s[2], tip) != 0) return false;
   const int axis = flattening_axis(s);
   const Vec2 a = drop_axis(s[0], axis), b = drop_axis(s[1], axis);
@@ -139,10 +139,10 @@ bool faces_meet(const Face& s, const Face& t) {
         ++common;
       }
   if (common == 0) return triangles_meet(s.corners, t.corners);
-  if (common == 1) return fans_meet(corners_from(s, in_s[0]), corners_from(t, in_t[0]));
+  if (common == 1) return corner_sharing_triangles_meet(corners_from(s, in_s[0]), corners_from(t, in_t[0]));
   if (common == 3) return false;
   const size_t tip_s = 3 - in_s[0] - in_s[1], tip_t = 3 - in_t[0] - in_t[1];
-  return hinge_is_shut(corners_from(s, (tip_s + 1) % 3), t.corners[tip_t]);
+  return is_folded_flat(corners_from(s, (tip_s + 1) % 3), t.corners[tip_t]);
 }
 
 }  // namespace
@@ -163,22 +163,22 @@ bool triangles_meet(const Corners& s, const Corners& t) {
 }
 
 std::vector<std::array<int, 2>> find_self_intersections(const AabbTree& tree) {
-  constexpr size_t block = 1024, parts_of_block = 64;
+  constexpr size_t faces_per_task = 1024, parts_per_task = 64;
   const std::span<const Face> faces = tree.faces();
   std::vector<char> has_area(faces.size());  // by id
-  parallel_for(faces.size(), block, [&](size_t begin, size_t end) {
+  parallel_for(faces.size(), faces_per_task, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k)
       has_area[static_cast<size_t>(faces[k].id)] =
           !is_collinear(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
   });
 
-  std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / parts_of_block + 1);
-  parallel_for(tree.parts(), parts_of_block, [&](size_t begin, size_t end) {
-    tree.for_each_meeting_pair(begin, end, [&](const Face& f, const Face& g) {
+  std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / parts_per_task + 1);
+  parallel_for(tree.parts(), parts_per_task, [&](size_t begin, size_t end) {
+    tree.for_each_overlapping_pair(begin, end, [&](const Face& f, const Face& g) {
       const auto [low, high] = std::minmax(f.id, g.id);
       if (!has_area[static_cast<size_t>(low)] || !has_area[static_cast<size_t>(high)]) return;
       if (f.id < g.id ? faces_meet(f, g) : faces_meet(g, f))
-        found[begin / parts_of_block].push_back({low, high});
+        found[begin / parts_per_task].push_back({low, high});
     });
   });
   std::vector<std::array<int, 2>> pairs;

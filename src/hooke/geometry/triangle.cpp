@@ -17,7 +17,7 @@ double closest_parameter(const Vec3& a, const Vec3& b, const Vec3& x) {
   return length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
 }
 
-double cosine(const Vec3& a, const Vec3& b, double otherwise) {
+double cosine_or(const Vec3& a, const Vec3& b, double otherwise) {
   const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
   return lengths > 0 ? a.dot(b) / lengths : otherwise;
 }
@@ -63,7 +63,7 @@ double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 namespace {
 
 /// Twice the area, from the two shorter edges, whose cross product has the smallest rounding error.
-double doubled_area(const Vec3& ab, const Vec3& bc, const Vec3& ca, const Vec3& lengths) {
+double doubled_area_of_edges(const Vec3& ab, const Vec3& bc, const Vec3& ca, const Vec3& lengths) {
   Eigen::Index longest = 0;
   lengths.maxCoeff(&longest);
   return (longest == 0 ? bc.cross(ca) : longest == 1 ? ca.cross(ab) : ab.cross(bc)).norm();
@@ -82,14 +82,14 @@ TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 lengths(ab.norm(), bc.norm(), ca.norm());
   const double x = lengths[0], y = lengths[1], z = lengths[2];
   const auto [shortest, longest] = std::minmax({x, y, z});
-  const double twice = doubled_area(ab, bc, ca, lengths), area = .5 * twice;
-  const auto [least, greatest] = std::minmax({-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)});
+  const double twice = doubled_area_of_edges(ab, bc, ca, lengths), area = .5 * twice;
+  const auto [smallest, largest] = std::minmax({-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)});
   const double perimeter = x + y + z;
   const double squares = x * x + y * y + z * z;
 
   TriangleShape t;
-  t.min_angle = angle_of(greatest, twice);
-  t.max_angle = angle_of(least, twice);
+  t.min_angle = angle_of(largest, twice);
+  t.max_angle = angle_of(smallest, twice);
   t.shape = squares > 0 ? 4 * std::numbers::sqrt3 * area / squares : 0;
   t.radius_ratio = (x / area) * (y / area) * z * perimeter / 16;  // R = xyz / 4A, r = 2A / perimeter
   t.aspect_ratio = longest * perimeter / (4 * std::numbers::sqrt3 * area);
@@ -111,17 +111,17 @@ double angle_with_cotangent(double cotangent) {
 }
 
 double max_cotangent(const Mat3X& points, const std::vector<Triangle>& faces) {
-  constexpr size_t block = 4096;
-  std::vector<double> greatest((faces.size() + block - 1) / block);
-  parallel_for(greatest.size(), 1, [&](size_t begin, size_t end) {
+  constexpr size_t faces_per_task = 4096;
+  std::vector<double> largest((faces.size() + faces_per_task - 1) / faces_per_task);
+  parallel_for(largest.size(), 1, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {
       double cotangent = -std::numeric_limits<double>::infinity();
-      for (size_t f = b * block; f < std::min(faces.size(), (b + 1) * block); ++f)
+      for (size_t f = b * faces_per_task; f < std::min(faces.size(), (b + 1) * faces_per_task); ++f)
         cotangent = std::max(cotangent, max_cotangent(points, faces[f]));
-      greatest[b] = cotangent;
+      largest[b] = cotangent;
     }
   });
-  return greatest.empty() ? std::numeric_limits<double>::infinity() : *std::ranges::max_element(greatest);
+  return largest.empty() ? std::numeric_limits<double>::infinity() : *std::ranges::max_element(largest);
 }
 
 double min_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
@@ -129,13 +129,13 @@ double min_angle(const Mat3X& points, const std::vector<Triangle>& faces) {
 }
 
 double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
-                      const Triangle& sides) {
-  return cosine(doubled_area_vector(points, face),
-                Vec3(normals.col(sides[0]) + normals.col(sides[1]) + normals.col(sides[2])), 0);
+                      const Triangle& wedges) {
+  return cosine_or(doubled_area_vector(points, face),
+                   Vec3(normals.col(wedges[0]) + normals.col(wedges[1]) + normals.col(wedges[2])), 0);
 }
 
-double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides) {
-  const double c = std::clamp(normals.col(sides[0]).dot(normals.col(sides[1])), -1., 1.);
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& wedges) {
+  const double c = std::clamp(normals.col(wedges[0]).dot(normals.col(wedges[1])), -1., 1.);
   const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
   return .5 * (points.col(edge[1]) - points.col(edge[0])).norm() * tan_quarter;
 }
@@ -145,7 +145,7 @@ double cosine_between(const Mat3X& points, const Triangle& face, const Triangle&
 }
 
 double cosine_between(const Vec3& area_vector, const Vec3& other) {
-  return cosine(area_vector, other, 1);
+  return cosine_or(area_vector, other, 1);
 }
 
 }  // namespace hooke

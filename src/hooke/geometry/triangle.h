@@ -79,8 +79,9 @@ inline FaceShape face_shape(const Eigen::Ref<const Mat3X>& points, const Triangl
 // Alignment of faces and edges with the normals of a surface, and of faces with each other.
 
 /// Cosine between the normal of the face and the sum of the surface normals at its corners; 0 without area.
-/// `sides` are the wedges of the corners: the columns of their normals.
-double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face, const Triangle& sides);
+/// `wedges` are those of the corners: the columns of their normals.
+double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face,
+                      const Triangle& wedges);
 
 /// The same away from creases, where the wedges are the vertices.
 inline double face_alignment(const Mat3X& points, const Mat3X& normals, const Triangle& face) {
@@ -88,8 +89,8 @@ inline double face_alignment(const Mat3X& points, const Mat3X& normals, const Tr
 }
 
 /// Sagitta (l / 2) tan(theta / 4) of a circular arc over an edge of length l whose end normals differ by
-/// theta. `sides` are the wedges of the ends: the columns of their normals.
-double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& sides);
+/// theta. `wedges` are those of the ends: the columns of their normals.
+double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge, const Edge& wedges);
 
 inline double edge_sagitta(const Mat3X& points, const Mat3X& normals, const Edge& edge) {
   return edge_sagitta(points, normals, edge, edge);

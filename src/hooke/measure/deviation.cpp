@@ -121,10 +121,10 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
             std::max(max_squared[begin / deviation_block], samples.max_squared(nearest, k));
         integrals[id] = area_of(some[k]) * samples.mean(nearest, k);
         const size_t centre = Samples::centre_of(k);
-        if (!centres || nearest[centre].place < 0) continue;
-        const auto& [a, b, c] = to.tree.faces()[static_cast<size_t>(nearest[centre].place)].corners;
+        if (!centres || nearest[centre].index < 0) continue;
+        const auto& [a, b, c] = to.tree.faces()[static_cast<size_t>(nearest[centre].index)].corners;
         (*centres)[first + k] = {closest_point(samples.points()[centre], a, b, c).point,
-                                 nearest[centre].place};
+                                 nearest[centre].index};
       }
     }
   };

@@ -12,16 +12,16 @@ namespace {
 constexpr size_t adjacency_block = 1024;
 
 /// A face as seen from one of its corners.
-struct RingEntry {
+struct FaceInRing {
   int out, in;         // half-edges that leave and enter the corner
   int next, previous;  // the other corners
 };
 
 /// Sorts ascending by the previous corner. Rings are short; vertices of high valence are rare.
-void sort_by_previous(std::vector<RingEntry>& ring) {
+void sort_by_previous(std::vector<FaceInRing>& ring) {
   constexpr size_t short_ring = 16;
   if (ring.size() > short_ring) {
-    std::ranges::sort(ring, {}, &RingEntry::previous);
+    std::ranges::sort(ring, {}, &FaceInRing::previous);
     return;
   }
   for (size_t i = 1; i < ring.size(); ++i)
@@ -30,7 +30,7 @@ void sort_by_previous(std::vector<RingEntry>& ring) {
 
 /// Collects the ring entries of the vertex, ascending by their previous corner.
 void collect(int vertex, std::span<const int> its_faces, const std::vector<Triangle>& faces,
-             std::vector<RingEntry>& ring) {
+             std::vector<FaceInRing>& ring) {
   ring.clear();
   for (int f : its_faces) {
     const Triangle& t = faces[static_cast<size_t>(f)];
@@ -41,18 +41,18 @@ void collect(int vertex, std::span<const int> its_faces, const std::vector<Trian
   sort_by_previous(ring);
 }
 
-/// Index of the entry of the face across the outgoing half-edge of `spoke`; ring.size() if there is none.
-size_t follower(const std::vector<RingEntry>& ring, const RingEntry& spoke) {
-  const auto found = std::ranges::lower_bound(ring, spoke.next, {}, &RingEntry::previous);
-  const bool there = found != ring.end() && found->previous == spoke.next;
-  return there ? static_cast<size_t>(found - ring.begin()) : ring.size();
+/// Index of the entry of the face across the outgoing half-edge of `entry`; ring.size() if there is none.
+size_t follower(const std::vector<FaceInRing>& ring, const FaceInRing& entry) {
+  const auto position = std::ranges::lower_bound(ring, entry.next, {}, &FaceInRing::previous);
+  const bool found = position != ring.end() && position->previous == entry.next;
+  return found ? static_cast<size_t>(position - ring.begin()) : ring.size();
 }
 
-Fan classify(const std::vector<RingEntry>& ring, std::vector<char>& followed) {
+Fan classify(const std::vector<FaceInRing>& ring, std::vector<char>& followed) {
   if (ring.empty()) return Fan::isolated;
   followed.assign(ring.size() + 1, 0);
-  for (const RingEntry& spoke : ring)
-    if (std::exchange(followed[follower(ring, spoke)], 1)) return Fan::broken;  // two ends, or a branch
+  for (const FaceInRing& entry : ring)
+    if (std::exchange(followed[follower(ring, entry)], 1)) return Fan::broken;  // two ends, or a branch
   // No entry follows two others, and at most one has no follower: it remains to check whether all entries
   // form one chain or cycle.
   const auto first = static_cast<size_t>(std::ranges::find(followed, 0) - followed.begin());
@@ -64,19 +64,19 @@ Fan classify(const std::vector<RingEntry>& ring, std::vector<char>& followed) {
   return reached == ring.size() && !doubled ? Fan::whole : Fan::broken;
 }
 
-/// Finds the twins of all half-edges and calls look(vertex, ring, memory) for each vertex.
-template <typename Look>
-void look_at_rings(int vertex_count, const std::vector<Triangle>& faces, HalfEdges& half_edges,
-                   const Look& look) {
+/// Finds the twins of all half-edges and calls visit(vertex, ring, scratch) for each vertex.
+template <typename Visit>
+void for_each_ring(int vertex_count, const std::vector<Triangle>& faces, HalfEdges& half_edges,
+                   const Visit& visit) {
   parallel_for(static_cast<size_t>(vertex_count), adjacency_block, [&](size_t begin, size_t end) {
-    std::vector<RingEntry> ring;
-    std::vector<char> memory;
+    std::vector<FaceInRing> ring;
+    std::vector<char> scratch;
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       collect(v, half_edges.faces[v], faces, ring);
-      look(v, ring, memory);
-      for (const RingEntry& spoke : ring)
-        if (const size_t other = follower(ring, spoke); other < ring.size())
-          half_edges.twins[static_cast<size_t>(spoke.out)] = ring[other].in;
+      visit(v, ring, scratch);
+      for (const FaceInRing& entry : ring)
+        if (const size_t other = follower(ring, entry); other < ring.size())
+          half_edges.twins[static_cast<size_t>(entry.out)] = ring[other].in;
     }
   });
 }
@@ -85,16 +85,16 @@ void look_at_rings(int vertex_count, const std::vector<Triangle>& faces, HalfEdg
 
 HalfEdges pair_half_edges(int vertex_count, const std::vector<Triangle>& faces) {
   HalfEdges half_edges{inverse(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)};
-  look_at_rings(vertex_count, faces, half_edges,
-                [](int, const std::vector<RingEntry>&, std::vector<char>&) {});
+  for_each_ring(vertex_count, faces, half_edges,
+                [](int, const std::vector<FaceInRing>&, std::vector<char>&) {});
   return half_edges;
 }
 
 VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces) {
   VertexFans fans{{inverse(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)},
                   std::vector<Fan>(static_cast<size_t>(vertex_count))};
-  look_at_rings(vertex_count, faces, fans,
-                [&](int v, const std::vector<RingEntry>& ring, std::vector<char>& followed) {
+  for_each_ring(vertex_count, faces, fans,
+                [&](int v, const std::vector<FaceInRing>& ring, std::vector<char>& followed) {
                   fans.kinds[static_cast<size_t>(v)] = classify(ring, followed);
                 });
   return fans;

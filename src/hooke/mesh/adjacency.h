@@ -47,10 +47,10 @@ struct Adjacency {
 
   // Creases divide the faces around a vertex into wedges, see mesh/wedges.h. Wedges [0, vertex_count) are the
   // first ones of the vertices, extra wedges follow. All empty without creases; set by split_wedges().
-  std::vector<char> creases;         // per edge
+  std::vector<char> creases;          // per edge
   std::vector<Triangle> wedge_faces;  // wedges of the corners
   std::vector<Edge> wedge_edges;      // wedges of the ends in the edge's first face
-  std::vector<int> extra_wedges;     // vertex of each extra wedge, ascending
+  std::vector<int> extra_wedges;      // vertex of each extra wedge, ascending
 
   bool is_boundary_edge(int edge) const { return edge_faces[static_cast<size_t>(edge)][1] < 0; }
   bool is_crease(int edge) const { return !creases.empty() && creases[static_cast<size_t>(edge)] != 0; }

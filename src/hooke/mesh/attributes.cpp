@@ -13,16 +13,16 @@ double value_at(const MapEntry& entry, const std::vector<double>& values,
                 const std::vector<Triangle>& faces) {
   if (entry.position.face < 0) return entry.vertex < 0 ? 0 : values[static_cast<size_t>(entry.vertex)];
   const Triangle& corners = faces[static_cast<size_t>(entry.position.face)];
-  double value = 0, least = std::numeric_limits<double>::infinity(), greatest = -least;
+  double value = 0, smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
   for (size_t k = 0; k < 3; ++k) {  // the value of a corner without weight may be NaN
     const double weight = entry.position.weights[static_cast<Eigen::Index>(k)];
     if (!(weight > 0)) continue;
     const double corner = values[static_cast<size_t>(corners[k])];
     value += weight * corner;
-    least = std::min(least, corner);
-    greatest = std::max(greatest, corner);
+    smallest = std::min(smallest, corner);
+    largest = std::max(largest, corner);
   }
-  return std::isfinite(value) ? std::clamp(value, least, greatest) : value;  // against rounding
+  return std::isfinite(value) ? std::clamp(value, smallest, largest) : value;  // against rounding
 }
 
 }  // namespace
@@ -46,9 +46,9 @@ ChannelList channels_named(const VertexData& data, ChannelNames names) {
 
 VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
                        const std::vector<Triangle>& faces) {
-  VertexData carried;
+  VertexData result;
   for (const VertexChannel& channel : data) {
-    VertexChannel& to = carried.emplace_back(VertexChannel{channel.name, channel.type, {}});
+    VertexChannel& to = result.emplace_back(VertexChannel{channel.name, channel.type, {}});
     to.values.resize(map.size());
     parallel_for(map.size(), 4096, [&](size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v) {
@@ -57,7 +57,7 @@ VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
       }
     });
   }
-  return carried;
+  return result;
 }
 
 bool has_normals(const VertexData& data) {

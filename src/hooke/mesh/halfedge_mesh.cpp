@@ -46,14 +46,14 @@ int HalfedgeMesh::first_outgoing(int vertex) const {
 }
 
 SmallIntList HalfedgeMesh::outgoing(int vertex) const {
-  SmallIntList spokes;
+  SmallIntList halfedges;
   const int first = first_outgoing(vertex);
   for (int h = first; h >= 0;) {
-    spokes.push_back(h);
+    halfedges.push_back(h);
     h = twin(previous(h));
     if (h == first) break;
   }
-  return spokes;
+  return halfedges;
 }
 
 SmallIntList HalfedgeMesh::neighbours(int vertex) const {
@@ -69,14 +69,14 @@ SmallIntList HalfedgeMesh::neighbours(int vertex) const {
   return ring;
 }
 
-SmallIntList HalfedgeMesh::sector(int h) const {
+SmallIntList HalfedgeMesh::wedge_halfedges(int h) const {
   const int any = h;
   while (!is_feature_edge(h) && next(twin(h)) != any) h = next(twin(h));
-  SmallIntList spokes = {h};
-  for (int wedge = previous(h); !is_feature_edge(wedge) && twin(wedge) != spokes.front();
-       wedge = previous(twin(wedge)))
-    spokes.push_back(twin(wedge));
-  return spokes;
+  SmallIntList halfedges = {h};
+  for (int halfedge = previous(h); !is_feature_edge(halfedge) && twin(halfedge) != halfedges.front();
+       halfedge = previous(twin(halfedge)))
+    halfedges.push_back(twin(halfedge));
+  return halfedges;
 }
 
 bool HalfedgeMesh::on_crease(int vertex) const {
@@ -100,7 +100,7 @@ void HalfedgeMesh::flip(int h) {
   const int a = from(h), b = to(h), c = opposite_vertex(h), d = opposite_vertex(t);
   const int ca = twin(previous(h)), bc = twin(next(h)), ad = twin(next(t)), db = twin(previous(t));
   const int f = h / 3, g = t / 3;
-  const auto mark = [this](int wedge) { return constrained_[static_cast<size_t>(wedge)]; };
+  const auto mark = [this](int halfedge) { return constrained_[static_cast<size_t>(halfedge)]; };
   const std::array<char, 4> marks = {mark(previous(h)), mark(next(t)), mark(previous(t)), mark(next(h))};
   if (!wedges_.empty()) {  // both faces stay in their wedges
     const int sa = wedge(h), sb = wedge(t), sc = wedge(previous(h)), sd = wedge(previous(t));
@@ -151,18 +151,18 @@ void HalfedgeMesh::split(int h, int vertex, int wedge) {
 
 int HalfedgeMesh::split(int h) {
   const int t = twin(h), a = from(h);
-  const int vertex = id_count(), right = is_crease(h) ? vertex + 1 : vertex;
+  const int vertex = id_count(), right_wedge = is_crease(h) ? vertex + 1 : vertex;
   valences_.push_back(2);
-  if (right != vertex) valences_.push_back(-1);
+  if (right_wedge != vertex) valences_.push_back(-1);
   outgoing_halfedge_.resize(valences_.size(), -1);
   on_boundary_.resize(valences_.size(), t < 0);
   split(h, vertex, vertex);
-  const int beyond = half_edge_count() - 3;  // from the vertex to the old end of h
+  const int back_half = half_edge_count() - 3;  // from the vertex to the old end of h
   outgoing_halfedge_[static_cast<size_t>(a)] = h;
   if (t < 0) return vertex;
-  split(t, vertex, right);
+  split(t, vertex, right_wedge);
   link(h, half_edge_count() - 3);
-  link(t, beyond);
+  link(t, back_half);
   return vertex;
 }
 
@@ -170,9 +170,9 @@ bool HalfedgeMesh::may_collapse(int h) const {
   const int a = from(h), b = to(h), t = twin(h);
   if (t >= 0 && on_boundary(a) && on_boundary(b)) return false;
   const auto may_lose = [this](int v) { return valence(v) > (on_boundary(v) ? 2 : 3); };
-  for (int wedge : {h, t})
-    if (wedge >= 0 && (!may_lose(opposite_vertex(wedge)) ||
-                       (is_feature_edge(next(wedge)) && is_feature_edge(previous(wedge)))))
+  for (int halfedge : {h, t})
+    if (halfedge >= 0 && (!may_lose(opposite_vertex(halfedge)) ||
+                          (is_feature_edge(next(halfedge)) && is_feature_edge(previous(halfedge)))))
       return false;
   const SmallIntList ring = neighbours(a);
   int common = 0;
@@ -187,43 +187,43 @@ void HalfedgeMesh::close(int h) {
   const bool marked = is_crease(next(h)) || is_crease(previous(h));
   if (left >= 0) twins_[static_cast<size_t>(left)] = right;
   if (right >= 0) twins_[static_cast<size_t>(right)] = left;
-  for (int wedge : {left, right})
-    if (wedge >= 0) constrained_[static_cast<size_t>(wedge)] = marked;
+  for (int halfedge : {left, right})
+    if (halfedge >= 0) constrained_[static_cast<size_t>(halfedge)] = marked;
   outgoing_halfedge_[static_cast<size_t>(b)] = left >= 0 ? next(left) : right;
   outgoing_halfedge_[static_cast<size_t>(c)] = left >= 0 ? left : next(right);
   --valences_[static_cast<size_t>(c)];
   faces_[static_cast<size_t>(h / 3)] = {-1, -1, -1};
-  for (int wedge : {h, next(h), previous(h)}) {
-    twins_[static_cast<size_t>(wedge)] = -1;
-    constrained_[static_cast<size_t>(wedge)] = 0;
+  for (int halfedge : {h, next(h), previous(h)}) {
+    twins_[static_cast<size_t>(halfedge)] = -1;
+    constrained_[static_cast<size_t>(halfedge)] = 0;
   }
 }
 
-int HalfedgeMesh::wedge_after_collapse(int h, int stays, int spoke) const {
-  if (from(spoke) == stays) return wedge(spoke);
+int HalfedgeMesh::wedge_after_collapse(int h, int stays, int out) const {
+  if (from(out) == stays) return wedge(out);
   const auto at = [this](int along, int end) { return wedge(from(along) == end ? along : next(along)); };
-  const bool on_the_left = twin(h) < 0 || wedge(spoke) == at(h, from(spoke));
+  const bool on_the_left = twin(h) < 0 || wedge(out) == at(h, from(out));
   return at(on_the_left ? h : twin(h), stays);
 }
 
 void HalfedgeMesh::collapse(int h, int stays) {
   assert(may_collapse(h));
-  const int goes = from(h) == stays ? to(h) : from(h), t = twin(h);
-  const SmallIntList spokes = outgoing(goes);
+  const int removed = from(h) == stays ? to(h) : from(h), t = twin(h);
+  const SmallIntList halfedges = outgoing(removed);
   SmallIntList wedges;
-  for (int spoke : spokes) wedges.push_back(wedge_after_collapse(h, stays, spoke));
-  for (size_t i = 0; i < spokes.size(); ++i) {
-    const auto f = static_cast<size_t>(spokes[i] / 3), k = static_cast<size_t>(spokes[i] % 3);
+  for (int out : halfedges) wedges.push_back(wedge_after_collapse(h, stays, out));
+  for (size_t i = 0; i < halfedges.size(); ++i) {
+    const auto f = static_cast<size_t>(halfedges[i] / 3), k = static_cast<size_t>(halfedges[i] % 3);
     faces_[f][k] = stays;
     if (!wedges_.empty()) wedges_[f][k] = wedges[i];
   }
-  // `stays` gains the edges of `goes`, except those to `stays` and to the opposite vertices.
-  valences_[static_cast<size_t>(stays)] += valences_[static_cast<size_t>(goes)] - (t < 0 ? 3 : 4);
-  on_boundary_[static_cast<size_t>(stays)] |= on_boundary_[static_cast<size_t>(goes)];
+  // `stays` gains the edges of `removed`, except those to `stays` and to the opposite vertices.
+  valences_[static_cast<size_t>(stays)] += valences_[static_cast<size_t>(removed)] - (t < 0 ? 3 : 4);
+  on_boundary_[static_cast<size_t>(stays)] |= on_boundary_[static_cast<size_t>(removed)];
   close(h);
   if (t >= 0) close(t);
-  outgoing_halfedge_[static_cast<size_t>(goes)] = -1;
-  valences_[static_cast<size_t>(goes)] = -1;
+  outgoing_halfedge_[static_cast<size_t>(removed)] = -1;
+  valences_[static_cast<size_t>(removed)] = -1;
 }
 
 void HalfedgeMesh::set_wedges(const Adjacency& c) {
@@ -233,7 +233,7 @@ void HalfedgeMesh::set_wedges(const Adjacency& c) {
   on_boundary_.resize(valences_.size(), 0);
 }
 
-Adjacency connectivity_of(const HalfedgeMesh& t, int vertex_count) {
+Adjacency adjacency_of(const HalfedgeMesh& t, int vertex_count) {
   const std::vector<Triangle>& faces = t.faces();
   return make_adjacency(faces, {.faces = inverse(vertex_count, faces), .twins = t.twins()});
 }
@@ -253,7 +253,7 @@ std::vector<int> HalfedgeMesh::compact() {
   std::vector<int> left;
   left.reserve(faces_.size());
   for (int f = 0; f < old_face_count; ++f)
-    if (!is_gone(f)) left.push_back(f);
+    if (!is_removed(f)) left.push_back(f);
   std::vector<Triangle> faces(left.size());
   for_each_index(left.size(), [&](size_t i) { faces[i] = faces_[static_cast<size_t>(left[i])]; });
 

@@ -35,7 +35,7 @@ class HalfedgeMesh {
   int valence(int vertex) const { return valences_[static_cast<size_t>(vertex)]; }
 
   /// Whether a collapse has removed the face; its half-edges then have neither vertices nor twins.
-  bool is_gone(int face) const { return faces_[static_cast<size_t>(face)][0] < 0; }
+  bool is_removed(int face) const { return faces_[static_cast<size_t>(face)][0] < 0; }
 
   bool on_boundary(int vertex) const { return on_boundary_[static_cast<size_t>(vertex)] != 0; }
 
@@ -47,7 +47,7 @@ class HalfedgeMesh {
   SmallIntList neighbours(int vertex) const;
   /// The outgoing half-edges in the wedge of h, counter-clockwise between two feature edges; it includes the
   /// first of these two.
-  SmallIntList sector(int h) const;
+  SmallIntList wedge_halfedges(int h) const;
 
   /// Whether a crease runs through the vertex or ends there.
   bool on_crease(int vertex) const;
@@ -77,9 +77,9 @@ class HalfedgeMesh {
   /// components and the pieces between creases keep at least one triangle.
   bool may_collapse(int h) const;
 
-  /// The wedge of `stays`, an end of h, that the outgoing half-edge `spoke` of either end belongs to after
+  /// The wedge of `stays`, an end of h, that the outgoing half-edge `out` of either end belongs to after
   /// the collapse of h. Pre-condition: the other end has no wedges but those along h.
-  int wedge_after_collapse(int h, int stays, int spoke) const;
+  int wedge_after_collapse(int h, int stays, int out) const;
 
   /// Collapses the edge of h: its other end is merged into `stays`, and the faces of h are removed. Edges
   /// that coincide afterwards are constrained if one of them was. Pre-condition: may_collapse(h).
@@ -110,6 +110,6 @@ class HalfedgeMesh {
 
 /// The adjacency of a half-edge mesh, without creases; faster than from the faces alone. Pre-condition: no
 /// face is removed, and the mesh has `vertex_count` vertices.
-Adjacency connectivity_of(const HalfedgeMesh& halfedges, int vertex_count);
+Adjacency adjacency_of(const HalfedgeMesh& halfedges, int vertex_count);
 
 }  // namespace hooke

@@ -11,7 +11,7 @@ struct Nearest {
   SurfacePoint point;
   double squared_distance = std::numeric_limits<double>::infinity();
 
-  void look_at(const Mat3X& points, const Adjacency& c, const Vec3& x, int vertex) {
+  void update(const Mat3X& points, const Adjacency& c, const Vec3& x, int vertex) {
     for (int f : c.vertex_faces[vertex]) {
       const Triangle& t = c.faces[static_cast<size_t>(f)];
       const TrianglePoint near =
@@ -29,8 +29,8 @@ SurfacePoint locate(const Mat3X& points, const Adjacency& c, const Vec3& x, int 
   Nearest nearest;
   for (;;) {
     const double before = nearest.squared_distance;
-    nearest.look_at(points, c, x, hint);
-    for (int v : c.vertex_neighbours[hint]) nearest.look_at(points, c, x, v);
+    nearest.update(points, c, x, hint);
+    for (int v : c.vertex_neighbours[hint]) nearest.update(points, c, x, v);
     if (!(nearest.squared_distance < before)) return nearest.point;
     Eigen::Index corner;
     nearest.point.weights.maxCoeff(&corner);

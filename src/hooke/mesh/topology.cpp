@@ -42,12 +42,12 @@ Topology measure_topology(const Adjacency& adjacency) {
   t.edges = static_cast<int>(adjacency.edges.size());
   t.faces = static_cast<int>(adjacency.faces.size());
 
-  DisjointSets parts(t.vertices);
-  DisjointSets rims(t.vertices);
+  DisjointSets components(t.vertices);
+  DisjointSets boundary_loops(t.vertices);
   for (size_t e = 0; e < adjacency.edges.size(); ++e) {
-    parts.join(adjacency.edges[e]);
+    components.join(adjacency.edges[e]);
     if (!adjacency.is_boundary_edge(static_cast<int>(e))) continue;
-    rims.join(adjacency.edges[e]);
+    boundary_loops.join(adjacency.edges[e]);
     ++t.boundary_edges;
   }
   const std::vector<char> on_boundary = boundary_vertices(adjacency);
@@ -56,8 +56,8 @@ Topology measure_topology(const Adjacency& adjacency) {
       ++t.isolated_vertices;
       continue;
     }
-    t.components += parts.root(v) == v;
-    t.boundary_loops += on_boundary[static_cast<size_t>(v)] && rims.root(v) == v;
+    t.components += components.root(v) == v;
+    t.boundary_loops += on_boundary[static_cast<size_t>(v)] && boundary_loops.root(v) == v;
   }
   t.euler = t.vertices - t.isolated_vertices - t.edges + t.faces;
   return t;

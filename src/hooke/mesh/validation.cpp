@@ -24,7 +24,7 @@ class Findings {
         std::find_if(problems_.begin(), problems_.end(), [&](const Problem& p) { return p.kind == kind; });
     if (known == problems_.end()) known = problems_.insert(known, Problem{kind, 0, {}, {}});
     Problem& problem = *known;
-    if (++problem.count > max_places) return;
+    if (++problem.count > max_locations) return;
     problem.faces.insert(problem.faces.end(), faces);
     problem.vertices.insert(problem.vertices.end(), vertices);
   }
@@ -40,7 +40,7 @@ class Findings {
 };
 
 // An edge of a face, stored with the smaller of its two vertices.
-struct Side {
+struct FaceEdge {
   int to;  // the larger vertex
   int face;
   int opposite;  // third vertex of the face
@@ -87,15 +87,15 @@ void find_bad_corners(const Mat3X& points, const std::vector<Triangle>& triangle
 }
 
 // Reports what is wrong with the faces [begin, end) on the edge from `from`, sorted by their opposite vertex.
-void judge_edge(int from, const Side* begin, const Side* end, Findings& findings) {
+void check_edge(int from, const FaceEdge* begin, const FaceEdge* end, Findings& findings) {
   bool duplicates = false;
-  for (const Side* side = begin + 1; side < end; ++side) {
-    if (side->opposite != side[-1].opposite) continue;
+  for (const FaceEdge* edge = begin + 1; edge < end; ++edge) {
+    if (edge->opposite != edge[-1].opposite) continue;
     duplicates = true;
     // Each duplicate shares three edges; it is reported at the one with the two smallest vertices.
-    if (side->opposite > side->to)
-      findings.add(ProblemKind::duplicate_face, {side[-1].face, side->face},
-                   {from, side->to, side->opposite});
+    if (edge->opposite > edge->to)
+      findings.add(ProblemKind::duplicate_face, {edge[-1].face, edge->face},
+                   {from, edge->to, edge->opposite});
   }
   if (duplicates) return;
   if (end - begin > 2)
@@ -106,23 +106,23 @@ void judge_edge(int from, const Side* begin, const Side* end, Findings& findings
 }
 
 void find_bad_edges(size_t vertices, const std::vector<Triangle>& triangles, Findings& findings) {
-  auto sides = fill_buckets<Side>(vertices, triangles.size(), [&](size_t f, const auto& add) {
+  auto edges = fill_buckets<FaceEdge>(vertices, triangles.size(), [&](size_t f, const auto& add) {
     for (size_t k = 0; k < 3; ++k) {
       const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
-      add(std::min(a, b), Side{std::max(a, b), static_cast<int>(f), triangles[f][(k + 2) % 3], a < b});
+      add(std::min(a, b), FaceEdge{std::max(a, b), static_cast<int>(f), triangles[f][(k + 2) % 3], a < b});
     }
   });
   parallel_for(vertices, validation_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
-      std::sort(sides.begin(v), sides.end(v), [](const Side& a, const Side& b) {
+      std::sort(edges.begin(v), edges.end(v), [](const FaceEdge& a, const FaceEdge& b) {
         return std::tie(a.to, a.opposite, a.face) < std::tie(b.to, b.opposite, b.face);
       });
   });
   for (size_t v = 0; v < vertices; ++v) {
-    const Side* const end = sides.end(v);
-    for (const Side *side = sides.begin(v), *last; side < end; side = last) {
-      last = std::find_if(side, end, [&](const Side& other) { return other.to != side->to; });
-      judge_edge(static_cast<int>(v), side, last, findings);
+    const FaceEdge* const end = edges.end(v);
+    for (const FaceEdge *edge = edges.begin(v), *last; edge < end; edge = last) {
+      last = std::find_if(edge, end, [&](const FaceEdge& other) { return other.to != edge->to; });
+      check_edge(static_cast<int>(v), edge, last, findings);
     }
   }
 }
@@ -278,7 +278,7 @@ std::string face_text(int triangle, const MeshSource& source) {
 }
 
 // The locations of a problem: "edges 3-5, 5-9; faces 1, 2, 7".
-std::string places_text(const Problem& problem, const MeshSource& source) {
+std::string locations_text(const Problem& problem, const MeshSource& source) {
   const bool edges =
       problem.kind == ProblemKind::non_manifold_edge || problem.kind == ProblemKind::inconsistent_orientation;
   std::string vertices, faces;
@@ -287,7 +287,7 @@ std::string places_text(const Problem& problem, const MeshSource& source) {
     vertices += std::to_string(problem.vertices[k]);
   }
   for (const int face : problem.faces) faces += (faces.empty() ? "" : ", ") + face_text(face, source);
-  const std::string more = problem.count > max_places ? " ..." : "";
+  const std::string more = problem.count > max_locations ? " ..." : "";
   if (problem.faces.empty()) return "vertices " + vertices + more;
   if (problem.vertices.empty()) return "faces " + faces + more;
   return fmt::format("{} {}{}, faces {}{}", edges ? "edges" : "vertices", vertices, more, faces, more);
@@ -296,7 +296,7 @@ std::string places_text(const Problem& problem, const MeshSource& source) {
 std::string problem_text(const Problem& problem, const MeshSource& source) {
   const Explanation& explanation = explain(problem.kind);
   if (is_about_the_whole(problem.kind)) return explanation.what;
-  return fmt::format("{} ({}): {}", explanation.what, problem.count, places_text(problem, source));
+  return fmt::format("{} ({}): {}", explanation.what, problem.count, locations_text(problem, source));
 }
 
 }  // namespace
@@ -329,13 +329,13 @@ Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangl
 }
 
 void require_workable_size(const Mat3X& points, const std::string& name) {
-  constexpr double least = 1e-50, most = 1e50;
+  constexpr double smallest = 1e-50, largest = 1e50;
   const double diagonal = box_diagonal(points);
-  if (!(diagonal >= least && diagonal <= most))
+  if (!(diagonal >= smallest && diagonal <= largest))
     throw MeshError(fmt::format(
         "{}: the diagonal of its box is {:.3g}; expected {:.0e} to {:.0e}; scale the mesh, or use "
         "another unit",
-        name, diagonal, least, most));
+        name, diagonal, smallest, largest));
 }
 
 }  // namespace hooke

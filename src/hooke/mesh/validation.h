@@ -27,12 +27,12 @@ enum class ProblemKind {
 };
 
 /// Maximum number of locations kept per problem.
-inline constexpr size_t max_places = 10;
+inline constexpr size_t max_locations = 10;
 
 struct Problem {
   ProblemKind kind;
   size_t count = 0;           // how often it occurs
-  std::vector<int> faces;     // face ids of the first locations, at most max_places
+  std::vector<int> faces;     // face ids of the first locations, at most max_locations
   std::vector<int> vertices;  // vertex ids of the first locations; two consecutive ones for an edge
 };
 

@@ -15,7 +15,7 @@ int block_size(int vertex_count) {
   return std::clamp(vertex_count / 128, 8, 256);
 }
 
-size_t corner_of(const Triangle& face, int vertex) {
+size_t fan_corner(const Triangle& face, int vertex) {
   return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
 }
 
@@ -39,7 +39,7 @@ int vertex_across(const Adjacency& c, int face, size_t k) {
 int first_of_fan(const Adjacency& c, int vertex, int start) {
   for (int face = start;;) {
     const auto f = static_cast<size_t>(face);
-    const int before = face_across(c, c.face_edges[f][corner_of(c.faces[f], vertex)], face);
+    const int before = face_across(c, c.face_edges[f][fan_corner(c.faces[f], vertex)], face);
     if (before < 0) return face;
     if (before == start) return start;
     face = before;
@@ -51,7 +51,7 @@ RingEntry* write_fan(const Adjacency& c, int vertex, int start, RingEntry* out) 
   for (int face = start;;) {
     const auto f = static_cast<size_t>(face);
     const Triangle& t = c.faces[f];
-    const size_t k = corner_of(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
+    const size_t k = fan_corner(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
     *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next)};
     const int after = face_across(c, c.face_edges[f][last], face);
     if (after < 0) *out++ = {t[last], c.face_edges[f][last], -1, -1};
@@ -60,7 +60,7 @@ RingEntry* write_fan(const Adjacency& c, int vertex, int start, RingEntry* out) 
   }
 }
 
-void write_spokes(const Adjacency& c, int vertex, RingEntry* out) {
+void write_ring(const Adjacency& c, int vertex, RingEntry* out) {
   const auto faces = c.vertex_faces[vertex];
   if (faces.empty()) return;
   const RingEntry* begin = out;
@@ -74,21 +74,21 @@ void write_spokes(const Adjacency& c, int vertex, RingEntry* out) {
   }
 }
 
-VertexRings make_spokes(const Adjacency& c) {
+VertexRings make_rings_of_mesh(const Adjacency& c) {
   VertexRings rings;
   rings.first = c.vertex_edges.first;
   rings.items.resize(c.vertex_edges.items.size());
   parallel_for(static_cast<size_t>(c.vertex_count), fan_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
-      write_spokes(c, static_cast<int>(v), rings.items.data() + rings.first[v]);
+      write_ring(c, static_cast<int>(v), rings.items.data() + rings.first[v]);
   });
   return rings;
 }
 
 /// Rings of the mesh cut open at its creases, in vertices of the mesh itself.
-VertexRings make_parted_spokes(const Adjacency& c) {
+VertexRings make_wedge_rings(const Adjacency& c) {
   const Adjacency cut = cut_open(c);
-  VertexRings rings = make_spokes(cut);
+  VertexRings rings = make_rings_of_mesh(cut);
   const auto vertex_of = [&](int wedge) {
     return wedge < c.vertex_count ? wedge : c.extra_wedges[static_cast<size_t>(wedge - c.vertex_count)];
   };
@@ -102,7 +102,7 @@ VertexRings make_parted_spokes(const Adjacency& c) {
       entry.neighbour = vertex_of(entry.neighbour);
       if (entry.face >= 0) face = entry.face;
       const auto f = static_cast<size_t>(face);
-      const size_t k = corner_of(c.faces[f], v), far = (k + 1) % 3;
+      const size_t k = fan_corner(c.faces[f], v), far = (k + 1) % 3;
       entry.across = entry.face >= 0 ? vertex_across(c, face, far) : -1;
       rings.far_crease.push_back(entry.face >= 0 && c.is_crease(c.face_edges[f][far]));
       entry.edge = c.face_edges[f][entry.face >= 0 ? k : (k + 2) % 3];
@@ -116,10 +116,10 @@ VertexRings make_parted_spokes(const Adjacency& c) {
 }
 
 /// Block adjacency: the other blocks on which the vertices of each block depend, which is symmetric.
-std::vector<std::vector<int>> blocks_seen(const VertexRings& rings, const Adjacency& c, int block) {
+std::vector<std::vector<int>> block_adjacency(const VertexRings& rings, const Adjacency& c, int block) {
   const int vertex_count = c.vertex_count;
   const auto blocks = static_cast<size_t>((vertex_count + block - 1) / block);
-  std::vector<std::vector<int>> seen(blocks);
+  std::vector<std::vector<int>> adjacent(blocks);
   const auto extra_wedge = [&](int vertex) {  // first one of this vertex or a later one
     return static_cast<size_t>(std::ranges::lower_bound(c.extra_wedges, vertex) - c.extra_wedges.begin());
   };
@@ -128,22 +128,22 @@ std::vector<std::vector<int>> blocks_seen(const VertexRings& rings, const Adjace
       const int first = static_cast<int>(b) * block, last = std::min(first + block, vertex_count);
       const auto from = rings.items.begin() + rings.first[static_cast<size_t>(first)];
       const auto to = rings.items.begin() + rings.first[static_cast<size_t>(last)];
-      const auto look = [&](const RingEntry& s) {
+      const auto visit = [&](const RingEntry& s) {
         for (int v : {s.neighbour, s.across})
-          if (v >= 0 && (v < first || v >= last)) seen[b].push_back(v / block);
+          if (v >= 0 && (v < first || v >= last)) adjacent[b].push_back(v / block);
       };
-      std::for_each(from, to, look);
+      std::for_each(from, to, visit);
       for (size_t i = extra_wedge(first); i < extra_wedge(last); ++i)
-        for (const RingEntry& s : rings[vertex_count + static_cast<int>(i)]) look(s);
-      std::ranges::sort(seen[b]);
-      seen[b].erase(std::unique(seen[b].begin(), seen[b].end()), seen[b].end());
+        for (const RingEntry& s : rings[vertex_count + static_cast<int>(i)]) visit(s);
+      std::ranges::sort(adjacent[b]);
+      adjacent[b].erase(std::unique(adjacent[b].begin(), adjacent[b].end()), adjacent[b].end());
     }
   });
-  return seen;  // symmetric: each vertex is opposite to its opposite vertices
+  return adjacent;  // symmetric: each vertex is opposite to its opposite vertices
 }
 
 /// First-fit colouring in the order of the blocks.
-std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighbours) {
+std::vector<std::vector<int>> first_fit_coloring(const std::vector<std::vector<int>>& neighbours) {
   std::vector<int> color(neighbours.size(), -1);
   std::vector<std::vector<int>> colors;
   std::vector<char> used;
@@ -159,34 +159,34 @@ std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighb
   return colors;
 }
 
-VertexColoring without_waves(const Adjacency& adjacency) {
-  VertexColoring plan;
-  plan.rings = adjacency.creases.empty() ? make_spokes(adjacency) : make_parted_spokes(adjacency);
-  plan.vertices = adjacency.vertex_count;
-  return plan;
+VertexColoring make_rings(const Adjacency& adjacency) {
+  VertexColoring coloring;
+  coloring.rings = adjacency.creases.empty() ? make_rings_of_mesh(adjacency) : make_wedge_rings(adjacency);
+  coloring.vertices = adjacency.vertex_count;
+  return coloring;
 }
 
 }  // namespace
 
 VertexColoring color_vertices(const Adjacency& adjacency) {
-  VertexColoring plan = without_waves(adjacency);
-  plan.block = block_size(adjacency.vertex_count);
-  plan.colors = colour(blocks_seen(plan.rings, adjacency, plan.block));
-  return plan;
+  VertexColoring coloring = make_rings(adjacency);
+  coloring.block = block_size(adjacency.vertex_count);
+  coloring.colors = first_fit_coloring(block_adjacency(coloring.rings, adjacency, coloring.block));
+  return coloring;
 }
 
 VertexColoring color_as_one_block(const Adjacency& adjacency) {
-  VertexColoring plan = without_waves(adjacency);
-  plan.block = std::max(1, plan.vertices);
-  plan.colors = {{0}};
-  return plan;
+  VertexColoring coloring = make_rings(adjacency);
+  coloring.block = std::max(1, coloring.vertices);
+  coloring.colors = {{0}};
+  return coloring;
 }
 
-void for_each_block(const VertexColoring& plan, const std::function<void(int begin, int end)>& body) {
-  for (const std::vector<int>& color : plan.colors)
+void for_each_block(const VertexColoring& coloring, const std::function<void(int begin, int end)>& body) {
+  for (const std::vector<int>& color : coloring.colors)
     parallel_for(color.size(), 1, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
-        body(color[i] * plan.block, std::min(plan.vertices, (color[i] + 1) * plan.block));
+        body(color[i] * coloring.block, std::min(coloring.vertices, (color[i] + 1) * coloring.block));
     });
 }
 

@@ -48,6 +48,6 @@ VertexColoring color_vertices(const Adjacency& adjacency);
 VertexColoring color_as_one_block(const Adjacency& adjacency);
 
 /// Calls body(begin, end) on each block of vertices, colour by colour, in parallel within a colour.
-void for_each_block(const VertexColoring& plan, const std::function<void(int begin, int end)>& body);
+void for_each_block(const VertexColoring& coloring, const std::function<void(int begin, int end)>& body);
 
 }  // namespace hooke

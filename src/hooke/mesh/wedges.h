@@ -1,6 +1,6 @@
 // Wedges: creases divide the faces around a vertex into wedges, which have normals of their own. Cut open
 // along its creases, the mesh has a vertex for each wedge.
-// H. Hoppe, "Efficient implementation of progressive meshes", 1998.
+// H. Hoppe, "Efficient implementation of progressive meshes", Computers & Graphics 22, 1998.
 #pragma once
 
 #include "hooke/mesh/adjacency.h"

@@ -59,7 +59,7 @@ class PaperRun {
 
   void filter() {
     SurfacePositions& p = work_.positions;
-    p = work_.retraction->place(vertex_points(mesh_), std::move(p.hints), std::move(p.segments));
+    p = work_.retraction->project_all(vertex_points(mesh_), std::move(p.hints), std::move(p.segments));
     vertex_points(mesh_) = p.points;
   }
 
@@ -92,7 +92,8 @@ class PaperRun {
   /// Faces of the present points that are folded against the surface of the input; a field fitted to a folded
   /// mesh would not show them.
   std::vector<int> folded_faces() {
-    SurfacePositions seen = to_input_.place(work_.positions.points, input_hints(), work_.positions.segments);
+    SurfacePositions seen =
+        to_input_.project_all(work_.positions.points, input_hints(), work_.positions.segments);
     seen.points = work_.positions.points;
     const Guards guards(*work_.adjacency, work_.targets, {});
     return faces_of_result(work_, guards.folded_faces(seen));

@@ -330,7 +330,8 @@ double Energy::operator()(const Mat3X& points, const Mat3X& normals, Mat3X* grad
     const size_t blocks = (part.end - part.begin + energy_block - 1) / energy_block;
     parallel_for(blocks, 1, [&](size_t begin, size_t end) {
       for (size_t b = begin; b < end; ++b)
-        for (size_t f = b * energy_block; f < std::min((b + 1) * energy_block, part.end - part.begin); f += lane_count)
+        for (size_t f = b * energy_block; f < std::min((b + 1) * energy_block, part.end - part.begin);
+             f += lane_count)
           energies[part.begin / energy_block + b] += energy_of_four(
               {points, normals}, part.begin + f, gradient ? corner_gradients_.data() + 9 * f : nullptr);
     });

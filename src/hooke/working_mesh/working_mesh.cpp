@@ -68,7 +68,7 @@ void count_curve_edges(WorkingMesh& m, double chord_error) {
   m.curve_edges.present.assign(curves, 0);
   m.curve_edges.target.assign(curves, 0);
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.is_gone(h / 3) || !t.is_feature_edge(h) || t.twin(h) > h) continue;
+    if (t.is_removed(h / 3) || !t.is_feature_edge(h) || t.twin(h) > h) continue;
     const int curve = curve_of(m, h).curve;
     if (curve < 0) continue;
     lengths[static_cast<size_t>(curve)] += target_length(m, t.from(h), t.to(h));
@@ -77,7 +77,7 @@ void count_curve_edges(WorkingMesh& m, double chord_error) {
   for (size_t c = 0; c < curves; ++c)
     if (m.curve_edges.present[c] > 0)
       m.curve_edges.target[c] =
-          wanted_edges(m.constraints.curves[c], lengths[c] / m.curve_edges.present[c], chord_error);
+          target_edge_count(m.constraints.curves[c], lengths[c] / m.curve_edges.present[c], chord_error);
 }
 
 SurfacePosition project_midpoint(const WorkingMesh& m, int h) {

@@ -69,7 +69,7 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
                                            RetractionOptions{.tolerance = final_projection_tolerance});
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  positions = retraction->place(*start, input_hints_, constraints.segment);
+  positions = retraction->project_all(*start, input_hints_, constraints.segment);
 }
 
 void Workspace::connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases) {
@@ -111,12 +111,13 @@ void Workspace::refit() {
   const SurfaceField field = fit(std::make_shared<const Mat3X>(positions.points));
   past_counts_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  positions = retraction->place(positions.points, identity(adjacency->wedge_count()), positions.segments);
+  positions =
+      retraction->project_all(positions.points, identity(adjacency->wedge_count()), positions.segments);
 }
 
 SurfacePositions Workspace::project_to_input() {
   if (!refitted_) input_hints_ = positions.hints;
-  SurfacePositions projected = to_input_->place(positions.points, input_hints_, positions.segments);
+  SurfacePositions projected = to_input_->project_all(positions.points, input_hints_, positions.segments);
   input_hints_ = projected.hints;
   return projected;
 }
