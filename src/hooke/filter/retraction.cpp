@@ -138,10 +138,11 @@ SurfacePosition Retraction::moved(const SurfacePositions& from, int vertex, cons
                displacement);
 }
 
-SurfacePosition Retraction::moved_copy(const SurfacePositions& from, int vertex, int hint,
+SurfacePosition Retraction::moved_copy(const SurfacePositions& from, int vertex, int wedge,
                                        const Vec3& displacement) {
   SurfacePosition position(from, vertex);
-  position.hint = hint;
+  position.normal = from.normals.col(wedge);
+  position.hint = from.hints[static_cast<size_t>(wedge)];
   position.drift = 0;
   position.other_wedge = -1;
   return moved(position, vertex, Freedom::surface, displacement);

@@ -77,8 +77,8 @@ class Retraction {
   /// a batch.
   SurfacePosition moved(const SurfacePositions& from, int vertex, const Vec3& displacement);
 
-  /// The same for a new vertex, free on the surface, that starts at the position of `vertex` with this hint.
-  SurfacePosition moved_copy(const SurfacePositions& from, int vertex, int hint, const Vec3& displacement);
+  /// The same for a new vertex, free on the surface, that starts at the position of `vertex` in its `wedge`.
+  SurfacePosition moved_copy(const SurfacePositions& from, int vertex, int wedge, const Vec3& displacement);
 
   /// Adds the projections made since the last call to counts().
   void count();

@@ -7,6 +7,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/filter/curved_facets.h"
 #include "hooke/filter/newton_projection.h"
 #include "hooke/filter/partition_of_unity.h"
 #include "hooke/geometry/triangle.h"
@@ -214,7 +215,8 @@ struct SurfaceField::State {
   Mat3X normals;
   Eigen::VectorXd edge_lengths;
   std::vector<ShapeOperator> shape_operators;
-  std::vector<float> deviation_bounds;  // per vertex, see deviation_bounds_of(); empty: no limit
+  std::vector<float> deviation_bounds;         // per vertex, see deviation_bounds_of(); empty: no limit
+  std::unique_ptr<const CurvedFacets> facets;  // where splines do not follow the mesh; null if they do
   std::optional<PartitionOfUnity> partition;
   std::vector<int> pieces;               // per vertex; empty: one piece
   std::vector<ThinPlateSpline> splines;  // per piece
@@ -222,6 +224,7 @@ struct SurfaceField::State {
   NearFaces faces() const { return {*points, normals, *adjacency}; }
   FieldSample sample(const Vec3& x, int hint) const;
   Projection project(const Vec3& x, int hint, double tolerance) const;
+  void find_facets();
 };
 
 FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
@@ -243,9 +246,15 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
 }
 
 Projection SurfaceField::State::project(const Vec3& x, int hint, double tolerance) const {
+  const bool near_facets = facets && facets->is_near(hint);
+  const CurvedFacets::Place place = near_facets ? facets->find(x, hint) : CurvedFacets::Place{};
+  if (kind == FilterKind::closest) {
+    const Projection near = faces().closest_point(x, faces().nearest_vertex(x, hint));
+    return place.index >= 0 && place.distance < (near.point - x).norm() ? facets->lift(place) : near;
+  }
+  if (place.index >= 0 && facets->is_curved(place.index)) return facets->lift(place);
   hint = faces().nearest_vertex(x, hint);
   if (kind == FilterKind::none) return {x, normals.col(hint), hint};
-  if (kind == FilterKind::closest) return faces().closest_point(x, hint);
 
   NewtonOptions newton;
   newton.tolerance = tolerance;
@@ -254,13 +263,33 @@ Projection SurfaceField::State::project(const Vec3& x, int hint, double toleranc
   newton.convergence = convergence / edge_lengths[hint];
   const Projection projection =
       project_by_newton([this](const Vec3& p, int a) { return sample(p, a); }, x, hint, newton);
-  if (projection.status == ProjectionStatus::converged)
-    return within_deviation_bound(faces(), deviation_bounds, x, projection);
+  const bool converged = projection.status == ProjectionStatus::converged;
+  if (place.index >= 0 && !(converged && facets->allows(facets->find(projection.point, projection.hint)))) {
+    Projection lifted = facets->lift(place);
+    lifted.evaluations = projection.evaluations;
+    return lifted;
+  }
+  if (converged) return within_deviation_bound(faces(), deviation_bounds, x, projection);
 
   Projection fallback = faces().closest_point(x, hint);
   fallback.status = projection.status;
   fallback.evaluations = projection.evaluations;
   return fallback;
+}
+
+/// Finds the faces that the splines do not follow, where nothing is known of the shape operators either.
+void SurfaceField::State::find_facets() {
+  if (kind == FilterKind::none) return;
+  if (kind == FilterKind::closest) {
+    facets = CurvedFacets::all_flat(*points, normals, *adjacency);
+    return;
+  }
+  facets = CurvedFacets::where_exceeded(*points, normals, *adjacency, [this](const Vec3& x, int hint) {
+    const FieldSample s = sample(x, hint);
+    return s.value / s.gradient.norm();
+  });
+  for (std::size_t v = 0; facets && v < shape_operators.size(); ++v)
+    if (facets->is_near(static_cast<int>(v))) shape_operators[v] = unknown_shape_operator();
 }
 
 SurfaceField::SurfaceField(std::shared_ptr<const Mat3X> shared_points,
@@ -289,6 +318,7 @@ SurfaceField::SurfaceField(std::shared_ptr<const Mat3X> shared_points,
   }
   state->points = std::move(shared_points);
   state->adjacency = std::move(adjacency);
+  state->find_facets();
   state_ = std::move(state);
 }
 
@@ -323,6 +353,7 @@ std::size_t SurfaceField::memory_bytes() const {
   return sizeof(double) * static_cast<std::size_t>(doubles) +
          sizeof(ShapeOperator) * state_->shape_operators.capacity() +
          sizeof(float) * state_->deviation_bounds.capacity() +
+         (state_->facets ? state_->facets->memory_bytes() : 0) +
          (state_->partition ? state_->partition->memory_bytes() : 0) +
          std::transform_reduce(state_->splines.begin(), state_->splines.end(), std::size_t{0}, std::plus<>(),
                                [](const ThinPlateSpline& s) { return s.memory_bytes(); });

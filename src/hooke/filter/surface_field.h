@@ -68,7 +68,8 @@ class SurfaceField {
   /// Projects x, tracked near the reference vertex `hint`, to within `tolerance` (a length) of the surface.
   /// The hint first walks over mesh edges to the nearest vertex that descent can reach. If Newton's method
   /// fails, the result is the closest point on the faces near the hint and the status tells why. A result
-  /// beyond the deviation bound (options.max_deviation) is moved back to it. At a vertex without faces: x,
+  /// beyond the deviation bound (options.max_deviation) is moved back to it. Over faces that the splines do
+  /// not follow the surface is made of curved facets, see curved_facets.h. At a vertex without faces: x,
   /// normal zero, no_cover.
   Projection project(const Vec3& x, int hint, double tolerance) const;
 

@@ -82,11 +82,6 @@ Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   return a + std::clamp(d.dot(x - a) / squared_length, 0., 1.) * d;
 }
 
-/// Eigen's squaredExteriorDistance without branches, which would be mispredicted here.
-double squared_distance(const Eigen::AlignedBox3d& box, const Vec3& x) {
-  return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
-}
-
 AabbTree::Face face_of(const Mat3X& points, const std::vector<Triangle>& faces, size_t id) {
   const auto& [a, b, c] = faces[id];
   return {{points.col(a), points.col(b), points.col(c)}, {a, b, c}, static_cast<int>(id)};
@@ -98,15 +93,6 @@ std::vector<Vec3> centres(const Mat3X& points, const std::vector<Triangle>& face
     for (size_t f = begin; f < end; ++f) centres[f] = face_of(points, faces, f).box().center();
   });
   return centres;
-}
-
-/// Keeps the face in `best` if it is closer, or as close and of a lower id.
-void update_closest(const Vec3& x, const AabbTree::Face& face, ClosestPoint& best) {
-  const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
-  const double d = candidate.squared_distance;
-  if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
-  best = candidate;
-  best.face = face.id;
 }
 
 }  // namespace
@@ -213,35 +199,6 @@ HOOKE_SIMD unsigned AabbTree::PartBoxes::overlapping(const Box& other) const {
     found |= overlap;
   }
   return static_cast<unsigned>(found[0] | found[1] | found[2] | found[3]);
-}
-
-ClosestPoint AabbTree::closest(const Vec3& x) const {
-  ClosestPoint best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
-  if (empty()) return best;
-
-  struct Visit {
-    size_t node;
-    double distance;  // squared
-  };
-  Visit stack[max_depth + 1];
-  int size = 0;
-  stack[size++] = {1, squared_distance(boxes_[1], x)};
-  while (size > 0) {
-    const Visit visit = stack[--size];
-    if (visit.distance > best.squared_distance) continue;
-    if (is_leaf(visit.node)) {
-      for (const Face& face : faces_of(visit.node - leaf_count()))
-        if (squared_distance(face.box(), x) <= best.squared_distance) update_closest(x, face, best);
-      continue;
-    }
-    Visit near{2 * visit.node, squared_distance(boxes_[2 * visit.node], x)};
-    Visit far{2 * visit.node + 1, squared_distance(boxes_[2 * visit.node + 1], x)};
-    if (far.distance < near.distance) std::swap(near, far);
-    if (far.distance <= best.squared_distance) stack[size++] = far;
-    if (near.distance <= best.squared_distance) stack[size++] = near;
-  }
-  return best;
 }
 
 }  // namespace hooke

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -136,7 +137,13 @@ class AabbTree {
   /// The ids of faces(), in that order.
   std::vector<int> order() const;
 
-  ClosestPoint closest(const Vec3& x) const;
+  ClosestPoint closest(const Vec3& x) const {
+    return closest(x, [](int) { return true; });
+  }
+
+  /// The same among the faces whose ids are accepted; face -1 without any.
+  template <typename Accepts>
+  ClosestPoint closest(const Vec3& x, const Accepts& accepts) const;
 
   /// The boxes of all nodes; the leaves are the nodes from leaf_count() on.
   std::span<const Box> boxes() const { return boxes_; }
@@ -216,5 +223,48 @@ class AabbTree {
   UninitializedVector<Face> faces_;  // leaf by leaf
   UninitializedVector<Box> boxes_;   // by node; entry 0 is unused
 };
+
+/// Keeps the face in `best` if it is closer, or as close and of a lower id.
+inline void update_closest(const Vec3& x, const AabbTree::Face& face, ClosestPoint& best) {
+  const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
+  const double d = candidate.squared_distance;
+  if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
+  best = candidate;
+  best.face = face.id;
+}
+
+template <typename Accepts>
+ClosestPoint AabbTree::closest(const Vec3& x, const Accepts& accepts) const {
+  ClosestPoint best;
+  best.squared_distance = std::numeric_limits<double>::infinity();
+  if (empty()) return best;
+
+  const auto squared_distance = [&](const Box& box) {  // without branches, which would be mispredicted
+    return (box.min() - x).cwiseMax(x - box.max()).cwiseMax(0).squaredNorm();
+  };
+  struct Visit {
+    size_t node;
+    double distance;  // squared
+  };
+  Visit stack[max_depth + 1];
+  int size = 0;
+  stack[size++] = {1, squared_distance(boxes_[1])};
+  while (size > 0) {
+    const Visit visit = stack[--size];
+    if (visit.distance > best.squared_distance) continue;
+    if (is_leaf(visit.node)) {
+      for (const Face& face : faces_of(visit.node - leaf_count()))
+        if (squared_distance(face.box()) <= best.squared_distance && accepts(face.id))
+          update_closest(x, face, best);
+      continue;
+    }
+    Visit near{2 * visit.node, squared_distance(boxes_[2 * visit.node])};
+    Visit far{2 * visit.node + 1, squared_distance(boxes_[2 * visit.node + 1])};
+    if (far.distance < near.distance) std::swap(near, far);
+    if (far.distance <= best.squared_distance) stack[size++] = far;
+    if (near.distance <= best.squared_distance) stack[size++] = near;
+  }
+  return best;
+}
 
 }  // namespace hooke

@@ -82,9 +82,9 @@ void count_curve_edges(WorkingMesh& m, double chord_error) {
 
 SurfacePosition project_midpoint(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  const int a = t.from(h), hint = m.positions.hints[static_cast<size_t>(t.wedge(h))];
+  const int a = t.from(h);
   const Vec3 half_way = .5 * (m.positions.points.col(t.to(h)) - m.positions.points.col(a));
-  return m.retraction.moved_copy(m.positions, a, hint, half_way);
+  return m.retraction.moved_copy(m.positions, a, t.wedge(h), half_way);
 }
 
 int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
@@ -109,11 +109,15 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
   SurfacePosition start(p, a);
   start.segment = on.segment;
   start.drift = 0;
+  start.normal = p.normals.col(t.wedge(h));
   start.hint = p.hints[static_cast<size_t>(t.wedge(h))];
   start.other_wedge = other_wedge;
   if (other_wedge >= 0) {
+    if (p.other_wedge.empty()) p.other_wedge.assign(p.drift.size(), -1);  // the first vertex with two wedges
     p.other_wedge[i] = other_wedge;
-    start.other_hint = p.hints[static_cast<size_t>(t.wedge(HalfedgeMesh::next(twin)))];
+    const int wedge_across = t.wedge(HalfedgeMesh::next(twin));  // of the same end
+    start.other_normal = p.normals.col(wedge_across);
+    start.other_hint = p.hints[static_cast<size_t>(wedge_across)];
   }
   start.write_to(p, v);
   const Vec3 half_way = .5 * (p.points.col(b) - p.points.col(a));

@@ -12,6 +12,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/sagitta.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
 
@@ -83,21 +84,26 @@ void Workspace::connect(std::shared_ptr<const Adjacency> smooth, const std::vect
   targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
-/// Fits a field, separate on both sides of each crease. Its deviation bound is measured in target lengths, or
-/// in the natural length of these faces where targets are shorter: a coarse mesh of a round body is not to be
-/// taken for a polyhedron.
-SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> shared_points) const {
-  const Mat3X& points = *shared_points;
-  const double natural = natural_length(total_area(points, adjacency->faces), adjacency->faces.size());
+/// Fits a field, separate on both sides of each crease. Its deviation bound is measured in target lengths.
+/// Where these are shorter than the natural length of the faces it is as wide as that allows, but no wider
+/// than the sagittas of the faces ask for: a coarse mesh of a round body is not to be taken for a polyhedron.
+SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points) const {
+  const double natural = natural_length(total_area(*points, adjacency->faces), adjacency->faces.size());
+  const bool has_creases = !adjacency->creases.empty();
+  const auto cut = has_creases ? std::make_shared<const Adjacency>(cut_open(*adjacency)) : adjacency;
+  if (has_creases) points = std::make_shared<const Mat3X>(wedge_points(*points, *adjacency));
   std::vector<double> lengths(static_cast<size_t>(adjacency->wedge_count()));
   for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
-    lengths[wedge] = std::max(
-        natural, vertex_length[static_cast<size_t>(adjacency->vertex_of_wedge(static_cast<int>(wedge)))]);
-  if (adjacency->creases.empty())
-    return SurfaceField(std::move(shared_points), adjacency, filter_, {}, lengths);
-  const auto cut = std::make_shared<const Adjacency>(cut_open(*adjacency));
-  return SurfaceField(std::make_shared<const Mat3X>(wedge_points(points, *adjacency)), cut, filter_,
-                      label_components(*cut), lengths);
+    lengths[wedge] = vertex_length[static_cast<size_t>(adjacency->vertex_of_wedge(static_cast<int>(wedge)))];
+  if (std::ranges::any_of(lengths, [&](double length) { return length < natural; })) {
+    constexpr double sagittas_of_bound = 2;
+    const std::vector<double> rises = vertex_sagittas(face_sagittas(edge_arcs(*points, *cut), *cut), *cut);
+    for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
+      lengths[wedge] = std::max(lengths[wedge],
+                                std::min(natural, sagittas_of_bound * rises[wedge] / filter_.max_deviation));
+  }
+  return SurfaceField(std::move(points), cut, filter_,
+                      has_creases ? label_components(*cut) : std::vector<int>(), lengths);
 }
 
 int Workspace::chart_count() const {

@@ -1,0 +1,225 @@
+#include "hooke/filter/curved_facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
+#include "hooke/mesh/wedges.h"
+
+namespace hooke {
+namespace {
+
+std::size_t index_of(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+constexpr std::size_t facet_block = 1024;
+
+/// Minimum cosine between a face and the normal at the hint: excludes the opposite side of a thin body.
+constexpr double min_agreement = -.2;
+
+/// Ratio of the longest edge of a face to the second shortest edge at a corner, above which splines are
+/// tested.
+constexpr double uneven = 3;
+/// Relative sagitta of an edge, over its chord, above which splines are tested: tan(15 degrees / 4) / 2.
+constexpr double much_turned = .033;
+/// Height of a spline over a face, in sagittas, beyond which it does not follow the mesh.
+constexpr double max_height = 2;
+
+/// Height of a spline over a flat face that is only rounding, over the length of an edge.
+constexpr double exact = 1e-10;
+/// Minimum number of connected faces for which that is no accident.
+constexpr int min_group = 20;
+/// Relative sagitta of an edge, over its chord, below which its faces are one flat facet.
+constexpr double flat = 1e-6;
+
+/// Keeps the connected groups of chosen faces that are large, or half of a component of the mesh, or contain
+/// a flat facet of several faces: irregular meshes of round bodies have other such faces everywhere.
+void drop_small_groups(const Adjacency& c, const std::vector<EdgeArc>& arcs, std::vector<char>& chosen) {
+  const std::vector<int> components = label_components(c);
+  std::vector<int> sizes(components.size(), 0);
+  for (const Triangle& t : c.faces) ++sizes[index_of(components[index_of(t[0])])];
+  std::vector<char> seen(chosen.size(), 0);
+  for (std::size_t f = 0; f < chosen.size(); ++f) {
+    if (!chosen[f] || seen[f]) continue;
+    std::vector<int> group = {static_cast<int>(f)};
+    seen[f] = 1;
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (int v : c.faces[index_of(group[i])])
+        for (int g : c.vertex_faces[v])
+          if (chosen[index_of(g)] && !std::exchange(seen[index_of(g)], 1)) group.push_back(g);
+    const int size = sizes[index_of(components[index_of(c.faces[f][0])])];
+    if (static_cast<int>(group.size()) >= std::min(min_group, (size + 1) / 2)) continue;
+    const auto is_flat = [&](int e) {
+      const auto& [left, right] = c.edge_faces[index_of(e)];
+      return right >= 0 && chosen[index_of(left)] && chosen[index_of(right)] && arcs[index_of(e)].chord > 0 &&
+             arcs[index_of(e)].sagitta <= flat * arcs[index_of(e)].chord;
+    };
+    if (std::ranges::none_of(group,
+                             [&](int g) { return std::ranges::any_of(c.face_edges[index_of(g)], is_flat); }))
+      for (int g : group) chosen[index_of(g)] = 0;
+  }
+}
+
+/// The faces that are long compared with the spacing of the vertices, or turn much at an edge.
+std::vector<char> doubtful_faces(const Mat3X& points, const Adjacency& c, const std::vector<EdgeArc>& arcs) {
+  std::vector<double> lengths(c.edges.size());
+  for (std::size_t e = 0; e < lengths.size(); ++e)
+    lengths[e] = (points.col(c.edges[e][0]) - points.col(c.edges[e][1])).norm();
+  const std::vector<double> spacing = second_shortest_edges(lengths, c);
+  std::vector<char> doubtful(c.faces.size(), 0);
+  parallel_for(doubtful.size(), facet_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      double longest = 0, narrowest = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto e = index_of(c.face_edges[f][k]);
+        longest = std::max(longest, lengths[e]);
+        narrowest = std::min(narrowest, spacing[index_of(c.faces[f][k])]);
+        if (arcs[e].sagitta > much_turned * arcs[e].chord) doubtful[f] = 1;
+      }
+      if (longest > uneven * narrowest) doubtful[f] = 1;
+    }
+  });
+  return doubtful;
+}
+
+/// How far a smooth surface may rise over each face: the sagittas, or that of any face at its corners if that
+/// is more.
+std::vector<double> max_rises(const std::vector<EdgeArc>& arcs, const Adjacency& c) {
+  const std::vector<double> sagittas = face_sagittas(arcs, c);
+  const std::vector<double> at_vertex = vertex_sagittas(sagittas, c);
+  std::vector<double> rises(sagittas);
+  for (std::size_t f = 0; f < rises.size(); ++f)
+    for (int v : c.faces[f]) rises[f] = std::max(rises[f], at_vertex[index_of(v)]);
+  return rises;
+}
+
+}  // namespace
+
+std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& points, const Mat3X& normals,
+                                                                 const Adjacency& c,
+                                                                 const HeightOver& height) {
+  const std::vector<EdgeArc> arcs = edge_arcs(points, c);
+  std::vector<char> curved = doubtful_faces(points, c, arcs);
+  if (std::ranges::find(curved, 1) == curved.end()) return nullptr;
+  const std::vector<double> rises = max_rises(arcs, c);
+  parallel_for(curved.size(), facet_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (!curved[f]) continue;
+      const Triangle& t = c.faces[f];
+      const double least = exact * (points.col(t[1]) - points.col(t[0])).norm();
+      const auto is_exceeded_at = [&](const Vec3& at, int hint) {
+        return !(std::abs(height(at, hint)) <= std::max(max_height * rises[f], least));
+      };
+      const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
+      curved[f] = is_exceeded_at(centre, t[0]);
+      for (std::size_t k = 0; k < 3 && !curved[f]; ++k)
+        curved[f] = is_exceeded_at(.5 * (points.col(t[k]) + points.col(t[(k + 1) % 3])), t[k]);
+    }
+  });
+  drop_small_groups(c, arcs, curved);
+  if (std::ranges::find(curved, 1) == curved.end()) return nullptr;
+  return std::unique_ptr<const CurvedFacets>(new CurvedFacets(points, normals, c, curved, arcs, rises));
+}
+
+std::unique_ptr<const CurvedFacets> CurvedFacets::all_flat(const Mat3X& points, const Mat3X& normals,
+                                                           const Adjacency& c) {
+  return std::unique_ptr<const CurvedFacets>(
+      new CurvedFacets(points, normals, c, std::vector<char>(c.faces.size(), 1),
+                       std::vector<EdgeArc>(c.edges.size()), std::vector<double>(c.faces.size())));
+}
+
+CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adjacency& c,
+                           const std::vector<char>& curved, const std::vector<EdgeArc>& arcs,
+                           const std::vector<double>& rises)
+    : points_(points),
+      normals_(normals),
+      adjacency_(c),
+      near_(index_of(c.vertex_count), 0),
+      components_(label_components(c)) {
+  std::vector<char> at_facet(near_.size(), 0);
+  for (std::size_t f = 0; f < curved.size(); ++f)
+    if (curved[f])
+      for (int v : c.faces[f]) at_facet[index_of(v)] = 1;
+  near_ = at_facet;
+  for (int v = 0; v < c.vertex_count; ++v)
+    if (at_facet[index_of(v)])
+      for (int n : c.vertex_neighbours[v]) near_[index_of(n)] = 1;
+  const Mat3X face_normal = face_normals(points, c);
+  std::vector<Triangle> triangles;
+  for (std::size_t f = 0; f < curved.size(); ++f) {
+    const Triangle& t = c.faces[f];
+    if (std::ranges::none_of(t, [&](int v) { return near_[index_of(v)] != 0; })) continue;
+    Facet facet{static_cast<int>(f),
+                components_[index_of(t[0])],
+                curved[f] != 0,
+                rises[f],
+                face_normal.col(static_cast<Eigen::Index>(f)),
+                {}};
+    for (std::size_t k = 0; k < 3; ++k) facet.arcs[k] = arcs[index_of(c.face_edges[f][k])];
+    facets_.push_back(facet);
+    triangles.push_back(t);
+  }
+  tree_.emplace(points, triangles);
+}
+
+/// How far the curved facet may rise at a point of it: the sum of the sagittas of its edges, each of which
+/// matters as far as its chord reaches.
+double CurvedFacets::rise_at(int index, const Vec3& at) const {
+  const Facet& facet = facets_[index_of(index)];
+  const Triangle& t = adjacency_.faces[index_of(facet.face)];
+  double rise = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& [sagitta, chord] = facet.arcs[k];
+    if (!(sagitta > 0)) continue;
+    const Vec3 a = points_.col(t[k]), along = points_.col(t[(k + 1) % 3]) - a;
+    const double distance = along.cross(at - a).norm() / along.norm();
+    rise += sagitta * std::max(0., 1 - distance / chord);
+  }
+  return rise;
+}
+
+CurvedFacets::Place CurvedFacets::find(const Vec3& x, int hint) const {
+  const int component = components_[index_of(hint)];
+  const Vec3 side = normals_.col(hint);
+  const ClosestPoint closest = tree_->closest(x, [&](int index) {
+    const Facet& facet = facets_[index_of(index)];
+    return facet.component == component && facet.normal.dot(side) >= min_agreement;
+  });
+  return {closest.face, closest.point, std::sqrt(closest.squared_distance)};
+}
+
+Projection CurvedFacets::lift(const Place& place) const {
+  const Facet& facet = facets_[index_of(place.index)];
+  const Triangle& t = adjacency_.faces[index_of(facet.face)];
+  const Vec3 weights = barycentric(place.point, points_.col(t[0]), points_.col(t[1]), points_.col(t[2]));
+  Vec3 offset = Vec3::Zero(), normal = Vec3::Zero();
+  Eigen::Index corner = 0;
+  weights.maxCoeff(&corner);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const auto v = t[static_cast<std::size_t>(k)];
+    const Vec3 n = normals_.col(v);
+    offset += .5 * weights[k] * n.dot(points_.col(v) - place.point) * n;
+    normal += weights[k] * n;
+  }
+  const double height = std::abs(offset.dot(facet.normal)), rise = rise_at(place.index, place.point);
+  const double share = height > rise ? rise / height : 1;  // of the curved facet, the rest is flat
+  const bool has_normal = !facet.normal.isZero(0);
+  return {place.point + share * offset,
+          Vec3(has_normal ? facet.normal + share * (normal - facet.normal) : normal).normalized(),
+          t[static_cast<std::size_t>(corner)], ProjectionStatus::converged, 0};
+}
+
+bool CurvedFacets::allows(const Place& place) const {
+  return place.index >= 0 && place.distance <= max_height * facets_[index_of(place.index)].max_rise;
+}
+
+std::size_t CurvedFacets::memory_bytes() const {
+  return near_.capacity() + sizeof(int) * components_.capacity() + sizeof(Facet) * facets_.capacity() +
+         sizeof(AabbTree::Face) * facets_.size();
+}
+
+}  // namespace hooke

@@ -1,0 +1,32 @@
+// Sagittas: how far a smooth surface through the vertices of a mesh may rise over its faces; and the spacing
+// of the vertices.
+#pragma once
+
+#include "hooke/mesh/adjacency.h"
+
+namespace hooke {
+
+/// The arc that an edge and its two faces are chords of: the faces turn by theta at the edge, and the smaller
+/// of their heights over the edge is the length of a chord.
+struct EdgeArc {
+  double sagitta = 0;  // (chord / 2) tan(theta / 4), a length; exact for a prism inscribed in a cylinder
+  double chord = 0;    // a length
+};
+
+/// The arc of every edge of the mesh; without sagitta on the boundary, on creases, and next to faces without
+/// area.
+std::vector<EdgeArc> edge_arcs(const Mat3X& points, const Adjacency& adjacency);
+
+/// How far a smooth surface may rise over each face: the sum of the sagittas of its edges, since a sphere's
+/// faces rise from all sides, or that of a neighbour across an edge that is no crease, whichever is more. It
+/// is 0 in flat regions.
+std::vector<double> face_sagittas(const std::vector<EdgeArc>& arcs, const Adjacency& adjacency);
+
+/// The greatest of these sagittas of the faces at each vertex.
+std::vector<double> vertex_sagittas(const std::vector<double>& face_sagittas, const Adjacency& adjacency);
+
+/// The spacing of the vertices about each vertex: the second shortest of its edges, which have these lengths;
+/// infinite for a vertex with fewer.
+std::vector<double> second_shortest_edges(const std::vector<double>& lengths, const Adjacency& adjacency);
+
+}  // namespace hooke
