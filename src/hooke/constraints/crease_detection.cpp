@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "hooke/core/parallel.h"
-#include "hooke/mesh/normals.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/extent.h"
 
 namespace hooke {
 namespace {
@@ -18,12 +21,12 @@ size_t idx(int i) {
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
 std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
-  const Mat3X normals = face_normals(points, c);
   std::vector<double> angles(c.edges.size(), 0);
   parallel_for(angles.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       if (c.is_boundary_edge(static_cast<int>(e))) continue;
-      const Vec3 a = normals.col(c.edge_faces[e][0]), b = normals.col(c.edge_faces[e][1]);
+      const auto normal = [&](int f) { return face_shape(points, c.faces[idx(f)]).normal; };
+      const Vec3 a = normal(c.edge_faces[e][0]), b = normal(c.edge_faces[e][1]);
       angles[e] = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
     }
   });
@@ -43,10 +46,13 @@ class FeatureSearch {
         cos_turn_(std::cos(o.max_turn * std::numbers::pi / 180)) {}
 
   std::vector<int> run() {
-    if (grow() > 0) {
+    if (!o_.drops_noise) {
+      for (size_t e = 0; e < kept_.size(); ++e) kept_[e] = angle_[e] > o_.angle;
+    } else if (grow() > 0) {
       drop_loose_chains();
       drop_noise();
     }
+    add_resolved();
     std::vector<int> edges;
     for (size_t e = 0; e < kept_.size(); ++e)
       if (kept_[e]) edges.push_back(static_cast<int>(e));
@@ -59,12 +65,171 @@ class FeatureSearch {
   double bend_ratio(int edge, bool goes_on = false) const {
     double worst = 0;
     for (int f : c_.edge_faces[idx(edge)]) {
+      if (is_facet(f)) continue;
       double smallest = 180;
       for (int e : c_.face_edges[idx(f)])
         if (e != edge && !(goes_on && c_.is_boundary_edge(e))) smallest = std::min(smallest, angle_[idx(e)]);
       worst = std::max(worst, smallest);
     }
     return worst / angle_[idx(edge)];
+  }
+
+  /// Is the face a flat facet of its own: sharp on all sides, in a place where edges are sharp or flat?
+  bool is_facet(int face) const {
+    const auto is_sharp = [&](int e) {
+      return c_.is_boundary_edge(e) || angle_[idx(e)] > o_.facet_angle * o_.angle;
+    };
+    const auto is_flat = [&](int e) { return angle_[idx(e)] < o_.flat_bend_ratio * o_.angle; };
+    return std::ranges::all_of(c_.face_edges[idx(face)], is_sharp) &&
+           std::ranges::all_of(c_.faces[idx(face)], [&](int v) {
+             return std::ranges::all_of(c_.vertex_edges[v], [&](int e) { return is_sharp(e) || is_flat(e); });
+           });
+  }
+
+  /// Height of the face over one of its edges, in target lengths.
+  double height(int face, int edge) const {
+    const auto& [a, b] = c_.edges[idx(edge)];
+    const double target = .5 * (length_[idx(a)] + length_[idx(b)]);
+    return doubled_area_vector(X_, c_.faces[idx(face)]).norm() / (X_.col(a) - X_.col(b)).norm() / target;
+  }
+
+  /// Is the edge so long that the target length resolves it, and are its faces as high, or is the edge twice
+  /// as long and beside a flat region? Then it is no noise.
+  bool is_resolved(int edge, const std::vector<int>& regions) const {
+    const auto& [left, right] = c_.edge_faces[idx(edge)];
+    if (length(edge) <= o_.resolved) return false;
+    if (height(left, edge) > o_.resolved && height(right, edge) > o_.resolved) return true;
+    return length(edge) > 2 * o_.resolved &&
+           (flat_mesh_ || regions[idx(left)] >= 0 || regions[idx(right)] >= 0);
+  }
+
+  /// Adds the sharp edges that are resolved or divide flat regions, and weaker edges between resolved flat
+  /// regions.
+  void add_resolved() {
+    const std::vector<int> regions = flat_regions();
+    for (size_t e = 0; e < kept_.size(); ++e) {
+      const int edge = static_cast<int>(e);
+      if (kept_[e] || c_.is_boundary_edge(edge)) continue;
+      if (angle_[e] > o_.angle)
+        kept_[e] = is_resolved(edge, regions) || divides_flat_regions(edge, regions);
+      else if (angle_[e] > o_.flat_angle)
+        kept_[e] = divides_resolved_regions(edge, regions);
+    }
+    for (size_t e = 0; o_.drops_noise && e < kept_.size(); ++e)  // a lone edge is an accident
+      if (kept_[e] && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); })) kept_[e] = 0;
+  }
+
+  /// Numbers the flat regions by face: faces connected over edges, with all vertices in the plane of the
+  /// largest; negative for a face without such neighbours.
+  std::vector<int> flat_regions() {
+    std::vector<double> areas;
+    for (const Triangle& t : c_.faces) areas.push_back(doubled_area_vector(X_, t).norm());
+    std::vector<int> order(areas.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, std::greater(), [&](int f) { return areas[idx(f)]; });
+    const double tolerance = o_.flatness * diagonal_;
+    constexpr int none = -1, alone = -2;
+    size_t faces_in_regions = 0;
+    std::vector<int> regions(areas.size(), none);
+    region_vertices_.clear();
+    for (int seed : order) {
+      if (regions[idx(seed)] != none || !(areas[idx(seed)] > 0)) continue;
+      const Vec3 normal = doubled_area_vector(X_, c_.faces[idx(seed)]).normalized();
+      const Vec3 origin = X_.col(c_.faces[idx(seed)][0]);
+      const auto lies_in_plane = [&](int f) {
+        return std::ranges::all_of(
+            c_.faces[idx(f)], [&](int v) { return std::abs(normal.dot(X_.col(v) - origin)) <= tolerance; });
+      };
+      const auto region = static_cast<int>(region_vertices_.size());
+      std::vector<int> members = {seed}, vertices;
+      regions[idx(seed)] = region;
+      for (size_t i = 0; i < members.size(); ++i)
+        for (int e : c_.face_edges[idx(members[i])])
+          for (int f : c_.edge_faces[idx(e)]) {
+            if (f < 0 || regions[idx(f)] != none || angle_[idx(e)] > o_.flat_angle || !lies_in_plane(f))
+              continue;
+            regions[idx(f)] = region;
+            members.push_back(f);
+          }
+      if (members.size() < 2) {
+        regions[idx(seed)] = alone;
+        continue;
+      }
+      for (int f : members) vertices.insert(vertices.end(), c_.faces[idx(f)].begin(), c_.faces[idx(f)].end());
+      region_vertices_.push_back(std::move(vertices));
+      const auto is_member = [&](int f) { return regions[idx(f)] == region; };
+      std::vector<int> borders;
+      for (int f : members)
+        for (int e : c_.face_edges[idx(f)])
+          if (!c_.is_boundary_edge(e) && !std::ranges::all_of(c_.edge_faces[idx(e)], is_member))
+            borders.push_back(e);
+      region_borders_.push_back(std::move(borders));
+      faces_in_regions += members.size();
+    }
+    flat_mesh_ = static_cast<double>(faces_in_regions) >= o_.flat_share * static_cast<double>(regions.size());
+    return regions;
+  }
+
+  /// Maximum distance of the region's vertices from the edge, in target lengths; for a face without a region
+  /// its height.
+  double width(int face, int region, int edge) const {
+    if (region < 0) return height(face, edge);
+    const auto& [a, b] = c_.edges[idx(edge)];
+    const Vec3 along = (X_.col(b) - X_.col(a)).normalized();
+    double widest = 0;
+    for (int v : region_vertices_[idx(region)])
+      widest = std::max(widest, along.cross(X_.col(v) - X_.col(a)).norm());
+    return widest / (.5 * (length_[idx(a)] + length_[idx(b)]));
+  }
+
+  /// Does the edge divide two flat regions, one of which is large?
+  bool divides_flat_regions(int edge, const std::vector<int>& regions) const {
+    const auto& [left, right] = c_.edge_faces[idx(edge)];
+    const int a = regions[idx(left)], b = regions[idx(right)];
+    return flat_mesh_ && a >= 0 && b >= 0 && a != b &&
+           std::max(width(left, a, edge), width(right, b, edge)) > 2 * o_.resolved;
+  }
+
+  /// Does the edge divide two flat regions, or single faces, that the target length resolves? In a mesh with
+  /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
+  bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
+    const auto& [left, right] = c_.edge_faces[idx(edge)];
+    const int a = regions[idx(left)], b = regions[idx(right)];
+    if (!flat_mesh_ || (a >= 0 && a == b)) return false;
+    const double narrower = std::min(width(left, a, edge), width(right, b, edge));
+    return narrower > o_.resolved &&
+           (narrower > o_.resolved_strip || (!is_strip(a, edge) && !is_strip(b, edge)));
+  }
+
+  /// Is the region a strip of a round body: does it bend on, to the same side and about as much, at another
+  /// edge parallel to this one?
+  bool is_strip(int region, int edge) const {
+    if (region < 0) return false;
+    constexpr double parallel = .996;  // cosine of 5 degrees
+    const Vec3 along = direction(edge);
+    return std::ranges::any_of(region_borders_[idx(region)], [&](int e) {
+      return std::abs(angle_[idx(e)] - angle_[idx(edge)]) < o_.strip_angle * angle_[idx(edge)] &&
+             std::abs(direction(e).dot(along)) > parallel && !are_in_line(e, edge, along) &&
+             is_convex(e) == is_convex(edge);
+    });
+  }
+
+  Vec3 direction(int edge) const {
+    const auto& [a, b] = c_.edges[idx(edge)];
+    return (X_.col(b) - X_.col(a)).normalized();
+  }
+
+  /// Are both edges pieces of one straight line?
+  bool are_in_line(int edge, int other, const Vec3& along) const {
+    const Vec3 apart = X_.col(c_.edges[idx(edge)][0]) - X_.col(c_.edges[idx(other)][0]);
+    return apart.cross(along).norm() <= o_.flatness * diagonal_;
+  }
+
+  bool is_convex(int edge) const {
+    const auto& [left, right] = c_.edge_faces[idx(edge)];
+    const Triangle& t = c_.faces[idx(right)];
+    const Vec3 n = doubled_area_vector(X_, c_.faces[idx(left)]);
+    return n.dot(X_.col(t[0]) + X_.col(t[1]) + X_.col(t[2]) - 3 * X_.col(c_.edges[idx(edge)][0])) < 0;
   }
 
   bool may_belong(int edge, double min_angle) const {
@@ -228,9 +393,21 @@ class FeatureSearch {
   std::vector<double> angle_;
   std::vector<char> kept_;
   double cos_turn_;
+  double diagonal_ = box_diagonal(X_);
+  std::vector<std::vector<int>> region_vertices_;  // of the flat regions
+  std::vector<std::vector<int>> region_borders_;   // the edges around them
+  bool flat_mesh_ = false;                         // are so many faces in flat regions that these are meant?
 };
 
 }  // namespace
+
+std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, double angle) {
+  const std::vector<double> angles = edge_angles(points, adjacency);
+  std::vector<int> edges;
+  for (size_t e = 0; e < angles.size(); ++e)
+    if (angles[e] > angle) edges.push_back(static_cast<int>(e));
+  return edges;
+}
 
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options) {

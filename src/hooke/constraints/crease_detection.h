@@ -10,6 +10,7 @@ namespace hooke {
 /// The bend ratio of an edge compares the flattest continuation of its faces with the edge itself: for each
 /// face the smaller angle at its two other edges over the angle at the edge; the larger of both faces.
 struct CreaseOptions {
+  bool drops_noise = true;           // false: every sharp edge is a crease
   double angle = 40;                 // degrees between the normals of two faces; sharp above; 180: no creases
   double hysteresis = .6;            // fraction of `angle` above which an edge may continue a crease
   double max_turn = 35;              // degrees; maximum change of direction from edge to edge of a chain
@@ -20,6 +21,15 @@ struct CreaseOptions {
   double min_length = 8;             // minimum length of a chain with a loose end, in target lengths
   double min_curve = 5;          // minimum mean number of edges between the corners of a network, unless flat
   double flat_bend_ratio = .02;  // maximum median bend ratio of a chain or network between flat faces
+  /// Minimum length of a sharp edge, and minimum height of its faces, in target lengths, for the edge to be
+  /// certainly no noise.
+  double resolved = 1.5;
+  double flat_angle = 1;        // degrees; an edge between resolved flat regions is a crease above it
+  double resolved_strip = 1.9;  // the same for an edge of a flat strip of a round body
+  double strip_angle = .1;      // maximum relative difference of the angles at both edges of a strip
+  double facet_angle = 1.4;  // minimum angle at all edges of a face that is a facet of its own, over `angle`
+  double flat_share = .6;    // minimum share of faces in flat regions, beyond which these are certainly meant
+  double flatness = 1e-6;    // maximum distance of a flat region from its plane, in diagonals of the mesh
 };
 
 /// The crease edges, ascending. An edge qualifies if its faces meet at a sharp angle while each of them
@@ -31,5 +41,8 @@ struct CreaseOptions {
 /// `vertex_length` is the target length at each vertex.
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options);
+
+/// The edges whose faces meet at more than `angle` degrees, ascending.
+std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, double angle);
 
 }  // namespace hooke
