@@ -189,7 +189,9 @@ void AdaptationSteps::release_bends() {
     if (!constraints.at_bend(static_cast<int>(v))) continue;
     const auto curve = static_cast<size_t>(constraints.curve[v]);
     const double target = m_.curve_edges.target[curve], ratio = target / m_.curve_edges.present[curve];
-    if (std::max(ratio, 1 / ratio) > options_.keep_bends) constraints.freedom[v] = Freedom::curve;
+    const bool is_resolved = ratio >= options_.resolve_bends;
+    if (!is_resolved && std::max(ratio, 1 / ratio) > options_.keep_bends)
+      constraints.freedom[v] = Freedom::curve;
   }
 }
 

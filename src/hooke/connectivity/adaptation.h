@@ -38,7 +38,8 @@ int coarse_levels(const WorkingMesh& mesh, double target_faces, const CoarseLimi
 struct StepOptions {
   double chord_error = .1;  // maximum distance of a feature curve from its edges, in target lengths
   double keep_bends = 1.3;  // maximum ratio of target to present edge count at which a curve keeps its bends
-  int spring_steps = 15;    // evaluations of the spring energy before flips of irregular edges
+  double resolve_bends = 1.5;  // ratio of these from which on it keeps them too, and is split between them
+  int spring_steps = 15;       // evaluations of the spring energy before flips of irregular edges
   SplitOptions split;
   CollapseOptions collapse;
   CollapseOptions folded = folded_face_options();

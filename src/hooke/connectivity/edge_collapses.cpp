@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <tuple>
@@ -147,6 +148,17 @@ WorstShape CollapsedRing::worst(const SurfacePosition& position) {
   return worst;
 }
 
+double CollapsedRing::distance(const Vec3& x) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const Triangle t = corners_of(f);
+    smallest = std::min(smallest,
+                        closest_point_on_triangle(points_.col(t[0]), points_.col(t[1]), points_.col(t[2]), x)
+                            .squared_distance);
+  }
+  return std::sqrt(smallest);
+}
+
 void CollapsedRing::measure_face(size_t face, WorstShape& worst) const {
   const Triangle corners = corners_of(face);
   worst.cotangent = std::max(worst.cotangent, max_cotangent(points_, corners));
@@ -191,9 +203,11 @@ class CollapseTest {
       const SurfacePosition there =
           fraction > 0 ? m_.retraction.moved(m_.positions, stays, fraction * displacement) : here;
       const WorstShape after = ring->worst(there), limits = limits_of(options_);
-      if (is_within(after, limits)) return Collapse{h_, stays, there};
-      if (!looser) looser = loosened(limits);
-      if (is_within(after, *looser)) return Collapse{h_, stays, there};
+      if (!is_within(after, limits)) {
+        if (!looser) looser = loosened(limits);
+        if (!is_within(after, *looser)) continue;
+      }
+      if (keeps_distance(*ring)) return Collapse{h_, stays, there};
     }
     return std::nullopt;
   }
@@ -261,6 +275,12 @@ class CollapseTest {
       });
     };
     return !has_as_long(a_, rings.a) && !has_as_long(b_, rings.b);
+  }
+
+  bool keeps_distance(const CollapsedRing& ring) const {
+    const double limit = options_.distance * target_length(m_, a_, b_);
+    return ring.distance(m_.positions.points.col(a_)) <= limit &&
+           ring.distance(m_.positions.points.col(b_)) <= limit;
   }
 
   /// The limits relaxed to the present worst values; not for alignment if the options insist on it.

@@ -39,6 +39,9 @@ class CollapsedRing {
   /// the vertex is at this position.
   WorstShape worst(const SurfacePosition& position);
 
+  /// Distance of x to these faces, with the vertex at the last position.
+  double distance(const Vec3& x) const;
+
  private:
   struct Face {
     int outgoing;                      // outgoing half-edge of the mesh at the first corner
@@ -70,11 +73,13 @@ struct CollapseOptions {
   /// measured before the remaining vertex is projected to the surface.
   double longest = 4. / 3;
   // Limits on the one-ring of the remaining vertex. All but the valence also admit the worst value before.
-  int valence = 9;                   // maximum valence of the remaining vertex
-  double angle = 10;                 // degrees; minimum angle of a face
-  double alignment = .3;             // minimum cosine between a face and the surface
-  double fold = .1;                  // minimum cosine between neighbouring faces
-  double sagitta = .2;               // maximum sagitta of an edge, over its target length
+  int valence = 9;        // maximum valence of the remaining vertex
+  double angle = 10;      // degrees; minimum angle of a face
+  double alignment = .3;  // minimum cosine between a face and the surface
+  double fold = .1;       // minimum cosine between neighbouring faces
+  double sagitta = .2;    // maximum sagitta of an edge, over its target length
+  /// Maximum distance of the two vertices from the faces after the collapse, in target lengths: keeps tips.
+  double distance = .3;
   bool insist_on_alignment = false;  // apply the alignment limit even where it was violated before
 };
 

@@ -18,8 +18,8 @@ struct SliverOptions {
   double share = .01;            // slivers tested per round, worst first, as a share of the faces
   int min_tested = 10;           // lower limit of that number
   int max_tested = 200;          // upper limit of that number
-  double share_in_all = .1;      // maximum number of slivers tested in all stages, as a share of the faces
-  int min_in_all = 60;           // lower limit of that maximum
+  double share_in_all = .03;     // maximum number of slivers tested in all stages, as a share of the faces
+  int min_in_all = 40;           // lower limit of that maximum
   double noticeable_move = .03;  // in target lengths; shorter moves are no reason to test edges again
   int valence = 9;               // maximum valence of a vertex that gains edges
   size_t searched = 10;  // candidates per sliver, the best after relaxation, that are tested to the end
