@@ -11,9 +11,10 @@ enum ExitCode {
   unacceptable_mesh = 4,  // well-formed, but not an oriented manifold with area
   output_failed = 5,      // an existing file is unchanged
   numerical_failure = 7,
-  limit_reached = 8,  // memory limit, without a usable result
-  interrupted = 130,  // SIGINT; the best mesh so far was written
-  terminated = 143,   // SIGTERM; the best mesh so far was written
+  limit_reached = 8,   // memory limit, without a usable result
+  promise_broken = 9,  // the result does not keep what it must keep of the input; it was not written
+  interrupted = 130,   // SIGINT; the best mesh so far was written
+  terminated = 143,    // SIGTERM; the best mesh so far was written
 };
 
 }  // namespace hooke::app

@@ -102,7 +102,8 @@ auto in_the_name_of(const std::string& name, const Work& work) {
   }
 }
 
-RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order, Stopwatch& stopwatch) {
+RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order, const KnownInput& known,
+                      Stopwatch& stopwatch) {
   ProgressLine line(s);
   const Observer observer = [&](const Progress& p) {
     line.show(p);
@@ -110,8 +111,8 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order
   };
   return in_the_name_of(name_of_input(s), [&] {
     return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, observer)
-                   : remesh_with_restarts(mesh, std::move(memory_order), s.remesh, s.restarts, observer,
-                                          &stopwatch);
+                   : remesh_with_restarts(mesh, std::move(memory_order), s.remesh, s.restarts, known,
+                                          observer, &stopwatch);
   });
 }
 
@@ -136,8 +137,13 @@ void measure_deviation_from_input(const Original& original, const MeasuredSurfac
       surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
-  if (record.result->adaptation.rounds > 0)
-    record.deviation->displacement.reset();  // vertices do not correspond
+}
+
+/// Throws ResultError if the result does not keep what it must keep and is not accepted nevertheless.
+void require_promises(const Settings& s, const RunRecord& record) {
+  if (s.accept_invalid || record.result->reason == StopReason::interrupted) return;
+  const std::string broken = broken_promises(s, record);
+  if (!broken.empty()) throw ResultError(printable(s.output.string()) + ": not written: " + broken);
 }
 
 /// Optimizes the mesh, measures the result and prepares its output files.
@@ -145,8 +151,10 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
                  OutputFiles& files, Stopwatch& stopwatch) {
   TriMesh& mesh = loaded.mesh;
   if (!keeps_faces(s)) original.memory_order = loaded.memory_order;
-  record.result = timed(&stopwatch, "remesh",
-                        [&] { return optimize(s, mesh, std::move(loaded.memory_order), stopwatch); });
+  record.result = timed(&stopwatch, "remesh", [&] {
+    return optimize(s, mesh, std::move(loaded.memory_order), {&record.before, original.tree_order},
+                    stopwatch);
+  });
   return_free_memory();
   RemeshResult& done = *record.result;
   const MemoryOrder memory_order = std::move(done.memory_order);
@@ -158,13 +166,20 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   const MeasuredSurface result =
       surface_of(memory_order.order.gather(vertex_points(mesh)), memory_order, stopwatch,
                  keeps_faces(s) ? original.tree_order : std::vector<int>());
-  record.after =
-      timed(&stopwatch, "after", [&] { return measure(result, mesh, memory_order.order, stopwatch); });
-  bound_between_creases(record.after->worst_faces, result, done.crease_edges);
+  if (done.measures) {
+    record.after = std::move(done.measures->quality);
+    record.deviation = std::move(done.measures->deviation);
+  } else {
+    record.after =
+        timed(&stopwatch, "after", [&] { return measure(result, mesh, memory_order.order, stopwatch); });
+    bound_between_creases(record.after->worst_faces, result, done.crease_edges);
+    measure_deviation_from_input(original, result, record, stopwatch);
+  }
+  if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
+  require_promises(s, record);
   if (!done.vertex_limits.empty())
     for (WorstFace& face : record.after->worst_faces)
       face.reasons = limiting_factors(face, done.vertex_limits);
-  measure_deviation_from_input(original, result, record, stopwatch);
   const VertexData data = data_of_result(s, loaded, original, result.points, memory_order, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
@@ -207,6 +222,8 @@ int run(Settings s) {
       s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.restarts, s.effort);
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
+  if (s.max_distance_share > 0)
+    s.restarts.preservation.max_distance = s.max_distance_share * record.before.extent.diagonal;
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, record, files, stopwatch);
@@ -237,6 +254,9 @@ int main(int argc, char** argv) {
   } catch (const OutputError& e) {
     print_error(e.what());
     return output_failed;
+  } catch (const ResultError& e) {
+    print_error(e.what());
+    return promise_broken;
   } catch (const NumericalError& e) {
     print_error(e.what());
     return numerical_failure;

@@ -189,6 +189,11 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
          "smooth on either side only")
       ->type_name("DEG|off")
       ->default_str("40; off with --paper");
+  add_choice(app, "--feature-noise", s.remesh.constraints.features.drops_noise,
+             "Whether sharp edges may be taken for noise and smoothed: those in short chains, and where the "
+             "surface is rough or round",
+             Choices<bool>{{"auto", true}, {"off", false}})
+      ->default_str("auto");
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
 }
 
@@ -202,6 +207,16 @@ void add_reports(CLI::App& app, Settings& s) {
           ""))
       ->type_name("FILE");
   add_file(app, "--trace", s.trace, "Seconds and memory of every stage, as CSV");
+}
+
+void add_promises(CLI::App& app, Settings& s, RawOptions& raw) {
+  app.add_option("--max-distance", raw.max_distance,
+                 "How far the surfaces of input and output may be apart, in file units or % of the box's "
+                 "diagonal; the default follows the curvature of the input")
+      ->type_name("X|X%|off");
+  app.add_flag("--accept-invalid", s.accept_invalid,
+               "Write a result even if it does not keep the surface, creases or topology of the input, or "
+               "has new folds or self-intersections; without it that ends with exit code 9");
 }
 
 void add_run(CLI::App& app, Settings& s) {
@@ -230,6 +245,8 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   add_motion(app, s);
   app.option_defaults()->group("Constraints");
   add_constraints(app, s, raw);
+  app.option_defaults()->group("What the output must keep");
+  add_promises(app, s, raw);
   app.option_defaults()->group("Measuring and reports");
   add_reports(app, s);
   app.option_defaults()->group("Running");

@@ -91,7 +91,65 @@ void warn_of_sizing(const Settings& s, RunRecord& run) {
            run.output->path, 100 * rms, 100 * max_rms, advice)});
 }
 
+void warn_of_promises(const Settings& s, RunRecord& run) {
+  const std::string broken = broken_promises(s, run);
+  if (!broken.empty()) run.warnings.push_back({"promise_broken", run.output->path + ": " + broken});
+}
+
+/// Tells of a result that was not made as asked, because it would have broken a promise.
+void warn_of_rescue(RunRecord& run) {
+  const auto why = [&]() -> const char* {
+    switch (run.result->rescue) {
+      case Rescue::none:
+        break;
+      case Rescue::tips:
+        return "vertices at tips of the surface stand still; without that it would lose them";
+      case Rescue::closest:
+        return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input";
+      case Rescue::put_back:
+        return "vertices were put back to where they were, with the faces of the input; faces without room "
+               "to move cannot be mended so: use --connectivity adapt";
+    }
+    return nullptr;
+  };
+  if (const char* text = why())
+    run.warnings.push_back({"result_rescued", fmt::format("{}: {}", run.output->path, text)});
+}
+
+void warn_of_dropped_creases(RunRecord& run) {
+  const CreaseCounts& c = run.result->creases;
+  if (c.dropped > 0)
+    run.warnings.push_back(
+        {"sharp_edges_dropped",
+         fmt::format("{}: {} of {} sharp edges were taken for noise; --feature-noise off keeps them",
+                     run.input.path, c.dropped, c.sharp)});
+}
+
 }  // namespace
+
+std::string broken_promises(const Settings& s, const RunRecord& run) {
+  if (!run.result->measures || run.result->measures->preservation.holds()) return "";
+  const Preservation& p = run.result->measures->preservation;
+  std::vector<std::string> broken;
+  const auto place = [](const Vec3& x) { return fmt::format("{:.6g} {:.6g} {:.6g}", x[0], x[1], x[2]); };
+  if (!p.topology_kept) broken.push_back("components, boundary loops or holes are not those of the input");
+  if (!p.far_vertices.empty() || !p.lost_vertices.empty()) {
+    std::string volume;
+    if (run.deviation->volume_change)
+      volume = fmt::format(", volume {:+.2g} %", 100 * *run.deviation->volume_change);
+    broken.push_back(fmt::format("the surface would be {:.4g} ({:.2g} % of the size) from that of {} at {}{}",
+                                 p.distance, 100 * p.distance / run.deviation->diagonal, run.input.path,
+                                 place(p.place), volume));
+  }
+  if (!p.creases_kept)
+    broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away", p.crease_loss));
+  if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over", p.flipped_faces));
+  if (p.new_folds > 0) broken.push_back(fmt::format("{} new folds", p.new_folds));
+  if (p.new_crossings > 0) broken.push_back(fmt::format("{} new self-intersections", p.new_crossings));
+  const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
+  return fmt::format("{}; try {}, or --accept-invalid to write it nevertheless", fmt::join(broken, "; "),
+                     adapts ? "a smaller --length, --connectivity flip" : "--feature-noise off");
+}
 
 void warn_of_length(const Settings& s, double length, double natural, RunRecord& run) {
   const double ratio = length / natural;
@@ -119,9 +177,12 @@ void warn_of_coincident_boundary(std::size_t count, RunRecord& run) {
 }
 
 void add_result_warnings(const Settings& s, RunRecord& run) {
+  warn_of_promises(s, run);
   warn_of_folds(run);
   warn_of_crossings(run);
   warn_of_distance(s, run);
+  warn_of_rescue(run);
+  warn_of_dropped_creases(run);
   warn_of_count(run);
   warn_of_sizing(s, run);
   if (s.paper && run.result->reason != StopReason::converged)

@@ -17,4 +17,8 @@ void warn_of_coincident_boundary(std::size_t count, RunRecord& run);
 /// and edge lengths. Pre-condition: the run has a result that was measured.
 void add_result_warnings(const Settings& settings, RunRecord& run);
 
+/// What the result does not keep of the input, the greatest damage first, and what to do; empty if it keeps
+/// all, or was not measured.
+std::string broken_promises(const Settings& settings, const RunRecord& record);
+
 }  // namespace hooke::app

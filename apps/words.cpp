@@ -51,6 +51,19 @@ double parse_gradation(const std::string& text) {
   return value;
 }
 
+/// Sets the maximum distance: "off" (infinity), a positive length, or X% of the diagonal.
+void set_max_distance(const std::string& text, Settings& s) {
+  const auto [value, unit] =
+      text == "off" ? NumberAndUnit{std::numeric_limits<double>::infinity(), ""} : split(text);
+  if (!(unit.empty() || unit == "%") || !(value > 0) || (std::isinf(value) && text != "off"))
+    throw Error(fmt::format("--max-distance {}; expected a positive number, X% of the diagonal, or off",
+                            in_quotes(text)));
+  if (unit == "%")
+    s.max_distance_share = value / 100;
+  else
+    s.restarts.preservation.max_distance = value;
+}
+
 /// Parses an angle in degrees such as "40", or "off" (180).
 double parse_feature_angle(const std::string& text) {
   if (text == "off") return 180;
@@ -100,7 +113,8 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
       if (idle && raw.given(option)) throw Error(fmt::format("{} {}; leave it out", option, why));
   };
   refuse(s.paper,
-         {"--effort", "--feature-angle", "--map", "--integrator", "--polish", "--altitude", "--refit"},
+         {"--effort", "--feature-angle", "--feature-noise", "--map", "--integrator", "--polish", "--altitude",
+          "--refit", "--max-distance", "--accept-invalid"},
          "has no part in --paper");
   refuse(s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--connectivity"},
          "changes faces, which --paper keeps");
@@ -129,6 +143,8 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.paper_options.evolution.damped = s.remesh.damped;
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
+  s.restarts.preservation.feature_angle = s.remesh.constraints.features.angle;
+  if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.max_outer)
     s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *raw.max_outer;

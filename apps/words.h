@@ -14,6 +14,7 @@ struct RawOptions {
   std::string tolerance = "0.1%";
   std::string gradation;
   std::optional<std::string> feature_angle;
+  std::optional<std::string> max_distance;
   std::optional<double> rho;
   std::optional<int> max_outer, max_steps;
   std::optional<BoundaryRule> boundary;

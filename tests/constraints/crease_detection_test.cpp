@@ -46,11 +46,12 @@ TEST(Features, OffMeansNone) {
   EXPECT_TRUE(features_of(test::cube(), {.angle = 180}).empty());
 }
 
-TEST(Features, OnlyAnglesAboveTheThresholdCount) {
+TEST(Features, BetweenFlatRegionsSmallAnglesCountToo) {
   const auto bent = [](double degrees) {
     return features_of(bent_sheet(20, [degrees](double) { return degrees; })).size();
   };
-  EXPECT_EQ(bent(39), 0u);
+  EXPECT_EQ(bent(.9), 0u);
+  EXPECT_EQ(bent(1.1), 20u);
   EXPECT_EQ(bent(41), 20u);
 }
 

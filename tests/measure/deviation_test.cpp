@@ -26,7 +26,7 @@ TEST(Deviation, OfAMeshFromItselfIsZero) {
     EXPECT_LT(d.to_reference.max, 1e-15);
     EXPECT_LT(d.from_reference.max, 1e-15);
     EXPECT_NEAR(d.normal_deviation.max, 0, 1e-6);
-    EXPECT_EQ(d.flipped_faces, 0u);
+    EXPECT_EQ(d.flipped_faces.size(), 0u);
     EXPECT_EQ(d.area_change, 0);
   }
 }
@@ -75,7 +75,7 @@ TEST(Deviation, WorksBetweenDifferentConnectivities) {
   EXPECT_LT(d.from_reference.max, 1e-15);
   EXPECT_LT(*d.boundary_to_reference, 1e-15);
   EXPECT_NEAR(*d.area_change, 0, 1e-14);
-  EXPECT_EQ(d.flipped_faces, 0u);
+  EXPECT_EQ(d.flipped_faces.size(), 0u);
 }
 
 TEST(Deviation, DirectionsAreToldApart) {  // the small square lies in the large one, not the other way round
@@ -106,12 +106,12 @@ TEST(Deviation, FacesTurnedOverAreCounted) {
     expected += (b - a).cross(c - a).z() < 0;
   }
   EXPECT_GT(expected, 0u);
-  EXPECT_EQ(measure(t, folded).flipped_faces, expected);
+  EXPECT_EQ(measure(t, folded).flipped_faces.size(), expected);
   EXPECT_GE(measure(t, folded).opposing_faces.size(), expected);
 
   test::Triangles inside_out = test::sphere(2);
   for (Triangle& f : inside_out.faces) std::swap(f[0], f[1]);
-  EXPECT_EQ(measure(test::sphere(2), inside_out).flipped_faces, inside_out.faces.size());
+  EXPECT_EQ(measure(test::sphere(2), inside_out).flipped_faces.size(), inside_out.faces.size());
 }
 
 TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {
@@ -162,7 +162,7 @@ TEST(Deviation, FromAnEmptyReferenceIsInfinite) {
   const Deviation d = measure(empty, test::cube());
   EXPECT_TRUE(std::isinf(d.to_reference.max));
   EXPECT_FALSE(d.displacement || d.area_change || d.volume_change);
-  EXPECT_EQ(d.flipped_faces, 0u);
+  EXPECT_EQ(d.flipped_faces.size(), 0u);
 }
 
 }  // namespace hooke::deviation_test

@@ -74,7 +74,7 @@ TEST(CreaseAdapt, ACubeOfTwelveFacesIsRefined) {
 }
 
 TEST(CreaseAdapt, ACylinderStaysRoundUpToItsFeatureEdges) {
-  const test::Triangles t = test::cylinder(40);
+  const test::Triangles t = test::cylinder(40, .15);
   const double L = natural(t);
   for (double factor : {.5, 1., 2.}) {
     const Outcome o = remeshed(t, factor * natural(t), adaptation_options());

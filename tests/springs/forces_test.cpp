@@ -15,7 +15,7 @@ namespace hooke::forces_test {
 
 using test::Triangles;
 
-Adjacency connect(const Triangles& t) {
+Adjacency connected(const Triangles& t) {
   return make_adjacency(static_cast<int>(t.points.cols()), t.faces);
 }
 
@@ -66,7 +66,7 @@ Eigen::Matrix3d some_rotation() {
 
 TEST(StringForces, AreMinusTheGradientOfTheEnergy) {
   const Triangles t = test::sphere(1, .2);
-  const Adjacency c = connect(t);
+  const Adjacency c = connected(t);
   const auto lengths = uneven_lengths(c, .55);
   const Mat3X forces = strings(t.points, c, lengths);
   const double h = 1e-6;
@@ -81,7 +81,7 @@ TEST(StringForces, AreMinusTheGradientOfTheEnergy) {
 
 TEST(StringForces, OfOneEdgeFollowTheModifiedLaw) {
   const Triangles t = hinge(0);
-  const Adjacency c = connect(t);
+  const Adjacency c = connected(t);
   std::vector<double> lengths(c.edges.size());
   for (size_t e = 0; e < lengths.size(); ++e)
     lengths[e] = (t.points.col(c.edges[e][1]) - t.points.col(c.edges[e][0])).norm();
@@ -94,7 +94,7 @@ TEST(StringForces, OfOneEdgeFollowTheModifiedLaw) {
 
 TEST(StringForces, SumToZeroAndExertNoMoment) {
   const Triangles t = test::sphere(2, .3);
-  const Adjacency c = connect(t);
+  const Adjacency c = connected(t);
   const Mat3X forces = strings(t.points, c, uneven_lengths(c, .3));
   Vec3 moment = Vec3::Zero();
   for (Eigen::Index v = 0; v < forces.cols(); ++v) moment += Vec3(t.points.col(v)).cross(Vec3(forces.col(v)));
@@ -106,13 +106,13 @@ TEST(StringForces, SumToZeroAndExertNoMoment) {
 TEST(StringForces, OfAnEdgeOfLengthZeroAreLeftOut) {
   Triangles t = hinge(0);
   t.points.col(1) = t.points.col(0);
-  const Adjacency c = connect(t);
+  const Adjacency c = connected(t);
   EXPECT_TRUE(strings(t.points, c, uneven_lengths(c, 1)).allFinite());
 }
 
 TEST(StringForces, CommuteWithRigidMotionAndScale) {
   const Triangles t = test::sphere(2, .3);
-  const Adjacency c = connect(t);
+  const Adjacency c = connected(t);
   auto lengths = uneven_lengths(c, .3);
   const Mat3X forces = strings(t.points, c, lengths);
   const Mat3X moved = ((7 * some_rotation()) * t.points).colwise() + Vec3(3, -2, 5);
@@ -122,12 +122,12 @@ TEST(StringForces, CommuteWithRigidMotionAndScale) {
 
 TEST(TorqueForces, VanishOnAFlatMesh) {
   const Triangles t = test::grid(6, test::flat, .3);
-  EXPECT_LT(torques(t.points, connect(t)).norm(), 1e-12);
+  EXPECT_LT(torques(t.points, connected(t)).norm(), 1e-12);
 }
 
 TEST(TorqueForces, OfEveryFaceSumToZero) {
   const Triangles t = test::sphere(2, .3);
-  const Mat3X forces = torques(t.points, connect(t));
+  const Mat3X forces = torques(t.points, connected(t));
   EXPECT_GT(forces.norm(), .1);
   EXPECT_LT(forces.rowwise().sum().norm(), 1e-12 * forces.norm());
 }
@@ -135,7 +135,7 @@ TEST(TorqueForces, OfEveryFaceSumToZero) {
 TEST(TorqueForces, OfAHingeFollowTheFormula) {
   for (const double theta : {1e-9, .3, 1.5, 3., std::numbers::pi - 1e-4}) {
     const Triangles t = hinge(theta);
-    const Mat3X forces = torques(t.points, connect(t));
+    const Mat3X forces = torques(t.points, connected(t));
     // T = theta / (1 + cos theta) / d about the edge, the tip is 2/3 of the height 1 from the centre, d =
     // 2/3.
     const double expected = theta / (2 * std::pow(std::cos(theta / 2), 2)) / (2. / 3) * (2. / 3);
@@ -148,7 +148,7 @@ TEST(TorqueForces, UnfoldAHingeEitherWay) {
   for (const double theta : {-3., -1., -.01, .01, 1., 3.}) {
     Triangles t = hinge(theta);
     const double before = normal_angle(t);
-    const Mat3X forces = torques(t.points, connect(t));
+    const Mat3X forces = torques(t.points, connected(t));
     t.points += 1e-4 / forces.norm() * forces;
     EXPECT_LT(normal_angle(t), before) << theta;
   }
@@ -156,25 +156,25 @@ TEST(TorqueForces, UnfoldAHingeEitherWay) {
 
 TEST(TorqueForces, OfAFlatFoldAreLeftOut) {
   const Triangles t = hinge(std::numbers::pi);
-  EXPECT_EQ(torques(t.points, connect(t)).norm(), 0);
+  EXPECT_EQ(torques(t.points, connected(t)).norm(), 0);
 }
 
 TEST(TorqueForces, IgnoreADegenerateFace) {
   Triangles t = hinge(1);
   t.points.col(3) = Vec3(0, .1, 0);  // on the common edge
-  EXPECT_EQ(torques(t.points, connect(t)).norm(), 0);
+  EXPECT_EQ(torques(t.points, connected(t)).norm(), 0);
 }
 
 TEST(TorqueForces, DoNotDependOnTheSideOfTheNormals) {
   Triangles t = test::sphere(2, .3);
-  const Mat3X outward = torques(t.points, connect(t));
+  const Mat3X outward = torques(t.points, connected(t));
   for (Triangle& f : t.faces) std::swap(f[1], f[2]);
-  EXPECT_LT((torques(t.points, connect(t)) - outward).norm(), 1e-12 * outward.norm());
+  EXPECT_LT((torques(t.points, connected(t)) - outward).norm(), 1e-12 * outward.norm());
 }
 
 TEST(TorqueForces, CommuteWithRigidMotionAndIgnoreScale) {
   const Triangles t = test::sphere(2, .3);
-  const Adjacency c = connect(t);
+  const Adjacency c = connected(t);
   const Mat3X forces = torques(t.points, c);
   const Mat3X moved = ((7 * some_rotation()) * t.points).colwise() + Vec3(3, -2, 5);
   EXPECT_LT((torques(moved, c) - some_rotation() * forces).norm(), 1e-11 * forces.norm());
@@ -182,7 +182,7 @@ TEST(TorqueForces, CommuteWithRigidMotionAndIgnoreScale) {
 
 TEST(Forces, DoNotDependOnTheNumberOfThreads) {
   const Triangles t = test::sphere(4, .2);
-  const Adjacency c = connect(t);
+  const Adjacency c = connected(t);
   const auto lengths = uneven_lengths(c, .07);
   const auto both = [&](int threads) {
     const ThreadLimit limit(threads);

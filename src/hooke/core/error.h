@@ -44,4 +44,10 @@ class NumericalError : public Error {
   using Error::Error;
 };
 
+/// The result does not keep what it must keep of the input.
+class ResultError : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace hooke

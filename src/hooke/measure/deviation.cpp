@@ -245,6 +245,24 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
   return deviation;
 }
 
+/// Is there no face of the reference about as close to the centre of this face as the closest one, `at`, that
+/// faces the same way? Beside creases and on thin walls there is one.
+bool faces_no_like(const MeasuredSurface& reference, const Face& face, const Vec3& n,
+                   const ClosestFacePoint& at) {
+  constexpr double as_close = 2;      // over the distance of the closest face
+  constexpr double touching = 1e-6;   // of the diagonal
+  constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
+  const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
+  const double length = n.norm();
+  if (!(length > 0)) return false;
+  const ClosestPoint like = reference.tree.closest(centre, [&](int f) {
+    const Vec3 m = area_vector(reference.points, reference.adjacency.faces[static_cast<size_t>(f)]);
+    return m.dot(n) >= min_cosine * m.norm() * length;
+  });
+  const double limit = as_close * (centre - at.point).norm() + touching * reference.extent.diagonal;
+  return like.face < 0 || like.squared_distance > limit * limit;
+}
+
 /// Unit vertex normals, weighted by face area, so that a folded sliver does not turn them.
 Mat3X vertex_normals(const MeasuredSurface& surface) {
   Mat3X normals = Mat3X::Zero(3, surface.adjacency.vertex_count);
@@ -278,13 +296,16 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       const auto f = static_cast<size_t>(faces[k].id);
       const Vec3 n = area_vector(faces[k]);
       const Face& there = face_at(reference, closest[k]);
-      flipped[f] = n.dot(normal_at(normals, there, closest[k])) < 0;
+      flipped[f] = n.dot(normal_at(normals, there, closest[k])) < 0 &&
+                   faces_no_like(reference, faces[k], n, closest[k]);
       opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
     }
   });
-  deviation.flipped_faces = static_cast<size_t>(std::ranges::count(flipped, 1));
-  for (size_t f = 0; f < opposing.size(); ++f)
+  for (size_t f = 0; f < opposing.size(); ++f) {
+    if (flipped[f]) deviation.flipped_faces.push_back(result.ids.face(static_cast<int>(f)));
     if (opposing[f]) deviation.opposing_faces.push_back(result.ids.face(static_cast<int>(f)));
+  }
+  std::ranges::sort(deviation.flipped_faces);
   std::ranges::sort(deviation.opposing_faces);
 }
 

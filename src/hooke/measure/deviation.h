@@ -41,11 +41,11 @@ struct Deviation {
   /// Between the normal of a result face and that of the reference face closest to its centre; rms over the
   /// area.
   MaxRms normal_deviation;
-  /// Faces whose normal opposes the reference's vertex normals, interpolated at the point closest to the
-  /// centre.
-  std::size_t flipped_faces = 0;
-  /// Ids, ascending, of the flipped faces and of faces whose normal opposes that of the reference face
-  /// closest to their centre, which lie at folds of the reference itself.
+  /// Ids, ascending, of faces that are turned over: no face of the reference about as close as the closest
+  /// one faces the same way.
+  std::vector<int> flipped_faces;
+  /// Ids, ascending, of the flipped faces and of faces that oppose the closest face of the reference, which
+  /// lie at folds of the reference itself.
   std::vector<int> opposing_faces;
 
   std::optional<double> area_change;    // result / reference - 1

@@ -323,6 +323,24 @@ void remove_slivers_in_passes(Workspace& work, const RemeshOptions& options, con
         result.reason != StopReason::interrupted && remove_slivers_once(work, options, observer, result);
 }
 
+struct InputCreases {
+  std::vector<Edge> edges;  // ids of the input
+  int sharp = 0, dropped = 0;
+};
+
+/// Pre-condition: the mesh of the workspace is that of the input.
+InputCreases input_creases(const Workspace& work, const CreaseOptions& options) {
+  InputCreases input{.edges = crease_edges(*work.adjacency)};
+  for (Edge& e : input.edges)
+    for (int& v : e) v = work.order.old_vertex[static_cast<size_t>(v)];
+  if (options.angle >= 180) return input;
+  for (int e : sharp_edges(*work.start, *work.adjacency, options.angle)) {
+    ++input.sharp;
+    input.dropped += !work.adjacency->is_crease(e);
+  }
+  return input;
+}
+
 }  // namespace
 
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer,
@@ -335,6 +353,7 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
                     const Observer& observer, Stopwatch* stopwatch) {
   Workspace work(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction,
                  stopwatch);
+  const InputCreases input = input_creases(work, options.constraints.features);
   const EnergyTerms terms{.altitude = options.altitude};
   const double corner_angle = options.constraints.corner_angle;
   AdaptResult adapted;
@@ -370,6 +389,9 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
       remove_slivers_in_passes(work, options, observer, result);
       break;
   }
+  result.input_creases = input.edges;
+  result.creases.sharp = input.sharp;
+  result.creases.dropped = input.dropped;
   if (options.map) result.map = work.map();
   result.input_points = work.copy_back(mesh);
   result.memory_order = work.memory_order();

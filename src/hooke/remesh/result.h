@@ -7,6 +7,7 @@
 #include "hooke/integrator/angle_springs.h"
 #include "hooke/integrator/relaxation.h"
 #include "hooke/integrator/time_step.h"
+#include "hooke/measure/preservation.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/surface_point.h"
 
@@ -41,10 +42,27 @@ struct CreaseCounts {
   int corners = 0;         // fixed vertices where curves end
   int curve_vertices = 0;  // all other vertices on creases: they slide along, or stay at bends
   int charts = 1;          // smooth pieces between creases
+  int sharp = 0;           // edges of the input sharper than the feature angle
+  int dropped = 0;         // those of them that were taken for noise
 };
 
 /// The counts for the creases of the workspace.
 CreaseCounts count_creases(const Workspace& work);
+
+/// How a result came to keep what it must keep of the input, where the first run did not.
+enum class Rescue {
+  none,
+  tips,      // the vertices that were lost stand still
+  closest,   // vertices were projected to the faces of the input
+  put_back,  // vertices were put back to where they were
+};
+
+/// The measures of a result and of its relation to the input.
+struct ResultMeasures {
+  Quality quality;
+  Deviation deviation;
+  Preservation preservation;
+};
 
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
@@ -59,6 +77,7 @@ struct RemeshResult {
   std::vector<int> folded_faces;  // folded against the surface, ids of the result
   CreaseCounts creases;
   std::vector<Edge> crease_edges;            // ids of the result
+  std::vector<Edge> input_creases;           // ids of the input
   FlipResult flips;                          // in the modes `flip` and `adapt`
   AdaptResult adaptation;                    // in mode `adapt`
   std::vector<MapEntry> map;                 // per vertex of the result
@@ -67,9 +86,11 @@ struct RemeshResult {
   int unprojected = 0;
   AngleSpringResult angle_springs;
   ProjectionCounts projection;
-  long long limited_steps = 0;  // vertex steps shortened by the guards
-  BoundCounts bound;            // time steps by the test that set them (paper_remesh() only)
-  FailedTests jam;              // the tests that no time step passed, if jammed (paper_remesh() only)
+  long long limited_steps = 0;             // vertex steps shortened by the guards
+  std::optional<ResultMeasures> measures;  // of remesh_with_restarts()
+  Rescue rescue = Rescue::none;
+  BoundCounts bound;  // time steps by the test that set them (paper_remesh() only)
+  FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)
 };
 
 /// The ids in the result of these faces of the workspace, ascending.

@@ -106,7 +106,7 @@ Json to_json(const Deviation& d) {
   json["normal_deviation"] = max_rms(d.normal_deviation);
   json["area_change"] = number(d.area_change);
   json["volume_change"] = number(d.volume_change);
-  json["flipped_faces"] = d.flipped_faces;
+  json["flipped_faces"] = d.flipped_faces.size();
   json["boundary_distance"] = {{"to_input", number(d.boundary_to_reference)},
                                {"from_input", number(d.boundary_from_reference)}};
   return json;
@@ -179,6 +179,25 @@ Json geometry_json(const RunRecord& run) {
   return j;
 }
 
+/// What the result keeps of the input; null if that was not measured.
+Json promises_json(const RunRecord& run) {
+  if (!run.result || !run.result->measures) return nullptr;
+  const Preservation& p = run.result->measures->preservation;
+  const char* const rescues[] = {"none", "tips", "closest", "put_back"};
+  return {{"kept", p.holds()},
+          {"flipped_faces", p.flipped_faces},
+          {"new_folds", p.new_folds},
+          {"new_self_intersections", p.new_crossings},
+          {"topology_kept", p.topology_kept},
+          {"creases_kept", p.creases_kept},
+          {"crease_loss", number(p.crease_loss)},
+          {"far_vertices", p.far_vertices.size()},
+          {"lost_vertices", p.lost_vertices.size()},
+          {"distance_over_limit", number(p.excess)},
+          {"place", vector(p.place)},
+          {"rescue", rescues[static_cast<int>(run.result->rescue)]}};
+}
+
 /// Null if no creases were found.
 Json creases_json(const RunRecord& run) {
   if (!run.result || run.result->creases.edges == 0) return nullptr;
@@ -186,6 +205,8 @@ Json creases_json(const RunRecord& run) {
   return {{"chains", c.curves},
           {"crease_edges", c.edges},
           {"crease_edges_kept", c.kept},
+          {"sharp_edges", c.sharp},
+          {"sharp_edges_dropped", c.dropped},
           {"corners", c.corners},
           {"curve_vertices", c.curve_vertices},
           {"charts", c.charts}};
@@ -256,6 +277,7 @@ Json report_json(const RunRecord& run) {
   j["input"] = file_json(run.input, run.before);
   j["output"] = run.output ? file_json(*run.output, *run.after) : Json();
   j["parameters"] = run.parameters;
+  j["promises"] = promises_json(run);
   j["before"] = to_json(run.before);
   j["after"] = run.after ? to_json(*run.after) : Json();
   j["geometry"] = run.deviation ? geometry_json(run) : Json();
@@ -418,6 +440,8 @@ Json parameters_json(const RemeshOptions& o, const RestartOptions& restarts, Eff
   j["boundary"] = name_of(o.constraints.boundary);
   j["corner_angle"] = o.constraints.corner_angle;
   j["feature_angle"] = where(o.constraints.features.angle < 180, o.constraints.features.angle);
+  j["feature_noise"] =
+      where(o.constraints.features.angle < 180, o.constraints.features.drops_noise ? "auto" : "off");
   j["fixed_vertices"] = o.constraints.fixed_vertices.size();
   j["guard_area_ratio"] = o.guards.area_ratio;
   j["guard_alignment"] = o.guards.alignment;

@@ -65,7 +65,7 @@ std::string deviation_rows(const Deviation& d) {
     const double boundary = std::max(*d.boundary_to_reference, *d.boundary_from_reference);
     out += row("distance of the boundary", text(boundary), share(boundary));
   }
-  out += row("flipped faces", text(d.flipped_faces), "");
+  out += row("flipped faces", text(d.flipped_faces.size()), "");
   return out;
 }
 

@@ -1,0 +1,318 @@
+#include "hooke/measure/preservation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/sagitta.h"
+
+namespace hooke {
+namespace {
+
+constexpr std::size_t block = 512;
+
+constexpr double max_sagittas = 12;
+constexpr double min_limit = 1e-3;  // of the diagonal
+constexpr double max_chord = .6;    // of an edge
+constexpr double max_rough = .5;    // of the mean edge, over 2 sagittas
+constexpr double max_crease_loss = .5;
+
+std::size_t index_of(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The arcs of the edges, sharp ones left out.
+std::vector<EdgeArc> smooth_arcs(const MeasuredSurface& surface, double feature_angle) {
+  std::vector<EdgeArc> arcs = edge_arcs(surface.points, surface.adjacency);
+  const double sharp = .5 * std::tan(feature_angle * std::numbers::pi / 720);
+  for (EdgeArc& arc : arcs)
+    if (arc.sagitta > sharp * arc.chord) arc = {};
+  return arcs;
+}
+
+double longest_edge(const MeasuredSurface& surface, int face) {
+  const Triangle& t = surface.adjacency.faces[index_of(face)];
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, (surface.points.col(t[k]) - surface.points.col(t[(k + 1) % 3])).norm());
+  return longest;
+}
+
+/// The vertices of `from` that lie beyond the limit from `to`, which limit_at(vertex, closest face of `to`)
+/// gives. Updates the greatest excess.
+template <typename LimitAt>
+std::vector<FarVertex> vertices_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
+                                       const LimitAt& limit_at, Preservation& p) {
+  const int n = from.adjacency.vertex_count;
+  std::vector<double> excess(index_of(n), 0), distances(index_of(n), 0);
+  parallel_for(index_of(n), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (from.adjacency.vertex_faces[static_cast<int>(v)].empty()) continue;
+      const ClosestPoint closest = to.tree.closest(from.points.col(static_cast<Eigen::Index>(v)));
+      if (closest.face < 0) continue;
+      distances[v] = std::sqrt(closest.squared_distance);
+      excess[v] = distances[v] / limit_at(static_cast<int>(v), closest.face);
+    }
+  });
+  std::vector<FarVertex> beyond;
+  for (int v = 0; v < n; ++v) {
+    if (excess[index_of(v)] > p.excess) {
+      p.excess = excess[index_of(v)];
+      p.distance = distances[index_of(v)];
+      p.place = from.points.col(v);
+    }
+    if (excess[index_of(v)] > 1) beyond.push_back({v, distances[index_of(v)]});
+  }
+  return beyond;
+}
+
+/// The limits on the faces of a mesh whose facets are meant, those that turn by more than 20 degrees at
+/// least.
+std::vector<double> facet_limits(const MeasuredSurface& surface) {
+  std::vector<double> limits = face_sagittas(smooth_arcs(surface, 12), surface.adjacency);
+  constexpr double margin = .8;  // the distances between samples may be greater
+  for (double& limit : limits) limit = margin * std::max(2 * limit, min_limit * surface.extent.diagonal);
+  return limits;
+}
+
+/// The corners of the faces of `from` with a sample beyond the limit from `to`. `limits`: per face of the
+/// reference, which is `to` or, if `is_reference`, `from`.
+void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
+                      const std::vector<double>& limits, bool is_reference, std::vector<FarVertex>& far,
+                      Preservation& p) {
+  const Adjacency& c = from.adjacency;
+  std::vector<double> excess(c.faces.size(), 0), distances(excess);
+  parallel_for(c.faces.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto corner = [&](std::size_t k) { return Vec3(from.points.col(c.faces[f][k % 3])); };
+      const auto sample = [&](const Vec3& x) {
+        const ClosestPoint closest = to.tree.closest(x);
+        const double distance = std::sqrt(closest.squared_distance),
+                     limit = limits[is_reference ? f : index_of(closest.face)];
+        distances[f] = std::max(distances[f], distance);
+        excess[f] = std::max(excess[f], distance / limit);
+      };
+      sample((corner(0) + corner(1) + corner(2)) / 3);
+      for (std::size_t k = 0; k < 3; ++k)
+        for (double t : {.25, .5, .75}) sample(corner(k) + t * (corner(k + 1) - corner(k)));
+    }
+  });
+  for (std::size_t f = 0; f < excess.size(); ++f) {
+    if (excess[f] > p.excess) {
+      p.excess = excess[f];
+      p.distance = distances[f];
+      p.place = from.points.col(c.faces[f][0]);
+    }
+    if (excess[f] > 1)
+      for (int v : c.faces[f]) far.push_back({v, distances[f]});
+  }
+}
+
+void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& result, double mean_edge,
+                       const PreservationOptions& o, Preservation& p) {
+  const double rough = o.faceted ? 0 : max_rough * mean_edge;
+  const double least = min_limit * reference.extent.diagonal;
+  const std::vector<double> sagittas = vertex_sagittas(
+      face_sagittas(smooth_arcs(reference, o.feature_angle), reference.adjacency), reference.adjacency);
+  const auto limit_of = [&](double sagitta) {
+    return std::max(least, std::min(max_sagittas * sagitta, 2 * sagitta + rough));
+  };
+  const auto limit_of_result = [&](int, int face) {
+    if (o.max_distance) return *o.max_distance;
+    double sagitta = 0;
+    for (int v : reference.adjacency.faces[index_of(face)])
+      sagitta = std::max(sagitta, sagittas[index_of(v)]);
+    return limit_of(sagitta);
+  };
+  const auto limit_of_reference = [&](int v, int face) {
+    if (o.max_distance) return *o.max_distance;
+    return std::max(limit_of(sagittas[index_of(v)]), max_chord * longest_edge(result, face));
+  };
+  p.far_vertices = vertices_beyond(result, reference, limit_of_result, p);
+  p.lost_vertices = vertices_beyond(reference, result, limit_of_reference, p);
+  if (!o.keeps_facets || o.max_distance) return;
+  const std::vector<double> limits = facet_limits(reference);
+  add_faces_beyond(result, reference, limits, false, p.far_vertices, p);
+  add_faces_beyond(reference, result, limits, true, p.lost_vertices, p);
+}
+
+std::vector<Triangle> as_segments(const std::vector<Edge>& edges) {
+  std::vector<Triangle> segments;
+  for (const auto& [a, b] : edges) segments.push_back({a, b, b});
+  return segments;
+}
+
+/// The edges at which faces turn by more than the angle, in degrees.
+std::vector<Edge> sharper_edges(const MeasuredSurface& surface, double angle) {
+  const double cosine = std::cos(angle * std::numbers::pi / 180);
+  const Adjacency& c = surface.adjacency;
+  std::vector<Edge> sharp;
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    const auto& [left, right] = c.edge_faces[e];
+    if (right < 0) continue;
+    const Vec3 n = face_shape(surface.points, c.faces[index_of(left)]).normal,
+               m = face_shape(surface.points, c.faces[index_of(right)]).normal;
+    if (!n.isZero(0) && !m.isZero(0) && n.dot(m) < cosine) sharp.push_back(c.edges[e]);
+  }
+  return sharp;
+}
+
+/// How far a smooth curve through the vertices may be from each crease edge: (l / 2) tan(phi / 4) where two
+/// creases, the shorter of length l, meet at a vertex and turn by phi, at most 60 degrees.
+std::vector<double> crease_sagittas(const MeasuredSurface& surface, const std::vector<Edge>& creases) {
+  const Mat3X& X = surface.points;
+  std::vector<std::vector<std::size_t>> at(index_of(surface.adjacency.vertex_count));
+  for (std::size_t e = 0; e < creases.size(); ++e)
+    for (int v : creases[e]) at[index_of(v)].push_back(e);
+  std::vector<double> sagittas(creases.size(), 0);
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    if (at[v].size() != 2) continue;
+    const auto direction = [&](std::size_t e) {
+      const auto& [a, b] = creases[e];
+      return Vec3(X.col(a == static_cast<int>(v) ? b : a) - X.col(static_cast<int>(v)));
+    };
+    const Vec3 in = -direction(at[v][0]), out = direction(at[v][1]);
+    const double turn = std::atan2(in.cross(out).norm(), in.dot(out));
+    if (turn >= std::numbers::pi / 3) continue;
+    for (std::size_t e : at[v])
+      sagittas[e] = std::max(sagittas[e], .5 * std::min(in.norm(), out.norm()) * std::tan(turn / 4));
+  }
+  return sagittas;
+}
+
+/// Of each edge the greatest distance of a sample from the closest other edge, and that edge.
+struct EdgeDistances {
+  std::vector<double> distance;
+  std::vector<std::size_t> closest;
+};
+
+EdgeDistances edge_distances(const Mat3X& points, const std::vector<Edge>& edges, const Mat3X& other_points,
+                             const std::vector<Edge>& others) {
+  constexpr int samples = 4;
+  const AabbTree tree(other_points, as_segments(others));
+  EdgeDistances d{std::vector<double>(edges.size(), 0), std::vector<std::size_t>(edges.size(), 0)};
+  parallel_for(edges.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const Vec3 a = points.col(edges[e][0]), b = points.col(edges[e][1]);
+      for (int k = 0; k <= samples; ++k) {
+        const ClosestPoint closest = tree.closest(a + (b - a) * k / samples);
+        const double distance = std::sqrt(closest.squared_distance);
+        if (distance < d.distance[e]) continue;
+        d.distance[e] = distance;
+        d.closest[e] = index_of(closest.face);
+      }
+    }
+  });
+  return d;
+}
+
+/// Compares the creases that were found with those of the result.
+void measure_creases(const CreasedSurface& reference, const CreasedSurface& result, double least,
+                     Preservation& p) {
+  if (reference.creases.empty()) return;
+  if (result.creases.empty()) {
+    p.crease_loss = reference.surface.extent.diagonal;
+    p.creases_kept = false;
+    return;
+  }
+  const Mat3X& X = result.surface.points;
+  const EdgeDistances d = edge_distances(reference.surface.points, reference.creases, X, result.creases);
+  p.crease_loss = *std::ranges::max_element(d.distance);
+  for (std::size_t e = 0; e < d.distance.size(); ++e) {
+    const auto& [a, b] = result.creases[d.closest[e]];
+    p.creases_kept &= d.distance[e] <= std::max(least, max_crease_loss * (X.col(a) - X.col(b)).norm());
+  }
+}
+
+/// Compares all sharp edges, both ways, where the facets are meant: each lies on one of the other mesh that
+/// is at least half as sharp.
+void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface& result, double angle,
+                         Preservation& p) {
+  constexpr double exact = 1e-6, certain = 1.1;
+  const auto compare = [&](const MeasuredSurface& from, double from_angle, const MeasuredSurface& to,
+                           bool is_reference, std::vector<FarVertex>& far) {
+    const std::vector<Edge> edges = sharper_edges(from, from_angle), others = sharper_edges(to, .5 * angle);
+    if (edges.empty()) return;
+    const std::vector<double> sagittas = crease_sagittas(reference, is_reference ? edges : others);
+    EdgeDistances d{std::vector<double>(edges.size(), reference.extent.diagonal),
+                    std::vector<std::size_t>(edges.size(), 0)};
+    if (!others.empty()) d = edge_distances(from.points, edges, to.points, others);
+    p.crease_loss = std::max(p.crease_loss, *std::ranges::max_element(d.distance));
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const double sagitta = others.empty() ? 0 : sagittas[is_reference ? e : d.closest[e]];
+      if (d.distance[e] <= std::max(exact * reference.extent.diagonal, 2 * sagitta)) continue;
+      p.creases_kept = false;
+      for (int v : edges[e]) far.push_back({v, d.distance[e]});
+    }
+  };
+  compare(reference, angle, result, true, p.lost_vertices);
+  compare(result, certain * angle, reference, false, p.far_vertices);
+}
+
+}  // namespace
+
+bool is_faceted(const Mat3X& points, const Adjacency& c) {
+  constexpr double flat = 1e-6, flat_share = .85, long_edge = 3, long_share = .5;
+  const std::vector<EdgeArc> arcs = edge_arcs(points, c);
+  std::vector<double> lengths;
+  for (const auto& [a, b] : c.edges) lengths.push_back((points.col(a) - points.col(b)).norm());
+  const std::vector<double> spacing = second_shortest_edges(lengths, c);
+  std::size_t flats = 0, longs = 0;
+  for (std::size_t f = 0; f < c.faces.size(); ++f) {
+    double longest = 0, narrowest = std::numeric_limits<double>::infinity();
+    bool is_flat = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t e = index_of(c.face_edges[f][k]);
+      longest = std::max(longest, lengths[e]);
+      narrowest = std::min(narrowest, spacing[index_of(c.faces[f][k])]);
+      is_flat |= arcs[e].chord > 0 && arcs[e].sagitta <= flat * arcs[e].chord;
+    }
+    flats += is_flat;
+    longs += longest > long_edge * narrowest;
+  }
+  const double faces = static_cast<double>(c.faces.size());
+  return static_cast<double>(flats) >= flat_share * faces || static_cast<double>(longs) >= long_share * faces;
+}
+
+std::size_t count_folds_beside(const MeasuredSurface& surface, const std::vector<Edge>& creases) {
+  std::set<Edge> excluded;
+  for (const auto& [a, b] : creases) excluded.insert({std::min(a, b), std::max(a, b)});
+  const Adjacency& c = surface.adjacency;
+  std::size_t count = 0;
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    const auto& [left, right] = c.edge_faces[e];
+    if (right < 0) continue;
+    constexpr double min_fold = -1e-6;  // right-angled creases are no folds
+    const double cosine = cosine_between(surface.points, c.faces[index_of(left)], c.faces[index_of(right)]);
+    const auto& [a, b] = c.edges[e];
+    count += cosine < min_fold && !excluded.contains({std::min(a, b), std::max(a, b)});
+  }
+  return count;
+}
+
+Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
+                                  const Deviation& deviation, const PreservationOptions& options) {
+  Preservation p;
+  p.flipped_faces = deviation.flipped_faces.size();
+  measure_distances(reference.surface, result.surface, result.quality.edge_length.mean, options, p);
+  const auto excess_of = [](std::size_t after, std::size_t before) {
+    return after - std::min(after, before);
+  };
+  p.new_folds = excess_of(count_folds_beside(result.surface, result.creases),
+                          count_folds_beside(reference.surface, reference.creases));
+  p.new_crossings = excess_of(result.quality.self_intersections.value_or(0),
+                              reference.quality.self_intersections.value_or(0));
+  const Topology &before = reference.quality.topology, &after = result.quality.topology;
+  p.topology_kept = before.components == after.components && before.boundary_loops == after.boundary_loops &&
+                    before.euler == after.euler;
+  if (options.keeps_facets)
+    measure_sharp_edges(reference.surface, result.surface, options.feature_angle, p);
+  else
+    measure_creases(reference, result, min_limit * reference.surface.extent.diagonal, p);
+  return p;
+}
+
+}  // namespace hooke

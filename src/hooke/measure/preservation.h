@@ -1,0 +1,74 @@
+// What a result must keep of the mesh it was made from: the side of its faces, no new folds and crossings,
+// its topology, its creases and tips, and its distance. All figures but the distances are in comparison to
+// the reference, so that what is wrong in a file may stay as it is.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "hooke/measure/deviation.h"
+#include "hooke/measure/quality.h"
+
+namespace hooke {
+
+struct PreservationOptions {
+  /// Maximum distance between the surfaces, both ways, in file units. None: of the result's vertices from the
+  /// reference 12 local sagittas (see mesh/sagitta.h), but no more than 2 and half a mean edge, or 1e-3 of
+  /// the diagonal, whichever is more; of the reference's vertices from the result as much or .6 of the edges
+  /// there.
+  std::optional<double> max_distance = {};
+  double feature_angle = 40;  // degrees; sharper edges of the reference have no sagitta
+  bool faceted = false;       // is_faceted(reference): no half edges and no more than 2 sagittas
+  /// Also limits the distances between faces and between creases, at samples, to 2 local sagittas or 1e-3 (on
+  /// creases 1e-6) of the diagonal: for results with the vertices of a reference whose facets are meant.
+  bool keeps_facets = false;
+};
+
+/// Are the facets of the mesh meant, as those of CAD parts: do .85 of its faces lie in a plane with a
+/// neighbour, or have half of them an edge three times as long as others at its corners?
+bool is_faceted(const Mat3X& points, const Adjacency& adjacency);
+
+/// A vertex that is too far from the other surface.
+struct FarVertex {
+  int vertex;  // or a corner of a face or an end of a crease that is
+  double distance;
+};
+
+/// Ids are those of the adjacencies; places and lengths are in file units.
+struct Preservation {
+  std::size_t flipped_faces = 0;         // of the result, see Deviation
+  std::vector<FarVertex> far_vertices;   // of the result: beyond the limit from the reference
+  std::vector<FarVertex> lost_vertices;  // of the reference: beyond the limit from the result
+  double excess = 0;                     // the greatest distance of these vertices over its limit
+  double distance = 0;                   // the distance there
+  Vec3 place = Vec3::Zero();             // the vertex there
+  std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
+  std::size_t new_crossings = 0;         // intersecting pairs of faces, likewise
+  bool topology_kept = true;             // components, boundary loops and Euler number
+  double crease_loss = 0;    // greatest distance of the reference's creases from those of the result
+  bool creases_kept = true;  // within half an edge
+
+  /// Is everything kept?
+  bool holds() const { return flaws() == 0; }
+
+  /// Number of things that are not.
+  std::size_t flaws() const {
+    return flipped_faces + far_vertices.size() + lost_vertices.size() + new_folds + new_crossings +
+           (topology_kept ? 0 : 1) + (creases_kept ? 0 : 1);
+  }
+};
+
+/// A measured mesh and its crease edges, as vertices of the adjacency.
+struct CreasedSurface {
+  const MeasuredSurface& surface;
+  const Quality& quality;
+  const std::vector<Edge>& creases;
+};
+
+Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
+                                  const Deviation& deviation, const PreservationOptions& options = {});
+
+/// Number of folded edges (see Quality) that are none of these creases.
+std::size_t count_folds_beside(const MeasuredSurface& surface, const std::vector<Edge>& creases);
+
+}  // namespace hooke
