@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/closest_faces.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/sagitta.h"
 
@@ -48,14 +48,23 @@ std::vector<FarVertex> vertices_beyond(const MeasuredSurface& from, const Measur
                                        const LimitAt& limit_at, Preservation& p) {
   const int n = from.adjacency.vertex_count;
   std::vector<double> excess(index_of(n), 0), distances(index_of(n), 0);
-  parallel_for(index_of(n), block, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t together = 128;  // points close in memory are close in space
+  const auto measure_block = [&](std::size_t begin, std::size_t end) {
+    std::vector<Vec3> points;
+    for (std::size_t v = begin; v < end; ++v) points.push_back(from.points.col(static_cast<Eigen::Index>(v)));
+    std::vector<NearestFace> nearest(points.size());
+    NearestFaceSearch(to.tree)(points, nearest);
     for (std::size_t v = begin; v < end; ++v) {
-      if (from.adjacency.vertex_faces[static_cast<int>(v)].empty()) continue;
-      const ClosestPoint closest = to.tree.closest(from.points.col(static_cast<Eigen::Index>(v)));
-      if (closest.face < 0) continue;
-      distances[v] = std::sqrt(closest.squared_distance);
-      excess[v] = distances[v] / limit_at(static_cast<int>(v), closest.face);
+      const auto& [squared_distance, index] = nearest[v - begin];
+      if (index < 0 || from.adjacency.vertex_faces[static_cast<int>(v)].empty()) continue;
+      distances[v] = std::sqrt(squared_distance);
+      excess[v] =
+          distances[v] / limit_at(static_cast<int>(v), to.tree.faces()[static_cast<std::size_t>(index)].id);
     }
+  };
+  parallel_for((index_of(n) + together - 1) / together, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      measure_block(k * together, std::min(index_of(n), (k + 1) * together));
   });
   std::vector<FarVertex> beyond;
   for (int v = 0; v < n; ++v) {
@@ -252,6 +261,16 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
   compare(result, certain * angle, reference, false, p.far_vertices);
 }
 
+/// The folded edges that are no creases.
+std::size_t folds_beside_creases(const CreasedSurface& mesh) {
+  const Adjacency& c = mesh.surface.adjacency;
+  std::size_t count = mesh.quality.folded_edges;
+  for (const auto& [a, b] : mesh.creases)
+    for (int e : c.vertex_edges[a])
+      if (c.other_end(e, a) == b && is_folded_edge(mesh.surface.points, c, e)) --count;
+  return count;
+}
+
 }  // namespace
 
 bool is_faceted(const Mat3X& points, const Adjacency& c) {
@@ -277,22 +296,6 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
   return static_cast<double>(flats) >= flat_share * faces || static_cast<double>(longs) >= long_share * faces;
 }
 
-std::size_t count_folds_beside(const MeasuredSurface& surface, const std::vector<Edge>& creases) {
-  std::set<Edge> excluded;
-  for (const auto& [a, b] : creases) excluded.insert({std::min(a, b), std::max(a, b)});
-  const Adjacency& c = surface.adjacency;
-  std::size_t count = 0;
-  for (std::size_t e = 0; e < c.edges.size(); ++e) {
-    const auto& [left, right] = c.edge_faces[e];
-    if (right < 0) continue;
-    constexpr double min_fold = -1e-6;  // right-angled creases are no folds
-    const double cosine = cosine_between(surface.points, c.faces[index_of(left)], c.faces[index_of(right)]);
-    const auto& [a, b] = c.edges[e];
-    count += cosine < min_fold && !excluded.contains({std::min(a, b), std::max(a, b)});
-  }
-  return count;
-}
-
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
                                   const Deviation& deviation, const PreservationOptions& options) {
   Preservation p;
@@ -301,8 +304,7 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   const auto excess_of = [](std::size_t after, std::size_t before) {
     return after - std::min(after, before);
   };
-  p.new_folds = excess_of(count_folds_beside(result.surface, result.creases),
-                          count_folds_beside(reference.surface, reference.creases));
+  p.new_folds = excess_of(folds_beside_creases(result), folds_beside_creases(reference));
   p.new_crossings = excess_of(result.quality.self_intersections.value_or(0),
                               reference.quality.self_intersections.value_or(0));
   const Topology &before = reference.quality.topology, &after = result.quality.topology;

@@ -68,7 +68,4 @@ struct CreasedSurface {
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
                                   const Deviation& deviation, const PreservationOptions& options = {});
 
-/// Number of folded edges (see Quality) that are none of these creases.
-std::size_t count_folds_beside(const MeasuredSurface& surface, const std::vector<Edge>& creases);
-
 }  // namespace hooke

@@ -63,16 +63,16 @@ size_t count_where(size_t count, const Condition& condition) {
   return static_cast<size_t>(sum);
 }
 
-/// The tolerance keeps right-angled creases from counting as folds.
-constexpr double min_fold = -1e-6;
+bool is_fold(const Vec3& area_vector, const Vec3& other) {
+  constexpr double min_fold = -1e-6;  // keeps right-angled creases from counting as folds
+  // Normalised first: the product of the area vectors of two small faces could vanish.
+  return area_vector.normalized().dot(other.normalized()) < min_fold;
+}
 
 size_t count_folded_edges(const Mat3X& area_vector, const Adjacency& adjacency) {
   return count_where(adjacency.edge_faces.size(), [&](size_t e) {
     const auto [left, right] = adjacency.edge_faces[e];
-    if (right < 0) return false;
-    // Normalised first: the product of the area vectors of two small faces could vanish.
-    const Vec3 n = area_vector.col(left).normalized(), m = area_vector.col(right).normalized();
-    return n.dot(m) < min_fold;
+    return right >= 0 && is_fold(area_vector.col(left), area_vector.col(right));
   });
 }
 
@@ -193,6 +193,12 @@ void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface&
   for (const WorstFace& f : faces) ids.push_back(f.face);
   std::vector<AngleBound> bounds = bound_min_angles(surface, ids, creases);
   for (size_t i = 0; i < faces.size(); ++i) faces[i].bound = std::move(bounds[i]);
+}
+
+bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge) {
+  const auto [left, right] = adjacency.edge_faces[static_cast<size_t>(edge)];
+  return right >= 0 && is_fold(doubled_area_vector(points, adjacency.faces[static_cast<size_t>(left)]),
+                               doubled_area_vector(points, adjacency.faces[static_cast<size_t>(right)]));
 }
 
 }  // namespace hooke

@@ -68,6 +68,9 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
 Quality measure_quality(const Mat3X& points, const Adjacency& adjacency,
                         const UniformVector& edge_target_length, const QualityOptions& options = {});
 
+/// Is the edge one of those that Quality::folded_edges counts?
+bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge);
+
 /// Recomputes the angle bounds of these faces for fixed creases, see bound_min_angles().
 void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,
                            const std::vector<Edge>& creases);

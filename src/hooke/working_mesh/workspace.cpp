@@ -95,7 +95,8 @@ SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points) const {
   std::vector<double> lengths(static_cast<size_t>(adjacency->wedge_count()));
   for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
     lengths[wedge] = vertex_length[static_cast<size_t>(adjacency->vertex_of_wedge(static_cast<int>(wedge)))];
-  if (std::ranges::any_of(lengths, [&](double length) { return length < natural; })) {
+  constexpr double rounding = 1e-9;
+  if (std::ranges::any_of(lengths, [&](double length) { return length < (1 - rounding) * natural; })) {
     constexpr double sagittas_of_bound = 2;
     const std::vector<double> rises = vertex_sagittas(face_sagittas(edge_arcs(*points, *cut), *cut), *cut);
     for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
