@@ -107,8 +107,9 @@ void warn_of_rescue(RunRecord& run) {
       case Rescue::closest:
         return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input";
       case Rescue::put_back:
-        return "vertices were put back to where they were, with the faces of the input; faces without room "
-               "to move cannot be mended so: use --connectivity adapt";
+        return "vertices were put back to where they were, with the faces of the input, as far as it takes "
+               "to keep "
+               "its surface; --connectivity adapt, which makes new vertices, can do more";
     }
     return nullptr;
   };

@@ -29,6 +29,21 @@ class Result(CommandTest):
                 self.assertLess(report["geometry"]["distance_to_input"]["rms_over_diagonal"], .005)
                 self.assertEqual(read_mesh(self.folder / "out.off")[1], read_mesh(DATA / sample)[1])
 
+    def test_what_breaks_a_promise_is_not_written(self):
+        run = (DATA / "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", "4x", "--effort", "fast",
+               "--max-distance", "0.001%")
+        self.refused(9, *run, names="out.off", says="not written")
+        report = self.report(*run, "--accept-invalid")
+        self.assertIn("promise_broken", [w["code"] for w in report["warnings"]])
+        self.assertFalse(report["promises"]["kept"])
+        self.assertTrue((self.folder / "out.off").exists())
+
+    def test_with_its_faces_kept_a_mesh_goes_back_rather_than_too_far(self):
+        report = self.report(DATA / "torus.off", "-o", "out.off", "--max-distance", "0.001%")
+        self.assertTrue(report["promises"]["kept"])
+        self.assertEqual(report["promises"]["rescue"], "put_back")
+        self.assertLess(report["geometry"]["distance_to_input"]["max_over_diagonal"], 1e-5)
+
     def test_formats_hold_the_same_doubles(self):
         meshes = [self.optimized(DATA / "patch.obj", "out." + ext) for ext in ("obj", "ply", "off")]
         self.assertEqual(meshes[0], meshes[1])
