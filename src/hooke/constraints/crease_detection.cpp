@@ -21,12 +21,16 @@ size_t idx(int i) {
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
 std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
+  Mat3X normals(3, std::ssize(c.faces));
+  parallel_for(c.faces.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f)
+      normals.col(static_cast<Eigen::Index>(f)) = face_shape(points, c.faces[f]).normal;
+  });
   std::vector<double> angles(c.edges.size(), 0);
   parallel_for(angles.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       if (c.is_boundary_edge(static_cast<int>(e))) continue;
-      const auto normal = [&](int f) { return face_shape(points, c.faces[idx(f)]).normal; };
-      const Vec3 a = normal(c.edge_faces[e][0]), b = normal(c.edge_faces[e][1]);
+      const Vec3 a = normals.col(c.edge_faces[e][0]), b = normals.col(c.edge_faces[e][1]);
       angles[e] = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
     }
   });
