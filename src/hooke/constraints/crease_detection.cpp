@@ -97,10 +97,11 @@ class FeatureSearch {
     return doubled_area_vector(X_, c_.faces[idx(face)]).norm() / (X_.col(a) - X_.col(b)).norm() / target;
   }
 
-  /// Is the edge so long that the target length resolves it, and are its faces as high, or is the edge twice
-  /// as long and beside a flat region? Then it is no noise.
+  /// Is the sharp edge so long that the target length resolves it, and are its faces as high, or is the edge
+  /// twice as long and beside a flat region, or does it divide facets that are meant? Then it is no noise.
   bool is_resolved(int edge, const std::vector<int>& regions) const {
     const auto& [left, right] = c_.edge_faces[idx(edge)];
+    if (narrower_width(edge, regions) > o_.noise_width) return true;
     if (length(edge) <= o_.resolved) return false;
     if (height(left, edge) > o_.resolved && height(right, edge) > o_.resolved) return true;
     return length(edge) > 2 * o_.resolved &&
@@ -119,8 +120,23 @@ class FeatureSearch {
       else if (angle_[e] > o_.flat_angle)
         kept_[e] = divides_resolved_regions(edge, regions);
     }
+    const std::vector<char> kept = kept_;
+    for (size_t e = 0; e < kept_.size(); ++e)
+      if (!kept[e] && goes_with_weaker_creases(static_cast<int>(e), kept, regions)) kept_[e] = 1;
     for (size_t e = 0; o_.drops_noise && e < kept_.size(); ++e)  // a lone edge is an accident
       if (kept_[e] && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); })) kept_[e] = 0;
+  }
+
+  /// Does the edge divide flat regions where less sharp edges at both its ends are creases? A body is round
+  /// both ways or not at all.
+  bool goes_with_weaker_creases(int edge, const std::vector<char>& kept,
+                                const std::vector<int>& regions) const {
+    return angle_[idx(edge)] > o_.flat_angle && narrower_width(edge, regions) > o_.resolved_facet &&
+           std::ranges::all_of(c_.edges[idx(edge)], [&](int v) {
+             return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
+               return kept[idx(e)] && angle_[idx(e)] < angle_[idx(edge)];
+             });
+           });
   }
 
   /// Numbers the flat regions by face: faces connected over edges, with all vertices in the plane of the
@@ -170,8 +186,18 @@ class FeatureSearch {
       region_borders_.push_back(std::move(borders));
       faces_in_regions += members.size();
     }
+    for (size_t f = 0; f < regions.size(); ++f)
+      if (regions[f] < 0) faces_in_regions += has_resolved_edge(static_cast<int>(f));
     flat_mesh_ = static_cast<double>(faces_in_regions) >= o_.flat_share * static_cast<double>(regions.size());
     return regions;
+  }
+
+  /// Has the face a sharp edge that the target length resolves?
+  bool has_resolved_edge(int face) const {
+    return std::ranges::any_of(c_.face_edges[idx(face)], [&](int e) {
+      return angle_[idx(e)] > o_.angle && length(e) > o_.resolved &&
+             std::ranges::all_of(c_.edge_faces[idx(e)], [&](int f) { return height(f, e) > o_.resolved; });
+    });
   }
 
   /// Maximum distance of the region's vertices from the edge, in target lengths; for a face without a region
@@ -197,24 +223,36 @@ class FeatureSearch {
   /// Does the edge divide two flat regions, or single faces, that the target length resolves? In a mesh with
   /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
   bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
-    const auto& [left, right] = c_.edge_faces[idx(edge)];
-    const int a = regions[idx(left)], b = regions[idx(right)];
-    if (!flat_mesh_ || (a >= 0 && a == b)) return false;
-    const double narrower = std::min(width(left, a, edge), width(right, b, edge));
-    return narrower > o_.resolved &&
-           (narrower > o_.resolved_strip || (!is_strip(a, edge) && !is_strip(b, edge)));
+    const double narrower = narrower_width(edge, regions);
+    return narrower > o_.resolved_strip ||
+           (narrower > o_.resolved_facet &&
+            std::ranges::none_of(c_.edge_faces[idx(edge)],
+                                 [&](int f) { return is_strip(f, regions[idx(f)], edge); }));
   }
 
-  /// Is the region a strip of a round body: does it bend on, to the same side and about as much, at another
-  /// edge parallel to this one?
-  bool is_strip(int region, int edge) const {
-    if (region < 0) return false;
-    constexpr double parallel = .996;  // cosine of 5 degrees
+  /// The smaller width of the two flat regions, or single faces, that the edge divides; 0 if it divides none,
+  /// or few faces of the mesh are in such regions.
+  double narrower_width(int edge, const std::vector<int>& regions) const {
+    const auto& [left, right] = c_.edge_faces[idx(edge)];
+    if (!flat_mesh_ || right < 0) return 0;
+    const int a = regions[idx(left)], b = regions[idx(right)];
+    return a >= 0 && a == b ? 0 : std::min(width(left, a, edge), width(right, b, edge));
+  }
+
+  /// Is the face or its region a strip of a round body: does it bend on, to the same side, at another edge,
+  /// about parallel to this one if it is one of a region? It bends about as much there, or twice as much if
+  /// the round begins at this edge.
+  bool is_strip(int face, int region, int edge) const {
+    constexpr double parallel = .96;  // cosine; the meridians of a sphere meet at its poles
     const Vec3 along = direction(edge);
-    return std::ranges::any_of(region_borders_[idx(region)], [&](int e) {
-      return std::abs(angle_[idx(e)] - angle_[idx(edge)]) < o_.strip_angle * angle_[idx(edge)] &&
-             std::abs(direction(e).dot(along)) > parallel && !are_in_line(e, edge, along) &&
+    const auto bends_on = [&](int e) {
+      const double ratio = angle_[idx(e)] / angle_[idx(edge)];
+      return e != edge && (std::abs(ratio - 1) < o_.strip_angle || std::abs(ratio - 2) < o_.strip_end_angle) &&
              is_convex(e) == is_convex(edge);
+    };
+    if (region < 0) return std::ranges::any_of(c_.face_edges[idx(face)], bends_on);
+    return std::ranges::any_of(region_borders_[idx(region)], [&](int e) {
+      return bends_on(e) && std::abs(direction(e).dot(along)) > parallel && !are_in_line(e, edge, along);
     });
   }
 

@@ -24,11 +24,15 @@ struct CreaseOptions {
   /// Minimum length of a sharp edge, and minimum height of its faces, in target lengths, for the edge to be
   /// certainly no noise.
   double resolved = 1.5;
+  double noise_width = .1;      // the same for the facets beside a sharp edge where facets are meant
   double flat_angle = 1;        // degrees; an edge between resolved flat regions is a crease above it
-  double resolved_strip = 1.9;  // the same for an edge of a flat strip of a round body
-  double strip_angle = .1;      // maximum relative difference of the angles at both edges of a strip
+  double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
+  double resolved_facet = .5;   // and where none is
+  double strip_angle = .05;     // maximum relative difference of the angles at both edges of a strip
+  double strip_end_angle = .05;  // maximum difference of their ratio from 2 where a strip is the first of a round
   double facet_angle = 1.4;  // minimum angle at all edges of a face that is a facet of its own, over `angle`
-  double flat_share = .6;    // minimum share of faces in flat regions, beyond which these are certainly meant
+  /// Minimum share of faces in flat regions or with a resolved sharp edge, beyond which facets are meant.
+  double flat_share = .6;
   double flatness = 1e-6;    // maximum distance of a flat region from its plane, in diagonals of the mesh
 };
 
