@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -223,11 +224,10 @@ class FeatureSearch {
   /// Does the edge divide two flat regions, or single faces, that the target length resolves? In a mesh with
   /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
   bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
-    const double narrower = narrower_width(edge, regions);
-    return narrower > o_.resolved_strip ||
-           (narrower > o_.resolved_facet &&
-            std::ranges::none_of(c_.edge_faces[idx(edge)],
-                                 [&](int f) { return is_strip(f, regions[idx(f)], edge); }));
+    return narrower_width(edge, regions) > o_.resolved_facet &&
+           std::ranges::all_of(c_.edge_faces[idx(edge)], [&](int f) {
+             return strip_width(f, regions[idx(f)], edge) > o_.resolved_strip;
+           });
   }
 
   /// The smaller width of the two flat regions, or single faces, that the edge divides; 0 if it divides none,
@@ -239,21 +239,33 @@ class FeatureSearch {
     return a >= 0 && a == b ? 0 : std::min(width(left, a, edge), width(right, b, edge));
   }
 
-  /// Is the face or its region a strip of a round body: does it bend on, to the same side, at another edge,
-  /// about parallel to this one if it is one of a region? It bends about as much there, or twice as much if
-  /// the round begins at this edge.
-  bool is_strip(int face, int region, int edge) const {
+  /// The least distance, in target lengths, of the ends of the edge from a parallel edge at which the face or
+  /// its region bends on, as a strip of a round body does: to the same side, and about as much, or twice as
+  /// much where the round begins at this edge. A face alone may bend on at any edge: its height then.
+  /// Infinite if there is no such edge.
+  double strip_width(int face, int region, int edge) const {
     constexpr double parallel = .96;  // cosine; the meridians of a sphere meet at its poles
     const Vec3 along = direction(edge);
-    const auto bends_on = [&](int e) {
+    const auto& [a, b] = c_.edges[idx(edge)];
+    const double target = .5 * (length_[idx(a)] + length_[idx(b)]);
+    double least = std::numeric_limits<double>::infinity();
+    const auto bend_on = [&](int e) {
       const double ratio = angle_[idx(e)] / angle_[idx(edge)];
-      return e != edge && (std::abs(ratio - 1) < o_.strip_angle || std::abs(ratio - 2) < o_.strip_end_angle) &&
-             is_convex(e) == is_convex(edge);
+      if (e == edge || (std::abs(ratio - 1) >= o_.strip_angle && std::abs(ratio - 2) >= o_.strip_end_angle) ||
+          is_convex(e) != is_convex(edge))
+        return;
+      const Vec3 other = direction(e), origin = X_.col(c_.edges[idx(e)][0]);
+      if (are_in_line(e, edge, along)) return;
+      if (std::abs(other.dot(along)) > parallel)
+        for (int v : {a, b}) least = std::min(least, other.cross(X_.col(v) - origin).norm() / target);
+      else if (region < 0)
+        least = std::min(least, height(face, edge));
     };
-    if (region < 0) return std::ranges::any_of(c_.face_edges[idx(face)], bends_on);
-    return std::ranges::any_of(region_borders_[idx(region)], [&](int e) {
-      return bends_on(e) && std::abs(direction(e).dot(along)) > parallel && !are_in_line(e, edge, along);
-    });
+    if (region < 0)
+      std::ranges::for_each(c_.face_edges[idx(face)], bend_on);
+    else
+      std::ranges::for_each(region_borders_[idx(region)], bend_on);
+    return least;
   }
 
   Vec3 direction(int edge) const {
