@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/sagitta.h"
 #include "support/meshes.h"
 
 namespace hooke::preservation_test {

@@ -273,29 +273,6 @@ std::size_t folds_beside_creases(const CreasedSurface& mesh) {
 
 }  // namespace
 
-bool is_faceted(const Mat3X& points, const Adjacency& c) {
-  constexpr double flat = 1e-6, flat_share = .85, long_edge = 3, long_share = .5;
-  const std::vector<EdgeArc> arcs = edge_arcs(points, c);
-  std::vector<double> lengths;
-  for (const auto& [a, b] : c.edges) lengths.push_back((points.col(a) - points.col(b)).norm());
-  const std::vector<double> spacing = second_shortest_edges(lengths, c);
-  std::size_t flats = 0, longs = 0;
-  for (std::size_t f = 0; f < c.faces.size(); ++f) {
-    double longest = 0, narrowest = std::numeric_limits<double>::infinity();
-    bool is_flat = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t e = index_of(c.face_edges[f][k]);
-      longest = std::max(longest, lengths[e]);
-      narrowest = std::min(narrowest, spacing[index_of(c.faces[f][k])]);
-      is_flat |= arcs[e].chord > 0 && arcs[e].sagitta <= flat * arcs[e].chord;
-    }
-    flats += is_flat;
-    longs += longest > long_edge * narrowest;
-  }
-  const double faces = static_cast<double>(c.faces.size());
-  return static_cast<double>(flats) >= flat_share * faces || static_cast<double>(longs) >= long_share * faces;
-}
-
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
                                   const Deviation& deviation, const PreservationOptions& options) {
   Preservation p;

@@ -24,10 +24,6 @@ struct PreservationOptions {
   bool keeps_facets = false;
 };
 
-/// Are the facets of the mesh meant, as those of CAD parts: do .85 of its faces lie in a plane with a
-/// neighbour, or have half of them an edge three times as long as others at its corners?
-bool is_faceted(const Mat3X& points, const Adjacency& adjacency);
-
 /// A vertex that is too far from the other surface.
 struct FarVertex {
   int vertex;  // or a corner of a face or an end of a crease that is

@@ -29,4 +29,8 @@ std::vector<double> vertex_sagittas(const std::vector<double>& face_sagittas, co
 /// infinite for a vertex with fewer.
 std::vector<double> second_shortest_edges(const std::vector<double>& lengths, const Adjacency& adjacency);
 
+/// Are the facets of the mesh meant, as those of CAD parts: do .85 of its faces lie in a plane with a
+/// neighbour, or have half of them an edge three times as long as others at its corners?
+bool is_faceted(const Mat3X& points, const Adjacency& adjacency);
+
 }  // namespace hooke

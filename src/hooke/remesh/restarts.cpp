@@ -2,6 +2,8 @@
 
 #include "hooke/remesh/remesh.h"
 
+#include <cstdio>
+#include <cstdlib>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +13,7 @@
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/sagitta.h"
 #include "hooke/springs/target_lengths.h"
 
 namespace hooke {
@@ -121,7 +124,7 @@ class Restarts {
     }
     for (int v : held)
       options_.constraints.fixed_vertices.push_back(memory_order_.order.old_vertex[static_cast<size_t>(v)]);
-    try_run(options_, Rescue::tips, best);
+    try_run(options_, best.result.rescue == Rescue::none ? Rescue::tips : best.result.rescue, best);
   }
 
   /// Runs a small mesh again while the result is not good.
@@ -150,9 +153,9 @@ class Restarts {
 
   void project_to_faces(Run& best) {
     if (options_.filter.kind == FilterKind::closest) return;
-    RemeshOptions o = options_;
-    o.filter.kind = FilterKind::closest;
-    try_run(o, Rescue::closest, best);
+    options_.filter.kind = FilterKind::closest;
+    try_run(options_, Rescue::closest, best);
+    if (!best.is_interrupted()) hold_tips(best);
   }
 
   /// Puts vertices back to where they were, ring by ring around what is wrong, in the end all; a result with
@@ -285,6 +288,7 @@ class Restarts {
     if (has_coincident_boundary_) m.preservation.new_crossings = 0;
     a.angle = m.quality.worst_faces.front().min_angle;
     a.bound = m.quality.worst_faces.front().bound.degrees;
+    if (getenv("DBG")) { const auto& p = m.preservation; fprintf(stderr, "DBG run %d angle %.2f bound %.1f flipped %zu folds %zu crossings %zu topo %d creases %d (%g) far %zu lost %zu excess %.2f at %g %g %g faces %zu tests %d\n", made_, a.angle, a.bound, p.flipped_faces, p.new_folds, p.new_crossings, p.topology_kept, p.creases_kept, p.crease_loss, p.far_vertices.size(), p.lost_vertices.size(), p.excess, p.place[0], p.place[1], p.place[2], a.face_count(), a.result.sliver_tests); }
     a.result.measures = std::move(m);
   }
 

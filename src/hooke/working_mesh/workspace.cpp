@@ -56,6 +56,7 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
     creases.push_back(memory_order.adjacency->edges[static_cast<size_t>(e)]);
   connect(std::move(memory_order.adjacency), creases);
   start_length_ = vertex_length;
+  faceted_ = is_faceted(*start, *adjacency);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
@@ -96,12 +97,15 @@ SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points) const {
   for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
     lengths[wedge] = vertex_length[static_cast<size_t>(adjacency->vertex_of_wedge(static_cast<int>(wedge)))];
   constexpr double rounding = 1e-9;
-  if (std::ranges::any_of(lengths, [&](double length) { return length < (1 - rounding) * natural; })) {
-    constexpr double sagittas_of_bound = 2;
+  if (faceted_ ||
+      std::ranges::any_of(lengths, [&](double length) { return length < (1 - rounding) * natural; })) {
+    constexpr double sagittas_of_bound = 2, least = 1e-3;  // where all is flat splines are flat to rounding
     const std::vector<double> rises = vertex_sagittas(face_sagittas(edge_arcs(*points, *cut), *cut), *cut);
-    for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
-      lengths[wedge] = std::max(lengths[wedge],
-                                std::min(natural, sagittas_of_bound * rises[wedge] / filter_.max_deviation));
+    for (size_t wedge = 0; wedge < lengths.size(); ++wedge) {
+      const double rise =
+          std::clamp(sagittas_of_bound * rises[wedge] / filter_.max_deviation, least * natural, natural);
+      lengths[wedge] = faceted_ ? rise : std::max(lengths[wedge], rise);
+    }
   }
   return SurfaceField(std::move(points), cut, filter_,
                       has_creases ? label_components(*cut) : std::vector<int>(), lengths);

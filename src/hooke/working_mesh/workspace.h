@@ -119,6 +119,7 @@ struct Workspace {
   std::shared_ptr<const Adjacency> input_adjacency_;  // with the points `start`
   UniformVector start_length_;                        // target lengths with the points `start`
   bool refitted_ = false;                             // false: both fields are the same
+  bool faceted_ = false;                              // are the facets of the input meant?
   std::vector<int> input_hints_;                      // per wedge: hint on the field of the input
   std::unique_ptr<Retraction> to_input_;              // to the field of the input
   ProjectionCounts past_counts_;                      // of retractions that no longer exist
