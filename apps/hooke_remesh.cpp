@@ -22,6 +22,7 @@
 #include "hooke/mesh/normals.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/remesh/preserving_remesh.h"
 #include "hooke/remesh/result.h"
 #include "hooke/report/report.h"
 #include "hooke/springs/target_lengths.h"
@@ -111,8 +112,8 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order
   };
   return in_the_name_of(name_of_input(s), [&] {
     return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, observer)
-                   : remesh_with_restarts(mesh, std::move(memory_order), s.remesh, s.restarts, known,
-                                          observer, &stopwatch);
+                   : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation, known,
+                                       observer, &stopwatch);
   });
 }
 
@@ -218,12 +219,11 @@ int run(Settings s) {
   record.input = {name_of_input(s), loaded.sha256, loaded.format, loaded.connectivity_sha256};
   record.warnings = loaded.warnings;
   s.remesh.map |= !loaded.vertex_data.empty();
-  record.parameters =
-      s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.restarts, s.effort);
+  record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
   if (s.max_distance_share > 0)
-    s.restarts.preservation.max_distance = s.max_distance_share * record.before.extent.diagonal;
+    s.preservation.max_distance = s.max_distance_share * record.before.extent.diagonal;
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, record, files, stopwatch);

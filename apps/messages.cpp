@@ -82,7 +82,6 @@ void print_summary(const Settings& s, const RunRecord& run) {
   say("\n{}\n", reason_in_words(run));
   if (run.result->near_regular)
     say("the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
-  if (run.result->restarts > 1) say("the best of {} runs\n", run.result->restarts);
   const FlipResult& f = run.result->flips;
   const AdaptResult& a = run.result->adaptation;
   if (a.rounds > 0)

@@ -7,7 +7,7 @@
 
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
-#include "hooke/remesh/restarts.h"
+#include "hooke/measure/preservation.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke::app {
@@ -30,7 +30,7 @@ struct Settings {
   Effort effort = Effort::standard;
   std::filesystem::path map;  // empty for none
   RemeshOptions remesh;
-  RestartOptions restarts;
+  PreservationOptions preservation;
   PaperOptions paper_options;
   double max_distance_share = 0;  // --max-distance in diagonals of the input; 0: not given so
   bool accept_invalid = false;    // write a result that does not keep what it must keep

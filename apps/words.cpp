@@ -61,7 +61,7 @@ void set_max_distance(const std::string& text, Settings& s) {
   if (unit == "%")
     s.max_distance_share = value / 100;
   else
-    s.restarts.preservation.max_distance = value;
+    s.preservation.max_distance = value;
 }
 
 /// Parses an angle in degrees such as "40", or "off" (180).
@@ -138,12 +138,11 @@ void resolve(Settings& s, const RawOptions& raw) {
   reject_unused_options(s, raw);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
-  s.restarts = restart_options(s.effort);
   s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
-  s.restarts.preservation.feature_angle = s.remesh.constraints.features.angle;
+  s.preservation.feature_angle = s.remesh.constraints.features.angle;
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.max_outer)

@@ -125,4 +125,37 @@ TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
   }
 }
 
+/// A hull of few triangles, seen from lengths much smaller than its edges: each triangle is a facet, also
+/// where two meet at a small angle; not so where lengths are of the order of the edges.
+TEST(Features, TrianglesBetweenSharpEdgesAreFacets) {
+  test::Triangles wedge = test::triangles({{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {0, 0, 2}, {4, 4, 1.7}},
+                                          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 4, 3}, {2, 3, 4}, {1, 2, 4}});
+  const auto bent = sharp_edges(wedge.points, test::connect(wedge), 1);
+  EXPECT_LT(sharp_edges(wedge.points, test::connect(wedge), 40).size(), bent.size());
+  EXPECT_EQ(features_of(wedge).size(), bent.size());
+  wedge.points *= .1;
+  EXPECT_LT(features_of(wedge).size(), bent.size());
+}
+
+/// A pyramid over a regular polygon, its sides cut from the apex; a cone if it has many.
+test::Triangles pyramid(int sides, double radius, double height) {
+  test::Triangles t;
+  t.points.resize(3, sides + 2);
+  for (int i = 0; i < sides; ++i) {
+    const double a = 2 * std::numbers::pi * i / sides;
+    t.points.col(i) = Vec3(radius * std::cos(a), radius * std::sin(a), 0);
+    t.faces.push_back({i, (i + 1) % sides, sides});
+    t.faces.push_back({(i + 1) % sides, i, sides + 1});
+  }
+  t.points.col(sides) = Vec3(0, 0, height);
+  t.points.col(sides + 1) = Vec3::Zero();
+  return t;
+}
+
+TEST(Features, AFanOfNarrowFacetsIsACone) {
+  EXPECT_EQ(features_of(pyramid(48, 20, 40)).size(), 48u);  // the rim only
+  EXPECT_EQ(features_of(pyramid(48, 200, 400)).size(), 48u);
+  EXPECT_EQ(features_of(pyramid(4, 20, 40)).size(), 8u);
+}
+
 }  // namespace hooke::crease_detection_test

@@ -29,11 +29,12 @@ struct CreaseOptions {
   double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
   double resolved_facet = .5;   // and where none is
   double strip_angle = .05;     // maximum relative difference of the angles at both edges of a strip
-  double strip_end_angle = .05;  // maximum difference of their ratio from 2 where a strip is the first of a round
+  double strip_end_angle =
+      .05;                   // maximum difference of their ratio from 2 where a strip is the first of a round
   double facet_angle = 1.4;  // minimum angle at all edges of a face that is a facet of its own, over `angle`
   /// Minimum share of faces in flat regions or with a resolved sharp edge, beyond which facets are meant.
   double flat_share = .6;
-  double flatness = 1e-6;    // maximum distance of a flat region from its plane, in diagonals of the mesh
+  double flatness = 1e-6;  // maximum distance of a flat region from its plane, in diagonals of the mesh
 };
 
 /// The crease edges, ascending. An edge qualifies if its faces meet at a sharp angle while each of them

@@ -302,7 +302,6 @@ bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Ob
     return remove_slivers(work, options.connectivity, {.altitude = options.altitude}, options.slivers,
                           options.guards, options.constraints.corner_angle, watch);
   });
-  result.sliver_tests += changes.tested;
   if (changes.count() == 0) return false;
   RemeshOptions rest = options;
   rest.search.sagitta = options.slivers.pass.change.sagitta;

@@ -66,9 +66,6 @@ struct ResultMeasures {
 
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
-  int restarts = 1;      // number of runs of which this is the best, see restarts.h
-  int kept_run = 1;      // number of this run, from 1
-  int sliver_tests = 0;  // slivers whose edges were tested, see sliver_removal.h
   std::vector<IterationRecord> iterations;
   Mat3X input_points;         // of the input mesh, as reference for measures
   MemoryOrder memory_order;   // of the resulting mesh
@@ -87,7 +84,7 @@ struct RemeshResult {
   AngleSpringResult angle_springs;
   ProjectionCounts projection;
   long long limited_steps = 0;             // vertex steps shortened by the guards
-  std::optional<ResultMeasures> measures;  // of remesh_with_restarts()
+  std::optional<ResultMeasures> measures;  // of preserving_remesh()
   Rescue rescue = Rescue::none;
   BoundCounts bound;  // time steps by the test that set them (paper_remesh() only)
   FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)

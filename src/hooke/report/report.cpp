@@ -11,7 +11,6 @@
 #include "hooke/measure/statistics.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
-#include "hooke/remesh/restarts.h"
 
 namespace hooke {
 namespace {
@@ -288,7 +287,6 @@ Json report_json(const RunRecord& run) {
     j["projection"] = projection_json(run.result->projection);
     j["projection"]["not_landed"] = run.result->unprojected;
     j["held_back"] = run.result->limited_steps;
-    j["attempts"] = {{"made", run.result->restarts}, {"kept", run.result->kept_run}};
     j["near_regular"] = run.result->near_regular;
   }
   j["features"] = creases_json(run);
@@ -405,7 +403,7 @@ void add_near_regular(Json& j, const RemeshOptions& o) {
 
 }  // namespace
 
-Json parameters_json(const RemeshOptions& o, const RestartOptions& restarts, Effort effort) {
+Json parameters_json(const RemeshOptions& o, Effort effort) {
   const bool adapts = o.connectivity == ConnectivityMode::adapt;
   const bool damped = o.integrator == IntegratorKind::damped;
   const bool fixed = o.connectivity == ConnectivityMode::fixed;
@@ -413,7 +411,6 @@ Json parameters_json(const RemeshOptions& o, const RestartOptions& restarts, Eff
   j["paper"] = false;
   j["connectivity"] = name_of(o.connectivity);
   j["effort"] = name_of(effort);
-  j["most_attempts"] = fixed ? 1 : restarts.max_runs;
   j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;

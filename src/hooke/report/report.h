@@ -14,7 +14,6 @@
 
 namespace hooke {
 
-struct RestartOptions;
 struct PaperOptions;
 struct RemeshOptions;
 
@@ -81,8 +80,7 @@ std::string report_text(const RunRecord& run);
 
 /// The effective parameters of a run for its report, `null` for those without effect. `effort`: the level for
 /// which the options were set.
-nlohmann::ordered_json parameters_json(const RemeshOptions& options, const RestartOptions& restarts,
-                                       Effort effort);
+nlohmann::ordered_json parameters_json(const RemeshOptions& options, Effort effort);
 /// The same for paper_remesh().
 nlohmann::ordered_json parameters_json(const PaperOptions& options);
 

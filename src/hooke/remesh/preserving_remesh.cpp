@@ -1,9 +1,7 @@
-#include "hooke/remesh/restarts.h"
+#include "hooke/remesh/preserving_remesh.h"
 
 #include "hooke/remesh/remesh.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -38,8 +36,7 @@ std::vector<Edge> in_order(const Permutation& order, const std::vector<Edge>& ed
 struct Run {
   TriMesh mesh;
   RemeshResult result;
-  double angle = 0;   // minimum angle, degrees
-  double bound = 60;  // upper bound of the minimum angle of that face, degrees
+  double angle = 0;  // minimum angle, degrees
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -54,20 +51,19 @@ struct Run {
   }
 };
 
-class Restarts {
+class PreservingRemesh {
  public:
-  Restarts(const TriMesh& mesh, const MemoryOrder& memory_order, const RemeshOptions& options,
-           const RestartOptions& restarts, const KnownInput& known, const Observer& observer,
-           Stopwatch* stopwatch)
+  PreservingRemesh(const TriMesh& mesh, const MemoryOrder& memory_order, const RemeshOptions& options,
+                   const PreservationOptions& preservation, const KnownInput& known, const Observer& observer,
+                   Stopwatch* stopwatch)
       : mesh_(mesh),
         memory_order_(memory_order),
         options_(options),
-        restarts_(restarts),
         observer_(observer),
         stopwatch_(stopwatch),
         input_(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency,
                memory_order.order.old_ids(), known.tree_order),
-        preservation_(restarts.preservation),
+        preservation_(preservation),
         input_quality_(known.quality ? *known.quality
                                      : measure(input_, mesh, memory_order.order, stopwatch)) {
     preservation_.faceted = is_faceted(input_.points, input_.adjacency);
@@ -75,44 +71,97 @@ class Restarts {
   }
 
   Run best() {
-    Run best = make(options_);
-    judge(best);
+    Run best = attempt();
     if (!best.result.measures) return best;  // not finite
-    if (!best.is_interrupted()) hold_tips(best);
-    if (!best.is_interrupted()) restart(best);
     if (!best.is_interrupted() && best.flaws() > 0) project_to_faces(best);
     if (!best.is_interrupted() && best.flaws() > 0) put_back(best);
-    best.result.restarts = made_;
-    best.result.kept_run = kept_;
     return best;
   }
 
  private:
-  bool is_good(const Run& a) const {
-    constexpr double close = .99;
-    return a.flaws() == 0 && a.angle >= std::min(restarts_.good_angle, close * a.bound);
-  }
-
-  /// Makes a run and keeps it if it is better. An interrupted run is discarded.
-  void try_run(const RemeshOptions& options, Rescue rescue, Run& best) {
-    Run next = make(options);
+  /// A run with the vertices moved to the input that are too far. If vertices of the input are lost in spite
+  /// of that, or angles get small, but nothing else is wrong, there is a second run with these held; it is
+  /// discarded if it is interrupted.
+  Run attempt() {
+    Run run = make();
+    judge(run);
+    if (!run.result.measures || run.is_interrupted()) return run;
+    const std::vector<FarVertex> lost = run.preservation().lost_vertices;
+    constexpr double good_angle = 25, kept_share = .8;
+    const double angle = std::min(good_angle, kept_share * run.angle);
+    move_to_input(run);
+    const bool is_good = run.flaws() == 0 && run.angle >= angle;
+    const bool only_lost = run.flaws() == run.preservation().lost_vertices.size();
+    if (lost.empty() || is_good || !only_lost) return run;
+    hold(lost);
+    Run next = make();
     if (next.is_interrupted()) {
-      best.result.reason = StopReason::interrupted;
-      --made_;
-      return;
+      run.result.reason = StopReason::interrupted;
+      return run;
     }
     judge(next);
-    tests_ += next.result.sliver_tests;
-    next.result.rescue = rescue;
-    if (!next.is_better_than(best)) return;
-    best = std::move(next);
-    kept_ = made_;
+    next.result.rescue = Rescue::tips;
+    move_to_input(next);
+    return next.is_better_than(run) ? std::move(next) : std::move(run);
   }
 
-  /// Runs again with the vertices held that the result has lost, as the tip of a cone.
-  void hold_tips(Run& best) {
-    std::vector<FarVertex> lost = best.preservation().lost_vertices;
-    if (lost.empty()) return;
+  /// Moves vertices that are too far to the closest points of the input, and the vertices closest to lost
+  /// ones of the input to these, but none that is held or on the boundary; keeps that if it makes fewer
+  /// flaws.
+  void move_to_input(Run& run) const {
+    const Preservation& p = run.preservation();
+    if (p.far_vertices.empty() && p.lost_vertices.empty()) return;
+    const MeasuredSurface surface = surface_of(run);
+    Mat3X moved = surface.points;
+    std::vector<char> is_held(static_cast<size_t>(moved.cols()), 0);
+    const auto input = vertex_points(mesh_);
+    const auto may_move = [&](int v) {
+      const auto edges = surface.adjacency.vertex_edges[v];
+      return !is_held[static_cast<size_t>(v)] &&
+             std::ranges::none_of(edges, [&](int e) { return surface.adjacency.is_boundary_edge(e); }) &&
+             std::ranges::none_of(options_.constraints.fixed_vertices,
+                                  [&](int fixed) { return input.col(fixed) == surface.points.col(v); });
+    };
+    std::vector<FarVertex> lost = p.lost_vertices;
+    std::ranges::stable_sort(lost, std::greater(), &FarVertex::distance);
+    for (const FarVertex& tip : lost) {
+      const Vec3 x = input_.points.col(tip.vertex);
+      const int face = surface.tree.closest(x).face;
+      if (face < 0) continue;
+      const Triangle& t = surface.adjacency.faces[static_cast<size_t>(face)];
+      const int v = *std::ranges::min_element(
+          t, {}, [&](int corner) { return (surface.points.col(corner) - x).squaredNorm(); });
+      if (!may_move(v)) continue;
+      is_held[static_cast<size_t>(v)] = 1;
+      moved.col(v) = x;
+    }
+    for (const FarVertex& far : p.far_vertices) {
+      const ClosestPoint closest = input_.tree.closest(surface.points.col(far.vertex));
+      if (closest.face >= 0 && may_move(far.vertex)) moved.col(far.vertex) = closest.point;
+    }
+    Run before = run;
+    for (int v = 0; v < moved.cols(); ++v)
+      if (moved.col(v) != surface.points.col(v)) place(v, moved.col(v), run);
+    judge(run);
+    if (run.flaws() >= before.flaws()) run = std::move(before);
+  }
+
+  /// Moves a vertex, by its index in memory order, and finds it on the input again.
+  void place(int vertex, const Vec3& point, Run& run) const {
+    const int id = run.result.memory_order.order.old_vertex[static_cast<size_t>(vertex)];
+    vertex_points(run.mesh).col(id) = point;
+    if (run.result.map.empty()) return;
+    const ClosestPoint closest = input_.tree.closest(point);
+    if (closest.face < 0) return;
+    const Triangle& t = input_.adjacency.faces[static_cast<size_t>(closest.face)];
+    run.result.map[static_cast<size_t>(id)].position = {
+        memory_order_.order.old_face[static_cast<size_t>(closest.face)],
+        barycentric(closest.point, input_.points.col(t[0]), input_.points.col(t[1]),
+                    input_.points.col(t[2]))};
+  }
+
+  /// Holds vertices of the input, as the tip of a cone, that a result has lost.
+  void hold(std::vector<FarVertex> lost) {
     constexpr std::size_t max_tips = 100;
     std::ranges::stable_sort(lost, std::greater(), &FarVertex::distance);
     std::vector<int> held;
@@ -124,38 +173,19 @@ class Restarts {
     }
     for (int v : held)
       options_.constraints.fixed_vertices.push_back(memory_order_.order.old_vertex[static_cast<size_t>(v)]);
-    try_run(options_, best.result.rescue == Rescue::none ? Rescue::tips : best.result.rescue, best);
   }
 
-  /// Runs a small mesh again while the result is not good.
-  void restart(Run& best) {
-    if (options_.connectivity == ConnectivityMode::fixed) return;
-    const int max_flawed_runs = preservation_.keeps_facets ? 2 : 7;
-    const double max_runs =
-        std::min<double>(restarts_.max_runs, restarts_.max_faces / static_cast<double>(best.face_count()));
-    tests_ += best.result.sliver_tests;
-    for (int i = 1; made_ + 1 <= max_runs && tests_ < restarts_.max_sliver_tests && !best.is_interrupted() &&
-                    !is_good(best) && (best.flaws() == 0 || made_ < max_flawed_runs);
-         ++i)
-      try_run(varied(i), best.result.rescue, best);
-  }
-
-  /// The options of a restart: edges are split at a slightly different length, Lloyd flow has a few more or
-  /// fewer rounds, and the deviation bound of the surface is smaller.
-  RemeshOptions varied(int number) const {
-    RemeshOptions o = options_;
-    const int by = number % 2 == 1 ? (number + 1) / 2 : -number / 2;
-    o.flips.flow.rounds = std::max(1, o.flips.flow.rounds + 4 * by);
-    o.adaptation.steps.split.longest *= 1 - .02 * by;
-    o.filter.max_deviation *= std::pow(.9, std::abs(by));
-    return o;
-  }
-
+  /// Makes an attempt on the faces of the input, and keeps it if it is better.
   void project_to_faces(Run& best) {
     if (options_.filter.kind == FilterKind::closest) return;
     options_.filter.kind = FilterKind::closest;
-    try_run(options_, Rescue::closest, best);
-    if (!best.is_interrupted()) hold_tips(best);
+    Run next = attempt();
+    if (next.is_interrupted()) {
+      best.result.reason = StopReason::interrupted;
+      return;
+    }
+    next.result.rescue = Rescue::closest;
+    if (next.is_better_than(best)) best = std::move(next);
   }
 
   /// Puts vertices back to where they were, ring by ring around what is wrong, in the end all; a result with
@@ -163,16 +193,14 @@ class Restarts {
   void put_back(Run& best) {
     if (options_.connectivity == ConnectivityMode::adapt) return;
     if (options_.connectivity == ConnectivityMode::flip) {
-      RemeshOptions o = options_;
-      o.connectivity = ConnectivityMode::fixed;
-      Run next = make(o);
+      options_.connectivity = ConnectivityMode::fixed;
+      Run next = make();
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
         return;
       }
       judge(next);
       best = std::move(next);
-      kept_ = made_;
       if (best.flaws() == 0) {
         best.result.rescue = Rescue::put_back;
         return;
@@ -205,7 +233,7 @@ class Restarts {
       if (!std::ranges::binary_search(input_pairs, pair))
         for (int f : pair) add_face(f);
     std::vector<int> index_of_face(c.faces.size());
-    const auto& old_face = memory_order_.order.old_face;
+    const auto& old_face = run.result.memory_order.order.old_face;
     for (size_t f = 0; f < old_face.size(); ++f)
       index_of_face[static_cast<size_t>(old_face[f])] = static_cast<int>(f);
     for (int id : run.result.measures->deviation.flipped_faces)
@@ -232,7 +260,7 @@ class Restarts {
   /// Moves the vertices to their places in the input, and those within `rings` rings around them the less,
   /// the farther away they are.
   void move_back(Run& run, const std::vector<int>& vertices, int rings) const {
-    auto points = vertex_points(run.mesh);
+    const auto points = vertex_points(run.mesh);
     const auto input = vertex_points(mesh_);
     const Adjacency& c = input_.adjacency;
     std::vector<int> ring(static_cast<size_t>(c.vertex_count), rings), front = vertices;
@@ -247,16 +275,15 @@ class Restarts {
     for (int v : front) {
       const int id = memory_order_.order.old_vertex[static_cast<size_t>(v)];
       const double share = static_cast<double>(ring[static_cast<size_t>(v)]) / rings;
-      points.col(id) = (input.col(id) + share * (points.col(id) - input.col(id))).eval();
+      place(v, input.col(id) + share * (points.col(id) - input.col(id)), run);
     }
     judge(run);
   }
 
-  Run make(const RemeshOptions& options) {
+  Run make() const {
     Run a;
     a.mesh = mesh_;
-    a.result = remesh(a.mesh, memory_order_, options, observer_, stopwatch_);
-    ++made_;
+    a.result = remesh(a.mesh, memory_order_, options_, observer_, stopwatch_);
     return a;
   }
 
@@ -287,15 +314,12 @@ class Restarts {
     // The two sides of a cut touch in as many pairs as there are faces.
     if (has_coincident_boundary_) m.preservation.new_crossings = 0;
     a.angle = m.quality.worst_faces.front().min_angle;
-    a.bound = m.quality.worst_faces.front().bound.degrees;
-    if (getenv("DBG")) { const auto& p = m.preservation; fprintf(stderr, "DBG run %d angle %.2f bound %.1f flipped %zu folds %zu crossings %zu topo %d creases %d (%g) far %zu lost %zu excess %.2f at %g %g %g faces %zu tests %d\n", made_, a.angle, a.bound, p.flipped_faces, p.new_folds, p.new_crossings, p.topology_kept, p.creases_kept, p.crease_loss, p.far_vertices.size(), p.lost_vertices.size(), p.excess, p.place[0], p.place[1], p.place[2], a.face_count(), a.result.sliver_tests); }
     a.result.measures = std::move(m);
   }
 
   const TriMesh& mesh_;
   const MemoryOrder& memory_order_;
   RemeshOptions options_;
-  const RestartOptions& restarts_;
   const Observer& observer_;
   Stopwatch* stopwatch_;
   const MeasuredSurface input_;
@@ -303,28 +327,14 @@ class Restarts {
   const Quality input_quality_;
   const bool has_coincident_boundary_ =
       !coincident_boundary_vertices(input_.points, input_.adjacency).empty();
-  int made_ = 0, kept_ = 1;
-  int tests_ = 0;
 };
 
 }  // namespace
 
-RestartOptions restart_options(Effort effort) {
-  switch (effort) {
-    case Effort::fast:
-      return {.max_runs = 1};
-    case Effort::standard:
-      break;
-    case Effort::thorough:
-      return {.max_runs = 20, .max_faces = 2e5, .max_sliver_tests = 4000};
-  }
-  return {};
-}
-
-RemeshResult remesh_with_restarts(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
-                                  const RestartOptions& restarts, const KnownInput& known,
-                                  const Observer& observer, Stopwatch* stopwatch) {
-  Run best = Restarts(mesh, memory_order, options, restarts, known, observer, stopwatch).best();
+RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
+                               const PreservationOptions& preservation, const KnownInput& known,
+                               const Observer& observer, Stopwatch* stopwatch) {
+  Run best = PreservingRemesh(mesh, memory_order, options, preservation, known, observer, stopwatch).best();
   mesh = std::move(best.mesh);
   return std::move(best.result);
 }

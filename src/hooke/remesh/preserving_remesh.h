@@ -1,0 +1,27 @@
+// Remeshes so that the result keeps the input: measures it against the input and, where it does not keep what
+// it must, mends it or remeshes anew.
+#pragma once
+
+#include "hooke/remesh/options.h"
+#include "hooke/remesh/result.h"
+
+namespace hooke {
+
+/// What is known of the input, so that it is not measured again.
+struct KnownInput {
+  const Quality* quality = nullptr;
+  std::vector<int> tree_order = {};  // of the tree of its faces in memory order
+};
+
+/// Like remesh(), and measures the result. If it does not keep what it must keep of the input (see
+/// measure/preservation.h), moves the vertices that are too far to the input, and those closest to lost
+/// vertices of the input to these. Where that does not do or makes small angles, remeshes anew: first with
+/// the lost vertices held, then on the faces of the input. In the modes `fixed` and `flip` vertices go back
+/// to where they were at last. Keeps the result with the fewest flaws, of these the one with the largest
+/// minimum angle; in mode `adapt` it may still not keep all: see RemeshResult::measures. An interrupted run
+/// but the first is discarded.
+RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
+                               const PreservationOptions& preservation = {}, const KnownInput& known = {},
+                               const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
+
+}  // namespace hooke

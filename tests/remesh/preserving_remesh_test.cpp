@@ -1,0 +1,121 @@
+#include "hooke/remesh/preserving_remesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hooke/core/parallel.h"
+#include "hooke/geometry/aabb_tree.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/remesh/options.h"
+#include "support/remeshed.h"
+#include "support/solids.h"
+
+namespace hooke::preserving_remesh_test {
+
+/// A coarse sheet closed on both sides, thinner than its edges are long.
+test::Triangles lens(unsigned seed) {
+  test::Triangles t = test::sphere(1, .4, seed);
+  t.points.row(2) *= .12;
+  return t;
+}
+
+RemeshOptions options_for(ConnectivityMode mode) {
+  RemeshOptions options;
+  options.connectivity = mode;
+  set_effort(options, Effort::standard);
+  options.slivers.pass.sliver_angles = {30};  // makes each run fast
+  options.slivers.pass.rounds = options.slivers.passes = 1;
+  return options;
+}
+
+test::Outcome preserved(const test::Triangles& t, const RemeshOptions& options,
+                        const Observer& observer = nullptr) {
+  test::Outcome o;
+  o.mesh = test::with_length(t, test::natural(t));
+  const MemoryOrder memory_order = find_memory_order(o.mesh);
+  o.result = preserving_remesh(o.mesh, memory_order, options, {}, {}, observer);
+  o.points = vertex_points(o.mesh);
+  o.faces = triangles_of(o.mesh);
+  return o;
+}
+
+TEST(PreservingRemesh, LeavesAGoodResultAsItIs) {
+  const test::Triangles t = test::sphere(2, .3, 1);
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    const RemeshOptions options = options_for(mode);
+    const test::Outcome once = test::remeshed(t, options), kept = preserved(t, options);
+    EXPECT_EQ(kept.result.rescue, Rescue::none);
+    EXPECT_TRUE(kept.result.measures->preservation.holds());
+    EXPECT_EQ(kept.points, once.points);
+    EXPECT_EQ(kept.faces, once.faces);
+  }
+}
+
+TEST(PreservingRemesh, KeepsWhatOneRunMayNot) {
+  int mended = 0;
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt})
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+      const test::Triangles t = lens(seed);
+      const RemeshOptions options = options_for(mode);
+      const test::Outcome first = test::remeshed(t, options), kept = preserved(t, options);
+      if (mode != ConnectivityMode::adapt) {
+        EXPECT_TRUE(kept.result.measures->preservation.holds()) << seed;
+      }
+      mended += kept.points != first.points;
+      EXPECT_NEAR(kept.result.measures->quality.min_angle.min, min_angle(kept.points, kept.faces), 1e-9);
+    }
+  EXPECT_GE(mended, 3);
+}
+
+/// A sphere with a spike as thin as its faces, which collapses and the splines would take off.
+test::Triangles spiked_sphere() {
+  test::Triangles t = test::sphere(3);
+  t.points.col(0) *= 1.6;
+  return t;
+}
+
+TEST(PreservingRemesh, KeepsTips) {
+  const test::Triangles t = spiked_sphere();
+  for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    const test::Outcome kept = preserved(t, options_for(mode));
+    EXPECT_TRUE(kept.result.measures->preservation.holds());
+    const double distance = AabbTree(kept.points, kept.faces).closest(t.points.col(0)).squared_distance;
+    EXPECT_LT(std::sqrt(distance), .6 * test::natural(t));
+  }
+}
+
+TEST(PreservingRemesh, IsTheSameForAnyNumberOfThreads) {
+  const RemeshOptions options = options_for(ConnectivityMode::adapt);
+  const auto run = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return preserved(spiked_sphere(), options);
+  };
+  const test::Outcome one = run(1), two = run(2);
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.faces, two.faces);
+}
+
+TEST(PreservingRemesh, DiscardsAnInterruptedRunButTheFirst) {
+  const RemeshOptions options = options_for(ConnectivityMode::adapt);
+  int tried = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const test::Triangles t = lens(seed);
+    int of_first = 0, of_all = 0;
+    test::remeshed(t, test::natural(t), options, [&](const Progress&) { return ++of_first > 0; });
+    preserved(t, options, [&](const Progress&) { return ++of_all > 0; });
+    if (of_all == of_first) continue;
+    ++tried;
+    for (int stop : {of_first / 2, of_first + 1, of_all - 1}) {
+      int calls = 0;
+      const test::Outcome stopped = preserved(t, options, [&](const Progress&) { return ++calls < stop; });
+      EXPECT_EQ(stopped.result.reason, StopReason::interrupted);
+      EXPECT_LE(calls, stop + 1);
+    }
+  }
+  EXPECT_GE(tried, 1);
+}
+
+}  // namespace hooke::preserving_remesh_test
