@@ -5,7 +5,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "hooke/core/parallel.h"
@@ -143,10 +142,16 @@ class FeatureSearch {
   /// Numbers the flat regions by face: faces connected over edges, with all vertices in the plane of the
   /// largest; negative for a face without such neighbours.
   std::vector<int> flat_regions() {
-    std::vector<double> areas;
-    for (const Triangle& t : c_.faces) areas.push_back(doubled_area_vector(X_, t).norm());
-    std::vector<int> order(areas.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<double> areas(c_.faces.size());
+    parallel_for(areas.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) areas[f] = doubled_area_vector(X_, c_.faces[f]).norm();
+    });
+    std::vector<int> order;
+    for (size_t f = 0; f < areas.size(); ++f)
+      if (std::ranges::any_of(c_.face_edges[f], [&](int e) {
+            return angle_[idx(e)] <= o_.flat_angle && !c_.is_boundary_edge(e);
+          }))
+        order.push_back(static_cast<int>(f));
     std::ranges::stable_sort(order, std::greater(), [&](int f) { return areas[idx(f)]; });
     const double tolerance = o_.flatness * diagonal_;
     constexpr int none = -1, alone = -2;

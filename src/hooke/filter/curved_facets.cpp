@@ -1,6 +1,7 @@
 #include "hooke/filter/curved_facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -21,8 +22,7 @@ constexpr std::size_t facet_block = 1024;
 /// Minimum cosine between a face and the normal at the hint: excludes the opposite side of a thin body.
 constexpr double min_agreement = -.2;
 
-/// Ratio of the longest edge of a face to the second shortest edge at a corner, above which splines are
-/// tested.
+/// Unevenness of a face above which splines are tested.
 constexpr double uneven = 3;
 /// Relative sagitta of an edge, over its chord, above which splines are tested: tan(15 degrees / 4) / 2.
 constexpr double much_turned = .033;
@@ -66,23 +66,12 @@ void drop_small_groups(const Adjacency& c, const std::vector<EdgeArc>& arcs, std
 
 /// The faces that are long compared with the spacing of the vertices, or turn much at an edge.
 std::vector<char> doubtful_faces(const Mat3X& points, const Adjacency& c, const std::vector<EdgeArc>& arcs) {
-  std::vector<double> lengths(c.edges.size());
-  for (std::size_t e = 0; e < lengths.size(); ++e)
-    lengths[e] = (points.col(c.edges[e][0]) - points.col(c.edges[e][1])).norm();
-  const std::vector<double> spacing = second_shortest_edges(lengths, c);
+  const std::vector<double> unevenness = face_unevenness(points, c);
   std::vector<char> doubtful(c.faces.size(), 0);
-  parallel_for(doubtful.size(), facet_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      double longest = 0, narrowest = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto e = index_of(c.face_edges[f][k]);
-        longest = std::max(longest, lengths[e]);
-        narrowest = std::min(narrowest, spacing[index_of(c.faces[f][k])]);
-        if (arcs[e].sagitta > much_turned * arcs[e].chord) doubtful[f] = 1;
-      }
-      if (longest > uneven * narrowest) doubtful[f] = 1;
-    }
-  });
+  for (std::size_t f = 0; f < doubtful.size(); ++f)
+    doubtful[f] = unevenness[f] > uneven || std::ranges::any_of(c.face_edges[f], [&](int e) {
+                    return arcs[index_of(e)].sagitta > much_turned * arcs[index_of(e)].chord;
+                  });
   return doubtful;
 }
 
@@ -116,8 +105,12 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
       };
       const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
       curved[f] = is_exceeded_at(centre, t[0]);
-      for (std::size_t k = 0; k < 3 && !curved[f]; ++k)
-        curved[f] = is_exceeded_at(.5 * (points.col(t[k]) + points.col(t[(k + 1) % 3])), t[k]);
+      if (curved[f]) continue;
+      const auto squared_length = [&](std::size_t k) {
+        return (points.col(t[k]) - points.col(t[(k + 1) % 3])).squaredNorm();
+      };
+      const std::size_t k = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, squared_length);
+      curved[f] = is_exceeded_at(.5 * (points.col(t[k]) + points.col(t[(k + 1) % 3])), t[k]);
     }
   });
   drop_small_groups(c, arcs, curved);

@@ -43,6 +43,7 @@ class Samples {
 
   std::span<const Vec3> points() const { return {points_.data(), count_}; }
   static size_t centre_of(size_t face) { return 4 * face; }
+  size_t corner_of(size_t face, size_t corner) const { return faces_[face].corners[corner]; }
 
   double max_squared(std::span<const NearestFace> nearest, size_t face) const {
     double largest = 0;
@@ -101,9 +102,11 @@ class Samples {
 
 }  // namespace
 
-MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
+MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to, VertexDistances& vertices,
                         std::vector<ClosestFacePoint>* centres) {
   const std::span<const Face> faces = from.tree.faces();
+  const auto vertex_count = static_cast<size_t>(from.adjacency.vertex_count);
+  vertices = {std::vector<double>(vertex_count, 0), std::vector<int>(vertex_count, -1)};
   if (centres) centres->assign(faces.size(), {});
   std::vector<double> max_squared(faces.size() / deviation_block + 1, 0);
   std::vector<double> integrals(faces.size());  // by id
@@ -120,6 +123,14 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
         max_squared[begin / deviation_block] =
             std::max(max_squared[begin / deviation_block], samples.max_squared(nearest, k));
         integrals[id] = area_of(some[k]) * samples.mean(nearest, k);
+        for (size_t corner = 0; corner < 3; ++corner) {
+          const int v = some[k].vertices[corner];
+          if (from.adjacency.vertex_faces[v].front() != some[k].id) continue;  // another face tells
+          const NearestFace& at_vertex = nearest[samples.corner_of(k, corner)];
+          vertices.distances[static_cast<size_t>(v)] = std::sqrt(at_vertex.squared_distance);
+          if (at_vertex.index >= 0)
+            vertices.faces[static_cast<size_t>(v)] = to.tree.faces()[static_cast<size_t>(at_vertex.index)].id;
+        }
         const size_t centre = Samples::centre_of(k);
         if (!centres || nearest[centre].index < 0) continue;
         const auto& [a, b, c] = to.tree.faces()[static_cast<size_t>(nearest[centre].index)].corners;
@@ -349,8 +360,10 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
                          : measure_displacement(points_by_id(reference), points_by_id(result));
 
   std::vector<ClosestFacePoint> closest;
-  timed(stopwatch, "to_reference", [&] { d.to_reference = measure_distance(result, reference, &closest); });
-  timed(stopwatch, "from_reference", [&] { d.from_reference = measure_distance(reference, result); });
+  timed(stopwatch, "to_reference",
+        [&] { d.to_reference = measure_distance(result, reference, d.vertices_to_reference, &closest); });
+  timed(stopwatch, "from_reference",
+        [&] { d.from_reference = measure_distance(reference, result, d.vertices_from_reference); });
   timed(stopwatch, "normals", [&] {
     d.normal_deviation = measure_normal_deviation(reference, result, closest);
     find_opposing_faces(reference, result, closest, d);

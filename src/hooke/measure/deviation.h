@@ -22,11 +22,19 @@ struct ClosestFacePoint {
   long long face_index = -1;  // index of its face in the tree's faces(); -1 without faces
 };
 
+/// The distance of each vertex from another surface, and the closest face there: by the indices of the
+/// adjacencies. A vertex without faces has none: -1.
+struct VertexDistances {
+  std::vector<double> distances;
+  std::vector<int> faces;
+};
+
 /// Maximum over ten samples per face of the distance to the surface `to`, and the root of the mean square
 /// over the area of `from`. The samples are the corners, the edge midpoints and the centres of the four
-/// triangles between them. Infinite if `to` has no faces. A non-null `centres` receives the closest points to
-/// the face centres, in the order of from.tree.faces().
-MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to,
+/// triangles between them. Infinite if `to` has no faces. Also gives the distances of the
+/// vertices; a non-null `centres` receives the closest points to the face centres, in the order of
+/// from.tree.faces().
+MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to, VertexDistances& vertices,
                         std::vector<ClosestFacePoint>* centres = nullptr);
 
 /// Lengths are in file units, angles in degrees. Distances are sampled at ten points per face, see
@@ -36,7 +44,8 @@ struct Deviation {
   std::optional<MaxRms> displacement;  // of the vertices; empty if their numbers differ
   MaxRms to_reference;                 // from the result's surface to the closest point of the reference
   MaxRms from_reference;               // from the reference's surface to the closest point of the result
-  double diagonal = 0;                 // of the reference's bounding box
+  VertexDistances vertices_to_reference, vertices_from_reference;
+  double diagonal = 0;  // of the reference's bounding box
 
   /// Between the normal of a result face and that of the reference face closest to its centre; rms over the
   /// area.

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/closest_faces.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/sagitta.h"
 
@@ -41,39 +40,22 @@ double longest_edge(const MeasuredSurface& surface, int face) {
   return longest;
 }
 
-/// The vertices of `from` that lie beyond the limit from `to`, which limit_at(vertex, closest face of `to`)
-/// gives. Updates the greatest excess.
+/// The vertices of the surface that lie beyond the limit from the other one, which limit_at(vertex, closest
+/// face of the other) gives. Updates the greatest excess.
 template <typename LimitAt>
-std::vector<FarVertex> vertices_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
+std::vector<FarVertex> vertices_beyond(const MeasuredSurface& surface, const VertexDistances& to_other,
                                        const LimitAt& limit_at, Preservation& p) {
-  const int n = from.adjacency.vertex_count;
-  std::vector<double> excess(index_of(n), 0), distances(index_of(n), 0);
-  constexpr std::size_t together = 128;  // points close in memory are close in space
-  const auto measure_block = [&](std::size_t begin, std::size_t end) {
-    std::vector<Vec3> points;
-    for (std::size_t v = begin; v < end; ++v) points.push_back(from.points.col(static_cast<Eigen::Index>(v)));
-    std::vector<NearestFace> nearest(points.size());
-    NearestFaceSearch(to.tree)(points, nearest);
-    for (std::size_t v = begin; v < end; ++v) {
-      const auto& [squared_distance, index] = nearest[v - begin];
-      if (index < 0 || from.adjacency.vertex_faces[static_cast<int>(v)].empty()) continue;
-      distances[v] = std::sqrt(squared_distance);
-      excess[v] =
-          distances[v] / limit_at(static_cast<int>(v), to.tree.faces()[static_cast<std::size_t>(index)].id);
-    }
-  };
-  parallel_for((index_of(n) + together - 1) / together, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      measure_block(k * together, std::min(index_of(n), (k + 1) * together));
-  });
   std::vector<FarVertex> beyond;
-  for (int v = 0; v < n; ++v) {
-    if (excess[index_of(v)] > p.excess) {
-      p.excess = excess[index_of(v)];
-      p.distance = distances[index_of(v)];
-      p.place = from.points.col(v);
+  for (int v = 0; v < surface.adjacency.vertex_count; ++v) {
+    const int face = to_other.faces[index_of(v)];
+    if (face < 0) continue;
+    const double distance = to_other.distances[index_of(v)], excess = distance / limit_at(v, face);
+    if (excess > p.excess) {
+      p.excess = excess;
+      p.distance = distance;
+      p.place = surface.points.col(v);
     }
-    if (excess[index_of(v)] > 1) beyond.push_back({v, distances[index_of(v)]});
+    if (excess > 1) beyond.push_back({v, distance});
   }
   return beyond;
 }
@@ -120,8 +102,9 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
   }
 }
 
-void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& result, double mean_edge,
-                       const PreservationOptions& o, Preservation& p) {
+void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& result,
+                       const Deviation& deviation, double mean_edge, const PreservationOptions& o,
+                       Preservation& p) {
   const double rough = o.faceted ? 0 : max_rough * mean_edge;
   const double least = min_limit * reference.extent.diagonal;
   const std::vector<double> sagittas = vertex_sagittas(
@@ -140,8 +123,8 @@ void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& 
     if (o.max_distance) return *o.max_distance;
     return std::max(limit_of(sagittas[index_of(v)]), max_chord * longest_edge(result, face));
   };
-  p.far_vertices = vertices_beyond(result, reference, limit_of_result, p);
-  p.lost_vertices = vertices_beyond(reference, result, limit_of_reference, p);
+  p.far_vertices = vertices_beyond(result, deviation.vertices_to_reference, limit_of_result, p);
+  p.lost_vertices = vertices_beyond(reference, deviation.vertices_from_reference, limit_of_reference, p);
   if (!o.keeps_facets || o.max_distance) return;
   const std::vector<double> limits = facet_limits(reference);
   add_faces_beyond(result, reference, limits, false, p.far_vertices, p);
@@ -277,7 +260,8 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
                                   const Deviation& deviation, const PreservationOptions& options) {
   Preservation p;
   p.flipped_faces = deviation.flipped_faces.size();
-  measure_distances(reference.surface, result.surface, result.quality.edge_length.mean, options, p);
+  measure_distances(reference.surface, result.surface, deviation, result.quality.edge_length.mean, options,
+                    p);
   const auto excess_of = [](std::size_t after, std::size_t before) {
     return after - std::min(after, before);
   };

@@ -19,84 +19,103 @@ std::size_t index_of(int i) {
 }  // namespace
 
 std::vector<EdgeArc> edge_arcs(const Mat3X& points, const Adjacency& c) {
+  Mat3X normals(3, std::ssize(c.faces));  // of twice the area
+  std::vector<double> areas(c.faces.size());
+  parallel_for(areas.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Vec3 n = doubled_area_vector(points, c.faces[f]);
+      normals.col(static_cast<Eigen::Index>(f)) = n;
+      areas[f] = n.norm();
+    }
+  });
   std::vector<EdgeArc> arcs(c.edges.size());
   parallel_for(arcs.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       if (c.is_feature_edge(static_cast<int>(e))) continue;
       const auto& [a, b] = c.edges[e];
-      const Vec3 n = doubled_area_vector(points, c.faces[static_cast<std::size_t>(c.edge_faces[e][0])]);
-      const Vec3 m = doubled_area_vector(points, c.faces[static_cast<std::size_t>(c.edge_faces[e][1])]);
-      const double length = (points.col(b) - points.col(a)).norm(), n_length = n.norm(), m_length = m.norm();
-      if (!(length > 0 && n_length > 0 && m_length > 0)) continue;
-      arcs[e].chord = std::min(n_length, m_length) / length;
-      arcs[e].sagitta = .5 * arcs[e].chord * std::tan(std::atan2(n.cross(m).norm(), n.dot(m)) / 4);
+      const auto& [left, right] = c.edge_faces[e];
+      const Vec3 n = normals.col(left), m = normals.col(right);
+      const double length = (points.col(b) - points.col(a)).norm();
+      const double areas_product = areas[index_of(left)] * areas[index_of(right)];
+      if (!(length > 0 && areas_product > 0)) continue;
+      const double sine = n.cross(m).norm(), one_plus_cosine = areas_product + n.dot(m);
+      arcs[e].chord = std::min(areas[index_of(left)], areas[index_of(right)]) / length;
+      const double denominator = one_plus_cosine + std::hypot(one_plus_cosine, sine);
+      arcs[e].sagitta = .5 * arcs[e].chord * (denominator > 0 ? sine / denominator : 1);  // tan(theta / 4)
     }
   });
   return arcs;
 }
 
 std::vector<double> face_sagittas(const std::vector<EdgeArc>& arcs, const Adjacency& c) {
-  std::vector<double> own(c.faces.size());
-  for (std::size_t f = 0; f < own.size(); ++f)
-    for (int e : c.face_edges[f]) own[f] += arcs[index_of(e)].sagitta;
-  std::vector<double> sagittas = own;
-  for (std::size_t e = 0; e < arcs.size(); ++e) {
-    if (c.is_feature_edge(static_cast<int>(e))) continue;
-    const auto left = static_cast<std::size_t>(c.edge_faces[e][0]),
-               right = static_cast<std::size_t>(c.edge_faces[e][1]);
-    sagittas[left] = std::max(sagittas[left], own[right]);
-    sagittas[right] = std::max(sagittas[right], own[left]);
-  }
+  std::vector<double> own(c.faces.size()), sagittas(own);
+  parallel_for(own.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      for (int e : c.face_edges[f]) own[f] += arcs[index_of(e)].sagitta;
+  });
+  parallel_for(own.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      sagittas[f] = own[f];
+      for (int e : c.face_edges[f])
+        if (!c.is_feature_edge(e))
+          for (int other : c.edge_faces[index_of(e)])
+            sagittas[f] = std::max(sagittas[f], own[index_of(other)]);
+    }
+  });
   return sagittas;
 }
 
 std::vector<double> vertex_sagittas(const std::vector<double>& of_faces, const Adjacency& c) {
-  std::vector<double> sagittas(static_cast<std::size_t>(c.vertex_count), 0);
-  for (std::size_t f = 0; f < of_faces.size(); ++f)
-    for (int v : c.faces[f]) {
-      double& sagitta = sagittas[index_of(v)];
-      sagitta = std::max(sagitta, of_faces[f]);
-    }
+  std::vector<double> sagittas(index_of(c.vertex_count), 0);
+  parallel_for(sagittas.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      for (int f : c.vertex_faces[static_cast<int>(v)])
+        sagittas[v] = std::max(sagittas[v], of_faces[index_of(f)]);
+  });
   return sagittas;
 }
 
-std::vector<double> second_shortest_edges(const std::vector<double>& lengths, const Adjacency& c) {
-  std::vector<double> spacing(static_cast<std::size_t>(c.vertex_count));
+std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
+  std::vector<double> spacing(index_of(c.vertex_count));  // the second shortest edge
   parallel_for(spacing.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       double shortest = std::numeric_limits<double>::infinity(), second = shortest;
-      for (int e : c.vertex_edges[static_cast<int>(v)]) {
-        const double length = lengths[index_of(e)];
-        second = std::min(second, std::max(shortest, length));
-        shortest = std::min(shortest, length);
+      for (int n : c.vertex_neighbours[static_cast<int>(v)]) {
+        const double squared = (points.col(n) - points.col(static_cast<Eigen::Index>(v))).squaredNorm();
+        second = std::min(second, std::max(shortest, squared));
+        shortest = std::min(shortest, squared);
       }
       spacing[v] = second;
     }
   });
-  return spacing;
+  std::vector<double> unevenness(c.faces.size());
+  parallel_for(unevenness.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Triangle& t = c.faces[f];
+      double longest = 0, narrowest = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < 3; ++k) {
+        longest = std::max(longest, (points.col(t[k]) - points.col(t[(k + 1) % 3])).squaredNorm());
+        narrowest = std::min(narrowest, spacing[index_of(t[k])]);
+      }
+      unevenness[f] = std::sqrt(longest / narrowest);
+    }
+  });
+  return unevenness;
 }
 
 bool is_faceted(const Mat3X& points, const Adjacency& c) {
-  constexpr double flat = 1e-6, flat_share = .85, long_edge = 3, long_share = .5;
+  constexpr double flat = 1e-6, flat_share = .85, uneven = 3, uneven_share = .5;
+  const auto faces = static_cast<double>(c.faces.size());
   const std::vector<EdgeArc> arcs = edge_arcs(points, c);
-  std::vector<double> lengths;
-  for (const auto& [a, b] : c.edges) lengths.push_back((points.col(a) - points.col(b)).norm());
-  const std::vector<double> spacing = second_shortest_edges(lengths, c);
-  std::size_t flats = 0, longs = 0;
-  for (std::size_t f = 0; f < c.faces.size(); ++f) {
-    double longest = 0, narrowest = std::numeric_limits<double>::infinity();
-    bool is_flat = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t e = index_of(c.face_edges[f][k]);
-      longest = std::max(longest, lengths[e]);
-      narrowest = std::min(narrowest, spacing[index_of(c.faces[f][k])]);
-      is_flat |= arcs[e].chord > 0 && arcs[e].sagitta <= flat * arcs[e].chord;
-    }
-    flats += is_flat;
-    longs += longest > long_edge * narrowest;
-  }
-  const double faces = static_cast<double>(c.faces.size());
-  return static_cast<double>(flats) >= flat_share * faces || static_cast<double>(longs) >= long_share * faces;
+  const auto is_flat = [&](int e) {
+    return arcs[index_of(e)].chord > 0 && arcs[index_of(e)].sagitta <= flat * arcs[index_of(e)].chord;
+  };
+  const auto flats = std::ranges::count_if(
+      c.face_edges, [&](const Triangle& edges) { return std::ranges::any_of(edges, is_flat); });
+  if (static_cast<double>(flats) >= flat_share * faces) return true;
+  const std::vector<double> unevenness = face_unevenness(points, c);
+  const auto unevens = std::ranges::count_if(unevenness, [&](double u) { return u > uneven; });
+  return static_cast<double>(unevens) >= uneven_share * faces;
 }
 
 }  // namespace hooke

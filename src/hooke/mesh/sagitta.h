@@ -1,5 +1,5 @@
-// Sagittas: how far a smooth surface through the vertices of a mesh may rise over its faces; and the spacing
-// of the vertices.
+// Sagittas: how far a smooth surface through the vertices of a mesh may rise over its faces; and how even the
+// faces are.
 #pragma once
 
 #include "hooke/mesh/adjacency.h"
@@ -25,9 +25,9 @@ std::vector<double> face_sagittas(const std::vector<EdgeArc>& arcs, const Adjace
 /// The greatest of these sagittas of the faces at each vertex.
 std::vector<double> vertex_sagittas(const std::vector<double>& face_sagittas, const Adjacency& adjacency);
 
-/// The spacing of the vertices about each vertex: the second shortest of its edges, which have these lengths;
-/// infinite for a vertex with fewer.
-std::vector<double> second_shortest_edges(const std::vector<double>& lengths, const Adjacency& adjacency);
+/// The longest edge of each face over the spacing of the vertices: the smallest, of its corners, of the
+/// second shortest edges there.
+std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& adjacency);
 
 /// Are the facets of the mesh meant, as those of CAD parts: do .85 of its faces lie in a plane with a
 /// neighbour, or have half of them an edge three times as long as others at its corners?
