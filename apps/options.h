@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "hooke/measure/preservation.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
-#include "hooke/measure/preservation.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke::app {
