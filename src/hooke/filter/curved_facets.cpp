@@ -1,7 +1,6 @@
 #include "hooke/filter/curved_facets.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -105,12 +104,8 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
       };
       const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
       curved[f] = is_exceeded_at(centre, t[0]);
-      if (curved[f]) continue;
-      const auto squared_length = [&](std::size_t k) {
-        return (points.col(t[k]) - points.col(t[(k + 1) % 3])).squaredNorm();
-      };
-      const std::size_t k = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, squared_length);
-      curved[f] = is_exceeded_at(.5 * (points.col(t[k]) + points.col(t[(k + 1) % 3])), t[k]);
+      for (std::size_t k = 0; k < 3 && !curved[f]; ++k)
+        curved[f] = is_exceeded_at(.5 * (points.col(t[k]) + points.col(t[(k + 1) % 3])), t[k]);
     }
   });
   drop_small_groups(c, arcs, curved);
