@@ -164,16 +164,15 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   if (!vertex_points(mesh).allFinite())
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", record.input.path));
   record.status = status_of(done.reason);
-  const MeasuredSurface result =
-      surface_of(memory_order.order.gather(vertex_points(mesh)), memory_order, stopwatch,
-                 keeps_faces(s) ? original.tree_order : std::vector<int>());
+  Mat3X points = memory_order.order.gather(vertex_points(mesh));
   if (done.measures) {
+    record.before = std::move(done.measures->input_quality);
     record.after = std::move(done.measures->quality);
     record.deviation = std::move(done.measures->deviation);
   } else {
+    const MeasuredSurface result = surface_of(points, memory_order, stopwatch, original.tree_order);
     record.after =
         timed(&stopwatch, "after", [&] { return measure(result, mesh, memory_order.order, stopwatch); });
-    bound_between_creases(record.after->worst_faces, result, done.crease_edges);
     measure_deviation_from_input(original, result, record, stopwatch);
   }
   if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
@@ -181,7 +180,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   if (!done.vertex_limits.empty())
     for (WorstFace& face : record.after->worst_faces)
       face.reasons = limiting_factors(face, done.vertex_limits);
-  const VertexData data = data_of_result(s, loaded, original, result.points, memory_order, record);
+  const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
   });

@@ -5,13 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "messages.h"
 
+#include "hooke/remesh/limiting_factors.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke::app {
 namespace {
+
+/// A distance in file units and in percent of the size.
+std::string with_share(double distance, const RunRecord& run) {
+  return fmt::format("{:.4g} ({:.2g} % of the size)", distance, 100 * distance / run.deviation->diagonal);
+}
+
+/// Empty for meshes without a volume.
+std::string volume_change(const RunRecord& run) {
+  const std::optional<double>& change = run.deviation->volume_change;
+  return change ? fmt::format(", volume {:+.2g} %", 100 * *change) : "";
+}
 
 void warn_of_folds(RunRecord& run) {
   std::vector<int> folded = folded_faces(run);
@@ -43,10 +56,10 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
   const bool closest = !s.paper && s.remesh.filter.kind == FilterKind::closest;
   run.warnings.push_back(
       {"surface_left",
-       fmt::format("{}: its surface and that of {} are up to {:.3g} natural lengths apart; expected at most "
-                   "0.5; try {}a smaller --length, or another --feature-angle",
-                   run.output->path, run.input.path, distance / natural,
-                   closest ? "" : "--filter closest, ")});
+       fmt::format("{}: its surface and that of {} are up to {} apart{}; that is {:.2g} natural lengths, "
+                   "expected at most 0.5; try {}a smaller --length, or another --feature-angle",
+                   run.output->path, run.input.path, with_share(distance, run), volume_change(run),
+                   distance / natural, closest ? "" : "--filter closest, ")});
 }
 
 void warn_of_count(RunRecord& run) {
@@ -98,22 +111,25 @@ void warn_of_promises(const Settings& s, RunRecord& run) {
 
 /// Tells of a result that was not made as asked, because it would have broken a promise.
 void warn_of_rescue(RunRecord& run) {
-  const auto why = [&]() -> const char* {
+  const auto why = [&]() -> std::string {
     switch (run.result->rescue) {
       case Rescue::none:
-        break;
+        return "";
       case Rescue::tips:
         return "vertices at tips of the surface stand still; without that it would lose them";
       case Rescue::closest:
         return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input";
       case Rescue::put_back:
-        return "vertices were put back to where they were, with the faces of the input, as far as it takes "
-               "to keep "
-               "its surface; --connectivity adapt, which makes new vertices, can do more";
+        return fmt::format(
+            "{} of {} vertices were put back to where they were, with the faces of the input, to keep its "
+            "surface; --connectivity adapt, which makes new vertices, can do more",
+            std::ranges::count_if(run.result->vertex_limits,
+                                  [](unsigned char limits) { return limits & VertexLimit::put_back; }),
+            run.after->topology.vertices);
     }
-    return nullptr;
+    return "";
   };
-  if (const char* text = why())
+  if (const std::string text = why(); !text.empty())
     run.warnings.push_back({"result_rescued", fmt::format("{}: {}", run.output->path, text)});
 }
 
@@ -134,14 +150,10 @@ std::string broken_promises(const Settings& s, const RunRecord& run) {
   std::vector<std::string> broken;
   const auto place = [](const Vec3& x) { return fmt::format("{:.6g} {:.6g} {:.6g}", x[0], x[1], x[2]); };
   if (!p.topology_kept) broken.push_back("components, boundary loops or holes are not those of the input");
-  if (!p.far_vertices.empty() || !p.lost_vertices.empty()) {
-    std::string volume;
-    if (run.deviation->volume_change)
-      volume = fmt::format(", volume {:+.2g} %", 100 * *run.deviation->volume_change);
-    broken.push_back(fmt::format("the surface would be {:.4g} ({:.2g} % of the size) from that of {} at {}{}",
-                                 p.distance, 100 * p.distance / run.deviation->diagonal, run.input.path,
-                                 place(p.place), volume));
-  }
+  if (!p.far_vertices.empty() || !p.lost_vertices.empty())
+    broken.push_back(fmt::format("the surface would be {} from that of {} at {}{}",
+                                 with_share(p.distance, run), run.input.path, place(p.place),
+                                 volume_change(run)));
   if (!p.creases_kept)
     broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away", p.crease_loss));
   if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over", p.flipped_faces));
@@ -178,10 +190,12 @@ void warn_of_coincident_boundary(std::size_t count, RunRecord& run) {
 }
 
 void add_result_warnings(const Settings& s, RunRecord& run) {
+  const std::vector<Warning> earlier = std::exchange(run.warnings, {});
   warn_of_promises(s, run);
-  warn_of_folds(run);
-  warn_of_crossings(run);
   warn_of_distance(s, run);
+  warn_of_crossings(run);
+  warn_of_folds(run);
+  run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
   warn_of_rescue(run);
   warn_of_dropped_creases(run);
   warn_of_count(run);

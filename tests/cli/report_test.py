@@ -190,7 +190,7 @@ class Report(CommandTest):
     def test_worst_faces_say_what_bounds_them(self):
         for mode in ("fixed", "flip"):
             worst = self.report(DATA / "patch.obj", "-o", "out.off", "--connectivity", mode)["after"]["worst_faces"]
-            names = {"corner", "fixed", "crease", "boundary", "valence", "guard", "lengths"}
+            names = {"corner", "fixed", "crease", "boundary", "valence", "guard", "put_back", "lengths"}
             for face in worst:
                 self.assertTrue(face["reasons"])
                 self.assertLessEqual(set(face["reasons"]), names)

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
@@ -71,34 +76,25 @@ std::vector<Edge> edges_of_cube(const test::Triangles& cube) {
   return edges;
 }
 
-std::vector<WorstFace> all_faces(const MeasuredSurface& surface) {
-  return measure_quality(surface, {}, {.worst_faces = surface.adjacency.faces.size()}).worst_faces;
+std::vector<AngleBound> bounds_between(const std::vector<Edge>& creases, const MeasuredSurface& surface) {
+  std::vector<int> faces(surface.adjacency.faces.size());
+  std::iota(faces.begin(), faces.end(), 0);
+  return bound_min_angles(surface, faces, creases);
 }
 
 TEST(CreaseBound, SectorsOfACornerKeepTheirOwnAngles) {
   const test::Triangles cube = test::cube();
   const Adjacency c = test::connect(cube);
   const MeasuredSurface surface(cube.points, c);
-  std::vector<WorstFace> faces = all_faces(surface);
-  const auto above_45 = [](const WorstFace& f) { return f.bound.degrees > 46; };
-  EXPECT_TRUE(std::ranges::any_of(faces, above_45));  // corners have five faces, of 270 degrees in all
+  const auto is_above_45 = [](const AngleBound& b) { return b.degrees > 46; };
+  EXPECT_TRUE(std::ranges::any_of(bounds_between({}, surface),
+                                  is_above_45));  // corners have five faces, of 270 degrees in all
   const std::vector<Edge> creases = edges_of_cube(cube);
   ASSERT_EQ(creases.size(), 12u);
-  bound_between_creases(faces, surface, creases);
-  for (const WorstFace& f : faces) {
-    EXPECT_NEAR(f.bound.degrees, 45, 1e-2) << f.face;
-    EXPECT_FALSE(f.bound.vertices.empty());
+  for (const AngleBound& b : bounds_between(creases, surface)) {
+    EXPECT_NEAR(b.degrees, 45, 1e-2);
+    EXPECT_FALSE(b.vertices.empty());
   }
-}
-
-TEST(CreaseBound, WithoutCreasesNothingChanges) {
-  const test::Triangles cube = test::cube();
-  const Adjacency c = test::connect(cube);
-  const MeasuredSurface surface(cube.points, c);
-  std::vector<WorstFace> faces = all_faces(surface);
-  const std::vector<WorstFace> before = faces;
-  bound_between_creases(faces, surface, {});
-  for (size_t i = 0; i < faces.size(); ++i) EXPECT_EQ(faces[i].bound.degrees, before[i].bound.degrees);
 }
 
 /// A narrow face between a crease and the boundary, on a roof: what crosses the crease takes nothing from it.
@@ -110,24 +106,19 @@ test::Triangles roof() {
 TEST(CreaseBound, AFaceAloneInItsSectorHasItsAngle) {
   const test::Triangles t = roof();
   const Adjacency c = test::connect(t);
-  const MeasuredSurface surface(t.points, c);
-  std::vector<WorstFace> faces = all_faces(surface);
-  bound_between_creases(faces, surface, {{1, 0}});
-  const auto narrow = std::ranges::find(faces, 0, &WorstFace::face);
-  EXPECT_NEAR(narrow->bound.degrees, std::atan(.3) * 180 / std::numbers::pi, 1e-9);
-  EXPECT_EQ(narrow->bound.vertices, std::vector<int>{0});
+  const AngleBound narrow = bounds_between({{1, 0}}, MeasuredSurface(t.points, c))[0];
+  EXPECT_NEAR(narrow.degrees, std::atan(.3) * 180 / std::numbers::pi, 1e-9);
+  EXPECT_EQ(narrow.vertices, std::vector<int>{0});
 }
 
 TEST(CreaseBound, SpeaksInTheIdsOfTheSurface) {
   const test::Triangles t = roof();
   const Adjacency c = test::connect(t);
   const std::vector<int> vertices = {4, 3, 2, 1, 0}, faces_there = {2, 0, 1};
-  const MeasuredSurface surface(t.points, c, {vertices, faces_there});
-  std::vector<WorstFace> faces = all_faces(surface);
-  bound_between_creases(faces, surface, {{3, 4}});
-  const auto narrow = std::ranges::find(faces, 2, &WorstFace::face);
-  EXPECT_NEAR(narrow->bound.degrees, std::atan(.3) * 180 / std::numbers::pi, 1e-9);
-  EXPECT_EQ(narrow->bound.vertices, std::vector<int>{4});
+  const AngleBound narrow =
+      bounds_between({{0, 1}}, MeasuredSurface(t.points, c, {vertices, faces_there}))[2];
+  EXPECT_NEAR(narrow.degrees, std::atan(.3) * 180 / std::numbers::pi, 1e-9);
+  EXPECT_EQ(narrow.vertices, std::vector<int>{4});
 }
 
 }  // namespace hooke::angle_bound_test

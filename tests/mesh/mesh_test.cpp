@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hooke/core/error.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/measure/angle_bound.h"
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
@@ -121,10 +123,14 @@ TEST(MemoryOrder, WhatBoundsTheWorstFacesIsTheSameInAnyOrder) {
   options.constraints.features.angle = 60;
   const auto reasons = [&](const test::Triangles& mesh) {
     const test::Outcome o = test::remeshed(mesh, options);
-    Quality q =
-        measure_quality(measured(o.points, o.result.memory_order), {}, {.worst_faces = mesh.faces.size()});
+    const Adjacency c = test::connect({o.points, o.faces});
     std::vector<std::vector<std::string>> all;
-    for (const WorstFace& face : q.worst_faces) all.push_back(limiting_factors(face, o.result.vertex_limits));
+    for (size_t f = 0; f < c.faces.size(); ++f)
+      all.push_back(limiting_factors({.face = static_cast<int>(f),
+                                      .min_angle = min_angle(o.points, {c.faces[f]}),
+                                      .vertices = c.faces[f],
+                                      .bound = bound_min_angle(o.points, c, static_cast<int>(f))},
+                                     o.result.vertex_limits));
     std::ranges::sort(all);
     return all;
   };

@@ -46,6 +46,7 @@ TEST(LimitingFactors, AreWhatLimitsTheFacesOwnVerticesElsewhere) {
   };
   EXPECT_EQ(named({0, 0, 0}), Names{"lengths"});
   EXPECT_EQ(named({limited_by_guard, 0, 0}), Names{"guard"});
+  EXPECT_EQ(named({0, VertexLimit::put_back, 0}), Names{"put_back"});
   EXPECT_EQ(named({limited_by_guard, limited_by_boundary, limited_by_request}),
             (Names{"fixed", "boundary", "guard"}));
 }

@@ -267,13 +267,9 @@ std::vector<int> inverse_of(std::span<const int> ids, size_t count) {
 std::vector<AngleBound> bound_min_angles(const MeasuredSurface& surface, const std::vector<int>& faces,
                                          const std::vector<Edge>& creases) {
   const Adjacency& c = surface.adjacency;
-  const std::vector<int> vertex_at = inverse_of(surface.ids.vertices, static_cast<size_t>(c.vertex_count));
   const std::vector<int> face_at = inverse_of(surface.ids.faces, c.faces.size());
-  std::vector<Edge> edges = creases;
-  for (Edge& e : edges)
-    for (int& v : e) v = vertex_at[static_cast<size_t>(v)];
   std::vector<AngleBound> bounds;
-  for (int f : faces) bounds.push_back(bound_in_submesh(surface, face_at[static_cast<size_t>(f)], edges));
+  for (int f : faces) bounds.push_back(bound_in_submesh(surface, face_at[static_cast<size_t>(f)], creases));
   return bounds;
 }
 

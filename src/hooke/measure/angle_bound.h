@@ -19,7 +19,8 @@ struct AngleBound {
 AngleBound bound_min_angle(const Mat3X& points, const Adjacency& adjacency, int face, int rings = 2);
 
 /// The same for several faces of a mesh with fixed creases, given as vertex pairs: the angle sum stays the
-/// same in each wedge of a vertex. Faces, creases and bounding vertices are ids of the surface.
+/// same in each wedge of a vertex. Faces and bounding vertices are ids of the surface, the ends of creases
+/// vertices of its adjacency.
 std::vector<AngleBound> bound_min_angles(const MeasuredSurface& surface, const std::vector<int>& faces,
                                          const std::vector<Edge>& creases);
 

@@ -244,16 +244,6 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
   compare(result, certain * angle, reference, false, p.far_vertices);
 }
 
-/// The folded edges that are no creases.
-std::size_t folds_beside_creases(const CreasedSurface& mesh) {
-  const Adjacency& c = mesh.surface.adjacency;
-  std::size_t count = mesh.quality.folded_edges;
-  for (const auto& [a, b] : mesh.creases)
-    for (int e : c.vertex_edges[a])
-      if (c.other_end(e, a) == b && is_folded_edge(mesh.surface.points, c, e)) --count;
-  return count;
-}
-
 }  // namespace
 
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
@@ -265,7 +255,7 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   const auto excess_of = [](std::size_t after, std::size_t before) {
     return after - std::min(after, before);
   };
-  p.new_folds = excess_of(folds_beside_creases(result), folds_beside_creases(reference));
+  p.new_folds = excess_of(result.quality.folded_edges, reference.quality.folded_edges);
   p.new_crossings = excess_of(result.quality.self_intersections.value_or(0),
                               reference.quality.self_intersections.value_or(0));
   const Topology &before = reference.quality.topology, &after = result.quality.topology;

@@ -54,7 +54,7 @@ struct Preservation {
   }
 };
 
-/// A measured mesh and its crease edges, as vertices of the adjacency.
+/// A mesh, its quality after apply_creases(), and its crease edges as vertices of the adjacency.
 struct CreasedSurface {
   const MeasuredSurface& surface;
   const Quality& quality;

@@ -76,6 +76,12 @@ size_t count_folded_edges(const Mat3X& area_vector, const Adjacency& adjacency) 
   });
 }
 
+bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge) {
+  const auto [left, right] = adjacency.edge_faces[static_cast<size_t>(edge)];
+  return right >= 0 && is_fold(doubled_area_vector(points, adjacency.faces[static_cast<size_t>(left)]),
+                               doubled_area_vector(points, adjacency.faces[static_cast<size_t>(right)]));
+}
+
 size_t count_degenerate_faces(const Mat3X& area_vector, double min_area) {
   return count_where(static_cast<size_t>(area_vector.cols()), [&](size_t f) {
     const double area = .5 * area_vector.col(static_cast<Eigen::Index>(f)).norm();
@@ -83,20 +89,43 @@ size_t count_degenerate_faces(const Mat3X& area_vector, double min_area) {
   });
 }
 
+/// The first faces in the order of `is_worse` of which no two share a vertex.
+template <typename IsWorse>
+std::vector<int> worst_of_each_region(const Adjacency& c, std::vector<int> faces, size_t max_count,
+                                      const IsWorse& is_worse) {
+  std::vector<int> chosen;
+  std::vector<char> is_taken(static_cast<size_t>(c.vertex_count), 0);
+  const auto taken = [&](int v) -> char& { return is_taken[static_cast<size_t>(v)]; };
+  const auto begin = faces.begin();
+  for (std::ptrdiff_t sorted = 0, all = std::ssize(faces); sorted < all && chosen.size() < max_count;) {
+    const std::ptrdiff_t next = std::min<std::ptrdiff_t>(all, 2 * sorted + 100);
+    std::partial_sort(begin + sorted, begin + next, faces.end(), is_worse);
+    for (; sorted < next && chosen.size() < max_count; ++sorted) {
+      const int f = faces[static_cast<size_t>(sorted)];
+      const Triangle& t = c.faces[static_cast<size_t>(f)];
+      if (std::ranges::any_of(t, taken)) continue;
+      for (int v : t) taken(v) = 1;
+      chosen.push_back(f);
+    }
+  }
+  return chosen;
+}
+
 std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const FaceShapes& shapes,
                                         size_t max_count) {
   const Mat3X& X = surface.points;
   std::vector<int> order(shapes.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto count = static_cast<std::ptrdiff_t>(std::min(max_count, order.size()));
   const auto min_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
-  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int f, int g) {
+  const auto is_worse = [&](int f, int g) {
     return std::pair(min_angle(f), surface.ids.face(f)) < std::pair(min_angle(g), surface.ids.face(g));
-  });
-  std::vector<WorstFace> worst(static_cast<size_t>(count));
+  };
+  const std::vector<int> chosen =
+      worst_of_each_region(surface.adjacency, std::move(order), max_count, is_worse);
+  std::vector<WorstFace> worst(chosen.size());
   parallel_for(worst.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const int f = order[i];
+      const int f = chosen[i];
       const Triangle& t = surface.adjacency.faces[static_cast<size_t>(f)];
       worst[i] = {surface.ids.face(f), min_angle(f), surface.ids.corners(t),
                   (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3, bound_min_angle(X, surface.adjacency, f)};
@@ -186,19 +215,16 @@ Quality measure_quality(const Mat3X& points, const Adjacency& adjacency,
   return measure_quality(MeasuredSurface(points, adjacency), edge_target_length, options);
 }
 
-void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,
-                           const std::vector<Edge>& creases) {
+void apply_creases(Quality& quality, const MeasuredSurface& surface, const std::vector<Edge>& creases) {
   if (creases.empty()) return;
+  const Adjacency& c = surface.adjacency;
+  for (const auto& [a, b] : creases)
+    for (int e : c.vertex_edges[a])
+      if (c.other_end(e, a) == b && is_folded_edge(surface.points, c, e)) --quality.folded_edges;
   std::vector<int> ids;
-  for (const WorstFace& f : faces) ids.push_back(f.face);
+  for (const WorstFace& f : quality.worst_faces) ids.push_back(f.face);
   std::vector<AngleBound> bounds = bound_min_angles(surface, ids, creases);
-  for (size_t i = 0; i < faces.size(); ++i) faces[i].bound = std::move(bounds[i]);
-}
-
-bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge) {
-  const auto [left, right] = adjacency.edge_faces[static_cast<size_t>(edge)];
-  return right >= 0 && is_fold(doubled_area_vector(points, adjacency.faces[static_cast<size_t>(left)]),
-                               doubled_area_vector(points, adjacency.faces[static_cast<size_t>(right)]));
+  for (size_t i = 0; i < bounds.size(); ++i) quality.worst_faces[i].bound = std::move(bounds[i]);
 }
 
 }  // namespace hooke

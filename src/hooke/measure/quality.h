@@ -45,13 +45,15 @@ struct Quality {
   Statistics edge_length;
   Statistics length_error;  // (l - L_e) / L_e; empty without target lengths
 
-  std::size_t folded_edges = 0;      // unit normals on both sides have a dot product below -1e-6
+  /// Unit normals on both sides have a dot product below -1e-6; without creases after apply_creases().
+  std::size_t folded_edges = 0;
   std::size_t degenerate_faces = 0;  // area below 1e-14 times the squared diagonal of the bounding box
   std::optional<std::size_t> self_intersections;  // pairs of faces; empty if not requested
   Valence valence;
-  Range mean_curvature;                // over the interior vertices, see curvature.h
-  Range gaussian_curvature;            // likewise
-  std::vector<WorstFace> worst_faces;  // smallest angle first, ties by face id
+  Range mean_curvature;      // over the interior vertices, see curvature.h
+  Range gaussian_curvature;  // likewise
+  /// One for each region, so that no two share a vertex; smallest angle first, ties by face id.
+  std::vector<WorstFace> worst_faces;
 
   Topology topology;
   Extent extent;
@@ -68,11 +70,9 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
 Quality measure_quality(const Mat3X& points, const Adjacency& adjacency,
                         const UniformVector& edge_target_length, const QualityOptions& options = {});
 
-/// Is the edge one of those that Quality::folded_edges counts?
-bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge);
-
-/// Recomputes the angle bounds of these faces for fixed creases, see bound_min_angles().
-void bound_between_creases(std::vector<WorstFace>& faces, const MeasuredSurface& surface,
-                           const std::vector<Edge>& creases);
+/// Takes the folded edges that are creases, and so meant, from the count, and computes the angle bounds of
+/// the worst faces anew for fixed creases, see bound_min_angles(). Creases are pairs of vertices of the
+/// adjacency.
+void apply_creases(Quality& quality, const MeasuredSurface& surface, const std::vector<Edge>& creases);
 
 }  // namespace hooke

@@ -59,7 +59,7 @@ std::vector<std::string> limiting_factors(const WorstFace& face,
   bool inside = false;
   const auto add = [&](int v) {
     const unsigned char limit = vertex_limits[static_cast<size_t>(v)];
-    inside = inside || (limit & ~limited_by_guard) == not_limited;
+    inside = inside || (limit & ~(limited_by_guard | put_back)) == not_limited;
     all |= limit;
   };
   if (bounded)
@@ -73,6 +73,7 @@ std::vector<std::string> limiting_factors(const WorstFace& face,
   if (all & limited_by_crease) names.push_back("crease");
   if (all & limited_by_boundary) names.push_back("boundary");
   if (bounded && inside) names.push_back("valence");
+  if (!bounded && (all & put_back)) names.push_back("put_back");
   if (!bounded && (all & limited_by_guard)) names.push_back("guard");
   if (names.empty()) names.push_back("lengths");
   return names;

@@ -12,6 +12,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/sagitta.h"
+#include "hooke/remesh/limiting_factors.h"
 #include "hooke/springs/target_lengths.h"
 
 namespace hooke {
@@ -188,8 +189,9 @@ class PreservingRemesh {
     if (next.is_better_than(best)) best = std::move(next);
   }
 
-  /// Puts vertices back to where they were, ring by ring around what is wrong, in the end all; a result with
-  /// other faces is replaced by one with those of the input first.
+  /// Puts vertices back to where they were, ring by ring around what is wrong, and all if that is not enough
+  /// or makes worse faces than there were; a result with other faces is replaced by one with those of the
+  /// input first.
   void put_back(Run& best) {
     if (options_.connectivity == ConnectivityMode::adapt) return;
     if (options_.connectivity == ConnectivityMode::flip) {
@@ -209,11 +211,12 @@ class PreservingRemesh {
     best.result.rescue = Rescue::put_back;
     const auto input_pairs = find_self_intersections(input_.tree);
     for (int rings : {1, 2, 4, 8, 16}) {
+      if (best.flaws() == 0) break;
       const std::vector<int> wrong = wrong_vertices(best, input_pairs);
       if (wrong.empty()) break;
       move_back(best, wrong, rings);
-      if (best.flaws() == 0) return;
     }
+    if (best.flaws() == 0 && best.result.measures->quality.shape.mean >= input_quality_.shape.mean) return;
     std::vector<int> all(static_cast<size_t>(input_.adjacency.vertex_count));
     std::iota(all.begin(), all.end(), 0);
     move_back(best, all, 1);
@@ -275,6 +278,7 @@ class PreservingRemesh {
     for (int v : front) {
       const int id = memory_order_.order.old_vertex[static_cast<size_t>(v)];
       const double share = static_cast<double>(ring[static_cast<size_t>(v)]) / rings;
+      if (share == 0) run.result.vertex_limits[static_cast<size_t>(id)] |= VertexLimit::put_back;
       place(v, input.col(id) + share * (points.col(id) - input.col(id)), run);
     }
     judge(run);
@@ -302,13 +306,15 @@ class PreservingRemesh {
     const MeasuredSurface surface = timed(stopwatch_, "tree", [&] { return surface_of(a); });
     ResultMeasures m;
     m.quality = timed(stopwatch_, "after", [&] { return measure(surface, a.mesh, order, stopwatch_); });
-    bound_between_creases(m.quality.worst_faces, surface, a.result.crease_edges);
+    const std::vector<Edge> before = in_order(memory_order_.order, a.result.input_creases),
+                            after = in_order(order, a.result.crease_edges);
+    m.input_quality = input_quality_;
+    apply_creases(m.input_quality, input_, before);
+    apply_creases(m.quality, surface, after);
     m.deviation =
         timed(stopwatch_, "deviation", [&] { return measure_deviation(input_, surface, stopwatch_); });
     m.preservation = timed(stopwatch_, "preservation", [&] {
-      const std::vector<Edge> before = in_order(memory_order_.order, a.result.input_creases),
-                              after = in_order(order, a.result.crease_edges);
-      return measure_preservation({input_, input_quality_, before}, {surface, m.quality, after}, m.deviation,
+      return measure_preservation({input_, m.input_quality, before}, {surface, m.quality, after}, m.deviation,
                                   preservation_);
     });
     // The two sides of a cut touch in as many pairs as there are faces.

@@ -57,8 +57,9 @@ enum class Rescue {
   put_back,  // vertices were put back to where they were
 };
 
-/// The measures of a result and of its relation to the input.
+/// The measures of a result and of its relation to the input, see apply_creases().
 struct ResultMeasures {
+  Quality input_quality;
   Quality quality;
   Deviation deviation;
   Preservation preservation;
