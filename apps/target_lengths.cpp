@@ -13,6 +13,7 @@
 #include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/wedges.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/springs/target_lengths.h"
 #include "result_warnings.h"
@@ -49,10 +50,20 @@ void require_reasonable(const Settings& s, double min_length, double max_length,
                   max_length, printable(s.input.string()), natural / limit, limit * natural, limit));
 }
 
+/// The creases that these lengths show.
+std::vector<Edge> creases_at(const std::vector<double>& lengths, const Mat3X& points, const Adjacency& c,
+                             const CreaseOptions& features) {
+  std::vector<Edge> creases;
+  for (int e : detect_creases(points, c, lengths, features))
+    creases.push_back(c.edges[static_cast<size_t>(e)]);
+  return creases;
+}
+
 }  // namespace
 
 std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
-                                const Mat3X& points, const MemoryOrder& memory_order) {
+                                const Mat3X& points, const MemoryOrder& memory_order,
+                                const CreaseOptions& features) {
   const Adjacency& c = *memory_order.adjacency;
   switch (source.kind) {
     case SizingSource::Kind::none:
@@ -64,7 +75,10 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
     case SizingSource::Kind::curvature: {
       const double diagonal = box_diagonal(points);
       const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
-      return curvature_lengths(points, c, error, max_relative_length * diagonal);
+      const double longest = max_relative_length * diagonal;
+      Adjacency creased = c;
+      split_wedges(creased, creases_at(curvature_lengths(points, c, error, longest), points, c, features));
+      return curvature_lengths(points, creased, error, longest);
     }
   }
   return {};
@@ -73,7 +87,8 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
 void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& memory_order,
                         const Mat3X& points, RunRecord& record) {
   const Adjacency& adjacency = *memory_order.adjacency;
-  const Sizing sizing{read_sizing(s.sizing, s.input, points, memory_order), s.gradation};
+  const Sizing sizing{read_sizing(s.sizing, s.input, points, memory_order, s.remesh.constraints.features),
+                      s.gradation};
   const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
   const double natural = resolve_length({}, points, adjacency);
   const auto [min_length, max_length] = std::ranges::minmax_element(lengths);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "hooke/constraints/crease_detection.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/report/report.h"
 #include "hooke/springs/sizing.h"
@@ -12,9 +13,11 @@ namespace hooke::app {
 
 /// Reads or computes the lengths of a sizing, one per vertex in memory order, as are `points`; empty without
 /// a source. Files list the lengths in file order. A property is read from the mesh file itself; throws Error
-/// if that is not PLY. Throws InputError if the file does not hold the lengths.
+/// if that is not PLY. Throws InputError if the file does not hold the lengths. `features`:
+/// which sharp edges do not count as curvature.
 std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
-                                const Mat3X& points, const MemoryOrder& memory_order);
+                                const Mat3X& points, const MemoryOrder& memory_order,
+                                const CreaseOptions& features = {});
 
 /// Sets the target lengths of the vertices (v:target_length) and records them in the parameters of the run.
 /// `points` are in memory order. Throws Error if the lengths are unreasonable for the size of the mesh, and

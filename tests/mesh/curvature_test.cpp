@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "hooke/mesh/wedges.h"
 #include "support/solids.h"
 
 namespace hooke::curvature_test {
@@ -28,6 +31,55 @@ TEST(PrincipalCurvature, OfACylinderIsThatOfItsCircle) {
 
 TEST(PrincipalCurvature, OfAPlaneIsZero) {
   for (double k : curvatures(test::moved(test::grid(6, test::flat, .4)))) EXPECT_NEAR(k, 0, 1e-9);
+}
+
+/// A ring of 24 sides between the radii 1 and 2, flat or, between creases, beside another that stands on it.
+test::Triangles ring(bool with_wall) {
+  constexpr int sides = 24;
+  test::Triangles t;
+  t.points.resize(3, (with_wall ? 3 : 2) * sides);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    const Vec3 x(std::cos(angle), std::sin(angle), 0);
+    t.points.col(i) = x;
+    t.points.col(sides + i) = 2 * x;
+    if (with_wall) t.points.col(2 * sides + i) = 2 * x + Vec3::UnitZ();
+    const int next = (i + 1) % sides;
+    for (int k = 0; k < (with_wall ? 2 : 1); ++k) {
+      t.faces.push_back({k * sides + i, (k + 1) * sides + i, k * sides + next});
+      t.faces.push_back({k * sides + next, (k + 1) * sides + i, (k + 1) * sides + next});
+    }
+  }
+  return t;
+}
+
+TEST(PrincipalCurvature, OfABoundaryIsThatOfItsCircle) {
+  const std::vector<double> k = curvatures(ring(false));
+  for (size_t v = 0; v < 24; ++v) EXPECT_NEAR(k[v], 1, 1e-9);
+  for (size_t v = 24; v < 48; ++v) EXPECT_NEAR(k[v], .5, 1e-9);
+}
+
+TEST(PrincipalCurvature, OfACreaseIsThatOfItsCircleAndOfBothSides) {
+  const test::Triangles t = ring(true);
+  Adjacency c = test::connect(t);
+  std::vector<Edge> rim;
+  for (const Edge& e : c.edges)
+    if (std::min(e[0], e[1]) >= 24 && std::max(e[0], e[1]) < 48) rim.push_back(e);
+  ASSERT_EQ(rim.size(), 24u);
+  const std::vector<double> without = largest_curvatures(t.points, c);
+  split_wedges(c, rim);
+  const std::vector<double> k = largest_curvatures(t.points, c);
+  for (size_t v = 24; v < 48; ++v) {
+    EXPECT_NEAR(k[v], .5, .1);
+    EXPECT_GT(without[v], .7);  // the bend is taken for a round one
+  }
+}
+
+TEST(PrincipalCurvature, OfARaggedBoundaryIsThatOfItsCourse) {
+  test::Triangles t = test::grid(8, test::flat);
+  for (int v = 0; v < 9; v += 2) t.points(1, v) -= .04;
+  const std::vector<double> k = curvatures(t);
+  for (size_t v = 2; v < 7; ++v) EXPECT_NEAR(k[v], 0, 1e-9);
 }
 
 TEST(PrincipalCurvature, IsOneOverTheLength) {

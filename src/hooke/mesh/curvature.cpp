@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/topology.h"
+#include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {
@@ -158,9 +160,7 @@ double fit_curvature(const Mat3X& points, const Vec3& n, const std::vector<int>&
   return largest_curvature(k[3], k[4], k[5], k[1], k[2]) / radius;
 }
 
-}  // namespace
-
-std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) {
+std::vector<double> curvatures_of_pieces(const Mat3X& points, const Adjacency& c) {
   const Mat3X normals = vertex_normals(points, c);
   std::vector<double> curvature(static_cast<size_t>(c.vertex_count), 0);
   parallel_for(curvature.size(), 256, [&](size_t begin, size_t end) {
@@ -173,6 +173,63 @@ std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) 
     }
   });
   return curvature;
+}
+
+/// The neighbours of each vertex along the boundary and the creases, -1 for those that are on no such curve,
+/// and where curves meet, end, or turn by more than 60 degrees.
+std::vector<std::array<int, 2>> neighbours_on_curves(const Mat3X& points, const Adjacency& c) {
+  constexpr std::array<int, 2> none = {-1, -1};
+  std::vector<std::array<int, 2>> neighbours(static_cast<size_t>(c.vertex_count), none);
+  std::vector<int> count(neighbours.size(), 0);
+  for (size_t e = 0; e < c.edges.size(); ++e) {
+    if (!c.is_boundary_edge(static_cast<int>(e)) && !c.is_crease(static_cast<int>(e))) continue;
+    for (size_t end : {0, 1}) {
+      const auto v = static_cast<size_t>(c.edges[e][end]);
+      if (count[v] < 2) neighbours[v][static_cast<size_t>(count[v])] = c.edges[e][1 - end];
+      ++count[v];
+    }
+  }
+  for (size_t v = 0; v < count.size(); ++v) {
+    const auto& [a, b] = neighbours[v];
+    if (count[v] == 2) {
+      const Vec3 x = points.col(static_cast<Eigen::Index>(v));
+      if ((x - points.col(a)).normalized().dot((points.col(b) - x).normalized()) > .5) continue;
+    }
+    neighbours[v] = none;
+  }
+  return neighbours;
+}
+
+/// The curvature of the boundary or crease at each vertex, by the circle through it and the second vertices
+/// on both sides, so that a ragged curve is not a bent one; 0 where it is on none.
+std::vector<double> curvatures_of_curves(const Mat3X& points, const Adjacency& c) {
+  const std::vector<std::array<int, 2>> neighbours = neighbours_on_curves(points, c);
+  const auto second = [&](int first, int v) {
+    const auto& [a, b] = neighbours[static_cast<size_t>(first)];
+    return a < 0 ? first : a == v ? b : a;
+  };
+  std::vector<double> curvature(neighbours.size(), 0);
+  for (size_t v = 0; v < neighbours.size(); ++v) {
+    const auto& [a, b] = neighbours[v];
+    if (a < 0) continue;
+    const Vec3 x = points.col(static_cast<Eigen::Index>(v)), p = points.col(second(a, static_cast<int>(v))),
+               q = points.col(second(b, static_cast<int>(v)));
+    const double product = (p - x).norm() * (q - x).norm() * (q - p).norm();
+    if (product > 0) curvature[v] = 2 * (p - x).cross(q - x).norm() / product;
+  }
+  return curvature;
+}
+
+}  // namespace
+
+std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) {
+  std::vector<double> largest = curvatures_of_curves(points, c);
+  const std::vector<double> of_wedges = curvatures_of_pieces(wedge_points(points, c), cut_open(c));
+  for (size_t w = 0; w < of_wedges.size(); ++w) {
+    double& l = largest[static_cast<size_t>(c.vertex_of_wedge(static_cast<int>(w)))];
+    l = std::max(l, of_wedges[w]);
+  }
+  return largest;
 }
 
 }  // namespace hooke

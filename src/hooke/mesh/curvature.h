@@ -20,8 +20,9 @@ struct VertexCurvature {
 
 VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacency);
 
-/// Maximum absolute principal curvature at each vertex, 1/length; 0 at a vertex without faces. A quadric is
-/// fitted to two rings around the vertex, and a third where they have fewer than ten vertices (Cazals and
+/// Maximum curvature at each vertex, 1/length, 0 at a vertex without faces: of the boundary or a crease that
+/// goes through it, and the absolute principal curvatures of the surface on each side of a crease. A quadric
+/// is fitted to two rings around the vertex, and a third where they have fewer than ten vertices (Cazals and
 /// Pouget): the vertices must lie on the surface, but the triangles need not be good. Vertices whose normals
 /// differ by more than 78 degrees (on the other side of a thin sheet) are left out, unless too few remain.
 std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& adjacency);
