@@ -133,6 +133,38 @@ void warn_of_rescue(RunRecord& run) {
     run.warnings.push_back({"result_rescued", fmt::format("{}: {}", run.output->path, text)});
 }
 
+/// Tells what would help against small angles at edges that stay, of facets or of the boundary.
+void warn_of_held_faces(const Settings& s, RunRecord& run) {
+  constexpr double small_angle = 20;
+  const auto& limits = run.result->vertex_limits;
+  if (limits.empty() || run.result->rescue == Rescue::put_back) return;
+  const std::vector<WorstFace>& faces = run.after->worst_faces;
+  const auto is_between_creases = [&](const WorstFace& f) {
+    return f.min_angle < small_angle && std::ranges::all_of(f.vertices, [&](int v) {
+             return limits[static_cast<size_t>(v)] & (limited_by_crease | limited_at_corner);
+           });
+  };
+  const auto is_at_fixed_edge = [&](const WorstFace& f) {
+    return f.min_angle < small_angle && std::ranges::count_if(f.vertices, [&](int v) {
+                                          return limits[static_cast<size_t>(v)] & limited_by_request;
+                                        }) >= 2;
+  };
+  const auto warn = [&](const char* code, const WorstFace& f, const char* text) {
+    run.warnings.push_back({code, fmt::format("{}: face {} is left with an angle of {:.2g} degrees: {}",
+                                              run.output->path, f.face, f.min_angle, text)});
+  };
+  const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
+  const auto bad = adapts ? std::ranges::find_if(faces, is_at_fixed_edge)
+                          : std::ranges::find_if(faces, is_between_creases);
+  if (bad == faces.end()) return;
+  if (!adapts)
+    warn("facets_without_inner_vertices", *bad,
+         "it lies between creases, and facets with no inner vertices cannot be mended without new ones; use "
+         "--connectivity adapt");
+  else if (s.remesh.constraints.boundary == BoundaryRule::fixed)
+    warn("boundary_holds_angles", *bad, "the edges of a fixed boundary stay; use --boundary slide");
+}
+
 void warn_of_dropped_creases(RunRecord& run) {
   const CreaseCounts& c = run.result->creases;
   if (c.dropped > 0)
@@ -197,6 +229,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   warn_of_folds(run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
   warn_of_rescue(run);
+  warn_of_held_faces(s, run);
   warn_of_dropped_creases(run);
   warn_of_count(run);
   warn_of_sizing(s, run);

@@ -167,6 +167,20 @@ class Report(CommandTest):
         coarse = (DATA / "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", "4x", "--accept-invalid")
         self.assertIn("surface_left", codes(*coarse))
 
+    def test_what_holds_angles_down_is_named(self):
+        codes = lambda *options: [w["code"] for w in self.report(*options)["warnings"]]
+        box = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 9)]
+        quads = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        write_off(self.folder / "bar.off", box, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))])
+        self.assertIn("facets_without_inner_vertices", codes("bar.off", "-o", "out.off"))
+        mended = ("bar.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".4")
+        self.assertEqual(codes(*mended), [])
+        plate = [(x, y, 0) for x, y in ((0, 0), (9, 0), (9, 9), (8, 9), (0, 9))]
+        write_off(self.folder / "plate.off", plate, [(0, 1, 2), (0, 2, 3), (0, 3, 4)])
+        adapted = ("plate.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".4", "--boundary")
+        self.assertIn("boundary_holds_angles", codes(*adapted, "fixed"))
+        self.assertNotIn("boundary_holds_angles", codes(*adapted, "slide"))
+
     def test_a_seam_stays_closed_and_says_so(self):
         grid = lambda side: [(side * (i + .3 * (i == 1 and j == 1)) / 2, (j + .2 * (j == 1 and i == 1)) / 2, 0)
                              for j in range(3) for i in range(3)]
