@@ -34,7 +34,7 @@ def _read_obj(data):
 
 
 def _read_off(data):
-    keyword, counts, *rows = [line.split() for line in data.decode().splitlines()]
+    keyword, counts, *rows = [line.split() for line in data.decode().splitlines() if line.strip()]
     if not keyword[0].endswith("OFF"):
         raise ValueError("not an OFF file")
     nv, nf = int(counts[0]), int(counts[1])

@@ -219,7 +219,8 @@ def plane_groups(p, f):
     return n, np.einsum("ij,ij->i", n, p[f[:, 0]])
 
 
-def flaws(p, f, q, g, surface, length, report):
+def flaws(p, f, q, g, surface, length, crossings):
+    """What is wrong with the result (q, g) for the body (p, f), which has no self-intersections."""
     found = []
     diagonal = np.linalg.norm(np.ptp(p, axis=0))
     before, after = edges_of(f), edges_of(g)
@@ -256,8 +257,8 @@ def flaws(p, f, q, g, surface, length, report):
         tree = cKDTree(np.concatenate([p[f].mean(axis=1), p]))
         if tree.query(q)[0].max() > 1.5 * diagonal:
             found.append("vertex far away")
-    if report["after"]["self_intersections"] > report["before"]["self_intersections"]:
-        found.append("self-intersections")
+    if crossings > 0:
+        found.append("%d self-intersections" % crossings)
     return found
 
 
@@ -276,7 +277,8 @@ def run(tool, seed, mode, keep):
             return seed, mode, "wrong", ["exit code %d: %s" % (done.returncode, done.stderr.strip()[-200:])], 0
         q, g = mesh_file.read_mesh(target)
         report = json.loads(done.stdout)
-        found = flaws(p, f, np.array(q), np.array(g), surface, length, report)
+        found = flaws(p, f, np.array(q), np.array(g), surface, length,
+                      report["after"]["self_intersections"])
         return seed, mode, "wrong" if found else "kept", found, report["after"]["min_angle"]["min"]
 
 
