@@ -10,6 +10,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/staircase.h"
 
 namespace hooke {
 namespace {
@@ -470,7 +471,8 @@ std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, do
 
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options) {
-  if (options.angle >= 180) return {};
+  if (options.angle >= 180 || (options.drops_noise && is_staircase(points, adjacency, vertex_length)))
+    return {};
   return FeatureSearch(points, adjacency, vertex_length, options).run();
 }
 

@@ -44,7 +44,8 @@ struct CreaseOptions {
 /// unless all their edges are sharp between flat faces and they lead to a crease or to the boundary. The
 /// chains that remain form networks; networks with many corners between rough faces are noise.
 /// Edges that the target length resolves are added whatever the chains: sharp ones, and weaker ones between
-/// flat regions where most faces are in such regions. Lone edges are dropped.
+/// flat regions where most faces are in such regions. Lone edges are dropped. The steps of a binary mask that
+/// the target length does not resolve are noise, see is_staircase().
 /// `vertex_length` is the target length at each vertex.
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options);

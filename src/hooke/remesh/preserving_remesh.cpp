@@ -12,6 +12,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/sagitta.h"
+#include "hooke/mesh/staircase.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/springs/target_lengths.h"
 
@@ -67,7 +68,12 @@ class PreservingRemesh {
         preservation_(preservation),
         input_quality_(known.quality ? *known.quality
                                      : measure(input_, mesh, memory_order.order, stopwatch)) {
-    preservation_.faceted = is_faceted(input_.points, input_.adjacency);
+    const bool is_noise =
+        options.constraints.features.drops_noise &&
+        is_staircase(input_.points, input_.adjacency,
+                     memory_order.order.gather(vertex_values(mesh, target_length_property)));
+    if (is_noise) preservation_.feature_angle = 180;
+    preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
     preservation_.keeps_facets = preservation_.faceted && options.connectivity != ConnectivityMode::adapt;
   }
 
