@@ -50,8 +50,8 @@ TEST(Features, BetweenFlatRegionsSmallAnglesCountToo) {
   const auto bent = [](double degrees) {
     return features_of(bent_sheet(20, [degrees](double) { return degrees; })).size();
   };
-  EXPECT_EQ(bent(.9), 0u);
-  EXPECT_EQ(bent(1.1), 20u);
+  EXPECT_EQ(bent(.15), 0u);
+  EXPECT_EQ(bent(.25), 20u);
   EXPECT_EQ(bent(41), 20u);
 }
 
@@ -156,6 +156,19 @@ TEST(Features, AFanOfNarrowFacetsIsACone) {
   EXPECT_EQ(features_of(pyramid(48, 20, 40)).size(), 48u);  // the rim only
   EXPECT_EQ(features_of(pyramid(48, 200, 400)).size(), 48u);
   EXPECT_EQ(features_of(pyramid(4, 20, 40)).size(), 8u);
+}
+
+std::vector<int> tips_of(const test::Triangles& t, double length) {
+  const Adjacency c = test::connect(t);
+  return detect_tips(t.points, c, std::vector<double>(static_cast<size_t>(c.vertex_count), length), {});
+}
+
+TEST(Features, TheTipOfAConeIsHeldWhereLengthsResolveIt) {
+  const test::Triangles steep = pyramid(48, 20, 40);
+  EXPECT_EQ(tips_of(steep, 1), std::vector{48});
+  EXPECT_TRUE(tips_of(steep, 40).empty());
+  EXPECT_TRUE(tips_of(pyramid(48, 20, 10), 1).empty());  // nearly flat
+  EXPECT_TRUE(tips_of(test::sphere(2), .01).empty());
 }
 
 }  // namespace hooke::crease_detection_test

@@ -128,14 +128,14 @@ class FeatureSearch {
       if (kept_[e] && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); })) kept_[e] = 0;
   }
 
-  /// Does the edge divide flat regions where less sharp edges at both its ends are creases? A body is round
-  /// both ways or not at all.
+  /// Does the edge divide flat regions where edges at both its ends that are no sharper are creases? A body
+  /// is round both ways or not at all.
   bool goes_with_weaker_creases(int edge, const std::vector<char>& kept,
                                 const std::vector<int>& regions) const {
     return angle_[idx(edge)] > o_.flat_angle && narrower_width(edge, regions) > o_.resolved_facet &&
            std::ranges::all_of(c_.edges[idx(edge)], [&](int v) {
              return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
-               return kept[idx(e)] && angle_[idx(e)] < angle_[idx(edge)];
+               return kept[idx(e)] && angle_[idx(e)] < (1 + o_.strip_angle) * angle_[idx(edge)];
              });
            });
   }
@@ -261,7 +261,7 @@ class FeatureSearch {
           is_convex(e) != is_convex(edge))
         return;
       const Vec3 other = direction(e), origin = X_.col(c_.edges[idx(e)][0]);
-      if (are_in_line(e, edge, along)) return;
+      if (are_in_line(e, edge, along) || continues(e, edge)) return;
       if (std::abs(other.dot(along)) > parallel)
         for (int v : {a, b}) least = std::min(least, other.cross(X_.col(v) - origin).norm() / target);
       else if (region < 0)
@@ -283,6 +283,14 @@ class FeatureSearch {
   bool are_in_line(int edge, int other, const Vec3& along) const {
     const Vec3 apart = X_.col(c_.edges[idx(edge)][0]) - X_.col(c_.edges[idx(other)][0]);
     return apart.cross(along).norm() <= o_.flatness * diagonal_;
+  }
+
+  /// Do the edges meet at an obtuse angle?
+  bool continues(int edge, int other) const {
+    for (int v : c_.edges[idx(edge)])
+      if (std::ranges::find(c_.edges[idx(other)], v) != c_.edges[idx(other)].end())
+        return (X_.col(other_end(edge, v)) - X_.col(v)).dot(X_.col(other_end(other, v)) - X_.col(v)) < 0;
+    return false;
   }
 
   bool is_convex(int edge) const {
@@ -467,6 +475,30 @@ std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, do
   for (size_t e = 0; e < angles.size(); ++e)
     if (angles[e] > angle) edges.push_back(static_cast<int>(e));
   return edges;
+}
+
+std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
+                             const std::vector<double>& vertex_length, const CreaseOptions& o) {
+  std::vector<int> tips;
+  if (o.angle >= 180) return tips;
+  for (int v = 0; v < c.vertex_count; ++v) {
+    const auto edges = c.vertex_edges[v];
+    const auto ends_far_away = [&](int e) {
+      return !c.is_feature_edge(e) &&
+             (points.col(c.other_end(e, v)) - points.col(v)).norm() > o.resolved * vertex_length[idx(v)];
+    };
+    if (edges.empty() || !std::ranges::all_of(edges, ends_far_away)) continue;
+    double angle = 0;  // degrees
+    for (int f : c.vertex_faces[v]) {
+      const Triangle& t = c.faces[idx(f)];
+      const auto k = static_cast<size_t>(std::ranges::find(t, v) - t.begin());
+      const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(v),
+                 b = points.col(t[(k + 2) % 3]) - points.col(v);
+      angle += std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+    }
+    if (angle < 360 - o.tip_defect) tips.push_back(v);
+  }
+  return tips;
 }
 
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,

@@ -1,5 +1,5 @@
 // Detects creases: chains of sharp edges that belong to the shape, as opposed to noise, by hysteresis
-// thresholding.
+// thresholding; and tips.
 // J. Canny, "A computational approach to edge detection", 1986.
 #pragma once
 
@@ -24,17 +24,17 @@ struct CreaseOptions {
   /// Minimum length of a sharp edge, and minimum height of its faces, in target lengths, for the edge to be
   /// certainly no noise.
   double resolved = 1.5;
-  double noise_width = .1;      // the same for the facets beside a sharp edge where facets are meant
-  double flat_angle = 1;        // degrees; an edge between resolved flat regions is a crease above it
-  double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
-  double resolved_facet = .5;   // and where none is
-  double strip_angle = .05;     // maximum relative difference of the angles at both edges of a strip
-  double strip_end_angle =
-      .05;                   // maximum difference of their ratio from 2 where a strip is the first of a round
+  double noise_width = .1;       // the same for the facets beside a sharp edge where facets are meant
+  double flat_angle = .2;        // degrees; an edge between resolved flat regions is a crease above it
+  double resolved_strip = 1.9;   // the same between such regions, where one is a strip of a round body
+  double resolved_facet = .5;    // and where none is
+  double strip_angle = .05;      // maximum relative difference of the angles at both edges of a strip
+  double strip_end_angle = .02;  // maximum difference of their ratio from 2 where a round begins
   double facet_angle = 1.4;  // minimum angle at all edges of a face that is a facet of its own, over `angle`
   /// Minimum share of faces in flat regions or with a resolved sharp edge, beyond which facets are meant.
   double flat_share = .6;
   double flatness = 1e-6;  // maximum distance of a flat region from its plane, in diagonals of the mesh
+  double tip_defect = 70;  // degrees that the faces at the tip of a cone fall short of a full turn, at least
 };
 
 /// The crease edges, ascending. An edge qualifies if its faces meet at a sharp angle while each of them
@@ -49,6 +49,11 @@ struct CreaseOptions {
 /// `vertex_length` is the target length at each vertex.
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options);
+
+/// The tips of cones and pyramids, ascending: vertices without a crease or boundary edge whose faces span
+/// less than a full turn by more than `tip_defect`, and whose edges the target length resolves.
+std::vector<int> detect_tips(const Mat3X& points, const Adjacency& with_creases,
+                             const std::vector<double>& vertex_length, const CreaseOptions& options);
 
 /// The edges whose faces meet at more than `angle` degrees, ascending.
 std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, double angle);

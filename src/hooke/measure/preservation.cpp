@@ -49,13 +49,14 @@ std::vector<FarVertex> vertices_beyond(const MeasuredSurface& surface, const Ver
   for (int v = 0; v < surface.adjacency.vertex_count; ++v) {
     const int face = to_other.faces[index_of(v)];
     if (face < 0) continue;
-    const double distance = to_other.distances[index_of(v)], excess = distance / limit_at(v, face);
+    const double distance = to_other.distances[index_of(v)], limit = limit_at(v, face),
+                 excess = distance / limit;
     if (excess > p.excess) {
       p.excess = excess;
       p.distance = distance;
       p.place = surface.points.col(v);
     }
-    if (excess > 1) beyond.push_back({v, distance});
+    if (excess > 1) beyond.push_back({v, distance, limit});
   }
   return beyond;
 }
@@ -98,7 +99,7 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
       p.place = from.points.col(c.faces[f][0]);
     }
     if (excess[f] > 1)
-      for (int v : c.faces[f]) far.push_back({v, distances[f]});
+      for (int v : c.faces[f]) far.push_back({v, distances[f], distances[f] / excess[f]});
   }
 }
 
@@ -235,9 +236,10 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
     p.crease_loss = std::max(p.crease_loss, *std::ranges::max_element(d.distance));
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const double sagitta = others.empty() ? 0 : sagittas[is_reference ? e : d.closest[e]];
-      if (d.distance[e] <= std::max(exact * reference.extent.diagonal, 2 * sagitta)) continue;
+      const double limit = std::max(exact * reference.extent.diagonal, 2 * sagitta);
+      if (d.distance[e] <= limit) continue;
       p.creases_kept = false;
-      for (int v : edges[e]) far.push_back({v, d.distance[e]});
+      for (int v : edges[e]) far.push_back({v, d.distance[e], limit});
     }
   };
   compare(reference, angle, result, true, p.lost_vertices);

@@ -113,8 +113,8 @@ class PreservingRemesh {
   }
 
   /// Moves vertices that are too far to the closest points of the input, and the vertices closest to lost
-  /// ones of the input to these, but none that is held or on the boundary; keeps that if it makes fewer
-  /// flaws.
+  /// ones of the input towards these, as near as they must be, but none that is held or on the boundary;
+  /// keeps that if it makes fewer flaws.
   void move_to_input(Run& run) const {
     const Preservation& p = run.preservation();
     if (p.far_vertices.empty() && p.lost_vertices.empty()) return;
@@ -140,7 +140,9 @@ class PreservingRemesh {
           t, {}, [&](int corner) { return (surface.points.col(corner) - x).squaredNorm(); });
       if (!may_move(v)) continue;
       is_held[static_cast<size_t>(v)] = 1;
-      moved.col(v) = x;
+      constexpr double well_within = .95;
+      const Vec3 way = x - moved.col(v);
+      moved.col(v) += std::max(0., 1 - well_within * tip.limit / way.norm()) * way;
     }
     for (const FarVertex& far : p.far_vertices) {
       const ClosestPoint closest = input_.tree.closest(surface.points.col(far.vertex));

@@ -59,6 +59,8 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   faceted_ = is_faceted(*start, *adjacency);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
+  for (int tip : detect_tips(*start, *adjacency, vertex_length, constraint_options.features))
+    reordered.fixed_vertices.push_back(tip);
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
