@@ -5,6 +5,7 @@
 #include "support/crease_solids.h"
 
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/normals.h"
 
 namespace hooke::crease_detection_test {
 

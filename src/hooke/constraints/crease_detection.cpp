@@ -10,6 +10,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/staircase.h"
 
 namespace hooke {
@@ -22,11 +23,7 @@ size_t idx(int i) {
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
 std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
-  Mat3X normals(3, std::ssize(c.faces));
-  parallel_for(c.faces.size(), 4096, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f)
-      normals.col(static_cast<Eigen::Index>(f)) = face_shape(points, c.faces[f]).normal;
-  });
+  const Mat3X normals = certain_face_normals(points, c);
   std::vector<double> angles(c.edges.size(), 0);
   parallel_for(angles.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
@@ -468,14 +465,6 @@ class FeatureSearch {
 };
 
 }  // namespace
-
-std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, double angle) {
-  const std::vector<double> angles = edge_angles(points, adjacency);
-  std::vector<int> edges;
-  for (size_t e = 0; e < angles.size(); ++e)
-    if (angles[e] > angle) edges.push_back(static_cast<int>(e));
-  return edges;
-}
 
 std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
                              const std::vector<double>& vertex_length, const CreaseOptions& o) {

@@ -55,7 +55,4 @@ std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
 std::vector<int> detect_tips(const Mat3X& points, const Adjacency& with_creases,
                              const std::vector<double>& vertex_length, const CreaseOptions& options);
 
-/// The edges whose faces meet at more than `angle` degrees, ascending.
-std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, double angle);
-
 }  // namespace hooke

@@ -94,18 +94,29 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
   std::vector<char> curved = doubtful_faces(points, c, arcs);
   if (std::ranges::find(curved, 1) == curved.end()) return nullptr;
   const std::vector<double> rises = max_rises(arcs, c);
+  std::vector<char> is_near(c.edges.size(), 0);  // to a doubtful face
+  for (std::size_t f = 0; f < curved.size(); ++f)
+    if (curved[f])
+      for (int e : c.face_edges[f]) is_near[index_of(e)] = 1;
+  std::vector<double> heights(c.edges.size(), 0);  // over their midpoints
+  parallel_for(heights.size(), facet_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto& [a, b] = c.edges[e];
+      if (is_near[e]) heights[e] = height(.5 * (points.col(a) + points.col(b)), a);
+    }
+  });
   parallel_for(curved.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       if (!curved[f]) continue;
       const Triangle& t = c.faces[f];
       const double least = exact * (points.col(t[1]) - points.col(t[0])).norm();
-      const auto is_exceeded_at = [&](const Vec3& at, int hint) {
-        return !(std::abs(height(at, hint)) <= std::max(max_height * rises[f], least));
+      const auto is_exceeded_by = [&](double h) {
+        return !(std::abs(h) <= std::max(max_height * rises[f], least));
       };
       const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
-      curved[f] = is_exceeded_at(centre, t[0]);
-      for (std::size_t k = 0; k < 3 && !curved[f]; ++k)
-        curved[f] = is_exceeded_at(.5 * (points.col(t[k]) + points.col(t[(k + 1) % 3])), t[k]);
+      curved[f] =
+          std::ranges::any_of(c.face_edges[f], [&](int e) { return is_exceeded_by(heights[index_of(e)]); }) ||
+          is_exceeded_by(height(centre, t[0]));
     }
   });
   drop_small_groups(c, arcs, curved);

@@ -35,7 +35,7 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     load(fixed + has_edge * stride, edge);
     load(fixed + edge_target * stride, target);
 
-    load(fixed + face_normals * stride, stride, m);
+    load(fixed + normal_sums * stride, stride, m);
     m = {m.x + after.normal[0], m.y + after.normal[1], m.z + after.normal[2]};
     Lanes along, size;
     dot(n, m, along);
@@ -141,7 +141,7 @@ void VertexRing::gather(const SurfacePositions& at, int wedge) {
     const RingEntry& next = ring[j];
     put(at.points.col(entry.neighbour), data + near * S + i, S);
     put(at.points.col(next.neighbour), data + far * S + i, S);
-    put(normal(i) + normal(j), data + face_normals * S + i, S);
+    put(normal(i) + normal(j), data + normal_sums * S + i, S);
     put(normal(i), data + edge_normal * S + i, S);
     Vec3 other = Vec3::Zero();
     if (entry.across >= 0) {
@@ -207,7 +207,7 @@ RingModel VertexRing::unfold(const RingShape& shape, const EnergyTerms& terms, c
   for (std::size_t i = 0; i < S; ++i) {
     if (face_mask[i] == 0) continue;
     const Vec3 n = get(shape.columns.data() + area_vector * S + i, S);
-    const Vec3 r = get(columns_.data() + face_normals * S + i, S) + shape.normal;
+    const Vec3 r = get(columns_.data() + normal_sums * S + i, S) + shape.normal;
     const double lengths = std::sqrt(n.squaredNorm() * r.squaredNorm());
     const double d = terms.unfold_below;
     if (lengths > 0 && n.dot(r) / lengths >= d) continue;
@@ -238,7 +238,7 @@ RingMeasures VertexRing::measures(const RingShape& shape) const {
   RingMeasures m;
   for (std::size_t i = 0; i < entries().size(); ++i) {
     const Vec3 n = get(data + area_vector * S + i, S);
-    const Vec3 r = get(columns_.data() + face_normals * S + i, S) + shape.normal;
+    const Vec3 r = get(columns_.data() + normal_sums * S + i, S) + shape.normal;
     const double c = std::clamp(get(columns_.data() + edge_normal * S + i, S).dot(shape.normal), -1., 1.);
     const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
     const bool face = entries()[i].face >= 0;

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
 
 namespace hooke {
@@ -140,16 +140,9 @@ std::vector<Triangle> as_segments(const std::vector<Edge>& edges) {
 
 /// The edges at which faces turn by more than the angle, in degrees.
 std::vector<Edge> sharper_edges(const MeasuredSurface& surface, double angle) {
-  const double cosine = std::cos(angle * std::numbers::pi / 180);
-  const Adjacency& c = surface.adjacency;
   std::vector<Edge> sharp;
-  for (std::size_t e = 0; e < c.edges.size(); ++e) {
-    const auto& [left, right] = c.edge_faces[e];
-    if (right < 0) continue;
-    const Vec3 n = face_shape(surface.points, c.faces[index_of(left)]).normal,
-               m = face_shape(surface.points, c.faces[index_of(right)]).normal;
-    if (!n.isZero(0) && !m.isZero(0) && n.dot(m) < cosine) sharp.push_back(c.edges[e]);
-  }
+  for (int e : sharp_edges(surface.points, surface.adjacency, angle))
+    sharp.push_back(surface.adjacency.edges[index_of(e)]);
   return sharp;
 }
 

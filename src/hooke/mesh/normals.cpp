@@ -1,6 +1,10 @@
 #include "hooke/mesh/normals.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {
@@ -61,6 +65,27 @@ Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const A
                  }
                });
   return lengths;
+}
+
+Mat3X certain_face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
+  Mat3X normals(3, static_cast<Eigen::Index>(adjacency.faces.size()));
+  parallel_for(adjacency.faces.size(), normals_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      normals.col(static_cast<Eigen::Index>(f)) = face_shape(points, adjacency.faces[f]).normal;
+  });
+  return normals;
+}
+
+std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& c, double angle) {
+  const Mat3X normals = certain_face_normals(points, c);
+  const double cosine = std::cos(angle * std::numbers::pi / 180);
+  std::vector<int> edges;
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    const auto& [left, right] = c.edge_faces[e];
+    if (right < 0 || normals.col(left).dot(normals.col(right)) >= cosine) continue;
+    if (!normals.col(left).isZero(0) && !normals.col(right).isZero(0)) edges.push_back(static_cast<int>(e));
+  }
+  return edges;
 }
 
 }  // namespace hooke

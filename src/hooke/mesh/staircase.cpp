@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
 
 namespace hooke {
 namespace {
@@ -38,6 +38,7 @@ class Steps {
 
 bool is_staircase(const Mat3X& points, const Adjacency& c, const std::vector<double>& vertex_length) {
   const double cosine = std::cos(std::numbers::pi / 4);
+  const Mat3X normals = certain_face_normals(points, c);
   Steps steps;
   std::size_t count = 0;
   // Per vertex: how many sharp edges there are along each step.
@@ -45,9 +46,8 @@ bool is_staircase(const Mat3X& points, const Adjacency& c, const std::vector<dou
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
     const auto& [left, right] = c.edge_faces[e];
     if (right < 0) continue;
-    const Vec3 n = face_shape(points, c.faces[static_cast<std::size_t>(left)]).normal,
-               m = face_shape(points, c.faces[static_cast<std::size_t>(right)]).normal;
-    if (n.isZero(0) || m.isZero(0) || n.dot(m) > cosine) continue;
+    const Vec3 n = normals.col(left), m = normals.col(right);
+    if (n.dot(m) > cosine || n.isZero(0) || m.isZero(0)) continue;
     const auto& [a, b] = c.edges[e];
     const Vec3 step = points.col(b) - points.col(a);
     const auto length = [&](int v) { return vertex_length[static_cast<std::size_t>(v)]; };

@@ -10,6 +10,7 @@
 #include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/springs/energy.h"

@@ -93,7 +93,7 @@ HOOKE_INLINE void load_face(const RingView& r, std::size_t i, FaceLanes& q) {
   if (any(flat)) {  // no area: uses the surface normal
     LaneVec m;
     Lanes size;
-    load(fixed + face_normals * stride, stride, m);
+    load(fixed + normal_sums * stride, stride, m);
     m = {m.x + r.normal[0], m.y + r.normal[1], m.z + r.normal[2]};
     dot(m, m, size);
     take_sqrt(size);

@@ -13,11 +13,11 @@ namespace ring {
 
 /// Columns that do not depend on the vertex position. A vector takes three.
 enum Fixed : std::size_t {
-  near = 0,          // position of the neighbour a
-  far = 3,           // position of the next neighbour b
-  face_normals = 6,  // sum of the surface normals at a and b
-  edge_normal = 9,   // surface normal at a
-  beyond = 12,       // doubled area vector of the face beyond the edge a b; zero without one
+  near = 0,         // position of the neighbour a
+  far = 3,          // position of the next neighbour b
+  normal_sums = 6,  // sum of the surface normals at a and b
+  edge_normal = 9,  // surface normal at a
+  beyond = 12,      // doubled area vector of the face beyond the edge a b; zero without one
   edge_target = 15,
   face_target = 16,
   has_edge = 17,  // 1 or 0; the padding repeats the first entry with 0
