@@ -102,7 +102,11 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
   parallel_for(heights.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const auto& [a, b] = c.edges[e];
-      if (is_near[e]) heights[e] = height(.5 * (points.col(a) + points.col(b)), a);
+      if (!is_near[e]) continue;
+      const Vec3 middle = .5 * (points.col(a) + points.col(b));
+      const double first = std::abs(height(middle, a)), second = std::abs(height(middle, b));
+      heights[e] = second <= first ? first : second;  // NaN counts as the larger
+      if (std::isnan(first)) heights[e] = first;
     }
   });
   parallel_for(curved.size(), facet_block, [&](std::size_t begin, std::size_t end) {
