@@ -22,7 +22,7 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
 
 SliverChanges change(test::WorkingScene& s, const FaceCountLimits& limits = any_count,
                      const SliverOptions& options = {}, const Observer& observer = nullptr) {
-  return change_slivers(s.working, {}, options, {}, limits, observer);
+  return change_slivers(s.working, {}, options, {}, limits, 0, observer);
 }
 
 std::vector<Triangle> faces_of(const test::WorkingScene& s) {

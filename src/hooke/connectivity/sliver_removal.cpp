@@ -20,14 +20,16 @@ namespace {
 class SliverPass {
  public:
   SliverPass(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
-             const GuardOptions& guards, const FaceCountLimits& limits)
+             const GuardOptions& guards, const FaceCountLimits& limits, int tested_before)
       : m_(mesh),
         t_(mesh.halfedges),
         options_(options),
         evaluator_(mesh, terms, options.change, guards),
         limits_(limits),
         faces_(static_cast<double>(t_.faces().size())),
-        max_tested_(std::max(options.min_in_all, static_cast<int>(options.share_in_all * faces_))) {}
+        max_tested_(std::max(
+            0,
+            std::max(options.min_in_all, static_cast<int>(options.share_in_all * faces_)) - tested_before)) {}
 
   SliverChanges run(const Observer& observer) {
     for (double angle : options_.sliver_angles) {
@@ -186,9 +188,9 @@ class SliverPass {
 }  // namespace
 
 SliverChanges change_slivers(WorkingMesh& m, const EnergyTerms& terms, const SliverOptions& options,
-                             const GuardOptions& guards, const FaceCountLimits& limits,
+                             const GuardOptions& guards, const FaceCountLimits& limits, int tested_before,
                              const Observer& observer) {
-  return SliverPass(m, terms, options, guards, limits).run(observer);
+  return SliverPass(m, terms, options, guards, limits, tested_before).run(observer);
 }
 
 namespace {
@@ -206,12 +208,13 @@ FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double s
 
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
                              const SliverRemovalOptions& options, const GuardOptions& guards,
-                             double corner_angle, const Observer& observer) {
+                             double corner_angle, int tested_before, const Observer& observer) {
   const std::vector<double>& angles = options.pass.sliver_angles;
   if (angles.empty() || min_angle(work.positions.points, work.adjacency->faces) >= angles.back()) return {};
   WorkspaceEdit edit(work, corner_angle);
-  const SliverChanges changes = change_slivers(edit.mesh(), terms, options.pass, guards,
-                                               limits_of(work, mode, options.count_share), observer);
+  const SliverChanges changes =
+      change_slivers(edit.mesh(), terms, options.pass, guards, limits_of(work, mode, options.count_share),
+                     tested_before, observer);
   if (changes.count() == 0) return changes;
   if (mode == ConnectivityMode::flip) {
     edit.replace_faces();

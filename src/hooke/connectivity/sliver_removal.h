@@ -18,8 +18,8 @@ struct SliverOptions {
   double share = .01;            // slivers tested per round, worst first, as a share of the faces
   int min_tested = 10;           // lower limit of that number
   int max_tested = 200;          // upper limit of that number
-  double share_in_all = .03;     // maximum number of slivers tested in all stages, as a share of the faces
-  int min_in_all = 40;           // lower limit of that maximum
+  double share_in_all = .03;     // maximum number of slivers tested in all passes, as a share of the faces
+  int min_in_all = 120;          // lower limit of that maximum
   double noticeable_move = .03;  // in target lengths; shorter moves are no reason to test edges again
   int valence = 9;               // maximum valence of a vertex that gains edges
   size_t searched = 10;  // candidates per sliver, the best after relaxation, that are tested to the end
@@ -42,8 +42,9 @@ struct SliverChanges {
 /// increases no violation of the limits of alignment, fold, sagitta and length, see CandidateEvaluator. An
 /// edge is tested again only after its neighbourhood has changed noticeably. The observer is called before
 /// each sliver that is tested. Projections in the tests are not counted. The mesh is not compact afterwards.
+/// `tested_before`: number of slivers that earlier passes have tested.
 SliverChanges change_slivers(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
-                             const GuardOptions& guards, const FaceCountLimits& limits,
+                             const GuardOptions& guards, const FaceCountLimits& limits, int tested_before,
                              const Observer& observer);
 
 struct SliverRemovalOptions {
@@ -53,10 +54,11 @@ struct SliverRemovalOptions {
 };
 
 /// Changes the connectivity of the workspace near its slivers, in mode `flip` by flips only. Only vertices
-/// near the changed edges move. `corner_angle`: degrees, see corner_valences(). Pre-condition: the vertices
-/// lie on the field of the input, see Workspace::return_to_input().
+/// near the changed edges move. `corner_angle`: degrees, see corner_valences(). `tested_before`: number of
+/// slivers that earlier passes have tested. Pre-condition: the vertices lie on the field of the input, see
+/// Workspace::return_to_input().
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
                              const SliverRemovalOptions& options, const GuardOptions& guards,
-                             double corner_angle, const Observer& observer);
+                             double corner_angle, int tested_before, const Observer& observer);
 
 }  // namespace hooke

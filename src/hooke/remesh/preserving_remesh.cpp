@@ -38,7 +38,8 @@ std::vector<Edge> in_order(const Permutation& order, const std::vector<Edge>& ed
 struct Run {
   TriMesh mesh;
   RemeshResult result;
-  double angle = 0;  // minimum angle, degrees
+  double angle = 0;           // minimum angle, degrees
+  double unmended_angle = 0;  // before vertices were moved to the input
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -47,6 +48,12 @@ struct Run {
   std::size_t flaws() const { return result.measures ? preservation().flaws() : std::size_t(-1); }
 
   std::size_t face_count() const { return result.memory_order.adjacency->faces.size(); }
+
+  /// Does nothing break a promise, and have angles not become small for it?
+  bool is_good() const {
+    constexpr double good_angle = 25, kept_share = .8;
+    return flaws() == 0 && angle >= std::min(good_angle, kept_share * unmended_angle);
+  }
 
   bool is_better_than(const Run& other) const {
     return std::pair(flaws(), -angle) < std::pair(other.flaws(), -other.angle);
@@ -80,13 +87,13 @@ class PreservingRemesh {
   Run best() {
     Run best = attempt();
     if (!best.result.measures) return best;  // not finite
-    if (!best.is_interrupted() && best.flaws() > 0) project_to_faces(best);
+    if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
     if (!best.is_interrupted() && best.flaws() > 0) put_back(best);
     return best;
   }
 
  private:
-  /// A run with the vertices moved to the input that are too far. If vertices of the input are lost in spite
+  /// A run with the vertices moved to the input that must be. If vertices of the input are lost in spite
   /// of that, or angles get small, but nothing else is wrong, there is a second run with these held; it is
   /// discarded if it is interrupted.
   Run attempt() {
@@ -94,12 +101,9 @@ class PreservingRemesh {
     judge(run);
     if (!run.result.measures || run.is_interrupted()) return run;
     const std::vector<FarVertex> lost = run.preservation().lost_vertices;
-    constexpr double good_angle = 25, kept_share = .8;
-    const double angle = std::min(good_angle, kept_share * run.angle);
-    move_to_input(run);
-    const bool is_good = run.flaws() == 0 && run.angle >= angle;
+    mend(run);
     const bool only_lost = run.flaws() == run.preservation().lost_vertices.size();
-    if (lost.empty() || is_good || !only_lost) return run;
+    if (lost.empty() || run.is_good() || !only_lost) return run;
     hold(lost);
     Run next = make();
     if (next.is_interrupted()) {
@@ -108,16 +112,23 @@ class PreservingRemesh {
     }
     judge(next);
     next.result.rescue = Rescue::tips;
-    move_to_input(next);
+    mend(next);
     return next.is_better_than(run) ? std::move(next) : std::move(run);
   }
 
-  /// Moves vertices that are too far to the closest points of the input, and the vertices closest to lost
-  /// ones of the input towards these, as near as they must be, but none that is held or on the boundary;
-  /// keeps that if it makes fewer flaws.
-  void move_to_input(Run& run) const {
+  /// Moves vertices to the input while that leaves fewer flaws.
+  void mend(Run& run) const {
+    constexpr int max_rounds = 6;
+    run.unmended_angle = run.angle;
+    for (int round = 0; round < max_rounds && run.flaws() > 0 && move_to_input(run); ++round) continue;
+  }
+
+  /// Moves vertices that are too far to the closest points of the input, the corners of faces that are turned
+  /// over or intersect to the points closest to the middle of their neighbours, and the vertices closest to
+  /// lost ones of the input towards these, as near as they must be, but none that is held or on the boundary
+  /// or, for faces, on a crease. Keeps that if it makes fewer flaws, and returns whether it did.
+  bool move_to_input(Run& run) const {
     const Preservation& p = run.preservation();
-    if (p.far_vertices.empty() && p.lost_vertices.empty()) return;
     const MeasuredSurface surface = surface_of(run);
     Mat3X moved = surface.points;
     std::vector<char> is_held(static_cast<size_t>(moved.cols()), 0);
@@ -144,15 +155,45 @@ class PreservingRemesh {
       const Vec3 way = x - moved.col(v);
       moved.col(v) += std::max(0., 1 - well_within * tip.limit / way.norm()) * way;
     }
-    for (const FarVertex& far : p.far_vertices) {
-      const ClosestPoint closest = input_.tree.closest(surface.points.col(far.vertex));
-      if (closest.face >= 0 && may_move(far.vertex)) moved.col(far.vertex) = closest.point;
+    const auto move = [&](int v, const Vec3& x) {
+      const ClosestPoint closest = input_.tree.closest(x);
+      if (closest.face >= 0 && may_move(v)) moved.col(v) = closest.point;
+    };
+    for (const FarVertex& far : p.far_vertices) move(far.vertex, surface.points.col(far.vertex));
+    for (int v : corners_of_wrong_faces(run, surface)) {
+      Vec3 middle = Vec3::Zero();
+      for (int n : surface.adjacency.vertex_neighbours[v]) middle += surface.points.col(n);
+      move(v, middle / std::ssize(surface.adjacency.vertex_neighbours[v]));
     }
     Run before = run;
     for (int v = 0; v < moved.cols(); ++v)
       if (moved.col(v) != surface.points.col(v)) place(v, moved.col(v), run);
     judge(run);
-    if (run.flaws() >= before.flaws()) run = std::move(before);
+    if (run.flaws() < before.flaws()) return true;
+    run = std::move(before);
+    return false;
+  }
+
+  /// The vertices, none on a crease, of faces of the result that are turned over or intersect.
+  std::vector<int> corners_of_wrong_faces(const Run& run, const MeasuredSurface& surface) const {
+    std::vector<char> is_wrong(surface.adjacency.faces.size(), 0);
+    const std::vector<int>& flipped = run.result.measures->deviation.flipped_faces;
+    if (!flipped.empty())
+      for (size_t f = 0; f < is_wrong.size(); ++f)
+        is_wrong[f] = std::ranges::binary_search(flipped, surface.ids.face(static_cast<int>(f)));
+    if (run.preservation().new_crossings > 0)
+      for (const auto& pair : find_self_intersections(surface.tree))
+        for (int f : pair) is_wrong[static_cast<size_t>(f)] = 1;
+    std::vector<char> is_corner(static_cast<size_t>(surface.adjacency.vertex_count), 0);
+    for (size_t f = 0; f < is_wrong.size(); ++f)
+      if (is_wrong[f])
+        for (int v : surface.adjacency.faces[f]) is_corner[static_cast<size_t>(v)] = 1;
+    for (const Edge& crease : in_order(run.result.memory_order.order, run.result.crease_edges))
+      for (int v : crease) is_corner[static_cast<size_t>(v)] = 0;
+    std::vector<int> corners;
+    for (size_t v = 0; v < is_corner.size(); ++v)
+      if (is_corner[v]) corners.push_back(static_cast<int>(v));
+    return corners;
   }
 
   /// Moves a vertex, by its index in memory order, and finds it on the input again.

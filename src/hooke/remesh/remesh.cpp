@@ -290,8 +290,9 @@ RemeshOptions after_coarse_levels(RemeshOptions options) {
   return options;
 }
 
-/// One pass of sliver removal. Returns whether an edge was changed.
-bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Observer& observer,
+/// One pass of sliver removal after others that have `tested` so many, which it adds to. Returns whether an
+/// edge was changed.
+bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Observer& observer, int& tested,
                          RemeshResult& result) {
   const auto start = std::chrono::steady_clock::now();
   const Observer watch = [&](Progress p) {
@@ -301,8 +302,9 @@ bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Ob
   };
   const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
     return remove_slivers(work, options.connectivity, {.altitude = options.altitude}, options.slivers,
-                          options.guards, options.constraints.corner_angle, watch);
+                          options.guards, options.constraints.corner_angle, tested, watch);
   });
+  tested += changes.tested;
   if (changes.count() == 0) return false;
   RemeshOptions rest = options;
   rest.search.sagitta = options.slivers.pass.change.sagitta;
@@ -318,9 +320,10 @@ bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Ob
 void remove_slivers_in_passes(Workspace& work, const RemeshOptions& options, const Observer& observer,
                               RemeshResult& result) {
   bool changed = options.polish_angles;
+  int tested = 0;
   for (int pass = 0; changed && pass < options.slivers.passes; ++pass)
-    changed =
-        result.reason != StopReason::interrupted && remove_slivers_once(work, options, observer, result);
+    changed = result.reason != StopReason::interrupted &&
+              remove_slivers_once(work, options, observer, tested, result);
 }
 
 struct InputCreases {
