@@ -9,6 +9,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/curvature.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/staircase.h"
@@ -120,15 +121,14 @@ class FeatureSearch {
     }
     const std::vector<char> kept = kept_;
     for (size_t e = 0; e < kept_.size(); ++e)
-      if (!kept[e] && goes_with_weaker_creases(static_cast<int>(e), kept, regions)) kept_[e] = 1;
+      if (!kept[e] && goes_with_creases(static_cast<int>(e), kept, regions)) kept_[e] = 1;
     for (size_t e = 0; o_.drops_noise && e < kept_.size(); ++e)  // a lone edge is an accident
       if (kept_[e] && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); })) kept_[e] = 0;
   }
 
   /// Does the edge divide flat regions where edges at both its ends that are no sharper are creases? A body
   /// is round both ways or not at all.
-  bool goes_with_weaker_creases(int edge, const std::vector<char>& kept,
-                                const std::vector<int>& regions) const {
+  bool goes_with_creases(int edge, const std::vector<char>& kept, const std::vector<int>& regions) const {
     return angle_[idx(edge)] > o_.flat_angle && narrower_width(edge, regions) > o_.resolved_facet &&
            std::ranges::all_of(c_.edges[idx(edge)], [&](int v) {
              return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
@@ -244,8 +244,8 @@ class FeatureSearch {
 
   /// The least distance, in target lengths, of the ends of the edge from a parallel edge at which the face or
   /// its region bends on, as a strip of a round body does: to the same side, and about as much, or twice as
-  /// much where the round begins at this edge. A face alone may bend on at any edge: its height then.
-  /// Infinite if there is no such edge.
+  /// much where the round begins at this edge. Edges in line with it or at an obtuse angle to it do not
+  /// count. A face alone may bend on at any other edge: its height then. Infinite if there is no such edge.
   double strip_width(int face, int region, int edge) const {
     constexpr double parallel = .96;  // cosine; the meridians of a sphere meet at its poles
     const Vec3 along = direction(edge);
@@ -278,15 +278,20 @@ class FeatureSearch {
 
   /// Are both edges pieces of one straight line?
   bool are_in_line(int edge, int other, const Vec3& along) const {
-    const Vec3 apart = X_.col(c_.edges[idx(edge)][0]) - X_.col(c_.edges[idx(other)][0]);
-    return apart.cross(along).norm() <= o_.flatness * diagonal_;
+    return std::ranges::all_of(c_.edges[idx(edge)], [&](int v) {
+      const Vec3 apart = X_.col(v) - X_.col(c_.edges[idx(other)][0]);
+      return apart.cross(along).norm() <= o_.flatness * diagonal_;
+    });
   }
 
-  /// Do the edges meet at an obtuse angle?
+  /// Do the edges meet at an obtuse angle, of more than 96 degrees?
   bool continues(int edge, int other) const {
-    for (int v : c_.edges[idx(edge)])
-      if (std::ranges::find(c_.edges[idx(other)], v) != c_.edges[idx(other)].end())
-        return (X_.col(other_end(edge, v)) - X_.col(v)).dot(X_.col(other_end(other, v)) - X_.col(v)) < 0;
+    constexpr double obtuse = -.1;  // cosine
+    for (int v : c_.edges[idx(edge)]) {
+      if (std::ranges::find(c_.edges[idx(other)], v) == c_.edges[idx(other)].end()) continue;
+      const Vec3 a = X_.col(other_end(edge, v)) - X_.col(v), b = X_.col(other_end(other, v)) - X_.col(v);
+      return a.dot(b) < obtuse * a.norm() * b.norm();
+    }
     return false;
   }
 
@@ -471,21 +476,10 @@ std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
   std::vector<int> tips;
   if (o.angle >= 180) return tips;
   for (int v = 0; v < c.vertex_count; ++v) {
-    const auto edges = c.vertex_edges[v];
-    const auto ends_far_away = [&](int e) {
-      return !c.is_feature_edge(e) &&
-             (points.col(c.other_end(e, v)) - points.col(v)).norm() > o.resolved * vertex_length[idx(v)];
+    const auto is_resolved = [&](int e) {
+      return (points.col(c.other_end(e, v)) - points.col(v)).norm() > o.resolved * vertex_length[idx(v)];
     };
-    if (edges.empty() || !std::ranges::all_of(edges, ends_far_away)) continue;
-    double angle = 0;  // degrees
-    for (int f : c.vertex_faces[v]) {
-      const Triangle& t = c.faces[idx(f)];
-      const auto k = static_cast<size_t>(std::ranges::find(t, v) - t.begin());
-      const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(v),
-                 b = points.col(t[(k + 2) % 3]) - points.col(v);
-      angle += std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
-    }
-    if (angle < 360 - o.tip_defect) tips.push_back(v);
+    if (std::ranges::all_of(c.vertex_edges[v], is_resolved) && is_tip(points, c, v)) tips.push_back(v);
   }
   return tips;
 }

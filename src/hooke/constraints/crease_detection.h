@@ -34,7 +34,6 @@ struct CreaseOptions {
   /// Minimum share of faces in flat regions or with a resolved sharp edge, beyond which facets are meant.
   double flat_share = .6;
   double flatness = 1e-6;  // maximum distance of a flat region from its plane, in diagonals of the mesh
-  double tip_defect = 70;  // degrees that the faces at the tip of a cone fall short of a full turn, at least
 };
 
 /// The crease edges, ascending. An edge qualifies if its faces meet at a sharp angle while each of them

@@ -6,6 +6,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/curvature.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
 
@@ -105,8 +106,7 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
       if (!is_near[e]) continue;
       const Vec3 middle = .5 * (points.col(a) + points.col(b));
       const double first = std::abs(height(middle, a)), second = std::abs(height(middle, b));
-      heights[e] = second <= first ? first : second;  // NaN counts as the larger
-      if (std::isnan(first)) heights[e] = first;
+      heights[e] = std::isnan(first) || first >= second ? first : second;  // the larger; NaN if one is
     }
   });
   parallel_for(curved.size(), facet_block, [&](std::size_t begin, std::size_t end) {
@@ -142,6 +142,7 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
       normals_(normals),
       adjacency_(c),
       near_(index_of(c.vertex_count), 0),
+      is_tip_(near_),
       components_(label_components(c)) {
   std::vector<char> at_facet(near_.size(), 0);
   for (std::size_t f = 0; f < curved.size(); ++f)
@@ -151,6 +152,8 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
   for (int v = 0; v < c.vertex_count; ++v)
     if (at_facet[index_of(v)])
       for (int n : c.vertex_neighbours[v]) near_[index_of(n)] = 1;
+  for (int v = 0; v < c.vertex_count; ++v)
+    is_tip_[index_of(v)] = at_facet[index_of(v)] && is_tip(points, c, v);
   const Mat3X face_normal = face_normals(points, c);
   std::vector<Triangle> triangles;
   for (std::size_t f = 0; f < curved.size(); ++f) {
@@ -170,7 +173,7 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
 }
 
 /// How far the curved facet may rise at a point of it: the sum of the sagittas of its edges, each of which
-/// matters as far as its chord reaches.
+/// matters as far as its chord reaches; both shrink towards a tip.
 double CurvedFacets::rise_at(int index, const Vec3& at) const {
   const Facet& facet = facets_[index_of(index)];
   const Triangle& t = adjacency_.faces[index_of(facet.face)];
@@ -179,8 +182,11 @@ double CurvedFacets::rise_at(int index, const Vec3& at) const {
     const auto& [sagitta, chord] = facet.arcs[k];
     if (!(sagitta > 0)) continue;
     const Vec3 a = points_.col(t[k]), along = points_.col(t[(k + 1) % 3]) - a;
-    const double distance = along.cross(at - a).norm() / along.norm();
-    rise += sagitta * std::max(0., 1 - distance / chord);
+    const double length = along.norm(), distance = along.cross(at - a).norm() / length;
+    double taper = 1;  // facets are the narrower, the nearer the tip
+    for (int v : {t[k], t[(k + 1) % 3]})
+      if (is_tip_[index_of(v)]) taper = std::min(taper, (at - points_.col(v)).norm() / length);
+    rise += taper * sagitta * std::max(0., 1 - distance / (taper * chord));
   }
   return rise;
 }
@@ -204,7 +210,7 @@ Projection CurvedFacets::lift(const Place& place) const {
   weights.maxCoeff(&corner);
   for (Eigen::Index k = 0; k < 3; ++k) {
     const auto v = t[static_cast<std::size_t>(k)];
-    const Vec3 n = normals_.col(v);
+    const Vec3 n = is_tip_[index_of(v)] ? facet.normal : Vec3(normals_.col(v));  // tips have none
     offset += .5 * weights[k] * n.dot(points_.col(v) - place.point) * n;
     normal += weights[k] * n;
   }

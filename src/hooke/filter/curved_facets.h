@@ -76,6 +76,7 @@ class CurvedFacets {
   const Mat3X& normals_;
   const Adjacency& adjacency_;
   std::vector<char> near_;       // per vertex
+  std::vector<char> is_tip_;     // per vertex: do the faces come to a point there?
   std::vector<int> components_;  // per vertex
   std::vector<Facet> facets_;    // the curved ones and those around
   std::optional<AabbTree> tree_;

@@ -28,7 +28,7 @@ struct PreservationOptions {
 struct FarVertex {
   int vertex;  // or a corner of a face or an end of a crease that is
   double distance;
-  double limit;
+  double limit;  // of the distance
 };
 
 /// Ids are those of the adjacencies; places and lengths are in file units.

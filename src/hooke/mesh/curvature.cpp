@@ -222,6 +222,21 @@ std::vector<double> curvatures_of_curves(const Mat3X& points, const Adjacency& c
 
 }  // namespace
 
+bool is_tip(const Mat3X& points, const Adjacency& c, int vertex) {
+  constexpr double full_turn = 2 * std::numbers::pi, defect = 70 * std::numbers::pi / 180;
+  const auto edges = c.vertex_edges[vertex];
+  if (edges.empty() || std::ranges::any_of(edges, [&](int e) { return c.is_feature_edge(e); })) return false;
+  double sum = 0;
+  for (int f : c.vertex_faces[vertex]) {
+    const Triangle& t = c.faces[static_cast<std::size_t>(f)];
+    const auto k = static_cast<std::size_t>(std::ranges::find(t, vertex) - t.begin());
+    const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(vertex),
+               b = points.col(t[(k + 2) % 3]) - points.col(vertex);
+    sum += std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return sum < full_turn - defect;
+}
+
 std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) {
   std::vector<double> largest = curvatures_of_curves(points, c);
   const std::vector<double> of_wedges = curvatures_of_pieces(wedge_points(points, c), cut_open(c));

@@ -20,6 +20,10 @@ struct VertexCurvature {
 
 VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacency);
 
+/// Do the faces come to a point at the vertex, as at the tip of a cone: do they span at least 70 degrees less
+/// than a full turn? Not on the boundary or on a crease.
+bool is_tip(const Mat3X& points, const Adjacency& adjacency, int vertex);
+
 /// Maximum curvature at each vertex, 1/length, 0 at a vertex without faces: of the boundary or a crease that
 /// goes through it, and the absolute principal curvatures of the surface on each side of a crease. A quadric
 /// is fitted to two rings around the vertex, and a third where they have fewer than ten vertices (Cazals and

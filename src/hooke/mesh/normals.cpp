@@ -78,13 +78,17 @@ Mat3X certain_face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacenc
 
 std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& c, double angle) {
   const Mat3X normals = certain_face_normals(points, c);
-  const double cosine = std::cos(angle * std::numbers::pi / 180);
+  std::vector<char> is_sharp(c.edges.size(), 0);
+  parallel_for(is_sharp.size(), normals_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      if (c.is_boundary_edge(static_cast<int>(e))) continue;
+      const Vec3 n = normals.col(c.edge_faces[e][0]), m = normals.col(c.edge_faces[e][1]);
+      is_sharp[e] = std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi > angle;
+    }
+  });
   std::vector<int> edges;
-  for (std::size_t e = 0; e < c.edges.size(); ++e) {
-    const auto& [left, right] = c.edge_faces[e];
-    if (right < 0 || normals.col(left).dot(normals.col(right)) >= cosine) continue;
-    if (!normals.col(left).isZero(0) && !normals.col(right).isZero(0)) edges.push_back(static_cast<int>(e));
-  }
+  for (std::size_t e = 0; e < is_sharp.size(); ++e)
+    if (is_sharp[e]) edges.push_back(static_cast<int>(e));
   return edges;
 }
 

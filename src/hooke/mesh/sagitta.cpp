@@ -105,6 +105,8 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
 
 bool is_faceted(const Mat3X& points, const Adjacency& c) {
   constexpr double flat = 1e-6, flat_share = .85, uneven = 3, uneven_share = .5;
+  constexpr std::size_t few_faces = 64;
+  constexpr double sharp = .088;  // tan(40 degrees / 4) / 2
   const auto faces = static_cast<double>(c.faces.size());
   const std::vector<EdgeArc> arcs = edge_arcs(points, c);
   const auto is_flat = [&](int e) {
@@ -114,6 +116,13 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
       c.face_edges, [&](const Triangle& edges) { return std::ranges::any_of(edges, is_flat); });
   if (static_cast<double>(flats) >= flat_share * faces) return true;
   const std::vector<double> unevenness = face_unevenness(points, c);
+  if (c.faces.size() < few_faces) {
+    const auto has_sharp_edge = [&](const Triangle& edges) {
+      return std::ranges::any_of(
+          edges, [&](int e) { return arcs[index_of(e)].sagitta > sharp * arcs[index_of(e)].chord; });
+    };
+    if (2 * std::ranges::count_if(c.face_edges, has_sharp_edge) >= std::ssize(c.faces)) return true;
+  }
   const auto unevens = std::ranges::count_if(unevenness, [&](double u) { return u > uneven; });
   return static_cast<double>(unevens) >= uneven_share * faces;
 }

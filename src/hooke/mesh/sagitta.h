@@ -30,7 +30,8 @@ std::vector<double> vertex_sagittas(const std::vector<double>& face_sagittas, co
 std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& adjacency);
 
 /// Are the facets of the mesh meant, as those of CAD parts: do .85 of its faces lie in a plane with a
-/// neighbour, or have half of them an edge three times as long as others at its corners?
+/// neighbour, or have half of them an edge three times as long as others at its corners, or half of fewer
+/// than 64 an edge sharper than 40 degrees?
 bool is_faceted(const Mat3X& points, const Adjacency& adjacency);
 
 }  // namespace hooke

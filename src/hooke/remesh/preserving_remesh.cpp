@@ -119,6 +119,7 @@ class PreservingRemesh {
   /// Moves vertices to the input while that leaves fewer flaws.
   void mend(Run& run) const {
     constexpr int max_rounds = 6;
+    if (!run.result.measures) return;  // not finite
     run.unmended_angle = run.angle;
     for (int round = 0; round < max_rounds && run.flaws() > 0 && move_to_input(run); ++round) continue;
   }
@@ -149,11 +150,12 @@ class PreservingRemesh {
       const Triangle& t = surface.adjacency.faces[static_cast<size_t>(face)];
       const int v = *std::ranges::min_element(
           t, {}, [&](int corner) { return (surface.points.col(corner) - x).squaredNorm(); });
-      if (!may_move(v)) continue;
-      is_held[static_cast<size_t>(v)] = 1;
-      constexpr double well_within = .95;
       const Vec3 way = x - moved.col(v);
-      moved.col(v) += std::max(0., 1 - well_within * tip.limit / way.norm()) * way;
+      constexpr double well_within = .95;
+      const double share = 1 - well_within * tip.limit / way.norm();
+      if (!(share > 0) || !may_move(v)) continue;
+      is_held[static_cast<size_t>(v)] = 1;
+      moved.col(v) += share * way;
     }
     const auto move = [&](int v, const Vec3& x) {
       const ClosestPoint closest = input_.tree.closest(x);
@@ -165,6 +167,7 @@ class PreservingRemesh {
       for (int n : surface.adjacency.vertex_neighbours[v]) middle += surface.points.col(n);
       move(v, middle / std::ssize(surface.adjacency.vertex_neighbours[v]));
     }
+    if (moved == surface.points) return false;
     Run before = run;
     for (int v = 0; v < moved.cols(); ++v)
       if (moved.col(v) != surface.points.col(v)) place(v, moved.col(v), run);
