@@ -118,7 +118,9 @@ void warn_of_rescue(RunRecord& run) {
       case Rescue::tips:
         return "vertices at tips of the surface stand still; without that it would lose them";
       case Rescue::closest:
-        return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input";
+        return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input, "
+               "or "
+               "only with small angles";
       case Rescue::put_back:
         return fmt::format(
             "{} of {} vertices were put back to where they were, with the faces of the input, to keep its "

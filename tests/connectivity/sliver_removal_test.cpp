@@ -21,8 +21,9 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
 }
 
 SliverChanges change(test::WorkingScene& s, const FaceCountLimits& limits = any_count,
-                     const SliverOptions& options = {}, const Observer& observer = nullptr) {
-  return change_slivers(s.working, {}, options, {}, limits, 0, observer);
+                     const SliverOptions& options = {}, const Observer& observer = nullptr,
+                     int tested_before = 0) {
+  return change_slivers(s.working, {}, options, {}, limits, tested_before, observer);
 }
 
 std::vector<Triangle> faces_of(const test::WorkingScene& s) {
@@ -184,12 +185,14 @@ TEST(SliverRemoval, NoEdgeIsTriedAgainWhereNothingHasChanged) {
 }
 
 TEST(SliverRemoval, ThereAreNoMoreTriesThanAllowed) {
-  const auto tested = [](int most) {
+  const auto tested = [](int most, int before = 0) {
     test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
-    return change(s, any_count, {.share_in_all = 0, .min_in_all = most}).tested;
+    return change(s, any_count, {.share_in_all = 0, .min_in_all = most}, nullptr, before).tested;
   };
   EXPECT_EQ(tested(0), 0);
   EXPECT_EQ(tested(3), 3);
+  EXPECT_EQ(tested(3, 2), 1);
+  EXPECT_EQ(tested(3, 5), 0);
 }
 
 TEST(SliverRemoval, KeepsNothingThatIsNotTriedToTheEnd) {

@@ -138,25 +138,10 @@ TEST(Features, TrianglesBetweenSharpEdgesAreFacets) {
   EXPECT_LT(features_of(wedge).size(), bent.size());
 }
 
-/// A pyramid over a regular polygon, its sides cut from the apex; a cone if it has many.
-test::Triangles pyramid(int sides, double radius, double height) {
-  test::Triangles t;
-  t.points.resize(3, sides + 2);
-  for (int i = 0; i < sides; ++i) {
-    const double a = 2 * std::numbers::pi * i / sides;
-    t.points.col(i) = Vec3(radius * std::cos(a), radius * std::sin(a), 0);
-    t.faces.push_back({i, (i + 1) % sides, sides});
-    t.faces.push_back({(i + 1) % sides, i, sides + 1});
-  }
-  t.points.col(sides) = Vec3(0, 0, height);
-  t.points.col(sides + 1) = Vec3::Zero();
-  return t;
-}
-
 TEST(Features, AFanOfNarrowFacetsIsACone) {
-  EXPECT_EQ(features_of(pyramid(48, 20, 40)).size(), 48u);  // the rim only
-  EXPECT_EQ(features_of(pyramid(48, 200, 400)).size(), 48u);
-  EXPECT_EQ(features_of(pyramid(4, 20, 40)).size(), 8u);
+  EXPECT_EQ(features_of(test::pyramid(48, 20, 40)).size(), 48u);  // the rim only
+  EXPECT_EQ(features_of(test::pyramid(48, 200, 400)).size(), 48u);
+  EXPECT_EQ(features_of(test::pyramid(4, 20, 40)).size(), 8u);
 }
 
 std::vector<int> tips_of(const test::Triangles& t, double length) {
@@ -165,10 +150,10 @@ std::vector<int> tips_of(const test::Triangles& t, double length) {
 }
 
 TEST(Features, TheTipOfAConeIsHeldWhereLengthsResolveIt) {
-  const test::Triangles steep = pyramid(48, 20, 40);
+  const test::Triangles steep = test::pyramid(48, 20, 40);
   EXPECT_EQ(tips_of(steep, 1), std::vector{48});
   EXPECT_TRUE(tips_of(steep, 40).empty());
-  EXPECT_TRUE(tips_of(pyramid(48, 20, 10), 1).empty());  // nearly flat
+  EXPECT_TRUE(tips_of(test::pyramid(48, 20, 10), 1).empty());  // nearly flat
   EXPECT_TRUE(tips_of(test::sphere(2), .01).empty());
 }
 

@@ -8,6 +8,7 @@
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/remesh/options.h"
+#include "support/crease_solids.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
 
@@ -84,6 +85,18 @@ TEST(PreservingRemesh, KeepsTips) {
     EXPECT_TRUE(kept.result.measures->preservation.holds());
     const double distance = AabbTree(kept.points, kept.faces).closest(t.points.col(0)).squared_distance;
     EXPECT_LT(std::sqrt(distance), .6 * test::natural(t));
+  }
+}
+
+TEST(PreservingRemesh, HoldsTheTipOfAConeWithGoodFaces) {
+  const test::Triangles cone = test::pyramid(32, 3, 6);
+  for (const double length : {.4, .8}) {
+    const test::Outcome made = test::remeshed(cone, length, options_for(ConnectivityMode::adapt));
+    double nearest = 1;
+    for (int v = 0; v < made.points.cols(); ++v)
+      nearest = std::min(nearest, (made.points.col(v) - cone.points.col(32)).norm());
+    EXPECT_EQ(nearest, 0);
+    EXPECT_GT(min_angle(made.points, made.faces), 24);
   }
 }
 

@@ -122,4 +122,19 @@ inline std::vector<Edge> bent_edges(const Mat3X& X, const std::vector<Triangle>&
   return edges;
 }
 
+/// A pyramid over a regular polygon, its sides cut from the apex; a cone if it has many.
+inline Triangles pyramid(int sides, double radius, double height) {
+  Triangles t;
+  t.points.resize(3, sides + 2);
+  for (int i = 0; i < sides; ++i) {
+    const double a = 2 * std::numbers::pi * i / sides;
+    t.points.col(i) = Vec3(radius * std::cos(a), radius * std::sin(a), 0);
+    t.faces.push_back({i, (i + 1) % sides, sides});
+    t.faces.push_back({(i + 1) % sides, i, sides + 1});
+  }
+  t.points.col(sides) = Vec3(0, 0, height);
+  t.points.col(sides + 1) = Vec3::Zero();
+  return t;
+}
+
 }  // namespace hooke::test

@@ -126,20 +126,16 @@ class PreservingRemesh {
 
   /// Moves vertices that are too far to the closest points of the input, the corners of faces that are turned
   /// over or intersect to the points closest to the middle of their neighbours, and the vertices closest to
-  /// lost ones of the input towards these, as near as they must be, but none that is held or on the boundary
+  /// lost ones of the input towards these, as near as they must be, but none that is fixed or on the boundary
   /// or, for faces, on a crease. Keeps that if it makes fewer flaws, and returns whether it did.
   bool move_to_input(Run& run) const {
     const Preservation& p = run.preservation();
     const MeasuredSurface surface = surface_of(run);
     Mat3X moved = surface.points;
     std::vector<char> is_held(static_cast<size_t>(moved.cols()), 0);
-    const auto input = vertex_points(mesh_);
+    constexpr unsigned char immovable = limited_by_boundary | limited_at_corner | limited_by_request;
     const auto may_move = [&](int v) {
-      const auto edges = surface.adjacency.vertex_edges[v];
-      return !is_held[static_cast<size_t>(v)] &&
-             std::ranges::none_of(edges, [&](int e) { return surface.adjacency.is_boundary_edge(e); }) &&
-             std::ranges::none_of(options_.constraints.fixed_vertices,
-                                  [&](int fixed) { return input.col(fixed) == surface.points.col(v); });
+      return !is_held[static_cast<size_t>(v)] && (limits_of(run, surface, v) & immovable) == 0;
     };
     std::vector<FarVertex> lost = p.lost_vertices;
     std::ranges::stable_sort(lost, std::greater(), &FarVertex::distance);
@@ -177,6 +173,11 @@ class PreservingRemesh {
     return false;
   }
 
+  /// What limits a vertex of the run's surface: bits of VertexLimit.
+  static unsigned char limits_of(const Run& run, const MeasuredSurface& surface, int vertex) {
+    return run.result.vertex_limits[static_cast<size_t>(surface.ids.vertex(vertex))];
+  }
+
   /// The vertices, none on a crease, of faces of the result that are turned over or intersect.
   std::vector<int> corners_of_wrong_faces(const Run& run, const MeasuredSurface& surface) const {
     std::vector<char> is_wrong(surface.adjacency.faces.size(), 0);
@@ -191,11 +192,10 @@ class PreservingRemesh {
     for (size_t f = 0; f < is_wrong.size(); ++f)
       if (is_wrong[f])
         for (int v : surface.adjacency.faces[f]) is_corner[static_cast<size_t>(v)] = 1;
-    for (const Edge& crease : in_order(run.result.memory_order.order, run.result.crease_edges))
-      for (int v : crease) is_corner[static_cast<size_t>(v)] = 0;
     std::vector<int> corners;
     for (size_t v = 0; v < is_corner.size(); ++v)
-      if (is_corner[v]) corners.push_back(static_cast<int>(v));
+      if (is_corner[v] && (limits_of(run, surface, static_cast<int>(v)) & limited_by_crease) == 0)
+        corners.push_back(static_cast<int>(v));
     return corners;
   }
 
