@@ -278,10 +278,8 @@ class FeatureSearch {
 
   /// Are both edges pieces of one straight line?
   bool are_in_line(int edge, int other, const Vec3& along) const {
-    return std::ranges::all_of(c_.edges[idx(edge)], [&](int v) {
-      const Vec3 apart = X_.col(v) - X_.col(c_.edges[idx(other)][0]);
-      return apart.cross(along).norm() <= o_.flatness * diagonal_;
-    });
+    const Vec3 apart = X_.col(c_.edges[idx(edge)][0]) - X_.col(c_.edges[idx(other)][0]);
+    return apart.cross(along).norm() <= o_.flatness * diagonal_;
   }
 
   /// Do the edges meet at an obtuse angle, of more than 96 degrees?
