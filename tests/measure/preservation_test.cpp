@@ -72,6 +72,8 @@ TEST(Preservation, FacetsAreMeantWhereTheyAreFlatOrLong) {
     return is_faceted(t.points, make_adjacency(static_cast<int>(t.points.cols()), t.faces));
   };
   EXPECT_TRUE(faceted(test::grid(6, test::flat)));
+  EXPECT_TRUE(faceted(test::sphere(0)));  // few faces, all of them sharp
+  EXPECT_FALSE(faceted(test::sphere(1)));
   EXPECT_FALSE(faceted(test::sphere(3)));
   EXPECT_FALSE(faceted(test::sphere(3, .3, 1)));
 }

@@ -126,8 +126,8 @@ class FeatureSearch {
       if (kept_[e] && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); })) kept_[e] = 0;
   }
 
-  /// Does the edge divide flat regions where edges at both its ends that are no sharper are creases? A body
-  /// is round both ways or not at all.
+  /// Does the edge divide flat regions where edges at both its ends that are hardly sharper are creases? A
+  /// body is round both ways or not at all.
   bool goes_with_creases(int edge, const std::vector<char>& kept, const std::vector<int>& regions) const {
     return angle_[idx(edge)] > o_.flat_angle && narrower_width(edge, regions) > o_.resolved_facet &&
            std::ranges::all_of(c_.edges[idx(edge)], [&](int v) {
