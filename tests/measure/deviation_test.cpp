@@ -114,6 +114,19 @@ TEST(Deviation, FacesTurnedOverAreCounted) {
   EXPECT_EQ(measure(test::sphere(2), inside_out).flipped_faces.size(), inside_out.faces.size());
 }
 
+TEST(Deviation, AFaceWellBeyondTheMiddleOfAWallIsTurnedOver) {
+  const auto wall = test::triangles({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}},
+                                    {{0, 1, 2}, {3, 4, 5}});
+  const auto is_turned_over = [&](double z) {
+    return !measure(wall, test::triangles({{.1, .1, z}, {.4, .1, z}, {.1, .4, z}}, {{0, 1, 2}}))
+                .flipped_faces.empty();
+  };
+  EXPECT_FALSE(is_turned_over(.6));
+  EXPECT_FALSE(is_turned_over(.47));
+  EXPECT_TRUE(is_turned_over(.42));
+  EXPECT_TRUE(is_turned_over(.1));
+}
+
 TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {
   // Its second face is folded back over the first; the result lies over it, the right way up.
   const auto folded =

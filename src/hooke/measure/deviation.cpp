@@ -260,7 +260,7 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
 /// faces the same way? Beside creases and on thin walls there is one.
 bool faces_no_like(const MeasuredSurface& reference, const Face& face, const Vec3& n,
                    const ClosestFacePoint& at) {
-  constexpr double as_close = 2;      // over the distance of the closest face
+  constexpr double as_close = 1.25;   // over the distance of the closest face
   constexpr double touching = 1e-6;   // of the diagonal
   constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
   const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
