@@ -194,6 +194,8 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
 /// can fail has succeeded. Prints the warnings and the summary.
 void finish(const Settings& s, const RunRecord& record, OutputFiles& files) {
   if (!s.trace.empty()) files.add(PendingFile(s.trace, trace_csv(record.stages)));
+  if (!s.trace_steps.empty())
+    files.add(PendingFile(s.trace_steps, time_steps_csv(record.result->time_steps)));
   if (!s.report.empty() && s.report != "-") files.add(PendingFile(s.report, report_text(record)));
   if (s.report == "-") write_to_standard_output(report_text(record));
   files.commit();

@@ -92,7 +92,8 @@ void print_summary(const Settings& s, const RunRecord& run) {
     say("{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n", f.flips,
         f.max_travel, f.rms_travel);
   std::string files = run.output->path;
-  for (const std::filesystem::path& further : {std::filesystem::path(s.report), s.map, s.trace})
+  for (const std::filesystem::path& further :
+       {std::filesystem::path(s.report), s.map, s.trace, s.trace_steps})
     if (!further.empty() && further != "-") files += ", " + printable(further.string());
   say("{} written in {:.2f} s\n", files, run.resources.wall_s);
 }

@@ -128,8 +128,9 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
       ->default_str("on");
   app.add_flag(
       "--paper", s.paper,
-      "Algorithms 1 to 3 of the paper to the letter, for comparison: global time step, torque, global "
-      "spline, the paper's constants; mostly jams, may fold faces");
+      "The paper's own algorithms and constants, for comparison: global time step, torque, one dense "
+      "spline of the input; to the letter, altitude springs apart, with --altitude 0 --filter-every "
+      "outer --refit each, which mostly jams and folds faces");
   add_choice(app, "--filter", s.remesh.filter.kind,
              "What vertices are projected to: local = splines blended over patches, global = one dense "
              "spline, closest = the input's faces, none",
@@ -141,20 +142,28 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
   add_choice(app, "--kernel", s.remesh.filter.kernel, "Kernel of the splines",
              Choices<Kernel>{{"r2logr", Kernel::r2logr}, {"r3", Kernel::r3}})
       ->default_str("r3; r2logr with --paper");
-  add_choice(app, "--refit", s.remesh.refit, "Fit the field anew before each outer iteration, or once",
+  add_choice(app, "--filter-every", s.paper_options.filter_every,
+             "Project the vertices after each time step, or after each outer iteration (paper)",
+             Choices<FilterEvery>{{"step", FilterEvery::step}, {"outer", FilterEvery::outer}})
+      ->default_str("step");
+  add_choice(app, "--refit", raw.refit, "Fit the field anew before each outer iteration, or once",
              Choices<Refit>{{"each", Refit::each}, {"once", Refit::once}})
-      ->default_str("each");
-  add_number(app, "--altitude", s.remesh.altitude, "Weight of the altitude springs against the strings",
-             not_negative);
-  add_number<double>(app, "--rho", raw.rho, "Offset of the field's second points, over the edge length",
-                     positive)
-      ->default_str("0.3; 0.02 with --paper");
+      ->default_str("each; once with --paper");
+  add_number<double>(app, "--altitude", raw.altitude,
+                     "Weight of the altitude springs against the strings; the paper has none", not_negative)
+      ->default_str("1");
+  add_number<double>(app, "--rho", raw.rho, "Offset of the field's second points, see --rho-unit", positive)
+      ->default_str("0.3; 0.001 with --paper");
+  add_choice(app, "--rho-unit", raw.rho_unit,
+             "Unit of --rho: the mean edge length, or that of the file (paper, whose points are inside)",
+             Choices<OffsetUnit>{{"edge", OffsetUnit::edge}, {"file", OffsetUnit::file}})
+      ->default_str("edge; file with --paper");
   app.add_option("--tolerance", raw.tolerance, "Converged when every edge is this near to the target length")
       ->type_name("X%")
       ->capture_default_str();
   add_number<int>(app, "--max-outer", raw.max_outer, "Outer iterations: relaxation and filtering",
                   whole_number)
-      ->default_str("6; 10 with --paper");
+      ->default_str("6; 25 with --paper");
   add_number<int>(app, "--max-steps", raw.max_steps, "Steps per outer iteration", whole_number)
       ->default_str("2000; 400 with --paper");
 }
@@ -207,6 +216,8 @@ void add_reports(CLI::App& app, Settings& s) {
           ""))
       ->type_name("FILE");
   add_file(app, "--trace", s.trace, "Seconds and memory of every stage, as CSV");
+  add_file(app, "--trace-steps", s.trace_steps,
+           "Energies, forces and length of every time step, as CSV (paper)");
 }
 
 void add_promises(CLI::App& app, Settings& s, RawOptions& raw) {

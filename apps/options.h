@@ -32,12 +32,13 @@ struct Settings {
   RemeshOptions remesh;
   PreservationOptions preservation;
   PaperOptions paper_options;
-  double max_distance_share = 0;  // --max-distance in diagonals of the input; 0: not given so
-  bool accept_invalid = false;    // write a result that does not keep what it must keep
-  std::filesystem::path fix;      // file with the ids of fixed vertices; empty for none
-  std::string report;             // path; "-" for standard output; empty for none
-  std::filesystem::path trace;    // file for the time of each stage; empty for none
-  int threads = 0;                // 0: as many as the process may use
+  double max_distance_share = 0;      // --max-distance in diagonals of the input; 0: not given so
+  bool accept_invalid = false;        // write a result that does not keep what it must keep
+  std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
+  std::string report;                 // path; "-" for standard output; empty for none
+  std::filesystem::path trace;        // file for the time of each stage; empty for none
+  std::filesystem::path trace_steps;  // file for the time steps of --paper; empty for none
+  int threads = 0;                    // 0: as many as the process may use
   bool quiet = false;
   bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;

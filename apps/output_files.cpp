@@ -28,6 +28,7 @@ std::vector<NamedFile> outputs_of(const Settings& s) {
   for (const NamedFile& file : {NamedFile{"--output", s.output},
                                 {"--report", s.report == "-" ? "" : s.report},
                                 {"--trace", s.trace},
+                                {"--trace-steps", s.trace_steps},
                                 {"--map", s.map}})
     if (!file.path.empty()) files.push_back(file);
   return files;

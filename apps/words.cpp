@@ -113,21 +113,24 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
       if (idle && raw.given(option)) throw Error(fmt::format("{} {}; leave it out", option, why));
   };
   refuse(s.paper,
-         {"--effort", "--feature-angle", "--feature-noise", "--map", "--integrator", "--polish", "--altitude",
-          "--refit", "--max-distance", "--accept-invalid"},
+         {"--effort", "--feature-angle", "--feature-noise", "--map", "--integrator", "--polish",
+          "--max-distance", "--accept-invalid"},
          "has no part in --paper");
   refuse(s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--connectivity"},
          "changes faces, which --paper keeps");
   refuse(s.paper && s.remesh.filter.kind != FilterKind::global, {"--filter"},
          "names another filter than the global one of --paper");
-  refuse(!s.paper, {"--step-angle", "--step-expansion", "--step-displacement", "--step-area"},
+  refuse(!s.paper,
+         {"--step-angle", "--step-expansion", "--step-displacement", "--step-area", "--filter-every",
+          "--trace-steps"},
          "is of --paper only");
+  refuse(!s.paper && raw.rho_unit == OffsetUnit::file, {"--rho-unit"}, "file is of --paper only");
   refuse(!s.paper && s.remesh.integrator == IntegratorKind::lbfgs, {"--string", "--torque", "--friction"},
          "is of --integrator damped and --paper only");
   const bool splines =
       s.paper || s.remesh.filter.kind == FilterKind::local || s.remesh.filter.kind == FilterKind::global;
-  refuse(!splines, {"--kernel", "--rho"}, "is of splines, which this --filter has none of");
-  refuse(s.check, {"--map", "--output"}, "is not written by --check");
+  refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
+  refuse(s.check, {"--map", "--output", "--trace-steps"}, "is not written by --check");
 }
 
 }  // namespace
@@ -145,6 +148,9 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.preservation.feature_angle = s.remesh.constraints.features.angle;
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
+  if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;
+  if (raw.altitude) s.remesh.altitude = s.paper_options.evolution.altitude = *raw.altitude;
+  if (raw.refit) s.remesh.refit = s.paper_options.refit = *raw.refit;
   if (raw.max_outer)
     s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *raw.max_outer;
   if (raw.max_steps) {

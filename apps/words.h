@@ -15,7 +15,9 @@ struct RawOptions {
   std::string gradation;
   std::optional<std::string> feature_angle;
   std::optional<std::string> max_distance;
-  std::optional<double> rho;
+  std::optional<double> rho, altitude;
+  std::optional<OffsetUnit> rho_unit;
+  std::optional<Refit> refit;
   std::optional<int> max_outer, max_steps;
   std::optional<BoundaryRule> boundary;
   std::function<bool(const char*)> given;  // whether the option was given

@@ -63,13 +63,16 @@ class UsageErrors(CommandTest):
 
     def test_options_that_would_do_nothing(self):
         for option in (["--effort", "fast"], ["--map", "map"], ["--integrator", "damped"], ["--polish", "on"],
-                       ["--altitude", "1"], ["--refit", "once"], ["--filter", "local"], ["--connectivity", "flip"]):
+                       ["--filter", "local"], ["--connectivity", "flip"]):
             with self.subTest(option=option):
                 self.refused(2, "good.obj", "-o", "out.obj", "--paper", *option, names=option[0], says="--paper")
         for option in ("--step-angle", "--step-expansion", "--step-displacement", "--step-area", "--string", "--torque",
                        "--friction"):
             with self.subTest(option=option):
                 self.refused(2, "good.obj", "-o", "out.obj", option, ".5", names=option)
+        for option in (["--filter-every", "step"], ["--trace-steps", "steps.csv"], ["--rho-unit", "file"]):
+            with self.subTest(option=option):
+                self.refused(2, "good.obj", "-o", "out.obj", *option, names=option[0], says="--paper")
         for option in (["--kernel", "r3"], ["--rho", ".1"]):
             self.refused(2, "good.obj", "-o", "out.obj", "--filter", "closest", *option, names=option[0])
 

@@ -40,11 +40,13 @@ class Report(CommandTest):
                 histogram = report[state][quantity]["histogram"]
                 self.assertEqual(len(histogram["edges"]), len(histogram["counts"]) + 1)
             self.assertEqual(sum(report[state]["shape"]["histogram"]["counts"]), report["input"]["faces"])
-            self.has({"least_angle_rad", "edge_length_sd"}, report["paper"][state])
+            self.has({"vertices", "least_angle_rad", "edge_length_sd", "mean_curvature", "gaussian_curvature"},
+                     report["paper"][state])
         self.has(GEOMETRY, report["geometry"])
         for iteration in report["iterations"]:
             self.has(STAGE, iteration)
         self.has({"greatest_displacement"}, report["paper"])
+        self.assertEqual(report["paper"]["evolution"], [])
         self.has({"threads", "wall_s", "cpu_s", "peak_rss_bytes"}, report["resources"])
 
     def test_creases_are_counted(self):
@@ -152,6 +154,18 @@ class Report(CommandTest):
                          ["fast", 1000, None, None, None, None])
         paper = parameters("--paper", "--max-steps", 5)
         self.assertEqual((paper["filter"], paper["step_expansion"]), ("global", .01))
+        report = self.report(DATA / "patch.obj", "-o", "out.off", "--paper", "--max-outer", 2, "--max-steps", 200)
+        outers = report["paper"]["evolution"]
+        self.assertEqual([(o["outer"], o["steps"]) for o in outers], [(1, 200), (2, 200)])
+        for outer in outers:
+            self.assertTrue(all(outer[key] > 0 for key in ("time", "dt", "string_energy", "altitude_energy",
+                                                           "kinetic_energy", "greatest_force")))
+            self.assertGreaterEqual(sum(outer["bound"].values()), 200)
+        keys = ("filter_every", "refit", "altitude", "rho", "rho_unit")
+        self.assertEqual([paper[key] for key in keys], ["step", "once", 1, .001, "file"])
+        letter = parameters("--paper", "--max-steps", 5, "--filter-every", "outer", "--refit", "each", "--altitude", 0,
+                            "--rho", .02, "--rho-unit", "edge")
+        self.assertEqual([letter[key] for key in keys], ["outer", "each", 0, .02, "edge"])
 
     def test_iterations_are_numbered(self):
         iterations = self.report(DATA / "patch.obj", "-o", "out.off")["iterations"]

@@ -1,5 +1,6 @@
 """The mesh that is written: same vertices and faces, better triangles, constraints kept, the same on every run."""
 
+import csv
 import unittest
 
 from command import DATA, CommandTest, irregular_torus, read_mesh, write_off
@@ -130,6 +131,17 @@ class Result(CommandTest):
     def test_paper_mode_runs_and_says_when_it_jams(self):
         out, err = self.run_command(DATA / "patch.obj", "-o", "out.obj", "--paper", "--max-outer", 1, "--max-steps", 50)
         self.assertIn("global time step", err)
+
+    def test_time_steps_of_paper_mode_are_traced(self):
+        self.run_command(DATA / "patch.obj", "-o", "out.obj", "--paper", "--max-outer", 2, "--max-steps", 200,
+                         "--trace-steps", "steps.csv")
+        with open(self.folder / "steps.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(int(r["outer"]), int(r["step"])) for r in rows],
+                         [(outer, step) for outer in (1, 2) for step in range(1, 201)])
+        self.assertTrue(all(float(r["dt"]) > 0 and float(r["greatest_force"]) > 0 for r in rows))
+        self.assertTrue(all(set(r["bound"].split("+")) <= {"none", "angle", "expansion", "displacement", "area"}
+                            for r in rows))
 
 
 if __name__ == "__main__":

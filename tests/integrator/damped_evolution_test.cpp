@@ -21,6 +21,7 @@
 #include "hooke/springs/hooke_law.h"
 #include "hooke/working_mesh/workspace.h"
 #include "support/meshes.h"
+#include "support/scene.h"
 
 namespace hooke::damped_evolution_test {
 
@@ -59,7 +60,7 @@ TEST(DampedEvolution, VelocityDecaysExactlyWithoutForce) {
   motion.velocities.colwise() = Vec3(1, 2, 3);
   const Mat3X start = motion.points;
   const EvolutionOptions free{.damped = {.string = 0, .torque = 0}};
-  const EvolutionStep step = evolution_step(motion, b.adjacency, b.lengths, free, nullptr, initial_factor);
+  const EvolutionStep step = evolution_step(motion, b.adjacency, b.lengths, free, initial_factor);
   const double decay = std::exp(-free.damped.friction * step.adapted.time);
   ASSERT_GT(step.adapted.time, 0);
   for (Eigen::Index v = 0; v < start.cols(); ++v) {
@@ -101,7 +102,7 @@ TEST(DampedEvolution, LosesEnergyByFriction) {
   reset_motion(motion);
   const double start = total();
   double last = start;
-  evolve_damped(b.mesh, b.adjacency, b.lengths, options, nullptr, [&](const Progress& step) {
+  evolve_damped(b.mesh, b.adjacency, b.lengths, options, [&](const Progress& step) {
     // The first step starts from rest: friction has nothing to take yet, and [22] keeps the energy to first
     // order in dt.
     EXPECT_LT(total(), step.step == 1 ? 1.001 * last : last) << "step " << step.step;
@@ -130,7 +131,7 @@ TEST(DampedEvolution, EveryAcceptedStepPassesTheFourTests) {
     before = after;
     return true;
   };
-  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, options, nullptr, check);
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, options, check);
   EXPECT_EQ(r.reason, StopReason::step_limit);
   EXPECT_EQ(r.steps, 100);
   EXPECT_GE(r.bound.angle + r.bound.expansion + r.bound.displacement + r.bound.area_bound + r.bound.none,
@@ -165,10 +166,32 @@ TEST(DampedEvolution, WalksOnWithAZeroAreaFaceInTheInput) {
 
 TEST(DampedEvolution, IsAtRestWithoutForces) {
   Body b = body(test::sphere(1, .2));
-  const Restraint nothing_pulls = [](Mat3X& forces) { forces.setZero(); };
-  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0}, nothing_pulls);
+  const EvolutionSurface nothing_pulls{.restrain = [](Mat3X& forces) { forces.setZero(); }};
+  const EvolutionResult r =
+      evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0}, nullptr, nothing_pulls);
   EXPECT_EQ(r.reason, StopReason::stalled);
   EXPECT_EQ(r.steps, 0);
+}
+
+TEST(DampedEvolution, AFilterEndsEachTimeStepOnTheSurface) {
+  const auto farthest = [](bool filters) {
+    test::Scene scene = test::sphere_scene(.3);
+    TriMesh mesh = build_mesh(scene.positions.points, scene.adjacency);
+    double distance = 0;
+    const auto watch = [&](const Progress&) {
+      const auto X = vertex_points(mesh);
+      for (Eigen::Index v = 0; v < X.cols(); ++v)
+        distance = std::max(distance, std::abs(X.col(v).norm() - 1));
+      EXPECT_TRUE(!filters || X == scene.positions.points);
+      return true;
+    };
+    const std::vector<double> lengths(scene.adjacency.edges.size(), 1.1 * scene.L());
+    evolve_damped(mesh, scene.adjacency, lengths, {.tolerance = 0, .max_steps = 60}, watch,
+                  {.positions = &scene.positions, .filter = filters ? &scene.retraction : nullptr});
+    return distance;
+  };
+  EXPECT_LT(farthest(true), 1e-6);
+  EXPECT_GT(farthest(false), 1e-3);
 }
 
 TEST(DampedEvolution, LeavesAFinishedMeshAlone) {
@@ -182,7 +205,7 @@ TEST(DampedEvolution, LeavesAFinishedMeshAlone) {
 
 TEST(DampedEvolution, StopsWhenTheObserverSaysSo) {
   Body b = body(test::sphere(1, .2));
-  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0}, nullptr,
+  const EvolutionResult r = evolve_damped(b.mesh, b.adjacency, b.lengths, {.tolerance = 0},
                                           [](const Progress& step) { return step.step < 3; });
   EXPECT_EQ(r.reason, StopReason::interrupted);
   EXPECT_EQ(r.steps, 3);

@@ -7,6 +7,7 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/mesh.h"
@@ -29,6 +30,15 @@ double edge_deviation(const TriMesh& mesh) {
   const Adjacency c = make_adjacency(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
   const TargetLengths targets = spread_target_lengths(c, vertex_values(mesh, target_length_property));
   return relative_edge_deviation(vertex_points(mesh), c.edges, targets);
+}
+
+/// To the letter: no altitude springs, vertices filtered after Algorithm 2, to a field fitted anew.
+PaperOptions letter() {
+  PaperOptions options;
+  options.evolution.altitude = 0;
+  options.filter_every = FilterEvery::outer;
+  options.refit = Refit::each;
+  return options;
 }
 
 PaperOptions short_run() {
@@ -177,8 +187,79 @@ TEST(PaperMode, CommutesExactlyWithScalingByAPowerOfTwo) {
   TriMesh mesh = with_natural_length(t);
   t.points *= 1024;
   TriMesh large = with_natural_length(t);
-  paper_remesh(mesh, short_run());
-  paper_remesh(large, short_run());
+  PaperOptions options = short_run();
+  options.filter.offset = .02;
+  options.filter.offset_unit = OffsetUnit::edge;
+  paper_remesh(mesh, options);
+  paper_remesh(large, options);
+  EXPECT_EQ(vertex_points(large), 1024 * vertex_points(mesh));
+}
+
+double min_angle_of(const TriMesh& mesh) {
+  return min_angle(vertex_points(mesh), triangles_of(mesh));
+}
+
+TEST(PaperMode, AltitudeSpringsKeepFacesFromCollapsing) {
+  double worst = 60, worst_without = 60;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    TriMesh mesh = with_natural_length(test::sphere(2, .4, seed)), without = mesh;
+    PaperOptions options;
+    const RemeshResult r = paper_remesh(mesh, options);
+    EXPECT_TRUE(r.folded_faces.empty()) << seed;
+    options.evolution.altitude = 0;
+    paper_remesh(without, options);
+    worst = std::min(worst, min_angle_of(mesh));
+    worst_without = std::min(worst_without, min_angle_of(without));
+  }
+  EXPECT_GT(worst, 50);
+  EXPECT_LT(worst_without, 10);
+}
+
+TEST(PaperMode, EachTimeStepEndsOnTheSurfaceOfTheInput) {
+  const Triangles t = test::sphere(2, .3);
+  TriMesh mesh = with_natural_length(t);
+  PaperOptions options = short_run();
+  options.max_outer = 1;
+  const auto X = vertex_points(mesh);
+  double off = 0;
+  const RemeshResult r = paper_remesh(mesh, options);
+  for (Eigen::Index v = 0; v < X.cols(); ++v) off = std::max(off, std::abs(X.col(v).norm() - 1));
+  EXPECT_LT(off, .01);
+  // A vertex is evaluated about once in a few steps, and not once more for a fit.
+  EXPECT_LE(r.projection.evaluations, 2 * (r.iterations[0].steps + 2) * X.cols());
+}
+
+TEST(PaperMode, RecordsEachTimeStep) {
+  TriMesh mesh = with_natural_length(test::sphere(2, .3));
+  const RemeshResult r = paper_remesh(mesh, short_run());
+  ASSERT_EQ(r.time_steps.size(), 60u);
+  int cut = 0;
+  for (std::size_t k = 0; k < r.time_steps.size(); ++k) {
+    const TimeStepRecord& s = r.time_steps[k];
+    EXPECT_EQ(s.outer, 1 + static_cast<int>(k) / 30);
+    EXPECT_EQ(s.step, 1 + static_cast<int>(k) % 30);
+    EXPECT_GT(s.step_time, 0);
+    EXPECT_GT(s.string_energy, 0);
+    EXPECT_GT(s.altitude_energy, 0);
+    EXPECT_GT(s.kinetic_energy, 0);
+    EXPECT_GT(s.max_force, 0);
+    cut += s.bound.any();
+  }
+  EXPECT_EQ(cut, 60 - r.bound.none);
+  EXPECT_LT(r.time_steps.back().string_energy, r.time_steps.front().string_energy);
+}
+
+TEST(PaperMode, AnAbsoluteOffsetDoesNotGrowWithTheMesh) {
+  // The field of a mesh 1000 times as large with an offset of 1e-3 is that of the mesh with 1e-6.
+  Triangles t = test::sphere(2, .3);
+  TriMesh mesh = with_natural_length(t);
+  t.points *= 1024;
+  TriMesh large = with_natural_length(t);
+  PaperOptions small_offset = short_run(), absolute = short_run();
+  small_offset.filter.offset = 1e-3;
+  absolute.filter.offset = 1.024;
+  paper_remesh(mesh, small_offset);
+  paper_remesh(large, absolute);
   EXPECT_EQ(vertex_points(large), 1024 * vertex_points(mesh));
 }
 

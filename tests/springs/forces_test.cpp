@@ -191,4 +191,59 @@ TEST(Forces, DoNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(both(1), both(2));
 }
 
+/// The energy of the altitude springs with all lengths 1, as a function of the points.
+struct Altitudes {
+  Adjacency adjacency;
+  std::vector<double> lengths;
+  Mat3X normals;
+
+  explicit Altitudes(const Triangles& t)
+      : adjacency(make_adjacency(static_cast<int>(t.points.cols()), t.faces)),
+        lengths(adjacency.edges.size(), 1.),
+        normals(Mat3X::Zero(3, t.points.cols())) {
+    normals.row(2).setOnes();
+  }
+  double energy(const Mat3X& points) const { return altitude_energy(points, &normals, adjacency, lengths); }
+  Mat3X forces(const Mat3X& points) const {
+    Mat3X f = Mat3X::Zero(3, points.cols());
+    add_altitude_forces(points, &normals, adjacency, lengths, 1, f);
+    return f;
+  }
+};
+
+TEST(AltitudeForces, AreMinusTheGradientOfTheirEnergyAndSumToZero) {
+  Triangles t = test::grid(3, test::paraboloid, .4);
+  t.points *= 2;
+  const Altitudes springs(t);
+  const Mat3X f = springs.forces(t.points);
+  EXPECT_LT(f.rowwise().sum().norm(), 1e-12 * f.norm());
+  constexpr double h = 1e-6;
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
+    for (int k = 0; k < 3; ++k) {
+      Mat3X right = t.points, left = t.points;
+      right(k, v) += h;
+      left(k, v) -= h;
+      EXPECT_NEAR(f(k, v), -(springs.energy(right) - springs.energy(left)) / (2 * h), 1e-6 * f.norm());
+    }
+}
+
+TEST(AltitudeForces, AreZeroWhereAllAltitudesAreLongEnough) {
+  Triangles t = test::grid(3, test::flat);
+  t.points *= 10;
+  EXPECT_EQ(Altitudes(t).forces(t.points).norm(), 0);
+}
+
+TEST(AltitudeForces, GrowWithoutBoundAsAFaceLeansOutOfTheSurface) {
+  // A face of unchanged shape, turned about an edge: its altitude across the surface goes to zero.
+  double last = 0;
+  for (const double turn : {0., 1., 1.4, 1.55}) {
+    const auto t =
+        test::triangles({{0, 0, 0}, {1, 0, 0}, {.5, .8 * std::cos(turn), .8 * std::sin(turn)}}, {{0, 1, 2}});
+    const double now = Altitudes(t).forces(t.points).norm();
+    EXPECT_GT(now, last);
+    last = now;
+  }
+  EXPECT_GT(last, 30);
+}
+
 }  // namespace hooke::forces_test

@@ -279,7 +279,6 @@ Projection SurfaceField::State::project(const Vec3& x, int hint, double toleranc
 
 /// Finds the faces that the splines do not follow, where nothing is known of the shape operators either.
 void SurfaceField::State::find_facets() {
-  if (kind == FilterKind::none) return;
   if (kind == FilterKind::closest) {
     facets = CurvedFacets::all_flat(*points, normals, *adjacency);
     return;
@@ -309,7 +308,8 @@ SurfaceField::SurfaceField(std::shared_ptr<const Mat3X> shared_points,
     state->partition.emplace(points, *adjacency, state->normals, state->edge_lengths,
                              PartitionOptions{.kernel = options.kernel, .offset = options.offset});
   if (options.kind == FilterKind::global) {
-    const double rho = options.offset * mean_edge_length(points, *adjacency);
+    const double unit = options.offset_unit == OffsetUnit::edge ? mean_edge_length(points, *adjacency) : 1.;
+    const double rho = (options.inward ? -1 : 1) * options.offset * unit;
     const int count = pieces.empty() ? 1 : 1 + *std::ranges::max_element(pieces);
     for (int piece = 0; piece < count; ++piece)
       state->splines.push_back(fit_global_spline(points, distinct_vertices(points, *adjacency, pieces, piece),
@@ -318,7 +318,7 @@ SurfaceField::SurfaceField(std::shared_ptr<const Mat3X> shared_points,
   }
   state->points = std::move(shared_points);
   state->adjacency = std::move(adjacency);
-  state->find_facets();
+  if (options.facets && options.kind != FilterKind::none) state->find_facets();
   state_ = std::move(state);
 }
 

@@ -43,10 +43,24 @@ enum class FilterKind {
   none,     // points are not projected
 };
 
+/// When a new surface field is fitted: before each outer iteration that follows one in which guards limited
+/// vertices, or once. Mode `adapt` always fits once.
+enum class Refit { each, once };
+
+/// The unit of the offset of the splines' second points.
+enum class OffsetUnit {
+  edge,  // mean edge length: at each vertex (local), of the mesh (global)
+  file,  // the unit of the points, as in the paper (global)
+};
+
 struct FilterOptions {
   FilterKind kind = FilterKind::local;
   Kernel kernel = Kernel::r3;
-  double offset = .3;  // rho of [13] over the mean edge length: at each vertex (local), of the mesh (global)
+  double offset = .3;  // rho of [13]
+  OffsetUnit offset_unit = OffsetUnit::edge;
+  bool inward = false;  // are the second points inside, as in the paper (global)? Otherwise they are outside
+  bool facets =
+      true;  // curved facets where the splines do not follow the surface; see SurfaceField::project()
   std::size_t memory_limit_bytes = SIZE_MAX;  // of the dense fit (global)
   /// Maximum distance of the surface from the faces, in vertex lengths, where splines may overshoot: near
   /// long edges along which the normals turn.

@@ -9,6 +9,7 @@
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/springs/energy.h"
@@ -18,27 +19,25 @@
 namespace hooke {
 namespace {
 
-double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
-                     std::span<const double> target_lengths) {
-  return parallel_sum(c.edges.size(), 1024, [&](size_t begin, size_t end) {
-    double sum = 0;
-    for (size_t e = begin; e < end; ++e) {
-      const double L = target_lengths[e];
-      const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
-      sum += spring_potential(l, L).value / (L * L);
-    }
-    return sum;
-  });
+const Mat3X* normals_of(const EvolutionSurface& surface) {
+  return surface.positions ? &surface.positions->normals : nullptr;
 }
 
 void update_forces(Motion& motion, const Adjacency& c, std::span<const double> target_lengths,
-                   const DampedOptions& options, const Restraint& restraint) {
+                   const EvolutionOptions& options, const EvolutionSurface& surface) {
   Mat3X forces(3, motion.points.cols()), torques(3, motion.points.cols());
   string_forces(motion.points, c, target_lengths, forces);
   torque_forces(motion.points, c, torques);
-  forces = options.string * forces + options.torque * torques;  // [17]
-  if (restraint) restraint(forces);
+  if (options.altitude > 0)
+    add_altitude_forces(motion.points, normals_of(surface), c, target_lengths, options.altitude, forces);
+  forces = options.damped.string * forces + options.damped.torque * torques;  // [17]
+  if (surface.restrain) surface.restrain(forces);
   motion.forces = forces;
+}
+
+bool has_small_face(const Mat3X& points, const Adjacency& c, double area) {
+  return std::ranges::any_of(c.faces,
+                             [&](const Triangle& t) { return !(face_shape(points, t).area > area); });
 }
 
 }  // namespace
@@ -75,6 +74,19 @@ void accelerate(Motion& motion, double tau, double dt) {
   U = U * std::exp(-tau * dt) + motion.forces * (dt / motion.mass);  // [22]
 }
 
+double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
+                     std::span<const double> target_lengths) {
+  return parallel_sum(c.edges.size(), 1024, [&](size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t e = begin; e < end; ++e) {
+      const double L = target_lengths[e];
+      const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
+      sum += spring_potential(l, L).value / (L * L);
+    }
+    return sum;
+  });
+}
+
 double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                         std::span<const double> target_lengths) {
   double worst = 0;
@@ -86,34 +98,48 @@ double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& 
 }
 
 EvolutionStep evolution_step(Motion& motion, const Adjacency& c, std::span<const double> target_lengths,
-                             const EvolutionOptions& options, const Restraint& restraint,
-                             double last_factor) {
-  update_forces(motion, c, target_lengths, options.damped, restraint);
+                             const EvolutionOptions& options, double last_factor,
+                             const EvolutionSurface& surface) {
+  update_forces(motion, c, target_lengths, options, surface);
   const StepScales scales = step_scales(motion.points, motion.velocities, motion.forces, c);
   const double base = base_step(scales, motion.mass);
   if (!std::isfinite(base)) return {.at_rest = true};
   Mat3X X;
-  EvolutionStep step;
+  SurfacePositions filtered;
+  EvolutionStep step{.max_force = scales.force};
   step.adapted = adapt_step(base, last_factor, options.time_step.floor, [&](double dt) {
-    X = motion.points + displacement(motion, options.damped.friction, dt);
-    return test_step(motion.points, X, c, scales.edge, options.time_step);
+    X = motion.points + displacement(motion, options.damped.friction, dt);  // v_{n+1/2}
+    FailedTests failed = test_step(motion.points, X, c, scales.edge, options.time_step);
+    if (failed.any() || !surface.filter) return failed;
+    surface.filter->step(*surface.positions, X - surface.positions->points, filtered);  // v_{n+1}
+    failed.area_bound = has_small_face(filtered.points, c, options.time_step.area_bound);
+    return failed;
   });
   if (step.adapted.jammed) return step;
-  motion.points = X;
+  if (surface.filter) {
+    motion.points = filtered.points;
+    std::swap(*surface.positions, filtered);
+  } else {
+    motion.points = X;
+  }
   accelerate(motion, options.damped.friction, step.adapted.time);
   return step;
 }
 
 EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& c, std::span<const double> target_lengths,
-                              const EvolutionOptions& options, const Restraint& restraint,
-                              const Observer& observer) {
+                              const EvolutionOptions& options, const Observer& observer,
+                              const EvolutionSurface& surface) {
   require_valid(options.damped);
   Motion motion = motion_of(mesh);
   reset_motion(motion);
   EvolutionResult result;
+  TimeStepRecord now;
   const auto measure = [&] {
-    result.max_length_error = max_length_error(motion.points, c, target_lengths);
-    result.energy = string_energy(motion.points, c, target_lengths);
+    now.max_length_error = result.max_length_error = max_length_error(motion.points, c, target_lengths);
+    now.string_energy = result.energy = string_energy(motion.points, c, target_lengths);
+    if (options.altitude > 0)
+      now.altitude_energy = altitude_energy(motion.points, normals_of(surface), c, target_lengths);
+    now.kinetic_energy = .5 * motion.mass * motion.velocities.squaredNorm();
   };
   const auto stopped = [&](StopReason reason) {
     result.reason = reason;
@@ -123,7 +149,7 @@ EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& c, std::span<const
   double factor = initial_factor;
   while (!(result.max_length_error < options.tolerance)) {
     if (result.steps >= options.max_steps) return stopped(StopReason::step_limit);
-    const EvolutionStep step = evolution_step(motion, c, target_lengths, options, restraint, factor);
+    const EvolutionStep step = evolution_step(motion, c, target_lengths, options, factor, surface);
     if (step.at_rest) return stopped(StopReason::stalled);
     result.evaluations += step.adapted.rejected + !step.adapted.jammed;
     if (step.adapted.jammed) {
@@ -135,6 +161,12 @@ EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& c, std::span<const
     result.bound.add(step.adapted.bound);
     result.time += step.adapted.time;
     measure();
+    now.step = result.steps;
+    now.time = result.time;
+    now.step_time = step.adapted.time;
+    now.bound = step.adapted.bound;
+    now.max_force = step.max_force;
+    result.time_steps.push_back(now);
     if (observer && !observer({"", 0, result.steps, result.energy})) return stopped(StopReason::interrupted);
   }
   return stopped(StopReason::converged);

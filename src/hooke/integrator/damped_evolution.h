@@ -4,7 +4,9 @@
 // "Hooke's Optimization for 3D triangular mesh", sections 4.1 to 4.3, equations [17]-[26].
 #pragma once
 
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "hooke/integrator/relaxation.h"
 #include "hooke/integrator/time_step.h"
@@ -44,32 +46,46 @@ Mat3X displacement(const Motion& motion, double friction, double dt);
 /// Advances the velocities by the time dt, second line of [22].
 void accelerate(Motion& motion, double friction, double dt);
 
+/// Energy of the strings, relative to their rest lengths: the sum of U(l; L) / L^2 over the edges.
+double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
+                     std::span<const double> target_lengths);
+
 /// Maximum of |l - L| over the edges; `target_lengths` has one positive length per edge.
 double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                         std::span<const double> target_lengths);
 
 struct EvolutionOptions {
   DampedOptions damped = {};
+  double altitude = 0;  // beta, weight of the altitude springs over the strings; the paper has none
   TimeStepOptions time_step = {};
   double tolerance = 1e-3;  // stop when max |l - L| is below this length; d_tolerance
   int max_steps = 400;      // accepted steps
 };
 
-/// Removes from the forces (3 x |V|) the components along which vertices must not move.
-using Restraint = std::function<void(Mat3X& forces)>;
+/// The surface that the vertices move on; empty: they move freely in space.
+struct EvolutionSurface {
+  /// Removes from the forces (3 x |V|) the components along which vertices must not move.
+  std::function<void(Mat3X& forces)> restrain = nullptr;
+  /// The positions on the surface. Their normals tell the altitude springs which way is across.
+  SurfacePositions* positions = nullptr;
+  /// Filters each time step: the vertices go from v_{n+1/2} back to the surface, to v_{n+1}, and `positions`
+  /// with them. Null: they leave it.
+  Retraction* filter = nullptr;
+};
 
-/// One step of Algorithm 2.
+/// One time step of Algorithm 2.
 struct EvolutionStep {
   bool at_rest = false;      // no force and no velocity: no step was made
   AdaptedStep adapted = {};  // time, epsilon, and the tests that limited it
+  double max_force = 0;      // l_force [21] at its start
 };
 
 /// Makes the largest step that passes the tests of [26] for the whole mesh at once, and updates forces,
-/// points and velocities. When jammed or at rest, points and velocities stay. `last_factor` is the epsilon of
-/// the previous step.
+/// points and velocities. The first three tests look at v_{n+1/2}, the last, of the area, at v_{n+1}. When
+/// jammed or at rest, points and velocities stay. `last_factor` is the epsilon of the previous step.
 EvolutionStep evolution_step(Motion& motion, const Adjacency& adjacency,
                              std::span<const double> target_lengths, const EvolutionOptions& options,
-                             const Restraint& restraint, double last_factor);
+                             double last_factor, const EvolutionSurface& surface = {});
 
 /// Result of Algorithm 2. The energy is that of the strings, relative to their rest lengths.
 struct EvolutionResult : IntegrationResult {
@@ -77,6 +93,7 @@ struct EvolutionResult : IntegrationResult {
   FailedTests jam;              // tests failed by the last candidate step, when jammed
   double time = 0;              // t_n, the sum of the time steps
   double max_length_error = 0;  // max |l - L| at the end, a length
+  std::vector<TimeStepRecord> time_steps;
 };
 
 /// Algorithm 2: steps from rest until max |l - L| < tolerance (converged), no force acts (stalled), no time
@@ -85,12 +102,12 @@ struct EvolutionResult : IntegrationResult {
 /// mostly out of reach, and another condition ends the run. `evaluations` counts all candidate steps. Throws
 /// Error if the string tension or the friction is not positive.
 ///
-/// Nothing here keeps the mesh on its surface. The strings alone fold it as they shorten and lengthen edges,
-/// with torque or without, and next to a fold (theta near pi) the torque of [6] is so large that it can move
-/// vertices by many edge lengths without failing a test of [26].
+/// Without a surface to filter to nothing keeps the mesh where it is. The strings alone fold it as they
+/// shorten and lengthen edges, with torque or without, and next to a fold (theta near pi) the torque of [6]
+/// is so large that it can move vertices by many edge lengths without failing a test of [26].
 EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& adjacency,
                               std::span<const double> target_lengths, const EvolutionOptions& options,
-                              const Restraint& restraint = nullptr, const Observer& observer = nullptr);
+                              const Observer& observer = nullptr, const EvolutionSurface& surface = {});
 
 /// Moves relaxation.positions from rest toward an equilibrium on the surface. The forces are lambda * (minus
 /// the gradient of relaxation.energy) + mu * F_torque, projected to the directions in which vertices may

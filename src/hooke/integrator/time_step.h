@@ -1,4 +1,4 @@
-// The time step of the damped evolution: the base step, and the four tests that limit it.
+// The time step of the damped evolution: the base step, the four tests that limit it, and its record.
 // "Hooke's Optimization for 3D triangular mesh", section 4.3, equations [19]-[21] and [24]-[26].
 #pragma once
 
@@ -79,5 +79,19 @@ inline constexpr double initial_factor = .5;
 /// then empty if the first time was already below it.
 AdaptedStep adapt_step(double base, double last_factor, double floor,
                        const std::function<FailedTests(double time)>& test);
+
+/// The state after a time step, in the units of the evolution.
+struct TimeStepRecord {
+  int outer = 0;                // outer iteration, from 1
+  int step = 0;                 // n + 1
+  double time = 0;              // t_{n+1}
+  double step_time = 0;         // dt_n
+  FailedTests bound;            // the tests that limited dt_n
+  double string_energy = 0;     // sum of U(l; L) / L^2
+  double altitude_energy = 0;   // sum of U(h; h0) / L_f^2, without the weight beta
+  double kinetic_energy = 0;    // sum of m u^2 / 2
+  double max_force = 0;         // l_force [21] at the start of the step
+  double max_length_error = 0;  // max |l - L|
+};
 
 }  // namespace hooke

@@ -16,10 +16,6 @@
 
 namespace hooke {
 
-/// When a new surface field is fitted: before each outer iteration that follows one in which guards limited
-/// vertices, or once. Mode `adapt` always fits once.
-enum class Refit { each, once };
-
 /// The method that finds the equilibrium of the springs. Untangling and angle optimisation work vertex by
 /// vertex with either.
 enum class IntegratorKind {

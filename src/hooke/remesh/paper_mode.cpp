@@ -7,7 +7,6 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/mesh/mesh.h"
-#include "hooke/springs/energy.h"
 #include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
@@ -22,7 +21,6 @@ class PaperRun {
         observer_(observer),
         work_(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction),
         to_input_(*work_.retraction),
-        strings_(*work_.adjacency, work_.targets, {.altitude = 0}),
         mesh_(build_mesh(*work_.start, *work_.adjacency)) {}
 
   RemeshResult run(TriMesh& mesh) {
@@ -38,11 +36,11 @@ class PaperRun {
 
  private:
   void iterate() {
-    if (outer_ > 1) work_.refit();  // psi of M_t
-    const double before = strings_(work_.positions.points, work_.positions.normals, nullptr);
+    if (outer_ > 1 && options_.refit == Refit::each) work_.refit();  // psi of M_t
+    const double before = energy();
     EvolutionResult evolved = optimize();  // M_{t+1}
     filter();                              // M*_{t+1}
-    evolved.energy = strings_(work_.positions.points, work_.positions.normals, nullptr);
+    evolved.energy = energy();
     record(evolved);
     const double worst =
         max_length_error(work_.positions.points, *work_.adjacency, work_.targets.edge.values());  // D
@@ -52,9 +50,17 @@ class PaperRun {
     stop(evolved.reason == StopReason::jammed ? StopReason::jammed : StopReason::stalled);
   }
 
+  double energy() const {
+    return string_energy(work_.positions.points, *work_.adjacency, work_.targets.edge.values());
+  }
+
   EvolutionResult optimize() {
-    return evolve_damped(mesh_, *work_.adjacency, work_.targets.edge.values(), options_.evolution,
-                         boundary_rule(), watch());
+    const EvolutionSurface surface{
+        .restrain = boundary_rule(),
+        .positions = &work_.positions,
+        .filter = options_.filter_every == FilterEvery::step ? work_.retraction.get() : nullptr};
+    return evolve_damped(mesh_, *work_.adjacency, work_.targets.edge.values(), options_.evolution, watch(),
+                         surface);
   }
 
   void filter() {
@@ -65,7 +71,7 @@ class PaperRun {
 
   /// Restricts the forces on curve and fixed vertices, if the options have any, beyond the paper. All other
   /// vertices move freely in space, as in the paper.
-  Restraint boundary_rule() const {
+  std::function<void(Mat3X& forces)> boundary_rule() const {
     const bool all_free =
         std::ranges::all_of(work_.constraints.freedom, [](Freedom f) { return f == Freedom::surface; });
     if (all_free) return nullptr;
@@ -110,6 +116,10 @@ class PaperRun {
     record.outer = outer_;
     record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     result_.iterations.push_back(record);
+    for (TimeStepRecord step : evolved.time_steps) {
+      step.outer = outer_;
+      result_.time_steps.push_back(step);
+    }
     result_.bound += evolved.bound;
     result_.jam = evolved.jam;
   }
@@ -124,8 +134,7 @@ class PaperRun {
   const Observer& observer_;
   Workspace work_;
   Retraction to_input_;  // to the field of the input, for folded_faces()
-  Energy strings_;
-  TriMesh mesh_;  // with the moving vertices
+  TriMesh mesh_;         // with the moving vertices
   RemeshResult result_;
   int outer_ = 0;
   bool done_ = false;

@@ -89,6 +89,7 @@ struct RemeshResult {
   Rescue rescue = Rescue::none;
   BoundCounts bound;  // time steps by the test that set them (paper_remesh() only)
   FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)
+  std::vector<TimeStepRecord> time_steps;  // paper_remesh() only
 };
 
 /// The ids in the result of these faces of the workspace, ascending.

@@ -1,5 +1,7 @@
 #include "hooke/report/report.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -159,16 +161,49 @@ Json projection_json(const ProjectionCounts& counts) {
           {"step_limit", status(ProjectionStatus::step_limit)}};
 }
 
+/// What each outer iteration of paper_remesh() did, and its state at the end. Lengths are mean target
+/// lengths.
+Json evolution_json(const std::vector<TimeStepRecord>& steps) {
+  Json outers = Json::array();
+  BoundCounts bound;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    const TimeStepRecord& s = steps[k];
+    bound.add(s.bound);
+    if (k + 1 < steps.size() && steps[k + 1].outer == s.outer) continue;
+    outers.push_back({{"outer", s.outer},
+                      {"steps", s.step},
+                      {"time", number(s.time)},
+                      {"dt", number(s.step_time)},
+                      {"string_energy", number(s.string_energy)},
+                      {"altitude_energy", number(s.altitude_energy)},
+                      {"kinetic_energy", number(s.kinetic_energy)},
+                      {"greatest_force", number(s.max_force)},
+                      {"greatest_length_error", number(s.max_length_error)},
+                      {"bound",
+                       {{"angle", bound.angle},
+                        {"expansion", bound.expansion},
+                        {"displacement", bound.displacement},
+                        {"area", bound.area_bound},
+                        {"none", bound.none}}}});
+    bound = {};
+  }
+  return outers;
+}
+
 /// The columns of the paper's tables 1 to 3.
 Json paper_columns(const RunRecord& run) {
   const auto columns = [](const Quality& q) {
-    return Json{{"least_angle_rad", q.min_angle.min * std::numbers::pi / 180},
-                {"edge_length_sd", q.edge_length.std}};
+    return Json{{"vertices", q.topology.vertices},
+                {"least_angle_rad", q.min_angle.min * std::numbers::pi / 180},
+                {"edge_length_sd", q.edge_length.std},
+                {"mean_curvature", range(q.mean_curvature)},
+                {"gaussian_curvature", range(q.gaussian_curvature)}};
   };
   Json j = {{"before", columns(run.before)}, {"after", nullptr}, {"greatest_displacement", nullptr}};
   if (run.after) j["after"] = columns(*run.after);
   if (run.deviation && run.deviation->displacement)
     j["greatest_displacement"] = run.deviation->displacement->max;
+  j["evolution"] = run.result ? evolution_json(run.result->time_steps) : Json::array();
   return j;
 }
 
@@ -305,6 +340,30 @@ Json report_json(const RunRecord& run) {
   return j;
 }
 
+namespace {
+
+std::string words_of(const FailedTests& bound) {
+  std::vector<const char*> words;
+  if (bound.angle) words.push_back("angle");
+  if (bound.expansion) words.push_back("expansion");
+  if (bound.displacement) words.push_back("displacement");
+  if (bound.area_bound) words.push_back("area");
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, "+"));
+}
+
+}  // namespace
+
+std::string time_steps_csv(const std::vector<TimeStepRecord>& steps) {
+  std::string csv =
+      "outer,step,time,dt,bound,string_energy,altitude_energy,kinetic_energy,greatest_force,"
+      "greatest_length_error\n";
+  for (const TimeStepRecord& s : steps)
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.outer, s.step, s.time, s.step_time,
+                       words_of(s.bound), s.string_energy, s.altitude_energy, s.kinetic_energy, s.max_force,
+                       s.max_length_error);
+  return csv;
+}
+
 std::string report_text(const RunRecord& run) {
   constexpr int indent = 2;
   return report_json(run).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -377,6 +436,7 @@ void add_filter(Json& j, const FilterOptions& filter) {
   j["filter"] = name_of(filter.kind);
   j["kernel"] = where(splines, filter.kernel == Kernel::r3 ? "r3" : "r2logr");
   j["rho"] = where(splines, filter.offset);
+  j["rho_unit"] = where(splines, filter.offset_unit == OffsetUnit::edge ? "edge" : "file");
   j["reach"] = where(splines && std::isfinite(filter.max_deviation), filter.max_deviation);
 }
 
@@ -456,6 +516,9 @@ Json parameters_json(const PaperOptions& o) {
   Json j;
   j["paper"] = true;
   add_filter(j, o.filter);
+  j["filter_every"] = o.filter_every == FilterEvery::step ? "step" : "outer";
+  j["refit"] = o.refit == Refit::each ? "each" : "once";
+  j["altitude"] = o.evolution.altitude;
   j["string"] = o.evolution.damped.string;
   j["torque"] = o.evolution.damped.torque;
   j["friction"] = o.evolution.damped.friction;

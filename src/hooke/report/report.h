@@ -78,6 +78,10 @@ nlohmann::ordered_json report_json(const RunRecord& run);
 /// The report as indented text. Bytes that are not UTF-8 are replaced.
 std::string report_text(const RunRecord& run);
 
+/// The time steps as CSV, one a line, in the units of the evolution: lengths are mean target lengths. `bound`
+/// names the tests of [26] that limited the step, joined by +.
+std::string time_steps_csv(const std::vector<TimeStepRecord>& steps);
+
 /// The effective parameters of a run for its report, `null` for those without effect. `effort`: the level for
 /// which the options were set.
 nlohmann::ordered_json parameters_json(const RemeshOptions& options, Effort effort);

@@ -1,7 +1,11 @@
 #include "hooke/springs/forces.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
@@ -94,6 +98,81 @@ void torque_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& c, Ei
       forces.col(v) = sum;                                                                           // [10]
     }
   });
+}
+
+namespace {
+
+/// The forces of the altitude springs on the corners of a face, and their energy.
+struct FaceAltitudes {
+  std::array<Vec3, 3> push{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  double energy = 0;
+};
+
+FaceAltitudes face_altitudes(std::array<Vec3, 3> x, const Vec3& normal, double target_length) {
+  const Vec3 across = (x[1] - x[0]).cross(x[2] - x[0]);
+  if (across.dot(normal) > 0)
+    for (Vec3& corner : x) corner -= normal * normal.dot(corner);
+  FaceAltitudes face;
+  const double h0 = .5 * std::numbers::sqrt3 * target_length;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+    const Vec3 base = x[last] - x[next];
+    const double share = base.squaredNorm() > 0 ? (x[k] - x[next]).dot(base) / base.squaredNorm() : 0;
+    const Vec3 altitude = x[k] - x[next] - share * base;
+    const double h = altitude.norm();
+    if (!(h > 0) || h >= h0) continue;
+    const Potential spring = spring_potential(h, h0);
+    const Vec3 push = -spring.slope / h * altitude;
+    face.push[k] += push;
+    face.push[next] -= (1 - share) * push;
+    face.push[last] -= share * push;
+    face.energy += spring.value / (target_length * target_length);
+  }
+  return face;
+}
+
+std::vector<FaceAltitudes> altitudes_of_faces(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals,
+                                              const Adjacency& c, std::span<const double> target_lengths) {
+  std::vector<FaceAltitudes> faces(c.faces.size());
+  parallel_for(faces.size(), forces_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Triangle& t = c.faces[f];
+      Vec3 normal = Vec3::Zero();
+      if (normals)
+        for (int v : t) normal += normals->col(v);
+      double length = 0;
+      for (int e : c.face_edges[f]) length += target_lengths[static_cast<std::size_t>(e)] / 3;
+      faces[f] =
+          face_altitudes({points.col(t[0]), points.col(t[1]), points.col(t[2])}, normal.normalized(), length);
+    }
+  });
+  return faces;
+}
+
+}  // namespace
+
+void add_altitude_forces(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals, const Adjacency& c,
+                         std::span<const double> target_lengths, double weight, Eigen::Ref<Mat3X> forces) {
+  assert(points.cols() == c.vertex_count && forces.cols() == points.cols());
+  const std::vector<FaceAltitudes> faces = altitudes_of_faces(points, normals, c, target_lengths);
+  parallel_for(forces.cols(), forces_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      Vec3 sum = Vec3::Zero();
+      for (int f : c.vertex_faces[v]) {
+        const Triangle& t = c.faces[f];
+        sum += faces[f].push[static_cast<std::size_t>(std::ranges::find(t, static_cast<int>(v)) - t.begin())];
+      }
+      forces.col(v) += weight * sum;
+    }
+  });
+}
+
+double altitude_energy(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals, const Adjacency& c,
+                       std::span<const double> target_lengths) {
+  double energy = 0;
+  for (const FaceAltitudes& face : altitudes_of_faces(points, normals, c, target_lengths))
+    energy += face.energy;
+  return energy;
 }
 
 }  // namespace hooke

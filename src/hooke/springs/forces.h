@@ -1,4 +1,5 @@
-// The two forces of the damped evolution: strings along the edges and torques on the faces.
+// The forces of the damped evolution: strings along the edges and torques on the faces, and altitude springs,
+// which the paper has not.
 // "Hooke's Optimization for 3D triangular mesh", sections 3.1 and 3.2, equations [2]-[10].
 #pragma once
 
@@ -27,5 +28,21 @@ void string_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjac
 /// infinite and rounding decides its direction.
 void torque_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                    Eigen::Ref<Mat3X> forces);
+
+/// F_altitude: the modified Hooke's law [4] on the altitudes of the faces, its repulsive branch only. An
+/// altitude h below h0 = (sqrt 3 / 2) L_f, L_f the mean target length of the face's edges, pushes corner and
+/// foot apart by a force that grows like 1 / h. The strings have nothing that keeps a face from collapsing.
+///
+/// Altitudes are measured across the surface: `normals` are its unit normals at the points, 3 x |V| at least,
+/// and each face is projected along their mean, so that it cannot turn over by leaning out of the surface. A
+/// face that is turned over already, and all if `normals` is null, are measured in their own plane. Adds the
+/// forces, lengths, times `weight` to `forces`.
+void add_altitude_forces(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals,
+                         const Adjacency& adjacency, std::span<const double> target_lengths, double weight,
+                         Eigen::Ref<Mat3X> forces);
+
+/// Their energy: the sum of U(h; h0) / L_f^2.
+double altitude_energy(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals,
+                       const Adjacency& adjacency, std::span<const double> target_lengths);
 
 }  // namespace hooke

@@ -45,6 +45,7 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
       retraction_options_(retraction_options) {
   const std::vector<double> length = vertex_values(source, target_length_property);
   normalisation = normalisation_of(vertex_points(source), length);
+  if (filter_.offset_unit == OffsetUnit::file) filter_.offset /= normalisation.unit;
 
   Mat3X points = order.gather(vertex_points(source));
   for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
