@@ -29,7 +29,7 @@ std::string reason_in_words(const RunRecord& run) {
     case StopReason::step_limit:
       return "stopped at the iteration limit; more --effort, --max-outer or --max-steps would go on";
     case StopReason::jammed:
-      return "jammed: no time step is accepted any more";
+      return "jammed: steps are accepted no more, or so short that the forces left get nowhere";
     case StopReason::interrupted:
       return "interrupted: the best mesh so far";
   }
@@ -62,8 +62,9 @@ std::string paper_message(const RemeshResult& r) {
   return fmt::format(
       "the paper's global time step: cut by the area test in {:.0f} % of {} steps, by the angle test in "
       "{:.0f} %, by the "
-      "displacement test in {:.0f} %, free in {:.0f} %; one collapsing face holds back the whole mesh",
-      share(b.expansion), steps, share(b.angle), share(b.displacement), share(b.none));
+      "displacement test in {:.0f} %, free in {:.0f} %{}",
+      share(b.expansion), steps, share(b.angle), share(b.displacement), share(b.none),
+      r.reason == StopReason::jammed ? "; one collapsing face holds back the whole mesh" : "");
 }
 
 void print_summary(const Settings& s, const RunRecord& run) {

@@ -82,6 +82,7 @@ TEST(PaperMode, StopsAtTheOuterLimit) {
 TEST(PaperMode, StallsWhenTheEnergyNoLongerFalls) {
   TriMesh mesh = with_natural_length(test::sphere(2, .3));
   PaperOptions options = short_run();
+  options.evolution.max_steps = 400;
   options.outer_drop = 1;  // no iteration lowers the energy by all of it
   const RemeshResult r = paper_remesh(mesh, options);
   EXPECT_EQ(r.reason, StopReason::stalled);
@@ -98,6 +99,14 @@ TEST(PaperMode, JamsWhereNoTimeStepPassesTheTestsAndSaysWhich) {
   EXPECT_EQ(r.iterations.size(), 1u);
   EXPECT_TRUE(r.jam.area_bound);
   EXPECT_LT((vertex_points(mesh) - t.points).norm(), 1e-9);
+}
+
+TEST(PaperMode, IsJammedWhereStrongForcesNoLongerMoveTheMesh) {
+  TriMesh mesh = with_natural_length(test::sphere(2, .3));
+  PaperOptions options = short_run();
+  options.evolution.max_steps = 1;  // far from rest
+  options.outer_drop = 1;
+  EXPECT_EQ(paper_remesh(mesh, options).reason, StopReason::jammed);
 }
 
 TEST(PaperMode, StopsWhenTheObserverSaysSo) {

@@ -18,7 +18,7 @@ enum class StopReason {
   converged,    // every edge within the tolerance of its target length
   stalled,      // at rest: the energy no longer falls
   step_limit,   // the allowed number of steps or evaluations is used up
-  jammed,       // no step is accepted any more
+  jammed,       // no step is accepted any more, or none that gets anywhere
   interrupted,  // the observer asked to stop
 };
 

@@ -47,11 +47,19 @@ class PaperRun {
     if (worst < options_.evolution.tolerance) return stop(StopReason::converged);
     if (evolved.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (before - evolved.energy > options_.outer_drop * before) return;
-    stop(evolved.reason == StopReason::jammed ? StopReason::jammed : StopReason::stalled);
+    stop(is_jammed(evolved) ? StopReason::jammed : StopReason::stalled);
   }
 
   double energy() const {
     return string_energy(work_.positions.points, *work_.adjacency, work_.targets.edge.values());
+  }
+
+  /// No time step was accepted, or they are so short that strong forces no longer move the mesh.
+  bool is_jammed(const EvolutionResult& evolved) const {
+    constexpr double strong = 2;  // over that of a string stretched by its rest length
+    return evolved.reason == StopReason::jammed ||
+           (!evolved.time_steps.empty() &&
+            evolved.time_steps.back().max_force > strong * options_.evolution.damped.string);
   }
 
   EvolutionResult optimize() {

@@ -38,10 +38,11 @@ struct PaperOptions {
 
 /// Algorithm 1: { fit the spline [30]-[33]; Algorithm 2 from rest, with a Newton projection [36] after each
 /// time step; Newton projection } until max |l - L| < tolerance. With fixed connectivity that tolerance is
-/// mostly unreachable, so the run also ends when an outer iteration no longer lowers the energy (jammed if no
-/// time step passed the tests in it, else stalled), and at the limits. There are no guards, no untangling and
-/// no angle optimisation: faces may fold, and RemeshResult::folded_faces lists those folded against the
-/// surface of the input. RemeshResult::bound and ::jam tell which test of [26] set the time steps.
+/// mostly unreachable, so the run also ends when an outer iteration no longer lowers the energy of the
+/// strings (jammed if no time step passed the tests in it or strong forces are left, else stalled), and at
+/// the limits. There are no guards, no untangling and no angle optimisation: faces may fold, and
+/// RemeshResult::folded_faces lists those folded against the surface of the input. RemeshResult::bound and
+/// ::jam tell which test of [26] set the time steps.
 ///
 /// What departs from the letter of the paper, and what happens otherwise, stands in src/README.md.
 ///

@@ -287,8 +287,9 @@ std::string status_of(StopReason reason) {
     case StopReason::converged:
       return "converged";
     case StopReason::stalled:
-    case StopReason::jammed:
       return "stalled";
+    case StopReason::jammed:
+      return "jammed";
     case StopReason::step_limit:
       return "iteration_limit";
     case StopReason::interrupted:

@@ -64,7 +64,7 @@ struct RunRecord {
   Resources resources;
 };
 
-/// "converged", "stalled", "iteration_limit" or "interrupted".
+/// "converged", "stalled", "jammed", "iteration_limit" or "interrupted".
 std::string status_of(StopReason reason);
 
 /// Ids, ascending, of the result's folded faces: those that face against the input surface by the measure of
