@@ -59,12 +59,13 @@ std::string paper_message(const RemeshResult& r) {
   long long steps = 0;
   for (const IterationRecord& i : r.iterations) steps += i.steps;
   const auto share = [&](int count) { return steps ? 100. * count / static_cast<double>(steps) : 0.; };
+  const bool one_face_binds = r.reason == StopReason::jammed && b.expansion > b.displacement;
   return fmt::format(
       "the paper's global time step: cut by the area test in {:.0f} % of {} steps, by the angle test in "
       "{:.0f} %, by the "
       "displacement test in {:.0f} %, free in {:.0f} %{}",
       share(b.expansion), steps, share(b.angle), share(b.displacement), share(b.none),
-      r.reason == StopReason::jammed ? "; one collapsing face holds back the whole mesh" : "");
+      one_face_binds ? "; one collapsing face holds back the whole mesh" : "");
 }
 
 void print_summary(const Settings& s, const RunRecord& run) {

@@ -129,8 +129,8 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_flag(
       "--paper", s.paper,
       "The paper's own algorithms and constants, for comparison: global time step, torque, one dense "
-      "spline of the input; to the letter, altitude springs apart, with --altitude 0 --filter-every "
-      "outer --refit each, which mostly jams and folds faces");
+      "spline of the input, and altitude springs, which the paper has not; its letter, which mostly jams "
+      "and folds faces, is --paper --altitude 0 --filter-every outer --refit each");
   add_choice(app, "--filter", s.remesh.filter.kind,
              "What vertices are projected to: local = splines blended over patches, global = one dense "
              "spline, closest = the input's faces, none",

@@ -19,8 +19,9 @@ points of S1, too; `boost`, a conformal map of S2 that thins out one side, to th
 import sys
 
 import numpy as np
-from scipy.spatial import ConvexHull, Delaunay
+from scipy.spatial import ConvexHull
 
+from artificial_meshes import graph_over_square
 from mesh_file import write_off
 
 
@@ -72,16 +73,7 @@ class Graph:
         return ((points[:, :2] == 0) | (points[:, :2] == 1)).any(axis=1)
 
     def random(self, rng, count, gap):
-        side = np.linspace(0, 1, round(count ** .5))
-        zero, one = np.zeros_like(side), np.ones_like(side)
-        rim = np.unique(np.vstack([np.c_[side, zero], np.c_[side, one], np.c_[zero, side], np.c_[one, side]]), axis=0)
-        plane = np.vstack([rim, rng.uniform(size=(count - len(rim), 2))])
-        faces = Delaunay(plane).simplices
-        flat = [(plane[faces][:, :, axis] == value).all(axis=1) for axis in (0, 1) for value in (0., 1.)]
-        faces = faces[~np.any(flat, axis=0)]
-        points = self.on_surface(plane)
-        up = face_vectors(points, faces)[:, 2]
-        return points, np.where(up[:, None] < 0, faces[:, [0, 2, 1]], faces)[up != 0]
+        return graph_over_square(rng, count, self.height)
 
     def delaunay(self, points, faces):
         return flip_to_delaunay(self, points, faces)
