@@ -14,9 +14,11 @@
 #include "hooke/core/printable.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/mesh_file.h"
+#include "hooke/io/ply.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/io/write_mesh.h"
+#include "hooke/measure/fields.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -25,7 +27,7 @@
 #include "hooke/remesh/preserving_remesh.h"
 #include "hooke/remesh/result.h"
 #include "hooke/report/report.h"
-#include "hooke/springs/target_lengths.h"
+#include "hooke/springs/sizing.h"
 #include "memory_limit.h"
 #include "messages.h"
 #include "options.h"
@@ -85,8 +87,7 @@ MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwa
 /// Measures the quality relative to the current target lengths of the vertices.
 Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
                 Stopwatch& stopwatch) {
-  const std::vector<double> lengths = order.gather(vertex_values(mesh, target_length_property));
-  return measure_quality(surface, spread_target_lengths(surface.adjacency, lengths).edge, {}, &stopwatch);
+  return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, &stopwatch);
 }
 
 /// Returns work(). Puts the name of the input in front of the messages of its errors.
@@ -126,10 +127,35 @@ std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord&
   if (!s.check)
     warn_of_coincident_boundary(coincident_boundary_vertices(points, *memory_order.adjacency).size(), record);
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, points, record); });
+  record.paper_before = measure_paper_figures(
+      points, *memory_order.adjacency,
+      target_lengths_of(mesh, memory_order.order, *memory_order.adjacency).edge, s.paper);
   const MeasuredSurface surface = surface_of(std::move(points), memory_order, stopwatch);
   record.before =
       timed(&stopwatch, "before", [&] { return measure(surface, mesh, memory_order.order, stopwatch); });
   return surface.tree.order();
+}
+
+/// The values at the vertices and faces of the result as a PLY file, in the order of the output's.
+std::string fields_text(const TriMesh& mesh, const Mat3X& points, const Original& original,
+                        const MemoryOrder& memory_order, const RunRecord& record) {
+  const Permutation& order = memory_order.order;
+  const Adjacency& adjacency = *memory_order.adjacency;
+  const bool corresponds = record.deviation->displacement.has_value();
+  const Mat3X start =
+      corresponds ? order.gather(original.memory_order.order.scatter(original.points)) : Mat3X();
+  Fields fields =
+      measure_fields(points, adjacency, target_lengths_of(mesh, order, adjacency).edge,
+                     record.deviation->vertices_to_reference.distances, corresponds ? &start : nullptr);
+  for (VertexChannel& channel : fields.vertices) channel.values = order.scatter(channel.values);
+  for (VertexChannel& channel : fields.faces) {
+    const std::vector<double> in_memory = std::exchange(channel.values, {});
+    channel.values.resize(in_memory.size());
+    for (size_t f = 0; f < in_memory.size(); ++f)
+      channel.values[static_cast<size_t>(order.old_face[f])] = in_memory[f];
+  }
+  return write_ply(vertex_points(mesh), triangles_of(mesh), PlyEncoding::binary_little_endian,
+                   fields.vertices, fields.faces);
 }
 
 void measure_deviation_from_input(const Original& original, const MeasuredSurface& result, RunRecord& record,
@@ -176,6 +202,9 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
     measure_deviation_from_input(original, result, record, stopwatch);
   }
   if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
+  record.paper_after = measure_paper_figures(
+      points, *memory_order.adjacency,
+      target_lengths_of(mesh, memory_order.order, *memory_order.adjacency).edge, s.paper);
   require_promises(s, record);
   if (!done.vertex_limits.empty())
     for (WorstFace& face : record.after->worst_faces)
@@ -186,6 +215,8 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   });
   record.output = {printable(s.output.string()), written.sha256, s.format, written.connectivity_sha256};
   files.add(std::move(written.file));
+  if (!s.fields.empty())
+    files.add(PendingFile(s.fields, fields_text(mesh, points, original, memory_order, record)));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
   add_result_warnings(s, record);
 }

@@ -101,6 +101,10 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
                  "Maximum change of a sizing's lengths along an edge, over the edge's length")
       ->type_name("X|off")
       ->default_str("0.3");
+  add_file(app, "--edge-lengths", s.edge_lengths,
+           "Target lengths of edges, one a line: two vertex ids (0-based) and a length in file units; other "
+           "edges have that of --length. Springs of altitudes and angles, which ask for equilateral faces, "
+           "are off then");
   add_choice(app, "--connectivity", s.remesh.connectivity,
              "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel; "
              "adapt: new vertices and faces, as many as --length asks for",
@@ -215,6 +219,9 @@ void add_reports(CLI::App& app, Settings& s) {
           },
           ""))
       ->type_name("FILE");
+  add_file(app, "--fields", s.fields,
+           "PLY file of the result with displacement, distance, curvature and length error at the vertices "
+           "and the minimum angle of each face");
   add_file(app, "--trace", s.trace, "Seconds and memory of every stage, as CSV");
   add_file(app, "--trace-steps", s.trace_steps,
            "Energies, forces and length of every time step, as CSV (paper)");

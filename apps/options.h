@@ -25,6 +25,7 @@ struct Settings {
   SizingSource sizing;
   std::string sizing_text = "off";
   double gradation = Sizing{}.gradation;  // limit of the gradation of a sizing
+  std::filesystem::path edge_lengths;     // file of target lengths of edges; empty for none
   bool check = false;                     // only measure the input
   bool paper = false;
   Effort effort = Effort::standard;
@@ -36,6 +37,7 @@ struct Settings {
   bool accept_invalid = false;        // write a result that does not keep what it must keep
   std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
   std::string report;                 // path; "-" for standard output; empty for none
+  std::filesystem::path fields;       // PLY file for values at vertices and faces; empty for none
   std::filesystem::path trace;        // file for the time of each stage; empty for none
   std::filesystem::path trace_steps;  // file for the time steps of --paper; empty for none
   int threads = 0;                    // 0: as many as the process may use

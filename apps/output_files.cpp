@@ -19,6 +19,7 @@ struct NamedFile {
 std::vector<NamedFile> inputs_of(const Settings& s) {
   std::vector<NamedFile> files{{"INPUT", s.input}};
   if (!s.fix.empty()) files.push_back({"--fix", s.fix});
+  if (!s.edge_lengths.empty()) files.push_back({"--edge-lengths", s.edge_lengths});
   if (s.sizing.kind == SizingSource::Kind::file) files.push_back({"--sizing", s.sizing.name});
   return files;
 }
@@ -27,6 +28,7 @@ std::vector<NamedFile> outputs_of(const Settings& s) {
   std::vector<NamedFile> files;
   for (const NamedFile& file : {NamedFile{"--output", s.output},
                                 {"--report", s.report == "-" ? "" : s.report},
+                                {"--fields", s.fields},
                                 {"--trace", s.trace},
                                 {"--trace-steps", s.trace_steps},
                                 {"--map", s.map}})

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "hooke/core/error.h"
@@ -37,17 +38,82 @@ std::vector<double> read_property(const std::string& property, const std::filesy
   return lengths;
 }
 
+/// Throws MeshError unless each target length of a face is shorter than the other two together.
+void require_triangles(const std::string& name, const std::vector<double>& of_edges, const Adjacency& c,
+                       const MeshIds& ids) {
+  for (size_t f = 0; f < c.faces.size(); ++f) {
+    std::array<double, 3> l{};
+    for (size_t k = 0; k < 3; ++k) l[k] = of_edges[static_cast<size_t>(c.face_edges[f][k])];
+    if (2 * std::ranges::max(l) < l[0] + l[1] + l[2]) continue;
+    const Triangle corners = ids.corners(c.faces[f]);
+    throw InputError(fmt::format(
+        "{}: lengths {:.6g}, {:.6g} and {:.6g} for the edges of face {} ({} {} {}); expected each "
+        "shorter than the other two together; lengthen the short ones",
+        name, l[0], l[1], l[2], ids.face(static_cast<int>(f)), corners[0], corners[1], corners[2]));
+  }
+}
+
+/// The target lengths of all edges: those of the file, and of others the mean of their ends.
+std::vector<double> lengths_of_edges(const std::filesystem::path& file,
+                                     const std::vector<double>& of_vertices,
+                                     const MemoryOrder& memory_order) {
+  const Adjacency& c = *memory_order.adjacency;
+  const std::string name = printable(file.native());
+  std::vector<double> lengths = spread_target_lengths(c, of_vertices).edge.values();
+  const std::vector<EdgeLength> given = read_edge_lengths(file, c.vertex_count);
+  std::vector<int> ends, line_of_edge(lengths.size(), 0);
+  for (const EdgeLength& edge : given) ends.insert(ends.end(), edge.ends.begin(), edge.ends.end());
+  ends = memory_order.order.new_vertices(ends);
+  for (size_t k = 0; k < given.size(); ++k) {
+    const int v = ends[2 * k], w = ends[2 * k + 1];
+    const auto around = c.vertex_edges[v];
+    const auto edge = std::ranges::find_if(around, [&](int e) { return c.other_end(e, v) == w; });
+    const auto fail = [&](const std::string& problem) {
+      throw InputError(fmt::format("{}:{}: {}", name, given[k].line, problem));
+    };
+    if (edge == around.end())
+      fail(fmt::format("no edge from vertex {} to {}; expected an edge of the mesh; remove the line",
+                       given[k].ends[0], given[k].ends[1]));
+    int& line = line_of_edge[static_cast<size_t>(*edge)];
+    if (line > 0)
+      fail(fmt::format("edge {} {} a second time, after line {}; expected it once; remove one",
+                       given[k].ends[0], given[k].ends[1], line));
+    line = given[k].line;
+    lengths[static_cast<size_t>(*edge)] = given[k].length;
+  }
+  require_triangles(name, lengths, c, memory_order.order.old_ids());
+  return lengths;
+}
+
+/// The mean target length of the edges at each vertex, and of an isolated vertex its own.
+std::vector<double> means_at_vertices(const std::vector<double>& of_edges, const Adjacency& c,
+                                      std::vector<double> lengths) {
+  for (int v = 0; v < c.vertex_count; ++v) {
+    const auto around = c.vertex_edges[v];
+    if (around.empty()) continue;
+    double sum = 0;
+    for (int e : around) sum += of_edges[static_cast<size_t>(e)];
+    lengths[static_cast<size_t>(v)] = sum / static_cast<double>(around.size());
+  }
+  return lengths;
+}
+
 /// Throws Error if the lengths differ from the natural length by more than a factor of 1e6, because numbers
 /// may then overflow.
 void require_reasonable(const Settings& s, double min_length, double max_length, double natural) {
   constexpr double limit = 1e6;
   if (min_length >= natural / limit && max_length <= limit * natural) return;
-  const bool sized = s.sizing.kind != SizingSource::Kind::none;
-  throw Error(
-      fmt::format("{} '{}': target lengths from {:.3g} to {:.3g} for {}; expected {:.3g} to {:.3g}, {:.0e} "
-                  "times less and more than the natural length",
-                  sized ? "--sizing" : "--length", sized ? s.sizing_text : s.length_text, min_length,
-                  max_length, printable(s.input.string()), natural / limit, limit * natural, limit));
+  const bool sized = s.sizing.kind != SizingSource::Kind::none, edges = !s.edge_lengths.empty();
+  throw Error(fmt::format(
+      "{} '{}': target lengths from {:.3g} to {:.3g} for {}; expected {:.3g} to {:.3g}, {:.0e} "
+      "times less and more than the natural length",
+      edges   ? "--edge-lengths"
+      : sized ? "--sizing"
+              : "--length",
+      edges   ? printable(s.edge_lengths.native())
+      : sized ? s.sizing_text
+              : s.length_text,
+      min_length, max_length, printable(s.input.string()), natural / limit, limit * natural, limit));
 }
 
 /// The creases that these lengths show.
@@ -89,22 +155,30 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   const Adjacency& adjacency = *memory_order.adjacency;
   const Sizing sizing{read_sizing(s.sizing, s.input, points, memory_order, s.remesh.constraints.features),
                       s.gradation};
-  const std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
+  std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
+  std::vector<double> of_edges;
+  if (!s.edge_lengths.empty()) {
+    of_edges = lengths_of_edges(s.edge_lengths, lengths, memory_order);
+    lengths = means_at_vertices(of_edges, adjacency, std::move(lengths));
+    set_edge_values(mesh, edge_length_property, memory_order.order, adjacency, of_edges);
+  }
   const double natural = resolve_length({}, points, adjacency);
-  const auto [min_length, max_length] = std::ranges::minmax_element(lengths);
+  const auto [min_length, max_length] = std::ranges::minmax_element(of_edges.empty() ? lengths : of_edges);
   require_reasonable(s, *min_length, *max_length, natural);
   set_vertex_values(mesh, target_length_property, memory_order.order.scatter(lengths));
 
-  const TargetLengths targets = spread_target_lengths(adjacency, lengths);
+  const TargetLengths targets = target_lengths_of(mesh, memory_order.order, adjacency);
   record.parameters.update({{"L", mean_length(points, adjacency, targets)},
                             {"L_min", *min_length},
                             {"L_max", *max_length},
                             {"L_spec", printable(s.length_text)},
                             {"L_natural", natural},
-                            {"sizing", printable(s.sizing_text)}});
+                            {"sizing", printable(s.sizing_text)},
+                            {"edge_lengths", nullptr}});
+  if (!s.edge_lengths.empty()) record.parameters["edge_lengths"] = printable(s.edge_lengths.native());
   const bool limited = s.sizing.kind != SizingSource::Kind::none && std::isfinite(s.gradation);
   record.parameters["gradation"] = limited ? nlohmann::ordered_json(s.gradation) : nlohmann::ordered_json();
-  if (!s.check && s.remesh.connectivity != ConnectivityMode::adapt)
+  if (!s.check && s.edge_lengths.empty() && s.remesh.connectivity != ConnectivityMode::adapt)
     warn_of_length(s, covering_length(points, adjacency, targets), natural, record);
 }
 

@@ -130,7 +130,9 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   const bool splines =
       s.paper || s.remesh.filter.kind == FilterKind::local || s.remesh.filter.kind == FilterKind::global;
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
-  refuse(s.check, {"--map", "--output", "--trace-steps"}, "is not written by --check");
+  refuse(!s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--edge-lengths"},
+         "is of --connectivity fixed, where edges stay");
+  refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");
 }
 
 }  // namespace
@@ -150,6 +152,8 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;
   if (raw.altitude) s.remesh.altitude = s.paper_options.evolution.altitude = *raw.altitude;
+  if (!s.edge_lengths.empty() && !raw.altitude) s.remesh.altitude = s.paper_options.evolution.altitude = 0;
+  if (!s.edge_lengths.empty() && !raw.given("--polish")) s.remesh.polish_angles = false;
   if (raw.refit) s.remesh.refit = s.paper_options.refit = *raw.refit;
   if (raw.max_outer)
     s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *raw.max_outer;

@@ -48,7 +48,24 @@ _PLY_CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i"
               "float32": "f", "float64": "d"}
 
 
+def read_fields(path):
+    """The properties of the vertices and of the faces of a PLY file: two dicts of lists by name, without the corners."""
+    rows = _ply_rows(Path(path).read_bytes())
+    return tuple({name: [row[name] for row in rows[element]] for name in (rows[element] or [{}])[0] if name not in _CORNERS}
+                 for element in ("vertex", "face"))
+
+
+_CORNERS = ("vertex_indices", "vertex_index")
+
+
 def _read_ply(data):
+    rows = _ply_rows(data)
+    vertices = [(row["x"], row["y"], row["z"]) for row in rows["vertex"]]
+    faces = [tuple(row.get("vertex_indices", row.get("vertex_index"))) for row in rows["face"]]
+    return vertices, faces
+
+
+def _ply_rows(data):
     header, body = data.split(b"end_header\n", 1)
     lines = [line.split() for line in header.decode().splitlines()]
     layout = next(words[1] for words in lines if words[0] == "format")
@@ -62,9 +79,7 @@ def _read_ply(data):
     rows = {}
     for name, (count, *properties) in elements.items():
         rows[name] = [_ply_row(properties, value) for _ in range(count)]
-    vertices = [(row["x"], row["y"], row["z"]) for row in rows["vertex"]]
-    faces = [tuple(row.get("vertex_indices", row.get("vertex_index"))) for row in rows["face"]]
-    return vertices, faces
+    return rows
 
 
 def _ply_row(properties, value):

@@ -194,7 +194,7 @@ def even_out(surface, points, faces, rounds):
 
 def without_threes(surface, points, faces):
     """Flips an edge opposite each inner vertex with three faces, so that it has four."""
-    faces = faces.copy()
+    faces, on_sides = faces.copy(), surface.on_sides(points)
     for _ in range(20):
         around, face_of = [[] for _ in points], {}
         for f, t in enumerate(faces.tolist()):
@@ -210,7 +210,7 @@ def without_threes(surface, points, faces):
                 t = faces[f].tolist()
                 a, b = t[(t.index(v) + 1) % 3], t[(t.index(v) + 2) % 3]
                 g = face_of.get((b, a))
-                if g is None or touched & {f, g} or min(len(around[a]), len(around[b])) <= 4:
+                if g is None or touched & {f, g} or any(len(around[w]) <= (2 if on_sides[w] else 4) for w in (a, b)):
                     continue
                 d = next(w for w in faces[g].tolist() if w not in (a, b))
                 pair = np.array([[v, a, d], [v, d, b]])
@@ -224,6 +224,30 @@ def without_threes(surface, points, faces):
                 changed = True
         if not changed:
             break
+    return faces
+
+
+def relieve_corners(surface, points, faces, least=.5):
+    """Flips edges away from a corner of the square until each of its faces has its share of `least` rad there: on the
+    surface a corner is much less than a right angle where both sides climb, and no motion changes that."""
+    faces = faces.copy()
+    corners = np.flatnonzero(surface.on_sides(points) & ((points[:, :2] == 0) | (points[:, :2] == 1)).all(axis=1))
+    for v in corners:
+        while True:
+            mine = np.flatnonzero((faces == v).any(axis=1))
+            rings = [np.roll(faces[f], -faces[f].tolist().index(v)) for f in mine]  # v first
+            after, before = {r[1]: f for f, r in zip(mine, rings)}, {r[2]: f for f, r in zip(mine, rings)}
+            ends = [points[next(iter(set(a) - set(b)))] - points[v] for a, b in ((after, before), (before, after))]
+            angle = np.arctan2(np.linalg.norm(np.cross(*ends)), dot(ends[0][None], ends[1][None])[0])
+            options = []
+            for w in set(after) & set(before):  # the edge from v to w, between the faces v a w and v w b
+                a, b = (next(x for x in faces[f] if x not in (v, w)) for f in (before[w], after[w]))
+                pair = np.array([[v, a, b], [a, w, b]])
+                options.append((least_angles(points, pair).min(), before[w], after[w], pair))
+            if not options or angle / len(mine) >= least:
+                break
+            _, f, g, pair = max(options, key=lambda option: option[0])
+            faces[f], faces[g] = pair
     return faces
 
 
@@ -279,7 +303,7 @@ def make(name, seed):
     surface, count, least_angle, deviation, rounds, gap, boost = FAMILIES[name]
     rng = np.random.default_rng([seed, *name.encode()])
     points, faces = even_out(surface, *surface.random(rng, count, gap), rounds)
-    faces = without_threes(surface, points, faces)
+    faces = relieve_corners(surface, points, without_threes(surface, points, faces))
     if boost:  # as directions of light change for a moving observer
         points = np.c_[points[:, :2] * (1 - boost ** 2) ** .5, points[:, 2] + boost] / (1 + boost * points[:, 2:])
     return walk(surface, points, faces, rng, least_angle, deviation), faces

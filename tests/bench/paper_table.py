@@ -34,6 +34,7 @@ MODES = {
     "`--paper`": ["--paper"],
     "`--paper --boundary slide`": ["--paper", "--boundary", "slide"],
     "default": [],
+    "`--integrator damped`": ["--integrator", "damped"],
     "`--connectivity flip`": ["--connectivity", "flip"],
 }
 

@@ -11,7 +11,7 @@ from math import cos, pi, sin
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "bench"))
-from mesh_file import read_mesh, write_off  # noqa: E402  (used by the tests through this module)
+from mesh_file import read_fields, read_mesh, write_off  # noqa: E402  (used by the tests through this module)
 
 TOOL = os.environ["HOOKE_REMESH"]  # the binary under test
 DATA = Path(__file__).resolve().parents[2] / "data"

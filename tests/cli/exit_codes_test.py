@@ -54,7 +54,7 @@ class UsageErrors(CommandTest):
                 self.assertNotIn("\x1b", self.refused(code, "good.obj", *output, *arguments))
 
     def test_files_have_names(self):
-        for option in ("--fix", "--report", "--trace", "--map", "--sizing", "--output"):
+        for option in ("--fix", "--report", "--trace", "--map", "--sizing", "--edge-lengths", "--fields", "--output"):
             for name in ("", "-"):
                 if (option, name) != ("--report", "-"):
                     output = [] if option == "--output" else ["-o", "out.obj"]
@@ -73,6 +73,11 @@ class UsageErrors(CommandTest):
         for option in (["--filter-every", "step"], ["--trace-steps", "steps.csv"], ["--rho-unit", "file"]):
             with self.subTest(option=option):
                 self.refused(2, "good.obj", "-o", "out.obj", *option, names=option[0], says="--paper")
+        self.write("lengths", "0 1 1\n")
+        for mode in ("flip", "adapt"):
+            self.refused(2, "good.obj", "-o", "out.obj", "--edge-lengths", "lengths", "--connectivity", mode,
+                         names="--edge-lengths")
+        self.refused(2, "good.obj", "--check", "--fields", "fields.ply", names="--fields")
         for option in (["--kernel", "r3"], ["--rho", ".1"]):
             self.refused(2, "good.obj", "-o", "out.obj", "--filter", "closest", *option, names=option[0])
 
@@ -124,6 +129,18 @@ class InputErrors(CommandTest):
         self.write("lengths", "1\n1\n1\n")
         self.refused(3, "good.obj", "-o", "out.obj", "--sizing", "lengths", names="lengths: 3 lengths for 4 vertices")
         self.refused(3, "good.obj", "-o", "out.obj", "--sizing", "gone", names="gone")
+        for text, problem in (("0 1 1\n2 9 1\n", "lengths:2: vertex id 9"), ("0 0 1\n", "lengths:1: vertex id 0 twice"),
+                              ("0 1 1\n\n1 0 1\n", "lengths:3: edge 1 0 a second time, after line 1"),
+                              ("0 1 1\n0 2 1\n1 2 2\n", "lengths: lengths 1, 2 and 1 for the edges of face 0 (0 2 1)"),
+                              ("0 1 -1\n", "lengths:1: length -1")):
+            self.write("lengths", text)
+            self.refused(3, "good.obj", "-o", "out.obj", "--edge-lengths", "lengths", says=problem)
+        self.write("two.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 0 0\n6 0 0\n5 1 0\n3 0 1 2\n3 3 4 5\n")
+        self.write("lengths", "0 3 1\n")
+        self.refused(3, "two.off", "-o", "out.obj", "--edge-lengths", "lengths",
+                     says="lengths:1: no edge from vertex 0 to 3; expected an edge of the mesh")
+        self.write("lengths", "0 1 1e9\n1 2 1e9\n2 0 1e9\n")
+        self.refused(2, "two.off", "-o", "out.obj", "--edge-lengths", "lengths", says="--edge-lengths 'lengths'")
         self.refused(2, "good.obj", "-o", "out.obj", "--sizing", "ply:size", names="good.obj")
         self.refused(3, DATA / "blob.ply", "-o", "out.obj", "--sizing", "ply:size", names="blob.ply", says="'size'")
 

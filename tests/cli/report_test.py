@@ -4,8 +4,9 @@ import csv
 import json
 import os
 import unittest
+from math import dist
 
-from command import DATA, CommandTest, read_mesh, write_off
+from command import DATA, CommandTest, read_fields, read_mesh, write_off
 
 TOP = {"schema", "tool", "status", "input", "output", "parameters", "before", "after", "geometry", "iterations",
        "gates", "warnings", "repairs", "paper", "resources"}
@@ -166,6 +167,55 @@ class Report(CommandTest):
         letter = parameters("--paper", "--max-steps", 5, "--filter-every", "outer", "--refit", "each", "--altitude", 0,
                             "--rho", .02, "--rho-unit", "edge")
         self.assertEqual([letter[key] for key in keys], ["outer", "each", 0, .02, "edge"])
+
+    def test_the_paper_block_tells_energies_and_with_paper_fitted_curvatures(self):
+        plain, paper = (self.report(DATA / "patch.obj", "-o", "out.off", *options)["paper"]
+                        for options in ([], ["--paper", "--max-outer", 1]))
+        for block in (plain, paper):
+            for key in ("string_energy", "altitude_energy"):
+                self.assertLess(block["after"][key], .7 * block["before"][key])
+        self.assertIsNone(plain["after"]["fitted_mean_curvature"])
+        for key in ("mean_curvature", "gaussian_curvature"):
+            discrete, fitted = paper["before"][key], paper["before"]["fitted_" + key]
+            self.assertLess(discrete["min"] - fitted["min"], fitted["max"] - fitted["min"])
+            self.assertLess(fitted["max"], discrete["max"])  # bad triangles mislead the discrete one
+
+    def test_fields_are_those_of_the_output(self):
+        report = self.report(DATA / "patch.obj", "-o", "out.obj", "--fields", "fields.ply")
+        self.assertEqual(read_mesh(self.folder / "fields.ply"), read_mesh(self.folder / "out.obj"))
+        before, after = read_mesh(DATA / "patch.obj")[0], read_mesh(self.folder / "out.obj")[0]
+        vertices, faces = read_fields(self.folder / "fields.ply")
+        for moved, a, b in zip(vertices["displacement"], before, after):
+            self.assertAlmostEqual(moved, dist(a, b), 12)
+        geometry = report["geometry"]
+        self.assertAlmostEqual(max(vertices["displacement"]), geometry["displacement"]["max"], 12)
+        self.assertLessEqual(max(vertices["distance"]), geometry["distance_to_input"]["max"])
+        self.assertGreater(max(vertices["distance"]), 0)
+        self.assertAlmostEqual(min(faces["min_angle"]), report["after"]["min_angle"]["min"], 9)
+        curvature = report["after"]["mean_curvature"]
+        self.assertAlmostEqual(max(k for k in vertices["mean_curvature"] if k == k), curvature["max"], 9)
+        worst = max(abs(report["after"]["length_error"][key]) for key in ("min", "max"))
+        self.assertAlmostEqual(max(vertices["length_error"]), worst, 9)
+        flipped = self.report(DATA / "patch.obj", "-o", "out.obj", "--fields", "flip.ply", "--connectivity", "flip")
+        self.assertAlmostEqual(max(read_fields(self.folder / "flip.ply")[0]["displacement"]),
+                               flipped["geometry"]["displacement"]["max"], 12)
+        self.run_command(DATA / "patch.obj", "-o", "out.obj", "--fields", "adapt.ply", "--connectivity", "adapt", "-q")
+        self.assertNotIn("displacement", read_fields(self.folder / "adapt.ply")[0])
+
+    def test_edges_follow_lengths_of_their_own(self):
+        self.run_command(DATA / "patch.obj", "-o", "wanted.obj", "-q")
+        vertices, faces = read_mesh(self.folder / "wanted.obj")
+        edges = sorted({tuple(sorted((face[k - 1], face[k]))) for face in faces for k in range(3)})
+        lengths = {(a, b): dist(vertices[a], vertices[b]) for a, b in edges}
+        self.write("lengths", "".join("%d %d %r\n" % (*edge, length) for edge, length in lengths.items()))
+        report = self.report(DATA / "patch.obj", "-o", "out.obj", "--edge-lengths", "lengths")
+        self.assertLess(report["after"]["length_error"]["std"], .01 * report["before"]["length_error"]["std"])
+        parameters = report["parameters"]
+        self.assertEqual([parameters[key] for key in ("edge_lengths", "altitude", "polish")], ["lengths", 0, False])
+        self.assertEqual((parameters["L_min"], parameters["L_max"]), (min(lengths.values()), max(lengths.values())))
+        self.write("one", "%d %d %r\n" % (*edges[0], lengths[edges[0]]))
+        parameters = self.report(DATA / "patch.obj", "--check", "--edge-lengths", "one", "-L", ".05")["parameters"]
+        self.assertEqual(parameters["L_max" if lengths[edges[0]] < .05 else "L_min"], .05)
 
     def test_iterations_are_numbered(self):
         iterations = self.report(DATA / "patch.obj", "-o", "out.off")["iterations"]

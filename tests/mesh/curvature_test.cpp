@@ -23,6 +23,29 @@ TEST(PrincipalCurvature, OfASphereIsThatOfItsRadiusHoweverBadTheTriangles) {
   }
 }
 
+TEST(FittedCurvature, IsThatOfTheSurfaceHoweverBadTheTriangles) {
+  test::Triangles t = test::sphere(3, .45, 2);
+  t.points *= 5;
+  const VertexCurvature fitted = fitted_curvature(t.points, test::connect(t)),
+                        discrete = measure_curvature(t.points, test::connect(t));
+  double error = 0, error_of_discrete = 0;
+  for (size_t v = 0; v < fitted.mean.size(); ++v) {
+    EXPECT_NEAR(fitted.gaussian[v], .04, .004);
+    error = std::max(error, std::abs(fitted.mean[v] - .2));
+    error_of_discrete = std::max(error_of_discrete, std::abs(discrete.mean[v] - .2));
+  }
+  EXPECT_LT(error, .01);
+  EXPECT_GT(error_of_discrete, 2 * error);
+}
+
+TEST(FittedCurvature, HasTheSignOfASaddleAndNoValueOnTheBoundary) {
+  const test::Triangles t = test::grid(8, [](double x, double y) { return (x - .5) * (y - .5); });
+  const VertexCurvature k = fitted_curvature(t.points, test::connect(t));
+  EXPECT_TRUE(std::isnan(k.mean[0]) && std::isnan(k.gaussian[4]));
+  EXPECT_NEAR(k.gaussian[40], -1, 1e-9);  // the middle: principal curvatures 1 and -1
+  EXPECT_NEAR(k.mean[40], 0, 1e-9);
+}
+
 TEST(PrincipalCurvature, OfACylinderIsThatOfItsCircle) {
   test::Triangles t = test::grid(24, test::flat, .4, 5);
   for (auto p : t.points.colwise()) p = Vec3(.5 * std::sin(2 * p[0]), p[1], .5 * std::cos(2 * p[0]));

@@ -258,6 +258,58 @@ TEST(PaperMode, RecordsEachTimeStep) {
   EXPECT_LT(r.time_steps.back().string_energy, r.time_steps.front().string_energy);
 }
 
+/// The greatest distance of a vertex from the unit sphere.
+double distance_from_sphere(const TriMesh& mesh) {
+  double distance = 0;
+  const auto X = vertex_points(mesh);
+  for (Eigen::Index v = 0; v < X.cols(); ++v) distance = std::max(distance, std::abs(X.col(v).norm() - 1));
+  return distance;
+}
+
+TEST(PaperMode, AFieldFittedToMovedVerticesForgetsTheSurface) {
+  double once = 0, each = 0;
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    TriMesh mesh = with_natural_length(test::sphere(2, .4, seed)), refitted = mesh;
+    PaperOptions options;
+    options.max_outer = 8;
+    options.outer_drop = -1;
+    paper_remesh(mesh, options);
+    options.refit = Refit::each;
+    paper_remesh(refitted, options);
+    once += distance_from_sphere(mesh);
+    each += distance_from_sphere(refitted);
+  }
+  EXPECT_GT(each, 1.5 * once);
+}
+
+TEST(PaperMode, FilteredAfterAlgorithm2OnlyVerticesLeaveTheSurface) {
+  // The distance before the last filtering shows as the way of the vertices in it: run without any filter.
+  TriMesh filtered = with_natural_length(test::sphere(2, .4)), unfiltered = filtered;
+  PaperOptions options = short_run();
+  options.max_outer = 1;
+  options.evolution.max_steps = 400;
+  paper_remesh(filtered, options);
+  options.filter_every = FilterEvery::outer;
+  options.filter.kind = FilterKind::none;  // not even at the end
+  paper_remesh(unfiltered, options);
+  EXPECT_GT(distance_from_sphere(unfiltered), 3 * distance_from_sphere(filtered));
+}
+
+TEST(PaperMode, TorquesOutweighStringsWhereTheMeshIsNotScaled) {
+  // In file units a string force shrinks with the mesh and a torque does not; scaled, both results agree.
+  const Triangles t = test::sphere(2, .3);
+  TriMesh mesh = with_natural_length(t), small = with_natural_length({t.points / 64, t.faces});
+  PaperOptions options = short_run();
+  options.filter.offset_unit = OffsetUnit::edge;
+  paper_remesh(mesh, options);
+  TriMesh unscaled = with_natural_length(t);
+  paper_remesh(small, options);
+  EXPECT_LT((64 * vertex_points(small) - vertex_points(mesh)).norm(), 1e-9);
+  options.evolution.damped.torque *= 64;  // what a mesh a 64th of the size would see
+  paper_remesh(unscaled, options);
+  EXPECT_GT((vertex_points(unscaled) - vertex_points(mesh)).norm(), .01);
+}
+
 TEST(PaperMode, AnAbsoluteOffsetDoesNotGrowWithTheMesh) {
   // The field of a mesh 1000 times as large with an offset of 1e-3 is that of the mesh with 1e-6.
   Triangles t = test::sphere(2, .3);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/constraints/constraints.h"
+#include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/surface_field.h"
 #include "hooke/geometry/triangle.h"
@@ -77,6 +78,26 @@ TEST(DoNoHarm, NoLeastAngleFalls) {
       EXPECT_FALSE(o.result.near_regular && min_angle(t.points, t.faces) < 35);
       EXPECT_GE(min_angle(o.points, t.faces), min_angle(t.points, t.faces));
     }
+}
+
+TEST(EdgeTargets, AreReachedWhereAMeshWithTheseLengthsLiesOnTheSurface) {
+  const test::Triangles wanted = test::grid(9, test::flat, .2, 3), t = test::grid(9, test::flat, .3, 5);
+  TriMesh mesh = test::with_length(t, natural(t));
+  const MemoryOrder memory_order = find_memory_order(mesh);
+  const Adjacency& c = *memory_order.adjacency;
+  std::vector<double> lengths;
+  const Mat3X points = memory_order.order.gather(wanted.points);
+  for (const auto& [v, w] : c.edges) lengths.push_back((points.col(v) - points.col(w)).norm());
+  set_edge_values(mesh, edge_length_property, memory_order.order, c, lengths);
+  RemeshOptions options;
+  options.altitude = 0;
+  options.polish_angles = false;
+  const auto farthest = [&] { return (vertex_points(mesh) - wanted.points).colwise().norm().maxCoeff(); };
+  const double before = farthest();
+  EXPECT_FALSE(remesh(mesh, options).near_regular);
+  EXPECT_LT(farthest(), 1e-3 * before);
+  options.connectivity = ConnectivityMode::flip;
+  EXPECT_THROW(remesh(mesh, options), Error);
 }
 
 TEST(DoNoHarm, AnglesAreSpentWhereLengthsAreToDiffer) {

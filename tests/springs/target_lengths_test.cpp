@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "hooke/core/error.h"
 #include "hooke/mesh/adjacency.h"
@@ -50,6 +51,32 @@ TEST(Sizing, TargetsOfAFaceAlwaysFormATriangle) {
       const auto side = [&](size_t i) { return targets.edge[static_cast<size_t>(edges[(k + i) % 3])]; };
       EXPECT_LE(side(0), (side(1) + side(2)) * (1 + 1e-15));
     }
+}
+
+TEST(EdgeTargets, AreThoseOfTheEdgesWhereTheMeshHasThem) {
+  const test::Triangles t = test::sphere(1);
+  TriMesh mesh = test::to_mesh(t);
+  const MemoryOrder memory_order = find_memory_order(mesh);
+  const Adjacency& c = *memory_order.adjacency;
+  EXPECT_THROW(target_lengths_of(mesh, memory_order.order, c), Error);
+  set_vertex_values(mesh, target_length_property, .5);
+  const UniformVector of_vertices = target_lengths_of(mesh, memory_order.order, c).edge;
+  EXPECT_FALSE(of_vertices.is_varying());
+  EXPECT_EQ(of_vertices[0], .5);
+  std::vector<double> lengths(c.edges.size());
+  for (size_t e = 0; e < lengths.size(); ++e) lengths[e] = 1 + .01 * static_cast<double>(e);
+  set_edge_values(mesh, edge_length_property, memory_order.order, c, lengths);
+  const TargetLengths targets = target_lengths_of(mesh, memory_order.order, c);
+  EXPECT_EQ(targets.edge.values(), lengths);
+  for (size_t f = 0; f < c.faces.size(); ++f) {
+    double sum = 0;
+    for (int e : c.face_edges[f]) sum += lengths[static_cast<size_t>(e)];
+    EXPECT_DOUBLE_EQ(targets.face[f], sum / 3);
+  }
+  const Adjacency in_file_order = make_adjacency(static_cast<int>(mesh.n_vertices()), t.faces);
+  const std::vector<double> again = edge_values(mesh, edge_length_property, {}, in_file_order);
+  EXPECT_EQ(std::multiset<double>(again.begin(), again.end()),
+            std::multiset<double>(lengths.begin(), lengths.end()));
 }
 
 TEST(LengthSpec, MeansWhatItSays) {

@@ -74,19 +74,6 @@ void accelerate(Motion& motion, double tau, double dt) {
   U = U * std::exp(-tau * dt) + motion.forces * (dt / motion.mass);  // [22]
 }
 
-double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
-                     std::span<const double> target_lengths) {
-  return parallel_sum(c.edges.size(), 1024, [&](size_t begin, size_t end) {
-    double sum = 0;
-    for (size_t e = begin; e < end; ++e) {
-      const double L = target_lengths[e];
-      const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
-      sum += spring_potential(l, L).value / (L * L);
-    }
-    return sum;
-  });
-}
-
 double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
                         std::span<const double> target_lengths) {
   double worst = 0;

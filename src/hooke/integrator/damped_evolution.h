@@ -46,10 +46,6 @@ Mat3X displacement(const Motion& motion, double friction, double dt);
 /// Advances the velocities by the time dt, second line of [22].
 void accelerate(Motion& motion, double friction, double dt);
 
-/// Energy of the strings, relative to their rest lengths: the sum of U(l; L) / L^2 over the edges.
-double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
-                     std::span<const double> target_lengths);
-
 /// Maximum of |l - L| over the edges; `target_lengths` has one positive length per edge.
 double max_length_error(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                         std::span<const double> target_lengths);

@@ -247,14 +247,19 @@ const char* name_of(PlyType type) {
   return names[static_cast<size_t>(type)];
 }
 
-std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encoding, const VertexData& data) {
-  std::string channels;
+std::string properties_of(const VertexData& data) {
+  std::string lines;
   for (const VertexChannel& channel : data)
-    channels += fmt::format("property {} {}\n", name_of(channel.type), channel.name);
+    lines += fmt::format("property {} {}\n", name_of(channel.type), channel.name);
+  return lines;
+}
+
+std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encoding, const VertexData& data,
+                        const VertexData& face_data) {
   return fmt::format(
       "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}"
-      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      name_of(encoding), vertices, channels, faces);
+      "element face {}\nproperty list uchar int vertex_indices\n{}end_header\n",
+      name_of(encoding), vertices, properties_of(data), faces, properties_of(face_data));
 }
 
 /// Writes the bytes of the value at `at` and advances it.
@@ -286,39 +291,51 @@ void put(char*& at, PlyType type, double value, bool swap) {
   }
 }
 
+size_t row_size(const VertexData& data) {
+  size_t size = 0;
+  for (const VertexChannel& channel : data) size += size_of(channel.type);
+  return size;
+}
+
 void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                   const VertexData& data, bool swap) {
-  constexpr size_t face_size = 1 + 3 * sizeof(int);
-  size_t vertex_size = 3 * sizeof(double);
-  for (const VertexChannel& channel : data) vertex_size += size_of(channel.type);
+                   const VertexData& data, const VertexData& face_data, bool swap) {
+  const size_t vertex_size = 3 * sizeof(double) + row_size(data),
+               face_size = 1 + 3 * sizeof(int) + row_size(face_data);
   const size_t header = bytes.size();
   bytes.resize(header + static_cast<size_t>(points.cols()) * vertex_size + triangles.size() * face_size);
   char* at = bytes.data() + header;
+  const auto put_row = [&](const VertexData& channels, size_t row) {
+    for (const VertexChannel& channel : channels) put(at, channel.type, channel.values[row], swap);
+  };
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     for (int k = 0; k < 3; ++k) put(at, points(k, v), swap);
-    for (const VertexChannel& channel : data)
-      put(at, channel.type, channel.values[static_cast<size_t>(v)], swap);
+    put_row(data, static_cast<size_t>(v));
   }
-  for (const Triangle& triangle : triangles) {
+  for (size_t f = 0; f < triangles.size(); ++f) {
     *at++ = 3;
-    for (const int id : triangle) put(at, id, swap);
+    for (const int id : triangles[f]) put(at, id, swap);
+    put_row(face_data, f);
   }
 }
 
 }  // namespace
 
 std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                      PlyEncoding encoding, const VertexData& data) {
+                      PlyEncoding encoding, const VertexData& data, const VertexData& face_data) {
   const bool ascii = encoding == PlyEncoding::ascii;
-  std::string bytes = header_text(points.cols(), triangles.size(), encoding, data);
+  std::string bytes = header_text(points.cols(), triangles.size(), encoding, data, face_data);
   if (ascii) {
-    ChannelList channels;
-    for (const VertexChannel& channel : data) channels.push_back(&channel);
-    append_vertex_rows(bytes, points, "", channels);
-    append_face_rows(bytes, triangles, "3", 0);
+    const auto list_of = [](const VertexData& channels) {
+      ChannelList list;
+      for (const VertexChannel& channel : channels) list.push_back(&channel);
+      return list;
+    };
+    append_vertex_rows(bytes, points, "", list_of(data));
+    append_face_rows(bytes, triangles, "3", 0, {}, list_of(face_data));
   } else {
     const bool little = encoding == PlyEncoding::binary_little_endian;
-    append_binary(bytes, points, triangles, data, little != (std::endian::native == std::endian::little));
+    append_binary(bytes, points, triangles, data, face_data,
+                  little != (std::endian::native == std::endian::little));
   }
   return bytes;
 }

@@ -17,10 +17,12 @@ namespace hooke {
 /// ..." for a binary body, also for bytes after the last element.
 MeshFile read_ply(std::string_view bytes, const std::string& name);
 
-/// The bytes of a PLY file with coordinates as double, corners as int, and the channels of the data in their
-/// own types. Numbers read back exactly in every encoding.
+/// The bytes of a PLY file with coordinates as double, corners as int, and the channels of the data, one
+/// value per vertex, and of the faces' data, one per triangle, in their own types. Numbers read back exactly
+/// in every encoding.
 std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                      PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
+                      PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {},
+                      const VertexData& face_data = {});
 
 /// Reads target lengths, one per vertex, from the float or double vertex property of that name. Throws
 /// InputError like read_ply(), also if there is no such property, naming the existing ones, and for values

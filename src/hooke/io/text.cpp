@@ -58,7 +58,7 @@ void append_value_rows(std::string& text, const char* prefix, const ChannelList&
 }
 
 void append_face_rows(std::string& text, const std::vector<Triangle>& faces, const char* prefix, int first_id,
-                      const std::vector<const char*>& repeats) {
+                      const std::vector<const char*>& repeats, const ChannelList& channels) {
   append_rows(text, faces.size(), [&](std::string& row, size_t f) {
     row += prefix;
     for (const int vertex : faces[f]) {
@@ -69,6 +69,7 @@ void append_face_rows(std::string& text, const std::vector<Triangle>& faces, con
         append_number(row, vertex + first_id);
       }
     }
+    append_values(row, channels, f);
     row += '\n';
   });
 }

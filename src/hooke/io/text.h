@@ -40,10 +40,11 @@ void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const
 /// appends nothing.
 void append_value_rows(std::string& text, const char* prefix, const ChannelList& channels);
 
-/// Appends a row per face: `prefix`, then each vertex id after a blank, numbered from `first_id`. Each of
-/// `repeats` appends that separator and the id again: { "/" } gives 7/7 for id 7.
+/// Appends a row per face: `prefix`, then each vertex id after a blank, numbered from `first_id`, and the
+/// values of the channels. Each of `repeats` appends that separator and the id again: { "/" } gives 7/7 for
+/// id 7.
 void append_face_rows(std::string& text, const std::vector<Triangle>& faces, const char* prefix, int first_id,
-                      const std::vector<const char*>& repeats = {});
+                      const std::vector<const char*>& repeats = {}, const ChannelList& channels = {});
 
 /// A piece of a text, made of whole lines.
 struct TextPiece {

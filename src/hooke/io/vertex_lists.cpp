@@ -10,14 +10,30 @@
 
 namespace hooke {
 
+namespace {
+
+double positive_length(Scanner& scanner) {
+  const double length = scanner.number("length");
+  if (!(length > 0)) scanner.fail(fmt::format("length {}; expected a positive number; correct it", length));
+  return length;
+}
+
+int vertex_id(Scanner& scanner, int count) {
+  const long long id = scanner.integer("vertex id");
+  if (id < 0 || id >= count)
+    scanner.fail(fmt::format("vertex id {}; expected 0 to {}; ids count from 0", id, count - 1));
+  return static_cast<int>(id);
+}
+
+}  // namespace
+
 std::vector<double> read_length_list(const std::filesystem::path& path, int count) {
   const FileBytes file = read_regular_file(path);
   const std::string name = printable(path.string());
   Scanner scanner(file.text(), name, {.comments = true});
   std::vector<double> lengths;
   while (scanner.next_line()) {
-    const double length = scanner.number("length");
-    if (!(length > 0)) scanner.fail(fmt::format("length {}; expected a positive number; correct it", length));
+    const double length = positive_length(scanner);
     if (!scanner.token().empty())
       scanner.fail("more than one value; expected one length a line; split the line");
     if (lengths.size() == static_cast<size_t>(count))
@@ -36,13 +52,30 @@ std::vector<int> read_id_list(const std::filesystem::path& path, int count) {
   Scanner scanner(file.text(), printable(path.string()), {.comments = true});
   std::vector<int> ids;
   while (scanner.next_line()) {
-    const long long id = scanner.integer("vertex id");
-    if (id < 0 || id >= count)
-      scanner.fail(fmt::format("vertex id {}; expected 0 to {}; ids count from 0", id, count - 1));
+    const int id = vertex_id(scanner, count);
     if (!scanner.token().empty()) scanner.fail("more than one value; expected one vertex id a line");
-    ids.push_back(static_cast<int>(id));
+    ids.push_back(id);
   }
   return ids;
+}
+
+std::vector<EdgeLength> read_edge_lengths(const std::filesystem::path& path, int vertex_count) {
+  const FileBytes file = read_regular_file(path);
+  Scanner scanner(file.text(), printable(path.string()), {.comments = true});
+  std::vector<EdgeLength> lengths;
+  while (scanner.next_line()) {
+    EdgeLength edge;
+    edge.line = scanner.line();
+    for (int& end : edge.ends) end = vertex_id(scanner, vertex_count);
+    if (edge.ends[0] == edge.ends[1])
+      scanner.fail(
+          fmt::format("vertex id {} twice; expected the two ends of an edge; correct one", edge.ends[0]));
+    edge.length = positive_length(scanner);
+    if (!scanner.token().empty())
+      scanner.fail("more than three values; expected two vertex ids and a length; split the line");
+    lengths.push_back(edge);
+  }
+  return lengths;
 }
 
 std::string map_text(const std::vector<MapEntry>& map) {

@@ -1,4 +1,5 @@
-// Text files with one line per vertex: target lengths, vertex ids, and the map of a result to its input.
+// Text files with one line per vertex or edge: target lengths, vertex ids, and the map of a result to its
+// input.
 #pragma once
 
 #include <filesystem>
@@ -12,6 +13,17 @@ namespace hooke {
 /// Reads `count` positive target lengths, one per line; '#' starts a comment. Throws InputError with the line
 /// number for anything else, and if there are more or fewer.
 std::vector<double> read_length_list(const std::filesystem::path& path, int count);
+
+/// The target length of an edge, as its line in a file tells it.
+struct EdgeLength {
+  Edge ends;
+  double length = 0;  // positive
+  int line = 0;       // number of the line, from 1
+};
+
+/// Reads lines of two different 0-based vertex ids and a positive length; '#' starts a comment. Throws
+/// InputError with the line number for anything else and for ids outside [0, vertex_count).
+std::vector<EdgeLength> read_edge_lengths(const std::filesystem::path& path, int vertex_count);
 
 /// Reads 0-based vertex ids, one per line; '#' starts a comment. Throws InputError with the line number for
 /// anything else and for ids outside [0, count).

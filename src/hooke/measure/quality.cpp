@@ -137,11 +137,6 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const Fa
   return worst;
 }
 
-Range range_of(std::vector<double> values) {
-  const Statistics s = describe(std::move(values));
-  return {s.min, s.mean, s.max};
-}
-
 void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, const UniformVector& targets,
                   Quality& q) {
   const auto column = [&](double TriangleShape::*measure) {
@@ -177,6 +172,11 @@ void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, 
 }
 
 }  // namespace
+
+Range range_of(std::vector<double> values) {
+  const Statistics s = describe(std::move(values));
+  return {s.min, s.mean, s.max};
+}
 
 Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edge_target_length,
                         const QualityOptions& options, Stopwatch* stopwatch) {

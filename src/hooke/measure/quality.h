@@ -21,6 +21,9 @@ struct Range {
   double max = Statistics::none;
 };
 
+/// Of the finite values.
+Range range_of(std::vector<double> values);
+
 /// A face with one of the smallest angles of the mesh.
 struct WorstFace {
   int face = -1;

@@ -126,22 +126,22 @@ std::vector<int> neighbourhood(const Adjacency& c, const Mat3X& normals, int cen
   return found;
 }
 
-/// Maximum absolute eigenvalue of the shape operator of z = f0 + d x + e y + (a x^2 + 2 b x y + c y^2) / 2.
-double largest_curvature(double a, double b, double c, double d, double e) {
+/// Eigenvalues of the shape operator of z = f0 + d x + e y + (a x^2 + 2 b x y + c y^2) / 2.
+Eigen::Vector2d principal_curvatures(double a, double b, double c, double d, double e) {
   Eigen::Matrix2d first, second;
   first << 1 + d * d, d * e, d * e, 1 + e * e;
   second << a, b, b, c;
   second /= std::sqrt(1 + d * d + e * e);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> shape(second, first,
                                                                         Eigen::EigenvaluesOnly);
-  return shape.eigenvalues().cwiseAbs().maxCoeff();
+  return shape.eigenvalues();
 }
 
-double fit_curvature(const Mat3X& points, const Vec3& n, const std::vector<int>& vertices) {
+Eigen::Vector2d fit_curvatures(const Mat3X& points, const Vec3& n, const std::vector<int>& vertices) {
   const Vec3 origin = points.col(vertices[0]);
   double radius = 0;
   for (int v : vertices) radius = std::max(radius, (points.col(v) - origin).norm());
-  if (!(radius > 0)) return 0;
+  if (!(radius > 0)) return Eigen::Vector2d::Zero();
   // Aligned with an edge, not with a coordinate axis, so that a rotated mesh has the same fit.
   const Vec3 edge = points.col(vertices[1]) - origin;
   const Vec3 u = (edge - n * n.dot(edge)).normalized(), v = n.cross(u);
@@ -157,22 +157,23 @@ double fit_curvature(const Mat3X& points, const Vec3& n, const std::vector<int>&
   }
   // Minimum-norm solution where the vertices do not determine all coefficients.
   const Eigen::Matrix<double, 6, 1> k = monomials.completeOrthogonalDecomposition().solve(height);
-  return largest_curvature(k[3], k[4], k[5], k[1], k[2]) / radius;
+  return principal_curvatures(k[3], k[4], k[5], k[1], k[2]) / radius;
 }
 
-std::vector<double> curvatures_of_pieces(const Mat3X& points, const Adjacency& c) {
+/// The principal curvatures at each vertex, zero at a vertex without faces.
+Eigen::Matrix2Xd curvatures_of_pieces(const Mat3X& points, const Adjacency& c) {
   const Mat3X normals = vertex_normals(points, c);
-  std::vector<double> curvature(static_cast<size_t>(c.vertex_count), 0);
-  parallel_for(curvature.size(), 256, [&](size_t begin, size_t end) {
+  Eigen::Matrix2Xd curvatures = Eigen::Matrix2Xd::Zero(2, c.vertex_count);
+  parallel_for(static_cast<size_t>(c.vertex_count), 256, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       const int centre = static_cast<int>(v);
       const Vec3 axis = axis_at(c, normals, centre);
       std::vector<int> vertices = neighbourhood(c, normals, centre, axis, same_sheet);
       if (vertices.size() <= enough) vertices = neighbourhood(c, normals, centre, axis, any_side);
-      if (vertices.size() > 1) curvature[v] = fit_curvature(points, axis, vertices);
+      if (vertices.size() > 1) curvatures.col(centre) = fit_curvatures(points, axis, vertices);
     }
   });
-  return curvature;
+  return curvatures;
 }
 
 /// The neighbours of each vertex along the boundary and the creases, -1 for those that are on no such curve,
@@ -239,12 +240,27 @@ bool is_tip(const Mat3X& points, const Adjacency& c, int vertex) {
 
 std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) {
   std::vector<double> largest = curvatures_of_curves(points, c);
-  const std::vector<double> of_wedges = curvatures_of_pieces(wedge_points(points, c), cut_open(c));
-  for (size_t w = 0; w < of_wedges.size(); ++w) {
-    double& l = largest[static_cast<size_t>(c.vertex_of_wedge(static_cast<int>(w)))];
-    l = std::max(l, of_wedges[w]);
+  const Eigen::Matrix2Xd of_wedges = curvatures_of_pieces(wedge_points(points, c), cut_open(c));
+  for (int w = 0; w < c.wedge_count(); ++w) {
+    double& l = largest[static_cast<size_t>(c.vertex_of_wedge(w))];
+    l = std::max(l, of_wedges.col(w).cwiseAbs().maxCoeff());
   }
   return largest;
+}
+
+VertexCurvature fitted_curvature(const Mat3X& points, const Adjacency& c) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto n = static_cast<size_t>(c.vertex_count);
+  VertexCurvature curvature{std::vector<double>(n, none), std::vector<double>(n, none)};
+  const Eigen::Matrix2Xd principal = curvatures_of_pieces(points, c);
+  const std::vector<char> on_boundary = boundary_vertices(c);
+  for (size_t v = 0; v < n; ++v) {
+    if (on_boundary[v] || c.vertex_faces[static_cast<int>(v)].empty()) continue;
+    const auto k = principal.col(static_cast<Eigen::Index>(v));
+    curvature.mean[v] = std::abs(k.sum()) / 2;
+    curvature.gaussian[v] = k.prod();
+  }
+  return curvature;
 }
 
 }  // namespace hooke

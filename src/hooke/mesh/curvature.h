@@ -20,6 +20,11 @@ struct VertexCurvature {
 
 VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacency);
 
+/// The same from quadrics: half the sum of the principal curvatures, unsigned, and their product, of the
+/// quadric fitted to two rings as for largest_curvatures(), creases or not. Smoother than the above, and not
+/// misled by bad triangles. NaN on the boundary and at isolated vertices.
+VertexCurvature fitted_curvature(const Mat3X& points, const Adjacency& adjacency);
+
 /// Do the faces come to a point at the vertex, as at the tip of a cone: do they span at least 70 degrees less
 /// than a full turn? Not on the boundary or on a crease.
 bool is_tip(const Mat3X& points, const Adjacency& adjacency, int vertex);

@@ -127,6 +127,39 @@ void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<do
   for (const auto v : mesh.vertices()) stored[v] = values[static_cast<size_t>(v.idx())];
 }
 
+namespace {
+
+OpenMesh::EdgeHandle edge_between(const TriMesh& mesh, int v, int w) {
+  return mesh.edge_handle(mesh.find_halfedge(VertexHandle(v), VertexHandle(w)));
+}
+
+}  // namespace
+
+std::vector<double> edge_values(const TriMesh& mesh, const char* property, const Permutation& order,
+                                const Adjacency& adjacency) {
+  OpenMesh::EPropHandleT<double> handle;
+  if (!mesh.get_property_handle(handle, property)) return {};
+  const MeshIds ids = order.old_ids();
+  std::vector<double> values(adjacency.edges.size());
+  parallel_for(values.size(), mesh_block, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      const auto& [v, w] = adjacency.edges[e];
+      values[e] = mesh.property(handle, edge_between(mesh, ids.vertex(v), ids.vertex(w)));
+    }
+  });
+  return values;
+}
+
+void set_edge_values(TriMesh& mesh, const char* property, const Permutation& order,
+                     const Adjacency& adjacency, const std::vector<double>& values) {
+  auto stored = OpenMesh::getOrMakeProperty<OpenMesh::EdgeHandle, double>(mesh, property);
+  const MeshIds ids = order.old_ids();
+  for (size_t e = 0; e < values.size(); ++e) {
+    const auto& [v, w] = adjacency.edges[e];
+    stored[edge_between(mesh, ids.vertex(v), ids.vertex(w))] = values[e];
+  }
+}
+
 std::vector<Triangle> triangles_of(const TriMesh& mesh) {
   std::vector<Triangle> triangles(mesh.n_faces());
   parallel_for(triangles.size(), mesh_block, [&](size_t begin, size_t end) {

@@ -30,6 +30,8 @@ inline constexpr char velocity_property[] = "v:velocity";  // Vec3, u of [17]
 inline constexpr char force_property[] = "v:force";        // Vec3, lambda F_string + mu F_torque
 inline constexpr char target_length_property[] =
     "v:target_length";  // double; the target of an edge is the mean of its ends
+inline constexpr char edge_length_property[] =
+    "e:target_length";  // double, optional; the targets of the edges, each by itself
 
 /// Builds a mesh from points, by vertex id, and an adjacency, whose vertices and faces get these ids; edges
 /// keep theirs.
@@ -59,6 +61,15 @@ void set_vertex_values(TriMesh& mesh, const char* property, double value);
 
 /// Sets a vertex property of doubles to these values, by vertex id; it is added if missing.
 void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<double>& values);
+
+/// The values of an edge property of doubles, by the edges of the adjacency, whose vertices are in this
+/// order; empty if the mesh does not have it.
+std::vector<double> edge_values(const TriMesh& mesh, const char* property, const Permutation& order,
+                                const Adjacency& adjacency);
+
+/// Sets an edge property of doubles to these values; it is added if missing. As above.
+void set_edge_values(TriMesh& mesh, const char* property, const Permutation& order,
+                     const Adjacency& adjacency, const std::vector<double>& values);
 
 /// Vertex ids of every face, in face order.
 std::vector<Triangle> triangles_of(const TriMesh& mesh);

@@ -7,6 +7,7 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/springs/forces.h"
 #include "hooke/working_mesh/workspace.h"
 
 namespace hooke {

@@ -14,15 +14,14 @@
 #include "hooke/mesh/sagitta.h"
 #include "hooke/mesh/staircase.h"
 #include "hooke/remesh/limiting_factors.h"
-#include "hooke/springs/target_lengths.h"
+#include "hooke/springs/sizing.h"
 
 namespace hooke {
 namespace {
 
 Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
                 Stopwatch* stopwatch) {
-  const std::vector<double> lengths = order.gather(vertex_values(mesh, target_length_property));
-  return measure_quality(surface, spread_target_lengths(surface.adjacency, lengths).edge, {}, stopwatch);
+  return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, stopwatch);
 }
 
 /// The edges by the indices of their vertices in the order, from their ids.

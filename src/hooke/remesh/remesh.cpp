@@ -356,6 +356,8 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
                     const Observer& observer, Stopwatch* stopwatch) {
   Workspace work(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction,
                  stopwatch);
+  if (work.has_edge_lengths() && options.connectivity != ConnectivityMode::fixed)
+    throw Error("target lengths of single edges; expected connectivity fixed, where edges stay");
   const InputCreases input = input_creases(work, options.constraints.features);
   const EnergyTerms terms{.altitude = options.altitude};
   const double corner_angle = options.constraints.corner_angle;
@@ -373,7 +375,7 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
       return run_flip_mode(work, then, terms, options.guards, corner_angle, observer);
     });
   RemeshOptions then = options;
-  const bool near_regular = options.connectivity == ConnectivityMode::fixed &&
+  const bool near_regular = options.connectivity == ConnectivityMode::fixed && !work.has_edge_lengths() &&
                             keep_near_regular(work, options.near_regular, then.guards);
   if (adapted.levels > 0 && options.polish_angles) then = after_coarse_levels(std::move(then));
   RemeshResult result = OuterIterations(work, then, observer).run(flips);

@@ -11,11 +11,13 @@ namespace hooke {
 class Stopwatch;
 
 /// Moves the vertices of the mesh on its own surface until its edges are as close to their target lengths
-/// (v:target_length) as the connectivity allows, then raises its minimum angles. Mode `fixed` keeps vertices,
+/// (v:target_length, or e:target_length in mode `fixed`) as the connectivity allows, then raises its minimum
+/// angles. Mode `fixed` keeps vertices,
 /// faces and their ids. Mode `flip` keeps the vertex ids and the number of faces, but replaces the faces, and
 /// vertices may travel far. Mode `adapt` replaces the vertices too: the remaining ones come first, in their
 /// order, then new ones. The mesh is always left valid; an observer that returns false stops the run with the
-/// result reached so far. Throws LimitError or NumericalError if the surface field cannot be fitted.
+/// result reached so far. Throws LimitError or NumericalError if the surface field cannot be fitted, Error
+/// for e:target_length in another mode than `fixed`.
 RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer& observer = nullptr,
                     Stopwatch* stopwatch = nullptr);
 

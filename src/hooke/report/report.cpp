@@ -1,13 +1,11 @@
 #include "hooke/report/report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "hooke/core/parallel.h"
 #include "hooke/measure/statistics.h"
@@ -28,10 +26,6 @@ Json number(std::optional<double> x) {
 
 Json vector(const Vec3& v) {
   return {number(v.x()), number(v.y()), number(v.z())};
-}
-
-Json range(const Range& r) {
-  return {{"min", number(r.min)}, {"mean", number(r.mean)}, {"max", number(r.max)}};
 }
 
 /// {"5": vertices with five edges, ...}
@@ -69,6 +63,10 @@ Json max_rms(const std::optional<MaxRms>& x) {
 
 }  // namespace
 
+Json to_json(const Range& r) {
+  return {{"min", number(r.min)}, {"mean", number(r.mean)}, {"max", number(r.max)}};
+}
+
 Json to_json(const Statistics& s) {
   Json json = {{"min", number(s.min)},       {"p01", number(s.p01)},   {"p05", number(s.p05)},
                {"median", number(s.median)}, {"mean", number(s.mean)}, {"p95", number(s.p95)},
@@ -93,8 +91,8 @@ Json to_json(const Quality& q) {
   json["degenerate_faces"] = q.degenerate_faces;
   json["valence"] = {{"interior", valence_counts(q.valence.interior)},
                      {"boundary", valence_counts(q.valence.boundary)}};
-  json["mean_curvature"] = range(q.mean_curvature);
-  json["gaussian_curvature"] = range(q.gaussian_curvature);
+  json["mean_curvature"] = to_json(q.mean_curvature);
+  json["gaussian_curvature"] = to_json(q.gaussian_curvature);
   json["worst_faces"] = worst_faces(q.worst_faces);
   return json;
 }
@@ -159,52 +157,6 @@ Json projection_json(const ProjectionCounts& counts) {
           {"flat_gradient", status(ProjectionStatus::flat_gradient)},
           {"too_far", status(ProjectionStatus::too_far)},
           {"step_limit", status(ProjectionStatus::step_limit)}};
-}
-
-/// What each outer iteration of paper_remesh() did, and its state at the end. Lengths are mean target
-/// lengths.
-Json evolution_json(const std::vector<TimeStepRecord>& steps) {
-  Json outers = Json::array();
-  BoundCounts bound;
-  for (size_t k = 0; k < steps.size(); ++k) {
-    const TimeStepRecord& s = steps[k];
-    bound.add(s.bound);
-    if (k + 1 < steps.size() && steps[k + 1].outer == s.outer) continue;
-    outers.push_back({{"outer", s.outer},
-                      {"steps", s.step},
-                      {"time", number(s.time)},
-                      {"dt", number(s.step_time)},
-                      {"string_energy", number(s.string_energy)},
-                      {"altitude_energy", number(s.altitude_energy)},
-                      {"kinetic_energy", number(s.kinetic_energy)},
-                      {"greatest_force", number(s.max_force)},
-                      {"greatest_length_error", number(s.max_length_error)},
-                      {"bound",
-                       {{"angle", bound.angle},
-                        {"expansion", bound.expansion},
-                        {"displacement", bound.displacement},
-                        {"area", bound.area_bound},
-                        {"none", bound.none}}}});
-    bound = {};
-  }
-  return outers;
-}
-
-/// The columns of the paper's tables 1 to 3.
-Json paper_columns(const RunRecord& run) {
-  const auto columns = [](const Quality& q) {
-    return Json{{"vertices", q.topology.vertices},
-                {"least_angle_rad", q.min_angle.min * std::numbers::pi / 180},
-                {"edge_length_sd", q.edge_length.std},
-                {"mean_curvature", range(q.mean_curvature)},
-                {"gaussian_curvature", range(q.gaussian_curvature)}};
-  };
-  Json j = {{"before", columns(run.before)}, {"after", nullptr}, {"greatest_displacement", nullptr}};
-  if (run.after) j["after"] = columns(*run.after);
-  if (run.deviation && run.deviation->displacement)
-    j["greatest_displacement"] = run.deviation->displacement->max;
-  j["evolution"] = run.result ? evolution_json(run.result->time_steps) : Json::array();
-  return j;
 }
 
 Json geometry_json(const RunRecord& run) {
@@ -332,37 +284,13 @@ Json report_json(const RunRecord& run) {
   j["warnings"] = Json::array();
   for (const Warning& w : run.warnings) j["warnings"].push_back({{"code", w.code}, {"message", w.message}});
   j["repairs"] = Json::array();
-  j["paper"] = paper_columns(run);
+  j["paper"] = paper_block(run);
   j["resources"] = {{"threads", run.resources.threads},
                     {"wall_s", run.resources.wall_s},
                     {"cpu_s", run.resources.cpu_s},
                     {"peak_rss_bytes", run.resources.peak_rss_bytes},
                     {"stages", stages_json(run.stages)}};
   return j;
-}
-
-namespace {
-
-std::string words_of(const FailedTests& bound) {
-  std::vector<const char*> words;
-  if (bound.angle) words.push_back("angle");
-  if (bound.expansion) words.push_back("expansion");
-  if (bound.displacement) words.push_back("displacement");
-  if (bound.area_bound) words.push_back("area");
-  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, "+"));
-}
-
-}  // namespace
-
-std::string time_steps_csv(const std::vector<TimeStepRecord>& steps) {
-  std::string csv =
-      "outer,step,time,dt,bound,string_energy,altitude_energy,kinetic_energy,greatest_force,"
-      "greatest_length_error\n";
-  for (const TimeStepRecord& s : steps)
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s.outer, s.step, s.time, s.step_time,
-                       words_of(s.bound), s.string_energy, s.altitude_energy, s.kinetic_energy, s.max_force,
-                       s.max_length_error);
-  return csv;
 }
 
 std::string report_text(const RunRecord& run) {

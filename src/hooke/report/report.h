@@ -11,11 +11,15 @@
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
 #include "hooke/remesh/result.h"
+#include "hooke/report/paper_block.h"
 
 namespace hooke {
 
 struct PaperOptions;
 struct RemeshOptions;
+
+/// {min, mean, max}; null for what does not exist.
+nlohmann::ordered_json to_json(const Range& range);
 
 /// {min, p01, p05, median, mean, p95, max, std, histogram: {edges, counts}, non_finite}; the figures and the
 /// histogram are null if there was no finite value.
@@ -57,6 +61,8 @@ struct RunRecord {
   nlohmann::ordered_json parameters;  // see parameters_json()
   Quality before;
   std::optional<Quality> after;
+  PaperFigures paper_before;
+  std::optional<PaperFigures> paper_after;
   std::optional<Deviation> deviation;
   std::optional<RemeshResult> result;
   Warnings warnings;
@@ -77,10 +83,6 @@ nlohmann::ordered_json report_json(const RunRecord& run);
 
 /// The report as indented text. Bytes that are not UTF-8 are replaced.
 std::string report_text(const RunRecord& run);
-
-/// The time steps as CSV, one a line, in the units of the evolution: lengths are mean target lengths. `bound`
-/// names the tests of [26] that limited the step, joined by +.
-std::string time_steps_csv(const std::vector<TimeStepRecord>& steps);
 
 /// The effective parameters of a run for its report, `null` for those without effect. `effort`: the level for
 /// which the options were set.

@@ -131,22 +131,15 @@ FaceAltitudes face_altitudes(std::array<Vec3, 3> x, const Vec3& normal, double t
   return face;
 }
 
-std::vector<FaceAltitudes> altitudes_of_faces(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals,
-                                              const Adjacency& c, std::span<const double> target_lengths) {
-  std::vector<FaceAltitudes> faces(c.faces.size());
-  parallel_for(faces.size(), forces_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const Triangle& t = c.faces[f];
-      Vec3 normal = Vec3::Zero();
-      if (normals)
-        for (int v : t) normal += normals->col(v);
-      double length = 0;
-      for (int e : c.face_edges[f]) length += target_lengths[static_cast<std::size_t>(e)] / 3;
-      faces[f] =
-          face_altitudes({points.col(t[0]), points.col(t[1]), points.col(t[2])}, normal.normalized(), length);
-    }
-  });
-  return faces;
+FaceAltitudes face_altitudes(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals, const Adjacency& c,
+                             std::span<const double> target_lengths, std::size_t face) {
+  const Triangle& t = c.faces[face];
+  Vec3 normal = Vec3::Zero();
+  if (normals)
+    for (int v : t) normal += normals->col(v);
+  double length = 0;
+  for (int e : c.face_edges[face]) length += target_lengths[static_cast<std::size_t>(e)] / 3;
+  return face_altitudes({points.col(t[0]), points.col(t[1]), points.col(t[2])}, normal.normalized(), length);
 }
 
 }  // namespace
@@ -154,7 +147,11 @@ std::vector<FaceAltitudes> altitudes_of_faces(const Eigen::Ref<const Mat3X>& poi
 void add_altitude_forces(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals, const Adjacency& c,
                          std::span<const double> target_lengths, double weight, Eigen::Ref<Mat3X> forces) {
   assert(points.cols() == c.vertex_count && forces.cols() == points.cols());
-  const std::vector<FaceAltitudes> faces = altitudes_of_faces(points, normals, c, target_lengths);
+  std::vector<FaceAltitudes> faces(c.faces.size());
+  parallel_for(faces.size(), forces_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      faces[f] = face_altitudes(points, normals, c, target_lengths, f);
+  });
   parallel_for(forces.cols(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       Vec3 sum = Vec3::Zero();
@@ -169,10 +166,25 @@ void add_altitude_forces(const Eigen::Ref<const Mat3X>& points, const Mat3X* nor
 
 double altitude_energy(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals, const Adjacency& c,
                        std::span<const double> target_lengths) {
-  double energy = 0;
-  for (const FaceAltitudes& face : altitudes_of_faces(points, normals, c, target_lengths))
-    energy += face.energy;
-  return energy;
+  return parallel_sum(c.faces.size(), forces_block, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t f = begin; f < end; ++f)
+      sum += face_altitudes(points, normals, c, target_lengths, f).energy;
+    return sum;
+  });
+}
+
+double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& c,
+                     std::span<const double> target_lengths) {
+  return parallel_sum(c.edges.size(), forces_block, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t e = begin; e < end; ++e) {
+      const double L = target_lengths[e];
+      const double l = (points.col(c.edges[e][1]) - points.col(c.edges[e][0])).norm();
+      sum += spring_potential(l, L).value / (L * L);
+    }
+    return sum;
+  });
 }
 
 }  // namespace hooke

@@ -17,6 +17,10 @@ namespace hooke {
 void string_forces(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                    std::span<const double> target_lengths, Eigen::Ref<Mat3X> forces);
 
+/// Energy of the strings, relative to their rest lengths: the sum of U(l; L) / L^2 over the edges.
+double string_energy(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
+                     std::span<const double> target_lengths);
+
 /// F_torque: every face turns about its centre toward the normals of the faces across its edges. [5]-[10]
 /// `points` and `forces` are 3 x |V|. The forces have no unit: they do not change with the size of the mesh.
 /// Not the gradient of an energy.
@@ -41,7 +45,7 @@ void add_altitude_forces(const Eigen::Ref<const Mat3X>& points, const Mat3X* nor
                          const Adjacency& adjacency, std::span<const double> target_lengths, double weight,
                          Eigen::Ref<Mat3X> forces);
 
-/// Their energy: the sum of U(h; h0) / L_f^2.
+/// The energy of these springs: the sum of U(h; h0) / L_f^2.
 double altitude_energy(const Eigen::Ref<const Mat3X>& points, const Mat3X* normals,
                        const Adjacency& adjacency, std::span<const double> target_lengths);
 

@@ -163,4 +163,10 @@ void limit_gradation(const Mat3X& points, const Adjacency& c, double slope, std:
   }
 }
 
+TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, const Adjacency& adjacency) {
+  std::vector<double> of_edges = edge_values(mesh, edge_length_property, order, adjacency);
+  if (!of_edges.empty()) return from_edge_lengths(adjacency, std::move(of_edges));
+  return spread_target_lengths(adjacency, order.gather(vertex_values(mesh, target_length_property)));
+}
+
 }  // namespace hooke

@@ -4,7 +4,8 @@
 
 #include <string>
 
-#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 
@@ -35,6 +36,10 @@ struct Sizing {
 /// Error for as_given without a sizing.
 std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
                                            const Adjacency& adjacency);
+
+/// The target lengths of a mesh: those of `e:target_length`, and without this property those that spread from
+/// `v:target_length`. The vertices of the adjacency are in this order. Throws Error without both properties.
+TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, const Adjacency& adjacency);
 
 /// The source of target lengths per vertex, as the user specifies it.
 struct SizingSource {

@@ -15,6 +15,10 @@ double face_area(const Mat3X& points, const Triangle& t) {
   return .5 * (points.col(t[1]) - a).cross(points.col(t[2]) - a).norm();
 }
 
+double mean_of_three(double a, double b, double c) {
+  return (a + b + c) / 3;
+}
+
 }  // namespace
 
 double natural_length(double area, std::size_t face_count) {
@@ -52,21 +56,9 @@ double mean_length(const Mat3X& points, const Adjacency& c, const TargetLengths&
          sum([&](double l) { return (l - first) / (l * l); }) / sum([](double l) { return 1 / (l * l); });
 }
 
-TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double>& vertex_length) {
-  const auto mean_of_three = [](double a, double b, double d) { return (a + b + d) / 3; };
-  if (!c.faces.empty() && UniformVector::are_equal(vertex_length)) {
-    const double length = vertex_length[0];
-    return {UniformVector(c.edges.size(), length),
-            UniformVector(c.faces.size(), mean_of_three(length, length, length))};
-  }
-  std::vector<double> edge(c.edges.size()), face(c.faces.size());
-  parallel_for(c.edges.size(), length_block, [&](size_t begin, size_t end) {
-    for (size_t e = begin; e < end; ++e) {
-      const auto& [a, b] = c.edges[e];
-      edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
-    }
-  });
-  parallel_for(c.faces.size(), length_block, [&](size_t begin, size_t end) {
+TargetLengths from_edge_lengths(const Adjacency& c, std::vector<double> edge) {
+  std::vector<double> face(c.faces.size());
+  parallel_for(face.size(), length_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [a, b, d] = c.face_edges[f];
       face[f] = mean_of_three(edge[static_cast<size_t>(a)], edge[static_cast<size_t>(b)],
@@ -74,6 +66,22 @@ TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double
     }
   });
   return {std::move(edge), std::move(face)};
+}
+
+TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double>& vertex_length) {
+  if (!c.faces.empty() && UniformVector::are_equal(vertex_length)) {
+    const double length = vertex_length[0];
+    return {UniformVector(c.edges.size(), length),
+            UniformVector(c.faces.size(), mean_of_three(length, length, length))};
+  }
+  std::vector<double> edge(c.edges.size());
+  parallel_for(edge.size(), length_block, [&](size_t begin, size_t end) {
+    for (size_t e = begin; e < end; ++e) {
+      const auto& [a, b] = c.edges[e];
+      edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
+    }
+  });
+  return from_edge_lengths(c, std::move(edge));
 }
 
 }  // namespace hooke

@@ -23,6 +23,9 @@ double covering_length(const Mat3X& points, const Adjacency& adjacency, const Ta
 /// are more of them. Exact if all lengths are the same. Pre-condition: there are edges.
 double mean_length(const Mat3X& points, const Adjacency& adjacency, const TargetLengths& targets);
 
+/// Target lengths of edges that are given one by one; those of the faces are their means.
+TargetLengths from_edge_lengths(const Adjacency& adjacency, std::vector<double> edge_length);
+
 /// Target lengths of edges and faces from those of the vertices.
 TargetLengths spread_target_lengths(const Adjacency& adjacency, const std::vector<double>& vertex_length);
 

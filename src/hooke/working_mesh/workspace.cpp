@@ -57,6 +57,12 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
     creases.push_back(memory_order.adjacency->edges[static_cast<size_t>(e)]);
   connect(std::move(memory_order.adjacency), creases);
   start_length_ = vertex_length;
+  if (std::vector<double> of_edges = edge_values(source, edge_length_property, order, *adjacency);
+      !of_edges.empty()) {
+    for (double& l : of_edges) l /= normalisation.unit;
+    targets = from_edge_lengths(*adjacency, std::move(of_edges));
+    edge_by_edge_ = true;
+  }
   faceted_ = is_faceted(*start, *adjacency);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
@@ -221,13 +227,13 @@ SurfacePoint Workspace::locate_on_input(int v) const {
 }
 
 void Workspace::resample_lengths() {
-  if (!has_varying_lengths()) return;
+  if (edge_by_edge_ || !has_varying_lengths()) return;
   vertex_length = input_lengths();
   targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
 bool Workspace::has_varying_lengths() const {
-  return start_length_.is_varying();
+  return edge_by_edge_ || start_length_.is_varying();
 }
 
 std::vector<double> Workspace::input_lengths() const {

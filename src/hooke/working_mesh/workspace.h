@@ -65,11 +65,14 @@ struct Workspace {
   /// Do the target lengths vary?
   bool has_varying_lengths() const;
 
+  /// Are they given for each edge by itself (`e:target_length`), not by the place on the surface?
+  bool has_edge_lengths() const { return edge_by_edge_; }
+
   /// Target lengths of the input, interpolated linearly in its faces at the positions of the vertices.
   std::vector<double> input_lengths() const;
 
-  /// Updates varying target lengths to the current positions of the vertices. References to the targets stay
-  /// valid.
+  /// Updates varying target lengths to the current positions of the vertices, unless each edge has its own.
+  /// References to the targets stay valid.
   void resample_lengths();
 
   /// Writes the points to `target`, the mesh that the workspace was made from; vertices that did not move
@@ -119,6 +122,7 @@ struct Workspace {
   std::shared_ptr<const Adjacency> input_adjacency_;  // with the points `start`
   UniformVector start_length_;                        // target lengths with the points `start`
   bool refitted_ = false;                             // false: both fields are the same
+  bool edge_by_edge_ = false;                         // see has_edge_lengths()
   bool faceted_ = false;                              // are the facets of the input meant?
   std::vector<int> input_hints_;                      // per wedge: hint on the field of the input
   std::unique_ptr<Retraction> to_input_;              // to the field of the input
