@@ -290,7 +290,7 @@ BUMP = Graph(lambda x, y: np.exp(-10 * ((x - .5) ** 2 + (y - .5) ** 2)))
 CUBIC = Graph(lambda x, y: 2 * (x - .5) ** 2 + 2 * (y - .5) ** 3)
 FAMILIES = {  # surface, vertices, the paper's least angle (rad) and edge SD before, rounds, gap, boost
     "G1": (BUMP, 961, .0018, .0347, 40, 0, 0),
-    "M1": (CUBIC, 121, .0546, .0777, 1, 0, 0),
+    "M1": (CUBIC, 121, .0546, .0777, 2, 0, 0),
     "M2": (CUBIC, 441, .0270, .0400, 20, 0, 0),
     "M3": (CUBIC, 961, .0092, .0280, 10, 0, 0),
     "S1": (Sphere(), 222, .1265, .1129, 1, .2, 0),

@@ -41,7 +41,7 @@ def figures(report):
             "folded": report["geometry"]["flipped_faces"] > 0
             or report["after"]["folded_edges"] > report["before"]["folded_edges"],
             "jammed": report["status"] == "jammed", "converged": report["status"] == "converged",
-            "evaluations": projection["field_evaluations"] / max(1, steps * n), "failed": failed,
+            "evaluations": projection["field_evaluations"] / (steps * n) if steps else 0, "failed": failed,
             "cpu": report["resources"]["cpu_s"]}
 
 
