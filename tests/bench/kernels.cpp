@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "hooke/constraints/constraints.h"
+#include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/filter/surface_field.h"
 #include "hooke/integrator/gauss_seidel.h"
@@ -13,8 +14,10 @@
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/vertex_coloring.h"
 #include "hooke/springs/energy.h"
+#include "hooke/springs/forces.h"
+#include "hooke/springs/hooke_law.h"
 #include "hooke/springs/target_lengths.h"
-#include "support/meshes.h"
+#include "support/solids.h"
 
 namespace hooke {
 namespace {
@@ -56,6 +59,40 @@ void energy_and_gradient(benchmark::State& state) {
   Mat3X gradient;
   for (auto _ : state) benchmark::DoNotOptimize(s.energy(s.positions.points, s.positions.normals, &gradient));
   per_item(state, s.adjacency->faces.size());
+}
+
+/// String forces by the circulators of OpenMesh, in the order of a file and in memory order, and by flat
+/// arrays.
+void forces_by_circulators(benchmark::State& state) {
+  const Sphere s(static_cast<int>(state.range(0)));
+  const test::Triangles in_file = test::shuffled(s.start);
+  const TriMesh mesh = state.range(1) ? build_mesh(s.start.points, *s.adjacency) : test::to_mesh(in_file);
+  Mat3X forces(3, static_cast<Eigen::Index>(mesh.n_vertices()));
+  for (auto _ : state) {
+    for (const auto v : mesh.vertices()) {
+      Vec3 sum = Vec3::Zero();
+      for (const auto w : mesh.vv_range(v)) {
+        const Vec3 way = mesh.point(w) - mesh.point(v);
+        const double l = way.norm();
+        sum += spring_potential(l, s.length[0]).slope / l * way;
+      }
+      forces.col(v.idx()) = sum;
+    }
+    benchmark::DoNotOptimize(forces.data());
+  }
+  per_item(state, s.length.size());
+}
+
+void forces_by_arrays(benchmark::State& state) {
+  const Sphere s(static_cast<int>(state.range(0)));
+  const ThreadLimit one_thread(1);
+  const std::vector<double> lengths = s.targets.edge.values();
+  Mat3X forces(3, s.start.points.cols());
+  for (auto _ : state) {
+    string_forces(s.start.points, *s.adjacency, lengths, forces);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  per_item(state, s.length.size());
 }
 
 void guards_of_all(benchmark::State& state) {
@@ -106,6 +143,8 @@ void sweep_plan(benchmark::State& state) {
 }
 
 BENCHMARK(energy_and_gradient)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(forces_by_circulators)->ArgsProduct({{7}, {0, 1}})->Unit(benchmark::kMillisecond);
+BENCHMARK(forces_by_arrays)->Arg(7)->Unit(benchmark::kMillisecond);
 BENCHMARK(guards_of_all)->Arg(5)->Unit(benchmark::kMillisecond);
 BENCHMARK(ring_curvature)->Arg(5)->Unit(benchmark::kMillisecond);
 BENCHMARK(newton_sweep)->Arg(5)->Unit(benchmark::kMillisecond);

@@ -254,6 +254,10 @@ TEST(PaperMode, RecordsEachTimeStep) {
     EXPECT_GT(s.max_force, 0);
     cut += s.bound.any();
   }
+  const Mat3X velocities =
+      as_matrix(mesh, OpenMesh::getProperty<OpenMesh::VertexHandle, Vec3>(mesh, velocity_property));
+  EXPECT_NEAR(velocities.squaredNorm() / (2 * velocities.cols()), r.time_steps.back().kinetic_energy,
+              1e-9 * r.time_steps.back().kinetic_energy);
   EXPECT_EQ(cut, 60 - r.bound.none);
   EXPECT_LT(r.time_steps.back().string_energy, r.time_steps.front().string_energy);
 }

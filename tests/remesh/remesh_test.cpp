@@ -49,6 +49,42 @@ double largest_move(const test::Triangles& t, const Outcome& o) {
   return (o.points - t.points).colwise().norm().maxCoeff();
 }
 
+Mat3X vectors_of(TriMesh& mesh, const char* property) {
+  return as_matrix(mesh, OpenMesh::getProperty<OpenMesh::VertexHandle, Vec3>(mesh, property));
+}
+
+TEST(ResidualForces, AreThoseOfStringsInMeanTargetLengths) {
+  // Three strings of length 3 with target lengths 2: each end is pulled by half a target length, twice.
+  test::Triangles t = test::equilateral();
+  t.points *= 3;
+  TriMesh mesh = test::with_length(t, 2);
+  set_residual_forces(mesh, find_memory_order(mesh), 1);  // no altitude is too short
+  const Mat3X forces = vectors_of(mesh, force_property);
+  const Vec3 centre = t.points.rowwise().mean();
+  for (Eigen::Index v = 0; v < 3; ++v) {
+    const Vec3 inward = (centre - t.points.col(v)).normalized();
+    EXPECT_NEAR((forces.col(v) - .5 * std::sqrt(3) * inward).norm(), 0, 1e-12);
+  }
+}
+
+TEST(ResidualForces, FallAsTheMeshComesToRestInEveryMode) {
+  const test::Triangles t = test::sphere(2, .35, 4);
+  TriMesh start = test::with_length(t, natural(t));
+  set_residual_forces(start, find_memory_order(start), 1);
+  const double before = vectors_of(start, force_property).norm();
+  for (ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt})
+    for (IntegratorKind integrator : {IntegratorKind::lbfgs, IntegratorKind::damped}) {
+      TriMesh mesh = test::with_length(t, natural(t));
+      RemeshOptions options;
+      options.connectivity = mode;
+      options.integrator = integrator;
+      remesh(mesh, options);
+      EXPECT_LT(vectors_of(mesh, force_property).norm(), .5 * before);
+      const bool moved = integrator == IntegratorKind::damped && mode != ConnectivityMode::adapt;
+      EXPECT_EQ(vectors_of(mesh, velocity_property).norm() > 0, moved);
+    }
+}
+
 TEST(DoNoHarm, NearRegularMeshesKeepTheirLeastAngleAndTheirPlaces) {
   for (const test::Triangles& t :
        {test::sphere(1), test::sphere(2), test::sphere(3), test::sphere(3, .08, 3), ellipsoid(2, 0),

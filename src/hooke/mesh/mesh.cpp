@@ -110,6 +110,10 @@ Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property) {
   return {n ? storage.data_vector().data()->data() : nullptr, 3, n};
 }
 
+void set_vertex_vectors(TriMesh& mesh, const char* property, const Mat3X& values) {
+  as_matrix(mesh, OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, Vec3>(mesh, property)) = values;
+}
+
 std::vector<double> vertex_values(const TriMesh& mesh, const char* property) {
   OpenMesh::VPropHandleT<double> handle;
   if (!mesh.get_property_handle(handle, property))

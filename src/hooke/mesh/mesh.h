@@ -1,4 +1,10 @@
 // The mesh: an OpenMesh TriMesh in double precision with Eigen points, viewed as matrices for computations.
+//
+// OpenMesh's are the mesh that is read, handed to remesh() and back, and its properties: target lengths, and
+// after remesh() forces and velocities; and the mesh that the damped integrator steps. What is done to all
+// vertices over and over reads flat arrays (mesh/adjacency.h) in memory order instead of circulators: string
+// forces take a fifth of their time in the order of a file, half of it in memory order
+// (tests/bench/kernels.cpp: forces_by_circulators, forces_by_arrays).
 #pragma once
 
 #include <memory>
@@ -26,8 +32,8 @@ template <typename T>
 using VProp = OpenMesh::PropertyManager<OpenMesh::VPropHandleT<T>>;
 
 /// Names of the vertex properties that live on the mesh.
-inline constexpr char velocity_property[] = "v:velocity";  // Vec3, u of [17]
-inline constexpr char force_property[] = "v:force";        // Vec3, lambda F_string + mu F_torque
+inline constexpr char velocity_property[] = "v:velocity";  // Vec3, u of [17]; zero where nothing has one
+inline constexpr char force_property[] = "v:force";  // Vec3, of [17] in motion, see set_residual_forces()
 inline constexpr char target_length_property[] =
     "v:target_length";  // double; the target of an edge is the mean of its ends
 inline constexpr char edge_length_property[] =
@@ -52,6 +58,9 @@ Eigen::Map<const Mat3X> vertex_points(const TriMesh& mesh);
 
 /// A Vec3 vertex property as a 3 x |V| matrix over the storage of the mesh. Invalidated as above.
 Eigen::Map<Mat3X> as_matrix(TriMesh& mesh, const VProp<Vec3>& property);
+
+/// Sets a Vec3 vertex property to these values, by vertex id, 3 x |V|; it is added if missing.
+void set_vertex_vectors(TriMesh& mesh, const char* property, const Mat3X& values);
 
 /// The values of a vertex property of doubles, by vertex id. Throws Error if the mesh does not have it.
 std::vector<double> vertex_values(const TriMesh& mesh, const char* property);

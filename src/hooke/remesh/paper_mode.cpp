@@ -7,6 +7,7 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/remesh/remesh.h"
 #include "hooke/springs/forces.h"
 #include "hooke/working_mesh/workspace.h"
 
@@ -32,6 +33,9 @@ class PaperRun {
     result_.folded_faces = folded_faces();
     result_.input_points = work_.copy_back(mesh);
     result_.memory_order = work_.memory_order();
+    set_vertex_vectors(mesh, velocity_property,
+                       result_.memory_order.order.scatter(motion_of(mesh_).velocities));
+    set_residual_forces(mesh, result_.memory_order, options_.evolution.altitude);
     return std::move(result_);
   }
 

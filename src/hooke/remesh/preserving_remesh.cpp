@@ -393,6 +393,8 @@ RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const Re
                                const Observer& observer, Stopwatch* stopwatch) {
   Run best = PreservingRemesh(mesh, memory_order, options, preservation, known, observer, stopwatch).best();
   mesh = std::move(best.mesh);
+  if (vertex_points(mesh).allFinite())  // vertices may have been put back since
+    set_residual_forces(mesh, best.result.memory_order, options.altitude);
   return std::move(best.result);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 #include "hooke/core/error.h"
 #include "hooke/core/stopwatch.h"
@@ -14,6 +15,7 @@
 #include "hooke/mesh/wedges.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/springs/energy.h"
+#include "hooke/springs/sizing.h"
 #include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
@@ -34,6 +36,21 @@ double spread_of_edges(const Workspace& work) {
 }
 
 }  // namespace
+
+void set_residual_forces(TriMesh& mesh, const MemoryOrder& memory_order, double altitude) {
+  const Permutation& order = memory_order.order;
+  const Adjacency& c = *memory_order.adjacency;
+  const std::vector<double> lengths = vertex_values(mesh, target_length_property);
+  const double unit =
+      std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
+  std::vector<double> of_edges = target_lengths_of(mesh, order, c).edge.values();
+  for (double& length : of_edges) length /= unit;
+  const TargetLengths targets = from_edge_lengths(c, std::move(of_edges));
+  const Mat3X points = order.gather(vertex_points(mesh)) / unit;
+  Mat3X gradient;
+  Energy(c, targets, {.altitude = altitude})(points, vertex_normals(points, c), &gradient);
+  set_vertex_vectors(mesh, force_property, order.scatter(-gradient));
+}
 
 bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards) {
   const bool near_regular = min_angle(*work.start, work.adjacency->faces) >= options.angle &&
@@ -80,6 +97,13 @@ class OuterIterations {
       project_to_input();  // no iteration has done so
     conclude();
     return std::move(result_);
+  }
+
+  /// The last velocities of the damped integrator, in mean target lengths, 3 x |V| in memory order; 3 x 0
+  /// with the other one.
+  Mat3X velocities() {
+    if (moving_.n_vertices() == 0) return Mat3X(3, 0);
+    return motion_of(moving_).velocities;
   }
 
   /// Searches the angles again after edges near slivers have changed. `result`: of the run so far, which took
@@ -145,8 +169,8 @@ class OuterIterations {
       case IntegratorKind::lbfgs:
         return relax_lbfgs(r, integration(), lbfgs(), watch("relax"));
       case IntegratorKind::damped: {
-        TriMesh moving = build_mesh(work_.positions.points, *work_.adjacency);
-        return relax_damped(r, moving, integration(), options_.damped, watch("relax"));
+        if (moving_.n_vertices() == 0) moving_ = build_mesh(work_.positions.points, *work_.adjacency);
+        return relax_damped(r, moving_, integration(), options_.damped, watch("relax"));
       }
     }
     throw Error("unknown integrator");
@@ -274,6 +298,7 @@ class OuterIterations {
   Guards guards_;
   FinalProjection projection_;
   RemeshResult result_;
+  TriMesh moving_;  // with velocities and forces; made by the first damped relaxation
   double seconds_before_ = 0;
   int outer_ = 0;
   bool guard_limited_ = true;  // did guards limit steps of the last relaxation?
@@ -378,7 +403,9 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
   const bool near_regular = options.connectivity == ConnectivityMode::fixed && !work.has_edge_lengths() &&
                             keep_near_regular(work, options.near_regular, then.guards);
   if (adapted.levels > 0 && options.polish_angles) then = after_coarse_levels(std::move(then));
-  RemeshResult result = OuterIterations(work, then, observer).run(flips);
+  OuterIterations iterations(work, then, observer);
+  RemeshResult result = iterations.run(flips);
+  const Mat3X velocities = iterations.velocities();
   result.near_regular = near_regular;
   result.adaptation = adapted;
   switch (options.connectivity) {
@@ -400,6 +427,12 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
   if (options.map) result.map = work.map();
   result.input_points = work.copy_back(mesh);
   result.memory_order = work.memory_order();
+  const bool has_velocities =
+      velocities.cols() > 0 && options.connectivity != ConnectivityMode::adapt;  // by the same vertices
+  set_vertex_vectors(mesh, velocity_property,
+                     has_velocities ? result.memory_order.order.scatter(velocities)
+                                    : Mat3X(Mat3X::Zero(3, vertex_points(mesh).cols())));
+  set_residual_forces(mesh, result.memory_order, options.altitude);
   return result;
 }
 
