@@ -215,7 +215,7 @@ def without_threes(surface, points, faces):
                 d = next(w for w in faces[g].tolist() if w not in (a, b))
                 pair = np.array([[v, a, d], [v, d, b]])
                 upright = (dot(face_vectors(points, pair), surface.normals(points[[v, v]])) > 1e-13).all()
-                if upright and (v, d) not in face_of:
+                if upright and (v, d) not in face_of and (d, v) not in face_of:
                     options.append((least_angles(points, pair).min(), f, g, pair))
             if options:
                 _, f, g, pair = max(options, key=lambda option: option[0])
@@ -242,6 +242,8 @@ def relieve_corners(surface, points, faces, least=.5):
             options = []
             for w in set(after) & set(before):  # the edge from v to w, between the faces v a w and v w b
                 a, b = (next(x for x in faces[f] if x not in (v, w)) for f in (before[w], after[w]))
+                if np.any((faces == a).any(axis=1) & (faces == b).any(axis=1)):
+                    continue  # they are joined already
                 pair = np.array([[v, a, b], [a, w, b]])
                 options.append((least_angles(points, pair).min(), before[w], after[w], pair))
             if not options or angle / len(mine) >= least:
