@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
 #include "hooke/core/printable.h"
 #include "hooke/remesh/result.h"
+#include "hooke/report/outcome.h"
 #include "hooke/report/table.h"
 
 namespace hooke::app {
@@ -17,6 +19,29 @@ namespace {
 template <typename... Arguments>
 void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   std::fputs(fmt::format(text, std::forward<Arguments>(arguments)...).c_str(), stderr);
+}
+
+/// The text in lines of at most 80 columns.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t width = 80;
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::size_t length = end - begin;
+    if (column > 0 && column + 1 + length > width) {
+      lines += '\n';
+      column = 0;
+    }
+    if (column > 0) {
+      lines += ' ';
+      ++column;
+    }
+    lines.append(text, begin, length);
+    column += length;
+    begin = end + 1;
+  }
+  return lines;
 }
 
 std::string reason_in_words(const RunRecord& run) {
@@ -80,8 +105,12 @@ void print_summary(const Settings& s, const RunRecord& run) {
     return;
   }
   if (s.verbose) print_iterations(*run.result);
+  say("{}\n\n", wrapped(outcome_in_words(run)));
   say("{}", quality_table(run.before, *run.after, *run.deviation));
-  say("\n{}\n", reason_in_words(run));
+  say("\n{}\n", wrapped(reason_in_words(run)));
+  if (!s.paper)
+    if (const std::string advice = advice_in_words(run, s.remesh.connectivity); !advice.empty())
+      say("{}\n", wrapped(advice));
   if (run.result->near_regular)
     say("the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
   const FlipResult& f = run.result->flips;
@@ -95,7 +124,7 @@ void print_summary(const Settings& s, const RunRecord& run) {
         f.max_travel, f.rms_travel);
   std::string files = run.output->path;
   for (const std::filesystem::path& further :
-       {std::filesystem::path(s.report), s.map, s.trace, s.trace_steps})
+       {std::filesystem::path(s.report), s.fields, s.map, s.trace, s.trace_steps})
     if (!further.empty() && further != "-") files += ", " + printable(further.string());
   say("{} written in {:.2f} s\n", files, run.resources.wall_s);
 }

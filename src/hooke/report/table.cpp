@@ -36,6 +36,8 @@ std::vector<Row> rows_of(const Quality& q) {
       {"minimum angle (deg)", text(q.min_angle.min)},
       {"  5th percentile", text(q.min_angle.p05)},
       {"  median", text(q.min_angle.median)},
+      {"  faces below 20", text(count_below(q.min_angle.histogram, 20))},
+      {"  faces below 30", text(count_below(q.min_angle.histogram, 30))},
       {"maximum angle (deg)", text(q.max_angle.max)},
       {"edge length, mean", text(q.edge_length.mean)},
       {"  standard deviation", text(q.edge_length.std)},
@@ -51,7 +53,9 @@ std::vector<Row> rows_of(const Quality& q) {
 }
 
 std::string deviation_rows(const Deviation& d) {
-  const auto share = [&](double x) { return fmt::format("{} of the diagonal", text(x / d.diagonal)); };
+  const auto share = [&](double x) {
+    return fmt::format("{} % of the diagonal", text(100 * x / d.diagonal));
+  };
   const auto row = [](const char* name, const std::string& value, const std::string& note) {
     return fmt::format("{:<24}{:>12}{}{}\n", name, value, note.empty() ? "" : "    ", note);
   };
@@ -65,6 +69,7 @@ std::string deviation_rows(const Deviation& d) {
     const double boundary = std::max(*d.boundary_to_reference, *d.boundary_from_reference);
     out += row("distance of the boundary", text(boundary), share(boundary));
   }
+  if (d.volume_change) out += row("change of the volume", text(100 * *d.volume_change), "%");
   out += row("flipped faces", text(d.flipped_faces.size()), "");
   return out;
 }

@@ -1,0 +1,68 @@
+#include "hooke/report/outcome.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace hooke {
+namespace {
+
+constexpr double poor = 20, fair = 30;  // degrees
+
+/// What holds the worst face, the first of its reasons that has words; empty without one.
+std::string held_by(const Quality& q) {
+  static constexpr std::array<std::pair<std::string_view, const char*>, 7> words{{
+      {"corner", "a sharp corner of the input"},
+      {"fixed", "fixed vertices"},
+      {"crease", "a crease"},
+      {"boundary", "the boundary"},
+      {"put_back", "a vertex that was put back to keep the surface"},
+      {"valence", "how many faces meet at a vertex"},
+      {"guard", "the shape of the surface there"},
+  }};
+  if (q.worst_faces.empty()) return "";
+  const auto& reasons = q.worst_faces.front().reasons;
+  for (const auto& [reason, text] : words)
+    if (std::ranges::find(reasons, reason) != reasons.end()) return text;
+  return "";
+}
+
+}  // namespace
+
+std::string outcome_in_words(const RunRecord& run) {
+  const Quality &before = run.before, &after = *run.after;
+  std::string text =
+      fmt::format("minimum angle {:.3g} -> {:.3g} degrees; {} of {} faces below {:g} ({} before)",
+                  before.min_angle.min, after.min_angle.min, count_below(after.min_angle.histogram, poor),
+                  after.topology.faces, poor, count_below(before.min_angle.histogram, poor));
+  const std::string holder = held_by(after);
+  if (after.min_angle.min < fair && !holder.empty()) text += "; the worst is held by " + holder;
+  const double moved = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
+  return text + fmt::format("; the surface moved by at most {:.2g} % of its size",
+                            100 * moved / run.deviation->diagonal);
+}
+
+std::string advice_in_words(const RunRecord& run, ConnectivityMode mode) {
+  if (run.after->min_angle.min >= fair) return "";
+  const bool many = count_below(run.after->min_angle.histogram, fair) > 1;
+  const char* const faces = many ? "these faces" : "this face";
+  switch (mode) {
+    case ConnectivityMode::fixed:
+      return fmt::format(
+          "for better angles let edges change: --connectivity flip keeps the vertices of {}, adapt makes "
+          "new ones",
+          faces);
+    case ConnectivityMode::flip:
+      return fmt::format("for better angles --connectivity adapt makes new vertices where {} {}", faces,
+                         many ? "are" : "is");
+    case ConnectivityMode::adapt:
+      return "";
+  }
+  return "";
+}
+
+}  // namespace hooke

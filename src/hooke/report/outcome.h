@@ -1,0 +1,20 @@
+// What a run came to, in one line for people: angles, what holds the worst of them, and how far the surface
+// went.
+#pragma once
+
+#include <string>
+
+#include "hooke/remesh/options.h"
+#include "hooke/report/report.h"
+
+namespace hooke {
+
+/// "minimum angle 1.23 -> 27.8 degrees; 0 faces below 20 degrees (326 before); the worst is held by ...; the
+/// surface moved by at most 0.4 % of its size". Pre-condition: the run has a result.
+std::string outcome_in_words(const RunRecord& run);
+
+/// The one change of options that would help most, for a run with this connectivity, or an empty text:
+/// "--connectivity flip ..." where the neighbours of vertices hold small angles that other edges would not.
+std::string advice_in_words(const RunRecord& run, ConnectivityMode mode);
+
+}  // namespace hooke
