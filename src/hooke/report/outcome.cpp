@@ -48,17 +48,12 @@ std::string outcome_in_words(const RunRecord& run) {
 
 std::string advice_in_words(const RunRecord& run, ConnectivityMode mode) {
   if (run.after->min_angle.min >= fair) return "";
-  const bool many = count_below(run.after->min_angle.histogram, fair) > 1;
-  const char* const faces = many ? "these faces" : "this face";
   switch (mode) {
     case ConnectivityMode::fixed:
-      return fmt::format(
-          "for better angles let edges change: --connectivity flip keeps the vertices of {}, adapt makes "
-          "new ones",
-          faces);
+      return "for better angles let edges change: --connectivity flip keeps the vertices, adapt makes new "
+             "ones";
     case ConnectivityMode::flip:
-      return fmt::format("for better angles --connectivity adapt makes new vertices where {} {}", faces,
-                         many ? "are" : "is");
+      return "for better angles --connectivity adapt makes new vertices";
     case ConnectivityMode::adapt:
       return "";
   }
