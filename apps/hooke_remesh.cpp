@@ -66,11 +66,11 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Ori
                    : loaded.vertex_data;
   if (has_normals(data))
     set_normals(data, memory_order.order.scatter(vertex_normals(points, *memory_order.adjacency)));
-  FormatData converted = data_for_format(data, loaded.format, s.format);
+  FormatData converted = data_for_format(data, loaded.format, *s.format);
   if (!converted.dropped.empty())
     run.warnings.push_back({"attributes_not_kept",
                             fmt::format("{}: {} files cannot hold {}; use PLY", printable(s.output.string()),
-                                        s.format, fmt::join(converted.dropped, ", "))});
+                                        name_of(*s.format), fmt::join(converted.dropped, ", "))});
   return std::move(converted.data);
 }
 
@@ -182,9 +182,10 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
       face.reasons = limiting_factors(face, done.vertex_limits);
   const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
-    return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
+    return prepare_mesh(s.output, mesh, *s.format, loaded.encoding, data, &stopwatch);
   });
-  record.output = {printable(s.output.string()), written.sha256, s.format, written.connectivity_sha256};
+  record.output = {printable(s.output.string()), written.sha256, name_of(*s.format),
+                   written.connectivity_sha256};
   files.add(std::move(written.file));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
   add_result_warnings(s, record);
@@ -217,7 +218,7 @@ int run(Settings s) {
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
-  record.input = {name_of_input(s), loaded.sha256, loaded.format, loaded.connectivity_sha256};
+  record.input = {name_of_input(s), loaded.sha256, name_of(loaded.format), loaded.connectivity_sha256};
   record.warnings = loaded.warnings;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);

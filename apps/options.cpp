@@ -247,8 +247,9 @@ void add_run(CLI::App& app, Settings& s) {
 void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option("INPUT", s.input, "Mesh to read: .obj, .ply or .off")->required()->type_name("");
   add_file(app, "-o,--output", s.output, "Mesh to write; required unless --check");
-  add_choice(app, "--format", s.format, "Format of the output (default: by extension)",
-             Choices<std::string>{{"obj", "obj"}, {"ply", "ply"}, {"off", "off"}});
+  add_choice(
+      app, "--format", s.format, "Format of the output (default: by extension)",
+      Choices<MeshFormat>{{"obj", MeshFormat::obj}, {"ply", MeshFormat::ply}, {"off", MeshFormat::off}});
   app.option_defaults()->group("Target");
   add_target(app, s, raw);
   app.option_defaults()->group("Method");

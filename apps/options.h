@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hooke/io/mesh_format.h"
 #include "hooke/measure/preservation.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
@@ -18,8 +19,8 @@ enum class ProgressStyle { automatic, bar, none };
 /// All settings of a run.
 struct Settings {
   std::filesystem::path input;
-  std::filesystem::path output;  // empty with --check
-  std::string format;            // output format: "obj", "ply" or "off"
+  std::filesystem::path output;      // empty with --check
+  std::optional<MeshFormat> format;  // of the output; set by its extension if not given
   LengthSpec length;
   std::string length_text = "auto";
   SizingSource sizing;

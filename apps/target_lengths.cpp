@@ -26,7 +26,7 @@ constexpr double max_relative_length = .1;  // maximum, relative to the diagonal
 std::vector<double> read_property(const std::string& property, const std::filesystem::path& mesh_file,
                                   int count) {
   const std::string name = printable(mesh_file.native());
-  if (input_format_of(mesh_file) != "ply")
+  if (input_format_of(mesh_file) != MeshFormat::ply)
     throw Error(fmt::format("{}: sizing by the property {}; expected a PLY file; name a file of lengths",
                             name, in_quotes(property)));
   const FileBytes file = read_regular_file(mesh_file);

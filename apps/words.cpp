@@ -161,7 +161,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (s.threads == 0) s.threads = threads_of_environment();
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
-  if (s.format.empty()) s.format = format_of(s.output);
+  if (!s.format) s.format = format_of(s.output);
 }
 
 }  // namespace hooke::app

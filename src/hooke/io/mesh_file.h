@@ -2,10 +2,10 @@
 // vertex data between these formats.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "hooke/io/mesh_format.h"
 #include "hooke/mesh/attributes.h"
 
 namespace hooke {
@@ -15,8 +15,8 @@ enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
 /// The content of a mesh file. Invariant: points are finite, every polygon has at least three corners, and
 /// corners are vertex ids in [0, points.cols()).
 struct MeshFile {
-  std::string name;                                          // printable name of the file, for messages
-  std::string format;                                        // "obj", "ply" or "off"
+  std::string name;  // printable name of the file, for messages
+  MeshFormat format = MeshFormat::obj;
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a PLY file
   Mat3X points;                                              // vertices in file order
   IntLists polygons{{0}, {}};  // vertex ids (0-based) of each face, in file order
@@ -25,15 +25,9 @@ struct MeshFile {
   Warnings warnings;
 };
 
-/// The format given by the file extension, ignoring case: "obj", "ply" or "off". Throws Error for others.
-std::string format_of(const std::filesystem::path& path);
-
-/// The same for an input file: throws InputError.
-std::string input_format_of(const std::filesystem::path& path);
-
-/// Parses the bytes of a mesh file. `format` is as returned by format_of(); `name` is printable and begins
-/// all messages. Throws InputError "NAME:LINE: problem; what was expected; what to do" for malformed bytes.
-MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const std::string& format);
+/// Parses the bytes of a mesh file. `name` is printable and begins all messages. Throws InputError
+/// "NAME:LINE: problem; what was expected; what to do" for malformed bytes.
+MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, MeshFormat format);
 
 /// Completes the polygon whose corners were appended to file.polygons.items. Throws LimitError for more than
 /// 2^31 - 1 corners in all.
@@ -57,6 +51,6 @@ struct FormatData {
 /// third texture coordinate. Colours of integer types range up to the maximum of the type, others up to 1;
 /// they become 8-bit integers, but numbers from 0 to 1 in OBJ. The PLY names texture_u and texture_v stand
 /// for s and t.
-FormatData data_for_format(const VertexData& data, const std::string& from, const std::string& to);
+FormatData data_for_format(const VertexData& data, MeshFormat from, MeshFormat to);
 
 }  // namespace hooke

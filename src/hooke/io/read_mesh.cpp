@@ -38,7 +38,7 @@ MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& trian
 }  // namespace
 
 LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
-  const std::string format = input_format_of(path);
+  const MeshFormat format = input_format_of(path);
   FileBytes content = timed(stopwatch, "file", [&] { return read_regular_file(path); });
   MeshFile file = timed(stopwatch, "parse",
                         [&] { return parse_mesh_file(content.text(), printable(path.native()), format); });

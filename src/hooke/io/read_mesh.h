@@ -14,7 +14,7 @@ namespace hooke {
 struct LoadedMesh {
   TriMesh mesh;              // vertices and faces in file order; triangles of a polygon are consecutive
   MemoryOrder memory_order;  // memory order of the mesh, with its adjacency
-  std::string format;        // "obj", "ply" or "off"
+  MeshFormat format = MeshFormat::obj;
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a PLY file
   std::string sha256;                                        // of the bytes of the file, hexadecimal
   std::string connectivity_sha256;                           // see sha256.h

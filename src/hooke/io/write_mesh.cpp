@@ -1,12 +1,8 @@
 #include "hooke/io/write_mesh.h"
 
-#include <fmt/format.h>
-
 #include <optional>
 
-#include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
-#include "hooke/core/printable.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
@@ -16,23 +12,27 @@ namespace hooke {
 
 namespace {
 
-std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, const std::string& format,
+std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, MeshFormat format,
                      PlyEncoding encoding, const VertexData& data) {
   const auto points = vertex_points(mesh);
-  if (format == "obj") return write_obj(points, triangles, data);
-  if (format == "ply") return write_ply(points, triangles, encoding, data);
-  if (format == "off") return write_off(points, triangles, data);
-  throw Error(fmt::format("format {}; expected obj, ply or off; choose one of them", in_quotes(format)));
+  switch (format) {
+    case MeshFormat::obj:
+      return write_obj(points, triangles, data);
+    case MeshFormat::ply:
+      return write_ply(points, triangles, encoding, data);
+    case MeshFormat::off:
+      break;
+  }
+  return write_off(points, triangles, data);
 }
 
 }  // namespace
 
-std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncoding encoding,
-                       const VertexData& data) {
+std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const VertexData& data) {
   return bytes_of(mesh, triangles_of(mesh), format, encoding, data);
 }
 
-PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
+PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
                          PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
   std::vector<Triangle> triangles;
   const std::string bytes = timed(stopwatch, "format", [&] {

@@ -11,10 +11,10 @@
 
 namespace hooke {
 
-/// The bytes of a mesh file in the format "obj", "ply" or "off"; `encoding` applies to PLY only. Coordinates
+/// The bytes of a mesh file; `encoding` applies to PLY only. Coordinates
 /// read back exactly; vertices and faces keep their order. Of the data, the channels that the format can hold
-/// are written (see data_for_format()). Throws Error for another format.
-std::string mesh_bytes(const TriMesh& mesh, const std::string& format,
+/// are written (see data_for_format()).
+std::string mesh_bytes(const TriMesh& mesh, MeshFormat format,
                        PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
 
 /// A mesh file that is written but not yet committed.
@@ -26,7 +26,7 @@ struct PendingMesh {
 
 /// Writes mesh_bytes() to a temporary file for `path`. Throws what PendingFile and mesh_bytes() throw.
 /// `format` is usually format_of(path).
-PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
+PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
                          PlyEncoding encoding = PlyEncoding::binary_little_endian,
                          const VertexData& data = {}, Stopwatch* stopwatch = nullptr);
 
