@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -13,8 +15,10 @@
 #include "hooke/core/parallel.h"
 #include "hooke/core/printable.h"
 #include "hooke/core/stopwatch.h"
+#include "hooke/io/files.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/read_mesh.h"
+#include "hooke/io/stl.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/io/write_mesh.h"
 #include "hooke/measure/quality.h"
@@ -40,8 +44,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string name_of_input(const Settings& s) {
-  return printable(s.input.string());
+std::string name_of_output(const Settings& s) {
+  return is_standard_output(s.output) ? "standard output" : printable(s.output.string());
 }
 
 bool keeps_faces(const Settings& s) {
@@ -68,10 +72,33 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Ori
     set_normals(data, memory_order.order.scatter(vertex_normals(points, *memory_order.adjacency)));
   FormatData converted = data_for_format(data, loaded.format, *s.format);
   if (!converted.dropped.empty())
-    run.warnings.push_back({"attributes_not_kept",
-                            fmt::format("{}: {} files cannot hold {}; use PLY", printable(s.output.string()),
-                                        name_of(*s.format), fmt::join(converted.dropped, ", "))});
+    run.warnings.push_back(
+        {"attributes_not_kept", fmt::format("{}: {} files cannot hold {}; use PLY", name_of_output(s),
+                                            name_of(*s.format), fmt::join(converted.dropped, ", "))});
   return std::move(converted.data);
+}
+
+/// A file of the input's format is encoded like the input, others are binary where they can be.
+PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
+  return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
+}
+
+/// The face data of the input that the output can hold, if the faces are the same.
+FaceData face_data_of_result(const Settings& s, const LoadedMesh& loaded, PlyEncoding encoding,
+                             RunRecord& run) {
+  FormatFaceData converted = face_data_for_format(loaded.face_data, *s.format, encoding);
+  const auto drop = [&](const std::string& why, const std::vector<std::string>& names) {
+    run.warnings.push_back(
+        {"attributes_not_kept",
+         fmt::format("{}: face data not kept: {}: {}", name_of_output(s), fmt::join(names, ", "), why)});
+  };
+  if (!converted.dropped.empty())
+    drop(fmt::format("{} files cannot hold it; use MSH", name_of(*s.format)), converted.dropped);
+  if (keeps_faces(s) || converted.data.empty()) return std::move(converted.data);
+  std::vector<std::string> names;
+  for (const FaceChannel& channel : converted.data) names.push_back(channel.name);
+  drop("new faces have none; use --connectivity fixed", names);
+  return {};
 }
 
 MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwatch& stopwatch,
@@ -110,7 +137,7 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order
     line.show(p);
     return caught_signal() == 0;
   };
-  return in_the_name_of(name_of_input(s), [&] {
+  return in_the_name_of(name_of_input(s.input), [&] {
     return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, observer)
                    : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation, known,
                                        observer, &stopwatch);
@@ -144,7 +171,7 @@ void measure_deviation_from_input(const Original& original, const MeasuredSurfac
 void require_promises(const Settings& s, const RunRecord& record) {
   if (s.accept_invalid || record.result->reason == StopReason::interrupted) return;
   const std::string broken = broken_promises(s, record);
-  if (!broken.empty()) throw ResultError(printable(s.output.string()) + ": not written: " + broken);
+  if (!broken.empty()) throw ResultError(name_of_output(s) + ": not written: " + broken);
 }
 
 /// Optimizes the mesh, measures the result and prepares its output files.
@@ -181,11 +208,15 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
     for (WorstFace& face : record.after->worst_faces)
       face.reasons = limiting_factors(face, done.vertex_limits);
   const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
+  const PlyEncoding encoding = encoding_of_output(s, loaded);
+  const FaceData face_data = face_data_of_result(s, loaded, encoding, record);
+  if (s.format == MeshFormat::stl)
+    std::ranges::move(losses_in_stl(vertex_points(mesh), triangles_of(mesh), encoding, name_of_output(s)),
+                      std::back_inserter(record.warnings));
   PendingMesh written = timed(&stopwatch, "write", [&] {
-    return prepare_mesh(s.output, mesh, *s.format, loaded.encoding, data, &stopwatch);
+    return prepare_mesh(s.output, mesh, *s.format, encoding, data, face_data, &stopwatch);
   });
-  record.output = {printable(s.output.string()), written.sha256, name_of(*s.format),
-                   written.connectivity_sha256};
+  record.output = {name_of_output(s), written.sha256, name_of(*s.format), written.connectivity_sha256};
   files.add(std::move(written.file));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
   add_result_warnings(s, record);
@@ -200,6 +231,8 @@ void finish(const Settings& s, const RunRecord& record, OutputFiles& files) {
   if (!s.report.empty() && s.report != "-") files.add(PendingFile(s.report, report_text(record)));
   if (s.report == "-") write_to_standard_output(report_text(record));
   files.commit();
+  if (!s.quiet)
+    for (const Warning& note : record.notes) print_note(note);
   for (const Warning& w : record.warnings) print_warning(w);
   if (!s.quiet) print_summary(s, record);
 }
@@ -210,7 +243,10 @@ int run(Settings s) {
   require_outputs(s);
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
   Stopwatch stopwatch;
-  LoadedMesh loaded = timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch); });
+  LoadedMesh loaded =
+      timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch, {s.input_format}); });
+  if (s.format == MeshFormat::msh && loaded.format == MeshFormat::msh2 && !s.format_given)
+    s.format = MeshFormat::msh2;
   if (!s.fix.empty())
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
         read_id_list(s.fix, loaded.memory_order.adjacency->vertex_count);
@@ -218,8 +254,9 @@ int run(Settings s) {
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
-  record.input = {name_of_input(s), loaded.sha256, name_of(loaded.format), loaded.connectivity_sha256};
+  record.input = {name_of_input(s.input), loaded.sha256, name_of(loaded.format), loaded.connectivity_sha256};
   record.warnings = loaded.warnings;
+  record.notes = loaded.notes;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
   Original original;
@@ -269,11 +306,11 @@ int main(int argc, char** argv) {
     print_error(e.what());
     return usage;
   } catch (const std::bad_alloc&) {
-    print_error(printable(parsed.settings->input.string()) +
+    print_error(name_of_input(parsed.settings->input) +
                 ": out of memory; expected a smaller mesh or more memory");
     return limit_reached;
   } catch (const std::exception& e) {
-    print_error(printable(parsed.settings->input.string()) + ": internal error: " + e.what());
+    print_error(name_of_input(parsed.settings->input) + ": internal error: " + e.what());
     return internal_error;
   }
 }

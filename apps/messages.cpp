@@ -54,6 +54,10 @@ void print_warning(const Warning& warning) {
   say("hooke-remesh: warning: {}\n", printable(warning.message));
 }
 
+void print_note(const Warning& note) {
+  say("hooke-remesh: note: {}\n", printable(note.message));
+}
+
 std::string paper_message(const RemeshResult& r) {
   const BoundCounts& b = r.bound;
   long long steps = 0;

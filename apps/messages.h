@@ -11,6 +11,7 @@ namespace hooke::app {
 
 void print_error(const std::string& message);
 void print_warning(const Warning& warning);
+void print_note(const Warning& note);
 
 /// Prints the result in words and a table of the quality before and after; with --check, of the input only.
 void print_summary(const Settings& settings, const RunRecord& run);

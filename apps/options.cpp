@@ -78,6 +78,14 @@ CLI::Validator file_name() {
   return {check, ""};
 }
 
+/// Accepts any name but the empty one; `-` stands for a standard stream.
+CLI::Validator named() {
+  const auto check = [](const std::string& text) {
+    return text.empty() ? "''; expected the name of a file, or -" : std::string();
+  };
+  return {check, ""};
+}
+
 CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file, const char* help) {
   return app.add_option(name, file, help)->check(file_name())->type_name("FILE");
 }
@@ -209,11 +217,7 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
 void add_reports(CLI::App& app, Settings& s) {
   app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return text.empty() ? "''; expected the name of a file, or -" : std::string();
-          },
-          ""))
+      ->check(named())
       ->type_name("FILE");
   add_file(app, "--trace", s.trace, "Seconds and memory of every stage, as CSV");
   add_file(app, "--trace-steps", s.trace_steps,
@@ -245,11 +249,28 @@ void add_run(CLI::App& app, Settings& s) {
 }
 
 void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
-  app.add_option("INPUT", s.input, "Mesh to read: .obj, .ply or .off")->required()->type_name("");
-  add_file(app, "-o,--output", s.output, "Mesh to write; required unless --check");
-  add_choice(
-      app, "--format", s.format, "Format of the output (default: by extension)",
-      Choices<MeshFormat>{{"obj", MeshFormat::obj}, {"ply", MeshFormat::ply}, {"off", MeshFormat::off}});
+  app.add_option("INPUT", s.input,
+                 "Mesh to read: .obj, .ply, .off, .stl, .msh (Gmsh) or .vtp; - for standard input")
+      ->required()
+      ->type_name("");
+  app.add_option("-o,--output", s.output, "Mesh to write; required unless --check; - for standard output")
+      ->check(named())
+      ->type_name("FILE");
+  add_choice(app, "--input-format", s.input_format, "Format of the input (default: by extension)",
+             Choices<MeshFormat>{{"obj", MeshFormat::obj},
+                                 {"ply", MeshFormat::ply},
+                                 {"off", MeshFormat::off},
+                                 {"stl", MeshFormat::stl},
+                                 {"msh", MeshFormat::msh},
+                                 {"vtp", MeshFormat::vtp}});
+  add_choice(app, "--format", s.format,
+             "Format of the output (default: by extension); msh is Gmsh 4.1, msh2 Gmsh 2.2",
+             Choices<MeshFormat>{{"obj", MeshFormat::obj},
+                                 {"ply", MeshFormat::ply},
+                                 {"off", MeshFormat::off},
+                                 {"stl", MeshFormat::stl},
+                                 {"msh", MeshFormat::msh},
+                                 {"msh2", MeshFormat::msh2}});
   app.option_defaults()->group("Target");
   add_target(app, s, raw);
   app.option_defaults()->group("Method");

@@ -18,9 +18,11 @@ enum class ProgressStyle { automatic, bar, none };
 
 /// All settings of a run.
 struct Settings {
-  std::filesystem::path input;
-  std::filesystem::path output;      // empty with --check
-  std::optional<MeshFormat> format;  // of the output; set by its extension if not given
+  std::filesystem::path input;             // "-" for standard input
+  std::filesystem::path output;            // empty with --check; "-" for standard output
+  std::optional<MeshFormat> input_format;  // none: by the extension
+  std::optional<MeshFormat> format;        // of the output; set by its extension if not given
+  bool format_given = false;               // by --format
   LengthSpec length;
   std::string length_text = "auto";
   SizingSource sizing;

@@ -10,7 +10,8 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
-#include "hooke/io/mesh_file.h"
+#include "hooke/io/files.h"
+#include "hooke/io/mesh_format.h"
 #include "hooke/remesh/options.h"
 #include "hooke/springs/sizing.h"
 
@@ -135,10 +136,32 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
 
 }  // namespace
 
+namespace {
+
+/// Throws Error if a standard stream is used twice, or without its format.
+void require_streams(const Settings& s) {
+  if (is_standard_input(s.input) && !s.input_format)
+    throw Error(
+        "INPUT is standard input, which has no extension; give --input-format obj|ply|off|stl|msh|vtp");
+  if (is_standard_input(s.input) && s.sizing.kind == SizingSource::Kind::ply_property)
+    throw Error(
+        "--sizing ply:PROPERTY reads the input a second time; expected a file, not standard input; name one");
+  if (is_standard_output(s.output) && s.report == "-")
+    throw Error("--output - and --report - both write to standard output; name a file for one of them");
+}
+
+MeshFormat format_of_output(const Settings& s) {
+  if (!is_standard_output(s.output)) return format_of(s.output);
+  throw Error("--output is standard output, which has no extension; give --format obj|ply|off|stl|msh|msh2");
+}
+
+}  // namespace
+
 void resolve(Settings& s, const RawOptions& raw) {
   s.length = parsed("--length", parse_length, s.length_text);
   resolve_sizing(s, raw);
   reject_unused_options(s, raw);
+  require_streams(s);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
   s.remesh.map = !s.map.empty();
@@ -161,7 +184,8 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (s.threads == 0) s.threads = threads_of_environment();
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
-  if (!s.format) s.format = format_of(s.output);
+  s.format_given = s.format.has_value();
+  if (!s.format_given) s.format = format_of_output(s);
 }
 
 }  // namespace hooke::app

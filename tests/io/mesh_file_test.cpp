@@ -26,10 +26,16 @@ TEST(MeshFile, TheExtensionInAnyCaseIsTheFormat) {
   EXPECT_EQ(format_of("a/b.c.OBJ"), MeshFormat::obj);
   EXPECT_EQ(format_of("x.Ply"), MeshFormat::ply);
   EXPECT_EQ(format_of(".hidden.off"), MeshFormat::off);
-  for (const char* name : {"", "x", "x.", "x.o", "x.stl", "obj", ".obj", "x.obj/", "x.obj.gz"})
+  for (const char* name : {"", "x", "x.", "x.o", "x.vtp", "x.3ds", "obj", ".obj", "x.obj/", "x.obj.gz"})
     EXPECT_THROW(format_of(name), Error) << name;
-  EXPECT_ERROR(Error, "a.stl: unknown format; expected .obj .ply .off", format_of("a.stl"));
-  EXPECT_ERROR(InputError, "a.stl: unknown format; expected .obj .ply .off", input_format_of("a.stl"));
+  EXPECT_EQ(format_of("x.STL"), MeshFormat::stl);
+  EXPECT_EQ(format_of("x.msh"), MeshFormat::msh);
+  EXPECT_EQ(input_format_of("x.vtp"), MeshFormat::vtp);
+  EXPECT_ERROR(Error, "a.3ds: unknown format; expected .obj .ply .off .stl .msh", format_of("a.3ds"));
+  EXPECT_ERROR(Error, "a.vtp: VTP can only be read", format_of("a.vtp"));
+  EXPECT_ERROR(InputError, "a.3ds: unknown format; expected .obj .ply .off .stl .msh .vtp",
+               input_format_of("a.3ds"));
+  EXPECT_TRUE(has(test::message_of<InputError>([] { input_format_of("a.3ds"); }), "meshio, gmsh or admesh"));
 }
 
 TEST(MeshFile, AByteOrderMarkIsNotContent) {
@@ -46,7 +52,7 @@ TEST(MeshFile, ContentOfAnotherFormatIsNamed) {
   EXPECT_TRUE(has(error(off, MeshFormat::ply), "looks like off; expected ply"));
   EXPECT_TRUE(has(error(obj, MeshFormat::off), "looks like obj; expected off"));
   EXPECT_TRUE(has(error("ply\nformat ascii 1.0\n", MeshFormat::obj), "looks like ply; expected obj"));
-  EXPECT_TRUE(has(error("solid x\nfacet\n", MeshFormat::obj), "looks like STL"));
+  EXPECT_TRUE(has(error("solid x\nfacet\n", MeshFormat::obj), "looks like stl"));
   EXPECT_TRUE(
       has(error(std::string(80, 'h') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), MeshFormat::obj),
           "looks like binary STL"));

@@ -120,7 +120,7 @@ TEST(ReadMesh, ErrorsOfEachKindKeepTheirKind) {
   write_text(folder / "bad.obj", "v 0 0 x\n");
   EXPECT_THROW(read_mesh(folder / "points.obj"), MeshError);
   EXPECT_THROW(read_mesh(folder / "bad.obj"), InputError);
-  EXPECT_THROW(read_mesh(folder / "m.stl"), InputError);
+  EXPECT_THROW(read_mesh(folder / "m.3ds"), InputError);
   EXPECT_THROW(prepare_mesh(folder / "no/m.obj", test::to_mesh(test::sphere(0)), MeshFormat::obj),
                OutputError);
 }

@@ -9,9 +9,12 @@
 #include <limits>
 
 #include "hooke/core/error.h"
+#include "hooke/io/msh.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
+#include "hooke/io/stl.h"
+#include "hooke/io/vtp.h"
 
 namespace hooke {
 namespace {
@@ -31,9 +34,16 @@ MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, MeshFo
     case MeshFormat::ply:
       return read_ply(bytes, name);
     case MeshFormat::off:
+      return read_off(bytes, name);
+    case MeshFormat::stl:
+      return read_stl(bytes, name);
+    case MeshFormat::msh:
+    case MeshFormat::msh2:
+      return read_msh(bytes, name);
+    case MeshFormat::vtp:
       break;
   }
-  return read_off(bytes, name);
+  return read_vtp(bytes, name);
 }
 
 namespace {
@@ -129,6 +139,9 @@ VertexData with_common_names(VertexData data) {
 class CommonData {
  public:
   CommonData(const VertexData& data, MeshFormat format) {
+    const bool holds_any =
+        format == MeshFormat::obj || format == MeshFormat::ply || format == MeshFormat::off;
+    if (!holds_any) return;
     const ChannelNames colours = colour_names, texture = texture_names;
     if (has_all(data, colours.first(3))) colours_ = colours.first(format == MeshFormat::obj ? 3 : 4);
     if (has_all(data, normal_names)) normals_ = normal_names;
@@ -161,6 +174,39 @@ FormatData data_for_format(const VertexData& data, MeshFormat from, MeshFormat t
   }
   if (to == MeshFormat::off && common.is_colour("red") && !find_channel(named, "alpha"))
     result.data.push_back({"alpha", NumberType::uint8, std::vector(named.front().values.size(), 255.)});
+  return result;
+}
+
+namespace {
+
+bool holds(MeshFormat format, PlyEncoding encoding, const std::string& channel) {
+  switch (format) {
+    case MeshFormat::msh:
+    case MeshFormat::msh2:
+      return channel == group_channel || channel == entity_channel;
+    case MeshFormat::stl:
+      return channel == (encoding == PlyEncoding::ascii ? group_channel : attribute_channel);
+    case MeshFormat::obj:
+    case MeshFormat::ply:
+    case MeshFormat::off:
+    case MeshFormat::vtp:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
+
+FormatFaceData face_data_for_format(const FaceData& data, MeshFormat to, PlyEncoding encoding) {
+  FormatFaceData result;
+  for (const FaceChannel& channel : data) {
+    const bool differs =
+        std::ranges::any_of(channel.values, [&](int x) { return x != channel.values.front(); });
+    if (holds(to, encoding, channel.name))
+      result.data.push_back(channel);
+    else if (differs)
+      result.dropped.push_back(channel.name);
+  }
   return result;
 }
 

@@ -1,5 +1,5 @@
-// The content of a mesh file (OBJ, PLY or OFF) as plain arrays, before validation, and the conversion of
-// vertex data between these formats.
+// The content of a mesh file (OBJ, PLY, OFF, STL, Gmsh or VTP) as plain arrays, before validation, and the
+// conversion of vertex data between these formats.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "hooke/io/mesh_format.h"
 #include "hooke/mesh/attributes.h"
+#include "hooke/mesh/face_data.h"
 
 namespace hooke {
 
@@ -17,12 +18,14 @@ enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
 struct MeshFile {
   std::string name;  // printable name of the file, for messages
   MeshFormat format = MeshFormat::obj;
-  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a PLY file
+  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of PLY and STL files
   Mat3X points;                                              // vertices in file order
   IntLists polygons{{0}, {}};  // vertex ids (0-based) of each face, in file order
   std::vector<int> lines;      // line number of each polygon; empty for binary files
   VertexData vertex_data;      // other values of the vertices, in file order
+  FaceData face_data;          // of the polygons
   Warnings warnings;
+  Warnings notes;  // what was done to the content as it always is, such as welding
 };
 
 /// Parses the bytes of a mesh file. `name` is printable and begins all messages. Throws InputError
@@ -52,5 +55,14 @@ struct FormatData {
 /// they become 8-bit integers, but numbers from 0 to 1 in OBJ. The PLY names texture_u and texture_v stand
 /// for s and t.
 FormatData data_for_format(const VertexData& data, MeshFormat from, MeshFormat to);
+
+/// Face data as a file format holds it.
+struct FormatFaceData {
+  FaceData data;
+  std::vector<std::string> dropped;  // names of channels that the format cannot hold and that differ
+};
+
+/// Keeps the channels that the format holds: MSH groups and entities; STL groups as text, else attributes.
+FormatFaceData face_data_for_format(const FaceData& data, MeshFormat to, PlyEncoding encoding);
 
 }  // namespace hooke

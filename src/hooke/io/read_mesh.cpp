@@ -37,16 +37,23 @@ MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& trian
 
 }  // namespace
 
-LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
-  const MeshFormat format = input_format_of(path);
-  FileBytes content = timed(stopwatch, "file", [&] { return read_regular_file(path); });
-  MeshFile file = timed(stopwatch, "parse",
-                        [&] { return parse_mesh_file(content.text(), printable(path.native()), format); });
+std::string name_of_input(const std::filesystem::path& path) {
+  return is_standard_input(path) ? "standard input" : printable(path.native());
+}
+
+LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, const ReadOptions& options) {
+  const MeshFormat format = options.format ? *options.format : input_format_of(path);
+  FileBytes content = timed(stopwatch, "file", [&] {
+    return is_standard_input(path) ? read_standard_input() : read_regular_file(path);
+  });
+  MeshFile file =
+      timed(stopwatch, "parse", [&] { return parse_mesh_file(content.text(), name_of_input(path), format); });
   TriangulatedPolygons triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
   append(warnings, warnings_of(triangulation, file.name));
   const std::vector<Triangle>& triangles = triangulation.triangles;
+  FaceData face_data = gather(file.face_data, triangulation.polygon);
 
   Permutation order;
   std::string hash, faces_hash;
@@ -75,6 +82,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
       std::move(hash),
       std::move(faces_hash),
       std::move(file.vertex_data),
+      std::move(face_data),
+      std::move(file.notes),
       std::move(warnings)};
 }
 

@@ -1,19 +1,23 @@
 #include "hooke/io/write_mesh.h"
 
+#include <cassert>
 #include <optional>
+#include <utility>
 
 #include "hooke/core/parallel.h"
+#include "hooke/io/msh.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
 #include "hooke/io/sha256.h"
+#include "hooke/io/stl.h"
 
 namespace hooke {
 
 namespace {
 
 std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, MeshFormat format,
-                     PlyEncoding encoding, const VertexData& data) {
+                     PlyEncoding encoding, const VertexData& data, const FaceData& face_data) {
   const auto points = vertex_points(mesh);
   switch (format) {
     case MeshFormat::obj:
@@ -21,23 +25,33 @@ std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles
     case MeshFormat::ply:
       return write_ply(points, triangles, encoding, data);
     case MeshFormat::off:
+      return write_off(points, triangles, data);
+    case MeshFormat::stl:
+      return write_stl(points, triangles, encoding, face_data);
+    case MeshFormat::msh:
+    case MeshFormat::msh2:
+      return write_msh(points, triangles, format, face_data);
+    case MeshFormat::vtp:
       break;
   }
-  return write_off(points, triangles, data);
+  assert(false && "VTP is not written");
+  return "";
 }
 
 }  // namespace
 
-std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const VertexData& data) {
-  return bytes_of(mesh, triangles_of(mesh), format, encoding, data);
+std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const VertexData& data,
+                       const FaceData& face_data) {
+  return bytes_of(mesh, triangles_of(mesh), format, encoding, data, face_data);
 }
 
 PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
-                         PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
+                         PlyEncoding encoding, const VertexData& data, const FaceData& face_data,
+                         Stopwatch* stopwatch) {
   std::vector<Triangle> triangles;
-  const std::string bytes = timed(stopwatch, "format", [&] {
+  std::string bytes = timed(stopwatch, "format", [&] {
     triangles = triangles_of(mesh);
-    return bytes_of(mesh, triangles, format, encoding, data);
+    return bytes_of(mesh, triangles, format, encoding, data, face_data);
   });
   const Stage stage(stopwatch, "file");
   std::optional<PendingFile> file;
@@ -46,6 +60,10 @@ PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh,
     hash = sha256(bytes);
     faces_hash = connectivity_sha256(triangles);
   };
+  if (is_standard_output(path)) {
+    take_hashes();
+    return {PendingFile::to_standard_output(std::move(bytes)), std::move(hash), std::move(faces_hash)};
+  }
   parallel_invoke([&] { file.emplace(path, bytes); }, take_hashes);
   return {*std::move(file), std::move(hash), std::move(faces_hash)};
 }

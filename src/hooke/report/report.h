@@ -59,6 +59,7 @@ struct RunRecord {
   std::optional<Quality> after;
   std::optional<Deviation> deviation;
   std::optional<RemeshResult> result;
+  Warnings notes;  // what reading the file did to it, as it always does
   Warnings warnings;
   std::vector<StageTime> stages;
   Resources resources;
