@@ -151,11 +151,15 @@ std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord&
   const MemoryOrder& memory_order = loaded.memory_order;
   Mat3X points = memory_order.order.gather(vertex_points(mesh));
   if (!s.check)
-    warn_of_coincident_boundary(coincident_boundary_vertices(points, *memory_order.adjacency).size(), record);
-  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, points, record); });
+    warn_of_coincident_boundary(s, coincident_boundary_vertices(points, *memory_order.adjacency).size(),
+                                record);
+  timed(&stopwatch, "seams", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
+  timed(&stopwatch, "sizing",
+        [&] { set_target_lengths(s, mesh, memory_order, loaded.origin, points, record); });
   const MeasuredSurface surface = surface_of(std::move(points), memory_order, stopwatch);
   record.before =
       timed(&stopwatch, "before", [&] { return measure(surface, mesh, memory_order.order, stopwatch); });
+  warn_of_inside_out(record);
   return surface.tree.order();
 }
 
@@ -218,7 +222,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   });
   record.output = {name_of_output(s), written.sha256, name_of(*s.format), written.connectivity_sha256};
   files.add(std::move(written.file));
-  if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
+  if (!s.map.empty()) files.add(PendingFile(s.map, map_text(map_to_old(done.map, loaded.origin))));
   add_result_warnings(s, record);
 }
 
@@ -232,9 +236,23 @@ void finish(const Settings& s, const RunRecord& record, OutputFiles& files) {
   if (s.report == "-") write_to_standard_output(report_text(record));
   files.commit();
   if (!s.quiet)
-    for (const Warning& note : record.notes) print_note(note);
+    for (const Note& note : record.notes) print_note(note);
+  for (const Note& repair : record.repairs) print_warning(repair);
   for (const Warning& w : record.warnings) print_warning(w);
   if (!s.quiet) print_summary(s, record);
+}
+
+/// The fixed vertices of the mesh; the list has the ids of the file.
+std::vector<int> read_fixed(const Settings& s, const LoadedMesh& loaded) {
+  if (loaded.origin.vertex.empty()) return read_id_list(s.fix, loaded.memory_order.adjacency->vertex_count);
+  const std::vector<int> ids = read_id_list(s.fix, static_cast<int>(loaded.origin.merged.size()));
+  int lost = -1;
+  std::vector<int> fixed = vertices_from(loaded.origin, ids, &lost);
+  if (lost >= 0)
+    throw InputError(
+        fmt::format("{}: vertex {} was dropped by --repair; expected one that is left; remove its line",
+                    printable(s.fix.string()), lost));
+  return fixed;
 }
 
 int run(Settings s) {
@@ -243,13 +261,13 @@ int run(Settings s) {
   require_outputs(s);
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
   Stopwatch stopwatch;
-  LoadedMesh loaded =
-      timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch, {s.input_format}); });
+  LoadedMesh loaded = timed(&stopwatch, "read", [&] {
+    return read_mesh(s.input, &stopwatch, {s.input_format, s.repair});
+  });
   if (s.format == MeshFormat::msh && loaded.format == MeshFormat::msh2 && !s.format_given)
     s.format = MeshFormat::msh2;
   if (!s.fix.empty())
-    s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
-        read_id_list(s.fix, loaded.memory_order.adjacency->vertex_count);
+    s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices = read_fixed(s, loaded);
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
@@ -257,8 +275,13 @@ int run(Settings s) {
   record.input = {name_of_input(s.input), loaded.sha256, name_of(loaded.format), loaded.connectivity_sha256};
   record.warnings = loaded.warnings;
   record.notes = loaded.notes;
+  record.repairs = loaded.repairs;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
+  record.parameters.update({{"repair", s.repair.repair},
+                            {"weld", s.weld_text},
+                            {"drop_components", s.repair.drop_components},
+                            {"fill_holes", s.repair.fill_holes}});
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
   if (s.max_distance_share > 0)

@@ -54,7 +54,11 @@ void print_warning(const Warning& warning) {
   say("hooke-remesh: warning: {}\n", printable(warning.message));
 }
 
-void print_note(const Warning& note) {
+void print_warning(const Note& repair) {
+  say("hooke-remesh: warning: {}\n", printable(repair.message));
+}
+
+void print_note(const Note& note) {
   say("hooke-remesh: note: {}\n", printable(note.message));
 }
 

@@ -224,6 +224,26 @@ void add_reports(CLI::App& app, Settings& s) {
            "Energies, forces and length of every time step, as CSV (paper)");
 }
 
+void add_repair(CLI::App& app, Settings& s, RawOptions& raw) {
+  app.add_flag(
+      "--repair", s.repair.repair,
+      "Make the input an oriented manifold: merge boundary vertices that lie on each other, drop faces "
+      "listed twice or with a vertex twice, orient faces alike and outward, cut edges with three or more "
+      "faces, split vertices in which parts only touch; each change is counted");
+  app.add_option("--weld", s.weld_text,
+                 "Merge vertices of the input closer than this, in file units or % of the box's diagonal")
+      ->type_name("X|X%")
+      ->default_str("off");
+  app.add_option("--drop-components", raw.drop_components,
+                 "With --repair, drop components with less than this share of the area")
+      ->type_name("X%")
+      ->default_str("off");
+  add_number<int>(app, "--fill-holes", s.repair.fill_holes,
+                  "With --repair, fill holes of at most so many edges",
+                  {"a whole number from 3 to 1000", [](double x) { return x >= 3 && x <= 1000; }})
+      ->default_str("off");
+}
+
 void add_promises(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option("--max-distance", raw.max_distance,
                  "How far the surfaces of input and output may be apart, in file units or % of the box's "
@@ -278,6 +298,8 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   add_motion(app, s);
   app.option_defaults()->group("Constraints");
   add_constraints(app, s, raw);
+  app.option_defaults()->group("Repair of the input");
+  add_repair(app, s, raw);
   app.option_defaults()->group("What the output must keep");
   add_promises(app, s, raw);
   app.option_defaults()->group("Measuring and reports");

@@ -7,6 +7,7 @@
 
 #include "hooke/io/mesh_format.h"
 #include "hooke/measure/preservation.h"
+#include "hooke/mesh/repair.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
 #include "hooke/springs/sizing.h"
@@ -35,8 +36,10 @@ struct Settings {
   RemeshOptions remesh;
   PreservationOptions preservation;
   PaperOptions paper_options;
-  double max_distance_share = 0;      // --max-distance in diagonals of the input; 0: not given so
-  bool accept_invalid = false;        // write a result that does not keep what it must keep
+  double max_distance_share = 0;  // --max-distance in diagonals of the input; 0: not given so
+  bool accept_invalid = false;    // write a result that does not keep what it must keep
+  RepairOptions repair;
+  std::string weld_text = "off";
   std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
   std::string report;                 // path; "-" for standard output; empty for none
   std::filesystem::path trace;        // file for the time of each stage; empty for none

@@ -65,6 +65,26 @@ void set_max_distance(const std::string& text, Settings& s) {
     s.preservation.max_distance = value;
 }
 
+/// Sets the distance of --weld: a length that is not negative, or X% of the diagonal.
+void set_weld(const std::string& text, RepairOptions& repair) {
+  const auto [value, unit] = split(text);
+  if (!(unit.empty() || unit == "%") || !(value >= 0) || !std::isfinite(value))
+    throw Error(fmt::format("--weld {}; expected a number that is not negative, or X% of the diagonal",
+                            in_quotes(text)));
+  if (unit == "%")
+    repair.weld_share = value / 100;
+  else
+    repair.weld = value;
+}
+
+/// Parses a share of the area such as "1%".
+double parse_share(const std::string& text) {
+  const auto [value, unit] = split(text);
+  if (unit != "%" || !(value > 0) || !(value <= 100))
+    throw Error(fmt::format("--drop-components {}; expected X% of the area, from 0 to 100", in_quotes(text)));
+  return value / 100;
+}
+
 /// Parses an angle in degrees such as "40", or "off" (180).
 double parse_feature_angle(const std::string& text) {
   if (text == "off") return 180;
@@ -131,6 +151,7 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   const bool splines =
       s.paper || s.remesh.filter.kind == FilterKind::local || s.remesh.filter.kind == FilterKind::global;
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
+  refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--trace-steps"}, "is not written by --check");
 }
 
@@ -169,6 +190,8 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
   s.preservation.feature_angle = s.remesh.constraints.features.angle;
+  if (s.weld_text != "off") set_weld(s.weld_text, s.repair);
+  if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;

@@ -25,7 +25,7 @@ struct MeshFile {
   VertexData vertex_data;      // other values of the vertices, in file order
   FaceData face_data;          // of the polygons
   Warnings warnings;
-  Warnings notes;  // what was done to the content as it always is, such as welding
+  Notes notes;  // what was done to the content as it always is, such as welding
 };
 
 /// Parses the bytes of a mesh file. `name` is printable and begins all messages. Throws InputError

@@ -35,6 +35,21 @@ MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& trian
   return memory_order;
 }
 
+/// Brings the data of vertices and faces in the order of a repaired mesh.
+void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_data, MeshSource& source) {
+  for (VertexChannel& channel : vertex_data) {
+    std::vector<double> values;
+    values.reserve(origin.vertex.size());
+    for (const int v : origin.vertex) values.push_back(channel.values[static_cast<size_t>(v)]);
+    channel.values = std::move(values);
+  }
+  face_data = gather(face_data, origin.face);
+  std::vector<int> face;
+  face.reserve(origin.face.size());
+  for (const int f : origin.face) face.push_back(source.face[static_cast<size_t>(f)]);
+  source.face = std::move(face);
+}
+
 }  // namespace
 
 std::string name_of_input(const std::filesystem::path& path) {
@@ -52,8 +67,21 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
   append(warnings, warnings_of(triangulation, file.name));
+  MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
+  FaceData face_data = gather(file.face_data, source.face);
+  Notes repairs;
+  MeshOrigin origin;
+  if (options.repair.any())
+    timed(stopwatch, "repair", [&] {
+      Repaired repaired = repair(file.points, std::move(triangulation.triangles), options.repair, source);
+      file.points = std::move(repaired.points);
+      triangulation.triangles = std::move(repaired.triangles);
+      repairs = std::move(repaired.changes);
+      origin = std::move(repaired.origin);
+      follow(origin, file.vertex_data, face_data, source);
+      source.repaired = options.repair.repair;
+    });
   const std::vector<Triangle>& triangles = triangulation.triangles;
-  FaceData face_data = gather(file.face_data, triangulation.polygon);
 
   Permutation order;
   std::string hash, faces_hash;
@@ -67,7 +95,6 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
   content = {};  // frees memory for the mesh
 
-  const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
   MemoryOrder memory_order =
       valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
   require_workable_size(file.points, file.name);
@@ -83,7 +110,9 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       std::move(faces_hash),
       std::move(file.vertex_data),
       std::move(face_data),
+      std::move(origin),
       std::move(file.notes),
+      std::move(repairs),
       std::move(warnings)};
 }
 

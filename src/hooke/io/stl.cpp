@@ -72,9 +72,9 @@ void take_points(MeshFile& file, const PointNumbers& numbers) {
   file.points.resize(3, static_cast<Eigen::Index>(numbers.points().size()));
   for (Eigen::Index v = 0; v < file.points.cols(); ++v)
     file.points.col(v) = numbers.points()[static_cast<size_t>(v)];
-  file.notes.push_back(
-      {"corners_welded", fmt::format("{}: {} corners of facets are {} different points, its vertices",
-                                     file.name, file.polygons.items.size(), file.points.cols())});
+  file.notes.push_back({"corners_welded", file.polygons.items.size(),
+                        fmt::format("{}: {} corners of facets are {} different points, its vertices",
+                                    file.name, file.polygons.items.size(), file.points.cols())});
 }
 
 // Text. Line ends are blanks, but for the names of solids.

@@ -59,7 +59,8 @@ struct RunRecord {
   std::optional<Quality> after;
   std::optional<Deviation> deviation;
   std::optional<RemeshResult> result;
-  Warnings notes;  // what reading the file did to it, as it always does
+  Notes notes;    // what reading the file did to it, as it always does
+  Notes repairs;  // what was mended as asked
   Warnings warnings;
   std::vector<StageTime> stages;
   Resources resources;
