@@ -225,9 +225,18 @@ class BrokenFiles(CommandTest):
                         broken[at:at + 4] = b"\xff\xff\xff\x7f"
                     broken = broken or bytearray(b"x")
                 (self.folder / ("x" + name)).write_bytes(broken)
-                process = self.start("x" + name, "--check", "-q")
+                process = self.start("x" + name, "--check", "-q", *rng.choice(([], ["--repair", "--weld", ".1%"])))
                 _, err = process.communicate(timeout=20)
                 self.assertIn(process.returncode, (0, 3, 4), err)
+
+
+    def test_files_without_faces(self):
+        (self.folder / "a.stl").write_bytes(b" " * 80 + bytes(4))
+        self.write("b.stl", "solid\nendsolid\n")
+        self.write("c.vtp", '<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="0"/></PolyData></VTKFile>')
+        for name in ("a.stl", "b.stl", "c.vtp"):
+            for options in ([], ["--repair", "--fill-holes", "9"], ["--weld", "1%"]):
+                self.refused(4, name, "-o", "out.obj", *options, names=name, says="no faces")
 
 
 class Streams(CommandTest):

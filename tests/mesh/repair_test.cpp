@@ -157,6 +157,13 @@ TEST(Repair, DuplicatesAndRepeatedVerticesAreDropped) {
   EXPECT_EQ(r.origin.face[5], 6);
 }
 
+TEST(Repair, NothingStaysNothing) {
+  const Repaired r =
+      repaired({Mat3X(3, 0), {}}, {.repair = true, .weld_share = .1, .drop_components = .1, .fill_holes = 9});
+  EXPECT_EQ(codes(r), Codes{});
+  EXPECT_TRUE(r.triangles.empty());
+}
+
 TEST(Repair, DegenerateFacesThatAreManifoldStay) {
   test::Triangles t = test::sphere(1);
   t.points.col(t.faces[4][0]) = t.points.col(t.faces[4][1]);

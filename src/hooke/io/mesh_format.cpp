@@ -110,9 +110,10 @@ void refuse_other_content(std::string_view bytes, const std::string& name, MeshF
   const Guess guess = guess_content(bytes);
   const MeshFormat expected = format == MeshFormat::msh2 ? MeshFormat::msh : format;
   if (!guess.kind.empty() && guess.format != expected)
-    throw InputError(fmt::format(
-        "{}:1: the content looks like {}; expected {} by the extension; rename or convert the file", name,
-        guess.kind, name_of(expected)));
+    throw InputError(
+        fmt::format("{}:1: the content looks like {}; expected {} by the extension or --input-format; rename "
+                    "or convert the file",
+                    name, guess.kind, name_of(expected)));
   const bool text_only = expected == MeshFormat::obj || expected == MeshFormat::off;
   if (const size_t zero = bytes.find('\0');
       text_only && zero != bytes.npos && guess.format != MeshFormat::off)
