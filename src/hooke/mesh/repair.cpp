@@ -63,6 +63,9 @@ double winding_number(const Mat3X& points, const std::vector<Triangle>& faces, c
   return sum / (4 * std::numbers::pi);
 }
 
+/// In a foam with more tests than that, a component in the box of another is taken to be in the other.
+constexpr size_t most_faces_tested = 100'000'000;
+
 class Repair {
  public:
   Repair(const Mat3X& points, std::vector<Triangle> triangles, const RepairOptions& options,
@@ -392,10 +395,13 @@ class Repair {
   void turn_outward() {
     const std::vector<Component> components = closed_components();
     std::vector<int> turned, firsts;
+    size_t faces_tested = 0;
     for (const Component& c : components) {
       const Vec3 x = r_.points.col(c.triangles.front()[0]);
       const auto holds_it = [&](const Component& other) {
-        return &other != &c && other.box.contains(c.box) &&
+        if (&other == &c || !other.box.contains(c.box)) return false;
+        faces_tested += other.triangles.size();
+        return faces_tested > most_faces_tested ||
                std::abs(winding_number(r_.points, other.triangles, x)) > .5;
       };
       if (c.volume >= 0 || std::ranges::any_of(components, holds_it)) continue;
