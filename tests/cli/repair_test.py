@@ -88,6 +88,11 @@ class Repair(CommandTest):
         message = self.refused(4, "bad.obj", "-o", "out.obj", "--repair", says="no face with an area")
         self.assertNotIn("--repair", message)
 
+    def test_a_refusal_says_what_was_changed_before(self):
+        self.write("bad.obj", obj(self.vertices, self.faces))
+        message = self.refused(4, "bad.obj", "-o", "out.obj", "--weld", "9", says="bad.obj: no faces")
+        self.assertTrue(message.endswith("; this is after the repair: vertices_welded 127, faces_dropped 256\n"), message)
+
     def test_places_of_changes_are_told_up_to_five(self):
         self.write("bad.obj", obj(self.vertices, self.faces + self.faces[:7]))
         report, _, _ = self.repaired("bad.obj", codes=["duplicate_faces_dropped"])

@@ -1,8 +1,11 @@
 #include "hooke/io/read_mesh.h"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <utility>
 
+#include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"
@@ -50,6 +53,20 @@ void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_da
   source.face = std::move(face);
 }
 
+/// Returns work(). Says in the messages of its errors what the repair had done.
+template <typename Work>
+auto after_repairs(const Notes& repairs, const Work& work) {
+  try {
+    return work();
+  } catch (const MeshError& e) {
+    if (repairs.empty()) throw;
+    std::string done;
+    for (const Note& repair : repairs)
+      done += fmt::format("{}{} {}", done.empty() ? "" : ", ", repair.code, repair.count);
+    throw MeshError(fmt::format("{}; this is after the repair: {}", e.what(), done));
+  }
+}
+
 }  // namespace
 
 std::string name_of_input(const std::filesystem::path& path) {
@@ -95,8 +112,9 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
   content = {};  // frees memory for the mesh
 
-  MemoryOrder memory_order =
-      valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
+  MemoryOrder memory_order = after_repairs(repairs, [&] {
+    return valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
+  });
   require_workable_size(file.points, file.name);
   triangulation = {};
   // Constructed in place, because OpenMesh meshes can only be copied, not moved.
