@@ -44,10 +44,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string name_of_output(const Settings& s) {
-  return is_standard_output(s.output) ? "standard output" : printable(s.output.string());
-}
-
 bool keeps_faces(const Settings& s) {
   return s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
 }
@@ -73,7 +69,7 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Ori
   FormatData converted = data_for_format(data, loaded.format, *s.format);
   if (!converted.dropped.empty())
     run.warnings.push_back(
-        {"attributes_not_kept", fmt::format("{}: {} files cannot hold {}; use PLY", name_of_output(s),
+        {"attributes_not_kept", fmt::format("{}: {} files cannot hold {}; use PLY", name_of_output(s.output),
                                             name_of(*s.format), fmt::join(converted.dropped, ", "))});
   return std::move(converted.data);
 }
@@ -89,8 +85,8 @@ FaceData face_data_of_result(const Settings& s, const LoadedMesh& loaded, PlyEnc
   FormatFaceData converted = face_data_for_format(loaded.face_data, *s.format, encoding);
   const auto drop = [&](const std::string& why, const std::vector<std::string>& names) {
     run.warnings.push_back(
-        {"attributes_not_kept",
-         fmt::format("{}: face data not kept: {}: {}", name_of_output(s), fmt::join(names, ", "), why)});
+        {"attributes_not_kept", fmt::format("{}: face data not kept: {}: {}", name_of_output(s.output),
+                                            fmt::join(names, ", "), why)});
   };
   if (!converted.dropped.empty())
     drop(fmt::format("{} files cannot hold it; use MSH", name_of(*s.format)), converted.dropped);
@@ -175,7 +171,7 @@ void measure_deviation_from_input(const Original& original, const MeasuredSurfac
 void require_promises(const Settings& s, const RunRecord& record) {
   if (s.accept_invalid || record.result->reason == StopReason::interrupted) return;
   const std::string broken = broken_promises(s, record);
-  if (!broken.empty()) throw ResultError(name_of_output(s) + ": not written: " + broken);
+  if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
 }
 
 /// Optimizes the mesh, measures the result and prepares its output files.
@@ -215,12 +211,13 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   const PlyEncoding encoding = encoding_of_output(s, loaded);
   const FaceData face_data = face_data_of_result(s, loaded, encoding, record);
   if (s.format == MeshFormat::stl)
-    std::ranges::move(losses_in_stl(vertex_points(mesh), triangles_of(mesh), encoding, name_of_output(s)),
-                      std::back_inserter(record.warnings));
+    std::ranges::move(
+        losses_in_stl(vertex_points(mesh), triangles_of(mesh), encoding, name_of_output(s.output)),
+        std::back_inserter(record.warnings));
   PendingMesh written = timed(&stopwatch, "write", [&] {
     return prepare_mesh(s.output, mesh, *s.format, encoding, data, face_data, &stopwatch);
   });
-  record.output = {name_of_output(s), written.sha256, name_of(*s.format), written.connectivity_sha256};
+  record.output = {name_of_output(s.output), written.sha256, name_of(*s.format), written.connectivity_sha256};
   files.add(std::move(written.file));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(map_to_old(done.map, loaded.origin))));
   add_result_warnings(s, record);

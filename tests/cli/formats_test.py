@@ -117,6 +117,10 @@ class Stl(CommandTest):
         _, err = self.run_command("thin.off", "-o", "out.stl", "-q", "--boundary", "fixed", "--accept-invalid")
         self.assertIn("out.stl: 1 vertices have the coordinates of another in this STL file", err)
 
+    def test_numbers_beyond_32_bits_are_refused(self):
+        write_off(self.folder / "far.off", [(0, 0, 0), (1e39, 0, 0), (0, 1e39, 0)], [(0, 1, 2)])
+        self.refused(5, "far.off", "-o", "out.stl", "-q", names="out.stl: a coordinate of 1e+39", says="at most 3.4e38")
+
     def test_a_degenerate_facet_is_refused_with_its_line(self):
         flat = "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n"
         self.write("flat.stl", "solid\n" + flat + "endsolid\n")

@@ -1,10 +1,14 @@
 #include "hooke/io/write_mesh.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <optional>
 #include <utility>
 
+#include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/msh.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
@@ -40,6 +44,10 @@ std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles
 
 }  // namespace
 
+std::string name_of_output(const std::filesystem::path& path) {
+  return is_standard_output(path) ? "standard output" : printable(path.native());
+}
+
 std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const VertexData& data,
                        const FaceData& face_data) {
   return bytes_of(mesh, triangles_of(mesh), format, encoding, data, face_data);
@@ -51,7 +59,11 @@ PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh,
   std::vector<Triangle> triangles;
   std::string bytes = timed(stopwatch, "format", [&] {
     triangles = triangles_of(mesh);
-    return bytes_of(mesh, triangles, format, encoding, data, face_data);
+    try {
+      return bytes_of(mesh, triangles, format, encoding, data, face_data);
+    } catch (const OutputError& e) {
+      throw OutputError(fmt::format("{}: {}", name_of_output(path), e.what()));
+    }
   });
   const Stage stage(stopwatch, "file");
   std::optional<PendingFile> file;

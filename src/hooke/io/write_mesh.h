@@ -11,6 +11,9 @@
 
 namespace hooke {
 
+/// The name of an output for messages: printable, "standard output" for a standard stream.
+std::string name_of_output(const std::filesystem::path& path);
+
 /// The bytes of a mesh file; `encoding` applies to PLY and STL only. Coordinates
 /// read back exactly, but for binary STL; vertices and faces keep their order. Of the data, the channels that
 /// the format can hold are written (see data_for_format()). Pre-condition: the format is not VTP.
@@ -26,7 +29,7 @@ struct PendingMesh {
 };
 
 /// Writes mesh_bytes() to a temporary file for `path`, or keeps them for standard output ("-"). Throws what
-/// PendingFile and mesh_bytes() throw. `format` is usually format_of(path).
+/// PendingFile and mesh_bytes() throw, those of the latter with the name of the path.
 PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
                          PlyEncoding encoding = PlyEncoding::binary_little_endian,
                          const VertexData& data = {}, const FaceData& face_data = {},
