@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -13,9 +15,11 @@
 #include "hooke/core/parallel.h"
 #include "hooke/core/printable.h"
 #include "hooke/core/stopwatch.h"
+#include "hooke/io/files.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
 #include "hooke/io/read_mesh.h"
+#include "hooke/io/stl.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/io/write_mesh.h"
 #include "hooke/measure/fields.h"
@@ -42,10 +46,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string name_of_input(const Settings& s) {
-  return printable(s.input.string());
-}
-
 bool keeps_faces(const Settings& s) {
   return s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
 }
@@ -68,12 +68,35 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Ori
                    : loaded.vertex_data;
   if (has_normals(data))
     set_normals(data, memory_order.order.scatter(vertex_normals(points, *memory_order.adjacency)));
-  FormatData converted = data_for_format(data, loaded.format, s.format);
+  FormatData converted = data_for_format(data, loaded.format, *s.format);
   if (!converted.dropped.empty())
-    run.warnings.push_back({"attributes_not_kept",
-                            fmt::format("{}: {} files cannot hold {}; use PLY", printable(s.output.string()),
-                                        s.format, fmt::join(converted.dropped, ", "))});
+    run.warnings.push_back(
+        {"attributes_not_kept", fmt::format("{}: {} files cannot hold {}; use PLY", name_of_output(s.output),
+                                            name_of(*s.format), fmt::join(converted.dropped, ", "))});
   return std::move(converted.data);
+}
+
+/// A file of the input's format is encoded like the input, others are binary where they can be.
+PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
+  return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
+}
+
+/// The face data of the input that the output can hold, if the faces are the same.
+FaceData face_data_of_result(const Settings& s, const LoadedMesh& loaded, PlyEncoding encoding,
+                             RunRecord& run) {
+  FormatFaceData converted = face_data_for_format(loaded.face_data, *s.format, encoding);
+  const auto drop = [&](const std::string& why, const std::vector<std::string>& names) {
+    run.warnings.push_back(
+        {"attributes_not_kept", fmt::format("{}: face data not kept: {}: {}", name_of_output(s.output),
+                                            fmt::join(names, ", "), why)});
+  };
+  if (!converted.dropped.empty())
+    drop(fmt::format("{} files cannot hold it; use MSH", name_of(*s.format)), converted.dropped);
+  if (keeps_faces(s) || converted.data.empty()) return std::move(converted.data);
+  std::vector<std::string> names;
+  for (const FaceChannel& channel : converted.data) names.push_back(channel.name);
+  drop("new faces have none; use --connectivity fixed", names);
+  return {};
 }
 
 MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwatch& stopwatch,
@@ -111,7 +134,7 @@ RemeshResult optimize(const Settings& s, TriMesh& mesh, MemoryOrder memory_order
     line.show(p);
     return caught_signal() == 0;
   };
-  return in_the_name_of(name_of_input(s), [&] {
+  return in_the_name_of(name_of_input(s.input), [&] {
     return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, observer)
                    : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation, known,
                                        observer, &stopwatch);
@@ -125,14 +148,18 @@ std::vector<int> measure_input(const Settings& s, LoadedMesh& loaded, RunRecord&
   const MemoryOrder& memory_order = loaded.memory_order;
   Mat3X points = memory_order.order.gather(vertex_points(mesh));
   if (!s.check)
-    warn_of_coincident_boundary(coincident_boundary_vertices(points, *memory_order.adjacency).size(), record);
-  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, points, record); });
+    warn_of_coincident_boundary(s, coincident_boundary_vertices(points, *memory_order.adjacency).size(),
+                                record);
+  timed(&stopwatch, "seams", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
+  timed(&stopwatch, "sizing",
+        [&] { set_target_lengths(s, mesh, memory_order, loaded.origin, points, record); });
   record.paper_before = measure_paper_figures(
       points, *memory_order.adjacency,
       target_lengths_of(mesh, memory_order.order, *memory_order.adjacency).edge, s.paper);
   const MeasuredSurface surface = surface_of(std::move(points), memory_order, stopwatch);
   record.before =
       timed(&stopwatch, "before", [&] { return measure(surface, mesh, memory_order.order, stopwatch); });
+  warn_of_inside_out(record);
   return surface.tree.order();
 }
 
@@ -170,7 +197,7 @@ void measure_deviation_from_input(const Original& original, const MeasuredSurfac
 void require_promises(const Settings& s, const RunRecord& record) {
   if (s.accept_invalid || record.result->reason == StopReason::interrupted) return;
   const std::string broken = broken_promises(s, record);
-  if (!broken.empty()) throw ResultError(printable(s.output.string()) + ": not written: " + broken);
+  if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
 }
 
 /// Optimizes the mesh, measures the result and prepares its output files.
@@ -210,14 +237,20 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
     for (WorstFace& face : record.after->worst_faces)
       face.reasons = limiting_factors(face, done.vertex_limits);
   const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
+  const PlyEncoding encoding = encoding_of_output(s, loaded);
+  const FaceData face_data = face_data_of_result(s, loaded, encoding, record);
+  if (s.format == MeshFormat::stl)
+    std::ranges::move(
+        losses_in_stl(vertex_points(mesh), triangles_of(mesh), encoding, name_of_output(s.output)),
+        std::back_inserter(record.warnings));
   PendingMesh written = timed(&stopwatch, "write", [&] {
-    return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
+    return prepare_mesh(s.output, mesh, *s.format, encoding, data, face_data, &stopwatch);
   });
-  record.output = {printable(s.output.string()), written.sha256, s.format, written.connectivity_sha256};
+  record.output = {name_of_output(s.output), written.sha256, name_of(*s.format), written.connectivity_sha256};
   files.add(std::move(written.file));
   if (!s.fields.empty())
     files.add(PendingFile(s.fields, fields_text(mesh, points, original, memory_order, record)));
-  if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
+  if (!s.map.empty()) files.add(PendingFile(s.map, map_text(map_to_old(done.map, loaded.origin))));
   add_result_warnings(s, record);
 }
 
@@ -230,8 +263,24 @@ void finish(const Settings& s, const RunRecord& record, OutputFiles& files) {
   if (!s.report.empty() && s.report != "-") files.add(PendingFile(s.report, report_text(record)));
   if (s.report == "-") write_to_standard_output(report_text(record));
   files.commit();
+  if (!s.quiet)
+    for (const Note& note : record.notes) print_note(note);
+  for (const Note& repair : record.repairs) print_warning(repair);
   for (const Warning& w : record.warnings) print_warning(w);
   if (!s.quiet) print_summary(s, record);
+}
+
+/// The fixed vertices of the mesh; the list has the ids of the file.
+std::vector<int> read_fixed(const Settings& s, const LoadedMesh& loaded) {
+  if (loaded.origin.vertex.empty()) return read_id_list(s.fix, loaded.memory_order.adjacency->vertex_count);
+  const std::vector<int> ids = read_id_list(s.fix, static_cast<int>(loaded.origin.merged.size()));
+  int lost = -1;
+  std::vector<int> fixed = vertices_from(loaded.origin, ids, &lost);
+  if (lost >= 0)
+    throw InputError(
+        fmt::format("{}: vertex {} was dropped by --repair; expected one that is left; remove its line",
+                    printable(s.fix.string()), lost));
+  return fixed;
 }
 
 int run(Settings s) {
@@ -240,18 +289,27 @@ int run(Settings s) {
   require_outputs(s);
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
   Stopwatch stopwatch;
-  LoadedMesh loaded = timed(&stopwatch, "read", [&] { return read_mesh(s.input, &stopwatch); });
+  LoadedMesh loaded = timed(&stopwatch, "read", [&] {
+    return read_mesh(s.input, &stopwatch, {s.input_format, s.repair});
+  });
+  if (s.format == MeshFormat::msh && loaded.format == MeshFormat::msh2 && !s.format_given)
+    s.format = MeshFormat::msh2;
   if (!s.fix.empty())
-    s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
-        read_id_list(s.fix, loaded.memory_order.adjacency->vertex_count);
+    s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices = read_fixed(s, loaded);
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
-  record.input = {name_of_input(s), loaded.sha256, loaded.format, loaded.connectivity_sha256};
+  record.input = {name_of_input(s.input), loaded.sha256, name_of(loaded.format), loaded.connectivity_sha256};
   record.warnings = loaded.warnings;
+  record.notes = loaded.notes;
+  record.repairs = loaded.repairs;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
+  record.parameters.update({{"repair", s.repair.repair},
+                            {"weld", s.weld_text},
+                            {"drop_components", s.repair.drop_components},
+                            {"fill_holes", s.repair.fill_holes}});
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
   if (s.max_distance_share > 0)
@@ -299,11 +357,11 @@ int main(int argc, char** argv) {
     print_error(e.what());
     return usage;
   } catch (const std::bad_alloc&) {
-    print_error(printable(parsed.settings->input.string()) +
+    print_error(name_of_input(parsed.settings->input) +
                 ": out of memory; expected a smaller mesh or more memory");
     return limit_reached;
   } catch (const std::exception& e) {
-    print_error(printable(parsed.settings->input.string()) + ": internal error: " + e.what());
+    print_error(name_of_input(parsed.settings->input) + ": internal error: " + e.what());
     return internal_error;
   }
 }

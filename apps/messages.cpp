@@ -79,6 +79,14 @@ void print_warning(const Warning& warning) {
   say("hooke-remesh: warning: {}\n", printable(warning.message));
 }
 
+void print_warning(const Note& repair) {
+  say("hooke-remesh: warning: {}\n", printable(repair.message));
+}
+
+void print_note(const Note& note) {
+  say("hooke-remesh: note: {}\n", printable(note.message));
+}
+
 std::string paper_message(const RemeshResult& r) {
   const BoundCounts& b = r.bound;
   long long steps = 0;

@@ -11,6 +11,8 @@ namespace hooke::app {
 
 void print_error(const std::string& message);
 void print_warning(const Warning& warning);
+void print_note(const Note& note);
+void print_warning(const Note& repair);
 
 /// Prints the result in words and a table of the quality before and after; with --check, of the input only.
 void print_summary(const Settings& settings, const RunRecord& run);

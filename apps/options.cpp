@@ -78,6 +78,14 @@ CLI::Validator file_name() {
   return {check, ""};
 }
 
+/// Accepts any name but the empty one; `-` stands for a standard stream.
+CLI::Validator named() {
+  const auto check = [](const std::string& text) {
+    return text.empty() ? "''; expected the name of a file, or -" : std::string();
+  };
+  return {check, ""};
+}
+
 CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file, const char* help) {
   return app.add_option(name, file, help)->check(file_name())->type_name("FILE");
 }
@@ -213,11 +221,7 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
 void add_reports(CLI::App& app, Settings& s) {
   app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return text.empty() ? "''; expected the name of a file, or -" : std::string();
-          },
-          ""))
+      ->check(named())
       ->type_name("FILE");
   add_file(app, "--fields", s.fields,
            "PLY file of the result with displacement, distance, curvature and length error at the vertices "
@@ -225,6 +229,26 @@ void add_reports(CLI::App& app, Settings& s) {
   add_file(app, "--trace", s.trace, "Seconds and memory of every stage, as CSV");
   add_file(app, "--trace-steps", s.trace_steps,
            "Energies, forces and length of every time step, as CSV (paper)");
+}
+
+void add_repair(CLI::App& app, Settings& s, RawOptions& raw) {
+  app.add_flag(
+      "--repair", s.repair.repair,
+      "Make the input an oriented manifold: merge boundary vertices that lie on each other, drop faces "
+      "listed twice or with a vertex twice, orient faces alike and outward, cut edges with three or more "
+      "faces, split vertices in which parts only touch; each change is counted");
+  app.add_option("--weld", s.weld_text,
+                 "Merge vertices of the input closer than this, in file units or % of the box's diagonal")
+      ->type_name("X|X%")
+      ->default_str("off");
+  app.add_option("--drop-components", raw.drop_components,
+                 "With --repair, drop components with less than this share of the area")
+      ->type_name("X%")
+      ->default_str("off");
+  add_number<int>(app, "--fill-holes", s.repair.fill_holes,
+                  "With --repair, fill holes of at most so many edges",
+                  {"a whole number from 3 to 1000", [](double x) { return x >= 3 && x <= 1000; }})
+      ->default_str("off");
 }
 
 void add_promises(CLI::App& app, Settings& s, RawOptions& raw) {
@@ -252,10 +276,28 @@ void add_run(CLI::App& app, Settings& s) {
 }
 
 void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
-  app.add_option("INPUT", s.input, "Mesh to read: .obj, .ply or .off")->required()->type_name("");
-  add_file(app, "-o,--output", s.output, "Mesh to write; required unless --check");
-  add_choice(app, "--format", s.format, "Format of the output (default: by extension)",
-             Choices<std::string>{{"obj", "obj"}, {"ply", "ply"}, {"off", "off"}});
+  app.add_option("INPUT", s.input,
+                 "Mesh to read: .obj, .ply, .off, .stl, .msh (Gmsh) or .vtp; - for standard input")
+      ->required()
+      ->type_name("");
+  app.add_option("-o,--output", s.output, "Mesh to write; required unless --check; - for standard output")
+      ->check(named())
+      ->type_name("FILE");
+  add_choice(app, "--input-format", s.input_format, "Format of the input (default: by extension)",
+             Choices<MeshFormat>{{"obj", MeshFormat::obj},
+                                 {"ply", MeshFormat::ply},
+                                 {"off", MeshFormat::off},
+                                 {"stl", MeshFormat::stl},
+                                 {"msh", MeshFormat::msh},
+                                 {"vtp", MeshFormat::vtp}});
+  add_choice(app, "--format", s.format,
+             "Format of the output (default: by extension); msh is Gmsh 4.1, msh2 Gmsh 2.2",
+             Choices<MeshFormat>{{"obj", MeshFormat::obj},
+                                 {"ply", MeshFormat::ply},
+                                 {"off", MeshFormat::off},
+                                 {"stl", MeshFormat::stl},
+                                 {"msh", MeshFormat::msh},
+                                 {"msh2", MeshFormat::msh2}});
   app.option_defaults()->group("Target");
   add_target(app, s, raw);
   app.option_defaults()->group("Method");
@@ -263,6 +305,8 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   add_motion(app, s);
   app.option_defaults()->group("Constraints");
   add_constraints(app, s, raw);
+  app.option_defaults()->group("Repair of the input");
+  add_repair(app, s, raw);
   app.option_defaults()->group("What the output must keep");
   add_promises(app, s, raw);
   app.option_defaults()->group("Measuring and reports");

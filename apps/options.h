@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "hooke/io/mesh_format.h"
 #include "hooke/measure/preservation.h"
+#include "hooke/mesh/repair.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
 #include "hooke/springs/sizing.h"
@@ -17,9 +19,11 @@ enum class ProgressStyle { automatic, bar, none };
 
 /// All settings of a run.
 struct Settings {
-  std::filesystem::path input;
-  std::filesystem::path output;  // empty with --check
-  std::string format;            // output format: "obj", "ply" or "off"
+  std::filesystem::path input;             // "-" for standard input
+  std::filesystem::path output;            // empty with --check; "-" for standard output
+  std::optional<MeshFormat> input_format;  // none: by the extension
+  std::optional<MeshFormat> format;        // of the output; set by its extension if not given
+  bool format_given = false;               // by --format
   LengthSpec length;
   std::string length_text = "auto";
   SizingSource sizing;
@@ -33,8 +37,10 @@ struct Settings {
   RemeshOptions remesh;
   PreservationOptions preservation;
   PaperOptions paper_options;
-  double max_distance_share = 0;      // --max-distance in diagonals of the input; 0: not given so
-  bool accept_invalid = false;        // write a result that does not keep what it must keep
+  double max_distance_share = 0;  // --max-distance in diagonals of the input; 0: not given so
+  bool accept_invalid = false;    // write a result that does not keep what it must keep
+  RepairOptions repair;
+  std::string weld_text = "off";
   std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
   std::string report;                 // path; "-" for standard output; empty for none
   std::filesystem::path fields;       // PLY file for values at vertices and faces; empty for none

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "hooke/springs/sizing.h"
@@ -17,7 +15,8 @@ struct NamedFile {
 };
 
 std::vector<NamedFile> inputs_of(const Settings& s) {
-  std::vector<NamedFile> files{{"INPUT", s.input}};
+  std::vector<NamedFile> files;
+  if (!is_standard_input(s.input)) files.push_back({"INPUT", s.input});
   if (!s.fix.empty()) files.push_back({"--fix", s.fix});
   if (!s.edge_lengths.empty()) files.push_back({"--edge-lengths", s.edge_lengths});
   if (s.sizing.kind == SizingSource::Kind::file) files.push_back({"--sizing", s.sizing.name});
@@ -26,7 +25,7 @@ std::vector<NamedFile> inputs_of(const Settings& s) {
 
 std::vector<NamedFile> outputs_of(const Settings& s) {
   std::vector<NamedFile> files;
-  for (const NamedFile& file : {NamedFile{"--output", s.output},
+  for (const NamedFile& file : {NamedFile{"--output", is_standard_output(s.output) ? "" : s.output},
                                 {"--report", s.report == "-" ? "" : s.report},
                                 {"--fields", s.fields},
                                 {"--trace", s.trace},
@@ -49,11 +48,6 @@ void require_outputs(const Settings& s) {
     require_writable(file.path);
     taken.push_back(file);
   }
-}
-
-void write_to_standard_output(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw OutputError("standard output: cannot be written; expected an open reader or room");
 }
 
 }  // namespace hooke::app

@@ -13,9 +13,6 @@ namespace hooke::app {
 /// output, and OutputError if it cannot be written.
 void require_outputs(const Settings& settings);
 
-/// Writes the text to standard output. Throws OutputError.
-void write_to_standard_output(const std::string& text);
-
 /// Files that are written to temporary files until they are committed together.
 class OutputFiles {
  public:

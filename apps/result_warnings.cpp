@@ -9,6 +9,7 @@
 
 #include "messages.h"
 
+#include "hooke/mesh/vertex_welding.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/springs/sizing.h"
 
@@ -214,13 +215,41 @@ void warn_of_length(const Settings& s, double length, double natural, RunRecord&
                    run.input.path, asked)});
 }
 
-void warn_of_coincident_boundary(std::size_t count, RunRecord& run) {
+void warn_of_coincident_boundary(const Settings& s, std::size_t count, RunRecord& run) {
   if (count == 0) return;
   run.warnings.push_back(
       {"coincident_boundary",
        fmt::format("{}: {} boundary vertices share their place with another and stand still, so that no gap "
-                   "opens between them; weld them to let them move",
-                   run.input.path, count)});
+                   "opens between them{}",
+                   run.input.path, count,
+                   s.repair.repair ? "" : "; --repair welds them and lets them move")});
+}
+
+void warn_of_near_boundary(const Mat3X& points, const Adjacency& adjacency, RunRecord& run) {
+  std::vector<Edge> boundary;
+  for (size_t e = 0; e < adjacency.edges.size(); ++e)
+    if (adjacency.is_boundary_edge(static_cast<int>(e))) boundary.push_back(adjacency.edges[e]);
+  if (boundary.empty()) return;
+  const std::vector<int> merged = weld_vertices(points, reach_of_edges(points, boundary));
+  size_t count = 0;
+  for (size_t v = 0; v < merged.size(); ++v)
+    count += points.col(static_cast<Eigen::Index>(v)) != points.col(merged[v]) ? 1 : 0;
+  if (count == 0) return;
+  run.warnings.push_back(
+      {"near_boundary",
+       fmt::format(
+           "{}: {} boundary vertices nearly lie on another, within {:.0e} of the edges there: a seam whose "
+           "sides will part; --repair welds them",
+           run.input.path, count, welding_share)});
+}
+
+void warn_of_inside_out(RunRecord& run) {
+  const std::optional<double>& volume = run.before.extent.volume;
+  if (volume && *volume < 0)
+    run.warnings.push_back(
+        {"inside_out", fmt::format("{}: the mesh is inside out: its volume is {:.4g}; --repair turns "
+                                   "it over",
+                                   run.input.path, *volume)});
 }
 
 void add_result_warnings(const Settings& s, RunRecord& run) {

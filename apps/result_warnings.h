@@ -1,6 +1,7 @@
 // Warnings about the input and the result of a run, added to its record.
 #pragma once
 
+#include "hooke/mesh/adjacency.h"
 #include "hooke/report/report.h"
 #include "options.h"
 
@@ -11,7 +12,13 @@ namespace hooke::app {
 void warn_of_length(const Settings& settings, double length, double natural, RunRecord& run);
 
 /// Warns if there are boundary vertices (`count`) at the same position as another.
-void warn_of_coincident_boundary(std::size_t count, RunRecord& run);
+void warn_of_coincident_boundary(const Settings& settings, std::size_t count, RunRecord& run);
+
+/// Warns if boundary vertices nearly coincide, within welding_share of the boundary edges there.
+void warn_of_near_boundary(const Mat3X& points, const Adjacency& adjacency, RunRecord& run);
+
+/// Warns if the input is closed and inside out. Pre-condition: the input was measured.
+void warn_of_inside_out(RunRecord& run);
 
 /// Warns of folded faces, new self-intersections, deviation from the input surface, and missed face counts
 /// and edge lengths. Pre-condition: the run has a result that was measured.

@@ -27,7 +27,7 @@ constexpr double max_relative_length = .1;  // maximum, relative to the diagonal
 std::vector<double> read_property(const std::string& property, const std::filesystem::path& mesh_file,
                                   int count) {
   const std::string name = printable(mesh_file.native());
-  if (input_format_of(mesh_file) != "ply")
+  if (input_format_of(mesh_file) != MeshFormat::ply)
     throw Error(fmt::format("{}: sizing by the property {}; expected a PLY file; name a file of lengths",
                             name, in_quotes(property)));
   const FileBytes file = read_regular_file(mesh_file);
@@ -125,19 +125,31 @@ std::vector<Edge> creases_at(const std::vector<double>& lengths, const Mat3X& po
   return creases;
 }
 
+/// The values at these indices.
+std::vector<double> taken(const std::vector<double>& values, const std::vector<int>& indices) {
+  std::vector<double> result;
+  result.reserve(indices.size());
+  for (const int i : indices) result.push_back(values[static_cast<size_t>(i)]);
+  return result;
+}
+
 }  // namespace
 
 std::vector<double> read_sizing(const SizingSource& source, const std::filesystem::path& mesh_file,
                                 const Mat3X& points, const MemoryOrder& memory_order,
-                                const CreaseOptions& features) {
+                                const CreaseOptions& features, const MeshOrigin& origin) {
   const Adjacency& c = *memory_order.adjacency;
+  const int file_count = origin.vertex.empty() ? c.vertex_count : static_cast<int>(origin.merged.size());
+  const auto of_vertices = [&](const std::vector<double>& values) {
+    return memory_order.order.gather(origin.vertex.empty() ? values : taken(values, origin.vertex));
+  };
   switch (source.kind) {
     case SizingSource::Kind::none:
       break;
     case SizingSource::Kind::file:
-      return memory_order.order.gather(read_length_list(source.name, c.vertex_count));
+      return of_vertices(read_length_list(source.name, file_count));
     case SizingSource::Kind::ply_property:
-      return memory_order.order.gather(read_property(source.name, mesh_file, c.vertex_count));
+      return of_vertices(read_property(source.name, mesh_file, file_count));
     case SizingSource::Kind::curvature: {
       const double diagonal = box_diagonal(points);
       const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
@@ -151,10 +163,11 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
 }
 
 void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& memory_order,
-                        const Mat3X& points, RunRecord& record) {
+                        const MeshOrigin& origin, const Mat3X& points, RunRecord& record) {
   const Adjacency& adjacency = *memory_order.adjacency;
-  const Sizing sizing{read_sizing(s.sizing, s.input, points, memory_order, s.remesh.constraints.features),
-                      s.gradation};
+  const Sizing sizing{
+      read_sizing(s.sizing, s.input, points, memory_order, s.remesh.constraints.features, origin),
+      s.gradation};
   std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
   std::vector<double> of_edges;
   if (!s.edge_lengths.empty()) {

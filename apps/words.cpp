@@ -10,7 +10,8 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
-#include "hooke/io/mesh_file.h"
+#include "hooke/io/files.h"
+#include "hooke/io/mesh_format.h"
 #include "hooke/remesh/options.h"
 #include "hooke/springs/sizing.h"
 
@@ -62,6 +63,26 @@ void set_max_distance(const std::string& text, Settings& s) {
     s.max_distance_share = value / 100;
   else
     s.preservation.max_distance = value;
+}
+
+/// Sets the distance of --weld: a length that is not negative, or X% of the diagonal.
+void set_weld(const std::string& text, RepairOptions& repair) {
+  const auto [value, unit] = split(text);
+  if (!(unit.empty() || unit == "%") || !(value >= 0) || !std::isfinite(value))
+    throw Error(fmt::format("--weld {}; expected a number that is not negative, or X% of the diagonal",
+                            in_quotes(text)));
+  if (unit == "%")
+    repair.weld_share = value / 100;
+  else
+    repair.weld = value;
+}
+
+/// Parses a share of the area such as "1%".
+double parse_share(const std::string& text) {
+  const auto [value, unit] = split(text);
+  if (unit != "%" || !(value > 0) || !(value <= 100))
+    throw Error(fmt::format("--drop-components {}; expected X% of the area, from 0 to 100", in_quotes(text)));
+  return value / 100;
 }
 
 /// Parses an angle in degrees such as "40", or "off" (180).
@@ -132,7 +153,30 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
   refuse(!s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--edge-lengths"},
          "is of --connectivity fixed, where edges stay");
+  refuse(s.repair.any(), {"--edge-lengths"}, "names edges that --repair and --weld may change");
+  refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");
+}
+
+}  // namespace
+
+namespace {
+
+/// Throws Error if a standard stream is used twice, or without its format.
+void require_streams(const Settings& s) {
+  if (is_standard_input(s.input) && !s.input_format)
+    throw Error(
+        "INPUT is standard input, which has no extension; give --input-format obj|ply|off|stl|msh|vtp");
+  if (is_standard_input(s.input) && s.sizing.kind == SizingSource::Kind::ply_property)
+    throw Error(
+        "--sizing ply:PROPERTY reads the input a second time; expected a file, not standard input; name one");
+  if (is_standard_output(s.output) && s.report == "-")
+    throw Error("--output - and --report - both write to standard output; name a file for one of them");
+}
+
+MeshFormat format_of_output(const Settings& s) {
+  if (!is_standard_output(s.output)) return format_of(s.output);
+  throw Error("--output is standard output, which has no extension; give --format obj|ply|off|stl|msh|msh2");
 }
 
 }  // namespace
@@ -141,6 +185,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.length = parsed("--length", parse_length, s.length_text);
   resolve_sizing(s, raw);
   reject_unused_options(s, raw);
+  require_streams(s);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
   s.remesh.map = !s.map.empty();
@@ -148,6 +193,8 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
   s.preservation.feature_angle = s.remesh.constraints.features.angle;
+  if (s.weld_text != "off") set_weld(s.weld_text, s.repair);
+  if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;
@@ -165,7 +212,8 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (s.threads == 0) s.threads = threads_of_environment();
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
-  if (s.format.empty()) s.format = format_of(s.output);
+  s.format_given = s.format.has_value();
+  if (!s.format_given) s.format = format_of_output(s);
 }
 
 }  // namespace hooke::app

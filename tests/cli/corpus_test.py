@@ -22,7 +22,7 @@ def main():
         return SKIPPED
     command = os.path.abspath(os.environ["HOOKE_REMESH"]) + " {in} -o {out}"
     with tempfile.TemporaryDirectory() as folder:  # the corpus itself may be read-only
-        run = subprocess.run([sys.executable, script, "--corpus", corpus, "--formats", "obj,ply,off",
+        run = subprocess.run([sys.executable, script, "--corpus", corpus, "--formats", "obj,ply,off,stl",
                               *sys.argv[3:], command], cwd=folder, stdout=subprocess.PIPE,
                              text=True)
     print(run.stdout)

@@ -19,7 +19,7 @@ class UsageErrors(CommandTest):
         for option in (["-L", "none"], ["-L", "-1"], ["-L", "0"], ["-L", "nan"], ["--tolerance", "1m"],
                        ["--sizing", "ply:"], ["--sizing", "curvature:0"], ["--gradation", "0", "--sizing", "curvature"],
                        ["--gradation", "1"], ["-L", "sizing"], ["--threads", "0"], ["--filter", "magic"],
-                       ["--max-outer", "0"], ["--format", "stl"], ["--feature-angle", "0"],
+                       ["--max-outer", "0"], ["--format", "vtp"], ["--feature-angle", "0"],
                        ["--feature-angle", "180"], ["--feature-angle", "sharp"],
                        ["--feature-angle", "40", "--paper"]):
             with self.subTest(option=option):

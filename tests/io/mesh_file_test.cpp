@@ -23,36 +23,44 @@ std::string error_of(const fs::path& path) {
 }
 
 TEST(MeshFile, TheExtensionInAnyCaseIsTheFormat) {
-  EXPECT_EQ(format_of("a/b.c.OBJ"), "obj");
-  EXPECT_EQ(format_of("x.Ply"), "ply");
-  EXPECT_EQ(format_of(".hidden.off"), "off");
-  for (const char* name : {"", "x", "x.", "x.o", "x.stl", "obj", ".obj", "x.obj/", "x.obj.gz"})
+  EXPECT_EQ(format_of("a/b.c.OBJ"), MeshFormat::obj);
+  EXPECT_EQ(format_of("x.Ply"), MeshFormat::ply);
+  EXPECT_EQ(format_of(".hidden.off"), MeshFormat::off);
+  for (const char* name : {"", "x", "x.", "x.o", "x.vtp", "x.3ds", "obj", ".obj", "x.obj/", "x.obj.gz"})
     EXPECT_THROW(format_of(name), Error) << name;
-  EXPECT_ERROR(Error, "a.stl: unknown format; expected .obj .ply .off", format_of("a.stl"));
-  EXPECT_ERROR(InputError, "a.stl: unknown format; expected .obj .ply .off", input_format_of("a.stl"));
+  EXPECT_EQ(format_of("x.STL"), MeshFormat::stl);
+  EXPECT_EQ(format_of("x.msh"), MeshFormat::msh);
+  EXPECT_EQ(input_format_of("x.vtp"), MeshFormat::vtp);
+  EXPECT_ERROR(Error, "a.3ds: unknown format; expected .obj .ply .off .stl .msh", format_of("a.3ds"));
+  EXPECT_ERROR(Error, "a.vtp: VTP can only be read", format_of("a.vtp"));
+  EXPECT_ERROR(InputError, "a.3ds: unknown format; expected .obj .ply .off .stl .msh .vtp",
+               input_format_of("a.3ds"));
+  EXPECT_TRUE(has(test::message_of<InputError>([] { input_format_of("a.3ds"); }), "meshio, gmsh or admesh"));
 }
 
 TEST(MeshFile, AByteOrderMarkIsNotContent) {
-  EXPECT_EQ(parse_mesh_file("\xef\xbb\xbf" + obj, "m", "obj").points.cols(), 3);
-  EXPECT_EQ(parse_mesh_file("\xef\xbb\xbf" + off, "m", "off").points.cols(), 3);
+  EXPECT_EQ(parse_mesh_file("\xef\xbb\xbf" + obj, "m", MeshFormat::obj).points.cols(), 3);
+  EXPECT_EQ(parse_mesh_file("\xef\xbb\xbf" + off, "m", MeshFormat::off).points.cols(), 3);
 }
 
 TEST(MeshFile, ContentOfAnotherFormatIsNamed) {
-  const auto error = [](const std::string& bytes, const char* format) {
+  const auto error = [](const std::string& bytes, MeshFormat format) {
     return test::message_of<InputError>([&] { parse_mesh_file(bytes, "m", format); });
   };
-  EXPECT_TRUE(has(error(off, "obj"), "m:1: the content looks like off; expected obj by the extension"));
-  EXPECT_TRUE(has(error(off, "ply"), "looks like off; expected ply"));
-  EXPECT_TRUE(has(error(obj, "off"), "looks like obj; expected off"));
-  EXPECT_TRUE(has(error("ply\nformat ascii 1.0\n", "obj"), "looks like ply; expected obj"));
-  EXPECT_TRUE(has(error("solid x\nfacet\n", "obj"), "looks like STL"));
-  EXPECT_TRUE(has(error(std::string(80, 'h') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "obj"),
-                  "looks like binary STL"));
-  EXPECT_TRUE(has(error("\x1f\x8b\x08", "obj"), "looks like gzip"));
-  EXPECT_TRUE(has(error("<!DOCTYPE html>", "obj"), "looks like HTML or XML"));
   EXPECT_TRUE(
-      has(error("version https://git-lfs.github.com/spec/v1\n", "obj"), "looks like a Git LFS pointer"));
-  EXPECT_TRUE(has(error(obj + std::string(3, '\0'), "obj"), "m: byte 32 is zero"));
+      has(error(off, MeshFormat::obj), "m:1: the content looks like off; expected obj by the extension"));
+  EXPECT_TRUE(has(error(off, MeshFormat::ply), "looks like off; expected ply"));
+  EXPECT_TRUE(has(error(obj, MeshFormat::off), "looks like obj; expected off"));
+  EXPECT_TRUE(has(error("ply\nformat ascii 1.0\n", MeshFormat::obj), "looks like ply; expected obj"));
+  EXPECT_TRUE(has(error("solid x\nfacet\n", MeshFormat::obj), "looks like stl"));
+  EXPECT_TRUE(
+      has(error(std::string(80, 'h') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), MeshFormat::obj),
+          "looks like binary STL"));
+  EXPECT_TRUE(has(error("\x1f\x8b\x08", MeshFormat::obj), "looks like gzip"));
+  EXPECT_TRUE(has(error("<!DOCTYPE html>", MeshFormat::obj), "looks like HTML or XML"));
+  EXPECT_TRUE(has(error("version https://git-lfs.github.com/spec/v1\n", MeshFormat::obj),
+                  "looks like a Git LFS pointer"));
+  EXPECT_TRUE(has(error(obj + std::string(3, '\0'), MeshFormat::obj), "m: byte 32 is zero"));
 }
 
 TEST(MeshFile, OnlyRegularFilesAreRead) {

@@ -136,29 +136,30 @@ TEST(FormatData, ColoursChangeTheirScaleBetweenFormats) {
                             {"green", NumberType::uint8, {51, 255}},
                             {"blue", NumberType::uint8, {255, 0}},
                             {"quality", NumberType::float32, {1, 2}}};
-  const FormatData obj = data_for_format(bytes, "ply", "obj");
+  const FormatData obj = data_for_format(bytes, MeshFormat::ply, MeshFormat::obj);
   ASSERT_EQ(obj.data.size(), 3u);
   EXPECT_EQ(obj.data[1].values, (std::vector<double>{.2, 1}));
   EXPECT_EQ(obj.dropped, std::vector<std::string>{"quality"});
-  const FormatData ply = data_for_format(obj.data, "obj", "ply");
+  const FormatData ply = data_for_format(obj.data, MeshFormat::obj, MeshFormat::ply);
   for (size_t c = 0; c < 3; ++c) {
     EXPECT_EQ(ply.data[c].type, NumberType::uint8);
     EXPECT_EQ(ply.data[c].values, bytes[c].values);
   }
-  EXPECT_EQ(data_for_format(bytes, "ply", "ply").data.size(), 4u);
-  const FormatData off = data_for_format(obj.data, "obj", "off");
+  EXPECT_EQ(data_for_format(bytes, MeshFormat::ply, MeshFormat::ply).data.size(), 4u);
+  const FormatData off = data_for_format(obj.data, MeshFormat::obj, MeshFormat::off);
   ASSERT_EQ(off.data.size(), 4u) << "an alpha is added";
   for (size_t c = 0; c < 3; ++c) EXPECT_EQ(off.data[c].values, bytes[c].values);
   EXPECT_EQ(off.data[3].values, (std::vector<double>{255, 255}));
-  EXPECT_EQ(data_for_format(off.data, "off", "obj").dropped, std::vector<std::string>{"alpha"});
+  EXPECT_EQ(data_for_format(off.data, MeshFormat::off, MeshFormat::obj).dropped,
+            std::vector<std::string>{"alpha"});
 }
 
 TEST(FormatData, ColoursWithoutANumberHaveNoPlaceInTextFormats) {
   const VertexData data = {{"red", NumberType::float32, {nan, 2}},
                            {"green", NumberType::float32, {.5, -1}},
                            {"blue", NumberType::float32, {1, 1}}};
-  EXPECT_EQ(data_for_format(data, "ply", "off").dropped.size(), 3u);
-  EXPECT_EQ(data_for_format(data, "ply", "obj").dropped.size(), 3u);
+  EXPECT_EQ(data_for_format(data, MeshFormat::ply, MeshFormat::off).dropped.size(), 3u);
+  EXPECT_EQ(data_for_format(data, MeshFormat::ply, MeshFormat::obj).dropped.size(), 3u);
 }
 
 TEST(FormatData, NormalsAndTextureCoordinatesGoBetweenFormatsWhereTheyAreWhole) {
@@ -167,25 +168,25 @@ TEST(FormatData, NormalsAndTextureCoordinatesGoBetweenFormatsWhereTheyAreWhole) 
     for (const std::string& name : names) data.push_back({name, NumberType::float32, {.25, .5}});
     return data;
   };
-  const auto dropped = [&](const std::vector<std::string>& names, const char* from, const char* to) {
+  const auto dropped = [&](const std::vector<std::string>& names, MeshFormat from, MeshFormat to) {
     return data_for_format(of(names), from, to).dropped;
   };
   const std::vector<std::string> none;
-  for (const char* to : {"obj", "off"}) {
-    EXPECT_EQ(dropped({"nx", "ny", "nz", "s", "t"}, "ply", to), none);
-    EXPECT_EQ(dropped({"nx", "nz", "t"}, "ply", to).size(), 3u);
-    const FormatData other = data_for_format(of({"texture_u", "q", "texture_v"}), "ply", to);
+  for (const MeshFormat to : {MeshFormat::obj, MeshFormat::off}) {
+    EXPECT_EQ(dropped({"nx", "ny", "nz", "s", "t"}, MeshFormat::ply, to), none);
+    EXPECT_EQ(dropped({"nx", "nz", "t"}, MeshFormat::ply, to).size(), 3u);
+    const FormatData other = data_for_format(of({"texture_u", "q", "texture_v"}), MeshFormat::ply, to);
     ASSERT_EQ(other.data.size(), 2u);
     EXPECT_EQ(other.data[0].name, "s");
     EXPECT_EQ(other.data[1].name, "t");
-    EXPECT_EQ(dropped({"s", "t", "texture_u", "texture_v"}, "ply", to).size(), 2u)
+    EXPECT_EQ(dropped({"s", "t", "texture_u", "texture_v"}, MeshFormat::ply, to).size(), 2u)
         << "one pair has the place";
   }
-  EXPECT_EQ(dropped({"s", "t", "p"}, "obj", "off"), std::vector<std::string>{"p"});
-  EXPECT_EQ(dropped({"s", "t", "p"}, "obj", "ply"), none);
+  EXPECT_EQ(dropped({"s", "t", "p"}, MeshFormat::obj, MeshFormat::off), std::vector<std::string>{"p"});
+  EXPECT_EQ(dropped({"s", "t", "p"}, MeshFormat::obj, MeshFormat::ply), none);
   VertexData endless = of({"s", "t"});
   endless[1].values[0] = inf;
-  EXPECT_EQ(data_for_format(endless, "ply", "obj").dropped.size(), 2u);
+  EXPECT_EQ(data_for_format(endless, MeshFormat::ply, MeshFormat::obj).dropped.size(), 2u);
 }
 
 }  // namespace hooke::attributes_test

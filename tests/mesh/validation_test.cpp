@@ -139,6 +139,20 @@ TEST(Validation, TheMessageNamesFileFacesAndLines) {
   EXPECT_TRUE(has(message({"m.obj", {5, 7}, {1, 2, 3, 4, 5, 60, 7, 80}}), "faces 5 (line 60), 7 (line 80);"));
 }
 
+TEST(Validation, MessagesNameTheRepairWhereItHelpsAndWasNotTried) {
+  const auto message = [](const test::Triangles& t, bool repaired) {
+    return test::message_of<MeshError>([&] { require_valid(t.points, t.faces, {"m", {}, {}, repaired}); });
+  };
+  const auto mixed = with_faces({{0, 1, 2}, {0, 1, 3}});
+  EXPECT_TRUE(has(message(mixed, false), "orient the faces alike, or use --repair"));
+  EXPECT_FALSE(has(message(mixed, true), "--repair"));
+  EXPECT_FALSE(has(message(with_faces({}), false), "--repair")) << "no faces";
+  const auto apart = with_faces({{0, 1, 2}, {3, 4, 5}});
+  for (const bool repaired : {false, true})
+    EXPECT_EQ(has(require_valid(apart.points, apart.faces, {"m", {}, {}, repaired})[0].message, "--repair"),
+              !repaired);
+}
+
 TEST(Validation, ManyPlacesMakeAShortMessageAndThreadsChangeNothing) {
   test::Triangles t = test::sphere(4);
   for (size_t f = 0; f < t.faces.size(); f += 2) std::swap(t.faces[f][0], t.faces[f][1]);

@@ -33,4 +33,12 @@ struct Warning {
 };
 using Warnings = std::vector<Warning>;
 
+/// A change that was made to the input, with a code that scripts can test.
+struct Note {
+  std::string code;       // e.g. "duplicate_faces_dropped"
+  std::size_t count = 0;  // how often
+  std::string message;    // one line; names the file, the count and the first places
+};
+using Notes = std::vector<Note>;
+
 }  // namespace hooke

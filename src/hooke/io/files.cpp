@@ -182,11 +182,21 @@ class PendingFile::Written {
 
 PendingFile::PendingFile(const fs::path& path, std::string_view bytes)
     : written_(std::make_unique<Written>(path, bytes)) {}
+
+PendingFile PendingFile::to_standard_output(std::string bytes) {
+  PendingFile file;
+  file.bytes_ = std::move(bytes);
+  return file;
+}
+
 PendingFile::PendingFile(PendingFile&&) noexcept = default;
 PendingFile::~PendingFile() = default;
 
 void PendingFile::commit() {
-  written_->commit();
+  if (written_)
+    written_->commit();
+  else
+    write_to_standard_output(bytes_);
 }
 
 void require_writable(const fs::path& path) {
@@ -284,6 +294,49 @@ FileBytes read_regular_file(const std::filesystem::path& path) {
   } catch (const std::length_error&) {
     throw LimitError(
         fmt::format("{}: {} bytes do not fit in memory; use a machine with more", name, status.st_size));
+  }
+}
+
+bool is_standard_input(const std::filesystem::path& path) {
+  return path == "-" || path == "/dev/stdin";
+}
+
+bool is_standard_output(const std::filesystem::path& path) {
+  return path == "-";
+}
+
+FileBytes read_standard_input() {
+  FileBytes content{UninitializedVector<char>(size_t{1} << 16)};
+  UninitializedVector<char>& bytes = content.bytes;
+  size_t used = 0;
+  try {
+    while (true) {
+      if (used == bytes.size()) bytes.resize(2 * used);
+      const ssize_t count = ::read(STDIN_FILENO, bytes.data() + used, bytes.size() - used);
+      if (count == 0) break;
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0)
+        throw InputError(fmt::format(
+            "standard input: cannot be read: {}; expected a mesh; check where it comes from", reason(errno)));
+      used += static_cast<size_t>(count);
+    }
+  } catch (const std::bad_alloc&) {
+    throw LimitError(fmt::format(
+        "standard input: more than {} bytes do not fit in memory; use a machine with more", used));
+  }
+  bytes.resize(used);
+  if (bytes.empty()) throw InputError("standard input: is empty; expected a mesh; check where it comes from");
+  return content;
+}
+
+void write_to_standard_output(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0)
+      throw OutputError(fmt::format("standard output: cannot be written: {}; expected an open reader or room",
+                                    reason(errno)));
+    bytes.remove_prefix(static_cast<size_t>(count));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "hooke/core/lists.h"
@@ -18,6 +19,10 @@ class PendingFile {
   /// point to will be replaced. The mode is that of the file to be replaced, or given by the umask for a new
   /// file. Throws OutputError with the file name and the system's reason; then no temporary file is left.
   PendingFile(const std::filesystem::path& path, std::string_view bytes);
+
+  /// The bytes instead, which commit() writes to standard output.
+  static PendingFile to_standard_output(std::string bytes);
+
   PendingFile(PendingFile&&) noexcept;
   ~PendingFile();
 
@@ -26,8 +31,11 @@ class PendingFile {
   void commit();
 
  private:
+  PendingFile() = default;
+
   class Written;
-  std::unique_ptr<Written> written_;
+  std::unique_ptr<Written> written_;  // null for standard output
+  std::string bytes_;                 // for standard output
 };
 
 /// Throws OutputError if a PendingFile could not be created: the folder is missing or read-only, or the
@@ -49,5 +57,15 @@ struct FileBytes {
 /// Reads a whole regular file. Throws InputError if it is missing, not a regular file (such as a folder
 /// or a pipe), empty or unreadable, and LimitError if it does not fit in memory. Does not block on a pipe.
 FileBytes read_regular_file(const std::filesystem::path& path);
+
+/// Whether the path stands for a standard stream of the process: "-", also "/dev/stdin" for the input.
+bool is_standard_input(const std::filesystem::path& path);
+bool is_standard_output(const std::filesystem::path& path);
+
+/// Reads standard input to its end. Throws like read_regular_file().
+FileBytes read_standard_input();
+
+/// Writes the bytes to standard output. Throws OutputError.
+void write_to_standard_output(std::string_view bytes);
 
 }  // namespace hooke

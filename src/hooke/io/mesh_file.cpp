@@ -6,97 +6,44 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
-#include <optional>
 
 #include "hooke/core/error.h"
-#include "hooke/core/printable.h"
+#include "hooke/io/msh.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
-#include "hooke/io/scanner.h"
+#include "hooke/io/stl.h"
+#include "hooke/io/vtp.h"
 
 namespace hooke {
 namespace {
-
-bool is_binary_stl(std::string_view bytes) {
-  if (bytes.size() < 84) return false;
-  std::uint32_t triangles = 0;
-  std::memcpy(&triangles, bytes.data() + 80, 4);  // little-endian, like all supported machines
-  return bytes.size() == 84 + 50 * static_cast<size_t>(triangles);
-}
 
 std::string_view without_byte_order_mark(std::string_view bytes) {
   return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
 }
 
-bool is_off_keyword(std::string_view word) {
-  return word.size() >= 3 && word.size() <= 8 && equal_ignoring_case(word.substr(word.size() - 3), "OFF");
-}
-
-/// The probable kind of the content: "obj", "ply", "off", the name of another kind, or empty if unknown.
-std::string guess_content(std::string_view bytes) {
-  if (bytes.starts_with("\x1f\x8b")) return "gzip";
-  if (bytes.starts_with("PK\x03\x04")) return "zip";
-  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) return "UTF-16 text";
-  if (is_binary_stl(bytes)) return "binary STL";
-  Scanner in(bytes, "", {.comments = true});
-  if (!in.next_line()) return "";
-  const std::string_view word = in.token(), next = in.token();
-  if (equal_ignoring_case(word, "ply")) return "ply";
-  if (is_off_keyword(word)) return "off";
-  if (word == "solid") return "STL";
-  if (word.starts_with('<')) return "HTML or XML";
-  if (word == "version" && next.starts_with("https://git-lfs")) return "a Git LFS pointer";
-  for (const char* keyword : {"v", "vt", "vn", "f", "mtllib", "usemtl", "o", "g"})
-    if (word == keyword) return "obj";
-  return "";
-}
-
-void refuse_other_content(std::string_view bytes, const std::string& name, const std::string& format) {
-  const std::string guess = guess_content(bytes);
-  if (!guess.empty() && guess != format)
-    throw InputError(fmt::format(
-        "{}:1: the content looks like {}; expected {} by the extension; rename or convert the file", name,
-        guess, format));
-  const bool text_only = format != "ply";
-  if (const size_t zero = bytes.find('\0'); text_only && zero != bytes.npos && guess != "off")
-    throw InputError(fmt::format(
-        "{}: byte {} is zero; expected the text of an {} file; the content is binary", name, zero, format));
-}
-
-std::optional<std::string> known_format(const std::filesystem::path& path) {
-  const std::string extension = path.extension().native();
-  for (const char* format : {"obj", "ply", "off"})
-    if (!extension.empty() && equal_ignoring_case(extension.substr(1), format)) return format;
-  return std::nullopt;
-}
-
-std::string unknown_format(const std::filesystem::path& path) {
-  return (path.empty() ? "''" : printable(path.native())) +
-         ": unknown format; expected .obj .ply .off; rename or convert the file";
-}
-
 }  // namespace
 
-std::string format_of(const std::filesystem::path& path) {
-  if (const auto format = known_format(path)) return *format;
-  throw Error(unknown_format(path));
-}
-
-std::string input_format_of(const std::filesystem::path& path) {
-  if (const auto format = known_format(path)) return *format;
-  throw InputError(unknown_format(path));
-}
-
-MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const std::string& format) {
+MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, MeshFormat format) {
   bytes = without_byte_order_mark(bytes);
   refuse_other_content(bytes, name, format);
-  if (format == "obj") return read_obj(bytes, name);
-  if (format == "ply") return read_ply(bytes, name);
-  return read_off(bytes, name);
+  switch (format) {
+    case MeshFormat::obj:
+      return read_obj(bytes, name);
+    case MeshFormat::ply:
+      return read_ply(bytes, name);
+    case MeshFormat::off:
+      return read_off(bytes, name);
+    case MeshFormat::stl:
+      return read_stl(bytes, name);
+    case MeshFormat::msh:
+    case MeshFormat::msh2:
+      return read_msh(bytes, name);
+    case MeshFormat::vtp:
+      break;
+  }
+  return read_vtp(bytes, name);
 }
 
 namespace {
@@ -191,11 +138,14 @@ VertexData with_common_names(VertexData data) {
 /// The colours, normals and texture coordinates in the data that a format can hold.
 class CommonData {
  public:
-  CommonData(const VertexData& data, const std::string& format) {
+  CommonData(const VertexData& data, MeshFormat format) {
+    const bool holds_any =
+        format == MeshFormat::obj || format == MeshFormat::ply || format == MeshFormat::off;
+    if (!holds_any) return;
     const ChannelNames colours = colour_names, texture = texture_names;
-    if (has_all(data, colours.first(3))) colours_ = colours.first(format == "obj" ? 3 : 4);
+    if (has_all(data, colours.first(3))) colours_ = colours.first(format == MeshFormat::obj ? 3 : 4);
     if (has_all(data, normal_names)) normals_ = normal_names;
-    if (has_all(data, texture.first(2))) texture_ = texture.first(format == "off" ? 2 : 3);
+    if (has_all(data, texture.first(2))) texture_ = texture.first(format == MeshFormat::off ? 2 : 3);
   }
 
   bool is_colour(const std::string& name) const { return is_one_of(name, colours_); }
@@ -209,21 +159,54 @@ class CommonData {
 
 }  // namespace
 
-FormatData data_for_format(const VertexData& data, const std::string& from, const std::string& to) {
+FormatData data_for_format(const VertexData& data, MeshFormat from, MeshFormat to) {
   if (from == to) return {data, {}};
   const VertexData named = with_common_names(data);
   const CommonData common(named, to);
   FormatData result;
   for (const VertexChannel& channel : named) {
     if (common.is_colour(channel.name))
-      result.data.push_back(scaled(channel, to == "obj" ? NumberType::float64 : NumberType::uint8));
-    else if (to == "ply" || common.has(channel.name))
+      result.data.push_back(scaled(channel, to == MeshFormat::obj ? NumberType::float64 : NumberType::uint8));
+    else if (to == MeshFormat::ply || common.has(channel.name))
       result.data.push_back(channel);
     else
       result.dropped.push_back(channel.name);
   }
-  if (to == "off" && common.is_colour("red") && !find_channel(named, "alpha"))
+  if (to == MeshFormat::off && common.is_colour("red") && !find_channel(named, "alpha"))
     result.data.push_back({"alpha", NumberType::uint8, std::vector(named.front().values.size(), 255.)});
+  return result;
+}
+
+namespace {
+
+bool holds(MeshFormat format, PlyEncoding encoding, const std::string& channel) {
+  switch (format) {
+    case MeshFormat::msh:
+    case MeshFormat::msh2:
+      return channel == group_channel || channel == entity_channel;
+    case MeshFormat::stl:
+      return channel == (encoding == PlyEncoding::ascii ? group_channel : attribute_channel);
+    case MeshFormat::obj:
+    case MeshFormat::ply:
+    case MeshFormat::off:
+    case MeshFormat::vtp:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
+
+FormatFaceData face_data_for_format(const FaceData& data, MeshFormat to, PlyEncoding encoding) {
+  FormatFaceData result;
+  for (const FaceChannel& channel : data) {
+    const bool differs =
+        std::ranges::any_of(channel.values, [&](int x) { return x != channel.values.front(); });
+    if (holds(to, encoding, channel.name))
+      result.data.push_back(channel);
+    else if (differs)
+      result.dropped.push_back(channel.name);
+  }
   return result;
 }
 

@@ -1,12 +1,13 @@
-// The content of a mesh file (OBJ, PLY or OFF) as plain arrays, before validation, and the conversion of
-// vertex data between these formats.
+// The content of a mesh file (OBJ, PLY, OFF, STL, Gmsh or VTP) as plain arrays, before validation, and the
+// conversion of vertex data between these formats.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "hooke/io/mesh_format.h"
 #include "hooke/mesh/attributes.h"
+#include "hooke/mesh/face_data.h"
 
 namespace hooke {
 
@@ -15,25 +16,21 @@ enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
 /// The content of a mesh file. Invariant: points are finite, every polygon has at least three corners, and
 /// corners are vertex ids in [0, points.cols()).
 struct MeshFile {
-  std::string name;                                          // printable name of the file, for messages
-  std::string format;                                        // "obj", "ply" or "off"
-  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a PLY file
+  std::string name;  // printable name of the file, for messages
+  MeshFormat format = MeshFormat::obj;
+  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of PLY and STL files
   Mat3X points;                                              // vertices in file order
   IntLists polygons{{0}, {}};  // vertex ids (0-based) of each face, in file order
   std::vector<int> lines;      // line number of each polygon; empty for binary files
   VertexData vertex_data;      // other values of the vertices, in file order
+  FaceData face_data;          // of the polygons
   Warnings warnings;
+  Notes notes;  // what was done to the content as it always is, such as welding
 };
 
-/// The format given by the file extension, ignoring case: "obj", "ply" or "off". Throws Error for others.
-std::string format_of(const std::filesystem::path& path);
-
-/// The same for an input file: throws InputError.
-std::string input_format_of(const std::filesystem::path& path);
-
-/// Parses the bytes of a mesh file. `format` is as returned by format_of(); `name` is printable and begins
-/// all messages. Throws InputError "NAME:LINE: problem; what was expected; what to do" for malformed bytes.
-MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, const std::string& format);
+/// Parses the bytes of a mesh file. `name` is printable and begins all messages. Throws InputError
+/// "NAME:LINE: problem; what was expected; what to do" for malformed bytes.
+MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, MeshFormat format);
 
 /// Completes the polygon whose corners were appended to file.polygons.items. Throws LimitError for more than
 /// 2^31 - 1 corners in all.
@@ -57,6 +54,15 @@ struct FormatData {
 /// third texture coordinate. Colours of integer types range up to the maximum of the type, others up to 1;
 /// they become 8-bit integers, but numbers from 0 to 1 in OBJ. The PLY names texture_u and texture_v stand
 /// for s and t.
-FormatData data_for_format(const VertexData& data, const std::string& from, const std::string& to);
+FormatData data_for_format(const VertexData& data, MeshFormat from, MeshFormat to);
+
+/// Face data as a file format holds it.
+struct FormatFaceData {
+  FaceData data;
+  std::vector<std::string> dropped;  // names of channels that the format cannot hold and that differ
+};
+
+/// Keeps the channels that the format holds: MSH groups and entities; STL groups as text, else attributes.
+FormatFaceData face_data_for_format(const FaceData& data, MeshFormat to, PlyEncoding encoding);
 
 }  // namespace hooke

@@ -218,7 +218,7 @@ void append_ignored(const std::vector<ObjReader>& readers, std::vector<std::stri
 MeshFile read_obj(std::string_view text, const std::string& name) {
   MeshFile file;
   file.name = name;
-  file.format = "obj";
+  file.format = MeshFormat::obj;
   const std::vector<TextPiece> pieces =
       remaining_pieces(Scanner(text, name, {.comments = true, .continuations = true}), numbered);
   ObjNumbers numbers;

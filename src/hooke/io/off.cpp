@@ -195,7 +195,7 @@ MeshFile read_off(std::string_view text, const std::string& name) {
   const int extra = numbers_after_coordinates(pieces, header);
   MeshFile file;
   file.name = name;
-  file.format = "off";
+  file.format = MeshFormat::off;
   file.points.resize(3, std::min<long long>(rows, header.vertices));
   file.vertex_data = allocate_data(header, extra, static_cast<size_t>(file.points.cols()));
   std::vector<MeshFile> parts(pieces.size());

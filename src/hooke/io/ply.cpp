@@ -217,7 +217,7 @@ MeshFile read_ply(std::string_view bytes, const std::string& name) {
   check_face_element(face, name);
   MeshFile file;
   file.name = name;
-  file.format = "ply";
+  file.format = MeshFormat::ply;
   file.encoding = header.encoding;
   if (header.encoding == PlyEncoding::ascii)
     read_ascii_body(AsciiPlyBody(bytes, name, header), {header, vertex, face}, file);

@@ -1,8 +1,11 @@
 #include "hooke/io/read_mesh.h"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <utility>
 
+#include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"
@@ -35,17 +38,66 @@ MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& trian
   return memory_order;
 }
 
+/// Brings the data of vertices and faces in the order of a repaired mesh.
+void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_data, MeshSource& source) {
+  for (VertexChannel& channel : vertex_data) {
+    std::vector<double> values;
+    values.reserve(origin.vertex.size());
+    for (const int v : origin.vertex) values.push_back(channel.values[static_cast<size_t>(v)]);
+    channel.values = std::move(values);
+  }
+  face_data = gather(face_data, origin.face);
+  std::vector<int> face;
+  face.reserve(origin.face.size());
+  for (const int f : origin.face) face.push_back(source.face[static_cast<size_t>(f)]);
+  source.face = std::move(face);
+}
+
+/// Returns work(). Says in the messages of its errors what the repair had done.
+template <typename Work>
+auto after_repairs(const Notes& repairs, const Work& work) {
+  try {
+    return work();
+  } catch (const MeshError& e) {
+    if (repairs.empty()) throw;
+    std::string done;
+    for (const Note& repair : repairs)
+      done += fmt::format("{}{} {}", done.empty() ? "" : ", ", repair.code, repair.count);
+    throw MeshError(fmt::format("{}; this is after the repair: {}", e.what(), done));
+  }
+}
+
 }  // namespace
 
-LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
-  const std::string format = input_format_of(path);
-  FileBytes content = timed(stopwatch, "file", [&] { return read_regular_file(path); });
-  MeshFile file = timed(stopwatch, "parse",
-                        [&] { return parse_mesh_file(content.text(), printable(path.native()), format); });
+std::string name_of_input(const std::filesystem::path& path) {
+  return is_standard_input(path) ? "standard input" : printable(path.native());
+}
+
+LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, const ReadOptions& options) {
+  const MeshFormat format = options.format ? *options.format : input_format_of(path);
+  FileBytes content = timed(stopwatch, "file", [&] {
+    return is_standard_input(path) ? read_standard_input() : read_regular_file(path);
+  });
+  MeshFile file =
+      timed(stopwatch, "parse", [&] { return parse_mesh_file(content.text(), name_of_input(path), format); });
   TriangulatedPolygons triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
   append(warnings, warnings_of(triangulation, file.name));
+  MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
+  FaceData face_data = gather(file.face_data, source.face);
+  Notes repairs;
+  MeshOrigin origin;
+  if (options.repair.any())
+    timed(stopwatch, "repair", [&] {
+      Repaired repaired = repair(file.points, std::move(triangulation.triangles), options.repair, source);
+      file.points = std::move(repaired.points);
+      triangulation.triangles = std::move(repaired.triangles);
+      repairs = std::move(repaired.changes);
+      origin = std::move(repaired.origin);
+      follow(origin, file.vertex_data, face_data, source);
+      source.repaired = options.repair.repair;
+    });
   const std::vector<Triangle>& triangles = triangulation.triangles;
 
   Permutation order;
@@ -60,9 +112,9 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
   content = {};  // frees memory for the mesh
 
-  const MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
-  MemoryOrder memory_order =
-      valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
+  MemoryOrder memory_order = after_repairs(repairs, [&] {
+    return valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
+  });
   require_workable_size(file.points, file.name);
   triangulation = {};
   // Constructed in place, because OpenMesh meshes can only be copied, not moved.
@@ -75,6 +127,10 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
       std::move(hash),
       std::move(faces_hash),
       std::move(file.vertex_data),
+      std::move(face_data),
+      std::move(origin),
+      std::move(file.notes),
+      std::move(repairs),
       std::move(warnings)};
 }
 

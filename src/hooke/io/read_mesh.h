@@ -2,29 +2,45 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/repair.h"
 
 namespace hooke {
 
-/// A mesh with the data of its file that the report and the writer need.
+/// A mesh with the data of its file that the report and the writer need. Ids in files are those before a
+/// repair.
 struct LoadedMesh {
   TriMesh mesh;              // vertices and faces in file order; triangles of a polygon are consecutive
   MemoryOrder memory_order;  // memory order of the mesh, with its adjacency
-  std::string format;        // "obj", "ply" or "off"
-  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of a PLY file
+  MeshFormat format = MeshFormat::obj;
+  PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of PLY and STL files
   std::string sha256;                                        // of the bytes of the file, hexadecimal
   std::string connectivity_sha256;                           // see sha256.h
   VertexData vertex_data;                                    // values of the vertices in the file
+  FaceData face_data;                                        // of the triangles
+  MeshOrigin origin;                                         // if the mesh was repaired
+  Notes notes;                                               // see MeshFile
+  Notes repairs;                                             // what the repair did
   Warnings warnings;  // from reading, triangulation and validation, in this order
 };
 
-/// Reads a mesh file, triangulates its polygons, validates and builds the mesh. Throws InputError if the file
-/// is not a well-formed mesh file, MeshError if the mesh is not an oriented manifold with area, and
-/// LimitError if it does not fit in memory.
-LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch = nullptr);
+struct ReadOptions {
+  std::optional<MeshFormat> format;  // of the file; none: by its extension
+  RepairOptions repair;
+};
+
+/// The name of an input for messages: printable, "standard input" for a standard stream.
+std::string name_of_input(const std::filesystem::path& path);
+
+/// Reads a mesh file, or standard input for "-", triangulates its polygons, repairs the mesh if asked to,
+/// validates and builds it. Throws InputError if the file is not a well-formed mesh file, MeshError if the
+/// mesh is not an oriented manifold with area, and LimitError if it does not fit in memory.
+LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch = nullptr,
+                     const ReadOptions& options = {});
 
 }  // namespace hooke

@@ -2,42 +2,68 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <optional>
+#include <utility>
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/printable.h"
+#include "hooke/io/msh.h"
 #include "hooke/io/obj.h"
 #include "hooke/io/off.h"
 #include "hooke/io/ply.h"
 #include "hooke/io/sha256.h"
+#include "hooke/io/stl.h"
 
 namespace hooke {
 
 namespace {
 
-std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, const std::string& format,
-                     PlyEncoding encoding, const VertexData& data) {
+std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, MeshFormat format,
+                     PlyEncoding encoding, const VertexData& data, const FaceData& face_data) {
   const auto points = vertex_points(mesh);
-  if (format == "obj") return write_obj(points, triangles, data);
-  if (format == "ply") return write_ply(points, triangles, encoding, data);
-  if (format == "off") return write_off(points, triangles, data);
-  throw Error(fmt::format("format {}; expected obj, ply or off; choose one of them", in_quotes(format)));
+  switch (format) {
+    case MeshFormat::obj:
+      return write_obj(points, triangles, data);
+    case MeshFormat::ply:
+      return write_ply(points, triangles, encoding, data);
+    case MeshFormat::off:
+      return write_off(points, triangles, data);
+    case MeshFormat::stl:
+      return write_stl(points, triangles, encoding, face_data);
+    case MeshFormat::msh:
+    case MeshFormat::msh2:
+      return write_msh(points, triangles, format, face_data);
+    case MeshFormat::vtp:
+      break;
+  }
+  assert(false && "VTP is not written");
+  return "";
 }
 
 }  // namespace
 
-std::string mesh_bytes(const TriMesh& mesh, const std::string& format, PlyEncoding encoding,
-                       const VertexData& data) {
-  return bytes_of(mesh, triangles_of(mesh), format, encoding, data);
+std::string name_of_output(const std::filesystem::path& path) {
+  return is_standard_output(path) ? "standard output" : printable(path.native());
 }
 
-PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
-                         PlyEncoding encoding, const VertexData& data, Stopwatch* stopwatch) {
+std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const VertexData& data,
+                       const FaceData& face_data) {
+  return bytes_of(mesh, triangles_of(mesh), format, encoding, data, face_data);
+}
+
+PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
+                         PlyEncoding encoding, const VertexData& data, const FaceData& face_data,
+                         Stopwatch* stopwatch) {
   std::vector<Triangle> triangles;
-  const std::string bytes = timed(stopwatch, "format", [&] {
+  std::string bytes = timed(stopwatch, "format", [&] {
     triangles = triangles_of(mesh);
-    return bytes_of(mesh, triangles, format, encoding, data);
+    try {
+      return bytes_of(mesh, triangles, format, encoding, data, face_data);
+    } catch (const OutputError& e) {
+      throw OutputError(fmt::format("{}: {}", name_of_output(path), e.what()));
+    }
   });
   const Stage stage(stopwatch, "file");
   std::optional<PendingFile> file;
@@ -46,6 +72,10 @@ PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh,
     hash = sha256(bytes);
     faces_hash = connectivity_sha256(triangles);
   };
+  if (is_standard_output(path)) {
+    take_hashes();
+    return {PendingFile::to_standard_output(std::move(bytes)), std::move(hash), std::move(faces_hash)};
+  }
   parallel_invoke([&] { file.emplace(path, bytes); }, take_hashes);
   return {*std::move(file), std::move(hash), std::move(faces_hash)};
 }

@@ -11,11 +11,15 @@
 
 namespace hooke {
 
-/// The bytes of a mesh file in the format "obj", "ply" or "off"; `encoding` applies to PLY only. Coordinates
-/// read back exactly; vertices and faces keep their order. Of the data, the channels that the format can hold
-/// are written (see data_for_format()). Throws Error for another format.
-std::string mesh_bytes(const TriMesh& mesh, const std::string& format,
-                       PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {});
+/// The name of an output for messages: printable, "standard output" for a standard stream.
+std::string name_of_output(const std::filesystem::path& path);
+
+/// The bytes of a mesh file; `encoding` applies to PLY and STL only. Coordinates
+/// read back exactly, but for binary STL; vertices and faces keep their order. Of the data, the channels that
+/// the format can hold are written (see data_for_format()). Pre-condition: the format is not VTP.
+std::string mesh_bytes(const TriMesh& mesh, MeshFormat format,
+                       PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {},
+                       const FaceData& face_data = {});
 
 /// A mesh file that is written but not yet committed.
 struct PendingMesh {
@@ -24,10 +28,11 @@ struct PendingMesh {
   std::string connectivity_sha256;  // see sha256.h
 };
 
-/// Writes mesh_bytes() to a temporary file for `path`. Throws what PendingFile and mesh_bytes() throw.
-/// `format` is usually format_of(path).
-PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, const std::string& format,
+/// Writes mesh_bytes() to a temporary file for `path`, or keeps them for standard output ("-"). Throws what
+/// PendingFile and mesh_bytes() throw, those of the latter with the name of the path.
+PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
                          PlyEncoding encoding = PlyEncoding::binary_little_endian,
-                         const VertexData& data = {}, Stopwatch* stopwatch = nullptr);
+                         const VertexData& data = {}, const FaceData& face_data = {},
+                         Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

@@ -66,6 +66,7 @@ double total_area(const Mat3X& points, const std::vector<Triangle>& faces) {
 }
 
 double box_diagonal(const Mat3X& points) {
+  if (points.cols() == 0) return 0;
   return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).stableNorm();
 }
 

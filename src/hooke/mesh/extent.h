@@ -20,7 +20,7 @@ Extent measure_extent(const Mat3X& points, const Adjacency& adjacency);
 /// Sum of the areas of the faces.
 double total_area(const Mat3X& points, const std::vector<Triangle>& faces);
 
-/// Diagonal of the bounding box of the points.
+/// Diagonal of the bounding box of the points, 0 without points.
 double box_diagonal(const Mat3X& points);
 
 }  // namespace hooke

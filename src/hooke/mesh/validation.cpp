@@ -238,28 +238,29 @@ struct Explanation {
   ProblemKind kind;
   const char* name;
   const char* what;  // in the plural
-  const char* help;
+  const char* help;  // of acceptable problems: by a repair
+  bool repairable = false;
 };
 
 constexpr Explanation explanations[] = {
     {ProblemKind::no_faces, "no_faces", "no faces", "give a surface mesh, not a point cloud or curves"},
     {ProblemKind::index_out_of_range, "index_out_of_range", "face corners that are not vertices",
      "correct the indices"},
-    {ProblemKind::repeated_index, "repeated_index", "faces that use a vertex twice", "remove these faces"},
+    {ProblemKind::repeated_index, "repeated_index", "faces that use a vertex twice", "remove these faces",
+     true},
     {ProblemKind::not_finite, "not_finite", "vertices that are not finite", "correct their coordinates"},
-    {ProblemKind::duplicate_face, "duplicate_face", "faces listed twice", "remove the duplicates"},
+    {ProblemKind::duplicate_face, "duplicate_face", "faces listed twice", "remove the duplicates", true},
     {ProblemKind::non_manifold_edge, "non_manifold_edge", "edges with three or more faces",
-     "remove or separate the extra faces"},
+     "remove or separate the extra faces", true},
     {ProblemKind::inconsistent_orientation, "inconsistent_orientation",
-     "edges whose two faces are oriented against each other",
-     "orient the faces alike (impossible on a one-sided surface)"},
+     "edges whose two faces are oriented against each other", "orient the faces alike", true},
     {ProblemKind::non_manifold_vertex, "non_manifold_vertex", "vertices in which separate parts only touch",
-     "give each part its own vertex"},
+     "give each part its own vertex", true},
     {ProblemKind::no_area, "no_area", "no face with an area", "check the coordinates"},
     {ProblemKind::zero_area_faces, "zero_area_faces", "faces without area", ""},
     {ProblemKind::isolated_vertices, "isolated_vertices", "vertices in no face, kept where they are", ""},
     {ProblemKind::unconnected_triangles, "unconnected_triangles",
-     "no two triangles share a vertex: every one is on its own", ""},
+     "no two triangles share a vertex: every one is on its own", "; --repair joins them"},
 };
 
 const Explanation& explain(ProblemKind kind) {
@@ -269,12 +270,6 @@ const Explanation& explain(ProblemKind kind) {
 bool is_about_the_whole(ProblemKind kind) {
   return kind == ProblemKind::no_faces || kind == ProblemKind::no_area ||
          kind == ProblemKind::unconnected_triangles;
-}
-
-std::string face_text(int triangle, const MeshSource& source) {
-  const int face = source.face.empty() ? triangle : source.face[static_cast<size_t>(triangle)];
-  return source.line.empty() ? std::to_string(face)
-                             : fmt::format("{} (line {})", face, source.line[static_cast<size_t>(face)]);
 }
 
 // The locations of a problem: "edges 3-5, 5-9; faces 1, 2, 7".
@@ -301,6 +296,12 @@ std::string problem_text(const Problem& problem, const MeshSource& source) {
 
 }  // namespace
 
+std::string face_text(int triangle, const MeshSource& source) {
+  const int face = source.face.empty() ? triangle : source.face[static_cast<size_t>(triangle)];
+  return source.line.empty() ? std::to_string(face)
+                             : fmt::format("{} (line {})", face, source.line[static_cast<size_t>(face)]);
+}
+
 std::string name_of(ProblemKind kind) {
   return explain(kind).name;
 }
@@ -312,19 +313,22 @@ bool is_acceptable(ProblemKind kind) {
 Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles,
                        const MeshSource& source) {
   std::string errors, help;
+  bool repairable = true;
   Warnings warnings;
   for (const Problem& problem : find_problems(points, triangles)) {
     const std::string text = problem_text(problem, source);
     if (is_acceptable(problem.kind)) {
-      warnings.push_back({name_of(problem.kind), fmt::format("{}: {}", source.name, text)});
+      const char* help_by_repair = source.repaired ? "" : explain(problem.kind).help;
+      warnings.push_back({name_of(problem.kind), fmt::format("{}: {}{}", source.name, text, help_by_repair)});
     } else {
       errors += (errors.empty() ? "" : "; ") + text;
       help += (help.empty() ? "" : ", ") + std::string(explain(problem.kind).help);
+      repairable &= explain(problem.kind).repairable;
     }
   }
   if (!errors.empty())
-    throw MeshError(fmt::format("{}: {}; expected an oriented manifold surface with area; {}", source.name,
-                                errors, help));
+    throw MeshError(fmt::format("{}: {}; expected an oriented manifold surface with area; {}{}", source.name,
+                                errors, help, repairable && !source.repaired ? ", or use --repair" : ""));
   return warnings;
 }
 

@@ -27,7 +27,7 @@ enum class ProblemKind {
 };
 
 /// Maximum number of locations kept per problem.
-inline constexpr size_t max_locations = 10;
+inline constexpr size_t max_locations = 5;
 
 struct Problem {
   ProblemKind kind;
@@ -56,7 +56,11 @@ struct MeshSource {
   std::string name;       // of the file, printable
   std::vector<int> face;  // per triangle: face of the file; empty: the same ids
   std::vector<int> line;  // per face of the file; empty: unknown
+  bool repaired = false;  // messages then do not name the option that repairs a mesh
 };
+
+/// The face of the file and its line, for messages: "4 (line 9)".
+std::string face_text(int triangle, const MeshSource& source);
 
 /// Throws MeshError "NAME: what, where; what was expected; what to do" for problems that are not acceptable.
 /// Returns the others as warnings, with name_of() as code.

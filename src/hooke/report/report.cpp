@@ -284,6 +284,9 @@ Json report_json(const RunRecord& run) {
   j["warnings"] = Json::array();
   for (const Warning& w : run.warnings) j["warnings"].push_back({{"code", w.code}, {"message", w.message}});
   j["repairs"] = Json::array();
+  for (const Notes* notes : {&run.notes, &run.repairs})
+    for (const Note& n : *notes)
+      j["repairs"].push_back({{"code", n.code}, {"count", n.count}, {"message", n.message}});
   j["paper"] = paper_block(run);
   j["resources"] = {{"threads", run.resources.threads},
                     {"wall_s", run.resources.wall_s},

@@ -65,6 +65,8 @@ struct RunRecord {
   std::optional<PaperFigures> paper_after;
   std::optional<Deviation> deviation;
   std::optional<RemeshResult> result;
+  Notes notes;    // what reading the file did to it, as it always does
+  Notes repairs;  // what was mended as asked
   Warnings warnings;
   std::vector<StageTime> stages;
   Resources resources;

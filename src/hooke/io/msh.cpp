@@ -1,0 +1,598 @@
+#include "hooke/io/msh.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "hooke/core/error.h"
+#include "hooke/core/printable.h"
+#include "hooke/io/msh_elements.h"
+#include "hooke/io/scanner.h"
+#include "hooke/io/text.h"
+
+namespace hooke {
+namespace {
+
+// The words and numbers of a file, text or binary.
+class MshInput {
+ public:
+  MshInput(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  bool old = false;      // version 2
+  bool binary = false;   // numbers are binary
+  bool swapped = false;  // with the other byte order
+
+  /// The next word of the text; empty at the end of the file.
+  std::string_view word() {
+    while (at_ < bytes_.size() && is_space(bytes_[at_])) step();
+    const size_t first = at_;
+    while (at_ < bytes_.size() && !is_space(bytes_[at_])) ++at_;
+    return bytes_.substr(first, at_ - first);
+  }
+
+  /// The rest of this line.
+  std::string_view rest_of_line() {
+    const size_t first = at_;
+    while (at_ < bytes_.size() && !is_line_end(bytes_[at_])) ++at_;
+    return bytes_.substr(first, at_ - first);
+  }
+
+  /// Goes past the end of this line, to where binary numbers begin.
+  void finish_line() {
+    rest_of_line();
+    if (at_ < bytes_.size()) step();
+  }
+
+  void expect(std::string_view keyword) {
+    const std::string_view found = word();
+    if (found != keyword) fail_instead_of(found, keyword);
+  }
+
+  /// Goes past the end of a section of that name that is not read.
+  void skip_section(std::string_view name) {
+    const std::string end = fmt::format("$End{}", name);
+    const size_t found = bytes_.find(end, at_);
+    if (found == bytes_.npos) fail(fmt::format("no {} follows; expected it; the file is truncated", end));
+    while (at_ < found) step();
+    at_ += end.size();
+  }
+
+  long long integer(std::string_view what) {
+    return binary ? static_cast<long long>(raw<std::int32_t>(what)) : integer_in_text(what);
+  }
+
+  /// An integer that has 8 bytes in binary files of version 4.
+  long long large(std::string_view what) {
+    if (old || !binary) return integer(what);
+    const auto value = raw<std::uint64_t>(what);
+    if (value > static_cast<std::uint64_t>(std::numeric_limits<long long>::max()))
+      fail(fmt::format("{} is {}; expected at most 63 bits; correct the file", what, value));
+    return static_cast<long long>(value);
+  }
+
+  double real(std::string_view what) {
+    double value = 0;
+    if (binary) {
+      value = raw<double>(what);
+      if (std::isfinite(value)) return value;
+      fail(fmt::format("{} is {}; expected a finite number; correct it", what, value));
+    }
+    const std::string_view token = number_word(what);
+    if (parse_number(token, value) != NumberError::none)
+      fail(fmt::format("{} is {}; expected a finite decimal number up to 1.8e308; correct it", what,
+                       in_quotes(token)));
+    return value;
+  }
+
+  long long count(std::string_view what) {
+    const long long value = large(what);
+    if (value < 0 || static_cast<unsigned long long>(value) > bytes_.size() - at_)
+      fail(fmt::format(
+          "{} is {}, but only {} bytes follow; expected as many as there are; the file is truncated or "
+          "the count is wrong",
+          what, value, bytes_.size() - at_));
+    return value;
+  }
+
+  /// The integer in the text, also in binary files.
+  long long integer_in_text(std::string_view what) {
+    const std::string_view token = number_word(what);
+    long long value = 0;
+    if (parse_integer(token, value) != NumberError::none)
+      fail(fmt::format("{} is {}; expected an integer; correct it", what, in_quotes(token)));
+    return value;
+  }
+
+  int line() const { return line_; }
+
+  [[noreturn]] void fail(std::string_view message) const {
+    throw InputError(binary ? fmt::format("{}: byte {}: {}", name_, at_, message)
+                            : fmt::format("{}:{}: {}", name_, line_, message));
+  }
+
+  [[noreturn]] void fail_instead_of(std::string_view found, std::string_view expected) const {
+    if (found.empty()) fail(fmt::format("the file ends; expected {}; it is truncated", expected));
+    fail(fmt::format("{}; expected {}; is a count wrong?", in_quotes(found), expected));
+  }
+
+ private:
+  static bool is_space(char c) { return is_blank(c) || is_line_end(c); }
+
+  void step() {
+    const bool ends_line = bytes_[at_] == '\n' || (bytes_[at_] == '\r' && bytes_.substr(at_ + 1, 1) != "\n");
+    line_ += ends_line ? 1 : 0;
+    ++at_;
+  }
+
+  std::string_view number_word(std::string_view what) {
+    const std::string_view token = word();
+    if (token.empty()) fail(fmt::format("the file ends; expected {}; it is truncated", what));
+    return token;
+  }
+
+  template <typename T>
+  T raw(std::string_view what) {
+    if (bytes_.size() - at_ < sizeof(T))
+      fail(fmt::format("the file ends; expected {}; it is truncated", what));
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), bytes_.data() + at_, sizeof(T));
+    if (swapped) std::ranges::reverse(bytes);
+    at_ += sizeof(T);
+    return std::bit_cast<T>(bytes);
+  }
+
+  std::string_view bytes_;
+  std::string name_;
+  size_t at_ = 0;
+  int line_ = 1;
+};
+
+// What the sections of a file hold.
+struct MshContent {
+  std::vector<Vec3> nodes;                   // in file order
+  std::unordered_map<long long, int> index;  // of each node by its number
+  std::vector<long long> corners;            // node numbers of the polygons, end to end
+  std::vector<int> sizes;                    // corners of each polygon
+  std::vector<int> lines;                    // of each polygon
+  FaceChannel groups{group_channel}, entities{entity_channel};
+  std::map<long long, std::vector<int>> groups_of_surface;  // by the number of the surface
+  std::map<std::string, long long> ignored;                 // number of elements of each kind
+  std::vector<std::string> sections_ignored;
+  long long in_several_groups = 0;  // polygons
+};
+
+int to_int(const MshInput& in, long long value, std::string_view what) {
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+    in.fail(fmt::format("{} is {}; expected 32 bits; renumber it", what, value));
+  return static_cast<int>(value);
+}
+
+void read_format(MshInput& in) {
+  const std::string_view version = in.word();
+  in.old = version == "2" || version.starts_with("2.");
+  if (!in.old && version != "4.1")
+    in.fail(fmt::format(
+        "version {} of the format; expected 2.2 or 4.1; save it anew with gmsh -save -format msh41",
+        in_quotes(version)));
+  const long long type = in.integer_in_text("file type"), size = in.integer_in_text("data size");
+  if (type != 0 && type != 1) in.fail(fmt::format("file type {}; expected 0 (text) or 1 (binary)", type));
+  if (size != 8) in.fail(fmt::format("data size {}; expected 8; save the file anew", size));
+  if (type == 1) {
+    in.finish_line();
+    in.binary = true;
+    const long long one = in.integer("the number 1");
+    in.swapped = one == 1 << 24;
+    if (one != 1 && !in.swapped) in.fail(fmt::format("{} instead of the number 1; the file is damaged", one));
+  }
+  in.expect("$EndMeshFormat");
+}
+
+void read_names(MshInput& in, MshContent& content) {
+  const long long count = in.integer_in_text("number of names");
+  for (long long k = 0; k < count; ++k) {
+    const long long dimension = in.integer_in_text("dimension");
+    const int group = to_int(in, in.integer_in_text("physical group"), "physical group");
+    const std::string_view rest = in.rest_of_line();
+    const size_t first = rest.find('"'), last = rest.rfind('"');
+    if (first == last) in.fail(fmt::format("name {}; expected it in quotes; correct it", in_quotes(rest)));
+    if (dimension == 2) content.groups.names[group] = std::string(rest.substr(first + 1, last - first - 1));
+  }
+  in.expect("$EndPhysicalNames");
+}
+
+void add_node(MshInput& in, MshContent& content, long long number, const Vec3& position) {
+  if (!content.index.emplace(number, static_cast<int>(content.nodes.size())).second)
+    in.fail(fmt::format("a second node {}; expected different numbers; renumber the nodes", number));
+  if (content.nodes.size() == static_cast<size_t>(std::numeric_limits<int>::max()))
+    throw LimitError("more than 2147483647 nodes; expected fewer; split the mesh");
+  content.nodes.push_back(position);
+}
+
+Vec3 read_position(MshInput& in) {
+  const double x = in.real("x"), y = in.real("y"), z = in.real("z");
+  return {x, y, z};
+}
+
+void require_type(const MshInput& in, const MshElementType* type, long long code) {
+  if (!type) in.fail(fmt::format("element type {}; expected one that Gmsh knows; is a count wrong?", code));
+}
+
+// Reads the nodes of an element; keeps them if it is a polygon.
+void read_element(MshInput& in, const MshElementType& type, int group, int entity, MshContent& content) {
+  const bool polygon = type.code == msh_triangle || type.code == msh_quadrangle;
+  if (!polygon) {
+    for (int k = 0; k < type.nodes; ++k) in.large("node of an element");
+    ++content.ignored[type.plural];
+    return;
+  }
+  for (int k = 0; k < type.nodes; ++k) content.corners.push_back(in.large("node of an element"));
+  content.sizes.push_back(type.nodes);
+  if (!in.binary) content.lines.push_back(in.line());
+  content.groups.values.push_back(group);
+  content.entities.values.push_back(entity);
+}
+
+// Sections of version 2.
+
+void read_old_nodes(MshInput& in, MshContent& content) {
+  const long long count = in.binary ? in.integer_in_text("number of nodes") : in.count("number of nodes");
+  if (in.binary) in.finish_line();
+  for (long long k = 0; k < count; ++k) {
+    const long long number = in.integer("node number");
+    add_node(in, content, number, read_position(in));
+  }
+}
+
+// Reads the tags of an element and then its nodes.
+void read_old_element(MshInput& in, const MshElementType& type, long long tags, MshContent& content) {
+  if (tags < 0) in.fail(fmt::format("{} tags; expected 0 or more; correct the element", tags));
+  int group = 0, entity = 0;
+  for (long long t = 0; t < tags; ++t) {
+    const int tag = to_int(in, in.integer("tag of an element"), "tag of an element");
+    if (t == 0) group = tag;
+    if (t == 1) entity = tag;
+  }
+  read_element(in, type, group, entity, content);
+}
+
+void read_old_elements(MshInput& in, MshContent& content) {
+  const long long count =
+      in.binary ? in.integer_in_text("number of elements") : in.count("number of elements");
+  if (in.binary) in.finish_line();
+  for (long long k = 0; k < count;) {
+    if (!in.binary) in.integer("element number");
+    const long long code = in.integer("element type");
+    const MshElementType* type = msh_element_type(code);
+    require_type(in, type, code);
+    const long long elements = in.binary ? in.integer("number of elements") : 1,
+                    tags = in.integer("number of tags");
+    if (elements <= 0 || elements > count - k)
+      in.fail(fmt::format("{} elements; expected 1 to {}; is a count wrong?", elements, count - k));
+    for (long long e = 0; e < elements; ++e) {
+      if (in.binary) in.integer("element number");
+      read_old_element(in, *type, tags, content);
+    }
+    k += elements;
+  }
+}
+
+// Sections of version 4.1.
+
+void read_entities(MshInput& in, MshContent& content) {
+  std::array<long long, 4> counts;
+  for (long long& count : counts) count = in.count("number of entities");
+  for (size_t dimension = 0; dimension < 4; ++dimension)
+    for (long long k = 0; k < counts[dimension]; ++k) {
+      const long long tag = in.integer("entity");
+      for (int b = 0; b < (dimension == 0 ? 3 : 6); ++b) in.real("bound of an entity");
+      const long long groups = in.count("number of physical groups");
+      for (long long g = 0; g < groups; ++g) {
+        const int group = to_int(in, in.integer("physical group"), "physical group");
+        if (dimension == 2) content.groups_of_surface[tag].push_back(group);
+      }
+      if (dimension == 0) continue;
+      const long long boundaries = in.count("number of bounding entities");
+      for (long long b = 0; b < boundaries; ++b) in.integer("bounding entity");
+    }
+}
+
+void read_nodes(MshInput& in, MshContent& content) {
+  const long long blocks = in.count("number of node blocks");
+  const long long total = in.count("number of nodes");
+  in.large("smallest node number");
+  in.large("largest node number");
+  long long found = 0;
+  std::vector<long long> numbers;
+  for (long long b = 0; b < blocks; ++b) {
+    const long long dimension = in.integer("dimension of an entity");
+    in.integer("entity");
+    const bool parametric = in.integer("parametric") != 0;
+    const long long count = in.count("number of nodes");
+    if (dimension < 0 || dimension > 3) in.fail(fmt::format("dimension {}; expected 0 to 3", dimension));
+    numbers.clear();
+    for (long long k = 0; k < count; ++k) numbers.push_back(in.large("node number"));
+    for (const long long number : numbers) {
+      add_node(in, content, number, read_position(in));
+      for (long long p = 0; parametric && p < dimension; ++p) in.real("parameter of a node");
+    }
+    found += count;
+  }
+  if (found != total)
+    in.fail(fmt::format("{} nodes in blocks; expected {} by the count; correct it", found, total));
+}
+
+void read_elements(MshInput& in, MshContent& content) {
+  const long long blocks = in.count("number of element blocks");
+  const long long total = in.count("number of elements");
+  in.large("smallest element number");
+  in.large("largest element number");
+  long long found = 0;
+  for (long long b = 0; b < blocks; ++b) {
+    const long long dimension = in.integer("dimension of an entity");
+    const int entity = to_int(in, in.integer("entity"), "entity");
+    const long long code = in.integer("element type");
+    const MshElementType* type = msh_element_type(code);
+    require_type(in, type, code);
+    const long long count = in.count("number of elements");
+    const auto groups = content.groups_of_surface.find(entity);
+    const bool grouped = dimension == 2 && groups != content.groups_of_surface.end();
+    const size_t before = content.sizes.size();
+    for (long long k = 0; k < count; ++k) {
+      in.large("element number");
+      read_element(in, *type, grouped ? groups->second.front() : 0, entity, content);
+    }
+    if (grouped && groups->second.size() > 1)
+      content.in_several_groups += static_cast<long long>(content.sizes.size() - before);
+    found += count;
+  }
+  if (found != total)
+    in.fail(fmt::format("{} elements in blocks; expected {} by the count; correct it", found, total));
+}
+
+// Reads one section after its name. Returns false if it is none that is read.
+bool read_section(MshInput& in, std::string_view name, MshContent& content) {
+  const bool own_count_in_text = in.old;  // then the binary numbers begin after the line of the count
+  if (name != "Nodes" && name != "Elements" && (name != "Entities" || in.old)) return false;
+  if (in.binary && !own_count_in_text) in.finish_line();
+  if (name == "Entities")
+    read_entities(in, content);
+  else if (name == "Nodes")
+    in.old ? read_old_nodes(in, content) : read_nodes(in, content);
+  else
+    in.old ? read_old_elements(in, content) : read_elements(in, content);
+  in.expect(fmt::format("$End{}", name));
+  return true;
+}
+
+void read_sections(MshInput& in, MshContent& content) {
+  bool format = false;
+  for (std::string_view word = in.word(); !word.empty(); word = in.word()) {
+    if (!word.starts_with('$') || word.starts_with("$End"))
+      in.fail(fmt::format("{}; expected a section such as $Nodes; is a count wrong?", in_quotes(word)));
+    const std::string_view name = word.substr(1);
+    if (name == "MeshFormat") {
+      read_format(in);
+      format = true;
+    } else if (name == "Comments") {
+      in.skip_section(name);
+    } else if (!format) {
+      in.fail(fmt::format("{}; expected $MeshFormat first; is this a file of Gmsh?", in_quotes(word)));
+    } else if (name == "PhysicalNames") {
+      read_names(in, content);
+    } else if (!read_section(in, name, content)) {
+      in.skip_section(name);
+      std::string kind = fmt::format("section {}", in_quotes(word));
+      if (std::ranges::find(content.sections_ignored, kind) == content.sections_ignored.end())
+        content.sections_ignored.push_back(std::move(kind));
+    }
+  }
+}
+
+// The polygons and the nodes that they use.
+void take_polygons(const MshContent& content, MeshFile& file) {
+  std::vector<int> vertex(content.nodes.size(), -1);
+  std::vector<int> node_of_corner;
+  node_of_corner.reserve(content.corners.size());
+  size_t corner = 0;
+  for (size_t f = 0; f < content.sizes.size(); ++f) {
+    for (int k = 0; k < content.sizes[f]; ++k, ++corner) {
+      const auto found = content.index.find(content.corners[corner]);
+      if (found == content.index.end()) {
+        const std::string where = content.lines.empty() ? "" : fmt::format(":{}", content.lines[f]);
+        throw InputError(fmt::format("{}{}: polygon {} has node {}; expected one of $Nodes; correct it",
+                                     file.name, where, f, content.corners[corner]));
+      }
+      node_of_corner.push_back(found->second);
+      vertex[static_cast<size_t>(found->second)] = 0;
+    }
+    file.polygons.items.resize(corner);
+    end_polygon(file);
+  }
+  int used = 0;
+  for (int& v : vertex)
+    if (v == 0) v = used++;
+  for (size_t c = 0; c < node_of_corner.size(); ++c)
+    file.polygons.items[c] = vertex[static_cast<size_t>(node_of_corner[c])];
+  file.points.resize(3, used);
+  for (size_t n = 0; n < vertex.size(); ++n)
+    if (vertex[n] >= 0) file.points.col(vertex[n]) = content.nodes[n];
+}
+
+std::vector<std::string> kinds_not_kept(const MshContent& content, size_t vertices) {
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] : content.ignored) kinds.push_back(fmt::format("{} {}", count, kind));
+  if (const size_t loose = content.nodes.size() - vertices; loose > 0)
+    kinds.push_back(fmt::format("{} nodes of no triangle", loose));
+  if (content.in_several_groups > 0)
+    kinds.push_back(fmt::format("all physical groups but the first of {} faces", content.in_several_groups));
+  kinds.insert(kinds.end(), content.sections_ignored.begin(), content.sections_ignored.end());
+  return kinds;
+}
+
+bool any_label(const FaceChannel& channel) {
+  return std::ranges::any_of(channel.values, [](int value) { return value != 0; });
+}
+
+}  // namespace
+
+MeshFile read_msh(std::string_view bytes, const std::string& name) {
+  MshInput in(bytes, name);
+  MshContent content;
+  read_sections(in, content);
+  MeshFile file;
+  file.name = name;
+  file.format = in.old ? MeshFormat::msh2 : MeshFormat::msh;
+  file.encoding = PlyEncoding::ascii;
+  take_polygons(content, file);
+  file.lines = std::move(content.lines);
+  const std::vector<std::string> kinds = kinds_not_kept(content, static_cast<size_t>(file.points.cols()));
+  if (content.sizes.empty())
+    throw InputError(
+        fmt::format("{}: no triangles, but {}; expected a surface mesh of first order; make one with gmsh "
+                    "-2 -order 1",
+                    name, kinds.empty() ? "nothing else" : fmt::format("{}", fmt::join(kinds, ", "))));
+  warn_not_kept(file, kinds);
+  if (any_label(content.groups)) file.face_data.push_back(std::move(content.groups));
+  if (any_label(content.entities)) file.face_data.push_back(std::move(content.entities));
+  return file;
+}
+
+namespace {
+
+// The surfaces of an output: a label for each face.
+struct Surfaces {
+  std::vector<int> entity;            // of each face
+  std::map<int, int> group;           // of each entity; 0 for none
+  std::map<int, std::string> titles;  // of groups
+
+  Surfaces(size_t faces, const FaceData& data) : entity(faces, 1) {
+    const FaceChannel* groups = find_channel(data, group_channel);
+    const FaceChannel* entities = find_channel(data, entity_channel);
+    const auto group_of = [&](size_t f) { return groups ? groups->values[f] : 0; };
+    if (groups) titles = groups->names;
+    if (entities && fits(*entities, group_of)) {
+      entity = entities->values;
+    } else {
+      std::map<std::pair<int, int>, int> numbers;  // by entity and group, in the order of their first faces
+      for (size_t f = 0; f < faces; ++f)
+        entity[f] = numbers
+                        .try_emplace({entities ? entities->values[f] : 0, group_of(f)},
+                                     static_cast<int>(numbers.size()) + 1)
+                        .first->second;
+    }
+    for (size_t f = 0; f < faces; ++f) group[entity[f]] = group_of(f);
+    std::erase_if(titles, [&](const auto& title) {
+      return std::ranges::none_of(group, [&](const auto& g) { return g.second == title.first; });
+    });
+  }
+
+ private:
+  // Whether each of the entities is positive and has one group.
+  template <typename GroupOf>
+  static bool fits(const FaceChannel& entities, const GroupOf& group_of) {
+    std::map<int, int> found;
+    for (size_t f = 0; f < entities.values.size(); ++f)
+      if (entities.values[f] < 1 ||
+          found.try_emplace(entities.values[f], group_of(f)).first->second != group_of(f))
+        return false;
+    return true;
+  }
+};
+
+void append_titles(std::string& text, const Surfaces& surfaces) {
+  if (surfaces.titles.empty()) return;
+  text += fmt::format("$PhysicalNames\n{}\n", surfaces.titles.size());
+  for (const auto& [group, title] : surfaces.titles) text += fmt::format("2 {} \"{}\"\n", group, title);
+  text += "$EndPhysicalNames\n";
+}
+
+void append_entities(std::string& text, Eigen::Ref<const Mat3X> points,
+                     const std::vector<Triangle>& triangles, const Surfaces& surfaces) {
+  std::map<int, Eigen::AlignedBox3d> boxes;
+  for (size_t f = 0; f < triangles.size(); ++f)
+    for (const int v : triangles[f]) boxes[surfaces.entity[f]].extend(Vec3(points.col(v)));
+  text += fmt::format("$Entities\n0 0 {} 0\n", surfaces.group.size());
+  for (const auto& [entity, group] : surfaces.group) {
+    const Eigen::AlignedBox3d& box = boxes[entity];
+    text += fmt::format("{} ", entity);
+    append_three(text, box.min());
+    text += ' ';
+    append_three(text, box.max());
+    text += group == 0 ? " 0 0\n" : fmt::format(" 1 {} 0\n", group);
+  }
+  text += "$EndEntities\n";
+}
+
+void append_row(std::string& text, size_t number, const Triangle& triangle) {
+  append_number(text, number);
+  for (const int v : triangle) {
+    text += ' ';
+    append_number(text, v + 1);
+  }
+  text += '\n';
+}
+
+std::string write_new(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      const Surfaces& surfaces) {
+  std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  append_titles(text, surfaces);
+  append_entities(text, points, triangles, surfaces);
+  const int first_entity = surfaces.entity.empty() ? 1 : surfaces.entity.front();
+  text += fmt::format("$Nodes\n1 {0} 1 {0}\n2 {1} 0 {0}\n", points.cols(), first_entity);
+  for (Eigen::Index v = 1; v <= points.cols(); ++v) {
+    append_number(text, v);
+    text += '\n';
+  }
+  append_vertex_rows(text, points, "");
+  std::vector<size_t> ends;  // of the runs of faces of one entity, which keep the order of the faces
+  for (size_t f = 1; f <= triangles.size(); ++f)
+    if (f == triangles.size() || surfaces.entity[f] != surfaces.entity[f - 1]) ends.push_back(f);
+  text += fmt::format("$EndNodes\n$Elements\n{0} {1} 1 {1}\n", ends.size(), triangles.size());
+  size_t f = 0;
+  for (const size_t end : ends) {
+    text += fmt::format("2 {} {} {}\n", surfaces.entity[f], msh_triangle, end - f);
+    for (; f < end; ++f) append_row(text, f + 1, triangles[f]);
+  }
+  return text + "$EndElements\n";
+}
+
+std::string write_old(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      const Surfaces& surfaces) {
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  append_titles(text, surfaces);
+  text += fmt::format("$Nodes\n{}\n", points.cols());
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    append_number(text, v + 1);
+    text += ' ';
+    append_three(text, points.col(v));
+    text += '\n';
+  }
+  text += fmt::format("$EndNodes\n$Elements\n{}\n", triangles.size());
+  for (size_t f = 0; f < triangles.size(); ++f) {
+    append_number(text, f + 1);
+    text += fmt::format(" {} 2 {} ", msh_triangle, surfaces.group.at(surfaces.entity[f]));
+    append_row(text, static_cast<size_t>(surfaces.entity[f]), triangles[f]);
+  }
+  return text + "$EndElements\n";
+}
+
+}  // namespace
+
+std::string write_msh(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      MeshFormat version, const FaceData& data) {
+  const Surfaces surfaces(triangles.size(), data);
+  return version == MeshFormat::msh2 ? write_old(points, triangles, surfaces)
+                                     : write_new(points, triangles, surfaces);
+}
+
+}  // namespace hooke

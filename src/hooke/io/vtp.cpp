@@ -1,0 +1,377 @@
+#include "hooke/io/vtp.h"
+
+#include <expat.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "hooke/core/error.h"
+#include "hooke/core/printable.h"
+#include "hooke/io/scanner.h"
+#include "hooke/io/vtk_arrays.h"
+
+namespace hooke {
+namespace {
+
+using Attributes = std::map<std::string, std::string>;
+
+std::string value_of(const Attributes& attributes, const std::string& name, const std::string& missing = "") {
+  const auto found = attributes.find(name);
+  return found == attributes.end() ? missing : found->second;
+}
+
+// An element DataArray.
+struct Array {
+  Attributes attributes;
+  std::string text;  // of arrays in place
+  int line = 1;      // of the element
+};
+
+struct Piece {
+  long long points = 0, polygons = 0;
+  int line = 1;
+  std::optional<Array> coordinates, connectivity, offsets;
+};
+
+// What a file holds.
+struct Document {
+  VtkEncoding encoding;
+  std::vector<Piece> pieces;
+  std::vector<std::string> not_kept;
+  std::vector<size_t> offsets;    // of all arrays in the appended data
+  std::string_view appended;      // after the underscore
+  bool appended_is_text = false;  // in base64
+};
+
+// Reads the elements by expat, which calls the handlers. As it is written in C, exceptions do not pass
+// through it: they are kept until it has returned.
+class DocumentReader {
+ public:
+  DocumentReader(std::string_view bytes, const std::string& name)
+      : bytes_(bytes), name_(name), parser_(XML_ParserCreate(nullptr), XML_ParserFree) {
+    if (!parser_) throw std::bad_alloc();
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), on_start, on_end);
+    XML_SetCharacterDataHandler(parser_.get(), on_text);
+    XML_SetStartDoctypeDeclHandler(parser_.get(), on_document_type);
+  }
+
+  Document read() {
+    constexpr size_t chunk = size_t{1} << 24;
+    for (size_t at = 0; !done_;) {
+      const size_t size = std::min(chunk, bytes_.size() - at);
+      const bool last = at + size == bytes_.size();
+      const XML_Status status =
+          XML_Parse(parser_.get(), bytes_.data() + at, static_cast<int>(size), last ? XML_TRUE : XML_FALSE);
+      if (error_) std::rethrow_exception(error_);
+      if (status != XML_STATUS_OK && !done_)
+        fail(fmt::format("{}; expected well-formed XML; the file is damaged or truncated",
+                         XML_ErrorString(XML_GetErrorCode(parser_.get()))));
+      at += size;
+      if (last) break;
+    }
+    if (!file_) fail("no element VTKFile; expected one; is this a VTP file?");
+    return std::move(document_);
+  }
+
+ private:
+  static DocumentReader& self(void* data) { return *static_cast<DocumentReader*>(data); }
+
+  template <typename Call>
+  void guarded(const Call& call) {
+    if (error_ || done_) return;
+    try {
+      call();
+    } catch (...) {
+      error_ = std::current_exception();
+      XML_StopParser(parser_.get(), XML_FALSE);
+    }
+  }
+
+  static void XMLCALL on_start(void* data, const char* element, const char** attributes) {
+    self(data).guarded([&] {
+      Attributes all;
+      for (; *attributes; attributes += 2) all[attributes[0]] = attributes[1];
+      self(data).start(element, std::move(all));
+    });
+  }
+  static void XMLCALL on_end(void* data, const char*) {
+    self(data).guarded([&] { self(data).end(); });
+  }
+  static void XMLCALL on_text(void* data, const char* text, int size) {
+    self(data).guarded([&] { self(data).add(std::string_view(text, static_cast<size_t>(size))); });
+  }
+  static void XMLCALL on_document_type(void* data, const char*, const char*, const char*, int) {
+    self(data).guarded([&] { self(data).fail("a document type; expected none in a VTP file; remove it"); });
+  }
+
+  int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser_.get())); }
+
+  [[noreturn]] void fail(std::string_view message) const {
+    throw InputError(fmt::format("{}:{}: {}", name_, line(), message));
+  }
+
+  long long count(const Attributes& attributes, const std::string& name) const {
+    const std::string text = value_of(attributes, name, "0");
+    long long value = 0;
+    if (parse_integer(text, value) != NumberError::none || value < 0)
+      fail(fmt::format("{} is {}; expected a number from 0; correct it", name, in_quotes(text)));
+    return value;
+  }
+
+  const std::string& parent() const { return path_[path_.size() - 2]; }
+
+  void start(const std::string& element, Attributes attributes) {
+    path_.push_back(element);
+    if (path_.size() == 1 && element != "VTKFile")
+      fail(fmt::format("element {}; expected VTKFile; is this a VTP file?", in_quotes(element)));
+    if (element == "VTKFile") {
+      start_file(attributes);
+    } else if (element == "Piece") {
+      start_piece(attributes);
+    } else if (element == "DataArray" || element == "Array") {
+      start_array(std::move(attributes));
+    } else if (element == "AppendedData") {
+      take_appended(attributes);
+    }
+  }
+
+  void start_file(const Attributes& attributes) {
+    file_ = true;
+    const std::string type = value_of(attributes, "type"), compressor = value_of(attributes, "compressor"),
+                      order = value_of(attributes, "byte_order", "LittleEndian");
+    if (type != "PolyData")
+      fail(fmt::format("a file of type {}; expected PolyData; extract its surface in ParaView",
+                       in_quotes(type)));
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+      fail(fmt::format("compressor {}; expected vtkZLibDataCompressor or none; save it anew",
+                       in_quotes(compressor)));
+    document_.encoding = {order == "BigEndian", value_of(attributes, "header_type") == "UInt64",
+                          !compressor.empty()};
+  }
+
+  void start_piece(const Attributes& attributes) {
+    open_ = nullptr;  // it points into the pieces
+    document_.pieces.push_back(
+        {count(attributes, "NumberOfPoints"), count(attributes, "NumberOfPolys"), line(), {}, {}, {}});
+    for (const auto& [attribute, kind] : {std::pair{"NumberOfVerts", "vertex cells"},
+                                          {"NumberOfLines", "lines"},
+                                          {"NumberOfStrips", "strips of triangles"}})
+      if (const long long there = count(attributes, attribute); there > 0)
+        note(fmt::format("{} {}", there, kind));
+  }
+
+  void note(std::string kind) {
+    auto& kinds = document_.not_kept;
+    if (std::ranges::find(kinds, kind) == kinds.end()) kinds.push_back(std::move(kind));
+  }
+
+  // Where an array is kept; null for those that are not.
+  std::optional<Array>* place_of(const std::string& array_name) {
+    if (document_.pieces.empty() || path_.size() < 3) return nullptr;
+    Piece& piece = document_.pieces.back();
+    if (parent() == "Points") return &piece.coordinates;
+    if (parent() == "Polys" && array_name == "connectivity") return &piece.connectivity;
+    if (parent() == "Polys" && array_name == "offsets") return &piece.offsets;
+    if (parent() == "PointData") note("point data " + in_quotes(array_name));
+    if (parent() == "CellData") note("cell data " + in_quotes(array_name));
+    return nullptr;
+  }
+
+  void start_array(Attributes attributes) {
+    if (attributes.contains("offset"))
+      document_.offsets.push_back(static_cast<size_t>(count(attributes, "offset")));
+    std::optional<Array>* place = place_of(value_of(attributes, "Name"));
+    if (!place || place->has_value()) return;
+    *place = Array{std::move(attributes), "", line()};
+    open_ = place;
+    depth_of_open_ = path_.size();
+  }
+
+  void take_appended(const Attributes& attributes) {
+    const auto index = static_cast<size_t>(XML_GetCurrentByteIndex(parser_.get()));
+    const size_t tag = bytes_.find('>', std::min(index, bytes_.size()));
+    const size_t begin = tag == bytes_.npos ? tag : bytes_.find('_', tag);
+    if (begin == bytes_.npos)
+      fail("appended data without its underscore; expected it; the file is truncated");
+    document_.appended = bytes_.substr(begin + 1);
+    document_.appended_is_text = value_of(attributes, "encoding") == "base64";
+    if (document_.appended_is_text)
+      document_.appended = document_.appended.substr(0, document_.appended.find('<'));
+    done_ = true;  // what follows may be no XML
+    XML_StopParser(parser_.get(), XML_FALSE);
+  }
+
+  void end() {
+    if (open_ && path_.size() == depth_of_open_) open_ = nullptr;
+    path_.pop_back();
+  }
+
+  void add(std::string_view text) {
+    if (open_ && path_.size() == depth_of_open_) (*open_)->text += text;
+  }
+
+  std::string_view bytes_;
+  std::string name_;
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_;
+  Document document_;
+  std::vector<std::string> path_;         // open elements
+  std::optional<Array>* open_ = nullptr;  // the array whose text is read
+  size_t depth_of_open_ = 0;
+  bool file_ = false, done_ = false;
+  std::exception_ptr error_;
+};
+
+// The numbers of an array. Messages of errors begin with its line.
+class ArrayReader {
+ public:
+  ArrayReader(const Document& document, const std::string& name) : document_(document), name_(name) {
+    offsets_ = document.offsets;
+    std::ranges::sort(offsets_);
+  }
+
+  std::vector<double> reals(const Array& array) const {
+    return numbers<double>(
+        array, [](const Scanner& in, std::string_view token) { return in.number(token, "number"); },
+        [&](std::string_view content, const std::string& type) {
+          return reals_of(content, type, document_.encoding.big_endian);
+        });
+  }
+
+  std::vector<long long> integers(const Array& array) const {
+    return numbers<long long>(
+        array, [](const Scanner& in, std::string_view token) { return in.integer(token, "number"); },
+        [&](std::string_view content, const std::string& type) {
+          return integers_of(content, type, document_.encoding.big_endian);
+        });
+  }
+
+ private:
+  template <typename Number, typename Parse, typename Convert>
+  std::vector<Number> numbers(const Array& array, const Parse& parse, const Convert& convert) const {
+    const std::string format = value_of(array.attributes, "format", "ascii");
+    if (format == "ascii") {
+      std::vector<Number> result;
+      Scanner in(array.text, name_, {}, array.line);
+      while (in.next_line())
+        for (std::string_view token = in.token(); !token.empty(); token = in.token())
+          result.push_back(parse(in, token));
+      return result;
+    }
+    try {
+      return convert(unpack_vtk_array(stored(array, format), document_.encoding),
+                     value_of(array.attributes, "type"));
+    } catch (const Error& e) {
+      throw InputError(fmt::format("{}:{}: {}", name_, array.line, e.what()));
+    }
+  }
+
+  // The bytes at which a binary array begins.
+  std::string stored(const Array& array, const std::string& format) const {
+    if (format == "binary") return decode_base64(array.text);
+    if (format != "appended")
+      throw Error(fmt::format("format {}; expected ascii, binary or appended", in_quotes(format)));
+    long long offset = -1;
+    if (parse_integer(value_of(array.attributes, "offset"), offset) != NumberError::none || offset < 0 ||
+        static_cast<size_t>(offset) > document_.appended.size())
+      throw Error(fmt::format("offset {} in {} bytes of appended data; expected less; the file is truncated",
+                              in_quotes(value_of(array.attributes, "offset")), document_.appended.size()));
+    const auto begin = static_cast<size_t>(offset);
+    const auto next = std::ranges::upper_bound(offsets_, begin);
+    const size_t end =
+        next == offsets_.end() ? document_.appended.size() : std::min(*next, document_.appended.size());
+    const std::string_view bytes = document_.appended.substr(begin, end - begin);
+    return document_.appended_is_text ? decode_base64(bytes) : std::string(bytes);
+  }
+
+  const Document& document_;
+  std::string name_;
+  std::vector<size_t> offsets_;  // ascending
+};
+
+[[noreturn]] void fail_at(const std::string& name, int line, const std::string& message) {
+  throw InputError(fmt::format("{}:{}: {}", name, line, message));
+}
+
+const Array& required(const std::optional<Array>& array, const Piece& piece, const char* what,
+                      const std::string& name) {
+  if (!array)
+    fail_at(name, piece.line, fmt::format("a piece without {}; expected a DataArray of them", what));
+  return *array;
+}
+
+void add_points(const Piece& piece, const ArrayReader& reader, const std::string& name,
+                std::vector<double>& all) {
+  const Array& array = required(piece.coordinates, piece, "points", name);
+  const std::vector<double> numbers = reader.reals(array);
+  if (numbers.size() % 3 != 0 || static_cast<long long>(numbers.size() / 3) != piece.points)
+    fail_at(name, array.line,
+            fmt::format("{} coordinates; expected 3 of each of {} points; is the file truncated?",
+                        numbers.size(), piece.points));
+  const auto bad = std::ranges::find_if(numbers, [](double x) { return !std::isfinite(x); });
+  if (bad != numbers.end())
+    fail_at(name, array.line,
+            fmt::format("point {} has a coordinate of {}; expected a finite number; correct it",
+                        (bad - numbers.begin()) / 3, *bad));
+  all.insert(all.end(), numbers.begin(), numbers.end());
+}
+
+void add_polygons(const Piece& piece, const ArrayReader& reader, long long first_point, MeshFile& file) {
+  if (piece.polygons == 0) return;
+  const Array& array = required(piece.offsets, piece, "offsets of polygons", file.name);
+  const std::vector<long long> corners = reader.integers(
+                                   required(piece.connectivity, piece, "corners of polygons", file.name)),
+                               ends = reader.integers(array);
+  if (static_cast<long long>(ends.size()) != piece.polygons)
+    fail_at(file.name, array.line,
+            fmt::format("{} offsets; expected one of each of {} polygons; is the file truncated?",
+                        ends.size(), piece.polygons));
+  long long begin = 0;
+  for (size_t f = 0; f < ends.size(); ++f) {
+    if (ends[f] - begin < 3 || ends[f] > static_cast<long long>(corners.size()))
+      fail_at(file.name, array.line,
+              fmt::format("polygon {} has corners {} to {} of {}; expected at least 3; correct the offsets",
+                          f, begin, ends[f], corners.size()));
+    for (; begin < ends[f]; ++begin) {
+      const long long id = corners[static_cast<size_t>(begin)];
+      if (id < 0 || id >= piece.points)
+        fail_at(
+            file.name, piece.connectivity->line,
+            fmt::format("polygon {} has point {}; expected 0 to {}; correct it", f, id, piece.points - 1));
+      file.polygons.items.push_back(static_cast<int>(first_point + id));
+    }
+    end_polygon(file);
+  }
+}
+
+}  // namespace
+
+MeshFile read_vtp(std::string_view bytes, const std::string& name) {
+  Document document = DocumentReader(bytes, name).read();
+  const ArrayReader reader(document, name);
+  MeshFile file;
+  file.name = name;
+  file.format = MeshFormat::vtp;
+  std::vector<double> coordinates;
+  for (const Piece& piece : document.pieces) {
+    if (piece.points == 0) continue;
+    const auto first_point = static_cast<long long>(coordinates.size() / 3);
+    if (first_point + piece.points > std::numeric_limits<int>::max())
+      throw LimitError(name + ": more than 2147483647 points; expected fewer; split the mesh");
+    add_points(piece, reader, name, coordinates);
+    add_polygons(piece, reader, first_point, file);
+  }
+  file.points =
+      Eigen::Map<const Mat3X>(coordinates.data(), 3, static_cast<Eigen::Index>(coordinates.size() / 3));
+  warn_not_kept(file, document.not_kept);
+  return file;
+}
+
+}  // namespace hooke

@@ -1,0 +1,462 @@
+#include "hooke/mesh/repair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <queue>
+#include <unordered_set>
+#include <utility>
+
+#include "hooke/mesh/extent.h"
+#include "hooke/mesh/hole_filling.h"
+#include "hooke/mesh/sheets.h"
+#include "hooke/mesh/vertex_welding.h"
+
+namespace hooke {
+namespace {
+
+size_t at(int i) {
+  return static_cast<size_t>(i);
+}
+
+std::array<int, 3> sorted(Triangle t) {
+  std::ranges::sort(t);
+  return t;
+}
+
+/// The components of a manifold: of each face the smallest face that it hangs together with.
+std::vector<int> components_of(const std::vector<Triangle>& triangles, size_t vertices) {
+  std::vector<int> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
+    return v;
+  };
+  for (const Triangle& t : triangles)
+    for (size_t k = 1; k < 3; ++k) parent[at(root(t[k]))] = root(t[0]);
+  std::vector<int> first(vertices, -1), component(triangles.size());
+  for (size_t f = 0; f < triangles.size(); ++f) {
+    int& smallest = first[at(root(triangles[f][0]))];
+    if (smallest < 0) smallest = static_cast<int>(f);
+    component[f] = smallest;
+  }
+  return component;
+}
+
+double area_of(const Mat3X& points, const Triangle& t) {
+  return .5 * (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0])).norm();
+}
+
+/// How often the faces wind around the point, by the solid angles of A. Van Oosterom, J. Strackee, "The solid
+/// angle of a plane triangle", IEEE Transactions on Biomedical Engineering 30 (1983).
+double winding_number(const Mat3X& points, const std::vector<Triangle>& faces, const Vec3& x) {
+  double sum = 0;
+  for (const Triangle& t : faces) {
+    const Vec3 a = points.col(t[0]) - x, b = points.col(t[1]) - x, c = points.col(t[2]) - x;
+    const double u = a.norm(), v = b.norm(), w = c.norm();
+    sum += 2 * std::atan2(a.dot(b.cross(c)), u * v * w + a.dot(b) * w + b.dot(c) * u + c.dot(a) * v);
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+/// In a foam with more tests than that, a component in the box of another is taken to be in the other.
+constexpr size_t most_faces_tested = 100'000'000;
+
+class Repair {
+ public:
+  Repair(const Mat3X& points, std::vector<Triangle> triangles, const RepairOptions& options,
+         const MeshSource& source)
+      : options_(options), source_(source) {
+    r_.points = points;
+    r_.triangles = std::move(triangles);
+    r_.origin.vertex.resize(at(static_cast<int>(points.cols())));
+    std::iota(r_.origin.vertex.begin(), r_.origin.vertex.end(), 0);
+    r_.origin.merged = r_.origin.vertex;
+    r_.origin.face.resize(r_.triangles.size());
+    std::iota(r_.origin.face.begin(), r_.origin.face.end(), 0);
+    r_.origin.flipped.assign(r_.triangles.size(), 0);
+  }
+
+  Repaired make() {
+    if (options_.weld >= 0 || options_.weld_share >= 0) weld_all();
+    if (options_.repair) {
+      weld_boundaries();
+      drop_faces_that_repeat_a_vertex();
+      drop_duplicates();
+      make_manifold();
+      drop_small_components();
+      fill_holes();
+      turn_outward();
+    }
+    drop_unused_vertices();
+    return std::move(r_);
+  }
+
+ private:
+  // Telling. Places are old ids.
+
+  static constexpr size_t places_told = 5;
+
+  void tell(const char* code, size_t count, const std::string& what, std::string places) {
+    if (count == 0) return;
+    if (count > places_told) places += " ...";
+    r_.changes.push_back(
+        {code, count,
+         fmt::format("{}: {} {}{}{}", source_.name, count, what, places.empty() ? "" : ": ", places)});
+  }
+
+  /// "vertices 3, 5" of ids in the present mesh.
+  std::string vertex_places(const std::vector<int>& vertices) const {
+    std::string text;
+    for (size_t k = 0; k < std::min(places_told, vertices.size()); ++k)
+      text += (k == 0 ? "vertices " : ", ") + std::to_string(r_.origin.vertex[at(vertices[k])]);
+    return text;
+  }
+
+  std::string edge_places(const std::vector<Edge>& edges) const {
+    std::string text;
+    for (size_t k = 0; k < std::min(places_told, edges.size()); ++k)
+      text += fmt::format("{}{}-{}", k == 0 ? "edges " : ", ", r_.origin.vertex[at(edges[k][0])],
+                          r_.origin.vertex[at(edges[k][1])]);
+    return text;
+  }
+
+  std::string face_places(const std::vector<int>& faces) const {
+    std::string text;
+    for (size_t k = 0; k < std::min(places_told, faces.size()); ++k)
+      text += (k == 0 ? "faces " : ", ") + face_text(r_.origin.face[at(faces[k])], source_);
+    return text;
+  }
+
+  // Welding.
+
+  void merge(const std::vector<double>& reach) {
+    const std::vector<int> into = weld_vertices(r_.points, reach);
+    std::vector<int> merged;
+    for (size_t v = 0; v < into.size(); ++v)
+      if (into[v] != static_cast<int>(v)) merged.push_back(static_cast<int>(v));
+    for (Triangle& t : r_.triangles)
+      for (int& v : t) v = into[at(v)];
+    for (int& v : r_.origin.merged) v = into[at(v)];
+    tell("vertices_welded", merged.size(), "vertices merged with others that lie where they do",
+         vertex_places(merged));
+  }
+
+  void weld_all() {
+    const double distance =
+        options_.weld >= 0 ? options_.weld : options_.weld_share * box_diagonal(r_.points);
+    merge(std::vector<double>(r_.origin.vertex.size(), distance));
+    drop_faces_that_repeat_a_vertex();
+  }
+
+  void weld_boundaries() { merge(reach_of_boundary(r_.points, r_.triangles)); }
+
+  // Dropping.
+
+  template <typename Drop>
+  void drop_faces(const char* code, const std::string& what, const Drop& drop) {
+    std::vector<int> dropped;
+    for (int f = 0; f < static_cast<int>(r_.triangles.size()); ++f)
+      if (drop(f)) dropped.push_back(f);
+    if (dropped.empty()) return;
+    tell(code, dropped.size(), what, face_places(dropped));
+    remove(dropped);
+  }
+
+  /// Removes these faces, ascending.
+  void remove(const std::vector<int>& faces) {
+    size_t kept = 0, next = 0;
+    for (size_t f = 0; f < r_.triangles.size(); ++f) {
+      if (next < faces.size() && at(faces[next]) == f) {
+        ++next;
+        continue;
+      }
+      r_.triangles[kept] = r_.triangles[f];
+      r_.origin.face[kept] = r_.origin.face[f];
+      r_.origin.flipped[kept++] = r_.origin.flipped[f];
+    }
+    r_.triangles.resize(kept);
+    r_.origin.face.resize(kept);
+    r_.origin.flipped.resize(kept);
+  }
+
+  bool repeats_a_vertex(int f) const {
+    const auto& [a, b, c] = r_.triangles[at(f)];
+    return a == b || b == c || c == a;
+  }
+
+  void drop_faces_that_repeat_a_vertex() {
+    drop_faces("faces_dropped", "faces dropped that use a vertex twice",
+               [&](int f) { return repeats_a_vertex(f); });
+  }
+
+  void drop_duplicates() {
+    std::vector<int> order(r_.triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::array<int, 3>> keys;
+    for (const Triangle& t : r_.triangles) keys.push_back(sorted(t));
+    std::ranges::sort(order,
+                      [&](int a, int b) { return std::tie(keys[at(a)], a) < std::tie(keys[at(b)], b); });
+    std::vector<char> duplicate(order.size(), 0);
+    for (size_t i = 1; i < order.size(); ++i)
+      duplicate[at(order[i])] = keys[at(order[i])] == keys[at(order[i - 1])];
+    drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
+               [&](int f) { return duplicate[at(f)] != 0; });
+  }
+
+  void drop_small_components() {
+    if (options_.drop_components <= 0 || r_.triangles.empty()) return;
+    const std::vector<int> component = components_of(r_.triangles, at(static_cast<int>(r_.points.cols())));
+    std::vector<double> area(component.size(), 0);
+    double total = 0;
+    for (size_t f = 0; f < component.size(); ++f) {
+      const double own = area_of(r_.points, r_.triangles[f]);
+      area[at(component[f])] += own;
+      total += own;
+    }
+    std::vector<int> faces, firsts;
+    for (int f = 0; f < static_cast<int>(component.size()); ++f) {
+      if (area[at(component[at(f)])] >= options_.drop_components * total) continue;
+      faces.push_back(f);
+      if (component[at(f)] == f) firsts.push_back(f);
+    }
+    tell("components_dropped", firsts.size(),
+         fmt::format("components dropped, {} faces, with less than {:.4g} % of the area each", faces.size(),
+                     100 * options_.drop_components),
+         face_places(firsts));
+    remove(faces);
+  }
+
+  void drop_unused_vertices() {
+    std::vector<char> used(r_.origin.vertex.size(), 0);
+    for (const Triangle& t : r_.triangles)
+      for (const int v : t) used[at(v)] = 1;
+    if (!options_.repair)  // vertices in no face stay, but for those that were merged
+      for (size_t v = 0; v < used.size(); ++v) used[v] |= r_.origin.merged[v] == static_cast<int>(v);
+    std::vector<int> fresh(used.size(), -1), loose, source;
+    for (int v = 0; v < static_cast<int>(used.size()); ++v) {
+      if (used[at(v)]) {
+        fresh[at(v)] = static_cast<int>(source.size());
+        source.push_back(v);
+      } else if (v < static_cast<int>(r_.origin.merged.size()) && r_.origin.merged[at(v)] == v) {
+        loose.push_back(v);
+      }
+    }
+    if (source.size() == used.size()) return;
+    tell("vertices_dropped", loose.size(), "vertices in no face dropped", vertex_places(loose));
+    Mat3X points(3, static_cast<Eigen::Index>(source.size()));
+    std::vector<int> origin;
+    for (const int v : source) {
+      points.col(static_cast<Eigen::Index>(origin.size())) = r_.points.col(v);
+      origin.push_back(r_.origin.vertex[at(v)]);
+    }
+    r_.points = std::move(points);
+    r_.origin.vertex = std::move(origin);
+    for (Triangle& t : r_.triangles)
+      for (int& v : t) v = fresh[at(v)];
+  }
+
+  // Cutting and orienting.
+
+  void make_manifold() {
+    Sheets sheets = make_sheets(r_.points, r_.triangles);
+    tell("edges_cut", sheets.cut_edges.size(), "edges with three or more faces cut into sheets",
+         edge_places(sheets.cut_edges));
+    tell("surface_opened", sheets.opened_edges.size(),
+         "edges cut open, as the surface there has only one side", edge_places(sheets.opened_edges));
+    tell("vertices_split", sheets.split_vertices.size(),
+         "vertices split in which separate parts only touched", vertex_places(sheets.split_vertices));
+    tell("faces_flipped", sheets.flipped_faces.size(),
+         "faces turned over to be oriented like their neighbours", face_places(sheets.flipped_faces));
+    for (const int f : sheets.flipped_faces) r_.origin.flipped[at(f)] ^= 1;
+    Mat3X points(3, static_cast<Eigen::Index>(sheets.source.size()));
+    std::vector<int> origin;
+    for (const int v : sheets.source) {
+      points.col(static_cast<Eigen::Index>(origin.size())) = r_.points.col(v);
+      origin.push_back(r_.origin.vertex[at(v)]);
+    }
+    r_.points = std::move(points);
+    r_.origin.vertex = std::move(origin);
+    r_.triangles = std::move(sheets.triangles);
+  }
+
+  static std::uint64_t key(int a, int b) {
+    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+  }
+
+  struct Boundary {
+    std::vector<int> next;  // the vertex after each on its boundary, as a face has them; -1 off boundaries
+    std::vector<int> face;  // with the edge to the next
+    std::unordered_set<std::uint64_t> edges;  // all edges of the mesh
+  };
+
+  Boundary find_boundary() const {
+    Boundary b;
+    b.next.assign(r_.origin.vertex.size(), -1);
+    b.face.assign(r_.origin.vertex.size(), -1);
+    std::unordered_set<std::uint64_t> twice;
+    for (const Triangle& t : r_.triangles)
+      for (size_t k = 0; k < 3; ++k)
+        if (!b.edges.insert(key(t[k], t[(k + 1) % 3])).second) twice.insert(key(t[k], t[(k + 1) % 3]));
+    for (size_t f = 0; f < r_.triangles.size(); ++f)
+      for (size_t k = 0; k < 3; ++k) {
+        const int from = r_.triangles[f][k], to = r_.triangles[f][(k + 1) % 3];
+        if (twice.contains(key(from, to))) continue;
+        b.next[at(from)] = to;
+        b.face[at(from)] = static_cast<int>(f);
+      }
+    return b;
+  }
+
+  void fill_holes() {
+    if (options_.fill_holes <= 0) return;
+    Boundary boundary = find_boundary();
+    std::vector<char> seen(boundary.next.size(), 0);
+    std::vector<int> filled, left;  // a vertex of each hole
+    size_t faces = 0;
+    for (int start = 0; start < static_cast<int>(seen.size()); ++start) {
+      if (seen[at(start)] || boundary.next[at(start)] < 0) continue;
+      std::vector<int> loop;
+      for (int v = start; v >= 0 && !seen[at(v)]; v = boundary.next[at(v)]) {
+        seen[at(v)] = 1;
+        loop.push_back(v);
+      }
+      if (loop.size() > at(options_.fill_holes)) continue;
+      const size_t added = fill(loop, boundary);
+      (added > 0 ? filled : left).push_back(start);
+      faces += added;
+    }
+    tell("holes_filled", filled.size(), fmt::format("holes filled with {} faces", faces),
+         vertex_places(filled));
+    tell("holes_left", left.size(), "holes left, as no triangles fit in", vertex_places(left));
+    r_.origin.filled = faces;
+  }
+
+  /// Fills the hole inside a boundary. Returns the number of new faces.
+  size_t fill(std::vector<int> loop, Boundary& boundary) {
+    const int neighbour = boundary.face[at(loop.front())];
+    if (loop.size() == 3 && sorted({loop[0], loop[1], loop[2]}) == sorted(r_.triangles[at(neighbour)]))
+      return 0;  // the outer edges of a single triangle
+    if (loop.size() < 3) return 0;
+    std::ranges::reverse(loop);
+    const auto triangles =
+        fill_polygon(r_.points, loop, [&](int a, int b) { return boundary.edges.contains(key(a, b)); });
+    if (!triangles) return 0;
+    for (const Triangle& t : *triangles) {
+      for (size_t k = 0; k < 3; ++k) boundary.edges.insert(key(t[k], t[(k + 1) % 3]));
+      r_.triangles.push_back(t);
+      r_.origin.face.push_back(r_.origin.face[at(neighbour)]);
+      r_.origin.flipped.push_back(0);
+    }
+    return triangles->size();
+  }
+
+  struct Component {
+    std::vector<int> faces;
+    std::vector<Triangle> triangles;
+    Eigen::AlignedBox3d box;
+    double volume = 0;
+    bool closed = true;
+  };
+
+  std::vector<Component> closed_components() const {
+    const std::vector<int> component = components_of(r_.triangles, r_.origin.vertex.size());
+    const Boundary boundary = find_boundary();
+    std::vector<int> number(component.size(), -1);
+    std::vector<Component> found;
+    for (int f = 0; f < static_cast<int>(component.size()); ++f) {
+      int& n = number[at(component[at(f)])];
+      if (n < 0) {
+        n = static_cast<int>(found.size());
+        found.emplace_back();
+      }
+      Component& c = found[at(n)];
+      const Triangle& t = r_.triangles[at(f)];
+      c.faces.push_back(f);
+      c.triangles.push_back(t);
+      const Vec3 origin = r_.points.col(c.triangles.front()[0]);
+      c.volume += (r_.points.col(t[0]) - origin)
+                      .dot((r_.points.col(t[1]) - origin).cross(r_.points.col(t[2]) - origin)) /
+                  6;
+      for (const int v : t) {
+        c.box.extend(Vec3(r_.points.col(v)));
+        c.closed &= boundary.next[at(v)] < 0;
+      }
+    }
+    std::erase_if(found, [](const Component& c) { return !c.closed; });
+    return found;
+  }
+
+  /// A component in another may be meant to be inside out: a cavity.
+  void turn_outward() {
+    const std::vector<Component> components = closed_components();
+    std::vector<int> turned, firsts;
+    size_t faces_tested = 0;
+    for (const Component& c : components) {
+      const Vec3 x = r_.points.col(c.triangles.front()[0]);
+      const auto holds_it = [&](const Component& other) {
+        if (&other == &c || !other.box.contains(c.box)) return false;
+        faces_tested += other.triangles.size();
+        return faces_tested > most_faces_tested ||
+               std::abs(winding_number(r_.points, other.triangles, x)) > .5;
+      };
+      if (c.volume >= 0 || std::ranges::any_of(components, holds_it)) continue;
+      firsts.push_back(c.faces.front());
+      turned.insert(turned.end(), c.faces.begin(), c.faces.end());
+    }
+    tell("components_turned", firsts.size(),
+         fmt::format("components turned outward, {} faces", turned.size()), face_places(firsts));
+    for (const int f : turned) {
+      std::swap(r_.triangles[at(f)][1], r_.triangles[at(f)][2]);
+      r_.origin.flipped[at(f)] ^= 1;
+    }
+  }
+
+  const RepairOptions& options_;
+  const MeshSource& source_;
+  Repaired r_;
+};
+
+}  // namespace
+
+Repaired repair(const Mat3X& points, std::vector<Triangle> triangles, const RepairOptions& options,
+                const MeshSource& source) {
+  return Repair(points, std::move(triangles), options, source).make();
+}
+
+std::vector<int> vertices_from(const MeshOrigin& origin, const std::vector<int>& old, int* lost) {
+  std::vector<char> wanted(origin.merged.size(), 0), found(origin.merged.size(), 0);
+  for (const int v : old) wanted[at(origin.merged[at(v)])] = 1;
+  std::vector<int> vertices;
+  for (size_t v = 0; v < origin.vertex.size(); ++v) {
+    if (!wanted[at(origin.vertex[v])]) continue;
+    found[at(origin.vertex[v])] = 1;
+    vertices.push_back(static_cast<int>(v));
+  }
+  const auto gone = std::ranges::find_if(old, [&](int v) { return !found[at(origin.merged[at(v)])]; });
+  if (lost) *lost = gone == old.end() ? -1 : *gone;
+  return vertices;
+}
+
+std::vector<MapEntry> map_to_old(std::vector<MapEntry> map, const MeshOrigin& origin) {
+  if (origin.vertex.empty()) return map;
+  const size_t over_holes = origin.face.size() - origin.filled;
+  for (MapEntry& entry : map) {
+    if (entry.vertex >= 0) entry.vertex = origin.vertex[at(entry.vertex)];
+    SurfacePoint& point = entry.position;
+    if (point.face < 0) continue;
+    if (at(point.face) >= over_holes) {
+      point = {};
+      continue;
+    }
+    if (origin.flipped[at(point.face)]) std::swap(point.weights[1], point.weights[2]);
+    point.face = origin.face[at(point.face)];
+  }
+  return map;
+}
+
+}  // namespace hooke

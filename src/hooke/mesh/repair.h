@@ -1,0 +1,62 @@
+// Repair of triangles that form no oriented manifold: welding, dropping, orienting, cutting, filling. Every
+// change is told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hooke/core/types.h"
+#include "hooke/mesh/surface_point.h"
+#include "hooke/mesh/validation.h"
+
+namespace hooke {
+
+struct RepairOptions {
+  bool repair = false;         // make an oriented manifold
+  double weld = -1;            // merge vertices closer than this, in file units; negative: off
+  double weld_share = -1;      // the same in diagonals of the box
+  double drop_components = 0;  // with `repair`: drop components of less than this share of the area
+  int fill_holes = 0;          // with `repair`: fill holes of at most so many edges
+
+  bool any() const { return repair || weld >= 0 || weld_share >= 0; }
+};
+
+/// Where the vertices and faces of a repaired mesh come from. Empty: they are the old ones.
+struct MeshOrigin {
+  std::vector<int> vertex;    // for each vertex, the old one
+  std::vector<int> merged;    // for each old vertex, the one it was merged with, or itself
+  std::vector<int> face;      // for each face the old one; for one over a hole a neighbour's
+  std::vector<char> flipped;  // for each face, whether its second and third corner are swapped
+  size_t filled = 0;          // the last faces are over holes
+};
+
+struct Repaired {
+  Mat3X points;
+  std::vector<Triangle> triangles;
+  MeshOrigin origin;
+  Notes changes;  // what was done, how often, and the first places, in old ids
+};
+
+/// With `weld`, vertices closer than that are merged, and faces that lose a corner by it are dropped. With
+/// `repair`:
+/// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
+/// there;
+/// - faces that use a vertex twice and the second of faces with the same vertices are dropped;
+/// - surfaces are oriented, cut and split as make_sheets() does;
+/// - components that are too small are dropped, holes that are small enough are filled;
+/// - closed components that are inside out and in no other are turned outward;
+/// - vertices in no face are dropped.
+/// The vertices that stay keep their order; copies of split ones come last. Pre-condition: corners are
+/// vertices. The result may still be invalid, for instance without faces.
+Repaired repair(const Mat3X& points, std::vector<Triangle> triangles, const RepairOptions& options,
+                const MeshSource& source);
+
+/// The vertices that these old ones are now, copies included, ascending. `lost` becomes the first of the old
+/// ones that was dropped, -1 if none was. Pre-condition: the origin is not empty.
+std::vector<int> vertices_from(const MeshOrigin& origin, const std::vector<int>& old, int* lost = nullptr);
+
+/// The map of a result to the repaired mesh, as a map to the old one: what lies over a filled hole is on no
+/// face. An empty origin changes nothing.
+std::vector<MapEntry> map_to_old(std::vector<MapEntry> map, const MeshOrigin& origin);
+
+}  // namespace hooke

@@ -1,0 +1,125 @@
+#include "hooke/mesh/vertex_welding.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+
+namespace hooke {
+namespace {
+
+using Cell = std::array<double, 3>;  // whole numbers, or the point itself where cells have no size
+
+struct CellHash {
+  size_t operator()(const Cell& cell) const {
+    std::uint64_t hash = 0;
+    for (const double x : cell) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 29;
+    }
+    return hash;
+  }
+};
+
+// The vertices that are merged with none so far, by the cells of a grid.
+class Grid {
+ public:
+  Grid(const Mat3X& points, double size)
+      : points_(points), size_(size), next_(static_cast<size_t>(points.cols()), -1) {}
+
+  void add(int vertex) {
+    const auto [head, fresh] = heads_.try_emplace(cell_of(vertex), vertex);
+    if (fresh) return;
+    next_[static_cast<size_t>(vertex)] = head->second;
+    head->second = vertex;
+  }
+
+  /// Calls use(vertex) for all in the cells at the vertex and beside it.
+  template <typename Use>
+  void for_each_near(int vertex, const Use& use) const {
+    const Cell cell = cell_of(vertex);
+    if (size_ == 0) return for_each_in(cell, use);
+    for (int k = 0; k < 27; ++k)
+      for_each_in({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1}, use);
+  }
+
+ private:
+  Cell cell_of(int vertex) const {
+    Cell cell;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const double x = points_(k, vertex) + 0.;  // no -0
+      cell[static_cast<size_t>(k)] = size_ == 0 ? x : std::floor(x / size_) + 0.;
+    }
+    return cell;
+  }
+
+  template <typename Use>
+  void for_each_in(const Cell& cell, const Use& use) const {
+    const auto head = heads_.find(cell);
+    if (head == heads_.end()) return;
+    for (int v = head->second; v >= 0; v = next_[static_cast<size_t>(v)]) use(v);
+  }
+
+  const Mat3X& points_;
+  double size_;
+  std::unordered_map<Cell, int, CellHash> heads_;
+  std::vector<int> next_;  // in the same cell
+};
+
+}  // namespace
+
+std::vector<int> weld_vertices(const Mat3X& points, const std::vector<double>& reach) {
+  std::vector<int> merged(reach.size());
+  Grid grid(points, reach.empty() ? 0 : std::max(0., std::ranges::max(reach)));
+  for (int v = 0; v < static_cast<int>(reach.size()); ++v) {
+    merged[static_cast<size_t>(v)] = v;
+    const double own = reach[static_cast<size_t>(v)];
+    if (own < 0) continue;
+    int closest = v;
+    double least = std::numeric_limits<double>::infinity();
+    grid.for_each_near(v, [&](int other) {
+      const double distance = (points.col(v) - points.col(other)).norm();
+      if (distance > std::min(own, reach[static_cast<size_t>(other)])) return;
+      if (distance < least || (distance == least && other < closest)) {
+        least = distance;
+        closest = other;
+      }
+    });
+    merged[static_cast<size_t>(v)] = closest;
+    if (closest == v) grid.add(v);
+  }
+  return merged;
+}
+
+std::vector<double> reach_of_edges(const Mat3X& points, const std::vector<Edge>& edges) {
+  std::vector<double> reach(static_cast<size_t>(points.cols()), -1);
+  for (const auto& [a, b] : edges) {
+    const double length = welding_share * (points.col(a) - points.col(b)).norm();
+    for (const int v : {a, b}) {
+      double& own = reach[static_cast<size_t>(v)];
+      own = own < 0 ? length : std::min(own, length);
+    }
+  }
+  return reach;
+}
+
+std::vector<double> reach_of_boundary(const Mat3X& points, const std::vector<Triangle>& triangles) {
+  std::vector<Edge> edges, boundary;
+  edges.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles)
+    for (size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+      edges.push_back({low, high});
+    }
+  std::ranges::sort(edges);
+  for (auto edge = edges.begin(), last = edge; edge != edges.end(); edge = last) {
+    last = std::find_if(edge, edges.end(), [&](const Edge& other) { return other != *edge; });
+    if (last - edge == 1 && (*edge)[0] != (*edge)[1]) boundary.push_back(*edge);
+  }
+  return reach_of_edges(points, boundary);
+}
+
+}  // namespace hooke

@@ -1,0 +1,327 @@
+#include "hooke/mesh/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/mesh/topology.h"
+#include "support/errors.h"
+#include "support/meshes.h"
+#include "support/solids.h"
+
+namespace hooke::repair_test {
+
+using test::has;
+
+constexpr RepairOptions all{.repair = true};
+
+Repaired repaired(const test::Triangles& t, const RepairOptions& options = all) {
+  return repair(t.points, t.faces, options, {"m", {}, {}});
+}
+
+std::vector<std::string> codes(const Repaired& r) {
+  std::vector<std::string> found;
+  for (const Note& note : r.changes) found.push_back(note.code);
+  return found;
+}
+using Codes = std::vector<std::string>;
+
+/// The faces, each beginning with its smallest corner.
+std::multiset<Triangle> turned(std::vector<Triangle> faces) {
+  for (Triangle& t : faces) std::ranges::rotate(t, std::ranges::min_element(t));
+  return {faces.begin(), faces.end()};
+}
+
+/// Whether only acceptable problems are left.
+bool is_valid(const Repaired& r) {
+  return std::ranges::all_of(find_problems(r.points, r.triangles),
+                             [](const Problem& p) { return is_acceptable(p.kind); });
+}
+
+Topology topology_of(const Repaired& r) {
+  return measure_topology(make_adjacency(static_cast<int>(r.points.cols()), r.triangles));
+}
+
+double volume_of(const Repaired& r) {
+  return *measure_extent(r.points, make_adjacency(static_cast<int>(r.points.cols()), r.triangles)).volume;
+}
+
+/// Every triangle with vertices of its own.
+test::Triangles soup(const test::Triangles& t) {
+  test::Triangles result{Mat3X(3, static_cast<Eigen::Index>(3 * t.faces.size())), {}};
+  int v = 0;
+  for (const Triangle& face : t.faces) {
+    for (const int corner : face) result.points.col(v++) = t.points.col(corner);
+    result.faces.push_back({v - 3, v - 2, v - 1});
+  }
+  return result;
+}
+
+void flip(Triangle& t) {
+  std::swap(t[1], t[2]);
+}
+
+/// A strip of 2 n triangles whose ends are joined, turned half around for an odd number of half turns.
+test::Triangles band(int n, int half_turns) {
+  test::Triangles t{Mat3X(3, 2 * n), {}};
+  for (int k = 0; k < n; ++k) {
+    const double u = 2 * std::numbers::pi * k / n, turn = half_turns * u / 2;
+    for (const int side : {0, 1}) {
+      const double r = 2 + (side ? .5 : -.5) * std::cos(turn);
+      t.points.col(2 * k + side) = Vec3(r * std::cos(u), r * std::sin(u), (side ? .5 : -.5) * std::sin(turn));
+    }
+    const bool crossed = k + 1 == n && half_turns % 2 != 0;
+    const int a = 2 * k, b = 2 * k + 1, next = 2 * ((k + 1) % n), c = crossed ? next + 1 : next,
+              d = crossed ? next : next + 1;
+    t.faces.push_back({a, c, b});
+    t.faces.push_back({b, c, d});
+  }
+  return t;
+}
+
+TEST(Repair, AValidMeshStaysAsItIs) {
+  for (const test::Triangles& t :
+       {test::shuffled(test::sphere(2, .2)), test::grid(6, test::paraboloid, .3), test::cube(),
+        test::both(test::sphere(1), test::moved(test::cube())), band(9, 2)}) {
+    const Repaired r = repaired(t);
+    EXPECT_EQ(codes(r), Codes{});
+    EXPECT_EQ(r.triangles, t.faces);
+    EXPECT_EQ(r.points, t.points);
+  }
+}
+
+TEST(Repair, SeparateClosedBodiesMayTouchAnywhere) {
+  test::Triangles other = test::cube();
+  other.points.row(0).array() += 1;  // a whole side in common
+  const test::Triangles t = test::both(test::cube(), other);
+  EXPECT_EQ(codes(repaired(t)), Codes{});
+}
+
+TEST(Repair, TrianglesOnTheirOwnAreWelded) {
+  const test::Triangles t = test::sphere(2, .2);
+  const Repaired r = repaired(soup(t));
+  EXPECT_EQ(codes(r), Codes{"vertices_welded"});
+  EXPECT_EQ(r.points.cols(), t.points.cols());
+  EXPECT_EQ(topology_of(r).euler, 2);
+  const Repaired shaken = repaired(test::shaken(soup(t), 1e-5));
+  EXPECT_EQ(topology_of(shaken).boundary_loops, 0);
+  EXPECT_EQ(shaken.points.cols(), t.points.cols());
+  EXPECT_TRUE(
+      has(r.changes[0].message, "m: 798 vertices merged with others that lie where they do: vertices "));
+  EXPECT_TRUE(has(r.changes[0].message, " ..."));
+}
+
+TEST(Repair, OrientationIsThatOfMostFacesAndOutward) {
+  const test::Triangles t = test::sphere(2, .2);
+  std::mt19937 random(4);
+  for (const double share : {.01, .3, .7, 1.}) {
+    test::Triangles mixed = t;
+    for (Triangle& face : mixed.faces)
+      if (std::generate_canonical<double, 53>(random) <= share) flip(face);
+    const Repaired r = repaired(mixed);
+    EXPECT_EQ(turned(r.triangles), turned(t.faces)) << share;
+    EXPECT_EQ(codes(r).back(), share > .5 ? "components_turned" : "faces_flipped");
+    for (size_t f = 0; f < t.faces.size(); ++f)
+      EXPECT_EQ(r.origin.flipped[f] != 0, turned({mixed.faces[f]}) != turned({t.faces[f]}));
+  }
+}
+
+TEST(Repair, ACavityKeepsItsOrientation) {
+  test::Triangles inner = test::sphere(1);
+  inner.points *= .5;
+  for (Triangle& face : inner.faces) flip(face);
+  EXPECT_EQ(codes(repaired(test::both(test::sphere(2), inner))), Codes{});
+  inner.points.array() += 5;
+  EXPECT_EQ(codes(repaired(test::both(test::sphere(2), inner))), Codes{"components_turned"});
+}
+
+TEST(Repair, DuplicatesAndRepeatedVerticesAreDropped) {
+  test::Triangles t = test::sphere(1);
+  const auto faces = t.faces;
+  t.faces.push_back({faces[3][1], faces[3][2], faces[3][0]});
+  t.faces.insert(t.faces.begin() + 5, {7, 7, 2});
+  t.faces.push_back({faces[9][0], faces[9][2], faces[9][1]});
+  const Repaired r = repaired(t);
+  EXPECT_EQ(codes(r), (Codes{"faces_dropped", "duplicate_faces_dropped"}));
+  EXPECT_EQ(r.triangles, faces);
+  EXPECT_EQ(r.changes[0].message, "m: 1 faces dropped that use a vertex twice: faces 5");
+  EXPECT_EQ(r.changes[1].message, "m: 2 faces dropped whose vertices another face has: faces 81, 82");
+  EXPECT_EQ(r.origin.face[5], 6);
+}
+
+TEST(Repair, NothingStaysNothing) {
+  const Repaired r =
+      repaired({Mat3X(3, 0), {}}, {.repair = true, .weld_share = .1, .drop_components = .1, .fill_holes = 9});
+  EXPECT_EQ(codes(r), Codes{});
+  EXPECT_TRUE(r.triangles.empty());
+}
+
+TEST(Repair, DegenerateFacesThatAreManifoldStay) {
+  test::Triangles t = test::sphere(1);
+  t.points.col(t.faces[4][0]) = t.points.col(t.faces[4][1]);
+  EXPECT_EQ(repaired(t).triangles, t.faces);
+}
+
+TEST(Repair, SolidsThatShareAnEdgeOrAVertexAreSeparated) {
+  for (const bool edge : {true, false}) {
+    test::Triangles other = test::cube();
+    other.points.row(0).array() += 1;
+    other.points.row(1).array() += 1;
+    if (!edge) other.points.row(2).array() += 1;
+    test::Triangles t = test::both(test::cube(), other);
+    // One number for equal places.
+    for (Triangle& face : t.faces)
+      for (int& v : face)
+        for (int w = 0; w < v; ++w)
+          if (t.points.col(w) == t.points.col(v)) v = w;
+    const Repaired r = repaired(t);
+    EXPECT_EQ(codes(r), edge ? (Codes{"edges_cut", "vertices_dropped"})
+                             : (Codes{"vertices_split", "vertices_dropped"}));
+    const Topology topology = topology_of(r);
+    EXPECT_EQ(topology.components, 2);
+    EXPECT_EQ(topology.euler, 4);
+    EXPECT_EQ(topology.boundary_loops, 0);
+    EXPECT_NEAR(volume_of(r), 2, 1e-12);
+  }
+}
+
+TEST(Repair, AFinIsCutOffAndTheSheetGoesOn) {
+  // A flat sheet of two triangles at edge 0-1, and a fin on it.
+  Mat3X points(3, 5);
+  points << 0, 0, 1, -1, 0, 0, 1, .5, .5, .5, 0, 0, 0, 0, 1;
+  const Repaired r = repaired({points, {{0, 1, 3}, {0, 1, 4}, {1, 0, 2}}});
+  ASSERT_EQ(codes(r), Codes{"edges_cut"});
+  EXPECT_EQ(r.changes[0].message, "m: 1 edges with three or more faces cut into sheets: edges 0-1");
+  EXPECT_EQ(r.triangles[0], (Triangle{0, 1, 3}));
+  EXPECT_EQ(r.triangles[2], (Triangle{1, 0, 2}));
+  EXPECT_EQ(r.triangles[1], (Triangle{5, 6, 4}));
+  EXPECT_EQ(r.origin.vertex, (std::vector{0, 1, 2, 3, 4, 0, 1}));
+}
+
+TEST(Repair, OneSidedSurfacesAreCutOpen) {
+  const Repaired r = repaired(band(12, 1));
+  EXPECT_TRUE(is_valid(r));
+  EXPECT_EQ(codes(r).front(), "surface_opened");
+  EXPECT_EQ(topology_of(r).components, 1);
+  EXPECT_EQ(topology_of(r).euler, 1) << "a strip";
+}
+
+TEST(Repair, RandomTrianglesBecomeManifold) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 300; ++round) {
+    const int vertices = 4 + round % 23, faces = 1 + round % 61;
+    std::uniform_int_distribution<int> vertex(0, vertices - 1);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    test::Triangles t{Mat3X(3, vertices), {}};
+    for (double& x : t.points.reshaped())
+      x = round % 3 == 0 ? std::round(2 * coordinate(random)) : coordinate(random);
+    for (int f = 0; f < faces; ++f) t.faces.push_back({vertex(random), vertex(random), vertex(random)});
+    for (const RepairOptions& options : {all, RepairOptions{.repair = true, .fill_holes = 20},
+                                         RepairOptions{.repair = true, .weld = .3, .fill_holes = 5}}) {
+      const Repaired r = repaired(t, options);
+      for (const Problem& p : find_problems(r.points, r.triangles))
+        EXPECT_TRUE(is_acceptable(p.kind) || p.kind == ProblemKind::no_faces ||
+                    p.kind == ProblemKind::no_area)
+            << round << ' ' << name_of(p.kind);
+      ASSERT_EQ(r.origin.vertex.size(), static_cast<size_t>(r.points.cols()));
+      ASSERT_EQ(r.origin.face.size(), r.triangles.size());
+      for (size_t v = 0; v < r.origin.vertex.size(); ++v)
+        EXPECT_EQ(r.points.col(static_cast<Eigen::Index>(v)), t.points.col(r.origin.vertex[v]));
+    }
+  }
+}
+
+TEST(Repair, HolesUpToASizeAreFilled) {
+  const test::Triangles whole = test::sphere(2, .1);
+  test::Triangles t = whole;
+  const int centre = t.faces[7][0];
+  std::erase_if(t.faces, [&](const Triangle& f) { return std::ranges::find(f, centre) != f.end(); });
+  const size_t ring = whole.faces.size() - t.faces.size();
+  t.faces.erase(t.faces.end() - 1);
+  const auto with = [&](int size) { return repaired(t, {.repair = true, .fill_holes = size}); };
+  const Repaired both = with(static_cast<int>(ring)), one = with(static_cast<int>(ring) - 1);
+  EXPECT_EQ(codes(both), (Codes{"holes_filled", "vertices_dropped"}));
+  EXPECT_EQ(topology_of(both).euler, 2);
+  EXPECT_EQ(topology_of(both).boundary_loops, 0);
+  EXPECT_EQ(both.origin.filled, ring - 2 + 1);
+  EXPECT_NEAR(volume_of(both), 4 * std::numbers::pi / 3, .5);
+  EXPECT_EQ(topology_of(one).boundary_loops, 1);
+  const Repaired triangle = repaired(test::equilateral(), {.repair = true, .fill_holes = 3});
+  EXPECT_EQ(triangle.triangles.size(), 1u) << "its outer edges are no hole";
+}
+
+TEST(Repair, SmallComponentsAreDropped) {
+  test::Triangles crumb = test::sphere(0);
+  crumb.points *= .01;
+  crumb.points.array() += 3;
+  const Repaired r = repaired(test::both(crumb, test::sphere(2)), {.repair = true, .drop_components = .01});
+  EXPECT_EQ(codes(r), (Codes{"components_dropped", "vertices_dropped"}));
+  EXPECT_EQ(r.triangles, test::sphere(2).faces);
+  EXPECT_EQ(r.origin.vertex.front(), 12);
+}
+
+TEST(Repair, WeldingAloneChangesNothingElse) {
+  test::Triangles t = test::both(test::grid(3, test::flat), test::grid(3, test::flat));
+  t.points.rightCols(16).row(0).array() += 1 + 1e-4;
+  t.points.conservativeResize(3, 33);
+  t.points.col(32) = Vec3(9, 9, 9);
+  const Repaired r = repaired(t, {.weld = 2e-4});
+  EXPECT_EQ(codes(r), Codes{"vertices_welded"});
+  EXPECT_EQ(r.points.cols(), 33 - 4);
+  EXPECT_EQ(r.points.col(28), Vec3(9, 9, 9));
+  EXPECT_EQ(topology_of(r).components, 1);
+  EXPECT_EQ(codes(repaired(t, {.weld_share = 5e-6})), Codes{}) << "of the diagonal";
+  EXPECT_EQ(codes(repaired(t, {.weld = .4})), (Codes{"vertices_welded", "faces_dropped"}));
+}
+
+TEST(MeshOrigin, OldIdsFindTheirVertices) {
+  Mat3X points(3, 6);
+  points << 0, 0, 1, -1, 0, 0, 0, 1, .5, .5, .5, 1, 0, 0, 0, 0, 1, 0;
+  // Vertex 5 lies on 1; the fin's edge is cut.
+  const Repaired r = repaired({points, {{0, 1, 3}, {0, 5, 4}, {1, 0, 2}}});
+  int lost = 0;
+  EXPECT_EQ(vertices_from(r.origin, {5}, &lost), vertices_from(r.origin, {1}));
+  EXPECT_EQ(lost, -1);
+  EXPECT_EQ(vertices_from(r.origin, {0}).size(), 2u);
+  EXPECT_EQ(vertices_from(r.origin, {0, 2, 3, 4, 5}).size(), static_cast<size_t>(r.points.cols()));
+  test::Triangles loose = test::equilateral();
+  loose.points.conservativeResize(3, 4);
+  loose.points.col(3) = Vec3(7, 7, 7);
+  vertices_from(repaired(loose).origin, {0, 3}, &lost);
+  EXPECT_EQ(lost, 3);
+}
+
+TEST(MeshOrigin, AMapLeadsBackToTheOldFaces) {
+  test::Triangles t = test::sphere(1);
+  flip(t.faces[4]);
+  t.faces.erase(t.faces.begin() + 20);
+  const Repaired r = repaired(t, {.repair = true, .fill_holes = 3});
+  std::vector<MapEntry> map;
+  for (size_t f = 0; f < r.triangles.size(); ++f)
+    map.push_back({-1, {static_cast<int>(f), Vec3(.2, .3, .5)}});
+  map.push_back({3, {}});
+  const std::vector<MapEntry> old = map_to_old(map, r.origin);
+  for (size_t f = 0; f + 1 < r.triangles.size(); ++f) {
+    Vec3 before = Vec3::Zero(), after = Vec3::Zero();
+    for (size_t k = 0; k < 3; ++k) {
+      const auto weight = static_cast<Eigen::Index>(k);
+      before += map[f].position.weights[weight] * r.points.col(r.triangles[f][k]);
+      after += old[f].position.weights[weight] *
+               t.points.col(t.faces[static_cast<size_t>(old[f].position.face)][k]);
+    }
+    EXPECT_LT((before - after).norm(), 1e-15);
+  }
+  EXPECT_EQ(old[r.triangles.size() - 1].position.face, -1) << "over the hole";
+  EXPECT_EQ(old.back().vertex, 3);
+  EXPECT_EQ(map_to_old(map, {})[5].position.face, 5);
+}
+
+}  // namespace hooke::repair_test
