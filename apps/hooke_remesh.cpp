@@ -14,7 +14,9 @@
 #include "hooke/core/printable.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/mesh_file.h"
+#include "hooke/io/preserve.h"
 #include "hooke/io/read_mesh.h"
+#include "hooke/io/rewrite.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/io/write_mesh.h"
 #include "hooke/measure/quality.h"
@@ -54,6 +56,14 @@ struct Original {
   MemoryOrder memory_order;
   std::vector<int> tree_order;  // order of the faces in its bounding volume tree
 };
+
+/// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.
+std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) {
+  if (!keeps_faces(s)) return "faces change with this --connectivity";
+  if (loaded.format != s.format)
+    return fmt::format("the input is {} and the output {}", loaded.format, s.format);
+  return can_rewrite(s.format) ? "" : fmt::format("{} files are always written anew", s.format);
+}
 
 /// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface
 /// positions of its vertices. Normals are always recomputed from the result.
@@ -147,6 +157,36 @@ void require_promises(const Settings& s, const RunRecord& record) {
   if (!broken.empty()) throw ResultError(printable(s.output.string()) + ": not written: " + broken);
 }
 
+/// Prepares the output: the input file with moved vertices if that can be and is not switched off, else a new
+/// file. Records which of them, and what that means for the content of the input.
+PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                           const Mat3X& points, const MemoryOrder& memory_order, RunRecord& record,
+                           Stopwatch& stopwatch) {
+  record.output.emplace();
+  std::string obstacle = obstacle_to_preserving(s, loaded);
+  if (s.preserve && obstacle.empty()) {
+    PreservedMesh preserved = prepare_preserved_mesh(
+        s.output, loaded.mesh, {s.input, loaded.format, loaded.sha256, loaded.connectivity_sha256},
+        &stopwatch);
+    if (preserved.mesh) {
+      record.output->preserved = true;
+      append(record.warnings, loaded.content.preserved);
+      append(record.warnings, preserved.warnings);
+      return *std::move(preserved.mesh);
+    }
+    obstacle = std::move(preserved.obstacle);
+  }
+  append(record.warnings, loaded.content.anew);
+  if (s.preserve && s.preserve_given)
+    record.warnings.push_back(
+        {"not_preserved",
+         fmt::format("{}: is a new file, and not the input with moved vertices as by --preserve "
+                     "on, because {}",
+                     printable(s.output.string()), obstacle)});
+  const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
+  return prepare_mesh(s.output, loaded.mesh, s.format, loaded.encoding, data, &stopwatch);
+}
+
 /// Optimizes the mesh, measures the result and prepares its output files.
 void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
                  OutputFiles& files, Stopwatch& stopwatch) {
@@ -180,11 +220,11 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   if (!done.vertex_limits.empty())
     for (WorstFace& face : record.after->worst_faces)
       face.reasons = limiting_factors(face, done.vertex_limits);
-  const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
   PendingMesh written = timed(&stopwatch, "write", [&] {
-    return prepare_mesh(s.output, mesh, s.format, loaded.encoding, data, &stopwatch);
+    return prepare_output(s, loaded, original, points, memory_order, record, stopwatch);
   });
-  record.output = {printable(s.output.string()), written.sha256, s.format, written.connectivity_sha256};
+  static_cast<FileRecord&>(*record.output) = {printable(s.output.string()), written.sha256, s.format,
+                                              written.connectivity_sha256};
   files.add(std::move(written.file));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(done.map)));
   add_result_warnings(s, record);
@@ -221,6 +261,7 @@ int run(Settings s) {
   record.warnings = loaded.warnings;
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
+  record.parameters["preserve"] = s.preserve && obstacle_to_preserving(s, loaded).empty() ? "on" : "off";
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
   if (s.max_distance_share > 0)

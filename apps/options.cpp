@@ -249,6 +249,11 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   add_file(app, "-o,--output", s.output, "Mesh to write; required unless --check");
   add_choice(app, "--format", s.format, "Format of the output (default: by extension)",
              Choices<std::string>{{"obj", "obj"}, {"ply", "ply"}, {"off", "off"}});
+  add_choice(app, "--preserve", s.preserve,
+             "With the same format and faces that stay, write the input's bytes and change only the digits "
+             "of moved coordinates and their normals",
+             Choices<bool>{{"on", true}, {"off", false}})
+      ->default_str("on");
   app.option_defaults()->group("Target");
   add_target(app, s, raw);
   app.option_defaults()->group("Method");

@@ -20,6 +20,8 @@ struct Settings {
   std::filesystem::path input;
   std::filesystem::path output;  // empty with --check
   std::string format;            // output format: "obj", "ply" or "off"
+  bool preserve = true;  // --preserve on: write the input file again with moved vertices, if that can be
+  bool preserve_given = false;  // whether the command line says so
   LengthSpec length;
   std::string length_text = "auto";
   SizingSource sizing;

@@ -131,6 +131,7 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
       s.paper || s.remesh.filter.kind == FilterKind::local || s.remesh.filter.kind == FilterKind::global;
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
   refuse(s.check, {"--map", "--output", "--trace-steps"}, "is not written by --check");
+  refuse(s.check, {"--preserve"}, "is of the output, which --check has none of");
 }
 
 }  // namespace
@@ -159,6 +160,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   }
   if (raw.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *raw.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
+  s.preserve_given = raw.given("--preserve");
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
   if (s.format.empty()) s.format = format_of(s.output);

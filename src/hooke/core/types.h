@@ -33,4 +33,8 @@ struct Warning {
 };
 using Warnings = std::vector<Warning>;
 
+inline void append(Warnings& warnings, const Warnings& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 }  // namespace hooke

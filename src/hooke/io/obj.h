@@ -4,8 +4,10 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hooke/io/mesh_file.h"
+#include "hooke/io/scanner.h"
 
 namespace hooke {
 
@@ -16,6 +18,20 @@ namespace hooke {
 /// vertices. Groups, materials, lines and unknown statements are not kept; one warning lists them. Throws
 /// InputError "NAME:LINE: ...", but not for invalid numbers in `vt` and `vn`, which are then not kept.
 MeshFile read_obj(std::string_view text, const std::string& name);
+
+/// The normals of the face corners of an OBJ file.
+struct ObjNormals {
+  Mat3X points;                 // of the vertices
+  IntLists polygons;            // vertex ids of each face
+  Mat3X values;                 // the normals as they stand in the file, broken numbers as they come
+  std::vector<int> of_corners;  // column of each corner, in the order of the polygons' items; -1 for none
+};
+
+/// Reads vertices, faces and normals. Throws what read_obj() throws.
+ObjNormals read_obj_normals(std::string_view text, const std::string& name);
+
+/// The syntax of OBJ texts.
+inline constexpr Scanner::Syntax obj_syntax = {.comments = true, .continuations = true};
 
 /// The text of an OBJ file with `v`, `vt`, `vn` and `f` lines. Numbers read back exactly. Of the data it
 /// holds colours, texture coordinates and normals.

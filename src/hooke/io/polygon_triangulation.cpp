@@ -189,19 +189,22 @@ TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons) 
   return result;
 }
 
-Warnings warnings_of(const TriangulatedPolygons& triangulation, const std::string& name) {
-  Warnings warnings;
-  if (triangulation.polygons_cut > 0)
-    warnings.push_back({"polygons_triangulated",
-                        fmt::format("{}: polygons with more than three corners, cut into triangles: {}", name,
-                                    triangulation.polygons_cut)});
+void append_warnings(const TriangulatedPolygons& triangulation, const std::string& name,
+                     ContentWarnings& content, Warnings& warnings) {
+  const auto add_cut = [&](Warnings& to, const char* what) {
+    to.push_back({"polygons_triangulated", fmt::format("{}: polygons with more than three corners, {}: {}",
+                                                       name, what, triangulation.polygons_cut)});
+  };
+  if (triangulation.polygons_cut > 0) {
+    add_cut(content.anew, "cut into triangles");
+    add_cut(content.preserved, "moved and measured as triangles, written as they were");
+  }
   if (triangulation.not_simple > 0)
     warnings.push_back(
         {"polygons_not_simple",
          fmt::format(
              "{}: polygons that cross or fold over themselves or have no area, whose triangles overlap: {}",
              name, triangulation.not_simple)});
-  return warnings;
 }
 
 }  // namespace hooke

@@ -1,6 +1,5 @@
 #include "hooke/io/read_mesh.h"
 
-#include <iterator>
 #include <utility>
 
 #include "hooke/core/parallel.h"
@@ -13,10 +12,6 @@
 
 namespace hooke {
 namespace {
-
-void append(Warnings& warnings, Warnings more) {
-  warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
 
 /// The memory order and adjacency of a mesh, after validation. The mesh is checked in memory order, which is
 /// faster; errors and warnings are then generated in file order.
@@ -45,7 +40,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   TriangulatedPolygons triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
-  append(warnings, warnings_of(triangulation, file.name));
+  ContentWarnings content_warnings = std::move(file.content);
+  append_warnings(triangulation, file.name, content_warnings, warnings);
   const std::vector<Triangle>& triangles = triangulation.triangles;
 
   Permutation order;
@@ -75,6 +71,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
       std::move(hash),
       std::move(faces_hash),
       std::move(file.vertex_data),
+      std::move(content_warnings),
       std::move(warnings)};
 }
 

@@ -19,7 +19,8 @@ struct LoadedMesh {
   std::string sha256;                                        // of the bytes of the file, hexadecimal
   std::string connectivity_sha256;                           // see sha256.h
   VertexData vertex_data;                                    // values of the vertices in the file
-  Warnings warnings;  // from reading, triangulation and validation, in this order
+  ContentWarnings content;                                   // about what else is in the file
+  Warnings warnings;  // others, from reading, triangulation and validation, in this order
 };
 
 /// Reads a mesh file, triangulates its polygons, validates and builds the mesh. Throws InputError if the file
