@@ -57,12 +57,20 @@ struct Original {
   std::vector<int> tree_order;  // order of the faces in its bounding volume tree
 };
 
+/// Whether the output is of the kind of the input: the same format and the same faces.
+bool is_of_its_kind(const Settings& s, const LoadedMesh& loaded) {
+  return keeps_faces(s) && loaded.format == s.format;
+}
+
 /// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.
 std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) {
   if (!keeps_faces(s)) return "faces change with this --connectivity";
   if (loaded.format != s.format)
     return fmt::format("the input is {} and the output {}", loaded.format, s.format);
-  return can_rewrite(s.format) ? "" : fmt::format("{} files are always written anew", s.format);
+  if (!can_rewrite(s.format)) return fmt::format("{} files are always written anew", s.format);
+  if (!s.preserve_given && !loaded.misread.empty())
+    return fmt::format("simple readers would misread its {}; --preserve on keeps them", loaded.misread);
+  return "";
 }
 
 /// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface
@@ -177,12 +185,10 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
     obstacle = std::move(preserved.obstacle);
   }
   append(record.warnings, loaded.content.anew);
-  if (s.preserve && s.preserve_given)
+  if (s.preserve && (s.preserve_given || is_of_its_kind(s, loaded)))
     record.warnings.push_back(
-        {"not_preserved",
-         fmt::format("{}: is a new file, and not the input with moved vertices as by --preserve "
-                     "on, because {}",
-                     printable(s.output.string()), obstacle)});
+        {"not_preserved", fmt::format("{}: is a new file, and not {} with moved vertices: {}",
+                                      printable(s.output.string()), record.input.path, obstacle)});
   const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
   return prepare_mesh(s.output, loaded.mesh, s.format, loaded.encoding, data, &stopwatch);
 }

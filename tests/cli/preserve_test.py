@@ -196,7 +196,7 @@ class Preserve(CommandTest):
         for k, place in enumerate(exact):
             self.assertEqual(body[30 * k + 1:30 * k + 13], struct.pack("<3f", *place))
 
-    def test_what_cannot_be_preserved_is_said_once_and_only_when_asked_for(self):
+    def test_what_cannot_be_preserved_is_said_once(self):
         self.put("artist.obj", artists_obj())
         self.put("int.ply", b"ply\nformat ascii 1.0\nelement vertex 5\nproperty int x\nproperty int y\nproperty int z\nelement face 4\n"
                             b"property list uchar int vertex_index\nend_header\n0 0 0\n9 0 0\n9 9 0\n0 9 0\n1 1 0\n3 0 1 4\n3 1 2 4\n"
@@ -207,12 +207,24 @@ class Preserve(CommandTest):
                 ("int.ply", "out.ply", [], "cannot hold")):
             with self.subTest(target=target, options=options):
                 report, err = self.run_command(source, "-o", target, "-q", "--report", "-", *options)
-                self.assertNotIn("not_preserved", report)
+                self.assertEqual("not_preserved" in report, source == "int.ply")  # same format, same faces
                 self.assertIs(json.loads(report)["output"]["preserved"], False)
                 report, err = self.run_command(source, "-o", target, "-q", "--report", "-", "--preserve", "on", *options)
                 warnings = [w["message"] for w in json.loads(report)["warnings"] if w["code"] == "not_preserved"]
                 self.assertEqual(len(warnings), 1)
                 self.assertIn(says, warnings[0])
+
+    def test_what_simple_readers_would_misread_is_kept_only_when_asked_for(self):
+        self.write("dart.obj", "v 0 0 0\nv 2 1 0\nv 0 2 0\nv .5 1 0\nf 1 2 3 4\n")
+        self.write("lines.obj", "v 0 0 \\\n 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        for name, says in (("dart.obj", "concave polygons"), ("lines.obj", "continued")):
+            report, err = self.run_command(name, "-o", "new.obj", "-q", "--report", "-")
+            self.assertIs(json.loads(report)["output"]["preserved"], False)
+            self.assertIn("new.obj: is a new file", err)
+            self.assertIn(says, err)
+            output, err, _ = self.kept(name, "--preserve", "on")
+            self.assertNotIn("new file", err)
+            self.assertEqual(output, self.get(name))
 
     def test_off_writes_a_new_file(self):
         self.put("artist.obj", artists_obj())

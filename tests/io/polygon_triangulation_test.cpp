@@ -140,4 +140,15 @@ TEST(Polygons, WithoutACleanCutTheCountStaysRightAndItIsSaid) {
   }
 }
 
+TEST(Polygons, FansThatOverlapAreMisread) {
+  const auto misread = [](const std::vector<Vec3>& points) {
+    const Polygon p = polygon(points);
+    return misread_as_fans(p.points, p.corners, triangulate(p.points, p.corners));
+  };
+  const std::vector<Vec3> dart{{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {.5, 1, 0}};
+  EXPECT_TRUE(misread(dart));
+  EXPECT_FALSE(misread({dart[1], dart[2], dart[3], dart[0]})) << "from there the fan fits";
+  EXPECT_FALSE(misread({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+}
+
 }  // namespace hooke::polygon_triangulation_test

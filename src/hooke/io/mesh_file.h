@@ -30,7 +30,8 @@ struct MeshFile {
   std::vector<int> lines;      // line number of each polygon; empty for binary files
   VertexData vertex_data;      // other values of the vertices, in file order
   ContentWarnings content;
-  Warnings warnings;  // others
+  std::string misread;  // what simple readers would read wrongly in the file as it is; empty for nothing
+  Warnings warnings;    // others
 };
 
 /// The bytes without a byte order mark at their beginning.

@@ -43,6 +43,7 @@ struct ObjReader {
   ObjElements vertices, texture, normals;
   std::vector<NotKept> not_kept{};
   std::vector<Vec3> colours{};  // of the vertices that have a colour
+  bool continued = false;       // whether the coordinates of a vertex stand on several lines
 };
 
 void note(std::vector<NotKept>& noted, NotKept content) {
@@ -59,7 +60,9 @@ void read_vertex(ObjReader& obj) {
   Scanner& in = obj.scanner;
   count_one(in, obj.vertices);
   double* coordinate = obj.vertices.values.col(obj.vertices.count - 1).data();
+  const int line = in.line();
   for (const char* what : {"x", "y", "z"}) *coordinate++ = in.number(what);
+  obj.continued |= in.line() != line;
   int extra = 0;
   Vec3 more = Vec3::Ones();
   for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra) {
@@ -255,6 +258,8 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   }
   warn_not_kept(file, not_kept);
   warn_carried_along(file, shapes);
+  if (std::ranges::any_of(content.readers, &ObjReader::continued))
+    file.misread = "vertices whose lines are continued by '\\'";
   return std::move(file);
 }
 

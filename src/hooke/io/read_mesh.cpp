@@ -42,6 +42,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
   Warnings warnings = std::move(file.warnings);
   ContentWarnings content_warnings = std::move(file.content);
   append_warnings(triangulation, file.name, content_warnings, warnings);
+  if (misread_as_fans(file.points, file.polygons, triangulation))
+    file.misread = "concave polygons, which overlap when they are cut as fans";
   const std::vector<Triangle>& triangles = triangulation.triangles;
 
   Permutation order;
@@ -72,6 +74,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch) {
       std::move(faces_hash),
       std::move(file.vertex_data),
       std::move(content_warnings),
+      std::move(file.misread),
       std::move(warnings)};
 }
 

@@ -20,6 +20,7 @@ struct LoadedMesh {
   std::string connectivity_sha256;                           // see sha256.h
   VertexData vertex_data;                                    // values of the vertices in the file
   ContentWarnings content;                                   // about what else is in the file
+  std::string misread;                                       // see MeshFile
   Warnings warnings;  // others, from reading, triangulation and validation, in this order
 };
 
