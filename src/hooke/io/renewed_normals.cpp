@@ -1,12 +1,11 @@
 #include "hooke/io/renewed_normals.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
-#include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
 
 namespace hooke {
@@ -55,17 +54,50 @@ std::vector<char> touched_polygons(const MovedPolygons& moved) {
   return touched;
 }
 
+// The length of the first edge that has one; 1 if none has.
+double some_length(const MovedPolygons& moved) {
+  for (int f = 0; f < polygon_count(moved); ++f) {
+    const std::span<const int> corners = moved.polygons[f];
+    const double length = (moved.after.col(corners[0]) - moved.after.col(corners[1])).norm();
+    if (length > 0) return length;
+  }
+  return 1;
+}
+
 // The normal of a corner of a polygon, times its weight (edge lengths in units of `scale`); of a concave
 // corner too it points to the polygon's side.
 Vec3 weighted_normal(const Mat3X& points, std::span<const int> corners, std::size_t k, double scale) {
   const std::size_t n = corners.size();
   const Vec3 p = points.col(corners[k]);
-  const Vec3 a = points.col(corners[(k + 1) % n]) - p, b = points.col(corners[(k + n - 1) % n]) - p;
+  const Vec3 a = points.col(corners[k + 1 < n ? k + 1 : 0]) - p;
+  const Vec3 b = points.col(corners[k > 0 ? k - 1 : n - 1]) - p;
   const double a_length = a.norm(), b_length = b.norm();
   if (!(a_length > 0) || !(b_length > 0)) return Vec3::Zero();
   const Vec3 normal = (a / a_length).cross(b / b_length) * ((scale / a_length) * (scale / b_length));
   return n > 3 && normal.dot(newell_normal(points, corners)) < 0 ? Vec3(-normal) : normal;
 }
+
+// The weighted normals of all corners.
+Mat3X weighted_normals(const MovedPolygons& moved) {
+  const double scale = some_length(moved);
+  Mat3X normals(3, static_cast<Eigen::Index>(moved.polygons.items.size()));
+  parallel_for(to_index(polygon_count(moved)), elements_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::span<const int> corners = moved.polygons[static_cast<int>(f)];
+      for (std::size_t k = 0; k < corners.size(); ++k)
+        normals.col(moved.polygons.first[f] + static_cast<int>(k)) =
+            weighted_normal(moved.after, corners, k, scale);
+    }
+  });
+  return normals;
+}
+
+// The smooth fans: the fan of every corner, -1 for a corner without normal. The first fan of a vertex has its
+// id.
+struct Fans {
+  std::vector<int> of_corners;
+  int count = 0;
+};
 
 bool same_fan(const Mat3X& values, int a, int b) {
   if (a == b) return true;
@@ -73,80 +105,79 @@ bool same_fan(const Mat3X& values, int a, int b) {
   return x == y || (x.dot(y) > 0 && x.cross(y).norm() < std::sin(.5 * degree) * x.norm() * y.norm());
 }
 
-// The new normal of every corner, and whether its fan has moved.
+Fans find_fans(const MovedPolygons& moved, const std::vector<int>& elements, const Mat3X& values) {
+  const std::vector<int>& vertices = moved.polygons.items;
+  Fans fans{vertices, static_cast<int>(moved.after.cols())};
+  std::vector<int> first(to_index(fans.count), -1);  // element of each vertex
+  std::vector<char> has_several(first.size(), 0);
+  for (std::size_t c = 0; c < vertices.size(); ++c) {
+    int& element = first[to_index(vertices[c])];
+    if (elements[c] < 0) fans.of_corners[c] = -1;
+    if (element < 0) element = elements[c];
+    has_several[to_index(vertices[c])] |= static_cast<char>(elements[c] >= 0 && elements[c] != element);
+  }
+  std::vector<std::pair<int, std::size_t>> corners;  // of vertices with several elements
+  for (std::size_t c = 0; c < vertices.size(); ++c)
+    if (has_several[to_index(vertices[c])] && elements[c] >= 0) corners.emplace_back(vertices[c], c);
+  std::ranges::sort(corners);
+  std::vector<std::pair<int, int>> here;  // elements and fans at a vertex
+  int vertex = -1;
+  for (const auto& [v, c] : corners) {
+    if (v != vertex) here.clear();
+    vertex = v;
+    const int element = elements[c];
+    auto found =
+        std::ranges::find_if(here, [&](const auto& fan) { return same_fan(values, fan.first, element); });
+    if (found == here.end()) found = here.insert(here.end(), {element, here.empty() ? v : fans.count++});
+    fans.of_corners[c] = found->second;
+  }
+  return fans;
+}
+
+// Unit normals of the fans, and which of them have moved.
 struct FanNormals {
-  Mat3X of_corners;
+  Mat3X values;
   std::vector<char> moved;
 };
 
-// Sums the fans at a vertex, where the polygons `here` meet, and stores the result at their corners.
-void add_fans(const MovedPolygons& moved, std::span<const int> here, const std::vector<char>& touched,
-              const std::vector<int>& elements, const Mat3X& values, int v, FanNormals& result) {
-  struct Fan {
-    int element;  // of its first corner
-    Vec3 sum = Vec3::Zero();
-    bool moved = false;
-  };
-  std::vector<Fan> fans;
-  std::vector<std::array<std::size_t, 2>> placed;  // a corner and its fan
-  double scale = 0;
-  for (const int f : here) {
-    const std::span<const int> polygon = moved.polygons[f];
-    const auto k = static_cast<std::size_t>(std::ranges::find(polygon, v) - polygon.begin());
-    const std::size_t corner = to_index(moved.polygons.first[to_index(f)]) + k;
-    const int element = elements[corner];
-    if (element < 0) continue;
-    const auto found =
-        std::ranges::find_if(fans, [&](const Fan& fan) { return same_fan(values, fan.element, element); });
-    placed.push_back({corner, static_cast<std::size_t>(found - fans.begin())});
-    if (found == fans.end()) fans.push_back({element});
-    if (!(scale > 0))
-      scale = (moved.after.col(polygon[(k + 1) % polygon.size()]) - moved.after.col(v)).norm();
-    Fan& fan = fans[placed.back()[1]];
-    fan.sum += weighted_normal(moved.after, polygon, k, scale);
-    fan.moved |= touched[to_index(f)] != 0;
-  }
-  for (const auto& [corner, fan] : placed) {
-    result.of_corners.col(static_cast<Eigen::Index>(corner)) = unit_normal(fans[fan].sum);
-    result.moved[corner] = fans[fan].moved;
-  }
-}
-
-FanNormals fan_normals(const MovedPolygons& moved, const std::vector<int>& elements, const Mat3X& values) {
-  const int vertices = static_cast<int>(moved.after.cols());
-  std::vector<std::span<const int>> rows;
-  for (int f = 0; f < polygon_count(moved); ++f) rows.push_back(moved.polygons[f]);
-  const IntLists at_vertices = inverse(vertices, rows);
+FanNormals fan_normals(const MovedPolygons& moved, const Fans& fans) {
+  const Mat3X corners = weighted_normals(moved);
   const std::vector<char> touched = touched_polygons(moved);
-  FanNormals result{Mat3X::Zero(3, static_cast<Eigen::Index>(elements.size())),
-                    std::vector<char>(elements.size(), 0)};
-  parallel_for(to_index(vertices), elements_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v)
-      add_fans(moved, at_vertices[static_cast<int>(v)], touched, elements, values, static_cast<int>(v),
-               result);
-  });
+  FanNormals result{Mat3X::Zero(3, fans.count), std::vector<char>(to_index(fans.count), 0)};
+  for (int f = 0; f < polygon_count(moved); ++f)
+    for (int c = moved.polygons.first[to_index(f)]; c < moved.polygons.first[to_index(f) + 1]; ++c) {
+      const int fan = fans.of_corners[to_index(c)];
+      if (fan < 0) continue;
+      result.values.col(fan) += corners.col(c);
+      result.moved[to_index(fan)] |= touched[to_index(f)];
+    }
+  for (Eigen::Index fan = 0; fan < fans.count; ++fan)
+    result.values.col(fan) = unit_normal(result.values.col(fan));
   return result;
 }
 
-// The means of the corners of each element.
-RenewedNormals mean_normals(const FanNormals& fans, const std::vector<int>& elements, Eigen::Index count) {
+// The mean normals of the elements: over the corners that refer to each.
+RenewedNormals mean_normals(const Fans& fans, const FanNormals& normals, const std::vector<int>& elements,
+                            Eigen::Index count) {
   RenewedNormals result{Mat3X::Zero(3, count), std::vector<char>(static_cast<std::size_t>(count), 0)};
-  for (std::size_t c = 0; c < elements.size(); ++c) {
-    if (elements[c] < 0) continue;
-    result.values.col(elements[c]) += fans.of_corners.col(static_cast<Eigen::Index>(c));
-    result.renewed[to_index(elements[c])] |= fans.moved[c];
-  }
+  const auto for_corners = [&](const auto& use) {  // calls use(element, its index, fan)
+    for (std::size_t c = 0; c < elements.size(); ++c)
+      if (elements[c] >= 0) use(elements[c], to_index(elements[c]), fans.of_corners[c]);
+  };
+  for_corners([&](int element, std::size_t e, int fan) {
+    result.values.col(element) += normals.values.col(fan);
+    result.renewed[e] |= normals.moved[to_index(fan)];
+  });
   for (Eigen::Index n = 0; n < count; ++n) {
     result.values.col(n) = unit_normal(result.values.col(n));
     result.renewed[static_cast<std::size_t>(n)] &= static_cast<char>(!result.values.col(n).isZero(0));
   }
   std::vector<char> torn(result.renewed.size(), 0);
-  for (std::size_t c = 0; c < elements.size(); ++c) {
-    if (elements[c] < 0 || !result.renewed[to_index(elements[c])]) continue;
-    const Vec3 normal = fans.of_corners.col(static_cast<Eigen::Index>(c));
-    torn[to_index(elements[c])] |=
-        !normal.isZero(0) && normal.dot(result.values.col(elements[c])) < std::cos(5 * degree);
-  }
+  for_corners([&](int element, std::size_t e, int fan) {
+    const auto normal = normals.values.col(fan);
+    const bool far = normal.dot(result.values.col(element)) < std::cos(5 * degree) && !normal.isZero(0);
+    torn[e] |= static_cast<char>(far && result.renewed[e]);
+  });
   result.torn = static_cast<int>(std::ranges::count(torn, 1));
   return result;
 }
@@ -155,12 +186,16 @@ RenewedNormals mean_normals(const FanNormals& fans, const std::vector<int>& elem
 
 RenewedNormals renew_corner_normals(const MovedPolygons& moved, const std::vector<int>& elements,
                                     const Mat3X& values) {
-  return mean_normals(fan_normals(moved, elements, values), elements, values.cols());
+  const Fans fans = find_fans(moved, elements, values);
+  return mean_normals(fans, fan_normals(moved, fans), elements, values.cols());
 }
 
 RenewedNormals renew_vertex_normals(const MovedPolygons& moved) {
-  const std::vector<int>& vertices = moved.polygons.items;
-  return mean_normals(fan_normals(moved, vertices, moved.before), vertices, moved.after.cols());
+  const Fans fans{moved.polygons.items, static_cast<int>(moved.after.cols())};
+  FanNormals normals = fan_normals(moved, fans);
+  for (Eigen::Index v = 0; v < fans.count; ++v)
+    normals.moved[static_cast<std::size_t>(v)] &= static_cast<char>(!normals.values.col(v).isZero(0));
+  return {std::move(normals.values), std::move(normals.moved)};
 }
 
 RenewedNormals renew_polygon_normals(const MovedPolygons& moved) {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "hooke/core/lists.h"
 #include "hooke/core/types.h"
-#include "hooke/mesh/adjacency.h"
 
 namespace hooke {
 
