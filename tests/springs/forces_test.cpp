@@ -10,6 +10,7 @@
 #include "hooke/mesh/adjacency.h"
 #include "hooke/springs/hooke_law.h"
 #include "support/meshes.h"
+#include "support/solids.h"
 
 namespace hooke::forces_test {
 
