@@ -175,7 +175,7 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
   if (s.preserve && obstacle.empty()) {
     PreservedMesh preserved = prepare_preserved_mesh(
         s.output, loaded.mesh, {s.input, loaded.format, loaded.sha256, loaded.connectivity_sha256},
-        &stopwatch);
+        s.reproject_uv ? &record.result->map : nullptr, &stopwatch);
     if (preserved.mesh) {
       record.output->preserved = true;
       append(record.warnings, loaded.content.preserved);
@@ -268,6 +268,11 @@ int run(Settings s) {
   s.remesh.map |= !loaded.vertex_data.empty();
   record.parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
   record.parameters["preserve"] = s.preserve && obstacle_to_preserving(s, loaded).empty() ? "on" : "off";
+  record.parameters["reproject_uv"] = s.reproject_uv ? "on" : "off";
+  if (const std::string why = obstacle_to_preserving(s, loaded);
+      s.reproject_uv && (s.format != "obj" || !why.empty()))
+    throw Error("--reproject-uv is of OBJ files that are preserved; " +
+                (why.empty() ? record.input.path + " is " + loaded.format : why));
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
   if (s.max_distance_share > 0)

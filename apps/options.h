@@ -22,6 +22,7 @@ struct Settings {
   std::string format;            // output format: "obj", "ply" or "off"
   bool preserve = true;  // --preserve on: write the input file again with moved vertices, if that can be
   bool preserve_given = false;  // whether the command line says so
+  bool reproject_uv = false;    // texture coordinates of a preserved OBJ follow the vertices
   LengthSpec length;
   std::string length_text = "auto";
   SizingSource sizing;

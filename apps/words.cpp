@@ -131,7 +131,9 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
       s.paper || s.remesh.filter.kind == FilterKind::local || s.remesh.filter.kind == FilterKind::global;
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
   refuse(s.check, {"--map", "--output", "--trace-steps"}, "is not written by --check");
-  refuse(s.check, {"--preserve"}, "is of the output, which --check has none of");
+  refuse(s.check, {"--preserve", "--reproject-uv"}, "is of the output, which --check has none of");
+  refuse(s.paper || s.remesh.connectivity != ConnectivityMode::fixed || !s.preserve, {"--reproject-uv"},
+         "is of --connectivity fixed with --preserve on, and not of --paper");
 }
 
 }  // namespace
@@ -142,7 +144,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   reject_unused_options(s, raw);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
-  s.remesh.map = !s.map.empty();
+  s.remesh.map = !s.map.empty() || s.reproject_uv;
   s.paper_options.evolution.damped = s.remesh.damped;
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);

@@ -226,6 +226,31 @@ class Preserve(CommandTest):
             self.assertNotIn("new file", err)
             self.assertEqual(output, self.get(name))
 
+    def test_textures_swim_unless_they_are_reprojected(self):
+        data = artists_obj()
+        self.put("artist.obj", data)
+        swims, _, _ = self.kept("artist.obj")
+        output, _, report = self.kept("artist.obj", "--reproject-uv", "on")
+        self.assertEqual(report["parameters"]["reproject_uv"], "on")
+        without = lambda text: [line for line in text.split(b"\r\n") if not line.startswith(b"vt")]
+        self.assertEqual(without(output), without(swims))
+        read = lambda text, word: [tuple(map(float, line.split()[1:4])) for line in text.split(b"\r\n") if line.startswith(word + b" ")]
+        before, places, old = read(data, b"v"), read(output, b"v"), read(data, b"vt")
+        count, moved = len(places), 0
+        for k, (s, t) in enumerate(read(output, b"vt")):
+            v = k % count
+            on_side = (v % 9 <= 4) if k < count else (v % 9 >= 4)
+            if not on_side or before[v] == places[v]:
+                self.assertEqual((s, t), old[k])
+                continue
+            moved += (s, t) != old[k]
+            if 0 < v % 9 < 8 and before[v][0] != places[v][0]:  # s is about x: off by less than the move
+                drift = lambda x, s: abs(s - (k >= count) - x / 8)
+                self.assertLess(drift(places[v][0], s), drift(before[v][0], old[k][0]) + .05)
+        self.assertGreater(moved, 20)
+        self.refused(2, "artist.obj", "-o", "o.obj", "--reproject-uv", "on", "--connectivity", "flip", says="--reproject-uv")
+        self.refused(2, "artist.obj", "-o", "o.ply", "--reproject-uv", "on", says="--reproject-uv")
+
     def test_off_writes_a_new_file(self):
         self.put("artist.obj", artists_obj())
         report = self.report("artist.obj", "-o", "out.obj", "-q", "--preserve", "off")

@@ -263,16 +263,18 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   return std::move(file);
 }
 
-ObjNormals read_obj_normals(std::string_view text, const std::string& name) {
+ObjCorners read_obj_corners(std::string_view text, const std::string& name) {
   ObjContent content = read_content(text, name);
-  ObjNormals result{std::move(content.file.points),
-                    std::move(content.file.polygons),
-                    std::move(content.numbers->normals),
-                    {}};
-  for (const ObjReader& reader : content.readers)
-    result.of_corners.insert(result.of_corners.end(), reader.normals.of_corners.begin(),
-                             reader.normals.of_corners.end());
-  return result;
+  const auto corners = [&](Mat3X& values, ObjElements ObjReader::*kind) {
+    ObjCornerData data{std::move(values), {}};
+    for (const ObjReader& reader : content.readers)
+      data.of_corners.insert(data.of_corners.end(), (reader.*kind).of_corners.begin(),
+                             (reader.*kind).of_corners.end());
+    return data;
+  };
+  return {std::move(content.file.points), std::move(content.file.polygons),
+          corners(content.numbers->texture, &ObjReader::texture),
+          corners(content.numbers->normals, &ObjReader::normals)};
 }
 
 std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,

@@ -19,16 +19,22 @@ namespace hooke {
 /// InputError "NAME:LINE: ...", but not for invalid numbers in `vt` and `vn`, which are then not kept.
 MeshFile read_obj(std::string_view text, const std::string& name);
 
-/// The normals of the face corners of an OBJ file.
-struct ObjNormals {
-  Mat3X points;                 // of the vertices
-  IntLists polygons;            // vertex ids of each face
-  Mat3X values;                 // the normals as they stand in the file, broken numbers as they come
-  std::vector<int> of_corners;  // column of each corner, in the order of the polygons' items; -1 for none
+/// Elements of one kind in an OBJ file, as they stand there, and those of its face corners.
+struct ObjCornerData {
+  Mat3X values;                 // of all elements; missing and broken numbers as they come
+  std::vector<int> of_corners;  // column of each corner, in the order of the polygons' items; -1 for none.
+                                // Empty if there are no elements
 };
 
-/// Reads vertices, faces and normals. Throws what read_obj() throws.
-ObjNormals read_obj_normals(std::string_view text, const std::string& name);
+/// What an OBJ file says of its face corners.
+struct ObjCorners {
+  Mat3X points;       // of the vertices
+  IntLists polygons;  // vertex ids of each face
+  ObjCornerData texture, normals;
+};
+
+/// Reads vertices, faces and the data of face corners. Throws what read_obj() throws.
+ObjCorners read_obj_corners(std::string_view text, const std::string& name);
 
 /// The syntax of OBJ texts.
 inline constexpr Scanner::Syntax obj_syntax = {.comments = true, .continuations = true};

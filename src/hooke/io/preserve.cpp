@@ -41,12 +41,14 @@ std::ptrdiff_t faces_turned_by_rounding(const TriMesh& mesh, const Mat3X& rounde
 }  // namespace
 
 PreservedMesh prepare_preserved_mesh(const std::filesystem::path& path, const TriMesh& mesh,
-                                     const SourceFile& source, Stopwatch* stopwatch) {
+                                     const SourceFile& source, const std::vector<MapEntry>* map,
+                                     Stopwatch* stopwatch) {
   RewrittenMesh rewritten;
   {
     const FileBytes file = timed(stopwatch, "read again", [&] { return read_unchanged(source); });
     rewritten = timed(stopwatch, "rewrite", [&] {
-      return rewrite_mesh(file.text(), printable(source.path.native()), source.format, vertex_points(mesh));
+      return rewrite_mesh(file.text(), printable(source.path.native()), source.format, vertex_points(mesh),
+                          map);
     });
   }
   PreservedMesh result{{}, std::move(rewritten.obstacle), std::move(rewritten.warnings)};

@@ -14,9 +14,9 @@ bool can_rewrite(const std::string& format) {
 }
 
 RewrittenMesh rewrite_mesh(std::string_view bytes, const std::string& name, const std::string& format,
-                           const Mat3X& points) {
+                           const Mat3X& points, const std::vector<MapEntry>* map) {
   const std::string_view content = without_byte_order_mark(bytes);
-  RewrittenMesh result = format == "obj"   ? rewrite_obj(content, name, points)
+  RewrittenMesh result = format == "obj"   ? rewrite_obj(content, name, points, map)
                          : format == "ply" ? rewrite_ply(content, name, points)
                                            : rewrite_off(content, name, points);
   result.bytes.insert(0, bytes.substr(0, bytes.size() - content.size()));
