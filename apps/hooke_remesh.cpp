@@ -18,7 +18,9 @@
 #include "hooke/io/files.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
+#include "hooke/io/preserve.h"
 #include "hooke/io/read_mesh.h"
+#include "hooke/io/rewrite.h"
 #include "hooke/io/stl.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/io/write_mesh.h"
@@ -56,6 +58,24 @@ struct Original {
   MemoryOrder memory_order;
   std::vector<int> tree_order;  // order of the faces in its bounding volume tree
 };
+
+/// Whether the output is of the kind of the input: the same format and the same faces.
+bool is_of_its_kind(const Settings& s, const LoadedMesh& loaded) {
+  return keeps_faces(s) && loaded.format == s.format;
+}
+
+/// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.
+std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) {
+  if (!keeps_faces(s)) return "faces change with this --connectivity";
+  if (loaded.format != s.format)
+    return fmt::format("the input is {} and the output {}", name_of(loaded.format), name_of(*s.format));
+  if (!can_rewrite(*s.format)) return fmt::format("{} files are always written anew", name_of(*s.format));
+  if (!loaded.repairs.empty()) return "the input was repaired";
+  if (is_standard_input(s.input)) return "standard input cannot be read again";
+  if (!s.preserve_given && !loaded.misread.empty())
+    return fmt::format("simple readers would misread its {}; --preserve on keeps them", loaded.misread);
+  return "";
+}
 
 /// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface
 /// positions of its vertices. Normals are always recomputed from the result.
@@ -200,6 +220,39 @@ void require_promises(const Settings& s, const RunRecord& record) {
   if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
 }
 
+/// Prepares the output: the input file with moved vertices if that can be and is not switched off, else a new
+/// file. Records which of them, and what that means for the content of the input.
+PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                           const Mat3X& points, const MemoryOrder& memory_order, RunRecord& record,
+                           Stopwatch& stopwatch) {
+  record.output.emplace();
+  std::string obstacle = obstacle_to_preserving(s, loaded);
+  if (s.preserve && obstacle.empty()) {
+    PreservedMesh preserved = prepare_preserved_mesh(
+        s.output, loaded.mesh, {s.input, loaded.format, loaded.sha256, loaded.connectivity_sha256},
+        s.reproject_uv ? &record.result->map : nullptr, &stopwatch);
+    if (preserved.mesh) {
+      record.output->preserved = true;
+      append(record.warnings, loaded.content.preserved);
+      append(record.warnings, preserved.warnings);
+      return *std::move(preserved.mesh);
+    }
+    obstacle = std::move(preserved.obstacle);
+  }
+  append(record.warnings, loaded.content.anew);
+  if (s.preserve && (s.preserve_given || is_of_its_kind(s, loaded)))
+    record.warnings.push_back(
+        {"not_preserved", fmt::format("{}: is a new file, and not {} with moved vertices: {}",
+                                      name_of_output(s.output), record.input.path, obstacle)});
+  const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
+  const PlyEncoding encoding = encoding_of_output(s, loaded);
+  const FaceData face_data = face_data_of_result(s, loaded, encoding, record);
+  if (s.format == MeshFormat::stl)
+    append(record.warnings, losses_in_stl(vertex_points(loaded.mesh), triangles_of(loaded.mesh), encoding,
+                                          name_of_output(s.output)));
+  return prepare_mesh(s.output, loaded.mesh, *s.format, encoding, data, face_data, &stopwatch);
+}
+
 /// Optimizes the mesh, measures the result and prepares its output files.
 void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
                  OutputFiles& files, Stopwatch& stopwatch) {
@@ -236,17 +289,11 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   if (!done.vertex_limits.empty())
     for (WorstFace& face : record.after->worst_faces)
       face.reasons = limiting_factors(face, done.vertex_limits);
-  const VertexData data = data_of_result(s, loaded, original, points, memory_order, record);
-  const PlyEncoding encoding = encoding_of_output(s, loaded);
-  const FaceData face_data = face_data_of_result(s, loaded, encoding, record);
-  if (s.format == MeshFormat::stl)
-    std::ranges::move(
-        losses_in_stl(vertex_points(mesh), triangles_of(mesh), encoding, name_of_output(s.output)),
-        std::back_inserter(record.warnings));
   PendingMesh written = timed(&stopwatch, "write", [&] {
-    return prepare_mesh(s.output, mesh, *s.format, encoding, data, face_data, &stopwatch);
+    return prepare_output(s, loaded, original, points, memory_order, record, stopwatch);
   });
-  record.output = {name_of_output(s.output), written.sha256, name_of(*s.format), written.connectivity_sha256};
+  static_cast<FileRecord&>(*record.output) = {name_of_output(s.output), written.sha256, name_of(*s.format),
+                                              written.connectivity_sha256};
   files.add(std::move(written.file));
   if (!s.fields.empty())
     files.add(PendingFile(s.fields, fields_text(mesh, points, original, memory_order, record)));
@@ -310,6 +357,12 @@ int run(Settings s) {
                             {"weld", s.weld_text},
                             {"drop_components", s.repair.drop_components},
                             {"fill_holes", s.repair.fill_holes}});
+  const std::string obstacle = obstacle_to_preserving(s, loaded);
+  record.parameters["preserve"] = s.preserve && obstacle.empty() ? "on" : "off";
+  record.parameters["reproject_uv"] = s.reproject_uv ? "on" : "off";
+  if (s.reproject_uv && (s.format != MeshFormat::obj || !obstacle.empty()))
+    throw Error("--reproject-uv is of OBJ files that are preserved; " +
+                (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
   if (s.max_distance_share > 0)

@@ -298,6 +298,15 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
                                  {"stl", MeshFormat::stl},
                                  {"msh", MeshFormat::msh},
                                  {"msh2", MeshFormat::msh2}});
+  add_choice(app, "--preserve", s.preserve,
+             "With the same format and faces that stay, write the input's bytes and change only the digits "
+             "of moved coordinates and their normals",
+             Choices<bool>{{"on", true}, {"off", false}})
+      ->default_str("on");
+  add_choice(app, "--reproject-uv", s.reproject_uv,
+             "Texture coordinates of a preserved OBJ follow its vertices, so that textures do not swim",
+             Choices<bool>{{"on", true}, {"off", false}})
+      ->default_str("off");
   app.option_defaults()->group("Target");
   add_target(app, s, raw);
   app.option_defaults()->group("Method");

@@ -24,6 +24,9 @@ struct Settings {
   std::optional<MeshFormat> input_format;  // none: by the extension
   std::optional<MeshFormat> format;        // of the output; set by its extension if not given
   bool format_given = false;               // by --format
+  bool preserve = true;  // --preserve on: write the input file again with moved vertices, if that can be
+  bool preserve_given = false;  // whether the command line says so
+  bool reproject_uv = false;    // texture coordinates of a preserved OBJ follow the vertices
   LengthSpec length;
   std::string length_text = "auto";
   SizingSource sizing;

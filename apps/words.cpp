@@ -153,14 +153,14 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
   refuse(!s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--edge-lengths"},
          "is of --connectivity fixed, where edges stay");
-  refuse(s.repair.any(), {"--edge-lengths"}, "names edges that --repair and --weld may change");
+  refuse(raw.given("--repair") || raw.given("--weld"), {"--edge-lengths"},
+         "names edges that --repair and --weld may change");
   refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");
+  refuse(s.check, {"--preserve", "--reproject-uv"}, "is of the output, which --check has none of");
+  refuse(s.paper || s.remesh.connectivity != ConnectivityMode::fixed || !s.preserve, {"--reproject-uv"},
+         "is of --connectivity fixed with --preserve on, and not of --paper");
 }
-
-}  // namespace
-
-namespace {
 
 /// Throws Error if a standard stream is used twice, or without its format.
 void require_streams(const Settings& s) {
@@ -188,7 +188,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   require_streams(s);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
-  s.remesh.map = !s.map.empty();
+  s.remesh.map = !s.map.empty() || s.reproject_uv;
   s.paper_options.evolution.damped = s.remesh.damped;
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
@@ -210,6 +210,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   }
   if (raw.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *raw.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
+  s.preserve_given = raw.given("--preserve");
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
   s.format_given = s.format.has_value();

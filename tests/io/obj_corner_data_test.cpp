@@ -62,7 +62,7 @@ TEST(CornerData, VerticesWithoutCornersGetZero) {
   const Mat3X values{{.5, .25, .125}, {1, 2, 3}, {9, 9, 9}};
   keep_as_vertex_data(file, {values, {2, 1, 0}}, 2,
                       {texture_names, NumberType::float64, "texture coordinates", "vt", "seams", "code"});
-  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_TRUE(file.content.anew.empty());
   ASSERT_EQ(file.vertex_data.size(), 2u);
   EXPECT_EQ(file.vertex_data[0].name, "s");
   EXPECT_EQ(file.vertex_data[0].values, (std::vector<double>{.125, .25, .5, 0}));

@@ -19,7 +19,7 @@ std::vector<int> corners(const std::string& faces) {
 }
 
 std::string not_kept(const std::string& text) {
-  const Warnings warnings = read(text).warnings;
+  const Warnings warnings = read(text).content.anew;
   if (warnings.size() != 1) return "";
   EXPECT_EQ(warnings[0].code, "attributes_not_kept");
   return warnings[0].message;
@@ -34,7 +34,7 @@ TEST(Obj, ReadsVerticesAndFacesInFileOrder) {
   EXPECT_EQ(file.polygons.items, (std::vector{0, 1, 2, 0, 2, 3, 1}));
   EXPECT_EQ(file.polygons.first, (std::vector{0, 3, 7}));
   EXPECT_EQ(file.lines, (std::vector{7, 8}));
-  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_TRUE(file.content.anew.empty());
 }
 
 TEST(Obj, CornerFormsNameTheSameVertices) {
@@ -66,7 +66,7 @@ TEST(Obj, SaysWhatIsNotKept) {
 TEST(Obj, KeepsTheColoursOfVertices) {
   const std::string text = "v 0 0 0 1 0.5 0\nv 1 0 0 0.25 0.5 0\nv 0 1 0 0 0.5 1\nf 1 2 3\n";
   const MeshFile file = read(text);
-  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_TRUE(file.content.anew.empty());
   ASSERT_EQ(file.vertex_data.size(), 3u);
   EXPECT_EQ(file.vertex_data[0].values, (std::vector<double>{1, .25, 0}));
   EXPECT_EQ(write_obj(file.points, {{0, 1, 2}}, file.vertex_data), text);
@@ -81,7 +81,7 @@ TEST(Obj, WritesTheTextureCoordinatesAndNormalsOfVerticesAsItReadThem) {
         three + texture + normals + "f 1/1/1 2/2/2 3/3/3\n", three + deep + "f 1/1 2/2 3/3\n",
         three + "vt 1\nvt 0\nvt 7\nf 1/1 2/2 3/3\n"}) {
     const MeshFile file = read(text);
-    EXPECT_TRUE(file.warnings.empty()) << text;
+    EXPECT_TRUE(file.content.anew.empty()) << text;
     EXPECT_EQ(write_obj(file.points, {{0, 1, 2}}, file.vertex_data), text);
   }
 }
@@ -95,12 +95,12 @@ TEST(Obj, TextureCoordinatesGoToTheVerticesThatReferToThem) {
 
 TEST(Obj, EqualTextureCoordinatesAreNoSeam) {
   const std::string text = "v 1 1 0\n" + texture + "vt 0.250 1e0\nvt 0 0\nf 1/1 2/2 3/3\nf 2/4 1/1 4/5\n";
-  EXPECT_TRUE(read(three + text).warnings.empty());
+  EXPECT_TRUE(read(three + text).content.anew.empty());
 }
 
 TEST(Obj, SeamsAndHardEdgesAreNamed) {
   const std::string square = three + "v 1 1 0\n";
-  const Warnings seam = read(square + texture + "vt 7 7\nf 1/1 2/2 3/3\nf 4/1 3/3 2/4\n").warnings;
+  const Warnings seam = read(square + texture + "vt 7 7\nf 1/1 2/2 3/3\nf 4/1 3/3 2/4\n").content.anew;
   ASSERT_EQ(seam.size(), 1u);
   EXPECT_EQ(seam[0].code, "texture_seams");
   EXPECT_EQ(
@@ -109,22 +109,22 @@ TEST(Obj, SeamsAndHardEdgesAreNamed) {
       "several vt: 1, numbers 2); to keep them cut the mesh open there, so that each vertex has one vt");
   const MeshFile hard = read(square + "vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 4//2 3//2 2//2\ng x\n");
   EXPECT_TRUE(hard.vertex_data.empty());
-  ASSERT_EQ(hard.warnings.size(), 2u);
-  EXPECT_EQ(hard.warnings[0].code, "hard_edges");
+  ASSERT_EQ(hard.content.anew.size(), 2u);
+  EXPECT_EQ(hard.content.anew[0].code, "hard_edges");
   EXPECT_EQ(
-      hard.warnings[0].message,
+      hard.content.anew[0].message,
       "m.obj: not kept in the output: normals, because of hard edges (edges: 1; vertices with several vn: "
       "2, numbers 2 3); to keep them cut the mesh open there, so that each vertex has one vn");
-  EXPECT_EQ(hard.warnings[1].message, "m.obj: not kept in the output: groups");
+  EXPECT_EQ(hard.content.anew[1].message, "m.obj: not kept in the output: groups");
 }
 
 TEST(Obj, OfManySeamVerticesSomeAreNamed) {
   std::string text = "vt 0 0\nvt 1 1\nv 0 0 0\n";
   for (int k = 0; k < 11; ++k) text += "v 0 0 1\n";
   for (int k = 2; k < 12; ++k) text += fmt::format("f 1/1 {}/1 {}/2\n", k, k + 1);
-  const std::string warning = read(text).warnings.at(0).message;
+  const std::string warning = read(text).content.anew.at(0).message;
   EXPECT_TRUE(test::has(warning, "several vt: 9, numbers 3 4 5 6 7 8 9 10 11)")) << warning;
-  EXPECT_TRUE(test::has(read(text + "f 12/1 1/1 2/2\n").warnings.at(0).message,
+  EXPECT_TRUE(test::has(read(text + "f 12/1 1/1 2/2\n").content.anew.at(0).message,
                         ": 11, numbers 2 3 4 5 6 7 8 9 10 11 ...)"));
 }
 

@@ -168,11 +168,11 @@ TEST(Ply, OtherPropertiesAndElementsArePassedOverAndNamed) {
   file.put(static_cast<unsigned char>(255)).put(static_cast<unsigned char>(3)).put(0).put(1).put(2).put(.5f);
   const MeshFile mesh = read(file.bytes);
   expect_the_triangle(mesh);
-  ASSERT_EQ(mesh.warnings.size(), 1u);
-  EXPECT_EQ(mesh.warnings[0].message,
+  ASSERT_EQ(mesh.content.anew.size(), 1u);
+  EXPECT_EQ(mesh.content.anew[0].message,
             "m.ply: not kept in the output: element 'camera', vertex property 'w', face colours, "
             "face property 'quality'");
-  EXPECT_EQ(mesh.warnings[0].code, "attributes_not_kept");
+  EXPECT_EQ(mesh.content.anew[0].code, "attributes_not_kept");
   ASSERT_EQ(mesh.vertex_data.size(), 1u);
   EXPECT_EQ(mesh.vertex_data[0].name, "nx");
   EXPECT_EQ(mesh.vertex_data[0].values, (std::vector<double>{9, 9, 9}));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/errors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -107,9 +109,18 @@ TEST(Polygons, TrianglesStayAsTheyAreAndKnowTheirPolygon) {
   EXPECT_EQ(cut.triangles.front(), (Triangle{2, 1, 0}));
   EXPECT_EQ(cut.triangles.back(), (Triangle{4, 3, 2}));
   EXPECT_EQ(cut.polygons_cut, 1);
-  ASSERT_FALSE(warnings_of(cut, "m").empty());
-  EXPECT_EQ(warnings_of(cut, "m")[0].code, "polygons_triangulated");
-  EXPECT_TRUE(warnings_of({}, "m").empty());
+  ContentWarnings content;
+  Warnings others;
+  append_warnings({}, "m", content, others);
+  EXPECT_TRUE(content.anew.empty() && content.preserved.empty());
+  append_warnings(cut, "m", content, others);
+  EXPECT_TRUE(others.empty());
+  for (const auto& [warnings, what] :
+       {std::pair{content.anew, "cut into triangles: 1"}, {content.preserved, "written as they were: 1"}}) {
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].code, "polygons_triangulated");
+    EXPECT_TRUE(test::has(warnings[0].message, what)) << warnings[0].message;
+  }
 }
 
 TEST(Polygons, WithoutACleanCutTheCountStaysRightAndItIsSaid) {
@@ -121,8 +132,23 @@ TEST(Polygons, WithoutACleanCutTheCountStaysRightAndItIsSaid) {
     const TriangulatedPolygons cut = triangulate(p.points, p.corners);
     EXPECT_EQ(cut.triangles.size(), points.size() - 2);
     EXPECT_EQ(cut.not_simple, 1);
-    EXPECT_EQ(warnings_of(cut, "m").back().code, "polygons_not_simple");
+    ContentWarnings content;
+    Warnings others;
+    append_warnings(cut, "m", content, others);
+    ASSERT_EQ(others.size(), 1u);
+    EXPECT_EQ(others[0].code, "polygons_not_simple");
   }
+}
+
+TEST(Polygons, FansThatOverlapAreMisread) {
+  const auto misread = [](const std::vector<Vec3>& points) {
+    const Polygon p = polygon(points);
+    return misread_as_fans(p.points, p.corners, triangulate(p.points, p.corners));
+  };
+  const std::vector<Vec3> dart{{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {.5, 1, 0}};
+  EXPECT_TRUE(misread(dart));
+  EXPECT_FALSE(misread({dart[1], dart[2], dart[3], dart[0]})) << "from there the fan fits";
+  EXPECT_FALSE(misread({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
 }
 
 }  // namespace hooke::polygon_triangulation_test

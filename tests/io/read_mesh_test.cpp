@@ -99,10 +99,15 @@ TEST(ReadMesh, GathersTheWarningsOfEachStep) {
   const LoadedMesh loaded = read_mesh(folder / "m.obj");
   EXPECT_EQ(loaded.mesh.n_vertices(), 5u);
   EXPECT_EQ(loaded.mesh.n_faces(), 2u);
-  std::vector<std::string> codes;
-  for (const Warning& warning : loaded.warnings) codes.push_back(warning.code);
-  EXPECT_EQ(codes,
-            (std::vector<std::string>{"attributes_not_kept", "polygons_triangulated", "isolated_vertices"}));
+  const auto codes = [](const Warnings& warnings) {
+    std::vector<std::string> list;
+    for (const Warning& warning : warnings) list.push_back(warning.code);
+    return list;
+  };
+  using Codes = std::vector<std::string>;
+  EXPECT_EQ(codes(loaded.content.anew), (Codes{"attributes_not_kept", "polygons_triangulated"}));
+  EXPECT_EQ(codes(loaded.content.preserved), Codes{"polygons_triangulated"});
+  EXPECT_EQ(codes(loaded.warnings), Codes{"isolated_vertices"});
 }
 
 TEST(ReadMesh, ABadMeshIsNamedByTheLinesOfItsPolygons) {

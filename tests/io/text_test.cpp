@@ -101,7 +101,7 @@ TEST(TextPieces, NumbersOfVerticesStayWithTheirVertices) {
 TEST(TextPieces, CornersWithoutATextureCoordinateAreCountedInAllPieces) {
   const test::Triangles& t = large();
   const std::string text = write_obj(t.points, t.faces) + "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3\n";
-  EXPECT_EQ(read_obj(text, "name").warnings.at(0).message,
+  EXPECT_EQ(read_obj(text, "name").content.anew.at(0).message,
             fmt::format("name: not kept in the output: texture coordinates ({} of {} face corners have none)",
                         3 * t.faces.size() + 2, 3 * t.faces.size() + 6));
 }
@@ -145,7 +145,7 @@ TEST(TextPieces, NegativeIndicesCountFromWhereTheyStand) {
   const MeshFile file = read_obj(text, "name");
   for (size_t k = 0; k < file.polygons.items.size(); ++k)
     ASSERT_EQ(file.polygons.items[k], static_cast<int>(k));
-  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_TRUE(file.content.anew.empty());
   ASSERT_EQ(file.vertex_data.size(), 3u);
   for (double z : file.vertex_data[2].values) ASSERT_EQ(z, 1);
   EXPECT_ERROR(InputError, "name:300001: normal index", read_obj(text + "f 1//60001 2 3\n", "name"));

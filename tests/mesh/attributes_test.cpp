@@ -38,7 +38,7 @@ TEST(VertexData, PlyReturnsEveryNumberOfEveryType) {
   for (PlyEncoding encoding :
        {PlyEncoding::ascii, PlyEncoding::binary_little_endian, PlyEncoding::binary_big_endian}) {
     const MeshFile file = read_ply(write_ply(points, {{0, 1, 2}}, encoding, all_types()), "m.ply");
-    EXPECT_TRUE(file.warnings.empty());
+    EXPECT_TRUE(file.content.anew.empty());
     EXPECT_EQ(file.points, points);
     EXPECT_EQ(file.polygons.items, (std::vector{0, 1, 2}));
     ASSERT_EQ(file.vertex_data.size(), 8u);

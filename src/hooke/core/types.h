@@ -41,4 +41,8 @@ struct Note {
 };
 using Notes = std::vector<Note>;
 
+inline void append(Warnings& warnings, const Warnings& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 }  // namespace hooke

@@ -17,13 +17,10 @@
 #include "hooke/io/vtp.h"
 
 namespace hooke {
-namespace {
 
 std::string_view without_byte_order_mark(std::string_view bytes) {
   return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
 }
-
-}  // namespace
 
 MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, MeshFormat format) {
   bytes = without_byte_order_mark(bytes);
@@ -81,15 +78,30 @@ void end_polygon(MeshFile& file) {
   file.polygons.first.push_back(static_cast<int>(file.polygons.items.size()));
 }
 
-void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds) {
-  if (kinds.empty()) return;
+namespace {
+
+/// A warning that lists the kinds, the first 20 of them; none if there are none.
+Warnings listing(const char* code, const std::string& text, const std::vector<std::string>& kinds) {
+  if (kinds.empty()) return {};
   constexpr size_t max_listed = 20;
   const std::vector<std::string> named(
       kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(std::min(kinds.size(), max_listed)));
   const std::string others =
       kinds.size() > max_listed ? fmt::format(" and {} more kinds", kinds.size() - max_listed) : "";
-  file.warnings.push_back({"attributes_not_kept", fmt::format("{}: not kept in the output: {}{}", file.name,
-                                                              fmt::join(named, ", "), others)});
+  return {{code, fmt::format("{}: {}{}", text, fmt::join(named, ", "), others)}};
+}
+
+}  // namespace
+
+void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds) {
+  append(file.content.anew, listing("attributes_not_kept", file.name + ": not kept in the output", kinds));
+}
+
+void warn_carried_along(MeshFile& file, const std::vector<std::string>& kinds) {
+  append(
+      file.content.preserved,
+      listing("carried_along",
+              file.name + ": no part of the surface, and written as it was although vertices moved", kinds));
 }
 
 namespace {

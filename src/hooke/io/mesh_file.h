@@ -13,6 +13,13 @@ namespace hooke {
 
 enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
 
+/// Warnings about what a file holds besides vertices and triangles. Which of them apply depends on how the
+/// output is written.
+struct ContentWarnings {
+  Warnings anew;       // what is lost when a new file is made
+  Warnings preserved;  // what goes along unchanged when the file is rewritten, although vertices move
+};
+
 /// The content of a mesh file. Invariant: points are finite, every polygon has at least three corners, and
 /// corners are vertex ids in [0, points.cols()).
 struct MeshFile {
@@ -24,9 +31,14 @@ struct MeshFile {
   std::vector<int> lines;      // line number of each polygon; empty for binary files
   VertexData vertex_data;      // other values of the vertices, in file order
   FaceData face_data;          // of the polygons
-  Warnings warnings;
-  Notes notes;  // what was done to the content as it always is, such as welding
+  ContentWarnings content;
+  std::string misread;  // what simple readers would read wrongly in the file as it is; empty for nothing
+  Warnings warnings;    // others
+  Notes notes;          // what was done to the content as it always is, such as welding
 };
+
+/// The bytes without a byte order mark at their beginning.
+std::string_view without_byte_order_mark(std::string_view bytes);
 
 /// Parses the bytes of a mesh file. `name` is printable and begins all messages. Throws InputError
 /// "NAME:LINE: problem; what was expected; what to do" for malformed bytes.
@@ -39,8 +51,13 @@ void end_polygon(MeshFile& file);
 /// Appends the polygons and line numbers of the parts, in order. Throws LimitError beyond 2^31 - 1 corners.
 void append_faces(MeshFile& file, const std::vector<MeshFile>& parts);
 
-/// Adds the warning `attributes_not_kept` that lists the kinds of content ignored by a reader, if any.
+/// Adds the warning `attributes_not_kept` of a new file that lists the kinds of content ignored by a reader,
+/// if any.
 void warn_not_kept(MeshFile& file, const std::vector<std::string>& kinds);
+
+/// Adds the warning `carried_along` of a rewritten file that lists the kinds of content besides faces which
+/// may refer to vertices, if any.
+void warn_carried_along(MeshFile& file, const std::vector<std::string>& kinds);
 
 /// Vertex data converted to a file format.
 

@@ -3,7 +3,7 @@
 namespace hooke {
 namespace {
 
-constexpr MshElementType types[] = {
+constexpr MshElementType element_types[] = {
     {15, 1, "points"},
     {1, 2, "lines"},
     {8, 3, "second-order lines"},
@@ -43,7 +43,7 @@ constexpr MshElementType types[] = {
 }  // namespace
 
 const MshElementType* msh_element_type(long long code) {
-  for (const MshElementType& type : types)
+  for (const MshElementType& type : element_types)
     if (type.code == code) return &type;
   return nullptr;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "hooke/core/error.h"
@@ -20,6 +21,7 @@ namespace {
 struct NotKept {
   std::string kind;
   bool unknown = false;
+  bool has_shape = false;  // may describe a shape by vertices, which move
   bool operator==(const NotKept&) const = default;
 };
 
@@ -41,6 +43,7 @@ struct ObjReader {
   ObjElements vertices, texture, normals;
   std::vector<NotKept> not_kept{};
   std::vector<Vec3> colours{};  // of the vertices that have a colour
+  bool continued = false;       // whether the coordinates of a vertex stand on several lines
 };
 
 void note(std::vector<NotKept>& noted, NotKept content) {
@@ -57,7 +60,9 @@ void read_vertex(ObjReader& obj) {
   Scanner& in = obj.scanner;
   count_one(in, obj.vertices);
   double* coordinate = obj.vertices.values.col(obj.vertices.count - 1).data();
+  const int line = in.line();
   for (const char* what : {"x", "y", "z"}) *coordinate++ = in.number(what);
+  obj.continued |= in.line() != line;
   int extra = 0;
   Vec3 more = Vec3::Ones();
   for (std::string_view token = in.token(); !token.empty(); token = in.token(), ++extra) {
@@ -98,13 +103,10 @@ void read_face(ObjReader& obj) {
 }
 
 void read_other(ObjReader& obj, std::string_view keyword) {
-  static constexpr std::pair<std::string_view, const char*> known[] = {{"vp", "parameter space vertices"},
-                                                                       {"g", "groups"},
-                                                                       {"o", "objects"},
-                                                                       {"usemtl", "materials"},
-                                                                       {"mtllib", "materials"},
-                                                                       {"l", "lines"},
-                                                                       {"p", "points"}};
+  static constexpr std::pair<std::string_view, const char*> known[] = {
+      {"g", "groups"}, {"o", "objects"}, {"usemtl", "materials"}, {"mtllib", "materials"}};
+  static constexpr std::pair<std::string_view, const char*> shapes[] = {
+      {"vp", "parameter space vertices"}, {"l", "lines"}, {"p", "points"}};
   if (keyword == "s") {
     const std::string_view group = obj.scanner.token();
     if (group != "off" && group != "0") note(obj, "smoothing groups");
@@ -112,8 +114,11 @@ void read_other(ObjReader& obj, std::string_view keyword) {
   }
   for (const auto& [word, kind] : known)
     if (keyword == word) return note(obj, kind);
+  for (const auto& [word, kind] : shapes)
+    if (keyword == word) return note(obj.not_kept, {.kind = kind, .has_shape = true});
   note(obj.not_kept, {.kind = fmt::format("{} statements (line {})", in_quotes(keyword), obj.scanner.line()),
-                      .unknown = true});
+                      .unknown = true,
+                      .has_shape = true});
 }
 
 void read_statement(ObjReader& obj, std::string_view keyword) {
@@ -204,43 +209,72 @@ constexpr CornerDataKind normal_kind = {
     .seams = "hard edges",
     .code = "hard_edges"};
 
-void append_ignored(const std::vector<ObjReader>& readers, std::vector<std::string>& not_kept) {
+// The kinds of content that is ignored, in the order of the text.
+std::vector<NotKept> all_ignored(const std::vector<ObjReader>& readers) {
   std::vector<NotKept> noted;
   for (const ObjReader& reader : readers)
     for (const NotKept& content : reader.not_kept) note(noted, content);
-  for (NotKept& content : noted)
-    if (std::ranges::find(not_kept, content.kind) == not_kept.end())
-      not_kept.push_back(std::move(content.kind));
+  return noted;
+}
+
+// The whole content of a text. Movable, although its readers refer to the numbers.
+struct ObjContent {
+  MeshFile file;  // points and polygons
+  std::unique_ptr<ObjNumbers> numbers;
+  std::vector<ObjReader> readers;
+};
+
+ObjContent read_content(std::string_view text, const std::string& name) {
+  ObjContent content{{}, std::make_unique<ObjNumbers>(), {}};
+  content.file.name = name;
+  content.file.format = MeshFormat::obj;
+  const std::vector<TextPiece> pieces = remaining_pieces(Scanner(text, name, obj_syntax), numbered);
+  std::vector<ObjReader>& readers = content.readers = start_readers(pieces, name, *content.numbers);
+  read_pieces(pieces, [&](const TextPiece&, size_t p) { read_piece(readers[p]); });
+  for (const auto kind : {&ObjReader::vertices, &ObjReader::texture, &ObjReader::normals})
+    check_max_index(name, pieces_of(readers, kind));
+  if (content.numbers->points.cols() == 0)
+    throw InputError(name + ": no vertices; expected v lines; is this an OBJ file?");
+  content.file.points = std::move(content.numbers->points);
+  std::vector<MeshFile> parts;
+  for (ObjReader& reader : readers) parts.push_back(std::move(reader.part));
+  append_faces(content.file, parts);
+  return content;
 }
 
 }  // namespace
 
 MeshFile read_obj(std::string_view text, const std::string& name) {
-  MeshFile file;
-  file.name = name;
-  file.format = MeshFormat::obj;
-  const std::vector<TextPiece> pieces =
-      remaining_pieces(Scanner(text, name, {.comments = true, .continuations = true}), numbered);
-  ObjNumbers numbers;
-  std::vector<ObjReader> readers = start_readers(pieces, name, numbers);
-  read_pieces(pieces, [&](const TextPiece&, size_t p) { read_piece(readers[p]); });
-  const ObjElementPieces texture = pieces_of(readers, &ObjReader::texture);
-  const ObjElementPieces normals = pieces_of(readers, &ObjReader::normals);
-  for (const ObjElementPieces& elements : {pieces_of(readers, &ObjReader::vertices), texture, normals})
-    check_max_index(name, elements);
-  if (numbers.points.cols() == 0)
-    throw InputError(name + ": no vertices; expected v lines; is this an OBJ file?");
-  file.points = std::move(numbers.points);
-  std::vector<MeshFile> parts;
-  for (ObjReader& reader : readers) parts.push_back(std::move(reader.part));
-  append_faces(file, parts);
+  ObjContent content = read_content(text, name);
+  MeshFile& file = content.file;
   std::vector<std::string> not_kept;
-  keep_colours(readers, file, not_kept);
-  keep_elements(texture, texture_kind, file, not_kept);
-  keep_elements(normals, normal_kind, file, not_kept);
-  append_ignored(readers, not_kept);
+  keep_colours(content.readers, file, not_kept);
+  keep_elements(pieces_of(content.readers, &ObjReader::texture), texture_kind, file, not_kept);
+  keep_elements(pieces_of(content.readers, &ObjReader::normals), normal_kind, file, not_kept);
+  std::vector<std::string> shapes;
+  for (const NotKept& ignored : all_ignored(content.readers)) {
+    if (std::ranges::find(not_kept, ignored.kind) == not_kept.end()) not_kept.push_back(ignored.kind);
+    if (ignored.has_shape) shapes.push_back(ignored.kind);
+  }
   warn_not_kept(file, not_kept);
-  return file;
+  warn_carried_along(file, shapes);
+  if (std::ranges::any_of(content.readers, &ObjReader::continued))
+    file.misread = "vertices whose lines are continued by '\\'";
+  return std::move(file);
+}
+
+ObjCorners read_obj_corners(std::string_view text, const std::string& name) {
+  ObjContent content = read_content(text, name);
+  const auto corners = [&](Mat3X& values, ObjElements ObjReader::*kind) {
+    ObjCornerData data{std::move(values), {}};
+    for (const ObjReader& reader : content.readers)
+      data.of_corners.insert(data.of_corners.end(), (reader.*kind).of_corners.begin(),
+                             (reader.*kind).of_corners.end());
+    return data;
+  };
+  return {std::move(content.file.points), std::move(content.file.polygons),
+          corners(content.numbers->texture, &ObjReader::texture),
+          corners(content.numbers->normals, &ObjReader::normals)};
 }
 
 std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,

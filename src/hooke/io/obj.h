@@ -4,8 +4,10 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hooke/io/mesh_file.h"
+#include "hooke/io/scanner.h"
 
 namespace hooke {
 
@@ -16,6 +18,26 @@ namespace hooke {
 /// vertices. Groups, materials, lines and unknown statements are not kept; one warning lists them. Throws
 /// InputError "NAME:LINE: ...", but not for invalid numbers in `vt` and `vn`, which are then not kept.
 MeshFile read_obj(std::string_view text, const std::string& name);
+
+/// Elements of one kind in an OBJ file, as they stand there, and those of its face corners.
+struct ObjCornerData {
+  Mat3X values;                 // of all elements; missing and broken numbers as they come
+  std::vector<int> of_corners;  // column of each corner, in the order of the polygons' items; -1 for none.
+                                // Empty if there are no elements
+};
+
+/// What an OBJ file says of its face corners.
+struct ObjCorners {
+  Mat3X points;       // of the vertices
+  IntLists polygons;  // vertex ids of each face
+  ObjCornerData texture, normals;
+};
+
+/// Reads vertices, faces and the data of face corners. Throws what read_obj() throws.
+ObjCorners read_obj_corners(std::string_view text, const std::string& name);
+
+/// The syntax of OBJ texts.
+inline constexpr Scanner::Syntax obj_syntax = {.comments = true, .continuations = true};
 
 /// The text of an OBJ file with `v`, `vt`, `vn` and `f` lines. Numbers read back exactly. Of the data it
 /// holds colours, texture coordinates and normals.

@@ -107,7 +107,7 @@ void keep_as_vertex_data(MeshFile& file, const CornerData& data, size_t width, c
   if (seams.vertices.empty())
     append_channels(file.vertex_data, data.values, of_vertices, kind.channels.first(width), kind.type);
   else
-    file.warnings.push_back(warning_of(seams, file.name, kind));
+    file.content.anew.push_back(warning_of(seams, file.name, kind));
 }
 
 void count_one(const Scanner& in, ObjElements& elements) {

@@ -3,28 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
+#include "hooke/io/binary_numbers.h"
 #include "hooke/io/ply_format.h"
 #include "hooke/io/text.h"
 
 namespace hooke {
 namespace {
-
-bool is_index_list(const PlyProperty& property) {
-  return property.name == "vertex_indices" || property.name == "vertex_index";
-}
-
-// Index (0 to 2) of the coordinate that the vertex property is; -1 for none.
-int coordinate_of(const PlyProperty& property) {
-  return property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
-}
 
 void check_vertex_element(const PlyElement& vertex, const std::string& name) {
   for (const char* coordinate : {"x", "y", "z"})
@@ -39,10 +28,10 @@ void check_vertex_element(const PlyElement& vertex, const std::string& name) {
 }
 
 void check_face_element(const PlyElement& face, const std::string& name) {
-  const auto lists = std::count_if(face.properties.begin(), face.properties.end(), is_index_list);
+  const auto lists = std::count_if(face.properties.begin(), face.properties.end(), is_corner_list);
   const auto usable =
       std::count_if(face.properties.begin(), face.properties.end(), [](const PlyProperty& property) {
-        return is_index_list(property) && property.count_type && is_integer(property.type);
+        return is_corner_list(property) && property.count_type && is_integer(property.type);
       });
   if (lists != 1 || usable != 1)
     throw InputError(fmt::format(
@@ -97,7 +86,7 @@ void read_faces(Body& body, const PlyElement& face, const PlyRows& rows, long lo
     body.begin_row(face, row);
     if (body.line() > 0) file.lines.push_back(body.line());
     for (const PlyProperty& property : face.properties) {
-      if (is_index_list(property))
+      if (is_corner_list(property))
         read_corners(body, property, vertex_count, file);
       else
         skip_property(body, property);
@@ -126,11 +115,6 @@ void read_rows(Body& body, const Elements& elements, const PlyElement& element, 
     skip_rows(body, element, rows);
 }
 
-// An element without properties has no rows in the file, whatever its count.
-long long row_count(const PlyElement& element) {
-  return element.properties.empty() ? 0 : element.count;
-}
-
 template <typename Body>
 void read_body(Body body, const Elements& elements, MeshFile& file) {
   for (const PlyElement& element : elements.header.elements) {
@@ -148,15 +132,9 @@ void read_pieces_of_body(const std::vector<TextPiece>& pieces, const Elements& e
   read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
     AsciiPlyBody body(piece.scanner);
     parts[p].name = file.name;
-    long long before = 0;  // rows of the preceding elements
-    for (const PlyElement& element : elements.header.elements) {
-      const auto row = [&](long long of_body) {
-        return std::clamp(of_body - before, 0LL, row_count(element));
-      };
-      const PlyRows rows = {row(piece.first_row), row(piece.first_row + piece.rows)};
+    for_rows_of_piece(elements.header, piece, [&](const PlyElement& element, const PlyRows& rows) {
       read_rows(body, elements, element, rows, file, parts[p]);
-      before += row_count(element);
-    }
+    });
   });
   append_faces(file, parts);
 }
@@ -200,7 +178,7 @@ std::vector<std::string> kinds_not_kept(const PlyHeader& header, const PlyElemen
       continue;
     }
     for (const PlyProperty& property : element.properties) {
-      const bool kept = &element == &vertex ? !property.count_type : is_index_list(property);
+      const bool kept = &element == &vertex ? !property.count_type : is_corner_list(property);
       if (!kept) note(kind_of(element, property));
     }
   }
@@ -262,35 +240,6 @@ std::string header_text(Eigen::Index vertices, size_t faces, PlyEncoding encodin
       name_of(encoding), vertices, properties_of(data), faces, properties_of(face_data));
 }
 
-/// Writes the bytes of the value at `at` and advances it.
-template <typename T>
-void put(char*& at, T value, bool swap) {
-  auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-  if (swap) std::reverse(raw.begin(), raw.end());
-  at = std::copy(raw.begin(), raw.end(), at);
-}
-
-void put(char*& at, PlyType type, double value, bool swap) {
-  switch (type) {
-    case PlyType::int8:
-      return put(at, static_cast<std::int8_t>(value), swap);
-    case PlyType::uint8:
-      return put(at, static_cast<std::uint8_t>(value), swap);
-    case PlyType::int16:
-      return put(at, static_cast<std::int16_t>(value), swap);
-    case PlyType::uint16:
-      return put(at, static_cast<std::uint16_t>(value), swap);
-    case PlyType::int32:
-      return put(at, static_cast<std::int32_t>(value), swap);
-    case PlyType::uint32:
-      return put(at, static_cast<std::uint32_t>(value), swap);
-    case PlyType::float32:
-      return put(at, static_cast<float>(value), swap);
-    case PlyType::float64:
-      return put(at, value, swap);
-  }
-}
-
 size_t row_size(const VertexData& data) {
   size_t size = 0;
   for (const VertexChannel& channel : data) size += size_of(channel.type);
@@ -305,15 +254,15 @@ void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std
   bytes.resize(header + static_cast<size_t>(points.cols()) * vertex_size + triangles.size() * face_size);
   char* at = bytes.data() + header;
   const auto put_row = [&](const VertexData& channels, size_t row) {
-    for (const VertexChannel& channel : channels) put(at, channel.type, channel.values[row], swap);
+    for (const VertexChannel& channel : channels) put_binary(at, channel.type, channel.values[row], swap);
   };
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    for (int k = 0; k < 3; ++k) put(at, points(k, v), swap);
+    for (int k = 0; k < 3; ++k) put_binary(at, PlyType::float64, points(k, v), swap);
     put_row(data, static_cast<size_t>(v));
   }
   for (size_t f = 0; f < triangles.size(); ++f) {
     *at++ = 3;
-    for (const int id : triangles[f]) put(at, id, swap);
+    for (const int id : triangles[f]) put_binary(at, PlyType::int32, id, swap);
     put_row(face_data, f);
   }
 }
@@ -333,9 +282,7 @@ std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
     append_vertex_rows(bytes, points, "", list_of(data));
     append_face_rows(bytes, triangles, "3", 0, {}, list_of(face_data));
   } else {
-    const bool little = encoding == PlyEncoding::binary_little_endian;
-    append_binary(bytes, points, triangles, data, face_data,
-                  little != (std::endian::native == std::endian::little));
+    append_binary(bytes, points, triangles, data, face_data, swaps_bytes(encoding));
   }
   return bytes;
 }

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -100,9 +98,20 @@ void expect_line_end(Scanner& in) {
 
 }  // namespace
 
-size_t size_of(PlyType type) {
-  static constexpr size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[static_cast<size_t>(type)];
+bool swaps_bytes(PlyEncoding encoding) {
+  return swaps_bytes(encoding == PlyEncoding::binary_big_endian ? std::endian::big : std::endian::little);
+}
+
+bool is_corner_list(const PlyProperty& property) {
+  return property.name == "vertex_indices" || property.name == "vertex_index";
+}
+
+int coordinate_of(const PlyProperty& property) {
+  return property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
+}
+
+long long row_count(const PlyElement& element) {
+  return element.properties.empty() ? 0 : element.count;
 }
 
 PlyHeader read_ply_header(std::string_view text, const std::string& name) {
@@ -224,8 +233,7 @@ BinaryPlyBody::BinaryPlyBody(std::string_view bytes, const std::string& name, co
       cursor_(begin_ + header.size),
       end_(begin_ + bytes.size()),
       name_(name),
-      swap_((header.encoding == PlyEncoding::binary_little_endian) !=
-            (std::endian::native == std::endian::little)) {}
+      swap_(swaps_bytes(header.encoding)) {}
 
 void BinaryPlyBody::begin_element(const PlyElement& element) {
   element_ = &element;
@@ -258,43 +266,20 @@ const char* BinaryPlyBody::take(size_t size) {
   return at;
 }
 
-template <typename T>
-T BinaryPlyBody::value() {
-  char bytes[sizeof(T)];
-  std::memcpy(bytes, take(sizeof(T)), sizeof(T));
-  if (swap_) std::reverse(bytes, bytes + sizeof(T));
-  return std::bit_cast<T>(bytes);
-}
-
 double BinaryPlyBody::number(PlyType type, const char* what) {
-  if (is_integer(type)) return static_cast<double>(integer(type, what));
-  const double x = type == PlyType::float32 ? value<float>() : value<double>();
+  const double x = any_number(type, what);
   if (!std::isfinite(x)) fail(fmt::format("{} is {}; expected a finite number; correct it", what, x));
   return x;
 }
 
-double BinaryPlyBody::any_number(PlyType type, const std::string& what) {
-  if (is_integer(type)) return static_cast<double>(integer(type, what.c_str()));
-  return type == PlyType::float32 ? value<float>() : value<double>();
+double BinaryPlyBody::any_number(PlyType type, const std::string&) {
+  return binary_number(raw(type), type, swap_);
 }
 
 long long BinaryPlyBody::integer(PlyType type, const char* what) {
-  switch (type) {
-    case PlyType::int8:
-      return value<std::int8_t>();
-    case PlyType::uint8:
-      return value<std::uint8_t>();
-    case PlyType::int16:
-      return value<std::int16_t>();
-    case PlyType::uint16:
-      return value<std::uint16_t>();
-    case PlyType::int32:
-      return value<std::int32_t>();
-    case PlyType::uint32:
-      return value<std::uint32_t>();
-    default:
-      fail(fmt::format("{} is of a floating type; expected an integer type; correct the header", what));
-  }
+  if (!is_integer(type))
+    fail(fmt::format("{} is of a floating type; expected an integer type; correct the header", what));
+  return static_cast<long long>(any_number(type, what));
 }
 
 void BinaryPlyBody::fail(std::string_view message) const {

@@ -5,21 +5,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "hooke/io/binary_numbers.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/scanner.h"
+#include "hooke/io/text.h"
 
 namespace hooke {
 
 using PlyType = NumberType;  // PLY has exactly these types
 
-/// Size in bytes of a value in a binary file.
-size_t size_of(PlyType type);
+/// Whether binary bodies of this encoding have the other byte order than this machine.
+bool swaps_bytes(PlyEncoding encoding);
 
 struct PlyProperty {
   std::string name;
@@ -70,6 +73,9 @@ class AsciiPlyBody {
   void skip(PlyType type);
   void finish();
 
+  /// The text of the next number; empty if it is missing.
+  std::string_view raw(PlyType) { return in_.token(); }
+
   double number(PlyType, const char* what) { return in_.number(what); }
   /// Reads a number that need not be finite.
   double any_number(PlyType type, const std::string& what);
@@ -94,6 +100,9 @@ class BinaryPlyBody {
   void skip(PlyType type) { take(size_of(type)); }
   void finish() const;
 
+  /// The bytes of the next number.
+  std::string_view raw(PlyType type) { return {take(size_of(type)), size_of(type)}; }
+
   double number(PlyType type, const char* what);
   double any_number(PlyType type, const std::string& what);
   long long integer(PlyType type, const char* what);
@@ -102,8 +111,6 @@ class BinaryPlyBody {
 
  private:
   const char* take(size_t size);
-  template <typename T>
-  T value();
 
   const char* begin_;
   const char* cursor_;
@@ -113,6 +120,15 @@ class BinaryPlyBody {
   const PlyElement* element_ = nullptr;
   long long row_ = 0;
 };
+
+/// Whether the face property lists the corners.
+bool is_corner_list(const PlyProperty& property);
+
+/// Index (0 to 2) of the coordinate that the vertex property is; -1 for none.
+int coordinate_of(const PlyProperty& property);
+
+/// Rows of the element in the file: none without properties, whatever its count.
+long long row_count(const PlyElement& element);
 
 /// Skips a value or a list.
 template <typename Body>
@@ -135,6 +151,17 @@ void skip_rows(Body& body, const PlyElement& element, const PlyRows& rows) {
     body.begin_row(element, row);
     for (const PlyProperty& property : element.properties) skip_property(body, property);
     body.end_row();
+  }
+}
+
+/// Calls use(element, rows) for the rows of each element in a piece of a body with one row a line.
+template <typename Use>
+void for_rows_of_piece(const PlyHeader& header, const TextPiece& piece, const Use& use) {
+  long long before = 0;  // rows of the preceding elements
+  for (const PlyElement& element : header.elements) {
+    const auto row = [&](long long of_body) { return std::clamp(of_body - before, 0LL, row_count(element)); };
+    use(element, PlyRows{row(piece.first_row), row(piece.first_row + piece.rows)});
+    before += row_count(element);
   }
 }
 

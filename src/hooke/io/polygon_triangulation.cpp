@@ -189,19 +189,38 @@ TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons) 
   return result;
 }
 
-Warnings warnings_of(const TriangulatedPolygons& triangulation, const std::string& name) {
-  Warnings warnings;
-  if (triangulation.polygons_cut > 0)
-    warnings.push_back({"polygons_triangulated",
-                        fmt::format("{}: polygons with more than three corners, cut into triangles: {}", name,
-                                    triangulation.polygons_cut)});
+bool misread_as_fans(const Mat3X& points, const IntLists& polygons,
+                     const TriangulatedPolygons& triangulation) {
+  if (triangulation.polygons_cut == 0) return false;
+  const auto twice_area = [&](int a, int b, int c) {
+    const Vec3 ab = points.col(b) - points.col(a), ac = points.col(c) - points.col(a);
+    return ab.cross(ac).norm();
+  };
+  double area = 0, of_fans = 0;
+  for (const auto& [a, b, c] : triangulation.triangles) area += twice_area(a, b, c);
+  for (int f = 0; f + 1 < static_cast<int>(polygons.first.size()); ++f) {
+    const std::span<const int> corners = polygons[f];
+    for (size_t k = 2; k < corners.size(); ++k) of_fans += twice_area(corners[0], corners[k - 1], corners[k]);
+  }
+  return of_fans > 1.25 * area;
+}
+
+void append_warnings(const TriangulatedPolygons& triangulation, const std::string& name,
+                     ContentWarnings& content, Warnings& warnings) {
+  const auto add_cut = [&](Warnings& to, const char* what) {
+    to.push_back({"polygons_triangulated", fmt::format("{}: polygons with more than three corners, {}: {}",
+                                                       name, what, triangulation.polygons_cut)});
+  };
+  if (triangulation.polygons_cut > 0) {
+    add_cut(content.anew, "cut into triangles");
+    add_cut(content.preserved, "moved and measured as triangles, written as they were");
+  }
   if (triangulation.not_simple > 0)
     warnings.push_back(
         {"polygons_not_simple",
          fmt::format(
              "{}: polygons that cross or fold over themselves or have no area, whose triangles overlap: {}",
              name, triangulation.not_simple)});
-  return warnings;
 }
 
 }  // namespace hooke

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hooke/core/types.h"
+#include "hooke/io/mesh_file.h"
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
@@ -25,7 +26,14 @@ struct TriangulatedPolygons {
 /// Pre-condition: corners are columns of `points`; every polygon has at least three.
 TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons);
 
-/// The warnings `polygons_triangulated` and `polygons_not_simple`, if they apply; `name` is the file name.
-Warnings warnings_of(const TriangulatedPolygons& triangulation, const std::string& name);
+/// Whether the polygons make another surface where each is cut as a fan from its first corner, as simple
+/// readers do: one with more than 1.25 times the area, because fans of concave polygons overlap.
+bool misread_as_fans(const Mat3X& points, const IntLists& polygons,
+                     const TriangulatedPolygons& triangulation);
+
+/// Appends the warnings `polygons_triangulated`, which differs between a new file and a rewritten one, and
+/// `polygons_not_simple`, if they apply; `name` is the file name.
+void append_warnings(const TriangulatedPolygons& triangulation, const std::string& name,
+                     ContentWarnings& content, Warnings& warnings);
 
 }  // namespace hooke

@@ -17,10 +17,6 @@
 namespace hooke {
 namespace {
 
-void append(Warnings& warnings, Warnings more) {
-  warnings.insert(warnings.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
 /// The memory order and adjacency of a mesh, after validation. The mesh is checked in memory order, which is
 /// faster; errors and warnings are then generated in file order.
 MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, Permutation order,
@@ -83,7 +79,10 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   TriangulatedPolygons triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
-  append(warnings, warnings_of(triangulation, file.name));
+  ContentWarnings content_warnings = std::move(file.content);
+  append_warnings(triangulation, file.name, content_warnings, warnings);
+  if (misread_as_fans(file.points, file.polygons, triangulation))
+    file.misread = "concave polygons, which overlap when they are cut as fans";
   MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
   FaceData face_data = gather(file.face_data, source.face);
   Notes repairs;
@@ -131,6 +130,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       std::move(origin),
       std::move(file.notes),
       std::move(repairs),
+      std::move(content_warnings),
+      std::move(file.misread),
       std::move(warnings)};
 }
 

@@ -26,7 +26,9 @@ struct LoadedMesh {
   MeshOrigin origin;                                         // if the mesh was repaired
   Notes notes;                                               // see MeshFile
   Notes repairs;                                             // what the repair did
-  Warnings warnings;  // from reading, triangulation and validation, in this order
+  ContentWarnings content;                                   // about what else is in the file
+  std::string misread;                                       // see MeshFile
+  Warnings warnings;  // others, from reading, triangulation and validation, in this order
 };
 
 struct ReadOptions {

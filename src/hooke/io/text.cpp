@@ -3,6 +3,14 @@
 #include "hooke/core/parallel.h"
 
 namespace hooke {
+
+void append_all(std::string& text, const std::vector<std::string>& pieces) {
+  size_t size = text.size();
+  for (const std::string& piece : pieces) size += piece.size();
+  text.reserve(size);
+  for (const std::string& piece : pieces) text += piece;
+}
+
 namespace {
 
 /// Calls append(text, i) for i in [0, count), in parallel on separate pieces that are then concatenated.
@@ -14,10 +22,7 @@ void append_rows(std::string& text, size_t count, const Append& append) {
     for (size_t p = begin; p < end; ++p)
       for (size_t i = p * block; i < std::min(count, (p + 1) * block); ++i) append(pieces[p], i);
   });
-  size_t size = text.size();
-  for (const std::string& piece : pieces) size += piece.size();
-  text.reserve(size);
-  for (const std::string& piece : pieces) text += piece;
+  append_all(text, pieces);
 }
 
 void append_value(std::string& row, NumberType type, double value) {

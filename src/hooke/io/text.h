@@ -46,6 +46,9 @@ void append_value_rows(std::string& text, const char* prefix, const ChannelList&
 void append_face_rows(std::string& text, const std::vector<Triangle>& faces, const char* prefix, int first_id,
                       const std::vector<const char*>& repeats = {}, const ChannelList& channels = {});
 
+/// Appends all pieces, in order.
+void append_all(std::string& text, const std::vector<std::string>& pieces);
+
 /// A piece of a text, made of whole lines.
 struct TextPiece {
   Scanner scanner;                   // before the first line of the piece

@@ -263,6 +263,7 @@ Json report_json(const RunRecord& run) {
   j["status"] = run.status;
   j["input"] = file_json(run.input, run.before);
   j["output"] = run.output ? file_json(*run.output, *run.after) : Json();
+  if (run.output) j["output"]["preserved"] = run.output->preserved;
   j["parameters"] = run.parameters;
   j["promises"] = promises_json(run);
   j["before"] = to_json(run.before);

@@ -42,6 +42,11 @@ struct FileRecord {
   std::string connectivity_sha256;
 };
 
+/// The output; `preserved`: it is the input file with other coordinates, all else as it was.
+struct OutputRecord : FileRecord {
+  bool preserved = false;
+};
+
 struct Resources {
   int threads = 0;
   double wall_s = 0;
@@ -57,7 +62,7 @@ struct RunRecord {
   std::string tool_version;
   std::string status;  // see status_of()
   FileRecord input;
-  std::optional<FileRecord> output;
+  std::optional<OutputRecord> output;
   nlohmann::ordered_json parameters;  // see parameters_json()
   Quality before;
   std::optional<Quality> after;

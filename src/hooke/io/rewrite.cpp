@@ -1,0 +1,26 @@
+#include "hooke/io/rewrite.h"
+
+#include <utility>
+
+#include "hooke/io/mesh_file.h"
+#include "hooke/io/rewrite_obj.h"
+#include "hooke/io/rewrite_off.h"
+#include "hooke/io/rewrite_ply.h"
+
+namespace hooke {
+
+bool can_rewrite(MeshFormat format) {
+  return format == MeshFormat::obj || format == MeshFormat::ply || format == MeshFormat::off;
+}
+
+RewrittenMesh rewrite_mesh(std::string_view bytes, const std::string& name, MeshFormat format,
+                           const Mat3X& points, const std::vector<MapEntry>* map) {
+  const std::string_view content = without_byte_order_mark(bytes);
+  RewrittenMesh result = format == MeshFormat::obj   ? rewrite_obj(content, name, points, map)
+                         : format == MeshFormat::ply ? rewrite_ply(content, name, points)
+                                                     : rewrite_off(content, name, points);
+  result.bytes.insert(0, bytes.substr(0, bytes.size() - content.size()));
+  return result;
+}
+
+}  // namespace hooke

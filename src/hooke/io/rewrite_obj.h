@@ -1,0 +1,12 @@
+// The OBJ part of rewrite_mesh().
+#pragma once
+
+#include "hooke/io/rewrite.h"
+
+namespace hooke {
+
+/// rewrite_mesh() for an OBJ text without a byte order mark.
+RewrittenMesh rewrite_obj(std::string_view text, const std::string& name, const Mat3X& points,
+                          const std::vector<MapEntry>* map = nullptr);
+
+}  // namespace hooke
