@@ -59,9 +59,11 @@ struct Original {
   std::vector<int> tree_order;  // order of the faces in its bounding volume tree
 };
 
-/// Whether the output is of the kind of the input: the same format and the same faces.
+/// Whether a user would expect the output to be the input's bytes with other digits: a file of a format that
+/// can be, the same faces, and nothing repaired.
 bool is_of_its_kind(const Settings& s, const LoadedMesh& loaded) {
-  return keeps_faces(s) && loaded.format == s.format;
+  return keeps_faces(s) && loaded.format == s.format && can_rewrite(*s.format) && loaded.repairs.empty() &&
+         !is_standard_input(s.input);
 }
 
 /// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.

@@ -75,7 +75,7 @@ TEST(Msh, BothVersionsReturnEveryBitOfTheMeshAndItsLabels) {
     EXPECT_EQ(file.format, version);
     EXPECT_EQ(file.points, t.points);
     EXPECT_EQ(faces_of(file), t.faces);
-    EXPECT_TRUE(file.warnings.empty());
+    EXPECT_TRUE(file.content.anew.empty());
     ASSERT_EQ(file.face_data.size(), 2u);
     EXPECT_EQ(file.face_data[0].values, group.values);
     EXPECT_EQ(file.face_data[0].names, group.names);
@@ -105,8 +105,8 @@ TEST(Msh, NodesMayHaveAnyNumbersAndOthersAreCounted) {
   EXPECT_EQ(file.face_data[0].values, (std::vector<int>{7, 0}));
   EXPECT_EQ(file.face_data[0].names, (std::map<int, std::string>{{7, "the \"wall\""}}));
   EXPECT_EQ(file.face_data[1].values, (std::vector<int>{4, 5}));
-  ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_EQ(file.warnings[0].message, "m: not kept in the output: 1 lines, 1 points, 1 nodes of no triangle");
+  ASSERT_EQ(file.content.anew.size(), 1u);
+  EXPECT_EQ(file.content.anew[0].message, "m: not kept in the output: 1 lines, 1 points, 1 nodes of no triangle");
 }
 
 TEST(Msh, QuadranglesArePolygons) {
@@ -118,9 +118,9 @@ TEST(Msh, QuadranglesArePolygons) {
   EXPECT_EQ(file.polygons[0].size(), 4u);
   EXPECT_EQ(file.points.col(2), Vec3(1, 1, 0));
   EXPECT_EQ(file.face_data[0].values, std::vector<int>{6});
-  ASSERT_EQ(file.warnings.size(), 1u);
+  ASSERT_EQ(file.content.anew.size(), 1u);
   EXPECT_TRUE(
-      has(file.warnings[0].message, "all physical groups but the first of 1 faces, section '$NodeData'"));
+      has(file.content.anew[0].message, "all physical groups but the first of 1 faces, section '$NodeData'"));
 }
 
 TEST(Msh, BinaryFilesOfBothByteOrders) {

@@ -35,7 +35,7 @@ TEST(Vtp, TextIsReadWithItsPolygons) {
   EXPECT_EQ(file.points.col(4), Vec3(2, 1, 0));
   EXPECT_EQ(file.polygons.first, (std::vector<int>{0, 3, 7}));
   EXPECT_EQ(file.polygons.items, (std::vector<int>{1, 4, 2, 0, 1, 2, 3}));
-  EXPECT_TRUE(file.warnings.empty());
+  EXPECT_TRUE(file.content.anew.empty());
 }
 
 TEST(Vtp, OtherContentIsNamedOnce) {
@@ -45,8 +45,8 @@ TEST(Vtp, OtherContentIsNamedOnce) {
       "<PointData><DataArray Name=\"heat\" format=\"ascii\">1 2 3 4 5</DataArray></PointData>"
       "<Lines><DataArray Name=\"connectivity\">0 1</DataArray></Lines>";
   const MeshFile file = read_vtp(sample.text(), "m");
-  ASSERT_EQ(file.warnings.size(), 1u);
-  EXPECT_EQ(file.warnings[0].message, "m: not kept in the output: 3 lines, point data 'heat'");
+  ASSERT_EQ(file.content.anew.size(), 1u);
+  EXPECT_EQ(file.content.anew[0].message, "m: not kept in the output: 3 lines, point data 'heat'");
   EXPECT_EQ(file.polygons.items.size(), 7u);
 }
 
