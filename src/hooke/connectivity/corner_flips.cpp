@@ -26,9 +26,7 @@ class Corner {
     const int target = m_.corner_valences[static_cast<size_t>(wedge_)];
     while (valence() < target && flip_best(opposite_edges())) ++flips_;
     while (valence() > target) {
-      if (!flip_best(inner_edges()) && !free_inner_neighbour() && !push_inner_neighbour() &&
-          !pull_feature_neighbours())
-        break;
+      if (!flip_best(inner_edges()) && !free_inner_neighbour() && !push_inner_neighbour()) break;
       ++flips_;
     }
     return flips_;
@@ -93,41 +91,33 @@ class Corner {
   bool push_inner_neighbour() {
     for (int h : inner_edges()) {
       const int w = t_.to(h);
-      if (!is_on_feature(w) && shift({w}, push)) return true;
+      if (!is_on_feature(w) && push_away(w)) return true;
     }
     return false;
-  }
-
-  bool pull_feature_neighbours() {
-    const SmallIntList all = corner_edges();
-    return shift({t_.to(all.front()), t_.opposite_vertex(all.back())}, -push);
   }
 
   bool is_on_feature(int vertex) const { return t_.on_boundary(vertex) || t_.on_crease(vertex); }
 
-  /// Moves the vertices along the lines from the corner, step by step, until an edge at the corner can be
-  /// flipped; else reverts them.
-  bool shift(const std::vector<int>& vertices, double relative_step) {
-    std::vector<SurfacePosition> before;
-    for (int v : vertices) before.emplace_back(m_.positions, v);
-    for (int i = 0; i < max_pushes && shift_once(vertices, relative_step); ++i)
+  /// Moves the vertex away from the corner, step by step, until an edge at the corner can be flipped; else
+  /// moves it back.
+  bool push_away(int v) {
+    const SurfacePosition before(m_.positions, v);
+    for (int i = 0; i < max_pushes && push_once(v); ++i)
       if (flip_best(inner_edges())) return true;
-    for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(m_.positions, vertices[i]);
+    before.write_to(m_.positions, v);
     return false;
   }
 
-  bool shift_once(const std::vector<int>& vertices, double relative_step) {
-    Mat3X& X = m_.positions.points;
-    for (int v : vertices) {
-      if (m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed) continue;
-      const std::vector<double> before = alignments(v);
-      const Vec3 away = (X.col(v) - X.col(vertex_)).normalized();
-      const double length = relative_step * m_.vertex_length[static_cast<size_t>(v)];
-      m_.retraction.moved(m_.positions, v, length * away).write_to(m_.positions, v);
-      const std::vector<double> after = alignments(v);
-      for (size_t i = 0; i < before.size(); ++i)
-        if (after[i] < std::min(options_.alignment, before[i])) return false;
-    }
+  bool push_once(int v) {
+    const Mat3X& X = m_.positions.points;
+    if (m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed) return true;
+    const std::vector<double> before = alignments(v);
+    const Vec3 away = (X.col(v) - X.col(vertex_)).normalized();
+    const double length = push * m_.vertex_length[static_cast<size_t>(v)];
+    m_.retraction.moved(m_.positions, v, length * away).write_to(m_.positions, v);
+    const std::vector<double> after = alignments(v);
+    for (size_t i = 0; i < before.size(); ++i)
+      if (after[i] < std::min(options_.alignment, before[i])) return false;
     return true;
   }
 

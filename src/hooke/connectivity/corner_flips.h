@@ -8,8 +8,8 @@ namespace hooke {
 
 /// Flips edges at corners whose valence differs from the target, see corner_valences(). Where a flip is not
 /// allowed it first gives an inner neighbour of valence three a fourth edge, else moves the neighbour away
-/// from the corner, else slides the corner's neighbours on the feature edges toward it. Moves that enable no
-/// flip are reverted. Returns the number of flips.
+/// from the corner; a move that enables no flip is reverted. Without these two, 13 and 4 of 56 graphs over a
+/// square end in mode `flip` at 22-26 degrees instead of 42-47. Returns the number of flips.
 int flip_corners_to_valence(FlippableMesh& mesh, const FlipGuardOptions& options);
 
 }  // namespace hooke

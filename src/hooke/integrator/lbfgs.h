@@ -1,6 +1,10 @@
 // Relaxation by L-BFGS on the surface, preconditioned by the local curvature of the energy and by grids (see
 // preconditioner.h). Every candidate step is projected and guarded per vertex before its energy is evaluated.
 // J. Nocedal, "Updating quasi-Newton matrices with limited storage", 1980.
+//
+// Gauss-Seidel sweeps alone (see gauss_seidel.h), 30 of them, do as well on meshes of a few thousand vertices
+// in less time, but cannot even out long waves: in mode `flip` the edges of a torus of 100 000 vertices vary
+// by 13.6 % after them instead of 7.8 %, and by 10.8 % after 100 sweeps in three times the time.
 #pragma once
 
 #include <deque>
@@ -25,7 +29,8 @@ struct LbfgsOptions {
   int max_backtracks = 12;  // shortened candidates per step before it is given up
   /// Where guards limit too many vertices for local relaxation, and more than this part of all vertices move
   /// by the full cap, the cap is halved for the rest of the run: long-wave motion would run over the limited
-  /// vertices.
+  /// vertices. The edges of an uneven grid with fixed vertices in it vary by 13 % instead of 17 % in mode
+  /// `flip`; the same holds for local relaxation.
   double max_capped_fraction = .25;
   double min_cap = .25;         // lower bound of the cap, in target lengths
   double lazy_error = 1e-2;     // deviation tolerated by the retraction until the end, in mean target lengths

@@ -1,6 +1,11 @@
 // A multilevel preconditioner for gradients: the inverse curvature of the energy around each vertex for short
 // waves, and a hierarchy of grids in space for long waves, which plain descent needs hundreds of steps for.
 // J. Bramble, J. Pasciak, J. Xu, "Parallel multilevel preconditioners", 1990 (BPX).
+//
+// The grids pay on large meshes: without them the edges of a torus of 100 000 vertices vary by 11.9 % instead
+// of 7.8 % in mode `flip`, by 28.4 % instead of 27.6 % in `fixed` and by 5.9 % instead of 5.7 % in `adapt`,
+// in no less time; of 25 000 vertices with a boundary by 9.5 % instead of 8.3 % in `flip`. Below 5000
+// vertices little depends on them.
 #pragma once
 
 #include "hooke/core/symmetric_matrix.h"
