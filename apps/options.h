@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hooke/measure/preservation.h"
 #include "hooke/remesh/options.h"
@@ -53,5 +54,9 @@ struct Parsed {
   int exit_code = 0;
 };
 Parsed parse_command_line(int argc, char** argv);
+
+/// The settings that these arguments of the command give, its name left out. Throws Error for what
+/// parse_command_line() refuses; does not take requests for help.
+Settings parse_arguments(std::vector<std::string> arguments);
 
 }  // namespace hooke::app
