@@ -211,6 +211,24 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
 }
 
+/// Adds the option whose values are conditions.
+void add_gates(CLI::App& app, Settings& s) {
+  const auto add = [&s](const std::string& text) {
+    try {
+      s.gates.push_back(parse_gate(text));
+    } catch (const Error& e) {
+      throw CLI::ValidationError("--require", e.what());
+    }
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--require", [add](const std::vector<std::string>& texts) { std::ranges::for_each(texts, add); },
+         "A number of the report, its keys with dots between them, and what it must be, such as "
+         "'after.min_angle.min >= 20'; else the exit code is 6, and the result is written all the same; "
+         "repeatable")
+      ->type_name("CONDITION")
+      ->allow_extra_args(false);
+}
+
 void add_reports(CLI::App& app, Settings& s) {
   app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
@@ -220,6 +238,7 @@ void add_reports(CLI::App& app, Settings& s) {
           },
           ""))
       ->type_name("FILE");
+  add_gates(app, s);
   add_file(app, "--fields", s.fields,
            "PLY file of the result with displacement, distance, curvature and length error at the vertices "
            "and the minimum angle of each face");

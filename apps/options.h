@@ -9,6 +9,7 @@
 #include "hooke/measure/preservation.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/report/gates.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke::app {
@@ -37,6 +38,7 @@ struct Settings {
   double max_distance_share = 0;      // --max-distance in diagonals of the input; 0: not given so
   bool accept_invalid = false;        // write a result that does not keep what it must keep
   std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
+  std::vector<Gate> gates;            // conditions that the report must fulfil
   std::string report;                 // path; "-" for standard output; empty for none
   std::filesystem::path fields;       // PLY file for values at vertices and faces; empty for none
   std::filesystem::path trace;        // file for the time of each stage; empty for none

@@ -43,6 +43,7 @@ class Run {
     record_.stages = stopwatch_.stages();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     record_.resources = resources_used(seconds.count());
+    record_.gates = judge_gates(s_.gates, report_json(record_));
     return std::move(record_);
   }
 
@@ -70,6 +71,7 @@ class Run {
     const MeasuredSurface surface = surface_of(points(), memory_order_);
     record_.before = timed(&stopwatch_, "before",
                            [&] { return measure_quality(surface, edge_lengths(), {}, &stopwatch_); });
+    require_metrics(s_.gates, to_json(record_.before));
     tree_order_ = surface.tree.order();
     if (s_.max_distance_share > 0)
       s_.preservation.max_distance = s_.max_distance_share * record_.before.extent.diagonal;

@@ -1,8 +1,12 @@
 """The Python package gives the command's results on arrays, its refusals as exceptions, and stops when it is asked to."""
 
+import contextlib
+import io
+import itertools
 import json
 import signal
 import sys
+import textwrap
 import threading
 import unittest
 
@@ -86,6 +90,13 @@ class TheCommandsResults(CommandTest):
         write(self.folder / "python.ply", done.vertices, done.faces)
         self.assertEqual((self.folder / "python.ply").read_bytes(), (self.folder / "command.ply").read_bytes())
 
+    def test_gates(self):
+        conditions = ["after.min_angle.min >= 20", "geometry.flipped_faces == 0", "after.min_angle.min > 60"]
+        mesh = read(DATA / "patch.obj")
+        done = remesh(mesh.vertices, mesh.faces, require=conditions)
+        self.assertEqual([gate["passed"] for gate in done.report["gates"]], [True, True, False])
+        self.assertEqual(done.report["gates"][2]["value"], done.report["after"]["min_angle"]["min"])
+
     def test_measures(self):
         mesh = read(DATA / "torus.off")
         self.assertEqual(without_times(measure(mesh.vertices, mesh.faces)),
@@ -119,7 +130,7 @@ class Refusals(unittest.TestCase):
         vertices, faces = torus()
         for options, says in (({"effort": "much"}, "fast|default|thorough"), ({"length": -1}, "--length"),
                               ({"conectivity": "flip"}, "conectivity"), ({"paper": True, "effort": "fast"}, "--effort"),
-                              ({"report": "a.json"}, "report"), ({"effort": [1]}, "list"),
+                              ({"report": "a.json"}, "report"), ({"effort": {1}}, "set"), ({"require": "after.angle.min > 1"}, "min_angle"),
                               ({"sizing": [1., 2.]}, "each of the"), ({"sizing": "ply:quality"}, "ply:"),
                               ({"length": 1e9}, "target lengths")):
             with self.subTest(options=options), self.assertRaisesRegex(UsageError, says.replace("|", r"\|")) as caught:
@@ -228,6 +239,20 @@ class Stops(unittest.TestCase):
         done.set()
         thread.join()
         self.assertGreater(len(turns), 3)
+
+
+class Readme(CommandTest):
+    def test_its_example_runs(self):
+        lines = iter((DATA.parent / "README.md").read_text().split("\n"))
+        example = [next(line for line in lines if line == "    import hooke_remesh")]
+        example += itertools.takewhile(lambda line: not line or line.startswith("    "), lines)
+        code = textwrap.dedent("\n".join(example)).replace("data/", f"{DATA}/").replace("out.ply", f"{self.folder}/out.ply")
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(code, {})
+        before, after = map(float, printed.getvalue().split())
+        self.assertGreater(after, 20 * before)
+        self.assertEqual(len(read(self.folder / "out.ply").vertices), len(read(DATA / "patch.obj").vertices))
 
 
 class OtherLibraries(unittest.TestCase):

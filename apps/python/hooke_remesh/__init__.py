@@ -28,12 +28,12 @@ from .errors import (Error, InputError, Interrupted, LimitError, MeshError, Nume
 __all__ = ["remesh", "measure", "read", "write", "Result", "Map", "Mesh", "Error", "UsageError", "InputError",
            "MeshError", "OutputError", "LimitError", "NumericalError", "ResultError", "Interrupted", "__version__"]
 
-Option = Union[None, bool, int, float, str, "os.PathLike[str]"]
+Option = Union[None, bool, int, float, str, "os.PathLike[str]", "Sequence[str]"]
 Progress = Callable[[str, int, int, float], Any]
 
 # What the command does with its files and its terminal.
-_OF_THE_COMMAND = {"output", "format", "map", "report", "fields", "trace", "trace_steps", "check", "quiet", "verbose", "progress",
-                   "help", "version"}
+_OF_THE_COMMAND = {"output", "format", "map", "report", "fields", "trace", "trace_steps", "check", "quiet", "verbose",
+                   "progress", "help", "version"}
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,8 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
                   far, with the status "interrupted"
     options       every other option of the command but those for its files and its terminal, by the same name with _ for
                   -: effort="fast", feature_angle=30, max_distance="0.1%", polish=False, threads=2, paper=True;
-                  None leaves it out
+                  None leaves it out; require=["after.min_angle.min >= 20"] judges the report, with the outcomes in
+                  report["gates"]
 
     Other Python threads run meanwhile. Ctrl-C raises Interrupted, a KeyboardInterrupt with the best mesh so far as its
     `result`.
@@ -180,7 +181,8 @@ def _as_ids(ids: NDArray[Any], count: int, name: str) -> NDArray[np.int32]:
     wrong = np.argwhere((ids < 0) | (ids >= count)) if ids.size and (ids.min() < 0 or ids.max() >= count) else ()
     if len(wrong):
         place = tuple(int(i) for i in wrong[0])
-        raise MeshError(f"{name}[{', '.join(map(str, place))}] is {ids[place]}; expected a vertex id from 0 to {count - 1}")
+        where = ", ".join(map(str, place))
+        raise MeshError(f"{name}[{where}] is {ids[place]}; expected a vertex id from 0 to {count - 1}")
     return np.ascontiguousarray(ids, dtype=np.int32)
 
 
@@ -206,7 +208,8 @@ def _arguments(options: Mapping[str, Option]) -> list[str]:
         if name in _OF_THE_COMMAND:
             raise UsageError(f"{name}: is for files and the terminal of the command; leave it out")
         if value is not None:
-            arguments.append(f"--{option}={_text(name, value)}")
+            values = value if isinstance(value, (list, tuple)) else [value]
+            arguments += [f"--{option}={_text(name, v)}" for v in values]
     return arguments
 
 

@@ -11,6 +11,7 @@
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
 #include "hooke/remesh/result.h"
+#include "hooke/report/gates.h"
 #include "hooke/report/paper_block.h"
 
 namespace hooke {
@@ -65,6 +66,7 @@ struct RunRecord {
   std::optional<PaperFigures> paper_after;
   std::optional<Deviation> deviation;
   std::optional<RemeshResult> result;
+  std::vector<GateOutcome> gates;
   Warnings warnings;
   std::vector<StageTime> stages;
   Resources resources;

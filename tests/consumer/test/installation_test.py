@@ -1,4 +1,4 @@
-"""An installation into a folder of its own has all that programs need: by find_package(), pkg-config and add_subdirectory()."""
+"""An installation has all that programs need: by find_package(), by pkg-config and by add_subdirectory()."""
 
 import os
 import re
