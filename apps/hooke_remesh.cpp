@@ -305,7 +305,8 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
 
 /// Writes the remaining outputs, then commits all files, so that no file is replaced before everything that
 /// can fail has succeeded. Prints the warnings and the summary.
-void finish(const Settings& s, const RunRecord& record, OutputFiles& files) {
+void finish(const Settings& s, RunRecord& record, OutputFiles& files) {
+  record.gates = judge_gates(s.gates, report_json(record));
   if (!s.trace.empty()) files.add(PendingFile(s.trace, trace_csv(record.stages)));
   if (!s.trace_steps.empty())
     files.add(PendingFile(s.trace_steps, time_steps_csv(record.result->time_steps)));
@@ -317,6 +318,10 @@ void finish(const Settings& s, const RunRecord& record, OutputFiles& files) {
   for (const Note& repair : record.repairs) print_warning(repair);
   for (const Warning& w : record.warnings) print_warning(w);
   if (!s.quiet) print_summary(s, record);
+  for (const GateOutcome& gate : record.gates)
+    if (!gate.passed)
+      print_error(fmt::format("{}: required {}; it is {}", record.input.path, printable(gate.condition),
+                              gate.value ? fmt::format("{:.6g}", *gate.value) : "not there"));
 }
 
 /// The fixed vertices of the mesh; the list has the ids of the file.
@@ -367,6 +372,7 @@ int run(Settings s) {
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
   Original original;
   original.tree_order = measure_input(s, loaded, record, stopwatch);
+  require_metrics(s.gates, to_json(record.before));
   if (s.max_distance_share > 0)
     s.preservation.max_distance = s.max_distance_share * record.before.extent.diagonal;
 
@@ -375,7 +381,8 @@ int run(Settings s) {
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
   finish(s, record, files);
-  return caught_signal() ? 128 + caught_signal() : done;
+  if (caught_signal()) return 128 + caught_signal();
+  return std::ranges::all_of(record.gates, &GateOutcome::passed) ? done : gate_failed;
 }
 
 }  // namespace

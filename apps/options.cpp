@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -218,11 +219,30 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
 }
 
+/// Adds the option whose values are conditions.
+void add_gates(CLI::App& app, Settings& s) {
+  const auto add = [&s](const std::string& text) {
+    try {
+      s.gates.push_back(parse_gate(text));
+    } catch (const Error& e) {
+      throw CLI::ValidationError("--require", e.what());
+    }
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--require", [add](const std::vector<std::string>& texts) { std::ranges::for_each(texts, add); },
+         "A number of the report, its keys with dots between them, and what it must be, such as "
+         "'after.min_angle.min >= 20'; else the exit code is 6, and the result is written all the same; "
+         "repeatable")
+      ->type_name("CONDITION")
+      ->allow_extra_args(false);
+}
+
 void add_reports(CLI::App& app, Settings& s) {
   app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
       ->check(named())
       ->type_name("FILE");
+  add_gates(app, s);
   add_file(app, "--fields", s.fields,
            "PLY file of the result with displacement, distance, curvature and length error at the vertices "
            "and the minimum angle of each face");
@@ -333,30 +353,52 @@ int print_help_or_version(const CLI::App& app, const CLI::ParseError& request) {
   return output_failed;
 }
 
+/// A parser whose options write to its own settings.
+struct Parser {
+  CLI::App app{
+      "Moves the vertices of a triangle mesh on its own surface until the triangles are well shaped: same "
+      "vertices, same faces, same surface.",
+      "hooke-remesh"};
+  Settings settings;
+  RawOptions raw;
+
+  Parser() {
+    app.get_formatter()->column_width(34);
+    raw.given = [this](const char* option) { return app.count(option) > 0; };
+    add_options(app, settings, raw);
+  }
+  Parser(const Parser&) = delete;
+  Parser& operator=(const Parser&) = delete;
+};
+
 }  // namespace
 
 Parsed parse_command_line(int argc, char** argv) {
-  CLI::App app(
-      "Moves the vertices of a triangle mesh on its own surface until the triangles are well shaped: same "
-      "vertices, same faces, same surface.",
-      "hooke-remesh");
-  app.get_formatter()->column_width(34);
-  Settings settings;
-  RawOptions raw;
-  raw.given = [&app](const char* option) { return app.count(option) > 0; };
-  add_options(app, settings, raw);
+  Parser parser;
   try {
-    app.parse(argc, argv);
-    resolve(settings, raw);
+    parser.app.parse(argc, argv);
+    resolve(parser.settings, parser.raw);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return {std::nullopt, print_help_or_version(app, e)};
+    if (e.get_exit_code() == 0) return {std::nullopt, print_help_or_version(parser.app, e)};
     print_error(e.what() + std::string("; see hooke-remesh --help"));
     return {std::nullopt, usage};
   } catch (const Error& e) {
     print_error(e.what());
     return {std::nullopt, usage};
   }
-  return {std::move(settings), done};
+  return {std::move(parser.settings), done};
+}
+
+Settings parse_arguments(std::vector<std::string> arguments) {
+  Parser parser;
+  std::ranges::reverse(arguments);  // CLI11 takes them from the back
+  try {
+    parser.app.parse(std::move(arguments));
+  } catch (const CLI::ParseError& e) {
+    throw Error(e.what());
+  }
+  resolve(parser.settings, parser.raw);
+  return std::move(parser.settings);
 }
 
 }  // namespace hooke::app

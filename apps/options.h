@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hooke/io/mesh_format.h"
 #include "hooke/measure/preservation.h"
 #include "hooke/mesh/repair.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/report/gates.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke::app {
@@ -45,6 +47,7 @@ struct Settings {
   RepairOptions repair;
   std::string weld_text = "off";
   std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
+  std::vector<Gate> gates;            // conditions that the report must fulfil
   std::string report;                 // path; "-" for standard output; empty for none
   std::filesystem::path fields;       // PLY file for values at vertices and faces; empty for none
   std::filesystem::path trace;        // file for the time of each stage; empty for none
@@ -62,5 +65,9 @@ struct Parsed {
   int exit_code = 0;
 };
 Parsed parse_command_line(int argc, char** argv);
+
+/// The settings that these arguments of the command give, its name left out. Throws Error for what
+/// parse_command_line() refuses; does not take requests for help.
+Settings parse_arguments(std::vector<std::string> arguments);
 
 }  // namespace hooke::app

@@ -146,6 +146,8 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
   switch (source.kind) {
     case SizingSource::Kind::none:
       break;
+    case SizingSource::Kind::values:
+      return memory_order.order.gather(source.values);
     case SizingSource::Kind::file:
       return of_vertices(read_length_list(source.name, file_count));
     case SizingSource::Kind::ply_property:

@@ -282,6 +282,8 @@ Json report_json(const RunRecord& run) {
   j["flips"] = flips_json(run);
   j["adaptation"] = adaptation_json(run);
   j["gates"] = Json::array();
+  for (const GateOutcome& g : run.gates)
+    j["gates"].push_back({{"condition", g.condition}, {"value", number(g.value)}, {"passed", g.passed}});
   j["warnings"] = Json::array();
   for (const Warning& w : run.warnings) j["warnings"].push_back({{"code", w.code}, {"message", w.message}});
   j["repairs"] = Json::array();

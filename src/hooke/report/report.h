@@ -11,6 +11,7 @@
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
 #include "hooke/remesh/result.h"
+#include "hooke/report/gates.h"
 #include "hooke/report/paper_block.h"
 
 namespace hooke {
@@ -72,6 +73,7 @@ struct RunRecord {
   std::optional<RemeshResult> result;
   Notes notes;    // what reading the file did to it, as it always does
   Notes repairs;  // what was mended as asked
+  std::vector<GateOutcome> gates;
   Warnings warnings;
   std::vector<StageTime> stages;
   Resources resources;

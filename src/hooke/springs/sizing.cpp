@@ -163,6 +163,15 @@ void limit_gradation(const Mat3X& points, const Adjacency& c, double slope, std:
   }
 }
 
+void set_target_lengths(TriMesh& mesh, const MemoryOrder& memory_order, const LengthSpec& spec,
+                        Sizing sizing) {
+  const Permutation& order = memory_order.order;
+  if (!sizing.vertex_length.empty()) sizing.vertex_length = order.gather(sizing.vertex_length);
+  const std::vector<double> lengths =
+      resolve_vertex_lengths(spec, sizing, order.gather(vertex_points(mesh)), *memory_order.adjacency);
+  set_vertex_values(mesh, target_length_property, order.scatter(lengths));
+}
+
 TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, const Adjacency& adjacency) {
   std::vector<double> of_edges = edge_values(mesh, edge_length_property, order, adjacency);
   if (!of_edges.empty()) return from_edge_lengths(adjacency, std::move(of_edges));

@@ -37,17 +37,22 @@ struct Sizing {
 std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
                                            const Adjacency& adjacency);
 
+/// Sets v:target_length of a mesh as above; of the sizing the lengths are by vertex id.
+void set_target_lengths(TriMesh& mesh, const MemoryOrder& memory_order, const LengthSpec& spec = {},
+                        Sizing sizing = {});
+
 /// The target lengths of a mesh: those of `e:target_length`, and without this property those that spread from
 /// `v:target_length`. The vertices of the adjacency are in this order. Throws Error without both properties.
 TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, const Adjacency& adjacency);
 
 /// The source of target lengths per vertex, as the user specifies it.
 struct SizingSource {
-  enum class Kind { none, file, ply_property, curvature };
+  enum class Kind { none, values, file, ply_property, curvature };
   Kind kind = Kind::none;
-  std::string name;         // of the file or the property
-  double chord_error = .1;  // of curvature; positive
-  bool percent = true;      // of the bounding box diagonal; else in the unit of the points
+  std::vector<double> values = {};  // of kind `values`: one per vertex id, positive
+  std::string name;                 // of the file or the property
+  double chord_error = .1;          // of curvature; positive
+  bool percent = true;              // of the bounding box diagonal; else in the unit of the points
 };
 
 /// Parses "FILE", "ply:PROPERTY", "curvature", "curvature:X" or "curvature:X%". Throws an Error whose message

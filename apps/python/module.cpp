@@ -1,0 +1,120 @@
+// The compiled part of the Python package: runs, reading and writing on numpy arrays of exact types.
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <utility>
+
+#include "arrays.h"
+#include "hooke/core/error.h"
+#include "hooke/io/read_mesh.h"
+#include "hooke/io/write_mesh.h"
+#include "python_observer.h"
+#include "run_in_memory.h"
+
+namespace py = pybind11;
+
+namespace hooke::python {
+namespace {
+
+/// Returns work() without Python's lock.
+template <typename Work>
+auto unlocked(const Work& work) {
+  const py::gil_scoped_release release;
+  return work();
+}
+
+/// (vertices, faces, map or None, report as JSON, exception or None)
+py::tuple run_arrays(const PointArray& vertices, const FaceArray& faces,
+                     const std::vector<std::string>& options, std::vector<double> sizing,
+                     std::vector<int> fixed_vertices, bool map, const py::object& progress) {
+  const Mat3X points = points_of(vertices);
+  const std::vector<Triangle> triangles = triangles_of(faces);
+  app::Settings settings = app::memory_settings(options);
+  if (!sizing.empty())
+    settings.sizing = {.kind = SizingSource::Kind::values, .values = std::move(sizing), .name = {}};
+  settings.remesh.map = map && !settings.paper;
+  settings.remesh.constraints.fixed_vertices = settings.paper_options.constraints.fixed_vertices =
+      std::move(fixed_vertices);
+  const bool check = settings.check;
+  PythonObserver observer(progress);
+  std::optional<ValidMesh> mesh;
+  RunRecord record;
+  std::string report;
+  unlocked([&] {
+    mesh.emplace(make_valid_mesh(points, triangles, app::input_name));
+    record = app::run_in_memory(std::move(settings), *mesh, std::ref(observer));
+    report = app::report_of_memory(record).dump();
+  });
+  if (check) return py::make_tuple(py::none(), py::none(), py::none(), report, py::none());
+  py::object places = py::none();
+  if (!record.result->map.empty()) places = map_arrays(record.result->map);
+  return py::make_tuple(vertex_array(mesh->mesh), face_array(mesh->mesh), places, report,
+                        observer.exception());
+}
+
+/// (vertices, faces, attributes, format, [(code, message)])
+py::tuple read_file(const std::filesystem::path& path) {
+  const LoadedMesh loaded = unlocked([&] { return read_mesh(path); });
+  py::list warnings;
+  for (const Warnings& of_kind : {loaded.content.anew, loaded.warnings})
+    for (const Warning& w : of_kind) warnings.append(py::make_tuple(w.code, w.message));
+  return py::make_tuple(vertex_array(loaded.mesh), face_array(loaded.mesh),
+                        attribute_arrays(loaded.vertex_data), name_of(loaded.format), warnings);
+}
+
+/// Returns the names of attributes that the format cannot hold.
+std::vector<std::string> write_file(const std::filesystem::path& path, const PointArray& vertices,
+                                    const FaceArray& faces, const py::dict& attributes,
+                                    const std::optional<std::string>& format, bool ascii) {
+  const Mat3X points = points_of(vertices);
+  const std::vector<Triangle> triangles = triangles_of(faces);
+  const MeshFormat target = format_of(format ? std::filesystem::path("mesh." + *format) : path);
+  FormatData data = data_for_format(vertex_data_of(attributes, static_cast<std::size_t>(points.cols())),
+                                    MeshFormat::ply, target);
+  unlocked([&] {
+    const ValidMesh mesh = make_valid_mesh(points, triangles, path.string());
+    prepare_mesh(path, mesh.mesh, target, ascii ? PlyEncoding::ascii : PlyEncoding::binary_little_endian,
+                 data.data)
+        .file.commit();
+  });
+  return data.dropped;
+}
+
+/// Raises the exception of the package with this name.
+void raise(const char* name, const std::exception& e) {
+  PyErr_SetString(py::module_::import("hooke_remesh.errors").attr(name).ptr(), e.what());
+}
+
+void translate(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(std::move(thrown));
+  } catch (const InputError& e) {
+    raise("InputError", e);
+  } catch (const MeshError& e) {
+    raise("MeshError", e);
+  } catch (const OutputError& e) {
+    raise("OutputError", e);
+  } catch (const LimitError& e) {
+    raise("LimitError", e);
+  } catch (const NumericalError& e) {
+    raise("NumericalError", e);
+  } catch (const ResultError& e) {
+    raise("ResultError", e);
+  } catch (const Error& e) {
+    raise("UsageError", e);
+  }
+}
+
+}  // namespace
+}  // namespace hooke::python
+
+PYBIND11_MODULE(_core, m) {
+  using namespace hooke::python;
+  m.attr("__version__") = HOOKE_VERSION;
+  py::register_exception_translator(&translate);
+  m.def("run", &run_arrays);
+  m.def("read", &read_file);
+  m.def("write", &write_file);
+}

@@ -1,0 +1,272 @@
+"""The Python package gives the command's results on arrays, its refusals as exceptions, and stops when it is asked to."""
+
+import contextlib
+import io
+import itertools
+import json
+import signal
+import sys
+import textwrap
+import threading
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    sys.exit(77)
+
+import hooke_remesh
+from command import DATA, CommandTest, irregular_torus
+from hooke_remesh import InputError, Interrupted, MeshError, ResultError, UsageError, measure, read, remesh, write
+
+
+def torus(around=30, across=12):
+    vertices, faces = irregular_torus(around, across)
+    return np.array(vertices), np.array(faces)
+
+
+def without_times(value):
+    """A report without what varies from run to run, or only files have."""
+    if isinstance(value, dict):
+        return {k: without_times(v) for k, v in value.items()
+                if k not in ("resources", "path", "sha256", "format", "warnings") and not k.endswith("_s")}
+    return [without_times(v) for v in value] if isinstance(value, list) else value
+
+
+class TheCommandsResults(CommandTest):
+    def same(self, sample, options=(), fields=(), **keywords):
+        """The files of both, and their reports, are the same."""
+        source = DATA / sample
+        self.run_command(source, "-o", "command.ply", "--report", "report.json", *options)
+        mesh = read(source)
+        done = remesh(mesh.vertices, mesh.faces, **keywords)
+        attributes = {name: mesh.attributes[name] for name in fields}
+        write(self.folder / "python.ply", done.vertices, done.faces, attributes)
+        self.assertEqual((self.folder / "python.ply").read_bytes(), (self.folder / "command.ply").read_bytes())
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(without_times(done.report), without_times(report))
+        self.assertEqual(done.report.keys(), report.keys())
+        return done
+
+    def test_fixed(self):
+        done = self.same("patch.obj")
+        np.testing.assert_array_equal(done.faces, read(DATA / "patch.obj").faces)
+        np.testing.assert_array_equal(done.map.vertices, np.arange(len(done.vertices)))
+
+    def test_flip(self):
+        self.same("torus.off", ["--connectivity", "flip", "--effort", "fast"], connectivity="flip", effort="fast")
+
+    def test_adapt(self):
+        done = self.same("block.ply", ["--connectivity", "adapt", "-L", "1.5x", "--feature-angle", "30"],
+                         connectivity="adapt", length="1.5x", feature_angle=30)
+        mesh = read(DATA / "block.ply")
+        corners = mesh.vertices[mesh.faces[done.map.faces]]
+        places = np.einsum("vk,vk...->v...", done.map.weights, corners)
+        self.assertLess(np.abs(places - done.vertices).max(), .1 * done.report["input"]["bbox_diagonal"])
+        self.assertTrue(np.allclose(done.map.weights.sum(axis=1), 1))
+
+    def test_numbers_words_and_flags(self):
+        self.same("patch.obj", ["-L", "0.07", "--polish", "off", "--max-outer", "2", "--accept-invalid", "--boundary", "fixed"],
+                  length=.07, polish=False, max_outer=2, accept_invalid=True, boundary="fixed")
+
+    def test_paper(self):
+        done = self.same("torus.off", ["--paper", "--max-outer", "1", "--max-steps", "20"], paper=True, max_outer=1,
+                         max_steps=np.int64(20))
+        self.assertIsNone(done.map)
+
+    def test_fixed_vertices_in_an_array_and_in_a_file(self):
+        self.write("ids.txt", "40\n41\n")
+        ids = self.folder / "ids.txt"
+        done = self.same("blob.ply", ["--fix", "ids.txt"], fix=np.array([40, 41]))
+        np.testing.assert_array_equal(done.vertices[[40, 41]], read(DATA / "blob.ply").vertices[[40, 41]])
+        self.same("blob.ply", ["--fix", "ids.txt"], fix=ids)
+
+    def test_lengths_in_an_array(self):
+        mesh = read(DATA / "torus.off")
+        lengths = 1 + .2 * mesh.vertices[:, 0]
+        self.write("lengths.txt", "".join(f"{float(x)!r}\n" for x in lengths))
+        self.run_command(DATA / "torus.off", "-o", "command.ply", "--sizing", "lengths.txt", "--gradation", "off")
+        done = remesh(mesh.vertices, mesh.faces, sizing=lengths, gradation="off")
+        write(self.folder / "python.ply", done.vertices, done.faces)
+        self.assertEqual((self.folder / "python.ply").read_bytes(), (self.folder / "command.ply").read_bytes())
+
+    def test_gates(self):
+        conditions = ["after.min_angle.min >= 20", "geometry.flipped_faces == 0", "after.min_angle.min > 60"]
+        mesh = read(DATA / "patch.obj")
+        done = remesh(mesh.vertices, mesh.faces, require=conditions)
+        self.assertEqual([gate["passed"] for gate in done.report["gates"]], [True, True, False])
+        self.assertEqual(done.report["gates"][2]["value"], done.report["after"]["min_angle"]["min"])
+
+    def test_measures(self):
+        mesh = read(DATA / "torus.off")
+        self.assertEqual(without_times(measure(mesh.vertices, mesh.faces)),
+                         without_times(self.report(DATA / "torus.off", "--check")))
+
+
+class Arrays(unittest.TestCase):
+    def test_types_and_layouts_make_no_difference_and_inputs_stay(self):
+        vertices, faces = torus()
+        before = vertices.copy(), faces.copy()
+        one = remesh(vertices, faces)
+        np.testing.assert_array_equal(vertices, before[0])
+        np.testing.assert_array_equal(faces, before[1])
+        for v, f in ((vertices, faces.astype(np.int32)), (np.asfortranarray(vertices), faces.astype(np.uint16)),
+                     (vertices.tolist(), faces.tolist()), (np.repeat(vertices, 2, axis=0)[::2], faces[:, :])):
+            other = remesh(v, f, threads=1)
+            np.testing.assert_array_equal(other.vertices, one.vertices)
+            np.testing.assert_array_equal(other.faces, one.faces)
+        self.assertEqual((one.vertices.dtype, one.faces.dtype), (np.float64, np.int32))
+        self.assertEqual(one.map.weights.shape, one.vertices.shape)
+
+    def test_a_result_goes_in_again(self):
+        done = remesh(*torus(), map=False)
+        self.assertIsNone(done.map)
+        self.assertEqual(done.report["status"], "stalled")
+        self.assertEqual(measure(done.vertices, done.faces)["before"]["min_angle"], done.report["after"]["min_angle"])
+
+
+class Refusals(unittest.TestCase):
+    def test_options(self):
+        vertices, faces = torus()
+        for options, says in (({"effort": "much"}, "fast|default|thorough"), ({"length": -1}, "--length"),
+                              ({"conectivity": "flip"}, "conectivity"), ({"paper": True, "effort": "fast"}, "--effort"),
+                              ({"report": "a.json"}, "report"), ({"effort": {1}}, "set"), ({"require": "after.angle.min > 1"}, "min_angle"),
+                              ({"sizing": [1., 2.]}, "each of the"), ({"sizing": "ply:quality"}, "ply:"),
+                              ({"length": 1e9}, "target lengths")):
+            with self.subTest(options=options), self.assertRaisesRegex(UsageError, says.replace("|", r"\|")) as caught:
+                remesh(vertices, faces, **options)
+            self.assertIsInstance(caught.exception, ValueError)
+
+    def test_arrays(self):
+        vertices, faces = torus()
+        for v, f, error in ((vertices[:, :2], faces, ValueError), (vertices, faces[:, :2], ValueError),
+                            (vertices, faces.astype(float), TypeError), (vertices[0], faces, ValueError)):
+            with self.assertRaises(error):
+                remesh(v, f)
+
+    def test_meshes(self):
+        vertices, faces = torus()
+        for wrong in (-1, len(vertices), 2**40):
+            bad = faces.copy()
+            bad[3, 1] = wrong
+            with self.assertRaisesRegex(MeshError, rf"faces\[3, 1\] is {wrong}; expected"):
+                remesh(vertices, bad)
+        with self.assertRaisesRegex(MeshError, "no faces"):
+            measure(vertices, np.empty((0, 3), int))
+        with self.assertRaises(MeshError):
+            measure(vertices, np.concatenate([faces, faces[:1]]))
+        vertices[5, 2] = np.nan
+        with self.assertRaisesRegex(MeshError, "5"):
+            remesh(vertices, faces)
+
+    def test_a_broken_promise(self):
+        vertices, faces = torus()
+        with self.assertRaises(ResultError):
+            remesh(vertices, faces, connectivity="adapt", length="1.5x", max_distance=1e-9)
+        done = remesh(vertices, faces, connectivity="adapt", length="1.5x", max_distance=1e-9, accept_invalid=True)
+        self.assertFalse(done.report["promises"]["kept"])
+
+
+class Files(CommandTest):
+    def test_attributes_come_back(self):
+        vertices, faces = torus()
+        attributes = {"red": np.arange(len(vertices)).astype(np.uint8), "quality": np.linspace(0, 1, len(vertices))}
+        for ascii in (False, True):
+            write(self.folder / "mesh.ply", vertices, faces, attributes, ascii=ascii)
+            mesh = read(self.folder / "mesh.ply")
+            np.testing.assert_array_equal(mesh.vertices, vertices)
+            np.testing.assert_array_equal(mesh.faces, faces)
+            self.assertEqual(mesh.attributes.keys(), attributes.keys())
+            for name, values in attributes.items():
+                np.testing.assert_array_equal(mesh.attributes[name], values)
+                self.assertEqual(mesh.attributes[name].dtype, values.dtype)
+        with self.assertWarnsRegex(UserWarning, "quality"):
+            write(str(self.folder / "mesh.obj"), vertices, faces, attributes)
+
+    def test_refusals_leave_no_file(self):
+        vertices, faces = torus()
+        with self.assertRaises(InputError):
+            read(self.folder / "none.ply")
+        with self.assertRaises(UsageError):
+            write(self.folder / "mesh.doc", vertices, faces)
+        with self.assertRaises(UsageError):
+            write(self.folder / "mesh.ply", vertices, faces, {"quality": [1.]})
+        with self.assertRaises(UsageError):
+            write(self.folder / "mesh.ply", vertices, faces, {"quality": np.zeros(len(vertices), complex)})
+        with self.assertRaises(hooke_remesh.OutputError):
+            write(self.folder / "none" / "mesh.ply", vertices, faces)
+        self.assertEqual(self.files(), ["good.obj"])
+
+
+class Stops(unittest.TestCase):
+    def setUp(self):
+        self.vertices, self.faces = torus(240, 100)
+
+    def check(self, result):
+        self.assertEqual(result.report["status"], "interrupted")
+        self.assertEqual(result.report["geometry"]["flipped_faces"], 0)
+        np.testing.assert_array_equal(result.faces, self.faces)
+
+    def test_progress_is_told_and_may_stop(self):
+        told = []
+
+        def progress(stage, outer, step, energy):
+            told.append((stage, outer, step, energy))
+            return len(told) < 3
+
+        self.check(remesh(self.vertices, self.faces, progress=progress))
+        self.assertEqual(len(told), 3)
+        self.assertEqual([type(x) for x in told[0]], [str, int, int, float])
+
+    def test_interrupt_gives_the_best_so_far(self):
+        told = []
+        with self.assertRaises(KeyboardInterrupt) as caught:
+            remesh(self.vertices, self.faces,
+                   progress=lambda *_: told.append(1) or (len(told) == 2 and signal.raise_signal(signal.SIGINT)) or None)
+        self.assertIsInstance(caught.exception, Interrupted)
+        self.check(caught.exception.result)
+
+    def test_exceptions_of_the_progress_function_come_through(self):
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            remesh(self.vertices, self.faces, progress=lambda *_: (_ for _ in ()).throw(RuntimeError("enough")))
+
+    def test_other_threads_run_meanwhile(self):
+        done = threading.Event()
+        turns = []
+        thread = threading.Thread(target=lambda: [turns.append(1) for _ in iter(lambda: done.wait(.01), True)])
+        thread.start()
+        remesh(*torus(120, 50))
+        done.set()
+        thread.join()
+        self.assertGreater(len(turns), 3)
+
+
+class Readme(CommandTest):
+    def test_its_example_runs(self):
+        lines = iter((DATA.parent / "README.md").read_text().split("\n"))
+        example = [next(line for line in lines if line == "    import hooke_remesh")]
+        example += itertools.takewhile(lambda line: not line or line.startswith("    "), lines)
+        code = textwrap.dedent("\n".join(example)).replace("data/", f"{DATA}/").replace("out.ply", f"{self.folder}/out.ply")
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(code, {})
+        before, after = map(float, printed.getvalue().split())
+        self.assertGreater(after, 20 * before)
+        self.assertEqual(len(read(self.folder / "out.ply").vertices), len(read(DATA / "patch.obj").vertices))
+
+
+class OtherLibraries(unittest.TestCase):
+    def test_arrays_of_meshio(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("python3-meshio is not installed")
+        vertices, faces = torus()
+        mesh = meshio.Mesh(vertices, [("triangle", faces)])
+        done = remesh(mesh.points, mesh.cells_dict["triangle"])
+        again = meshio.Mesh(done.vertices, [("triangle", done.faces)])
+        self.assertEqual(len(again.points), len(vertices))
+
+
+if __name__ == "__main__":
+    unittest.main()
