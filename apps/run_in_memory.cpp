@@ -31,6 +31,12 @@ class Run {
     record_.input = {input_name, "", "", connectivity_sha256(triangles_of(mesh_))};
     record_.warnings = mesh.warnings;
     record_.parameters = s_.paper ? parameters_json(s_.paper_options) : parameters_json(s_.remesh, s_.effort);
+    record_.parameters.update({{"repair", s_.repair.repair},
+                               {"weld", s_.weld_text},
+                               {"drop_components", s_.repair.drop_components},
+                               {"fill_holes", s_.repair.fill_holes},
+                               {"preserve", nullptr},  // of files
+                               {"reproject_uv", nullptr}});
   }
 
   RunRecord run() {
@@ -153,7 +159,8 @@ nlohmann::ordered_json report_of_memory(const RunRecord& record) {
   nlohmann::ordered_json report = report_json(record);
   for (const char* mesh : {"input", "output"})
     if (report[mesh].is_object())
-      for (const char* key : {"path", "sha256", "format"}) report[mesh][key] = nullptr;
+      for (const char* key : {"path", "sha256", "format", "preserved"})
+        if (report[mesh].contains(key)) report[mesh][key] = nullptr;
   return report;
 }
 
