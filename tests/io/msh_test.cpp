@@ -106,7 +106,8 @@ TEST(Msh, NodesMayHaveAnyNumbersAndOthersAreCounted) {
   EXPECT_EQ(file.face_data[0].names, (std::map<int, std::string>{{7, "the \"wall\""}}));
   EXPECT_EQ(file.face_data[1].values, (std::vector<int>{4, 5}));
   ASSERT_EQ(file.content.anew.size(), 1u);
-  EXPECT_EQ(file.content.anew[0].message, "m: not kept in the output: 1 lines, 1 points, 1 nodes of no triangle");
+  EXPECT_EQ(file.content.anew[0].message,
+            "m: not kept in the output: 1 lines, 1 points, 1 nodes of no triangle");
 }
 
 TEST(Msh, QuadranglesArePolygons) {
