@@ -1,0 +1,141 @@
+#include "result_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "hooke/core/printable.h"
+#include "hooke/core/stopwatch.h"
+#include "hooke/io/files.h"
+#include "hooke/io/mesh_file.h"
+#include "hooke/io/ply.h"
+#include "hooke/io/preserve.h"
+#include "hooke/io/rewrite.h"
+#include "hooke/io/stl.h"
+#include "hooke/measure/fields.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/mesh/normals.h"
+#include "hooke/springs/sizing.h"
+
+namespace hooke::app {
+
+std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) {
+  if (!keeps_faces(s)) return "faces change with this --connectivity";
+  if (loaded.format != s.format)
+    return fmt::format("the input is {} and the output {}", name_of(loaded.format), name_of(*s.format));
+  if (!can_rewrite(*s.format)) return fmt::format("{} files are always written anew", name_of(*s.format));
+  if (!loaded.repairs.empty()) return "the input was repaired";
+  if (is_standard_input(s.input)) return "standard input cannot be read again";
+  if (!s.preserve_given && !loaded.misread.empty())
+    return fmt::format("simple readers would misread its {}; --preserve on keeps them", loaded.misread);
+  return "";
+}
+
+namespace {
+
+/// Whether a user would expect the output to be the input's bytes with other digits: a file of a format that
+/// can be, the same faces, and nothing repaired.
+bool is_of_its_kind(const Settings& s, const LoadedMesh& loaded) {
+  return keeps_faces(s) && loaded.format == s.format && can_rewrite(*s.format) && loaded.repairs.empty() &&
+         !is_standard_input(s.input);
+}
+
+/// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface
+/// positions of its vertices. Normals are always recomputed from the result.
+VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                          const Mat3X& points, RunRecord& run) {
+  const MemoryOrder& memory_order = loaded.memory_order;
+  const bool interpolated = !keeps_faces(s) && !loaded.vertex_data.empty();
+  VertexData data =
+      interpolated ? interpolate(loaded.vertex_data, run.result->map,
+                                 original.memory_order.order.scatter(original.memory_order.adjacency->faces))
+                   : loaded.vertex_data;
+  if (has_normals(data))
+    set_normals(data, memory_order.order.scatter(vertex_normals(points, *memory_order.adjacency)));
+  FormatData converted = data_for_format(data, loaded.format, *s.format);
+  if (!converted.dropped.empty())
+    run.warnings.push_back(
+        {"attributes_not_kept", fmt::format("{}: {} files cannot hold {}; use PLY", name_of_output(s.output),
+                                            name_of(*s.format), fmt::join(converted.dropped, ", "))});
+  return std::move(converted.data);
+}
+
+/// A file of the input's format is encoded like the input, others are binary where they can be.
+PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
+  return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
+}
+
+/// The face data of the input that the output can hold, if the faces are the same.
+FaceData face_data_of_result(const Settings& s, const LoadedMesh& loaded, PlyEncoding encoding,
+                             RunRecord& run) {
+  FormatFaceData converted = face_data_for_format(loaded.face_data, *s.format, encoding);
+  const auto drop = [&](const std::string& why, const std::vector<std::string>& names) {
+    run.warnings.push_back(
+        {"attributes_not_kept", fmt::format("{}: face data not kept: {}: {}", name_of_output(s.output),
+                                            fmt::join(names, ", "), why)});
+  };
+  if (!converted.dropped.empty())
+    drop(fmt::format("{} files cannot hold it; use MSH", name_of(*s.format)), converted.dropped);
+  if (keeps_faces(s) || converted.data.empty()) return std::move(converted.data);
+  std::vector<std::string> names;
+  for (const FaceChannel& channel : converted.data) names.push_back(channel.name);
+  drop("new faces have none; use --connectivity fixed", names);
+  return {};
+}
+
+}  // namespace
+
+PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                           const Mat3X& points, RunRecord& record, Stopwatch& stopwatch) {
+  record.output.emplace();
+  std::string obstacle = obstacle_to_preserving(s, loaded);
+  if (s.preserve && obstacle.empty()) {
+    PreservedMesh preserved = prepare_preserved_mesh(
+        s.output, loaded.mesh, {s.input, loaded.format, loaded.sha256, loaded.connectivity_sha256},
+        s.reproject_uv ? &record.result->map : nullptr, &stopwatch);
+    if (preserved.mesh) {
+      record.output->preserved = true;
+      append(record.warnings, loaded.content.preserved);
+      append(record.warnings, preserved.warnings);
+      return *std::move(preserved.mesh);
+    }
+    obstacle = std::move(preserved.obstacle);
+  }
+  append(record.warnings, loaded.content.anew);
+  if (s.preserve && (s.preserve_given || is_of_its_kind(s, loaded)))
+    record.warnings.push_back(
+        {"not_preserved", fmt::format("{}: is a new file, and not {} with moved vertices: {}",
+                                      name_of_output(s.output), record.input.path, obstacle)});
+  const VertexData data = data_of_result(s, loaded, original, points, record);
+  const PlyEncoding encoding = encoding_of_output(s, loaded);
+  const FaceData face_data = face_data_of_result(s, loaded, encoding, record);
+  if (s.format == MeshFormat::stl)
+    append(record.warnings, losses_in_stl(vertex_points(loaded.mesh), triangles_of(loaded.mesh), encoding,
+                                          name_of_output(s.output)));
+  return prepare_mesh(s.output, loaded.mesh, *s.format, encoding, data, face_data, &stopwatch);
+}
+
+std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Original& original,
+                        const RunRecord& record) {
+  const TriMesh& mesh = loaded.mesh;
+  const Permutation& order = loaded.memory_order.order;
+  const Adjacency& adjacency = *loaded.memory_order.adjacency;
+  const bool corresponds = record.deviation->displacement.has_value();
+  const Mat3X start =
+      corresponds ? order.gather(original.memory_order.order.scatter(original.points)) : Mat3X();
+  Fields fields =
+      measure_fields(points, adjacency, target_lengths_of(mesh, order, adjacency).edge,
+                     record.deviation->vertices_to_reference.distances, corresponds ? &start : nullptr);
+  for (VertexChannel& channel : fields.vertices) channel.values = order.scatter(channel.values);
+  for (VertexChannel& channel : fields.faces) {
+    const std::vector<double> in_memory = std::exchange(channel.values, {});
+    channel.values.resize(in_memory.size());
+    for (size_t f = 0; f < in_memory.size(); ++f)
+      channel.values[static_cast<size_t>(order.old_face[f])] = in_memory[f];
+  }
+  return write_ply(vertex_points(mesh), triangles_of(mesh), PlyEncoding::binary_little_endian,
+                   fields.vertices, fields.faces);
+}
+
+}  // namespace hooke::app

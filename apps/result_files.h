@@ -1,0 +1,29 @@
+// The files that a result is written to: the mesh, as the input's bytes with other digits or anew, and its
+// fields.
+#pragma once
+
+#include <string>
+
+#include "hooke/io/read_mesh.h"
+#include "hooke/io/write_mesh.h"
+#include "hooke/report/report.h"
+#include "options.h"
+#include "stages.h"
+
+namespace hooke::app {
+
+/// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.
+std::string obstacle_to_preserving(const Settings& settings, const LoadedMesh& loaded);
+
+/// Prepares the output: the input file with moved vertices if that can be and is not switched off, else a new
+/// file. Records which of them, and what that means for the content of the input. `loaded` holds the result,
+/// `points` are its points in memory order.
+PendingMesh prepare_output(const Settings& settings, const LoadedMesh& loaded, const Original& original,
+                           const Mat3X& points, RunRecord& record, Stopwatch& stopwatch);
+
+/// The values at the vertices and faces of the result as a PLY file, in the order of the output's; see
+/// measure_fields().
+std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Original& original,
+                        const RunRecord& record);
+
+}  // namespace hooke::app

@@ -1,0 +1,149 @@
+#include "stages.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "hooke/constraints/constraints.h"
+#include "hooke/core/error.h"
+#include "hooke/core/stopwatch.h"
+#include "hooke/io/read_mesh.h"
+#include "hooke/io/write_mesh.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/limiting_factors.h"
+#include "hooke/remesh/paper_mode.h"
+#include "hooke/remesh/preserving_remesh.h"
+#include "hooke/springs/sizing.h"
+#include "memory_limit.h"
+#include "result_warnings.h"
+#include "target_lengths.h"
+
+namespace hooke::app {
+
+bool keeps_faces(const Settings& s) {
+  return s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
+}
+
+nlohmann::ordered_json parameters_of(const Settings& s) {
+  nlohmann::ordered_json parameters =
+      s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
+  parameters.update({{"repair", s.repair.repair},
+                     {"weld", s.weld_text},
+                     {"drop_components", s.repair.drop_components},
+                     {"fill_holes", s.repair.fill_holes}});
+  return parameters;
+}
+
+namespace {
+
+MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwatch& stopwatch,
+                           const std::vector<int>& tree_order = {}) {
+  return timed(&stopwatch, "tree", [&] {
+    return MeasuredSurface(std::move(points), *memory_order.adjacency, memory_order.order.old_ids(),
+                           tree_order);
+  });
+}
+
+UniformVector edge_targets(const TriMesh& mesh, const MemoryOrder& memory_order) {
+  return target_lengths_of(mesh, memory_order.order, *memory_order.adjacency).edge;
+}
+
+/// Measures the quality relative to the current target lengths of the vertices.
+Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
+                Stopwatch& stopwatch) {
+  return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, &stopwatch);
+}
+
+/// Returns work(). Puts the name of the input in front of the messages of its errors.
+template <typename Work>
+auto in_the_name_of(const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const MeshError& e) {
+    throw MeshError(name + ": " + e.what());
+  } catch (const LimitError& e) {
+    throw LimitError(name + ": " + e.what());
+  } catch (const NumericalError& e) {
+    throw NumericalError(name + ": " + e.what());
+  }
+}
+
+void measure_deviation_from_input(const Original& original, const MeasuredSurface& result, RunRecord& record,
+                                  Stopwatch& stopwatch) {
+  const MeasuredSurface reference =
+      surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
+  record.deviation =
+      timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
+}
+
+/// Throws ResultError if the result does not keep what it must keep and is not accepted nevertheless.
+void require_promises(const Settings& s, const RunRecord& record) {
+  if (s.accept_invalid || record.result->reason == StopReason::interrupted) return;
+  const std::string broken = broken_promises(s, record);
+  if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
+}
+
+}  // namespace
+
+void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, const MeshOrigin& origin,
+                   Original& original, RunRecord& record, Stopwatch& stopwatch) {
+  Mat3X points = memory_order.order.gather(vertex_points(mesh));
+  if (!s.check)
+    warn_of_coincident_boundary(s, coincident_boundary_vertices(points, *memory_order.adjacency).size(),
+                                record);
+  timed(&stopwatch, "seams", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
+  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, origin, points, record); });
+  record.paper_before =
+      measure_paper_figures(points, *memory_order.adjacency, edge_targets(mesh, memory_order), s.paper);
+  const MeasuredSurface surface = surface_of(std::move(points), memory_order, stopwatch);
+  record.before =
+      timed(&stopwatch, "before", [&] { return measure(surface, mesh, memory_order.order, stopwatch); });
+  warn_of_inside_out(record);
+  require_metrics(s.gates, to_json(record.before));
+  original.tree_order = surface.tree.order();
+  s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
+  if (s.max_distance_share > 0)
+    s.preservation.max_distance = s.max_distance_share * record.before.extent.diagonal;
+}
+
+void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_order, Original& original,
+                        RunRecord& record, const Observer& observer, Stopwatch& stopwatch) {
+  const std::string name = name_of_input(s.input);
+  if (!keeps_faces(s)) original.memory_order = memory_order;
+  record.result = timed(&stopwatch, "remesh", [&] {
+    return in_the_name_of(name, [&] {
+      return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, observer)
+                     : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation,
+                                         {&record.before, original.tree_order}, observer, &stopwatch);
+    });
+  });
+  return_free_memory();
+  RemeshResult& done = *record.result;
+  memory_order = std::move(done.memory_order);
+  if (keeps_faces(s)) original.memory_order = memory_order;
+  original.points = original.memory_order.order.gather(std::exchange(done.input_points, {}));
+  if (!vertex_points(mesh).allFinite())
+    throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", name));
+  record.status = status_of(done.reason);
+  Mat3X points = memory_order.order.gather(vertex_points(mesh));
+  record.paper_after =
+      measure_paper_figures(points, *memory_order.adjacency, edge_targets(mesh, memory_order), s.paper);
+  if (done.measures) {
+    record.before = std::move(done.measures->input_quality);
+    record.after = std::move(done.measures->quality);
+    record.deviation = std::move(done.measures->deviation);
+  } else {
+    const MeasuredSurface result =
+        surface_of(std::move(points), memory_order, stopwatch, original.tree_order);
+    record.after =
+        timed(&stopwatch, "after", [&] { return measure(result, mesh, memory_order.order, stopwatch); });
+    measure_deviation_from_input(original, result, record, stopwatch);
+  }
+  if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
+  require_promises(s, record);
+  if (!done.vertex_limits.empty())
+    for (WorstFace& face : record.after->worst_faces)
+      face.reasons = limiting_factors(face, done.vertex_limits);
+}
+
+}  // namespace hooke::app

@@ -1,0 +1,36 @@
+// The stages of a run between reading the mesh and writing the result: lengths, measures, remeshing.
+#pragma once
+
+#include "hooke/mesh/repair.h"
+#include "hooke/report/report.h"
+#include "options.h"
+
+namespace hooke::app {
+
+/// The input mesh, kept as the reference for measuring the result.
+struct Original {
+  Mat3X points;  // in memory order
+  MemoryOrder memory_order;
+  std::vector<int> tree_order;  // order of the faces in its bounding volume tree
+};
+
+/// Whether the run moves vertices only.
+bool keeps_faces(const Settings& settings);
+
+/// The parameters of the run for its report, but those of the target lengths and of the output.
+nlohmann::ordered_json parameters_of(const Settings& settings);
+
+/// Sets the target lengths of the input, measures it, completes the settings by what follows from its size,
+/// and warns of its boundaries and orientation. `origin`: of a repaired mesh. Throws Error for lengths out of
+/// range and for gates on metrics that the report has not.
+void measure_input(Settings& settings, TriMesh& mesh, const MemoryOrder& memory_order,
+                   const MeshOrigin& origin, Original& original, RunRecord& record, Stopwatch& stopwatch);
+
+/// Remeshes the mesh and measures the result; `memory_order` becomes the result's, `original` is completed.
+/// Throws NumericalError for a result that is not finite, ResultError for one that does not keep what it must
+/// keep, unless that is accepted, and what remesh() throws, with the name of the input.
+void remesh_and_measure(const Settings& settings, TriMesh& mesh, MemoryOrder& memory_order,
+                        Original& original, RunRecord& record, const Observer& observer,
+                        Stopwatch& stopwatch);
+
+}  // namespace hooke::app
