@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <numeric>
 #include <utility>
 
 #include "exit_codes.h"
@@ -353,6 +354,40 @@ int print_help_or_version(const CLI::App& app, const CLI::ParseError& request) {
   return output_failed;
 }
 
+/// How many letters must be put in, left out or replaced to make one word of the other.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = std::exchange(row[0], i + 1);
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t replaced = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// What is wrong with the command line. Names the option nearest to one that is unknown.
+std::string problem_with(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
+  const std::vector<std::string> extras = app.remaining();
+  const auto unknown =
+      std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with("--"); });
+  if (unknown == extras.end()) return error.what();
+  const std::string name = unknown->substr(2, unknown->find('=') - 2);
+  std::string nearest;
+  size_t least = std::max<size_t>(2, name.size() / 3) + 1;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& known : option->get_lnames())
+      if (const size_t distance = edit_distance(name, known); distance < least) {
+        least = distance;
+        nearest = known;
+      }
+  return "--" + name + ": unknown option" + (nearest.empty() ? "" : "; did you mean --" + nearest + "?");
+}
+
 /// A parser whose options write to its own settings.
 struct Parser {
   CLI::App app{
@@ -380,7 +415,7 @@ Parsed parse_command_line(int argc, char** argv) {
     resolve(parser.settings, parser.raw);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return {std::nullopt, print_help_or_version(parser.app, e)};
-    print_error(e.what() + std::string("; see hooke-remesh --help"));
+    print_error(problem_with(parser.app, e) + "; see hooke-remesh --help");
     return {std::nullopt, usage};
   } catch (const Error& e) {
     print_error(e.what());
@@ -395,7 +430,7 @@ Settings parse_arguments(std::vector<std::string> arguments) {
   try {
     parser.app.parse(std::move(arguments));
   } catch (const CLI::ParseError& e) {
-    throw Error(e.what());
+    throw Error(problem_with(parser.app, e));
   }
   resolve(parser.settings, parser.raw);
   return std::move(parser.settings);

@@ -13,7 +13,9 @@ class UsageErrors(CommandTest):
         self.refused(2, says="INPUT is required")
 
     def test_unknown_option(self):
-        self.refused(2, "good.obj", "-o", "out.obj", "--no-such-option", says="--no-such-option")
+        self.refused(2, "good.obj", "-o", "out.obj", "--no-such-option", says="--no-such-option: unknown option; see")
+        for typed, meant in (("--conectivity", "connectivity"), ("--lenght=1", "length"), ("--fetaure-angle", "feature-angle")):
+            self.refused(2, "good.obj", "-o", "out.obj", typed, "flip", says="did you mean --%s?" % meant)
 
     def test_bad_values_of_options(self):
         for option in (["-L", "none"], ["-L", "-1"], ["-L", "0"], ["-L", "nan"], ["--tolerance", "1m"],
