@@ -85,16 +85,24 @@ class FlipMode {
       return result_.flow.flips;
     });
     result_.interrupted = result_.flow.interrupted;
+    note_limited_steps(result_.flow.limited_steps, result_.flow.rounds);
   }
 
+  void note_limited_steps(long long limited_steps, int steps) {
+    const double share = options_.guard_limited * work_.adjacency->vertex_count;
+    guard_limited_ = static_cast<double>(limited_steps) > share * steps;
+  }
+
+  /// Newton sweeps help vertices limited by guards; otherwise no slivers are left after the Lloyd flow.
   void relax_springs() {
     const Stage stage(work_.stopwatch, "springs");
     IntegrationOptions integration;
     integration.max_steps = options_.spring_steps;
     LbfgsOptions lbfgs;
-    lbfgs.sweeps = 0;  // no slivers are left after the Lloyd flow
+    if (!guard_limited_) lbfgs.sweeps = 0;
     const IntegrationResult relaxed =
         relax([&](Relaxation& r) { return relax_lbfgs(r, integration, lbfgs, watch("springs")); });
+    note_limited_steps(relaxed.limited_steps, relaxed.evaluations);
     work_.resample_lengths();
     result_.evaluations += relaxed.evaluations;
     result_.interrupted = relaxed.reason == StopReason::interrupted;
@@ -134,6 +142,8 @@ class FlipMode {
   const Observer& observer_;
   std::vector<int> corner_valences_;
   std::vector<char> lately_changed_;  // per vertex: flag, by flips of irregular edges
+  /// Did guards limit many steps of the flow or the last springs? True before both.
+  bool guard_limited_ = true;
   FlipResult result_;
 };
 

@@ -28,6 +28,8 @@ struct FlipOptions {
   int spring_rounds = 8;    // maximum rounds of springs and Delaunay flips after the flow
   double few_flips = 1e-3;  // share of the edges; the rounds end when no more than this are flipped
   int spring_steps = 15;    // evaluations of the spring energy per round
+  /// Share of the vertices; if guards limit more per step, Newton sweeps precede the next L-BFGS relaxation.
+  double guard_limited = 2e-3;
   FlipPassOptions passes;
   double energy_drop = 2e-3;  // see IntegrationOptions; of the relaxation that follows
   FlipGuardOptions guard;

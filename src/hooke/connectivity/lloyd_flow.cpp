@@ -196,17 +196,18 @@ Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
 
 namespace {
 
-/// One guarded Lloyd step.
-void move_vertices(FlippableMesh& m, const Adjacency& adjacency, const LloydOptions& options,
-                   const GuardOptions& guard_options) {
+/// One guarded Lloyd step. Returns the number of vertices limited by guards.
+int move_vertices(FlippableMesh& m, const Adjacency& adjacency, const LloydOptions& options,
+                  const GuardOptions& guard_options) {
   const TargetLengths targets = spread_target_lengths(adjacency, m.vertex_length);
   Mat3X step = lloyd_step(m.positions, adjacency, m.vertex_length, options);
   m.retraction.constrain(m.positions, step);
   cap_displacement(m.vertex_length, options.max_move, step);
   const Guards guards(adjacency, targets, guard_options);
   SurfacePositions moved;
-  guards.step(m.retraction, m.positions, step, moved);
+  const auto limited_steps = guards.step(m.retraction, m.positions, step, moved).size();
   m.positions = std::move(moved);
+  return static_cast<int>(limited_steps);
 }
 
 }  // namespace
@@ -226,7 +227,7 @@ LloydFlowResult flow(FlippableMesh& m, const LloydFlowOptions& options, const Fl
     if (result.rounds >= options.rounds / 4 && result.rounds % options.corner_every == 0)
       flips += flip_corners_to_valence(m, flip_guard);
     if (flips > 0) adjacency = connect();
-    move_vertices(m, adjacency, options.lloyd, guards);
+    result.limited_steps += move_vertices(m, adjacency, options.lloyd, guards);
     if (m.after_move) m.after_move();
     result.flips += flips;
     ++result.rounds;

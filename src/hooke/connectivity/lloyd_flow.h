@@ -36,6 +36,7 @@ struct LloydFlowOptions {
 struct LloydFlowResult {
   int rounds = 0;
   long long flips = 0;
+  long long limited_steps = 0;  // vertex steps shortened by the guards
   bool interrupted = false;
 };
 
