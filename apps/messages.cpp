@@ -124,12 +124,14 @@ void print_summary(const Settings& s, const RunRecord& run) {
   const FlipResult& f = run.result->flips;
   const AdaptResult& a = run.result->adaptation;
   if (a.rounds > 0)
-    say("{} edges split, {} collapsed, {} flipped: {} vertices, {} faces ({:.0f} wanted)\n", a.splits,
-        a.collapses, a.flips + f.flips, run.after->topology.vertices, run.after->topology.faces,
-        a.target_faces);
+    say("{}\n",
+        wrapped(fmt::format("{} edges split, {} collapsed, {} flipped: {} vertices, {} faces ({:.0f} wanted)",
+                            a.splits, a.collapses, a.flips + f.flips, run.after->topology.vertices,
+                            run.after->topology.faces, a.target_faces)));
   else if (f.flow.rounds > 0)
-    say("{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms\n", f.flips,
-        f.max_travel, f.rms_travel);
+    say("{}\n",
+        wrapped(fmt::format("{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms",
+                            f.flips, f.max_travel, f.rms_travel)));
   std::string files = run.output->path;
   for (const std::filesystem::path& further :
        {std::filesystem::path(s.report), s.fields, s.map, s.trace, s.trace_steps})
