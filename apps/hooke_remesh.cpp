@@ -55,7 +55,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
 /// Writes the remaining outputs, then commits all files, so that no file is replaced before everything that
 /// can fail has succeeded. Prints the warnings and the summary.
 void finish(const Settings& s, RunRecord& record, OutputFiles& files) {
-  record.gates = judge_gates(s.gates, report_json(record));
+  if (!s.gates.empty()) record.gates = judge_gates(s.gates, report_json(record));
   if (!s.trace.empty()) files.add(PendingFile(s.trace, trace_csv(record.stages)));
   if (!s.trace_steps.empty())
     files.add(PendingFile(s.trace_steps, time_steps_csv(record.result->time_steps)));

@@ -21,6 +21,7 @@
 namespace hooke::app {
 
 std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) {
+  if (s.check) return "nothing is written";
   if (!keeps_faces(s)) return "faces change with this --connectivity";
   if (loaded.format != s.format)
     return fmt::format("the input is {} and the output {}", name_of(loaded.format), name_of(*s.format));
@@ -37,8 +38,7 @@ namespace {
 /// Whether a user would expect the output to be the input's bytes with other digits: a file of a format that
 /// can be, the same faces, and nothing repaired.
 bool is_of_its_kind(const Settings& s, const LoadedMesh& loaded) {
-  return keeps_faces(s) && loaded.format == s.format && can_rewrite(*s.format) && loaded.repairs.empty() &&
-         !is_standard_input(s.input);
+  return keeps_faces(s) && loaded.format == s.format && can_rewrite(*s.format) && loaded.repairs.empty();
 }
 
 /// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface

@@ -38,7 +38,7 @@ std::vector<double> read_property(const std::string& property, const std::filesy
   return lengths;
 }
 
-/// Throws MeshError unless each target length of a face is shorter than the other two together.
+/// Throws InputError unless each target length of a face is shorter than the other two together.
 void require_triangles(const std::string& name, const std::vector<double>& of_edges, const Adjacency& c,
                        const MeshIds& ids) {
   for (size_t f = 0; f < c.faces.size(); ++f) {

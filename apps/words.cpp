@@ -157,7 +157,8 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
          "names edges that --repair and --weld may change");
   refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");
-  refuse(s.check, {"--preserve", "--reproject-uv"}, "is of the output, which --check has none of");
+  refuse(s.check, {"--preserve", "--reproject-uv", "--format"},
+         "is of the output, which --check has none of");
   refuse(s.paper || s.remesh.connectivity != ConnectivityMode::fixed || !s.preserve, {"--reproject-uv"},
          "is of --connectivity fixed with --preserve on, and not of --paper");
 }

@@ -30,10 +30,17 @@ class Gates(CommandTest):
 
     def test_what_is_no_number_of_the_report(self):
         for condition, says in (("after.min_angel.min > 2", "expected one of min_angle"), ("after.min_angle > 2", "its p"),
-                                ("status == 1", "not a number"), ("min_angle", "expected METRIC"), ("a > b", "expected METRIC")):
+                                ("min_angle", "expected METRIC"), ("a > b", "expected METRIC")):
             with self.subTest(condition=condition):
                 self.refused(2, PATCH, "-o", "out.obj", "-q", "--require", condition,
                              says=says if says != "its p" else "expected one of its min")
+
+    def test_a_key_that_no_report_has_fails_and_the_result_is_written(self):
+        for condition in ("status == 1", "geometry.typo == 0"):
+            (self.folder / "out.obj").unlink(missing_ok=True)
+            _, err = self.run_command(PATCH, "-o", "out.obj", "-q", "--require", condition, expect=6)
+            self.assertIn("not there", err)
+            self.assertIn("out.obj", self.files())
 
     def test_what_the_report_has_no_value_for_fails(self):
         _, err = self.run_command("good.obj", "--check", "-q", "--require", "features.corners < 100", expect=6)

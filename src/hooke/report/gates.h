@@ -20,7 +20,7 @@ struct Gate {
 /// What became of a gate.
 struct GateOutcome {
   std::string condition;
-  std::optional<double> value;  // empty where the report has null; the gate then fails
+  std::optional<double> value;  // empty where the report has null or no such key; the gate then fails
   bool passed = false;
 };
 
