@@ -200,4 +200,13 @@ TEST(Stl, WhatDoesNotFitIsToldOrRefused) {
   EXPECT_NO_THROW(write_stl(far, faces, PlyEncoding::ascii));
 }
 
+TEST(Stl, FacesThatRoundingTurnsOverAreTold) {
+  Mat3X thin(3, 3);  // a unit in the last place of a float near 1e6 is 1/16
+  thin << 1e6, 1e6 + 10, 1e6 + 5, 0, 0, 0, 1e6, 1e6, 1e6 + .01;
+  const Warnings told = losses_in_stl(thin, {{0, 1, 2}}, PlyEncoding::binary_little_endian, "m");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, "faces_turned_by_rounding");
+  EXPECT_TRUE(losses_in_stl(thin, {{0, 1, 2}}, PlyEncoding::ascii, "m").empty());
+}
+
 }  // namespace hooke::stl_test

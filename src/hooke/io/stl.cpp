@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -363,6 +364,23 @@ Warnings losses_in_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangl
          fmt::format("{}: {} vertices have the coordinates of another in this STL file{}; who reads it "
                      "will join them; use PLY",
                      name, lost, encoding == PlyEncoding::ascii ? "" : ", whose numbers have 32 bits")});
+  if (encoding != PlyEncoding::ascii) {
+    const Mat3X rounded = points.cast<float>().cast<double>();
+    const auto normal = [](const auto& x, const Triangle& t) -> Vec3 {
+      const Vec3 a = x.col(t[0]), ab = x.col(t[1]) - a, ac = x.col(t[2]) - a;
+      return ab.cross(ac);
+    };
+    const auto turned = std::ranges::count_if(triangles, [&](const Triangle& t) {
+      const Vec3 n = normal(points, t);
+      return !n.isZero(0) && !(n.dot(normal(rounded, t)) > 0);
+    });
+    if (turned > 0)
+      warnings.push_back(
+          {"faces_turned_by_rounding",
+           fmt::format("{}: {} faces turn over or lose their area in this STL file, whose numbers have 32 "
+                       "bits; use PLY, or move the mesh to the origin",
+                       name, turned)});
+  }
   if (const size_t loose = used.size() - count; loose > 0)
     warnings.push_back(
         {"attributes_not_kept",

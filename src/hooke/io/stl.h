@@ -28,7 +28,8 @@ std::string write_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
                       PlyEncoding encoding, const FaceData& data = {});
 
 /// What the mesh loses in an STL file: the warning `vertices_coincide` if different vertices of its faces
-/// have the same coordinates there, so that a reader joins them; `attributes_not_kept` if there are vertices
+/// have the same coordinates there, so that a reader joins them; `faces_turned_by_rounding` if its numbers
+/// of 32 bits turn faces over or take their area; `attributes_not_kept` if there are vertices
 /// in no face. `name` is that of the output.
 Warnings losses_in_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
                        PlyEncoding encoding, const std::string& name);
