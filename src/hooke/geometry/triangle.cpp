@@ -148,4 +148,16 @@ double cosine_between(const Vec3& area_vector, const Vec3& other) {
   return cosine_or(area_vector, other, 1);
 }
 
+std::ptrdiff_t count_turned_faces(const Eigen::Ref<const Mat3X>& points, const Eigen::Ref<const Mat3X>& moved,
+                                  const std::vector<Triangle>& faces) {
+  const auto normal = [](const Eigen::Ref<const Mat3X>& x, const Triangle& t) -> Vec3 {
+    const Vec3 a = x.col(t[0]), ab = x.col(t[1]) - a, ac = x.col(t[2]) - a;
+    return ab.cross(ac);
+  };
+  return std::ranges::count_if(faces, [&](const Triangle& t) {
+    const Vec3 n = normal(points, t);
+    return !n.isZero(0) && !(n.dot(normal(moved, t)) > 0);
+  });
+}
+
 }  // namespace hooke

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/printable.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/io/files.h"
 #include "hooke/io/rewrite.h"
 #include "hooke/io/sha256.h"
@@ -25,19 +25,6 @@ FileBytes read_unchanged(const SourceFile& source) {
   return file;
 }
 
-// The number of faces that turn over, or lose their area, when the points are rounded.
-std::ptrdiff_t faces_turned_by_rounding(const TriMesh& mesh, const Mat3X& rounded) {
-  const auto normal = [](const auto& points, const Triangle& t) -> Vec3 {
-    const Vec3 a = points.col(t[0]), ab = points.col(t[1]) - a, ac = points.col(t[2]) - a;
-    return ab.cross(ac);
-  };
-  const auto exact = vertex_points(mesh);
-  return std::ranges::count_if(triangles_of(mesh), [&](const Triangle& t) {
-    const Vec3 n = normal(exact, t);
-    return !n.isZero(0) && !(n.dot(normal(rounded, t)) > 0);
-  });
-}
-
 }  // namespace
 
 PreservedMesh prepare_preserved_mesh(const std::filesystem::path& path, const TriMesh& mesh,
@@ -53,7 +40,8 @@ PreservedMesh prepare_preserved_mesh(const std::filesystem::path& path, const Tr
   }
   PreservedMesh result{{}, std::move(rewritten.obstacle), std::move(rewritten.warnings)};
   if (result.obstacle.empty() && rewritten.rounded.size() > 0)
-    if (const auto turned = faces_turned_by_rounding(mesh, rewritten.rounded); turned > 0)
+    if (const auto turned = count_turned_faces(vertex_points(mesh), rewritten.rounded, triangles_of(mesh));
+        turned > 0)
       result.obstacle =
           fmt::format("its coordinates have single precision, which would turn {} faces over", turned);
   if (!result.obstacle.empty()) return result;

@@ -13,6 +13,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/io/scanner.h"
 #include "hooke/io/text.h"
 
@@ -365,15 +366,7 @@ Warnings losses_in_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangl
                      "will join them; use PLY",
                      name, lost, encoding == PlyEncoding::ascii ? "" : ", whose numbers have 32 bits")});
   if (encoding != PlyEncoding::ascii) {
-    const Mat3X rounded = points.cast<float>().cast<double>();
-    const auto normal = [](const auto& x, const Triangle& t) -> Vec3 {
-      const Vec3 a = x.col(t[0]), ab = x.col(t[1]) - a, ac = x.col(t[2]) - a;
-      return ab.cross(ac);
-    };
-    const auto turned = std::ranges::count_if(triangles, [&](const Triangle& t) {
-      const Vec3 n = normal(points, t);
-      return !n.isZero(0) && !(n.dot(normal(rounded, t)) > 0);
-    });
+    const auto turned = count_turned_faces(points, points.cast<float>().cast<double>(), triangles);
     if (turned > 0)
       warnings.push_back(
           {"faces_turned_by_rounding",
