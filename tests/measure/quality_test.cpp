@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -243,6 +244,18 @@ TEST(Curvature, IsNotDefinedOnTheBoundaryNorBesideFacesWithoutArea) {
   EXPECT_TRUE(std::isnan(k.mean[6]));
   EXPECT_NEAR(k.mean[18], 0, 1e-12);
   EXPECT_NEAR(k.gaussian[18], 0, 1e-12);
+}
+
+TEST(Quality, CountsTheFacesBelow20And30Degrees) {
+  const test::Triangles t = test::grid(12, test::paraboloid, .45);
+  const Quality q = measure_quality(t.points, test::connect(t), {});
+  const auto below = [&](double degrees) {
+    return static_cast<size_t>(std::ranges::count_if(
+        t.faces, [&](const Triangle& face) { return min_angle(t.points, {face}) < degrees; }));
+  };
+  EXPECT_EQ(q.faces_below_20, below(20));
+  EXPECT_EQ(q.faces_below_30, below(30));
+  EXPECT_LT(q.faces_below_20, q.faces_below_30);
 }
 
 }  // namespace hooke::quality_test

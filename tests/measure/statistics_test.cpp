@@ -95,13 +95,4 @@ TEST(Statistics, EqualNumbersFillOneBin) {
   EXPECT_EQ(s.histogram.edges, (std::vector<double>{2, 2}));
 }
 
-TEST(Histogram, CountsWhatLiesBelowTheEndOfABin) {
-  const Histogram h{{0, 2.5, 5, 7.5}, {3, 4, 5}};
-  EXPECT_EQ(count_below(h, 0), 0u);
-  EXPECT_EQ(count_below(h, 5), 7u);
-  EXPECT_EQ(count_below(h, 7.4), 7u);
-  EXPECT_EQ(count_below(h, 7.5), 12u);
-  EXPECT_EQ(count_below({}, 5), 0u);
-}
-
 }  // namespace hooke::statistics_test

@@ -191,6 +191,12 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
   });
   timed(stopwatch, "angles", [&] {
     const FaceShapes shapes = measure_faces(points, adjacency.faces);
+    const auto count_below = [&](double degrees) {
+      return static_cast<size_t>(
+          std::ranges::count_if(shapes, [&](const TriangleShape& s) { return s.min_angle < degrees; }));
+    };
+    q.faces_below_20 = count_below(20);
+    q.faces_below_30 = count_below(30);
     describe_all(shapes, measure_edges(points, adjacency.edges), edge_target_length, q);
     q.worst_faces = find_worst_faces(surface, shapes, options.worst_faces);
   });

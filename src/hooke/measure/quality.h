@@ -39,6 +39,7 @@ struct WorstFace {
 struct Quality {
   // Per face, see geometry/triangle.h.
   Statistics min_angle;
+  std::size_t faces_below_20 = 0, faces_below_30 = 0;  // with a smaller minimum angle, degrees
   Statistics max_angle;
   Statistics shape;
   Statistics radius_ratio;

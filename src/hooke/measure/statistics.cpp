@@ -90,12 +90,4 @@ Statistics describe(std::vector<double> values, const Bins& bins) {
   return s;
 }
 
-std::size_t count_below(const Histogram& h, double limit) {
-  constexpr double rounding = 1e-9;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < h.counts.size(); ++k)
-    if (h.edges[k + 1] <= limit * (1 + rounding)) count += h.counts[k];
-  return count;
-}
-
 }  // namespace hooke

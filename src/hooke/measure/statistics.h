@@ -36,9 +36,6 @@ struct Bins {
   int count = 20;
 };
 
-/// How many numbers lie in the bins that end at or below the limit: those below it, if bins end there.
-std::size_t count_below(const Histogram& histogram, double limit);
-
 /// Statistics of the finite values.
 Statistics describe(std::vector<double> values, const Bins& bins = {});
 

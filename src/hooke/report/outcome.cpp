@@ -11,7 +11,7 @@
 namespace hooke {
 namespace {
 
-constexpr double poor = 20, fair = 30;  // degrees
+constexpr double fair = 30;  // degrees
 
 /// What holds the worst face, the first of its reasons that has words; empty without one.
 std::string held_by(const Quality& q) {
@@ -35,10 +35,9 @@ std::string held_by(const Quality& q) {
 
 std::string outcome_in_words(const RunRecord& run) {
   const Quality &before = run.before, &after = *run.after;
-  std::string text =
-      fmt::format("minimum angle {:.3g} -> {:.3g} degrees; {} of {} faces below {:g} ({} before)",
-                  before.min_angle.min, after.min_angle.min, count_below(after.min_angle.histogram, poor),
-                  after.topology.faces, poor, count_below(before.min_angle.histogram, poor));
+  std::string text = fmt::format(
+      "minimum angle {:.3g} -> {:.3g} degrees; {} of {} faces below 20 ({} before)", before.min_angle.min,
+      after.min_angle.min, after.faces_below_20, after.topology.faces, before.faces_below_20);
   const std::string holder = held_by(after);
   if (after.min_angle.min < fair && !holder.empty()) text += "; the worst is held by " + holder;
   const double moved = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
