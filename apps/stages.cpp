@@ -48,12 +48,6 @@ UniformVector edge_targets(const TriMesh& mesh, const MemoryOrder& memory_order)
   return target_lengths_of(mesh, memory_order.order, *memory_order.adjacency).edge;
 }
 
-/// Measures the quality relative to the current target lengths of the vertices.
-Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
-                Stopwatch& stopwatch) {
-  return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, &stopwatch);
-}
-
 /// Returns work(). Puts the name of the input in front of the messages of its errors.
 template <typename Work>
 auto in_the_name_of(const std::string& name, const Work& work) {
@@ -93,11 +87,11 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
                                 record);
   timed(&stopwatch, "seams", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, origin, points, record); });
-  record.paper_before =
-      measure_paper_figures(points, *memory_order.adjacency, edge_targets(mesh, memory_order), s.paper);
+  const UniformVector targets = edge_targets(mesh, memory_order);
+  record.paper_before = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
   const MeasuredSurface surface = surface_of(std::move(points), memory_order, stopwatch);
   record.before =
-      timed(&stopwatch, "before", [&] { return measure(surface, mesh, memory_order.order, stopwatch); });
+      timed(&stopwatch, "before", [&] { return measure_quality(surface, targets, {}, &stopwatch); });
   warn_of_inside_out(record);
   require_metrics(s.gates, to_json(record.before));
   original.tree_order = surface.tree.order();
@@ -126,8 +120,8 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", name));
   record.status = status_of(done.reason);
   Mat3X points = memory_order.order.gather(vertex_points(mesh));
-  record.paper_after =
-      measure_paper_figures(points, *memory_order.adjacency, edge_targets(mesh, memory_order), s.paper);
+  const UniformVector targets = edge_targets(mesh, memory_order);
+  record.paper_after = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
   if (done.measures) {
     record.before = std::move(done.measures->input_quality);
     record.after = std::move(done.measures->quality);
@@ -136,7 +130,7 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
     const MeasuredSurface result =
         surface_of(std::move(points), memory_order, stopwatch, original.tree_order);
     record.after =
-        timed(&stopwatch, "after", [&] { return measure(result, mesh, memory_order.order, stopwatch); });
+        timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
     measure_deviation_from_input(original, result, record, stopwatch);
   }
   if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
