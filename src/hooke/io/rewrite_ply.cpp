@@ -65,10 +65,9 @@ std::optional<double> as_type(PlyType type, double value) {
       return whole(std::int32_t{});
     case PlyType::uint32:
       return whole(std::uint32_t{});
-    case PlyType::float32: {
-      const double rounded = static_cast<float>(value);
-      return std::isfinite(rounded) ? std::optional(rounded) : std::nullopt;
-    }
+    case PlyType::float32:
+      return std::abs(value) <= std::numeric_limits<float>::max() ? std::optional(static_cast<float>(value))
+                                                                  : std::nullopt;
     case PlyType::float64:
       return value;
   }
