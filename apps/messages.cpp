@@ -120,7 +120,9 @@ void print_summary(const Settings& s, const RunRecord& run) {
     if (const std::string advice = advice_in_words(run, s.remesh.connectivity); !advice.empty())
       say("{}\n", wrapped(advice));
   if (run.result->near_regular)
-    say("the input is near-regular: its angles are kept, and no vertex moves by a fifth of its length\n");
+    say("{}\n",
+        wrapped("the input is near-regular: its angles are kept, and no vertex moves by a fifth of its "
+                "length"));
   const FlipResult& f = run.result->flips;
   const AdaptResult& a = run.result->adaptation;
   if (a.rounds > 0)

@@ -76,7 +76,9 @@ FaceData face_data_of_result(const Settings& s, const LoadedMesh& loaded, PlyEnc
                                             fmt::join(names, ", "), why)});
   };
   if (!converted.dropped.empty())
-    drop(fmt::format("{} files cannot hold it; use MSH", name_of(*s.format)), converted.dropped);
+    drop(fmt::format("{} files cannot hold it; use {}", name_of(*s.format),
+                     s.format == MeshFormat::msh || s.format == MeshFormat::msh2 ? "STL" : "MSH"),
+         converted.dropped);
   if (keeps_faces(s) || converted.data.empty()) return std::move(converted.data);
   std::vector<std::string> names;
   for (const FaceChannel& channel : converted.data) names.push_back(channel.name);
