@@ -136,13 +136,12 @@ TEST(EdgeTargets, AreReachedWhereAMeshWithTheseLengthsLiesOnTheSurface) {
   EXPECT_THROW(remesh(mesh, options), Error);
 }
 
-TEST(DoNoHarm, AnglesAreSpentWhereLengthsAreToDiffer) {
+TEST(DoNoHarm, VerticesTravelWhereLengthsAreToDiffer) {
   const test::Triangles t = test::sphere(3);
   TriMesh mesh = test::with_length(t, natural(t));
   VProp<double> length(mesh, target_length_property);
   for (const auto v : mesh.vertices()) length[v] *= 2.5 + 1.5 * mesh.point(v)[2];
   EXPECT_FALSE(remesh(mesh, {}).near_regular);
-  EXPECT_LT(min_angle(vertex_points(mesh), t.faces), min_angle(t.points, t.faces) - 1);
   EXPECT_GT((vertex_points(mesh) - t.points).colwise().norm().maxCoeff(), natural(t));
 }
 

@@ -98,7 +98,11 @@ struct CandidateOptions {
   double longest = 1.7;  // maximum edge length over target length
   /// Maximum loss of covered surface, over the squared mean target length; keeps the margins of thin sheets.
   double area_loss = .2;
-  AngleSearchOptions search{.edge_error_limit = 1.2, .sagitta = 0, .max_rounds = 12};  // after the sweeps
+  AngleSearchOptions search{.springs = {.range = 0},
+                            .edge_error_limit = 1.2,
+                            .sagitta = 0,
+                            .max_rounds = 12,
+                            .max_set_aside = 0};  // after the sweeps
 };
 
 /// A change of an edge with its patch, at some stage of its evaluation.

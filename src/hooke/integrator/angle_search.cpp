@@ -9,9 +9,11 @@
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/integrator/gauss_seidel.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/integrator/vertex_ring.h"
 #include "hooke/mesh/vertex_coloring.h"
+#include "hooke/springs/energy.h"
 
 namespace hooke {
 namespace {
@@ -201,11 +203,14 @@ EdgeErrors errors_of_all(const Relaxation& r) {
 }
 
 /// Measures of all faces and edges. Faces with small angles are kept in a separate list, the only one that a
-/// round searches.
+/// round searches; faces that no round could raise are set aside, which leaves them to their neighbours.
 class Measures {
  public:
   explicit Measures(const Relaxation& r)
-      : r_(r), cotangents_(r.adjacency.faces.size()), errors_(errors_of_all(r)) {
+      : r_(r),
+        cotangents_(r.adjacency.faces.size()),
+        is_aside_(r.adjacency.faces.size(), 0),
+        errors_(errors_of_all(r)) {
     parallel_for(cotangents_.size(), angle_search_block, [&](size_t begin, size_t end) {
       for (size_t f = begin; f < end; ++f) measure_face(f);
     });
@@ -213,9 +218,35 @@ class Measures {
     list_worst();
   }
 
+  /// Of the faces that are not set aside, degrees.
   double min_angle() {
     if (max_cotangent_of(listed_) < listed_from_) list_worst();
     return angle_with_cotangent(max_cotangent_of(listed_));
+  }
+
+  /// Sets the faces with at most this angle (degrees) aside.
+  void set_aside(double angle) {
+    const double limit = cotangent_of(angle);
+    for (int f : listed_)
+      if (const double cotangent = cotangents_[static_cast<size_t>(f)]; cotangent >= limit) {
+        is_aside_[static_cast<size_t>(f)] = 1;
+        aside_.emplace_back(f, angle_with_cotangent(cotangent));
+      }
+    std::erase_if(listed_, [&](int f) { return is_aside_[static_cast<size_t>(f)] != 0; });
+  }
+
+  /// Has a face lost more than this (degrees) since it was set aside?
+  bool has_lost_aside(double tolerance) const {
+    return std::ranges::any_of(aside_, [&](const auto& face) {
+      return angle_with_cotangent(cotangents_[static_cast<size_t>(face.first)]) < face.second - tolerance;
+    });
+  }
+
+  /// No face is set aside any more.
+  void take_back() {
+    aside_.clear();
+    std::ranges::fill(is_aside_, 0);
+    list_worst();
   }
 
   /// Standard deviation of l / L_e, relative to its start.
@@ -265,7 +296,10 @@ class Measures {
   }
 
   void list_worst() {
-    list_below(angle_with_cotangent(*std::ranges::max_element(cotangents_)) + listed_above);
+    double largest = -std::numeric_limits<double>::infinity();
+    for (size_t f = 0; f < cotangents_.size(); ++f)
+      if (!is_aside_[f]) largest = std::max(largest, cotangents_[f]);
+    list_below(angle_with_cotangent(largest) + listed_above);
   }
 
   void list_below(double angle) {
@@ -277,67 +311,175 @@ class Measures {
 
   void list_if_low(int f) {
     char& is_listed = is_listed_[static_cast<size_t>(f)];
-    if (is_listed || !(cotangents_[static_cast<size_t>(f)] >= listed_from_)) return;
+    if (is_listed || is_aside_[static_cast<size_t>(f)] ||
+        !(cotangents_[static_cast<size_t>(f)] >= listed_from_))
+      return;
     is_listed = 1;
     listed_.push_back(f);
   }
 
   const Relaxation& r_;
-  std::vector<double> cotangents_;  // largest cotangent per face
-  double listed_from_ = 0;          // cotangent of the angle below which faces are listed
-  std::vector<int> listed_;         // all faces with a smaller angle, and some that had one
-  std::vector<char> is_listed_;     // per face
+  std::vector<double> cotangents_;             // largest cotangent per face
+  std::vector<char> is_aside_;                 // per face
+  std::vector<std::pair<int, double>> aside_;  // faces and the angles they had then, degrees
+  double listed_from_ = 0;                     // cotangent of the angle below which faces are listed
+  std::vector<int> listed_;                    // all faces with a smaller angle, and some that had one
+  std::vector<char> is_listed_;                // per face
   EdgeErrors errors_;
   double start_deviation_ = 0;
 };
 
-/// Improves each of the vertices (ascending) in turn; returns how many moved.
-int improve(Relaxation& r, const std::vector<int>& vertices, const VertexSearchOptions& options,
-            const GuardOptions& guards, double goal) {
-  std::vector<char> moved(vertices.size(), 0);
+/// Calls body(worker, i) with the index of each of the vertices (ascending) in turn; `make` makes a worker
+/// for a block.
+template <typename Make, typename Body>
+void for_each_of(const Relaxation& r, const std::vector<int>& vertices, const Make& make, const Body& body) {
   for_each_block(r.coloring, [&](int begin, int end) {
-    const auto first = std::ranges::lower_bound(vertices, begin);
-    if (first == vertices.end() || *first >= end) return;
-    VertexSearch search(r, options, guards);
-    for (auto v = first; v != vertices.end() && *v < end; ++v)
-      moved[static_cast<size_t>(v - vertices.begin())] = search.improve(*v, goal);
+    auto v = std::ranges::lower_bound(vertices, begin);
+    if (v == vertices.end() || *v >= end) return;
+    auto worker = make();
+    for (; v != vertices.end() && *v < end; ++v) body(worker, static_cast<size_t>(v - vertices.begin()));
   });
-  return static_cast<int>(std::ranges::count(moved, 1));
 }
 
-/// Runs rounds until none raises the minimum angle any more.
-void search_within(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards, Measures& measures,
-                   AngleSearchResult& result) {
-  double min_angle = measures.min_angle();
-  double range = o.angle_range;
-  VertexSearchOptions vertex = o.vertex;
-  while (result.rounds < o.max_rounds && range > o.min_rise && min_angle + o.min_rise < ideal_min_angle) {
-    const double goal = min_angle + range;
-    std::vector<int> vertices = with_rings(r.adjacency, measures.worst_corners(goal, o.max_faces), o.rings);
+/// The indices of each vertex's neighbours among these vertices (ascending).
+std::vector<std::vector<size_t>> neighbours_among(const Adjacency& c, const std::vector<int>& vertices) {
+  std::vector<std::vector<size_t>> neighbours(vertices.size());
+  for (size_t i = 0; i < vertices.size(); ++i)
+    for (int n : c.vertex_neighbours[vertices[i]])
+      if (const auto at = std::ranges::lower_bound(vertices, n); at != vertices.end() && *at == n)
+        neighbours[i].push_back(static_cast<size_t>(at - vertices.begin()));
+  return neighbours;
+}
+
+/// Rounds of the search within some guards.
+class Search {
+ public:
+  Search(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards, Measures& measures,
+         AngleSearchResult& result)
+      : r_(r), o_(o), guards_(guards), measures_(measures), result_(result), pattern_(o.vertex) {}
+
+  /// Alternates rounds of angle springs (unless `with_springs` is false) and of pattern searches: each goes
+  /// on while it raises the minimum angle. Faces that neither can raise are set aside.
+  void run(bool with_springs) {
+    int set_aside = 0, failures = 0;
+    bool springs = with_springs;
+    while (result_.rounds < o_.max_rounds && measures_.min_angle() + o_.min_rise < ideal_min_angle) {
+      double& range = springs ? spring_range_ : pattern_range_;
+      const double start = measures_.min_angle();
+      switch (round(springs, start, range)) {
+        case Outcome::raised:
+          failures = 0;
+          continue;
+        case Outcome::kept:
+          break;
+        case Outcome::worse:
+          range /= 2;  // fewer faces and shorter steps lengthen the edges less
+          if (!springs) pattern_.first_step = std::max(pattern_.last_step, pattern_.first_step / 2);
+          if (range >= min_range) continue;
+          range = min_range;
+          break;
+        case Outcome::too_long:
+          return;
+      }
+      ++failures;
+      if (with_springs) {
+        springs = !springs;
+        if (failures < 2) continue;
+      }
+      if (++set_aside > o_.max_set_aside) return;
+      measures_.set_aside(start + o_.min_rise);
+      failures = 0;
+    }
+  }
+
+ private:
+  static constexpr double min_range = .5;        // degrees
+  static constexpr double tolerated_loss = .02;  // degrees, of the minimum angle
+  static constexpr double tolerated_loss_aside = .05;
+
+  enum class Outcome {
+    raised,
+    kept,      // the minimum angle is the same; other faces have gained
+    worse,     // taken back
+    too_long,  // taken back: even a small range makes the edges too unequal
+  };
+
+  /// Moves the vertices around the faces within `range` (degrees) of the minimum angle.
+  Outcome round(bool springs, double start, double range) {
+    const double goal = start + range;
+    std::vector<int> vertices = with_rings(r_.adjacency, measures_.worst_corners(goal, o_.max_faces),
+                                           springs ? o_.springs.rings : o_.rings);
     std::ranges::sort(vertices);
     std::vector<SurfacePosition> before;
-    for (int v : vertices) before.emplace_back(r.positions, v);
+    for (int v : vertices) before.emplace_back(r_.positions, v);
     int moves = 0;
-    measures.update_around(vertices, [&] {
-      for (int sweep = 0, moved = 1; sweep < o.sweeps && moved > 0; ++sweep)
-        moves += moved = improve(r, vertices, vertex, guards, cotangent_of(goal));
-    });
-    ++result.rounds;
-    if (moves == 0) return;  // a smaller range of angles would not move any either
-    const double now = measures.min_angle();
-    if (now < min_angle + o.min_rise || measures.edge_error() > o.edge_error_limit) {
-      measures.update_around(vertices, [&] {
-        for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(r.positions, vertices[i]);
+    measures_.update_around(vertices,
+                            [&] { moves = springs ? relax(vertices, goal) : search(vertices, goal); });
+    ++result_.rounds;
+    const double now = measures_.min_angle();
+    const bool is_too_long = measures_.edge_error() > o_.edge_error_limit;
+    if (is_too_long || now < start - tolerated_loss || measures_.has_lost_aside(tolerated_loss_aside)) {
+      measures_.update_around(vertices, [&] {
+        for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(r_.positions, vertices[i]);
       });
-      range /= 2;  // fewer faces and shorter steps lengthen the edges less
-      vertex.first_step = std::max(vertex.last_step, vertex.first_step / 2);
-      continue;
+      return is_too_long && range / 2 < min_range ? Outcome::too_long : Outcome::worse;
     }
-    result.moves += moves;
-    result.vertices.insert(result.vertices.end(), vertices.begin(), vertices.end());
-    min_angle = now;
+    result_.moves += moves;
+    result_.vertices.insert(result_.vertices.end(), vertices.begin(), vertices.end());
+    const double rise = springs ? o_.springs.min_rise * range : o_.min_rise;
+    return now >= start + rise ? Outcome::raised : Outcome::kept;
   }
-}
+
+  /// Sweeps of Newton's method with angle springs below `goal`; returns the number of moves.
+  int relax(const std::vector<int>& vertices, double goal) {
+    const EnergyTerms terms = r_.energy.terms;
+    r_.energy.terms.altitude = 0;
+    r_.energy.terms.angle = o_.springs.weight;
+    r_.energy.terms.angle_threshold = goal * std::numbers::pi / 180;
+    const auto neighbours = neighbours_among(r_.adjacency, vertices);
+    std::vector<char> is_active(vertices.size(), 1), moved(vertices.size());
+    int moves = 0;
+    for (int sweep = 0; sweep < o_.springs.sweeps && std::ranges::find(is_active, 1) != is_active.end();
+         ++sweep) {
+      std::ranges::fill(moved, 0);
+      for_each_of(
+          r_, vertices, [&] { return LocalNewton(r_); },
+          [&](LocalNewton& newton, size_t i) {
+            if (is_active[i])
+              moved[i] = newton.improve(vertices[i], {.rest = .3 * o_.springs.rest}) > o_.springs.rest;
+          });
+      for (size_t i = 0; i < vertices.size(); ++i)
+        is_active[i] =
+            moved[i] || std::ranges::any_of(neighbours[i], [&](size_t n) { return moved[n] != 0; });
+      moves += static_cast<int>(std::ranges::count(moved, 1));
+    }
+    r_.energy.terms = terms;
+    return moves;
+  }
+
+  /// Sweeps of pattern searches with the same goal; returns the number of moves.
+  int search(const std::vector<int>& vertices, double goal) {
+    int moves = 0;
+    for (int sweep = 0, last = 1; sweep < o_.sweeps && last > 0; ++sweep, moves += last) {
+      std::vector<char> moved(vertices.size(), 0);
+      for_each_of(
+          r_, vertices, [&] { return VertexSearch(r_, pattern_, guards_); },
+          [&](VertexSearch& vertex, size_t i) {
+            moved[i] = vertex.improve(vertices[i], cotangent_of(goal));
+          });
+      last = static_cast<int>(std::ranges::count(moved, 1));
+    }
+    return moves;
+  }
+
+  Relaxation& r_;
+  const AngleSearchOptions& o_;
+  const GuardOptions& guards_;
+  Measures& measures_;
+  AngleSearchResult& result_;
+  VertexSearchOptions pattern_;
+  double pattern_range_ = o_.angle_range, spring_range_ = o_.springs.range;
+};
 
 }  // namespace
 
@@ -346,10 +488,11 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
   if (r.adjacency.faces.empty()) return result;
   Measures measures(r);
   GuardOptions guards = r.guards.options();
-  search_within(r, o, guards, measures, result);
+  Search(r, o, guards, measures, result).run(o.springs.range > 0);
   if (o.sagitta > guards.sagitta) {
     guards.sagitta = o.sagitta;
-    search_within(r, o, guards, measures, result);
+    measures.take_back();
+    Search(r, o, guards, measures, result).run(false);
   }
   r.retraction.count();
   std::ranges::sort(result.vertices);
