@@ -36,10 +36,13 @@ int coarse_levels(const WorkingMesh& mesh, double target_faces, const CoarseLimi
 
 /// Options of the single steps.
 struct StepOptions {
-  double chord_error = .1;  // maximum distance of a feature curve from its edges, in target lengths
-  double keep_bends = 1.3;  // maximum ratio of target to present edge count at which a curve keeps its bends
-  double resolve_bends = 1.5;  // ratio of these from which on it keeps them too, and is split between them
-  int spring_steps = 15;       // evaluations of the spring energy before flips of irregular edges
+  static constexpr double chord_error =
+      .1;  // maximum distance of a feature curve from its edges, in target lengths
+  static constexpr double keep_bends =
+      1.3;  // maximum ratio of target to present edge count at which a curve keeps its bends
+  static constexpr double resolve_bends =
+      1.5;                // ratio of these from which on it keeps them too, and is split between them
+  int spring_steps = 15;  // evaluations of the spring energy before flips of irregular edges
   SplitOptions split;
   CollapseOptions collapse;
   CollapseOptions folded = folded_face_options();
@@ -54,19 +57,20 @@ struct StepCounts {
 
 /// Options of mode `adapt`; the steps of mode `flip` follow it, see flip_mode.h.
 struct AdaptOptions {
-  int rounds = 5;          // of splits, collapses and Lloyd flow
-  int count_rounds = 30;   // maximum rounds of face count control and Lloyd flow
-  int first_flow = 6;      // rounds of Lloyd flow before the first split; vertices that spread out can stay
-  int flow_rounds = 6;     // of Lloyd flow after the splits and collapses of a round
-  int count_flow = 6;      // rounds of Lloyd flow after a round of face count control
-  double count_slack = 2;  // faces by which the count may miss the target
+  int rounds = 5;                          // of splits, collapses and Lloyd flow
+  static constexpr int count_rounds = 30;  // maximum rounds of face count control and Lloyd flow
+  int first_flow = 6;   // rounds of Lloyd flow before the first split; vertices that spread out can stay
+  int flow_rounds = 6;  // of Lloyd flow after the splits and collapses of a round
+  int count_flow = 6;   // rounds of Lloyd flow after a round of face count control
+  static constexpr double count_slack = 2;  // faces by which the count may miss the target
 
   // With a coarser mesh first. `rounds` then applies to the coarsest mesh, without `first_flow`.
   CoarseLimits coarse;
-  int coarse_flow = 6;                 // replaces flow_rounds and is the Lloyd flow of each coarser level
-  int fine_rounds = 1;                 // of splits, collapses and Lloyd flow at the target lengths
-  int fine_flow = 6;                   // rounds of Lloyd flow in each of the fine rounds
-  double fine_count_slack = .01;       // share of the target face count by which the count may miss it
+  int coarse_flow = 6;                   // replaces flow_rounds and is the Lloyd flow of each coarser level
+  static constexpr int fine_rounds = 1;  // of splits, collapses and Lloyd flow at the target lengths
+  int fine_flow = 6;                     // rounds of Lloyd flow in each of the fine rounds
+  static constexpr double fine_count_slack =
+      .01;                             // share of the target face count by which the count may miss it
   int last_flow = 3, last_passes = 2;  // maximum rounds of flow and flip passes of mode `flip` afterwards
   int last_outer = 6;                  // maximum outer iterations afterwards, if angle optimisation follows
   std::optional<int> last_steps;       // maximum energy evaluations of L-BFGS in each of these iterations

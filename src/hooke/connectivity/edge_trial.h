@@ -86,8 +86,8 @@ void change_mesh(WorkingMesh& mesh, const EdgeChange& change, EdgePatch& patch);
 /// The cost of a patch, in degrees squared, is the sum over its faces of the squared shortfall of the minimum
 /// angle from the sliver angle plus `fair_margin`, and over its edges of `length_weight` (l / L_e - 1)^2.
 struct CandidateOptions {
-  double fair_margin = 6;      // degrees
-  double length_weight = 100;  // degrees squared
+  static constexpr double fair_margin = 6;      // degrees
+  static constexpr double length_weight = 100;  // degrees squared
   double gain = 4;             // degrees squared; minimum decrease of the cost for a change to be kept
   double max_cost_rise = 500;  // degrees squared; maximum rise of the cost after the sweeps to go on
   int rings = 2;               // around the edge, within which vertices are relaxed

@@ -8,8 +8,8 @@
 namespace hooke {
 
 struct CountOptions {
-  double largest_part = .02;   // maximum share of the edges changed in one call
-  double valence_weight = .1;  // of the valence excess against l / L when edges are chosen
+  static constexpr double largest_part = .02;   // maximum share of the edges changed in one call
+  static constexpr double valence_weight = .1;  // of the valence excess against l / L when edges are chosen
   SplitOptions split{.longest = 0};
   CollapseOptions collapse{.longest = 1.6, .valence = 8};
 };

@@ -28,8 +28,9 @@ Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
                  const std::vector<double>& vertex_length, const LloydOptions& options);
 
 struct LloydFlowOptions {
-  int rounds = 32;       // of flips and one Lloyd step
-  int corner_every = 5;  // rounds between flips of corners, after the first quarter of the rounds
+  int rounds = 32;  // of flips and one Lloyd step
+  static constexpr int corner_every =
+      5;  // rounds between flips of corners, after the first quarter of the rounds
   LloydOptions lloyd{};
 };
 

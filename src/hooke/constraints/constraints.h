@@ -27,7 +27,7 @@ struct ConstraintOptions {
   // 1: none.
   double even_crease = 1.5;
   // Minimum distance of a bend from the chord between its neighbours, in mean edge lengths of the crease.
-  double crease_bend = .01;
+  static constexpr double crease_bend = .01;
   CreaseOptions features = {};
 };
 

@@ -8,12 +8,13 @@
 namespace hooke {
 
 struct NewtonOptions {
-  double tolerance = 1e-6;    // |psi| / |grad psi| at the projection, a length
-  double longest_step = .5;   // a length; longer steps are shortened to it
-  double longest_move = 2;    // maximum distance from the start, a length
-  double min_gradient = .01;  // minimum norm of the gradient, which is 1 for a distance field
-  double convergence = 0;     // estimated error of a step over the squared distance before it, 1 / length;
-                              // 0: unknown, the first step is always evaluated
+  double tolerance = 1e-6;   // |psi| / |grad psi| at the projection, a length
+  double longest_step = .5;  // a length; longer steps are shortened to it
+  double longest_move = 2;   // maximum distance from the start, a length
+  static constexpr double min_gradient =
+      .01;                 // minimum norm of the gradient, which is 1 for a distance field
+  double convergence = 0;  // estimated error of a step over the squared distance before it, 1 / length;
+                           // 0: unknown, the first step is always evaluated
   int max_steps = 12;
 };
 

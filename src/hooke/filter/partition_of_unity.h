@@ -63,8 +63,9 @@ struct PatchList {
 };
 
 struct PatchCoverOptions {
-  int patch_size = 30;    // vertices per patch
-  double coverage = .75;  // every vertex is within this fraction of a patch's radius from its centre
+  static constexpr int patch_size = 30;  // vertices per patch
+  static constexpr double coverage =
+      .75;  // every vertex is within this fraction of a patch's radius from its centre
 };
 
 /// Covers a mesh with overlapping patches, created one by one at the first vertex that is not yet well inside

@@ -9,14 +9,14 @@ namespace hooke {
 struct TargetLengths;
 
 struct AngleSpringOptions {
-  double first_threshold = 20;     // degrees; at least the minimum angle + margin
-  double margin = 2;               // degrees
-  double threshold_step = 2;       // degrees between stages; halved when a stage costs too much
-  double min_step = 1;             // degrees; no shorter threshold steps
-  double last_threshold = 32;      // degrees
-  double first_weight = 30;        // weight w of the first stage
-  double weight = 100;             // weight w of the other stages
-  int sweeps = 3;                  // Gauss-Seidel sweeps per stage
+  double first_threshold = 20;                // degrees; at least the minimum angle + margin
+  double margin = 2;                          // degrees
+  double threshold_step = 2;                  // degrees between stages; halved when a stage costs too much
+  double min_step = 1;                        // degrees; no shorter threshold steps
+  double last_threshold = 32;                 // degrees
+  static constexpr double first_weight = 30;  // weight w of the first stage
+  static constexpr double weight = 100;       // weight w of the other stages
+  int sweeps = 3;                             // Gauss-Seidel sweeps per stage
   int rings = 2;                   // rings around the faces below the threshold within which vertices move
   double rest = .01;               // in target lengths; a vertex that moves less skips the next sweep
   double edge_error_limit = .995;  // maximal deviation of l / L_e over its start, after the first stage kept

@@ -19,8 +19,8 @@ struct LocalCurvature {
 struct LocalNewtonOptions {
   double max_move = .5;  // of a vertex, in its target lengths
   double over_relaxation = 1;
-  int max_halvings = 5;  // of a step that breaks a guard or raises the energy
-  double rest = 0;       // in target lengths; a vertex with a shorter step stays
+  static constexpr int max_halvings = 5;  // of a step that breaks a guard or raises the energy
+  double rest = 0;                        // in target lengths; a vertex with a shorter step stays
 };
 
 /// Works on one vertex at a time; reused for many vertices to save allocations. Keeps a reference to the

@@ -22,8 +22,8 @@ struct GuardOptions {
   double sagitta = .2;     // maximum sagitta of an edge over its target length; if larger, it may only shrink
   /// Maximum cotangent of a face's smallest angle; if larger, it may only fall. Infinite: angles are free.
   double cotangent = std::numeric_limits<double>::infinity();
-  double slack = 1e-7;   // by which cosines may still fall and sagittas over target lengths rise
-  int max_halvings = 8;  // of a vertex's displacement, before the vertex stays for this step
+  double slack = 1e-7;  // by which cosines may still fall and sagittas over target lengths rise
+  static constexpr int max_halvings = 8;  // of a vertex's displacement, before the vertex stays for this step
 };
 
 /// Do the new area and alignment of a face break its guard?

@@ -66,8 +66,8 @@ class GridHierarchy {
 };
 
 struct PreconditionerOptions {
-  double grid_cell = 4;     // width of the finest grid's cells, in mean target lengths
-  double grid_weight = .3;  // weight of each grid, over the median curvature
+  static constexpr double grid_cell = 4;     // width of the finest grid's cells, in mean target lengths
+  static constexpr double grid_weight = .3;  // weight of each grid, over the median curvature
 };
 
 /// H0 = D^-1 + weight * sum over grids of P P^T, with D the absolute local Hessians (see gauss_seidel.h).

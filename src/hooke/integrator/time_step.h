@@ -15,7 +15,8 @@ struct TimeStepOptions {
   double expansion = .01;     // delta_expansion: maximum relative change of a face's area
   double displacement = .01;  // xi: maximum displacement over the shortest edge; eta_n = xi l_edge
   double area_bound = 0;      // delta_bound: minimum area of a face after the step, a squared length
-  double floor = 1e-12;       // time below which the search is jammed; 1e-9 / tau at the usual friction
+  static constexpr double floor =
+      1e-12;  // time below which the search is jammed; 1e-9 / tau at the usual friction
 };
 
 /// The scales that determine the base step.

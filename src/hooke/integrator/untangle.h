@@ -7,12 +7,13 @@
 namespace hooke {
 
 struct UntangleOptions {
-  int rounds = 12;               // maximal number; each covers more rings than the one before
-  int first_rings = 2;           // around the folded faces, within which vertices move in the first round
-  int more_rings = 2;            // added in each round
-  int sweeps = 30;               // maximal number per round
-  int patience = 3;              // rounds without fewer folded faces before giving up
-  double over_relaxation = 1.5;  // of the sweeps: faces unfold sooner
+  int rounds = 12;  // maximal number; each covers more rings than the one before
+  static constexpr int first_rings =
+      2;  // around the folded faces, within which vertices move in the first round
+  static constexpr int more_rings = 2;  // added in each round
+  int sweeps = 30;                      // maximal number per round
+  static constexpr int patience = 3;    // rounds without fewer folded faces before giving up
+  double over_relaxation = 1.5;         // of the sweeps: faces unfold sooner
 };
 
 struct UntangleResult {
