@@ -15,6 +15,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
+#include "result_files.h"
 
 namespace hooke::app {
 namespace {
@@ -117,7 +118,10 @@ void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
   if (keeps_faces(s)) return;
   drop_unkept(s.keep, loaded, record);
-  Seams seams = find_seams(loaded.memory_order, loaded.corner_data, loaded.face_data, s.keep);
+  if (s.format != MeshFormat::obj) loaded.corner_data = {};
+  const FormatFaceData held =
+      face_data_for_format(loaded.face_data, loaded.format, *s.format, encoding_of_output(s, loaded));
+  Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held.data, s.keep);
   warn_of_many_seams(seams, s, loaded, record);
   record.seam_edges = static_cast<int>(seams.edges.size());
   s.remesh.constraints.seams = std::move(seams.ends);

@@ -35,6 +35,10 @@ std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) 
   return "";
 }
 
+PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
+  return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
+}
+
 namespace {
 
 /// Whether a user would expect the output to be the input's bytes with other digits: a file of a format that
@@ -69,14 +73,16 @@ CornerData corner_data_of_result(const Settings& s, const LoadedMesh& loaded, co
 }
 
 /// The format that holds what this one cannot.
-const char* format_for(const FormatData& vertices, const FormatFaceData& faces, MeshFormat format) {
-  if (!vertices.dropped.empty()) return "PLY";
+const char* format_for(const FormatData& vertices, const FormatFaceData& faces) {
   const auto is_dropped = [&](const std::string& channel) {
     return std::ranges::find(faces.dropped, channel) != faces.dropped.end();
   };
   for (const std::string channel : {material_channel, object_channel, smoothing_channel})
     if (is_dropped(channel) || is_dropped("names of " + channel)) return "OBJ";
-  return format == MeshFormat::msh || format == MeshFormat::msh2 ? "STL" : "MSH";
+  if (!vertices.dropped.empty()) return "PLY";
+  for (const std::string channel : {group_channel, entity_channel})
+    if (is_dropped(channel) || is_dropped("names of " + channel)) return "MSH";
+  return is_dropped(attribute_channel) ? "STL" : "PLY";
 }
 
 /// The data of the result that its file can hold. Warns of the rest.
@@ -95,13 +101,8 @@ MeshData data_of_result(const Settings& s, const LoadedMesh& loaded, const Origi
     run.warnings.push_back(
         {"attributes_not_kept",
          fmt::format("{}: {} files cannot hold {}; use {}", name_of_output(s.output), name_of(*s.format),
-                     fmt::join(lost, ", "), format_for(vertices, faces, *s.format))});
+                     fmt::join(lost, ", "), format_for(vertices, faces))});
   return result;
-}
-
-/// A file of the input's format is encoded like the input, others are binary where they can be.
-PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
-  return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ class Stl(CommandTest):
         self.assertEqual(err, "")
         self.assertEqual([a for _, a in stl_facets((self.folder / "c.stl").read_bytes())], [1, 2, 3, 4])
         _, err = self.run_command("b.stl", "-o", "c.obj", "-q")
-        self.assertIn("c.obj: obj files cannot hold attribute; use MSH", err)
+        self.assertIn("c.obj: obj files cannot hold attribute; use STL", err)
 
     def test_vertices_that_only_differ_in_double_precision_are_told(self):
         vertices = [(100, 0, 0), (100 + 1e-9, 0, 0), (100, -1, 0), (100, 1, 0)]
