@@ -74,6 +74,19 @@ void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh&
                    seams.materials, seams.groups, without_most(seams, s.keep))});
 }
 
+/// The face of the input where each vertex of the result lies, in memory order; -1 for none.
+std::vector<int> faces_near(const std::vector<MapEntry>& map, const MemoryOrder& before,
+                            const MemoryOrder& after) {
+  std::vector<int> index(before.order.old_face.size()), near;
+  for (std::size_t f = 0; f < index.size(); ++f)
+    index[static_cast<std::size_t>(before.order.old_face[f])] = static_cast<int>(f);
+  for (const int id : after.order.old_vertex) {
+    const int face = map[static_cast<std::size_t>(id)].position.face;
+    near.push_back(face < 0 ? -1 : index[static_cast<std::size_t>(face)]);
+  }
+  return near;
+}
+
 /// The new id of each face where faces of equal labels come together, these in the order in which the input
 /// has them.
 std::vector<int> order_by_labels(const FaceData& of_input, const FaceData& of_result, std::size_t faces) {
@@ -127,6 +140,7 @@ void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
   s.remesh.constraints.seams = std::move(seams.ends);
   std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
   fixed.insert(fixed.end(), seams.poles.begin(), seams.poles.end());
+  s.remesh.map |= !loaded.face_data.empty() || !loaded.corner_data.empty();
 }
 
 void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record) {
@@ -137,7 +151,8 @@ void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original,
   split_wedges(result, after.order.new_edges(record.result->crease_edges));
   const Mat3X points = after.order.gather(vertex_points(loaded.mesh));
   const Remeshed meshes{{original.points, input}, before, {points, result}, after.order};
-  const ChartPlaces places = find_chart_places(meshes.input, meshes.result);
+  const ChartPlaces places =
+      find_chart_places(meshes.input, meshes.result, faces_near(record.result->map, before, after));
   const FaceData of_input = std::move(loaded.face_data);
   loaded.face_data = carry_face_data(of_input, places, meshes);
   loaded.corner_data = carry_corner_data(loaded.corner_data, places, meshes);

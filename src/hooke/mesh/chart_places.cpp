@@ -60,9 +60,10 @@ Charts charts_of(const Adjacency& c) {
 
 class PlaceSearch {
  public:
-  PlaceSearch(const ChartedSurface& input, const ChartedSurface& result)
+  PlaceSearch(const ChartedSurface& input, const ChartedSurface& result, const std::vector<int>& near)
       : input_(input),
         result_(result),
+        near_(near),
         cut_(input.adjacency.creases.empty() ? input.adjacency : cut_open(input.adjacency)),
         cut_points_(input.adjacency.creases.empty() ? input.points
                                                     : wedge_points(input.points, input.adjacency)),
@@ -116,8 +117,25 @@ class PlaceSearch {
     return seeds;
   }
 
+  /// The place of the centre of a face, found from the faces of the input near its corners or else in space.
   SurfacePoint closest(int face) const {
     const Vec3 x = centre_of(result_, face);
+    SurfacePoint best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const int v : result_.adjacency.faces[at(face)]) {
+      const int hint = near_.empty() ? -1 : near_[at(v)];
+      if (hint < 0) continue;
+      const SurfacePoint place =
+          locate(input_.points, input_.adjacency, x, input_.adjacency.faces[at(hint)][0]);
+      const double distance = squared_distance(place, x);
+      if (distance >= least) continue;
+      least = distance;
+      best = place;
+    }
+    return best.face >= 0 ? best : closest_in_space(face, x);
+  }
+
+  SurfacePoint closest_in_space(int face, const Vec3& x) const {
     const Vec3 normal = doubled_area_vector(result_.points, result_.adjacency.faces[at(face)]);
     const auto same_side = [&](int f) {  // the other side of a thin wall may be nearer
       return doubled_area_vector(input_.points, input_.adjacency.faces[at(f)]).dot(normal) > 0;
@@ -223,6 +241,7 @@ class PlaceSearch {
 
   const ChartedSurface& input_;
   const ChartedSurface& result_;
+  const std::vector<int>& near_;
   const Adjacency cut_;
   const Mat3X cut_points_;
   const AabbTree tree_;
@@ -232,8 +251,9 @@ class PlaceSearch {
 
 }  // namespace
 
-ChartPlaces find_chart_places(const ChartedSurface& input, const ChartedSurface& result) {
-  return PlaceSearch(input, result).run();
+ChartPlaces find_chart_places(const ChartedSurface& input, const ChartedSurface& result,
+                              const std::vector<int>& near) {
+  return PlaceSearch(input, result, near).run();
 }
 
 }  // namespace hooke

@@ -24,7 +24,9 @@ struct ChartPlaces {
 /// Finds the places of the result on the input. A chart of the result, which its faces form across edges that
 /// are no features, lies in one chart of the input: that of most of its larger faces. From the largest of
 /// these on, places are found from neighbour to neighbour on the input cut open along its feature edges, so
-/// that none gets across one, not even where a chart borders on itself.
-ChartPlaces find_chart_places(const ChartedSurface& input, const ChartedSurface& result);
+/// that none gets across one, not even where a chart borders on itself. `near`, if not empty, has a face of
+/// the input near each vertex of the result, -1 for none: it tells surfaces apart that nearly touch.
+ChartPlaces find_chart_places(const ChartedSurface& input, const ChartedSurface& result,
+                              const std::vector<int>& near = {});
 
 }  // namespace hooke
