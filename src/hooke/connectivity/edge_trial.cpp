@@ -180,8 +180,7 @@ std::vector<int> inner_edges_about(const HalfedgeMesh& t, int face) {
       for (int h : {entry, HalfedgeMesh::next(entry), HalfedgeMesh::previous(entry)})
         if (!t.is_feature_edge(h)) edges.push_back(std::min(h, t.twin(h)));
   std::ranges::sort(edges);
-  const auto rest = std::ranges::unique(edges);
-  edges.erase(rest.begin(), rest.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 

@@ -249,7 +249,7 @@ class FeatureSearch {
   double strip_width(int face, int region, int edge) const {
     constexpr double parallel = .96;  // cosine; the meridians of a sphere meet at its poles
     const Vec3 along = direction(edge);
-    const auto& [a, b] = c_.edges[idx(edge)];
+    const int a = c_.edges[idx(edge)][0], b = c_.edges[idx(edge)][1];
     const double target = .5 * (length_[idx(a)] + length_[idx(b)]);
     double least = std::numeric_limits<double>::infinity();
     const auto bend_on = [&](int e) {

@@ -223,22 +223,21 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
 /// near them [13]; snapping a centre changes its value by the displacement along the normal.
 void PartitionOfUnity::gather(const Samples& samples, const PatchList& list, std::size_t patch,
                               SplineData& data) {
-  const auto& [points, normals, edge_lengths, unfolded, offset] = samples;
   const auto vertices = list.members[static_cast<int>(patch)];
-  const Vec3 centre = points.col(list.centres[patch]);
+  const Vec3 centre = samples.points.col(list.centres[patch]);
   const double radius = list.radii[patch];
   data.clear(max_centres(vertices.size()));
   if (!(radius > 0)) return;
   const auto add = [&](const Vec3& position, int v, double height) {
     const Vec3 local = (position - centre) / radius, snap = snapped(local);
-    data.add(snap, height / radius + normals.col(v).dot(snap - local));
+    data.add(snap, height / radius + samples.normals.col(v).dot(snap - local));
   };
-  for (int v : vertices) add(points.col(v), v, 0);
+  for (int v : vertices) add(samples.points.col(v), v, 0);
   for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {
     const int v = vertices[i];
-    if (!unfolded[to_index(v)]) continue;
-    const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * offset * edge_lengths[v];
-    add(points.col(v) + rho * normals.col(v), v, rho);
+    if (!samples.unfolded[to_index(v)]) continue;
+    const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * samples.offset * samples.edge_lengths[v];
+    add(samples.points.col(v) + rho * samples.normals.col(v), v, rho);
   }
 }
 
@@ -294,7 +293,7 @@ void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& 
         if (batch.patches[p].fit != PatchFit::failed)
           for (int v : batch.list.members[static_cast<int>(p)]) visit(to_index(v), id);
   };
-  auto& [first, items] = vertex_patches_;
+  std::vector<int>&first = vertex_patches_.first, &items = vertex_patches_.items;
   first.assign(to_index(vertex_count) + 1, 0);
   for_each_pair([&](std::size_t v, int) { ++first[v + 1]; });
   for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];

@@ -218,8 +218,8 @@ HOOKE_INLINE void factor_kernel_matrix(System& s) {
     s.solved &= pivot > 0.;
     take_sqrt(pivot);
     s.A.set(row_of(k) + k, pivot);
-    smallest = (p > 0.) & (pivot < smallest) ? pivot : smallest;
-    largest = (p > 0.) & (pivot > largest) ? pivot : largest;
+    smallest = ((p > 0.) & (pivot < smallest)) ? pivot : smallest;
+    largest = ((p > 0.) & (pivot > largest)) ? pivot : largest;
     const Lanes one_over = 1. / pivot;
     for (std::size_t i = k + 1; i < s.rows; ++i) {
       s.A.get(row_of(i) + k, x);

@@ -107,7 +107,9 @@ constexpr float no_limit = std::numeric_limits<float>::infinity();
 std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviation,
                                        const std::vector<double>& lengths) {
   constexpr double bending_factor = 4;
-  const auto& [points, normals, adjacency] = faces;
+  const auto& points = faces.points;
+  const auto& normals = faces.normals;
+  const Adjacency& adjacency = faces.adjacency;
   std::vector<float> deviation_bounds;
   if (max_deviation == std::numeric_limits<double>::infinity()) return deviation_bounds;
   const auto max_deviation_at = [&](int v) {

@@ -240,7 +240,7 @@ HOOKE_SIMD void test_all(const Candidates& candidates, Packet& packet) {
       squared *= safety_factor;
       store(squared, &distances[k]);
       const LaneMask meets = squared <= 0.;
-      smallest = meets | (squared > smallest) ? smallest : squared;
+      smallest = (meets | (squared > smallest)) ? smallest : squared;
       if (!any(meets)) continue;
       for (size_t i = 0; i < lane_count; ++i)
         if (meets[i]) test_face(candidates.faces[k + i], x, best, indices);

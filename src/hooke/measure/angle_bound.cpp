@@ -36,7 +36,7 @@ double corner_angle(const Mat3X& points, const Triangle& t, size_t k) {
 
 void sort_unique(std::vector<int>& ids) {
   std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {

@@ -51,7 +51,8 @@ class Sectors {
 
 void mark(Adjacency& c, const std::vector<Edge>& creases) {
   c.creases.assign(c.edges.size(), 0);
-  for (const auto& [a, b] : creases) {
+  for (const Edge& crease : creases) {
+    const int a = crease[0], b = crease[1];
     const auto edges = c.vertex_edges[a];
     const auto edge = std::ranges::find_if(edges, [&](int e) { return c.other_end(e, a) == b; });
     if (edge != edges.end()) c.creases[static_cast<size_t>(*edge)] = 1;

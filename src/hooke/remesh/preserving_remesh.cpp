@@ -283,7 +283,7 @@ class PreservingRemesh {
     for (int id : run.result.measures->deviation.flipped_faces)
       add_face(index_of_face[static_cast<size_t>(id)]);
     for (size_t e = 0; e < c.edges.size(); ++e) {
-      const auto& [left, right] = c.edge_faces[e];
+      const int left = c.edge_faces[e][0], right = c.edge_faces[e][1];
       if (right < 0) continue;
       const auto fold = [&](const Mat3X& points) {
         return cosine_between(points, c.faces[static_cast<size_t>(left)],

@@ -222,7 +222,7 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
     part = on ? (threshold.fade_out - angle) / (threshold.fade_out - t) : zero;
     part = part < 1. ? part : one;
     part = part > 0. ? part : zero;
-    angle = on & (angle < t) ? angle : zero + t;
+    angle = (on & (angle < t)) ? angle : zero + t;
   };
   Lanes x, a, b, part_x, part_a, part_b;  // the angles, and the weights of their curvature
   angle_of(on_x, at_x, x, part_x);

@@ -85,7 +85,7 @@ class PatchCutter {
         const int second = add(HalfedgeMesh::next(h)), third = add(HalfedgeMesh::previous(h));
         if (second < id || third < id) continue;
         Triangle face = {id, second, third};
-        std::ranges::rotate(face, face.begin() + (3 - h % 3) % 3);
+        std::rotate(face.begin(), face.begin() + (3 - h % 3) % 3, face.end());
         patch_.faces.push_back(face);
         faces.push_back(h / 3);
       }
