@@ -59,8 +59,10 @@ void finish(const Settings& s, RunRecord& record, OutputFiles& files) {
   if (!s.trace.empty()) files.add(PendingFile(s.trace, trace_csv(record.stages)));
   if (!s.trace_steps.empty())
     files.add(PendingFile(s.trace_steps, time_steps_csv(record.result->time_steps)));
-  if (!s.report.empty() && s.report != "-") files.add(PendingFile(s.report, report_text(record)));
-  if (s.report == "-") write_to_standard_output(report_text(record));
+  if (s.report == "-")
+    files.add(PendingFile::to_standard_output(report_text(record)));
+  else if (!s.report.empty())
+    files.add(PendingFile(s.report, report_text(record)));
   files.commit();
   if (!s.quiet)
     for (const Note& note : record.notes) print_note(note);

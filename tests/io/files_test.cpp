@@ -62,6 +62,22 @@ TEST(AtomicWrite, ReplacesAFileAndKeepsItsMode) {
   EXPECT_EQ(mode_of(folder / "f"), 0604u);
 }
 
+TEST(AtomicWrite, IsUndoneByTakingItBack) {
+  const TemporaryFolder folder;
+  const fs::path old = folder / "old", young = folder / "young";
+  write_text(old, "before");
+  {
+    PendingFile over_old(old, "after"), new_one(young, "after");
+    over_old.commit();
+    new_one.commit();
+    EXPECT_EQ(read_text(old), "after");
+    if (!over_old.take_back()) GTEST_SKIP() << "this file system cannot exchange names";
+    EXPECT_TRUE(new_one.take_back());
+  }
+  EXPECT_EQ(read_text(old), "before");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "."), fs::directory_iterator()), 1);
+}
+
 TEST(AtomicWrite, FollowsALinkAndLeavesOtherNamesOfTheOldFile) {
   const TemporaryFolder folder;
   write_text(folder / "real", "old");
