@@ -34,11 +34,13 @@ TEST(AtomicWrite, NothingHasChangedBeforeTheCommit) {
   write_text(folder / "f", "old");
   { const PendingFile dropped(folder / "f", "new"); }
   EXPECT_EQ(folder.file_count(), 1u);
-  PendingFile file(folder / "f", "new");
-  EXPECT_EQ(read_text(folder / "f"), "old");
-  PendingFile moved = std::move(file);
-  moved.commit();
-  EXPECT_EQ(read_text(folder / "f"), "new");
+  {
+    PendingFile file(folder / "f", "new");
+    EXPECT_EQ(read_text(folder / "f"), "old");
+    PendingFile moved = std::move(file);
+    moved.commit();
+    EXPECT_EQ(read_text(folder / "f"), "new");
+  }
   EXPECT_EQ(folder.file_count(), 1u);
 }
 

@@ -27,8 +27,9 @@ class PendingFile {
   PendingFile& operator=(PendingFile&&) noexcept;
   ~PendingFile();
 
-  /// Renames the temporary file to its target. To be called at most once. Throws OutputError; an existing
-  /// file is then unchanged, unless only the sync of the folder failed, as the message says.
+  /// Renames the temporary file to its target. An older file is kept under the temporary name until the end
+  /// of this object, for take_back(). To be called at most once. Throws OutputError; an existing file is then
+  /// unchanged, unless only the sync of the folder failed, as the message says.
   void commit();
 
   /// Undoes commit(): the older file is there again, or none if there was none. To be called at most once,
