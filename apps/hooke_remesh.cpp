@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "batch.h"
 #include "exit_codes.h"
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
@@ -19,6 +20,7 @@
 #include "messages.h"
 #include "options.h"
 #include "output_files.h"
+#include "progress_bar.h"
 #include "result_files.h"
 #include "result_warnings.h"
 #include "signals.h"
@@ -32,15 +34,13 @@ using Clock = std::chrono::steady_clock;
 
 /// Optimizes the mesh, measures the result and prepares its output files.
 void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
-                 OutputFiles& files, Stopwatch& stopwatch) {
-  {
-    ProgressLine line(s);
-    const Observer observer = [&](const Progress& p) {
-      line.show(p);
-      return caught_signal() == 0;
-    };
-    remesh_and_measure(s, loaded.mesh, loaded.memory_order, original, record, observer, stopwatch);
-  }
+                 OutputFiles& files, RunProgress& progress, Stopwatch& stopwatch) {
+  const Observer observer = [&](const Progress& p) {
+    progress.show(p);
+    return caught_signal() == 0;
+  };
+  remesh_and_measure(s, loaded.mesh, loaded.memory_order, original, record, observer, stopwatch);
+  progress.enter("write");
   const Mat3X points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   PendingMesh written = timed(&stopwatch, "write",
                               [&] { return prepare_output(s, loaded, original, points, record, stopwatch); });
@@ -92,6 +92,8 @@ int run(Settings s) {
   const auto start = Clock::now();
   const ThreadLimit threads(s.threads);
   require_outputs(s);
+  RunProgress progress(s);
+  progress.enter("read");
   Stopwatch stopwatch;
   LoadedMesh loaded = timed(&stopwatch, "read", [&] {
     return read_mesh(s.input, &stopwatch, {s.input_format, s.repair});
@@ -117,12 +119,14 @@ int run(Settings s) {
     throw Error("--reproject-uv is of OBJ files that are preserved; " +
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
   Original original;
+  progress.enter("measure");
   measure_input(s, loaded.mesh, loaded.memory_order, loaded.origin, original, record, stopwatch);
 
   OutputFiles files;
-  if (!s.check) make_result(s, loaded, original, record, files, stopwatch);
+  if (!s.check) make_result(s, loaded, original, record, files, progress, stopwatch);
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
+  progress.clear();
   finish(s, record, files);
   if (caught_signal()) return 128 + caught_signal();
   return std::ranges::all_of(record.gates, &GateOutcome::passed) ? done : gate_failed;
@@ -139,7 +143,7 @@ int main(int argc, char** argv) {
   const Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.settings) return parsed.exit_code;
   try {
-    return run(*parsed.settings);
+    return is_batch(*parsed.settings) ? run_batch(*parsed.settings) : run(*parsed.settings);
   } catch (const InputError& e) {
     print_error(e.what());
     return malformed_input;
