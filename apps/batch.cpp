@@ -1,7 +1,6 @@
 #include "batch.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -9,13 +8,13 @@
 #include <csignal>
 #include <deque>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "batch_plan.h"
+#include "batch_words.h"
 #include "child_process.h"
 #include "done_record.h"
 #include "exit_codes.h"
@@ -35,41 +34,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
-
-/// The status of a mesh whose run left no report.
-std::string failure_in_a_word(int exit_code) {
-  switch (exit_code) {
-    case usage:
-      return "usage";
-    case malformed_input:
-      return "malformed_input";
-    case unacceptable_mesh:
-      return "unacceptable_mesh";
-    case output_failed:
-      return "output_failed";
-    case numerical_failure:
-      return "numerical_failure";
-    case limit_reached:
-      return "limit_reached";
-    case promise_broken:
-      return "promise_broken";
-    default:
-      return "internal_error";
-  }
-}
-
-bool leaves_a_report(int exit_code) {
-  return exit_code == done || exit_code == gate_failed || exit_code == interrupted || exit_code == terminated;
-}
-
-/// The last error in the messages of a run, without the name of the command.
-std::string last_error(const std::string& messages) {
-  constexpr std::string_view mark = "hooke-remesh: error: ";
-  const size_t begin = messages.rfind(mark);
-  if (begin == std::string::npos) return "";
-  const size_t text = begin + mark.size();
-  return messages.substr(text, messages.find('\n', text) - text);
-}
 
 /// A mesh whose process runs.
 struct RunningMesh {
@@ -108,7 +72,7 @@ class Batch {
     }
     bar_.clear();
     if (!s_.batch.table.empty()) PendingFile(s_.batch.table, table_text(rows_, s_.batch.table)).commit();
-    if (!s_.quiet && tasks_.size() > 1) print_closing_line();
+    if (!s_.quiet && tasks_.size() > 1) print_text_as_it_is(closing_line());
     if (caught_signal() != 0) return 128 + caught_signal();
     const auto failed = std::ranges::find_if(codes_, [](int code) { return code != done; });
     return failed == codes_.end() ? done : *failed;
@@ -161,13 +125,42 @@ class Batch {
     if (s_.verbose) arguments.emplace_back("--verbose");
     if (s_.quiet || (!single && !s_.verbose)) arguments.emplace_back("--quiet");
     arguments.insert(arguments.end(), tasks_[t].arguments.begin(), tasks_[t].arguments.end());
+    std::unique_ptr<ChildProcess> process;
+    try {
+      process = std::make_unique<ChildProcess>(arguments);
+    } catch (const LimitError& e) {
+      if (running_.empty())
+        fail(t, limit_reached, printable(tasks_[t].input.string()) + ": " + e.what());
+      else
+        run_again_by_itself(t);
+      return;
+    }
     for (RunningMesh& other : running_) other.alone = false;
     running_.push_back({.task = t,
-                        .process = std::make_unique<ChildProcess>(arguments),
+                        .process = std::move(process),
                         .threads = threads,
                         .bytes = bytes,
                         .alone = running_.empty(),
                         .start = Clock::now()});
+  }
+
+  void run_again_by_itself(size_t t) {
+    again_.insert(t);
+    waiting_.push_back(t);
+  }
+
+  /// A mesh that came to nothing, or not to all that it should.
+  void fail(size_t t, int code, const std::string& message) {
+    bar_.clear();
+    print_error(message);
+    close(t,
+          {.exit_code = code, .status = failure_word(code), .message = message, .seconds = 0, .report = {}});
+  }
+
+  void close(size_t t, const MeshOutcome& outcome) {
+    rows_[t] = mesh_row(tasks_[t], outcome);
+    codes_[t] = outcome.exit_code;
+    ++finished_;
   }
 
   /// Waits for news of the meshes that run, and ends those that are done.
@@ -200,35 +193,43 @@ class Batch {
   }
 
   void finish(RunningMesh& mesh) {
+    constexpr int not_started = 127;
     const size_t t = mesh.task;
     const int code = mesh.process->finish();
-    if (!mesh.alone && (code == limit_reached || code == -SIGKILL) && caught_signal() == 0) {
-      again_.insert(t);  // for lack of memory, which it has for itself at the end
-      waiting_.push_back(t);
-      return;
-    }
-    MeshOutcome outcome{.exit_code = code,
-                        .status = {},
-                        .message = last_error(mesh.process->errors()),
-                        .seconds = 0,
-                        .report = {}};
-    outcome.seconds = std::chrono::duration<double>(Clock::now() - mesh.start).count();
+    const std::string name = printable(tasks_[t].input.string());
+    const bool lacked_memory = code == limit_reached || code == -SIGKILL;
+    if (lacked_memory && !mesh.alone && caught_signal() == 0) return run_again_by_itself(t);
     if (tasks_.size() > 1) tell(mesh.process->errors());
-    if (code < 0) {
-      outcome.exit_code = code == -SIGKILL ? limit_reached : internal_error;
-      outcome.message = fmt::format("{}: ended by signal {}{}", printable(tasks_[t].input.string()), -code,
-                                    code == -SIGKILL ? ", probably for lack of memory" : "");
+    if (code == not_started)
+      return fail(t, internal_error, name + ": no process of its own: /proc/self/exe cannot be started");
+    if (code < 0 && -code != caught_signal())
+      return fail(t, lacked_memory ? limit_reached : internal_error,
+                  fmt::format("{}: ended by signal {}{}", name, -code,
+                              lacked_memory ? ", probably for lack of memory" : ""));
+    MeshOutcome outcome{.exit_code = code < 0 ? 128 - code : code,
+                        .status = "interrupted",
+                        .message = last_error(mesh.process->errors()),
+                        .seconds = std::chrono::duration<double>(Clock::now() - mesh.start).count(),
+                        .report = {}};
+    if (leaves_a_report(code)) outcome.report = report_of(mesh);
+    if (code >= 0)
+      outcome.status = outcome.report.is_object() ? outcome.report.value("status", "") : failure_word(code);
+    close(t, outcome);
+    if (tasks_.size() > 1 && !s_.quiet && leaves_a_report(code)) tell(row_in_words(rows_[t]));
+    if (code == done && s_.batch.skip_existing) record(t, outcome);
+  }
+
+  void record(size_t t, MeshOutcome outcome) {
+    try {
+      record_done(tasks_[t], hashes_[t], rows_[t]);
+    } catch (const OutputError& e) {
       bar_.clear();
-      print_error(outcome.message);
+      print_error(e.what());
+      outcome.exit_code = codes_[t] = output_failed;
+      outcome.status = failure_word(output_failed);
+      outcome.message = e.what();
+      rows_[t] = mesh_row(tasks_[t], outcome);
     }
-    if (leaves_a_report(outcome.exit_code)) outcome.report = report_of(mesh);
-    outcome.status = outcome.report.is_object() ? outcome.report.value("status", "")
-                                                : failure_in_a_word(outcome.exit_code);
-    rows_[t] = mesh_row(tasks_[t], outcome);
-    codes_[t] = outcome.exit_code;
-    ++finished_;
-    if (outcome.exit_code == done && s_.batch.skip_existing) record_done(tasks_[t], hashes_[t], rows_[t]);
-    if (tasks_.size() > 1 && !s_.quiet && leaves_a_report(outcome.exit_code)) tell(line_of(rows_[t]));
   }
 
   Json report_of(const RunningMesh& mesh) const {
@@ -251,43 +252,11 @@ class Batch {
     waiting_.clear();
   }
 
-  static std::string in_a_word(const Json& row) {
-    const int code = row["exit_code"].get<int>();
-    return code == done          ? "done"
-           : code == gate_failed ? "written, but a condition of --require does not hold"
-                                 : row["status"].get<std::string>();
-  }
-
-  static std::string line_of(const Json& row) {
-    std::string line = fmt::format("{}: {} in {:.2f} s", printable(row["file"].get<std::string>()),
-                                   in_a_word(row), row["seconds"].get<double>());
-    const Json &before = row["least_angle_before"], &after = row["least_angle_after"];
-    if (before.is_number() && after.is_number())
-      line +=
-          fmt::format(": least angle {:.3g} -> {:.3g} degrees", before.get<double>(), after.get<double>());
-    else if (before.is_number())
-      line += fmt::format(": least angle {:.3g} degrees", before.get<double>());
-    return line + "\n";
-  }
-
-  void print_closing_line() const {
-    std::map<int, int> failures;
-    for (size_t t = 0; t < tasks_.size(); ++t)
-      if (codes_[t] != done) ++failures[codes_[t]];
-    std::vector<std::string> parts;
-    int failed = 0;
-    for (const auto& [code, count] : failures) {
-      parts.push_back(fmt::format("{} with exit code {}", count, code));
-      failed += count;
-    }
-    const int made = static_cast<int>(tasks_.size()) - failed - skipped_;
-    std::string text = fmt::format("{} meshes: {} done", tasks_.size(), made);
-    if (skipped_ > 0) text += fmt::format(", {} skipped", skipped_);
-    if (failed > 0) text += fmt::format(", {} not done ({})", failed, fmt::join(parts, ", "));
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    text += fmt::format(", in {:.2f} s", seconds);
-    if (!s_.batch.table.empty()) text += "; table in " + printable(s_.batch.table.string());
-    print_text_as_it_is(text + "\n");
+  std::string closing_line() const {
+    const std::string table =
+        s_.batch.table.empty() ? "" : "; table in " + printable(s_.batch.table.string());
+    return batch_in_words(codes_, skipped_, std::chrono::duration<double>(Clock::now() - start_).count()) +
+           table + "\n";
   }
 
   void tell(const std::string& text) {

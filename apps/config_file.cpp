@@ -4,124 +4,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
-#include <regex>
 #include <utility>
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "nearest_word.h"
+#include "toml_entries.h"
 
 namespace hooke::app {
 namespace {
-
-bool is_number(const std::string& text) {
-  static const std::regex number(R"([+-]?(0|[1-9][0-9]*)([.][0-9]+)?([eE][+-]?[0-9]+)?)");
-  return std::regex_match(text, number);
-}
-
-/// A line of the file.
-struct Entry {
-  std::string key;
-  std::vector<std::string> values;
-  bool is_array = false;
-  int line = 0;
-};
-
-/// Takes the entries of a file one by one.
-class EntryScanner {
- public:
-  EntryScanner(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
-
-  /// Whether there is another entry; reads it.
-  bool next(Entry& entry) {
-    skip_blank(true);
-    if (at_end()) return false;
-    entry = {.key = bare(), .values = {}, .line = line_};
-    if (entry.key.empty()) fail(in_quotes(rest_of_line()), "NAME = VALUE, without sections");
-    skip_blank(false);
-    if (!take('=')) fail("no value for " + in_quotes(entry.key), "NAME = VALUE");
-    skip_blank(false);
-    entry.is_array = take('[');
-    if (entry.is_array)
-      read_array(entry.values);
-    else
-      entry.values.push_back(value());
-    skip_blank(false);
-    if (!at_end() && peek() != '\n')
-      fail(in_quotes(rest_of_line()) + " after the value", "the end of the line");
-    return true;
-  }
-
- private:
-  bool at_end() const { return at_ >= text_.size(); }
-  char peek() const { return at_end() ? '\n' : text_[at_]; }
-
-  bool take(char c) {
-    if (peek() != c || at_end()) return false;
-    ++at_;
-    return true;
-  }
-
-  /// Skips spaces and a comment; also ends of lines, if they have no meaning.
-  void skip_blank(bool lines) {
-    for (; !at_end(); ++at_) {
-      const char c = peek();
-      if (c == '#')
-        at_ = std::min(text_.find('\n', at_), text_.size()) - 1;
-      else if (c == '\n' && lines)
-        ++line_;
-      else if (c != ' ' && c != '\t' && c != '\r')
-        return;
-    }
-  }
-
-  /// Letters, digits, and what numbers and keys are made of.
-  std::string bare() {
-    const size_t begin = at_;
-    while (!at_end() && (std::isalnum(static_cast<unsigned char>(peek())) ||
-                         std::string_view("+-._").find(peek()) != std::string_view::npos))
-      ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-
-  std::string value() {
-    const char quote = peek();
-    if (quote == '"' || quote == '\'') {
-      const size_t begin = ++at_;
-      while (!at_end() && peek() != quote && peek() != '\n') ++at_;
-      std::string text = text_.substr(begin, at_ - begin);
-      if (!take(quote)) fail("text without its closing quote", fmt::format("{} at its end", quote));
-      if (quote == '"' && text.find('\\') != std::string::npos)
-        fail("a backslash in " + in_quotes(text), "text between ', where it stands for itself");
-      return text;
-    }
-    const size_t begin = at_;
-    std::string word = bare();
-    if (word == "true" || word == "false" || is_number(word)) return word;
-    at_ = begin;
-    fail(in_quotes(rest_of_line()), "a number, true, false, text in quotes, or an array of them in [ ]");
-  }
-
-  void read_array(std::vector<std::string>& values) {
-    for (skip_blank(true); !take(']'); skip_blank(true)) {
-      values.push_back(value());
-      skip_blank(true);
-      if (!take(',') && peek() != ']') fail("an array without end", "a comma, or ]");
-    }
-  }
-
-  std::string rest_of_line() const { return text_.substr(at_, text_.find_first_of("\r\n", at_) - at_); }
-
-  [[noreturn]] void fail(const std::string& what, const std::string& expected) const {
-    throw Error(fmt::format("{}:{}: {}; expected {}", name_, line_, what, expected));
-  }
-
-  std::string name_, text_;
-  size_t at_ = 0;
-  int line_ = 1;
-};
 
 std::string key_of(const CLI::Option& option) {
   return option.get_lnames().empty() ? option.get_name(true) : option.get_lnames().front();
@@ -135,9 +27,18 @@ bool may_stand_in_file(const CLI::Option& option) {
   return option.get_configurable() && !option.get_group().empty();
 }
 
+/// Why the entry cannot be one of this option; empty if it can.
+std::string problem_with(const TomlEntry& entry, const CLI::Option& option) {
+  if (!may_stand_in_file(option)) return "is of the command line only; remove the line";
+  if (entry.is_array && option.get_items_expected_max() <= 1) return "an array; expected one value";
+  if (is_flag(option) && entry.values[0] != "true" && entry.values[0] != "false")
+    return in_quotes(entry.values[0]) + "; expected true or false";
+  return "";
+}
+
 /// The text as a value of TOML.
 std::string toml_value(const std::string& option, const std::string& text) {
-  if (is_number(text)) return text;
+  if (is_toml_number(text)) return text;
   const bool plain =
       std::ranges::none_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; });
   if (plain && text.find('\'') == std::string::npos) return "'" + text + "'";
@@ -190,7 +91,6 @@ std::string ConfigFile::to_config(const CLI::App* app, bool, bool, std::string) 
 
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
   const std::string file = name();
-  EntryScanner scanner(file, {std::istreambuf_iterator<char>(input), {}});
   std::map<std::string, const CLI::Option*> options;
   std::vector<std::string> known;
   for (const CLI::Option* option : app_.get_options()) {
@@ -199,7 +99,7 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
   }
   std::vector<CLI::ConfigItem> taken;
   std::map<std::string, int> lines;
-  for (Entry entry; scanner.next(entry);) {
+  for (TomlEntry& entry : read_toml_entries(file, {std::istreambuf_iterator<char>(input), {}})) {
     const auto fail = [&](const std::string& problem) {
       throw Error(fmt::format("{}:{}: {}: {}", file, entry.line, printable(entry.key), problem));
     };
@@ -210,12 +110,9 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
            (nearest.empty() ? "hooke-remesh --help-all lists them" : "did you mean " + nearest + "?"));
     }
     const CLI::Option& option = *found->second;
-    if (!may_stand_in_file(option)) fail("is of the command line only; remove the line");
+    if (const std::string problem = problem_with(entry, option); !problem.empty()) fail(problem);
     if (const auto [place, added] = lines.emplace(entry.key, entry.line); !added)
       fail(fmt::format("a second time, after line {}; expected it once; remove one", place->second));
-    if (entry.is_array && option.get_items_expected_max() <= 1) fail("an array; expected one value");
-    if (is_flag(option) && entry.values[0] != "true" && entry.values[0] != "false")
-      fail(in_quotes(entry.values[0]) + "; expected true or false");
     if (option.count() > 0 || (is_flag(option) && entry.values[0] == "false") || entry.values.empty())
       continue;
     lines_.emplace(entry.key, entry.line);

@@ -175,25 +175,39 @@ class Batch(CommandTest):
             self.assertEqual(table["patch.obj"]["status"], "not_run")
             self.assertTrue((self.folder / "out" / "big.off").exists())
 
-    def test_a_crash_is_one_mesh_only(self):
+    def with_its_first_child(self, number, *arguments):
+        """The messages of a batch in which the process of the first mesh, a slow one, gets a signal."""
         write_off(self.folder / "big.off", *irregular_torus(240, 100))
-        process = self.start("big.off", "patch.obj", "-o", "out/", "--jobs", 1, "--table", "table.csv", "--integrator", "damped")
-        child = None
-        limit = time.monotonic() + 20
-        while not child and time.monotonic() < limit:
-            children = Path("/proc/%d/task/%d/children" % (process.pid, process.pid))
-            if not children.exists():
-                process.kill()
-                process.communicate()
-                self.skipTest("this system does not tell of children")
+        process = self.start("big.off", "patch.obj", "-o", "out/", "--table", "table.csv", *arguments)
+        children = Path("/proc/%d/task/%d/children" % (process.pid, process.pid))
+        child, limit = [], time.monotonic() + 20
+        while not child and children.exists() and time.monotonic() < limit:
             child = children.read_text().split()
+        if not child:
+            process.kill()
+            process.communicate()
+            self.skipTest("this system does not tell of children")
         time.sleep(.2)
-        os.kill(int(child[0]), signal.SIGSEGV)
-        process.communicate()
-        self.assertEqual(process.returncode, 1)
+        os.kill(int(child[0]), number)
+        _, err = process.communicate()
+        return process.returncode, err.decode()
+
+    def test_a_crash_is_one_mesh_only(self):
+        code, err = self.with_its_first_child(signal.SIGSEGV, "--jobs", 1)
+        self.assertEqual(code, 1)
+        self.assertIn("hooke-remesh: error: big.off: ended by signal 11\n", err)
         table = self.table()
         self.assertIn("signal 11", table["big.off"]["message"])
-        self.assertEqual(table["patch.obj"]["exit_code"], "0")
+        self.assertEqual((table["big.off"]["status"], table["patch.obj"]["exit_code"]), ("internal_error", "0"))
+
+    def test_lack_of_memory_beside_others_gets_a_second_chance(self):
+        """The system kills what it has no memory for."""
+        code, err = self.with_its_first_child(signal.SIGKILL, "--jobs", 2)
+        self.assertEqual(code, 0, err)
+        self.assertEqual([row["exit_code"] for row in self.table().values()], ["0", "0"])
+        code, err = self.with_its_first_child(signal.SIGKILL, "--jobs", 1)
+        self.assertEqual(code, 8, err)
+        self.assertEqual(self.table()["big.off"]["status"], "limit_reached")
 
     def test_loops_of_the_shell_do_the_same(self):
         """As apps/README.md shows them."""
