@@ -40,7 +40,7 @@ std::string pair(std::string_view subject, std::string_view text) {
 
 std::string man_page(const std::vector<OptionEntry>& entries) {
   std::string text = fmt::format(
-      ".TH HOOKE\\-REMESH 1 \"\" \"hooke\\-remesh {}\" \"User Commands\"\n"
+      ".TH HOOKE\\-REMESH 1 2026-11-25 \"hooke\\-remesh {}\" \"User Commands\"\n"
       ".SH NAME\nhooke\\-remesh \\- well shaped triangles on the same surface\n"
       ".SH SYNOPSIS\n.B hooke\\-remesh\n\\fIINPUT\\fR \\fB\\-o\\fR \\fIOUTPUT\\fR [\\fIOPTIONS\\fR]\n.br\n"
       ".B hooke\\-remesh\n\\fIINPUT\\fR... \\fB\\-o\\fR \\fIFOLDER/\\fR [\\fIOPTIONS\\fR]\n.br\n"

@@ -111,12 +111,13 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
            "Target lengths of edges, one a line: two vertex ids (0-based) and a length in file units; other "
            "edges have that of --length. Springs of altitudes and angles, which ask for equilateral faces, "
            "are off then");
-  add_choice(app, "--connectivity", s.remesh.connectivity,
-             "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel; "
-             "adapt: new vertices and faces, as many as --length asks for",
-             Choices<ConnectivityMode>{{"fixed", ConnectivityMode::fixed},
-                                       {"flip", ConnectivityMode::flip},
-                                       {"adapt", ConnectivityMode::adapt}})
+  add_choice(
+      app, "--connectivity", s.remesh.connectivity,
+      "What may change: fixed = the faces stay; flip = edges are flipped too, with the same vertex ids, but "
+      "vertices travel; adapt = new vertices and faces, as many as --length asks for",
+      Choices<ConnectivityMode>{{"fixed", ConnectivityMode::fixed},
+                                {"flip", ConnectivityMode::flip},
+                                {"adapt", ConnectivityMode::adapt}})
       ->default_str("fixed");
   add_file(app, "--map", s.map,
            "Where the output's vertices lie on the input: per line its vertex id there or -1, a face "
@@ -128,9 +129,11 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
       app, "--effort", s.effort, "How long to go on for better triangles",
       Choices<Effort>{{"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}})
       ->default_str("default");
-  add_choice(app, "--integrator", s.remesh.integrator,
-             "lbfgs: minimise the springs' energy; damped: follow the paper's equation of motion",
-             Choices<IntegratorKind>{{"lbfgs", IntegratorKind::lbfgs}, {"damped", IntegratorKind::damped}})
+  add_choice(
+      app, "--integrator", s.remesh.integrator,
+      "How to come to rest: lbfgs = minimise the springs' energy, damped = follow the paper's equation of "
+      "motion",
+      Choices<IntegratorKind>{{"lbfgs", IntegratorKind::lbfgs}, {"damped", IntegratorKind::damped}})
       ->default_str("lbfgs");
   add_choice(app, "--polish", s.remesh.polish_angles,
              "Angle springs on the worst faces after the equilibrium",

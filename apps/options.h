@@ -1,4 +1,4 @@
-// Parses the command line into settings. Only this module depends on CLI11.
+// Parses the command line into settings. Beside the table of options only the parser depends on CLI11.
 #pragma once
 
 #include <filesystem>

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -193,12 +194,42 @@ class Batch(CommandTest):
         return process.returncode, err.decode()
 
     def test_a_crash_is_one_mesh_only(self):
-        code, err = self.with_its_first_child(signal.SIGSEGV, "--jobs", 1)
+        code, err = self.with_its_first_child(signal.SIGABRT, "--jobs", 1)
         self.assertEqual(code, 1)
-        self.assertIn("hooke-remesh: error: big.off: ended by signal 11\n", err)
+        self.assertIn("hooke-remesh: error: big.off: ended by signal 6\n", err)
         table = self.table()
-        self.assertIn("signal 11", table["big.off"]["message"])
+        self.assertIn("signal 6", table["big.off"]["message"])
         self.assertEqual((table["big.off"]["status"], table["patch.obj"]["exit_code"]), ("internal_error", "0"))
+
+    def most_at_once(self, *arguments, prepare=None):
+        """How many processes of meshes were seen at the same time."""
+        process = self.start(*arguments, prepare=prepare, streams={"stderr": subprocess.DEVNULL})
+        children = Path("/proc/%d/task/%d/children" % (process.pid, process.pid))
+        most = 0
+        while process.poll() is None:
+            try:
+                most = max(most, len(children.read_text().split()))
+            except OSError:
+                break
+            time.sleep(.005)
+        process.communicate()
+        self.assertEqual(process.returncode, 0)
+        return most
+
+    def test_meshes_run_together_as_far_as_memory_goes(self):
+        names = ["one.off", "two.off", "three.off"]
+        for name in names:
+            write_off(self.folder / name, *irregular_torus(240, 100))
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (600 << 20, 600 << 20))
+        probe = self.start("good.obj", "--check", "-q", prepare=limit)
+        probe.communicate()
+        if probe.returncode != 0 or not Path("/proc/self/task").exists():
+            self.skipTest("needs a program without sanitizers, and Linux")
+        run = (*names, "-o", "out/", "-j", 2, "--jobs", 2)
+        self.assertEqual(self.most_at_once(*run), 2)
+        together = [self.content("out/" + name) for name in names]
+        self.assertEqual(self.most_at_once(*run, prepare=limit), 1)
+        self.assertEqual(together, [self.content("out/" + name) for name in names])
 
     def test_lack_of_memory_beside_others_gets_a_second_chance(self):
         """The system kills what it has no memory for."""
