@@ -219,7 +219,9 @@ class Batch {
     if (code == done && s_.batch.skip_existing) record(t, outcome);
   }
 
+  /// Writes down that the mesh is done, unless its files have changed meanwhile.
   void record(size_t t, MeshOutcome outcome) {
+    if (work_hash(s_, tasks_[t]) != hashes_[t]) return;
     try {
       record_done(tasks_[t], hashes_[t], rows_[t]);
     } catch (const OutputError& e) {

@@ -30,11 +30,6 @@ constexpr std::array<std::pair<std::string_view, const char*>, 6> further_output
 constexpr std::array<std::string_view, 10> of_the_batch = {
     "INPUT", "output", "suffix", "table", "skip-existing", "jobs", "threads", "quiet", "verbose", "progress"};
 
-bool is_folder_name(const fs::path& path) {
-  std::error_code error;
-  return !path.has_filename() || fs::is_directory(path, error);
-}
-
 fs::path output_in_folder(const Settings& s, const fs::path& input) {
   const std::string extension =
       s.format_given ? "." + name_of(*s.format == MeshFormat::msh2 ? MeshFormat::msh : *s.format)
@@ -52,7 +47,7 @@ fs::path own_file(const Settings& s, const GivenOption& option, const char* exte
         fmt::format("--{} - is for one mesh without --table and --skip-existing; expected a folder FOLDER/, "
                     "for a file for each mesh",
                     option.name));
-  if (!is_folder_name(path)) {
+  if (!names_folder(path)) {
     if (s.inputs.size() == 1) return path;
     throw Error(
         fmt::format("--{} {}: one file for {} meshes; expected a folder, for a file for each; write {}/",
@@ -71,7 +66,7 @@ MeshTask task_of(const Settings& s, const fs::path& input) {
     if (is_standard_output(s.output))
       throw Error(
           "--output - is for one mesh without --table and --skip-existing; expected a file or FOLDER/");
-    task.output = is_folder_name(s.output) ? output_in_folder(s, input) : s.output;
+    task.output = names_folder(s.output) ? output_in_folder(s, input) : s.output;
     if (!s.format_given) format_of(task.output);  // throws
     task.outputs.push_back(task.output);
     task.arguments.push_back("--output=" + task.output.string());
@@ -108,7 +103,7 @@ std::string identity(const fs::path& path) {
 }  // namespace
 
 std::vector<MeshTask> plan_batch(const Settings& s) {
-  if (s.inputs.size() > 1 && !s.check && !is_folder_name(s.output))
+  if (s.inputs.size() > 1 && !s.check && !names_folder(s.output))
     throw Error(fmt::format("--output {}: one file for {} meshes; expected a folder; write {}/",
                             printable(s.output.string()), s.inputs.size(), printable(s.output.string())));
   if (s.batch.suffix.find('/') != std::string::npos)

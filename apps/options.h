@@ -75,6 +75,9 @@ struct Settings {
   ProgressStyle progress = ProgressStyle::automatic;
 };
 
+/// Whether the path is that of a folder: it ends with a slash, or there is such a folder.
+bool names_folder(const std::filesystem::path& path);
+
 /// Whether the settings are for a run that starts one process for each mesh, see run_batch().
 bool is_batch(const Settings& settings);
 

@@ -73,8 +73,10 @@ class Batch(CommandTest):
     def test_names(self):
         self.run_command("patch.obj", "cube.obj", "-o", "out/", "--suffix", "_better", "--format", "ply", "-q")
         self.assertEqual(sorted(os.listdir(self.folder / "out")), ["cube_better.ply", "patch_better.ply"])
-        self.run_command("patch.obj", "-o", "single/", "-q")
-        self.assertEqual(os.listdir(self.folder / "single"), ["patch.obj"])
+        for folder in ("single/", "single"):  # which is there then
+            self.run_command("patch.obj", "-o", folder, "-q")
+            self.assertEqual(os.listdir(self.folder / "single"), ["patch.obj"])
+            (self.folder / "single" / "patch.obj").unlink()
 
     def test_what_cannot_be_is_refused_before_anything_is_run(self):
         (self.folder / "sub").mkdir()
@@ -217,7 +219,7 @@ class Batch(CommandTest):
         return most
 
     def test_meshes_run_together_as_far_as_memory_goes(self):
-        names = ["one.off", "two.off", "three.off"]
+        names = ["one.off", "two.off"]
         for name in names:
             write_off(self.folder / name, *irregular_torus(240, 100))
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (600 << 20, 600 << 20))
@@ -225,7 +227,7 @@ class Batch(CommandTest):
         probe.communicate()
         if probe.returncode != 0 or not Path("/proc/self/task").exists():
             self.skipTest("needs a program without sanitizers, and Linux")
-        run = (*names, "-o", "out/", "-j", 2, "--jobs", 2)
+        run = (*names, "-o", "out/", "-j", 2, "--jobs", 2, "--effort", "fast")
         self.assertEqual(self.most_at_once(*run), 2)
         together = [self.content("out/" + name) for name in names]
         self.assertEqual(self.most_at_once(*run, prepare=limit), 1)
@@ -241,13 +243,13 @@ class Batch(CommandTest):
         self.assertEqual(self.table()["big.off"]["status"], "limit_reached")
 
     def test_loops_of_the_shell_do_the_same(self):
-        """As apps/README.md shows them."""
+        """As apps/many_meshes.md shows them."""
         (self.folder / "out").mkdir()
         environment = {**os.environ, "PATH": str(Path(TOOL).parent) + ":" + os.environ["PATH"]}
         loops = ["printf '%s\\0' *.obj *.off | xargs -0 -P 2 -I{} hooke-remesh -q {} -o out/{}"]
         if shutil.which("parallel"):
             loops.append("parallel -j 2 hooke-remesh -q {} -o out/{} ::: *.obj *.off")
-        readme = (DATA.parent / "apps" / "README.md").read_text()
+        readme = (DATA.parent / "apps" / "many_meshes.md").read_text()
         for name in ("bad.off", "open.obj"):
             (self.folder / name).unlink()
         for loop in loops:
