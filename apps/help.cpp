@@ -47,12 +47,12 @@ std::string short_help() {
   for (const TextPair& m : mode_advice) text += table_row(m.subject, m.text, mode_columns);
   text += "\nThe options needed most:\n";
   for (const TextPair& o : needed_most) text += table_row(o.subject, o.text, option_columns);
-  text += "\n" +
-          wrapped(
-              "All options: hooke-remesh --help-all, or man hooke-remesh. Several meshes at once: "
-              "hooke-remesh a.obj b.ply -o FOLDER/ (see --table, --skip-existing). Messages go to "
-              "standard error; the exit code is 0 only if the result is good.") +
-          "\n";
+  text += '\n';
+  text += wrapped(
+      "All options: hooke-remesh --help-all, or man hooke-remesh. Several meshes at once: hooke-remesh a.obj "
+      "b.ply -o FOLDER/ (see --table, --skip-existing). Messages go to standard error; the exit code is 0 "
+      "only if the result is good.");
+  text += '\n';
   return text;
 }
 

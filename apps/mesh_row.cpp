@@ -81,7 +81,10 @@ std::string table_text(const std::vector<Json>& rows, const std::filesystem::pat
   text += "\n";
   for (const Json& row : rows) {
     std::string line;
-    for (const auto& [name, value] : row.items()) line += (name == "file" ? "" : ",") + csv_cell(value);
+    for (const auto& [name, value] : row.items()) {
+      if (name != "file") line += ',';
+      line += csv_cell(value);
+    }
     text += line + "\n";
   }
   return text;

@@ -14,7 +14,7 @@ SOURCE = Path(__file__).resolve().parents[2] / "apps" / "options.cpp"
 
 def options_in_source():
     """The long names of all options but the hidden ones, as they stand in the table."""
-    names = set(re.findall(r'"(?:-\w,)?--([a-z][a-z-]+)"', SOURCE.read_text()))
+    names = set(re.findall(r'"(?:-\w,)?--([a-z][a-z-]+)(?:\{\w+\})?"', SOURCE.read_text()))
     return names - {"man-page"}
 
 
