@@ -166,7 +166,7 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
 
 /// Throws Error for options of a batch without one.
 void reject_unused_batch_options(const Settings& s, const RawOptions& raw) {
-  const bool to_folder = s.inputs.size() > 1 || names_folder(s.output);
+  const bool to_folder = s.inputs.size() > 1 || !s.output.has_filename();
   if (!s.batch.suffix.empty() && !to_folder)
     throw Error("--suffix is of outputs in a folder; leave it out, or write --output FOLDER/");
   if (raw.given("--jobs") && s.inputs.size() == 1) throw Error("--jobs is of several inputs; leave it out");
@@ -201,7 +201,8 @@ bool names_folder(const std::filesystem::path& path) {
 }
 
 bool is_batch(const Settings& s) {
-  return s.inputs.size() > 1 || names_folder(s.output) || !s.batch.table.empty() || s.batch.skip_existing;
+  return s.inputs.size() > 1 || (!s.output.empty() && !s.output.has_filename()) || !s.batch.table.empty() ||
+         s.batch.skip_existing;
 }
 
 void resolve(Settings& s, const RawOptions& raw) {

@@ -73,10 +73,10 @@ class Batch(CommandTest):
     def test_names(self):
         self.run_command("patch.obj", "cube.obj", "-o", "out/", "--suffix", "_better", "--format", "ply", "-q")
         self.assertEqual(sorted(os.listdir(self.folder / "out")), ["cube_better.ply", "patch_better.ply"])
-        for folder in ("single/", "single"):  # which is there then
-            self.run_command("patch.obj", "-o", folder, "-q")
-            self.assertEqual(os.listdir(self.folder / "single"), ["patch.obj"])
-            (self.folder / "single" / "patch.obj").unlink()
+        self.run_command("patch.obj", "-o", "single/", "-q")
+        self.assertEqual(os.listdir(self.folder / "single"), ["patch.obj"])
+        self.run_command("patch.obj", "cube.obj", "-o", "single", "-q")  # which is there
+        self.assertEqual(sorted(os.listdir(self.folder / "single")), ["cube.obj", "patch.obj"])
 
     def test_what_cannot_be_is_refused_before_anything_is_run(self):
         (self.folder / "sub").mkdir()
