@@ -17,6 +17,7 @@
 #include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/report/report.h"
+#include "kept_data.h"
 #include "messages.h"
 #include "options.h"
 #include "output_files.h"
@@ -41,6 +42,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   };
   remesh_and_measure(s, loaded.mesh, loaded.memory_order, original, record, observer, stopwatch);
   progress.enter("write");
+  timed(&stopwatch, "data", [&] { carry_data(s, loaded, original, record); });
   const Mat3X points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   PendingMesh written = timed(&stopwatch, "write",
                               [&] { return prepare_output(s, loaded, original, points, record, stopwatch); });
@@ -118,6 +120,7 @@ int run(Settings s) {
   if (s.reproject_uv && (s.format != MeshFormat::obj || !obstacle.empty()))
     throw Error("--reproject-uv is of OBJ files that are preserved; " +
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
+  if (!s.check) timed(&stopwatch, "seams", [&] { keep_seams(s, loaded, record); });
   Original original;
   progress.enter("measure");
   measure_input(s, loaded.mesh, loaded.memory_order, loaded.origin, original, record, stopwatch);

@@ -216,6 +216,14 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
              "surface is rough or round",
              Choices<bool>{{"auto", true}, {"off", false}})
       ->default_str("auto");
+  app.add_option(
+         "--keep", raw.keep,
+         "What is kept along its borders with flip and adapt, one or more, with commas: seams = texture "
+         "coordinates and normals of an OBJ, materials = its materials and the face labels of other formats "
+         "(groups of MSH, integer properties of PLY), groups = groups, objects and smoothing groups of OBJ, "
+         "solids of STL. Borders become creases along which vertices slide; none: such data are dropped")
+      ->type_name("seams,materials,groups|none")
+      ->default_str("seams,materials,groups");
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
 }
 

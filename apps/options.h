@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hooke/constraints/seams.h"
 #include "hooke/io/mesh_format.h"
 #include "hooke/measure/preservation.h"
 #include "hooke/mesh/repair.h"
@@ -57,6 +58,7 @@ struct Settings {
   Effort effort = Effort::standard;
   std::filesystem::path map;  // empty for none
   RemeshOptions remesh;
+  SeamKinds keep;  // seams that are feature edges where faces are replaced
   PreservationOptions preservation;
   PaperOptions paper_options;
   double max_distance_share = 0;  // --max-distance in diagonals of the input; 0: not given so

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "hooke/core/printable.h"
 #include "hooke/core/stopwatch.h"
+#include "hooke/io/carried_data.h"
 #include "hooke/io/files.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
@@ -33,6 +35,10 @@ std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) 
   return "";
 }
 
+PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
+  return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
+}
+
 namespace {
 
 /// Whether a user would expect the output to be the input's bytes with other digits: a file of a format that
@@ -43,8 +49,8 @@ bool is_of_its_kind(const Settings& s, const LoadedMesh& loaded) {
 
 /// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface
 /// positions of its vertices. Normals are always recomputed from the result.
-VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
-                          const Mat3X& points, RunRecord& run) {
+FormatData vertex_data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                                 const Mat3X& points, const RunRecord& run) {
   const MemoryOrder& memory_order = loaded.memory_order;
   const bool interpolated = !keeps_faces(s) && !loaded.vertex_data.empty();
   VertexData data =
@@ -53,37 +59,50 @@ VertexData data_of_result(const Settings& s, const LoadedMesh& loaded, const Ori
                    : loaded.vertex_data;
   if (has_normals(data))
     set_normals(data, memory_order.order.scatter(vertex_normals(points, *memory_order.adjacency)));
-  FormatData converted = data_for_format(data, loaded.format, *s.format);
-  if (!converted.dropped.empty())
-    run.warnings.push_back(
-        {"attributes_not_kept", fmt::format("{}: {} files cannot hold {}; use PLY", name_of_output(s.output),
-                                            name_of(*s.format), fmt::join(converted.dropped, ", "))});
-  return std::move(converted.data);
+  return data_for_format(data, loaded.format, *s.format);
 }
 
-/// A file of the input's format is encoded like the input, others are binary where they can be.
-PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
-  return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
+/// The data of corners in the result: of new faces as they are, else with normals that follow the vertices.
+CornerData corner_data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original) {
+  CornerData data = loaded.corner_data;
+  if (keeps_faces(s) && !data.normals.empty())
+    data.normals =
+        moved_normals(data.normals, triangles_of(loaded.mesh),
+                      original.memory_order.order.scatter(original.points), vertex_points(loaded.mesh));
+  return data;
 }
 
-/// The face data of the input that the output can hold, if the faces are the same.
-FaceData face_data_of_result(const Settings& s, const LoadedMesh& loaded, PlyEncoding encoding,
-                             RunRecord& run) {
-  FormatFaceData converted = face_data_for_format(loaded.face_data, *s.format, encoding);
-  const auto drop = [&](const std::string& why, const std::vector<std::string>& names) {
-    run.warnings.push_back(
-        {"attributes_not_kept", fmt::format("{}: face data not kept: {}: {}", name_of_output(s.output),
-                                            fmt::join(names, ", "), why)});
+/// The format that holds what this one cannot.
+const char* format_for(const FormatData& vertices, const FormatFaceData& faces) {
+  const auto is_dropped = [&](const std::string& channel) {
+    return std::ranges::find(faces.dropped, channel) != faces.dropped.end();
   };
-  if (!converted.dropped.empty())
-    drop(fmt::format("{} files cannot hold it; use {}", name_of(*s.format),
-                     s.format == MeshFormat::msh || s.format == MeshFormat::msh2 ? "STL" : "MSH"),
-         converted.dropped);
-  if (keeps_faces(s) || converted.data.empty()) return std::move(converted.data);
-  std::vector<std::string> names;
-  for (const FaceChannel& channel : converted.data) names.push_back(channel.name);
-  drop("new faces have none; use --connectivity fixed", names);
-  return {};
+  for (const std::string channel : {material_channel, object_channel, smoothing_channel})
+    if (is_dropped(channel) || is_dropped("names of " + channel)) return "OBJ";
+  if (!vertices.dropped.empty()) return "PLY";
+  for (const std::string channel : {group_channel, entity_channel})
+    if (is_dropped(channel) || is_dropped("names of " + channel)) return "MSH";
+  return is_dropped(attribute_channel) ? "STL" : "PLY";
+}
+
+/// The data of the result that its file can hold. Warns of the rest.
+MeshData data_of_result(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                        const Mat3X& points, PlyEncoding encoding, RunRecord& run) {
+  FormatData vertices = vertex_data_of_result(s, loaded, original, points, run);
+  FormatFaceData faces = face_data_for_format(loaded.face_data, loaded.format, *s.format, encoding);
+  MeshData result{std::move(vertices.data), std::move(faces.data), {}, {}};
+  if (s.format == MeshFormat::obj) {
+    result.corners = corner_data_of_result(s, loaded, original);
+    result.material_libraries = loaded.material_libraries;
+  }
+  std::vector<std::string> lost = vertices.dropped;
+  lost.insert(lost.end(), faces.dropped.begin(), faces.dropped.end());
+  if (!lost.empty())
+    run.warnings.push_back(
+        {"attributes_not_kept",
+         fmt::format("{}: {} files cannot hold {}; use {}", name_of_output(s.output), name_of(*s.format),
+                     fmt::join(lost, ", "), format_for(vertices, faces))});
+  return result;
 }
 
 }  // namespace
@@ -105,17 +124,17 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
     obstacle = std::move(preserved.obstacle);
   }
   append(record.warnings, loaded.content.anew);
+  if (s.format != MeshFormat::obj) append(record.warnings, loaded.content.no_obj);
   if (s.preserve && (s.preserve_given || is_of_its_kind(s, loaded)))
     record.warnings.push_back(
         {"not_preserved", fmt::format("{}: is a new file, and not {} with moved vertices: {}",
                                       name_of_output(s.output), record.input.path, obstacle)});
-  const VertexData data = data_of_result(s, loaded, original, points, record);
   const PlyEncoding encoding = encoding_of_output(s, loaded);
-  const FaceData face_data = face_data_of_result(s, loaded, encoding, record);
+  const MeshData data = data_of_result(s, loaded, original, points, encoding, record);
   if (s.format == MeshFormat::stl)
     append(record.warnings, losses_in_stl(vertex_points(loaded.mesh), triangles_of(loaded.mesh), encoding,
                                           name_of_output(s.output)));
-  return prepare_mesh(s.output, loaded.mesh, *s.format, encoding, data, face_data, &stopwatch);
+  return prepare_mesh(s.output, loaded.mesh, *s.format, encoding, data, &stopwatch);
 }
 
 std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Original& original,

@@ -15,6 +15,9 @@ namespace hooke::app {
 /// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.
 std::string obstacle_to_preserving(const Settings& settings, const LoadedMesh& loaded);
 
+/// A file of the input's format is encoded like the input, others are binary where they can be.
+PlyEncoding encoding_of_output(const Settings& settings, const LoadedMesh& loaded);
+
 /// Prepares the output: the input file with moved vertices if that can be and is not switched off, else a new
 /// file. Records which of them, and what that means for the content of the input. `loaded` holds the result,
 /// `points` are its points in memory order.

@@ -24,13 +24,27 @@ bool keeps_faces(const Settings& s) {
   return s.paper || s.remesh.connectivity == ConnectivityMode::fixed;
 }
 
+namespace {
+
+std::vector<const char*> words_of(const SeamKinds& keep) {
+  std::vector<const char*> words;
+  if (keep.texture) words.push_back("seams");
+  if (keep.materials) words.push_back("materials");
+  if (keep.groups) words.push_back("groups");
+  return words;
+}
+
+}  // namespace
+
 nlohmann::ordered_json parameters_of(const Settings& s) {
   nlohmann::ordered_json parameters =
       s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
   parameters.update({{"repair", s.repair.repair},
                      {"weld", s.weld_text},
                      {"drop_components", s.repair.drop_components},
-                     {"fill_holes", s.repair.fill_holes}});
+                     {"fill_holes", s.repair.fill_holes},
+                     {"keep", nullptr}});
+  if (!keeps_faces(s)) parameters["keep"] = words_of(s.keep);
   return parameters;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -96,6 +97,27 @@ double parse_feature_angle(const std::string& text) {
   return value;
 }
 
+/// Parses "none" or words with commas between them.
+SeamKinds parse_keep(const std::string& text) {
+  SeamKinds keep{false, false, false};
+  if (text == "none") return keep;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (word == "seams")
+      keep.texture = true;
+    else if (word == "materials")
+      keep.materials = true;
+    else if (word == "groups")
+      keep.groups = true;
+    else
+      throw Error(fmt::format(
+          "--keep {}; expected seams, materials, groups with commas between them, or none", in_quotes(text)));
+    begin = end + 1;
+  }
+  return keep;
+}
+
 /// Returns parse(text). Puts the name of the option in front of the message of an Error.
 template <typename Parse>
 auto parsed(const char* option, const Parse& parse, const std::string& text) {
@@ -156,6 +178,8 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
          "is of --connectivity fixed, where edges stay");
   refuse(raw.given("--repair") || raw.given("--weld"), {"--edge-lengths"},
          "names edges that --repair and --weld may change");
+  refuse(s.paper || s.remesh.connectivity == ConnectivityMode::fixed, {"--keep"},
+         "is of --connectivity flip and adapt; with fixed all is kept");
   refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");
   refuse(s.check, {"--preserve", "--reproject-uv", "--format"},
@@ -223,6 +247,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.preservation.feature_angle = s.remesh.constraints.features.angle;
   if (s.weld_text != "off") set_weld(s.weld_text, s.repair);
   if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);
+  if (raw.keep) s.keep = parse_keep(*raw.keep);
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;

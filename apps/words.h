@@ -17,6 +17,7 @@ struct RawOptions {
   std::string tolerance = "0.1%";
   std::string gradation;
   std::optional<std::string> feature_angle;
+  std::optional<std::string> keep;
   std::optional<std::string> max_distance, drop_components;
   std::optional<double> rho, altitude;
   std::optional<OffsetUnit> rho_unit;

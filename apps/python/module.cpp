@@ -58,8 +58,11 @@ py::tuple run_arrays(const PointArray& vertices, const FaceArray& faces,
 py::tuple read_file(const std::filesystem::path& path) {
   const LoadedMesh loaded = unlocked([&] { return read_mesh(path); });
   py::list warnings;
-  for (const Warnings& of_kind : {loaded.content.anew, loaded.warnings})
+  for (const Warnings& of_kind : {loaded.content.anew, loaded.content.no_obj, loaded.warnings})
     for (const Warning& w : of_kind) warnings.append(py::make_tuple(w.code, w.message));
+  for (const FaceChannel& channel : loaded.face_data)
+    warnings.append(
+        py::make_tuple("attributes_not_kept", path.string() + ": not kept: face data " + channel.name));
   return py::make_tuple(vertex_array(loaded.mesh), face_array(loaded.mesh),
                         attribute_arrays(loaded.vertex_data), name_of(loaded.format), warnings);
 }
@@ -76,7 +79,7 @@ std::vector<std::string> write_file(const std::filesystem::path& path, const Poi
   unlocked([&] {
     const ValidMesh mesh = make_valid_mesh(points, triangles, path.string());
     prepare_mesh(path, mesh.mesh, target, ascii ? PlyEncoding::ascii : PlyEncoding::binary_little_endian,
-                 data.data)
+                 {.vertices = data.data})
         .file.commit();
   });
   return data.dropped;

@@ -109,7 +109,7 @@ class Stl(CommandTest):
         self.assertEqual(err, "")
         self.assertEqual([a for _, a in stl_facets((self.folder / "c.stl").read_bytes())], [1, 2, 3, 4])
         _, err = self.run_command("b.stl", "-o", "c.obj", "-q")
-        self.assertIn("c.obj: face data not kept: attribute: obj files cannot hold it", err)
+        self.assertIn("c.obj: obj files cannot hold attribute; use STL", err)
 
     def test_vertices_that_only_differ_in_double_precision_are_told(self):
         vertices = [(100, 0, 0), (100 + 1e-9, 0, 0), (100, -1, 0), (100, 1, 0)]
@@ -166,10 +166,10 @@ class Msh(CommandTest):
         self.assertEqual([g for g, _ in msh_labels(text)[1]], [1, 2])
 
     def test_dropped_groups_are_named(self):
-        for arguments, why in ((["out.obj"], "obj files cannot hold it"), (["out.stl"], "stl files cannot hold it"),
-                               (["out.msh", "--connectivity", "flip"], "new faces have none; use --connectivity fixed")):
+        for arguments, why in ((["out.obj"], "obj files cannot hold entity; use MSH"), (["out.off"], "off files cannot hold group, entity; use MSH"),
+                               (["out.stl"], "stl files cannot hold group, entity; use MSH"), (["out.ply"], "ply files cannot hold names of group; use MSH"),
+                               (["out.msh", "--connectivity", "flip", "--keep", "groups"], "face data not kept: group, entity: new faces have none")):
             _, err = self.run_command("in.msh", "-q", "--effort", "fast", "-o", *arguments)
-            self.assertIn("face data not kept: group", err)
             self.assertIn(why, err)
             self.assertEqual(err.count("\n"), 1)
 

@@ -256,8 +256,9 @@ class Preserve(CommandTest):
         report = self.report("artist.obj", "-o", "out.obj", "-q", "--preserve", "off")
         self.assertIs(report["output"]["preserved"], False)
         self.assertEqual(report["parameters"]["preserve"], "off")
-        self.assertIn("texture_seams", [w["code"] for w in report["warnings"]])
-        self.assertNotIn(b"usemtl", self.get("out.obj"))
+        self.assertEqual([w["code"] for w in report["warnings"]], ["attributes_not_kept", "polygons_triangulated"])
+        for word in (b"mtllib sheet.mtl skin.mtl", b"usemtl metal", b"g right arm", b"s off"):
+            self.assertIn(word, self.get("out.obj"))
         self.refused(2, "artist.obj", "-o", "o.obj", "--preserve", "maybe", says="expected on|off")
         self.refused(2, "artist.obj", "--check", "--preserve", "on", says="--preserve")
 

@@ -14,8 +14,8 @@ IntLists fan(int n) {
   return polygons;
 }
 
-Seams seams_of(const CornerData& data, const IntLists& polygons, int vertices) {
-  return find_seams(data, polygons, elements_of_vertices(data, polygons, vertices));
+CornerSeams seams_of(const ElementsOfCorners& data, const IntLists& polygons, int vertices) {
+  return find_corner_seams(data, polygons, elements_of_vertices(data, polygons, vertices));
 }
 
 TEST(CornerData, WhatIsTheSameInAllCornersHasNoSeam) {
@@ -30,7 +30,7 @@ TEST(CornerData, WhatIsTheSameInAllCornersHasNoSeam) {
     repeated.col(c) = values.col(polygons.items[static_cast<size_t>(c)]);
     own[static_cast<size_t>(c)] = c;
   }
-  const Seams seams = seams_of({repeated, own}, polygons, 7);
+  const CornerSeams seams = seams_of({repeated, own}, polygons, 7);
   EXPECT_TRUE(seams.vertices.empty());
   EXPECT_EQ(seams.edges, 0u);
 }
@@ -40,7 +40,7 @@ TEST(CornerData, ASeamIsItsVerticesAndItsEdges) {
   const Mat3X values = Mat3X::Random(3, 14);
   std::vector<int> elements = polygons.items;  // faces 0, 1 and 2 have other values: cut along 4-0-1
   for (size_t c = 0; c < 9; ++c) elements[c] += 7;
-  const Seams seams = seams_of({values, elements}, polygons, 7);
+  const CornerSeams seams = seams_of({values, elements}, polygons, 7);
   EXPECT_EQ(seams.vertices, (std::vector{0, 1, 4}));
   EXPECT_EQ(seams.edges, 2u);
 }
@@ -50,7 +50,7 @@ TEST(CornerData, AnEdgeIsPartOfASeamWhenOneEndDiffers) {
   const Mat3X values = Mat3X::Random(3, 6);
   std::vector<int> elements = polygons.items;
   elements[0] = 5;  // vertex 0 in face 0: differs along 0-1 and 0-2
-  const Seams seams = seams_of({values, elements}, polygons, 5);
+  const CornerSeams seams = seams_of({values, elements}, polygons, 5);
   EXPECT_EQ(seams.vertices, std::vector{0});
   EXPECT_EQ(seams.edges, 2u);
 }

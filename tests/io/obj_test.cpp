@@ -56,8 +56,8 @@ TEST(Obj, NegativeIndicesCountFromWhereTheyStandAndPositiveOnesMayPointForward) 
 TEST(Obj, SaysWhatIsNotKept) {
   EXPECT_EQ(
       not_kept(three + "vt 0 0\nvn 0 0 1\ng a\no b\ns 1\nusemtl x\nmtllib y\nl 1 2\np 1\nfrob 1\nf 1 2 3"),
-      "m.obj: not kept in the output: texture coordinates, normals, groups, objects, smoothing groups, "
-      "materials, lines, points, 'frob' statements (line 13)");
+      "m.obj: not kept in the output: texture coordinates, normals, lines, points, 'frob' statements (line "
+      "13)");
   EXPECT_EQ(not_kept("v 0 0 0 1 .5 0\nv 1 0 0\nv 0 1 0 1 .5 0\nf 1 2 3"),
             "m.obj: not kept in the output: vertex colours");
   EXPECT_EQ(not_kept(three + "s off\nf 1 2 3"), "");
@@ -100,39 +100,42 @@ TEST(Obj, EqualTextureCoordinatesAreNoSeam) {
 
 TEST(Obj, SeamsAndHardEdgesAreNamed) {
   const std::string square = three + "v 1 1 0\n";
-  const Warnings seam = read(square + texture + "vt 7 7\nf 1/1 2/2 3/3\nf 4/1 3/3 2/4\n").content.anew;
+  const Warnings seam = read(square + texture + "vt 7 7\nf 1/1 2/2 3/3\nf 4/1 3/3 2/4\n").content.no_obj;
   ASSERT_EQ(seam.size(), 1u);
   EXPECT_EQ(seam[0].code, "texture_seams");
-  EXPECT_EQ(
-      seam[0].message,
-      "m.obj: not kept in the output: texture coordinates, because of seams (edges: 1; vertices with "
-      "several vt: 1, numbers 2); to keep them cut the mesh open there, so that each vertex has one vt");
+  EXPECT_EQ(seam[0].message,
+            "m.obj: not kept in the output: texture coordinates, because of seams (edges: 1; vertices with "
+            "several vt: 1, numbers 2); to keep them write an OBJ, or cut the mesh open there, so that each "
+            "vertex has one vt");
   const MeshFile hard = read(square + "vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 4//2 3//2 2//2\ng x\n");
   EXPECT_TRUE(hard.vertex_data.empty());
-  ASSERT_EQ(hard.content.anew.size(), 2u);
-  EXPECT_EQ(hard.content.anew[0].code, "hard_edges");
+  ASSERT_EQ(hard.content.no_obj.size(), 1u);
+  EXPECT_EQ(hard.content.no_obj[0].code, "hard_edges");
   EXPECT_EQ(
-      hard.content.anew[0].message,
+      hard.content.no_obj[0].message,
       "m.obj: not kept in the output: normals, because of hard edges (edges: 1; vertices with several vn: "
-      "2, numbers 2 3); to keep them cut the mesh open there, so that each vertex has one vn");
-  EXPECT_EQ(hard.content.anew[1].message, "m.obj: not kept in the output: groups");
+      "2, numbers 2 3); to keep them write an OBJ, or cut the mesh open there, so that each vertex has one "
+      "vn");
+  EXPECT_TRUE(hard.content.anew.empty());
+  EXPECT_EQ(hard.normals.corners, (std::vector{0, 0, 0, 1, 1, 1}));
 }
 
 TEST(Obj, OfManySeamVerticesSomeAreNamed) {
   std::string text = "vt 0 0\nvt 1 1\nv 0 0 0\n";
   for (int k = 0; k < 11; ++k) text += "v 0 0 1\n";
   for (int k = 2; k < 12; ++k) text += fmt::format("f 1/1 {}/1 {}/2\n", k, k + 1);
-  const std::string warning = read(text).content.anew.at(0).message;
+  const std::string warning = read(text).content.no_obj.at(0).message;
   EXPECT_TRUE(test::has(warning, "several vt: 9, numbers 3 4 5 6 7 8 9 10 11)")) << warning;
-  EXPECT_TRUE(test::has(read(text + "f 12/1 1/1 2/2\n").content.anew.at(0).message,
+  EXPECT_TRUE(test::has(read(text + "f 12/1 1/1 2/2\n").content.no_obj.at(0).message,
                         ": 11, numbers 2 3 4 5 6 7 8 9 10 11 ...)"));
 }
 
 TEST(Obj, TextureCoordinatesAndNormalsThatAreNotForAllOrBrokenAreNamed) {
   const std::string start = "m.obj: not kept in the output: ";
-  EXPECT_EQ(not_kept(three + texture + "f 1/1 2/2 3"),
+  const auto partly = [](const std::string& text) { return read(text).content.no_obj.at(0).message; };
+  EXPECT_EQ(partly(three + texture + "f 1/1 2/2 3"),
             start + "texture coordinates (1 of 3 face corners have none)");
-  EXPECT_EQ(not_kept(three + texture + "f 1 2 3\nv 0 0 1\nf 1/1 2/2 4/3"),
+  EXPECT_EQ(partly(three + texture + "f 1 2 3\nv 0 0 1\nf 1/1 2/2 4/3"),
             start + "texture coordinates (3 of 6 face corners have none)");
   for (const char* broken : {"vt", "vt 0 nan", "vt 1 2 3 4", "vt 0 1e999", "vt a"})
     EXPECT_EQ(not_kept(three + texture + broken + "\nf 1/1 2/2 3/3"),
@@ -141,6 +144,36 @@ TEST(Obj, TextureCoordinatesAndNormalsThatAreNotForAllOrBrokenAreNamed) {
     EXPECT_EQ(not_kept(three + broken + "\nvn\nf 1//1 2//1 3//1"),
               start + "normals (line 4; expected 3 finite numbers)");
   EXPECT_EQ(not_kept("v 0 0 0 1 1 1\nv 1 0 0 1 1 1 1\nv 0 1 0\nf 1 2 3"), start + "vertex colours");
+}
+
+TEST(Obj, LabelsOfFacesGoOnFromStatementToStatement) {
+  const MeshFile file = read(three +
+                             "f 1 2 3\ng left  arm # a comment\nf 1 2 3\nusemtl skin\ns 4\nf 1 2 3\ng other\n"
+                             "f 1 2 3\ns off\ng left  arm\nf 1 2 3\nmtllib a.mtl b.mtl\n");
+  ASSERT_EQ(file.face_data.size(), 3u);
+  EXPECT_EQ(file.face_data[0].name, group_channel);
+  EXPECT_EQ(file.face_data[0].values, (std::vector{0, 1, 1, 2, 1}));
+  EXPECT_EQ(file.face_data[0].names, (std::map<int, std::string>{{1, "left  arm"}, {2, "other"}}));
+  EXPECT_EQ(file.face_data[1].name, material_channel);
+  EXPECT_EQ(file.face_data[1].values, (std::vector{0, 0, 1, 1, 1}));
+  EXPECT_EQ(file.face_data[2].name, smoothing_channel);
+  EXPECT_EQ(file.face_data[2].values, (std::vector{0, 0, 4, 4, 0}));
+  EXPECT_EQ(file.material_libraries, std::vector<std::string>{"a.mtl b.mtl"});
+}
+
+TEST(Obj, DataOfFacesAndCornersAreWrittenAsTheyWereRead) {
+  const std::string text = "mtllib a.mtl\n" + three + "v 1 1 0\n" + texture +
+                           "vt 7 7.5\nvn 0 0 1\nvn 0 1 0\no Thing\ng left\nusemtl skin\nf 1/1/1 2/2/1 3/3/1\n"
+                           "g right\ns 3\nf 4/1/2 3/3/2 2/4/2\ng left\ns off\nf 1//1 2//1 3//1\n";
+  const MeshFile file = read(text);
+  const auto values = [](const PolygonCorners& c, std::vector<Triangle> corners) {
+    return CornerValues{c.values, c.width, std::move(corners)};
+  };
+  const CornerData corners{values(file.texture, {{0, 1, 2}, {0, 2, 3}, {-1, -1, -1}}),
+                           values(file.normals, {{0, 0, 0}, {1, 1, 1}, {0, 0, 0}})};
+  EXPECT_EQ(write_obj(file.points, {{0, 1, 2}, {3, 2, 1}, {0, 1, 2}},
+                      ObjData{file.vertex_data, file.face_data, corners, file.material_libraries}),
+            text);
 }
 
 TEST(Obj, ErrorsNameTheLine) {

@@ -170,8 +170,8 @@ TEST(Ply, OtherPropertiesAndElementsArePassedOverAndNamed) {
   expect_the_triangle(mesh);
   ASSERT_EQ(mesh.content.anew.size(), 1u);
   EXPECT_EQ(mesh.content.anew[0].message,
-            "m.ply: not kept in the output: element 'camera', vertex property 'w', face colours, "
-            "face property 'quality'");
+            "m.ply: not kept in the output: element 'camera', vertex property 'w', face property "
+            "'quality'");
   EXPECT_EQ(mesh.content.anew[0].code, "attributes_not_kept");
   ASSERT_EQ(mesh.vertex_data.size(), 1u);
   EXPECT_EQ(mesh.vertex_data[0].name, "nx");

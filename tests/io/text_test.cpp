@@ -101,7 +101,7 @@ TEST(TextPieces, NumbersOfVerticesStayWithTheirVertices) {
 TEST(TextPieces, CornersWithoutATextureCoordinateAreCountedInAllPieces) {
   const test::Triangles& t = large();
   const std::string text = write_obj(t.points, t.faces) + "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3\n";
-  EXPECT_EQ(read_obj(text, "name").content.anew.at(0).message,
+  EXPECT_EQ(read_obj(text, "name").content.no_obj.at(0).message,
             fmt::format("name: not kept in the output: texture coordinates ({} of {} face corners have none)",
                         3 * t.faces.size() + 2, 3 * t.faces.size() + 6));
 }

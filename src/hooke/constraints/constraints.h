@@ -22,7 +22,9 @@ enum class BoundaryRule { slide, fixed, free };
 struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
   std::vector<int> fixed_vertices = {};  // ids of vertices that stand still
-  double corner_angle = 35;              // degrees; a curve that turns by more in space has a fixed corner
+  /// Edges to be kept as creases are, though the surface is smooth across them: pairs of vertex ids.
+  std::vector<Edge> seams = {};
+  double corner_angle = 35;  // degrees; a curve that turns by more in space has a fixed corner
   // Maximum ratio of the longest to the shortest edge of a crease whose vertices stand still at bends; below
   // 1: none.
   double even_crease = 1.5;

@@ -191,6 +191,8 @@ FormatData data_for_format(const VertexData& data, MeshFormat from, MeshFormat t
 
 namespace {
 
+constexpr std::array obj_channels = {object_channel, group_channel, material_channel, smoothing_channel};
+
 bool holds(MeshFormat format, PlyEncoding encoding, const std::string& channel) {
   switch (format) {
     case MeshFormat::msh:
@@ -199,7 +201,9 @@ bool holds(MeshFormat format, PlyEncoding encoding, const std::string& channel) 
     case MeshFormat::stl:
       return channel == (encoding == PlyEncoding::ascii ? group_channel : attribute_channel);
     case MeshFormat::obj:
+      return is_one_of(channel, obj_channels);
     case MeshFormat::ply:
+      return true;
     case MeshFormat::off:
     case MeshFormat::vtp:
       break;
@@ -209,15 +213,20 @@ bool holds(MeshFormat format, PlyEncoding encoding, const std::string& channel) 
 
 }  // namespace
 
-FormatFaceData face_data_for_format(const FaceData& data, MeshFormat to, PlyEncoding encoding) {
+FormatFaceData face_data_for_format(const FaceData& data, MeshFormat from, MeshFormat to,
+                                    PlyEncoding encoding) {
   FormatFaceData result;
   for (const FaceChannel& channel : data) {
     const bool differs =
         std::ranges::any_of(channel.values, [&](int x) { return x != channel.values.front(); });
-    if (holds(to, encoding, channel.name))
+    const bool is_named = from == MeshFormat::obj && to != MeshFormat::obj && !channel.names.empty();
+    if (holds(to, encoding, channel.name) && (differs || from == to || to != MeshFormat::ply)) {
       result.data.push_back(channel);
-    else if (differs)
+      if (to == MeshFormat::ply && !channel.names.empty())
+        result.dropped.push_back("names of " + channel.name);
+    } else if (differs || is_named) {
       result.dropped.push_back(channel.name);
+    }
   }
   return result;
 }

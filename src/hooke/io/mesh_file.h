@@ -17,7 +17,16 @@ enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
 /// output is written.
 struct ContentWarnings {
   Warnings anew;       // what is lost when a new file is made
+  Warnings no_obj;     // what else is lost when that is no OBJ, the only format with data of corners
   Warnings preserved;  // what goes along unchanged when the file is rewritten, although vertices move
+};
+
+/// Values of one kind at the corners of polygons.
+struct PolygonCorners {
+  Mat3X values;                // one column per value
+  int width = 3;               // how many of its numbers count; the others are 0
+  std::vector<int> corners{};  // the value of each corner, in the order of the polygons' items; -1 for none.
+                               // Empty: no corner has one
 };
 
 /// The content of a mesh file. Invariant: points are finite, every polygon has at least three corners, and
@@ -31,6 +40,9 @@ struct MeshFile {
   std::vector<int> lines;      // line number of each polygon; empty for binary files
   VertexData vertex_data;      // other values of the vertices, in file order
   FaceData face_data;          // of the polygons
+  PolygonCorners texture;      // texture coordinates, if vertices have several; else they are vertex data
+  PolygonCorners normals;      // likewise
+  std::vector<std::string> material_libraries;  // the files that an OBJ names for its materials
   ContentWarnings content;
   std::string misread;  // what simple readers would read wrongly in the file as it is; empty for nothing
   Warnings warnings;    // others
@@ -79,7 +91,11 @@ struct FormatFaceData {
   std::vector<std::string> dropped;  // names of channels that the format cannot hold and that differ
 };
 
-/// Keeps the channels that the format holds: MSH groups and entities; STL groups as text, else attributes.
-FormatFaceData face_data_for_format(const FaceData& data, MeshFormat to, PlyEncoding encoding);
+/// Keeps the channels that the format `to` holds: PLY all, but for their names and, from other formats, those
+/// that do not differ; OBJ materials, groups, objects and smoothing groups; MSH groups and entities; STL
+/// groups as text, else attributes. Channels of an OBJ that have names count as dropped even if they do not
+/// differ.
+FormatFaceData face_data_for_format(const FaceData& data, MeshFormat from, MeshFormat to,
+                                    PlyEncoding encoding);
 
 }  // namespace hooke

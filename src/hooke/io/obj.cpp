@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -30,6 +31,25 @@ struct ObjNumbers {
   Mat3X points, texture, normals;
 };
 
+// Kinds of labels that faces have in an OBJ file: keyword and channel.
+struct ObjLabel {
+  std::string_view keyword;
+  const char* channel;
+  LabelKind kind;
+};
+constexpr std::array<ObjLabel, 4> obj_labels = {{{"o", object_channel, LabelKind::group},
+                                                 {"g", group_channel, LabelKind::group},
+                                                 {"usemtl", material_channel, LabelKind::material},
+                                                 {"s", smoothing_channel, LabelKind::group}}};
+constexpr size_t smoothing_label = 3;  // its values are numbers, not names
+
+// A statement that labels the faces after it.
+struct LabelStatement {
+  size_t label;           // index in obj_labels
+  size_t face;            // number of faces before it in the piece
+  std::string_view name;  // the rest of the line
+};
+
 // A piece of the text and the content read from it.
 struct ObjReader {
   ObjReader(const Scanner& text, ObjNumbers& all)
@@ -42,6 +62,9 @@ struct ObjReader {
   MeshFile part{};
   ObjElements vertices, texture, normals;
   std::vector<NotKept> not_kept{};
+  std::vector<LabelStatement> labels{};
+  std::vector<std::string> libraries{};
+  size_t face_count = 0;
   std::vector<Vec3> colours{};  // of the vertices that have a colour
   bool continued = false;       // whether the coordinates of a vertex stand on several lines
 };
@@ -102,18 +125,27 @@ void read_face(ObjReader& obj) {
   end_polygon(obj.part);
 }
 
+// The rest of the line, without blanks and comments at its end.
+std::string_view rest_of_line(Scanner& in) {
+  const std::string_view first = in.token();
+  const char* end = first.data() + first.size();
+  for (std::string_view token = in.token(); !token.empty(); token = in.token())
+    end = token.data() + token.size();
+  return {first.data(), static_cast<size_t>(end - first.data())};
+}
+
 void read_other(ObjReader& obj, std::string_view keyword) {
-  static constexpr std::pair<std::string_view, const char*> known[] = {
-      {"g", "groups"}, {"o", "objects"}, {"usemtl", "materials"}, {"mtllib", "materials"}};
   static constexpr std::pair<std::string_view, const char*> shapes[] = {
       {"vp", "parameter space vertices"}, {"l", "lines"}, {"p", "points"}};
-  if (keyword == "s") {
-    const std::string_view group = obj.scanner.token();
-    if (group != "off" && group != "0") note(obj, "smoothing groups");
+  for (size_t label = 0; label < obj_labels.size(); ++label)
+    if (keyword == obj_labels[label].keyword) {
+      obj.labels.push_back({label, obj.part.polygons.first.size() - 1, rest_of_line(obj.scanner)});
+      return;
+    }
+  if (keyword == "mtllib") {
+    obj.libraries.emplace_back(rest_of_line(obj.scanner));
     return;
   }
-  for (const auto& [word, kind] : known)
-    if (keyword == word) return note(obj, kind);
   for (const auto& [word, kind] : shapes)
     if (keyword == word) return note(obj.not_kept, {.kind = kind, .has_shape = true});
   note(obj.not_kept, {.kind = fmt::format("{} statements (line {})", in_quotes(keyword), obj.scanner.line()),
@@ -144,6 +176,7 @@ void read_piece(ObjReader& obj) {
   while (obj.scanner.next_line()) read_statement(obj, obj.scanner.token());
   end_corners(obj, obj.texture);
   end_corners(obj, obj.normals);
+  obj.face_count = obj.part.polygons.first.size() - 1;
 }
 
 // Keywords of the elements that faces refer to by number, and their indices in TextPiece::rows_of.
@@ -192,6 +225,54 @@ void keep_colours(const std::vector<ObjReader>& readers, MeshFile& file, std::ve
     std::vector<double>& values = file.vertex_data.emplace_back(VertexChannel{colour_names[k]}).values;
     for (const ObjReader& reader : readers)
       for (const Vec3& colour : reader.colours) values.push_back(colour[static_cast<Eigen::Index>(k)]);
+  }
+}
+
+// The number of a smoothing group; 0 for none, which is written as "off" or 0.
+int smoothing_group(std::string_view name) {
+  long long number = 0;
+  const bool is_number = parse_integer(name, number) == NumberError::none;
+  return is_number && number > 0 && number <= std::numeric_limits<int>::max() ? static_cast<int>(number) : 0;
+}
+
+// Numbers names from 1 in the order of their first use.
+class Names {
+ public:
+  int number_of(std::string_view name, FaceChannel& channel) {
+    const auto [found, is_new] = numbers_.try_emplace(name, static_cast<int>(numbers_.size()) + 1);
+    if (is_new) channel.names[found->second] = name;
+    return found->second;
+  }
+
+ private:
+  std::map<std::string_view, int> numbers_;
+};
+
+// Adds the labels of the faces to the file: channels for those kinds that the text has.
+void keep_labels(const std::vector<ObjReader>& readers, MeshFile& file) {
+  const auto faces = static_cast<size_t>(std::ssize(file.polygons.first) - 1);
+  for (size_t label = 0; label < obj_labels.size(); ++label) {
+    const auto has = [&](const ObjReader& reader) {
+      return std::ranges::find(reader.labels, label, &LabelStatement::label) != reader.labels.end();
+    };
+    if (std::ranges::none_of(readers, has)) continue;
+    FaceChannel channel{obj_labels[label].channel, {}, {}, obj_labels[label].kind};
+    channel.values.reserve(faces);
+    Names names;
+    int value = 0;
+    size_t before = 0;  // faces in earlier pieces
+    for (const ObjReader& reader : readers) {
+      for (const LabelStatement& statement : reader.labels) {
+        if (statement.label != label) continue;
+        channel.values.resize(before + statement.face, value);
+        value = label == smoothing_label ? smoothing_group(statement.name)
+                                         : names.number_of(statement.name, channel);
+      }
+      before += reader.face_count;
+    }
+    channel.values.resize(faces, value);
+    if (std::ranges::any_of(channel.values, [](int x) { return x != 0; }))
+      file.face_data.push_back(std::move(channel));
   }
 }
 
@@ -249,8 +330,12 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
   MeshFile& file = content.file;
   std::vector<std::string> not_kept;
   keep_colours(content.readers, file, not_kept);
-  keep_elements(pieces_of(content.readers, &ObjReader::texture), texture_kind, file, not_kept);
-  keep_elements(pieces_of(content.readers, &ObjReader::normals), normal_kind, file, not_kept);
+  keep_elements(pieces_of(content.readers, &ObjReader::texture), texture_kind, file, file.texture, not_kept);
+  keep_elements(pieces_of(content.readers, &ObjReader::normals), normal_kind, file, file.normals, not_kept);
+  keep_labels(content.readers, file);
+  for (const ObjReader& reader : content.readers)
+    file.material_libraries.insert(file.material_libraries.end(), reader.libraries.begin(),
+                                   reader.libraries.end());
   std::vector<std::string> shapes;
   for (const NotKept& ignored : all_ignored(content.readers)) {
     if (std::ranges::find(not_kept, ignored.kind) == not_kept.end()) not_kept.push_back(ignored.kind);
@@ -266,10 +351,10 @@ MeshFile read_obj(std::string_view text, const std::string& name) {
 ObjCorners read_obj_corners(std::string_view text, const std::string& name) {
   ObjContent content = read_content(text, name);
   const auto corners = [&](Mat3X& values, ObjElements ObjReader::*kind) {
-    ObjCornerData data{std::move(values), {}};
+    PolygonCorners data{std::move(values)};
     for (const ObjReader& reader : content.readers)
-      data.of_corners.insert(data.of_corners.end(), (reader.*kind).of_corners.begin(),
-                             (reader.*kind).of_corners.end());
+      data.corners.insert(data.corners.end(), (reader.*kind).of_corners.begin(),
+                          (reader.*kind).of_corners.end());
     return data;
   };
   return {std::move(content.file.points), std::move(content.file.polygons),
@@ -289,6 +374,112 @@ std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
   append_value_rows(text, "vt", texture);
   append_value_rows(text, "vn", normals);
   append_face_rows(text, triangles, "f", 1, repeats);
+  return text;
+}
+
+namespace {
+
+// The lines of faces with data of faces and corners.
+class FaceLines {
+ public:
+  FaceLines(const std::vector<Triangle>& triangles, const ObjData& data)
+      : triangles_(triangles),
+        corners_(data.corners),
+        texture_of_vertices_(!channels_named(data.vertices, texture_names).empty()),
+        normals_of_vertices_(!channels_named(data.vertices, normal_names).empty()) {
+    for (size_t label = 0; label < obj_labels.size(); ++label)
+      labels_[label] = find_channel(data.faces, obj_labels[label].channel);
+  }
+
+  void append_to(std::string& text) {
+    for (size_t f = 0; f < triangles_.size(); ++f) {
+      append_labels(text, f);
+      text += 'f';
+      for (size_t k = 0; k < 3; ++k) append_corner(text, f, k);
+      text += '\n';
+    }
+  }
+
+ private:
+  void append_labels(std::string& text, size_t face) {
+    for (size_t label = 0; label < labels_.size(); ++label) {
+      if (!labels_[label]) continue;
+      const int value = labels_[label]->values[face];
+      if (value == std::exchange(current_[label], value)) continue;
+      text += obj_labels[label].keyword;
+      append_name(text, label, value);
+      text += '\n';
+    }
+  }
+
+  void append_name(std::string& text, size_t label, int value) const {
+    const FaceChannel& channel = *labels_[label];
+    text += ' ';
+    if (label == smoothing_label)
+      text += value == 0 ? "off" : fmt::format("{}", value);
+    else if (const auto name = channel.names.find(value); name == channel.names.end())
+      text += fmt::format("{}_{}", channel.name, value);
+    else if (name->second.empty())
+      text.pop_back();
+    else
+      text += name->second;
+  }
+
+  void append_corner(std::string& text, size_t face, size_t k) const {
+    const int vertex = triangles_[face][k],
+              vt = index_of(corners_.texture, texture_of_vertices_, vertex, face, k),
+              vn = index_of(corners_.normals, normals_of_vertices_, vertex, face, k);
+    text += ' ';
+    append_number(text, vertex + 1);
+    if (vt < 0 && vn < 0) return;
+    text += '/';
+    if (vt >= 0) append_number(text, vt + 1);
+    if (vn < 0) return;
+    text += '/';
+    append_number(text, vn + 1);
+  }
+
+  static int index_of(const CornerValues& values, bool of_vertices, int vertex, size_t face, size_t k) {
+    return !values.empty() ? values.corners[face][k] : of_vertices ? vertex : -1;
+  }
+
+  const std::vector<Triangle>& triangles_;
+  const CornerData& corners_;
+  bool texture_of_vertices_, normals_of_vertices_;
+  std::array<const FaceChannel*, obj_labels.size()> labels_{};
+  std::array<int, obj_labels.size()> current_{};
+};
+
+void append_values(std::string& text, const char* keyword, const CornerValues& values) {
+  for (const auto value : values.values.colwise()) {
+    text += keyword;
+    for (int k = 0; k < values.width; ++k) {
+      text += ' ';
+      append_number(text, value[k]);
+    }
+    text += '\n';
+  }
+}
+
+}  // namespace
+
+std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+                      const ObjData& data) {
+  const bool has_labels = std::ranges::any_of(
+      obj_labels, [&](const ObjLabel& label) { return find_channel(data.faces, label.channel); });
+  std::string text;
+  for (const std::string& library : data.material_libraries) text += "mtllib " + library + "\n";
+  if (!has_labels && data.corners.empty()) return text + write_obj(points, triangles, data.vertices);
+  append_vertex_rows(text, points, "v ", channels_named(data.vertices, colour_names));
+  if (data.corners.texture.empty())
+    append_value_rows(text, "vt", channels_named(data.vertices, texture_names));
+  else
+    append_values(text, "vt", data.corners.texture);
+  if (data.corners.normals.empty())
+    append_value_rows(text, "vn", channels_named(data.vertices, normal_names));
+  else
+    append_values(text, "vn", data.corners.normals);
+  FaceLines(triangles, data).append_to(text);
   return text;
 }
 

@@ -12,7 +12,7 @@
 namespace hooke {
 namespace {
 
-bool same_values(const CornerData& data, int a, int b) {
+bool same_values(const ElementsOfCorners& data, int a, int b) {
   return a == b || data.values.col(a) == data.values.col(b);
 }
 
@@ -22,7 +22,7 @@ struct PolygonEdge {
   std::array<int, 2> elements;
 };
 
-std::vector<PolygonEdge> edges_at(const std::vector<char>& chosen, const CornerData& data,
+std::vector<PolygonEdge> edges_at(const std::vector<char>& chosen, const ElementsOfCorners& data,
                                   const IntLists& polygons) {
   std::vector<PolygonEdge> edges;
   for (size_t f = 0; f + 1 < polygons.first.size(); ++f) {
@@ -38,7 +38,7 @@ std::vector<PolygonEdge> edges_at(const std::vector<char>& chosen, const CornerD
   return edges;
 }
 
-size_t count_edges_that_differ(std::vector<PolygonEdge> edges, const CornerData& data) {
+size_t count_edges_that_differ(std::vector<PolygonEdge> edges, const ElementsOfCorners& data) {
   std::ranges::stable_sort(edges, {}, &PolygonEdge::ends);
   size_t count = 0;
   for (auto first = edges.begin(); first != edges.end();) {
@@ -63,7 +63,7 @@ void append_channels(VertexData& to, const Mat3X& values, const std::vector<int>
   }
 }
 
-Warning warning_of(const Seams& seams, const std::string& name, const CornerDataKind& kind) {
+Warning warning_of(const CornerSeams& seams, const std::string& name, const CornerDataKind& kind) {
   constexpr size_t max_listed = 10;
   std::vector<int> numbers;  // 1-based, as in the file
   for (size_t k = 0; k < std::min(max_listed, seams.vertices.size()); ++k)
@@ -71,14 +71,16 @@ Warning warning_of(const Seams& seams, const std::string& name, const CornerData
   return {
       kind.code,
       fmt::format("{}: not kept in the output: {}, because of {} (edges: {}; vertices with several {}: {}, "
-                  "numbers {}{}); to keep them cut the mesh open there, so that each vertex has one {}",
+                  "numbers {}{}); to keep them write an OBJ, or cut the mesh open there, so that each "
+                  "vertex has one {}",
                   name, kind.what, kind.seams, seams.edges, kind.element, seams.vertices.size(),
                   fmt::join(numbers, " "), seams.vertices.size() > max_listed ? " ..." : "", kind.element)};
 }
 
 }  // namespace
 
-std::vector<int> elements_of_vertices(const CornerData& data, const IntLists& polygons, int vertex_count) {
+std::vector<int> elements_of_vertices(const ElementsOfCorners& data, const IntLists& polygons,
+                                      int vertex_count) {
   std::vector<int> of_vertices(static_cast<size_t>(vertex_count), -1);
   for (size_t c = 0; c < polygons.items.size(); ++c) {
     int& element = of_vertices[static_cast<size_t>(polygons.items[c])];
@@ -87,27 +89,28 @@ std::vector<int> elements_of_vertices(const CornerData& data, const IntLists& po
   return of_vertices;
 }
 
-Seams find_seams(const CornerData& data, const IntLists& polygons, const std::vector<int>& of_vertices) {
+CornerSeams find_corner_seams(const ElementsOfCorners& data, const IntLists& polygons,
+                              const std::vector<int>& of_vertices) {
   std::vector<char> on_seam(of_vertices.size(), 0);
   for (size_t c = 0; c < polygons.items.size(); ++c) {
     const size_t v = static_cast<size_t>(polygons.items[c]);
     on_seam[v] |= static_cast<char>(!same_values(data, data.elements[c], of_vertices[v]));
   }
-  Seams seams;
+  CornerSeams seams;
   for (size_t v = 0; v < on_seam.size(); ++v)
     if (on_seam[v]) seams.vertices.push_back(static_cast<int>(v));
   if (!seams.vertices.empty()) seams.edges = count_edges_that_differ(edges_at(on_seam, data, polygons), data);
   return seams;
 }
 
-void keep_as_vertex_data(MeshFile& file, const CornerData& data, size_t width, const CornerDataKind& kind) {
+Warnings keep_as_vertex_data(MeshFile& file, const ElementsOfCorners& data, size_t width,
+                             const CornerDataKind& kind) {
   const std::vector<int> of_vertices =
       elements_of_vertices(data, file.polygons, static_cast<int>(file.points.cols()));
-  const Seams seams = find_seams(data, file.polygons, of_vertices);
-  if (seams.vertices.empty())
-    append_channels(file.vertex_data, data.values, of_vertices, kind.channels.first(width), kind.type);
-  else
-    file.content.anew.push_back(warning_of(seams, file.name, kind));
+  const CornerSeams seams = find_corner_seams(data, file.polygons, of_vertices);
+  if (!seams.vertices.empty()) return {warning_of(seams, file.name, kind)};
+  append_channels(file.vertex_data, data.values, of_vertices, kind.channels.first(width), kind.type);
+  return {};
 }
 
 void count_one(const Scanner& in, ObjElements& elements) {
@@ -167,10 +170,10 @@ void check_max_index(const std::string& name, const ObjElementPieces& pieces) {
 }
 
 void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, MeshFile& file,
-                   std::vector<std::string>& not_kept) {
+                   PolygonCorners& corners_of_file, std::vector<std::string>& not_kept) {
   const ObjElements& all = *pieces.front();
   if (all.values.cols() == 0) return;
-  CornerData data{all.values, {}};
+  ElementsOfCorners data{all.values, {}};
   int numbers = 0, broken_line = 0;
   for (const ObjElements* piece : pieces) {
     data.elements.insert(data.elements.end(), piece->of_corners.begin(), piece->of_corners.end());
@@ -179,15 +182,25 @@ void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, M
   }
   const auto without = std::ranges::count(data.elements, -1);
   const auto corners = std::ssize(data.elements);
-  if (broken_line > 0)
+  if (broken_line > 0) {
     not_kept.push_back(fmt::format("{} (line {}; expected {}3 finite numbers)", kind.what, broken_line,
                                    all.min_numbers < 3 ? "1 to " : ""));
-  else if (without == corners)
+    return;
+  }
+  if (without == corners) {
     not_kept.emplace_back(kind.what);
-  else if (without > 0)
-    not_kept.push_back(fmt::format("{} ({} of {} face corners have none)", kind.what, without, corners));
+    return;
+  }
+  Warnings lost;
+  if (without > 0)
+    lost.push_back({"attributes_not_kept",
+                    fmt::format("{}: not kept in the output: {} ({} of {} face corners have none)", file.name,
+                                kind.what, without, corners)});
   else
-    keep_as_vertex_data(file, data, static_cast<size_t>(numbers), kind);
+    lost = keep_as_vertex_data(file, data, static_cast<size_t>(numbers), kind);
+  if (lost.empty()) return;
+  append(file.content.no_obj, std::move(lost));
+  corners_of_file = {data.values, numbers, std::move(data.elements)};
 }
 
 }  // namespace hooke

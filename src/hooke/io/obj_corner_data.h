@@ -10,23 +10,25 @@
 namespace hooke {
 
 /// Corner data of one kind: elements of up to three numbers each, and the element of every polygon corner.
-struct CornerData {
+struct ElementsOfCorners {
   const Mat3X& values;        // one column per element
   std::vector<int> elements;  // per corner, in the order of the polygons' items; -1 for none
 };
 
 /// The vertices and edges across which corner data is discontinuous.
-struct Seams {
+struct CornerSeams {
   std::vector<int> vertices;  // with different values at their corners; ids, ascending
   size_t edges = 0;           // number of edges along which the values of two faces differ
 };
 
 /// The element of each vertex, taken from its first corner; -1 for a vertex without corners.
-std::vector<int> elements_of_vertices(const CornerData& data, const IntLists& polygons, int vertex_count);
+std::vector<int> elements_of_vertices(const ElementsOfCorners& data, const IntLists& polygons,
+                                      int vertex_count);
 
 /// Finds the discontinuities of corner data. `of_vertices` is the result of elements_of_vertices().
 /// Pre-condition: every corner has an element.
-Seams find_seams(const CornerData& data, const IntLists& polygons, const std::vector<int>& of_vertices);
+CornerSeams find_corner_seams(const ElementsOfCorners& data, const IntLists& polygons,
+                              const std::vector<int>& of_vertices);
 
 /// The names of a kind of corner data in vertex channels and messages.
 struct CornerDataKind {
@@ -39,9 +41,10 @@ struct CornerDataKind {
 };
 
 /// Adds the data to file.vertex_data if each vertex has the same values at all its corners; vertices without
-/// corners get 0. Otherwise adds the warning that lists the seams. `width` is the number of values per
-/// element. Pre-condition: every corner has an element.
-void keep_as_vertex_data(MeshFile& file, const CornerData& data, size_t width, const CornerDataKind& kind);
+/// corners get 0. Otherwise returns the warning that lists the seams, for formats without data of corners.
+/// `width` is the number of values per element. Pre-condition: every corner has an element.
+Warnings keep_as_vertex_data(MeshFile& file, const ElementsOfCorners& data, size_t width,
+                             const CornerDataKind& kind);
 
 /// The elements of one kind in an OBJ file (vertices, texture coordinates or normals), as read so far from a
 /// piece of its text.
@@ -80,10 +83,11 @@ using ObjElementPieces = std::vector<const ObjElements*>;
 /// elements, so this can be checked only after reading all pieces.
 void check_max_index(const std::string& name, const ObjElementPieces& pieces);
 
-/// Adds texture coordinates or normals to the vertex data of the file, or reports in `not_kept` or in a
-/// warning of the file why they are not kept. Pre-condition: in every piece `of_corners` has an entry per
+/// Adds texture coordinates or normals to the vertex data of the file or, where vertices have several or some
+/// corners none, stores them in `corners`, with a warning for formats that have no such data. Reports in
+/// `not_kept` if they are not kept. Pre-condition: in every piece `of_corners` has an entry per
 /// corner, unless the text has no elements of this kind.
 void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, MeshFile& file,
-                   std::vector<std::string>& not_kept);
+                   PolygonCorners& corners, std::vector<std::string>& not_kept);
 
 }  // namespace hooke

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -79,15 +80,41 @@ void read_corners(Body& body, const PlyProperty& list, long long vertex_count, M
   }
 }
 
+// Whether the faces' property is kept as face data.
+bool is_label(const PlyProperty& property) {
+  return !property.count_type && is_integer(property.type) && !is_corner_list(property);
+}
+
+bool is_colour(const std::string& name) {
+  static constexpr std::string_view colours[] = {"red", "green", "blue", "alpha", "r", "g", "b", "a"};
+  return std::find(std::begin(colours), std::end(colours), name) != std::end(colours);
+}
+
+// Adds a channel for each integer property of the faces.
+void add_labels(const PlyElement& face, MeshFile& file) {
+  for (const PlyProperty& property : face.properties)
+    if (is_label(property))
+      file.face_data.push_back(
+          {property.name,
+           {},
+           {},
+           is_colour(property.name) || property.name == "flags" ? LabelKind::other : LabelKind::material,
+           property.type});
+}
+
 template <typename Body>
 void read_faces(Body& body, const PlyElement& face, const PlyRows& rows, long long vertex_count,
                 MeshFile& file) {
   for (long long row = rows.begin; row < rows.end; ++row) {
     body.begin_row(face, row);
     if (body.line() > 0) file.lines.push_back(body.line());
+    auto channel = file.face_data.begin();
     for (const PlyProperty& property : face.properties) {
       if (is_corner_list(property))
         read_corners(body, property, vertex_count, file);
+      else if (is_label(property))
+        (channel++)->values.push_back(
+            static_cast<int>(static_cast<std::uint32_t>(body.integer(property.type, property.name.c_str()))));
       else
         skip_property(body, property);
     }
@@ -132,11 +159,18 @@ void read_pieces_of_body(const std::vector<TextPiece>& pieces, const Elements& e
   read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
     AsciiPlyBody body(piece.scanner);
     parts[p].name = file.name;
+    add_labels(elements.face, parts[p]);
     for_rows_of_piece(elements.header, piece, [&](const PlyElement& element, const PlyRows& rows) {
       read_rows(body, elements, element, rows, file, parts[p]);
     });
   });
   append_faces(file, parts);
+  for (size_t c = 0; c < file.face_data.size(); ++c)
+    for (const MeshFile& part : parts) {
+      std::vector<int>& all = file.face_data[c].values;
+      const std::vector<int>& more = part.face_data[c].values;
+      all.insert(all.end(), more.begin(), more.end());
+    }
 }
 
 void read_ascii_body(AsciiPlyBody body, const Elements& elements, MeshFile& file) {
@@ -154,14 +188,13 @@ void read_ascii_body(AsciiPlyBody body, const Elements& elements, MeshFile& file
 
 std::string kind_of(const PlyElement& element, const PlyProperty& property) {
   static constexpr std::string_view normals[] = {"nx", "ny", "nz"};
-  static constexpr std::string_view colours[] = {"red", "green", "blue", "alpha", "r", "g", "b", "a"};
   static constexpr std::string_view textures[] = {"s",         "t",         "u",        "v",
                                                   "texture_u", "texture_v", "texcoord", "texnumber"};
   const auto is_one_of = [&](const auto& names) {
     return std::find(std::begin(names), std::end(names), property.name) != std::end(names);
   };
   if (is_one_of(normals)) return "normals";
-  if (is_one_of(colours)) return printable(element.name) + " colours";
+  if (is_colour(property.name)) return printable(element.name) + " colours";
   if (is_one_of(textures)) return "texture coordinates";
   return fmt::format("{} property {}", printable(element.name), in_quotes(property.name));
 }
@@ -178,7 +211,8 @@ std::vector<std::string> kinds_not_kept(const PlyHeader& header, const PlyElemen
       continue;
     }
     for (const PlyProperty& property : element.properties) {
-      const bool kept = &element == &vertex ? !property.count_type : is_corner_list(property);
+      const bool kept =
+          &element == &vertex ? !property.count_type : is_corner_list(property) || is_label(property);
       if (!kept) note(kind_of(element, property));
     }
   }
@@ -197,6 +231,7 @@ MeshFile read_ply(std::string_view bytes, const std::string& name) {
   file.name = name;
   file.format = MeshFormat::ply;
   file.encoding = header.encoding;
+  add_labels(face, file);
   if (header.encoding == PlyEncoding::ascii)
     read_ascii_body(AsciiPlyBody(bytes, name, header), {header, vertex, face}, file);
   else
@@ -268,6 +303,19 @@ void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std
 }
 
 }  // namespace
+
+VertexData ply_face_data(const FaceData& data) {
+  VertexData result;
+  for (const FaceChannel& channel : data) {
+    std::vector<double>& values = result.emplace_back(VertexChannel{channel.name, channel.type}).values;
+    values.reserve(channel.values.size());
+    for (const int value : channel.values)
+      values.push_back(channel.type == NumberType::uint32
+                           ? static_cast<double>(static_cast<std::uint32_t>(value))
+                           : static_cast<double>(value));
+  }
+  return result;
+}
 
 std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
                       PlyEncoding encoding, const VertexData& data, const VertexData& face_data) {

@@ -34,8 +34,44 @@ MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& trian
   return memory_order;
 }
 
-/// Brings the data of vertices and faces in the order of a repaired mesh.
-void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_data, MeshSource& source) {
+/// The values at the corners of the triangles. A triangle has none where one of its corners has none.
+CornerValues values_of_triangles(PolygonCorners&& of_polygons, const IntLists& polygons,
+                                 const std::vector<Triangle>& triangles, const std::vector<int>& polygon_of) {
+  CornerValues result;
+  if (of_polygons.corners.empty()) return result;
+  result.values = std::move(of_polygons.values);
+  result.width = of_polygons.width;
+  result.corners.reserve(triangles.size());
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    const int polygon = polygon_of[t];
+    const auto corners = polygons[polygon];
+    Triangle& values = result.corners.emplace_back();
+    for (size_t k = 0; k < 3; ++k) {
+      const auto corner = std::ranges::find(corners, triangles[t][k]) - corners.begin();
+      values[k] = of_polygons.corners[static_cast<size_t>(polygons.first[static_cast<size_t>(polygon)] +
+                                                          static_cast<int>(corner))];
+    }
+    if (std::ranges::min(values) < 0) values = {-1, -1, -1};
+  }
+  return result;
+}
+
+/// Brings values of corners in the order of a repaired mesh; faces over holes have none.
+void follow(const MeshOrigin& origin, CornerValues& values) {
+  if (values.empty()) return;
+  for (size_t f = 0; f < values.corners.size(); ++f) {
+    Triangle& corners = values.corners[f];
+    if (origin.flipped[f]) std::swap(corners[1], corners[2]);
+    if (f + origin.filled >= values.corners.size()) corners = {-1, -1, -1};
+  }
+}
+
+/// Brings the data of vertices, faces and corners in the order of a repaired mesh.
+void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_data, CornerData& corner_data,
+            MeshSource& source) {
+  corner_data = gather(corner_data, origin.face);
+  follow(origin, corner_data.texture);
+  follow(origin, corner_data.normals);
   for (VertexChannel& channel : vertex_data) {
     std::vector<double> values;
     values.reserve(origin.vertex.size());
@@ -85,6 +121,10 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
     file.misread = "concave polygons, which overlap when they are cut as fans";
   MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
   FaceData face_data = gather(file.face_data, source.face);
+  const auto of_triangles = [&](PolygonCorners& values) {
+    return values_of_triangles(std::move(values), file.polygons, triangulation.triangles, source.face);
+  };
+  CornerData corner_data{of_triangles(file.texture), of_triangles(file.normals)};
   Notes repairs;
   MeshOrigin origin;
   if (options.repair.any())
@@ -94,7 +134,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       triangulation.triangles = std::move(repaired.triangles);
       repairs = std::move(repaired.changes);
       origin = std::move(repaired.origin);
-      follow(origin, file.vertex_data, face_data, source);
+      follow(origin, file.vertex_data, face_data, corner_data, source);
       source.repaired = options.repair.repair;
     });
   const std::vector<Triangle>& triangles = triangulation.triangles;
@@ -127,6 +167,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       std::move(faces_hash),
       std::move(file.vertex_data),
       std::move(face_data),
+      std::move(corner_data),
+      std::move(file.material_libraries),
       std::move(origin),
       std::move(file.notes),
       std::move(repairs),

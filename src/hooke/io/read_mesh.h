@@ -7,6 +7,7 @@
 
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/mesh_file.h"
+#include "hooke/mesh/corner_data.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/repair.h"
 
@@ -23,6 +24,8 @@ struct LoadedMesh {
   std::string connectivity_sha256;                           // see sha256.h
   VertexData vertex_data;                                    // values of the vertices in the file
   FaceData face_data;                                        // of the triangles
+  CornerData corner_data;                                    // of the triangles, where not of the vertices
+  std::vector<std::string> material_libraries;               // see MeshFile
   MeshOrigin origin;                                         // if the mesh was repaired
   Notes notes;                                               // see MeshFile
   Notes repairs;                                             // what the repair did

@@ -58,13 +58,13 @@ struct NewCorners {
 NewCorners renew_corners(std::string_view text, const std::string& name, const Mat3X& points,
                          const std::vector<MapEntry>* map) {
   const ObjCorners old = read_obj_corners(text, name);
-  const auto& [values, of_corners] = old.normals;
+  const auto& [values, width, of_corners] = old.normals;
   NewCorners result;
   if (!of_corners.empty())
     result.normals = renew_corner_normals({old.polygons, old.points, points}, of_corners, values);
-  if (map && !old.texture.of_corners.empty())
-    result.texture = reproject_texture(
-        {old.polygons, old.texture.of_corners, old.texture.values, old.points, points, *map});
+  if (map && !old.texture.corners.empty())
+    result.texture =
+        reproject_texture({old.polygons, old.texture.corners, old.texture.values, old.points, points, *map});
   return result;
 }
 

@@ -157,7 +157,7 @@ MeshFile read_text(std::string_view bytes, const std::string& name) {
   file.name = name;
   PointNumbers numbers(bytes.size() /
                        600);  // a facet takes some 250 bytes, and there are half as many vertices
-  FaceChannel solids{group_channel};
+  FaceChannel solids{group_channel, {}, {}, LabelKind::group};
   StlText in(bytes, name);
   int solid = 0;
   for (std::string_view word = in.word(); !word.empty() || solid == 0; word = in.word()) {

@@ -21,20 +21,21 @@ namespace hooke {
 namespace {
 
 std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, MeshFormat format,
-                     PlyEncoding encoding, const VertexData& data, const FaceData& face_data) {
+                     PlyEncoding encoding, const MeshData& data) {
   const auto points = vertex_points(mesh);
   switch (format) {
     case MeshFormat::obj:
-      return write_obj(points, triangles, data);
+      return write_obj(points, triangles,
+                       ObjData{data.vertices, data.faces, data.corners, data.material_libraries});
     case MeshFormat::ply:
-      return write_ply(points, triangles, encoding, data);
+      return write_ply(points, triangles, encoding, data.vertices, ply_face_data(data.faces));
     case MeshFormat::off:
-      return write_off(points, triangles, data);
+      return write_off(points, triangles, data.vertices);
     case MeshFormat::stl:
-      return write_stl(points, triangles, encoding, face_data);
+      return write_stl(points, triangles, encoding, data.faces);
     case MeshFormat::msh:
     case MeshFormat::msh2:
-      return write_msh(points, triangles, format, face_data);
+      return write_msh(points, triangles, format, data.faces);
     case MeshFormat::vtp:
       break;
   }
@@ -48,19 +49,17 @@ std::string name_of_output(const std::filesystem::path& path) {
   return is_standard_output(path) ? "standard output" : printable(path.native());
 }
 
-std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const VertexData& data,
-                       const FaceData& face_data) {
-  return bytes_of(mesh, triangles_of(mesh), format, encoding, data, face_data);
+std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const MeshData& data) {
+  return bytes_of(mesh, triangles_of(mesh), format, encoding, data);
 }
 
 PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
-                         PlyEncoding encoding, const VertexData& data, const FaceData& face_data,
-                         Stopwatch* stopwatch) {
+                         PlyEncoding encoding, const MeshData& data, Stopwatch* stopwatch) {
   std::vector<Triangle> triangles;
   std::string bytes = timed(stopwatch, "format", [&] {
     triangles = triangles_of(mesh);
     try {
-      return bytes_of(mesh, triangles, format, encoding, data, face_data);
+      return bytes_of(mesh, triangles, format, encoding, data);
     } catch (const OutputError& e) {
       throw OutputError(fmt::format("{}: {}", name_of_output(path), e.what()));
     }

@@ -12,7 +12,8 @@ const FaceChannel* find_channel(const FaceData& data, const std::string& name) {
 FaceData gather(const FaceData& data, const std::vector<int>& old_face) {
   FaceData result;
   for (const FaceChannel& channel : data) {
-    FaceChannel& taken = result.emplace_back(FaceChannel{channel.name, {}, channel.names});
+    FaceChannel& taken =
+        result.emplace_back(FaceChannel{channel.name, {}, channel.names, channel.kind, channel.type});
     taken.values.reserve(old_face.size());
     for (const int face : old_face) taken.values.push_back(channel.values[static_cast<size_t>(face)]);
   }

@@ -109,6 +109,16 @@ std::vector<int> Permutation::new_vertices(const std::vector<int>& old) const {
   return result;
 }
 
+std::vector<Edge> Permutation::new_edges(const std::vector<Edge>& old) const {
+  std::vector<int> ends;
+  ends.reserve(2 * old.size());
+  for (const Edge& e : old) ends.insert(ends.end(), e.begin(), e.end());
+  ends = new_vertices(ends);
+  std::vector<Edge> fresh(old.size());
+  for (size_t e = 0; e < fresh.size(); ++e) fresh[e] = {ends[2 * e], ends[2 * e + 1]};
+  return fresh;
+}
+
 Mat3X Permutation::gather(const Eigen::Ref<const Mat3X>& old) const {
   return gathered(*this, old, Mat3X(3, old.cols()));
 }

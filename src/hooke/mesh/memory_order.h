@@ -35,6 +35,9 @@ struct Permutation {
   /// The new ids of these old vertices.
   std::vector<int> new_vertices(const std::vector<int>& old) const;
 
+  /// The edges between the new ids of these pairs of old vertices.
+  std::vector<Edge> new_edges(const std::vector<Edge>& old) const;
+
   /// Vertex data from the old order to the new one (gather) and back (scatter).
   Mat3X gather(const Eigen::Ref<const Mat3X>& old) const;
   std::vector<double> gather(const std::vector<double>& old) const;

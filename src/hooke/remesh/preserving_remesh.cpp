@@ -24,16 +24,6 @@ Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permu
   return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, stopwatch);
 }
 
-/// The edges by the indices of their vertices in the order, from their ids.
-std::vector<Edge> in_order(const Permutation& order, const std::vector<Edge>& edges) {
-  std::vector<int> ends;
-  for (const Edge& e : edges) ends.insert(ends.end(), e.begin(), e.end());
-  ends = order.new_vertices(ends);
-  std::vector<Edge> ordered(edges.size());
-  for (size_t e = 0; e < edges.size(); ++e) ordered[e] = {ends[2 * e], ends[2 * e + 1]};
-  return ordered;
-}
-
 struct Run {
   TriMesh mesh;
   RemeshResult result;
@@ -357,8 +347,8 @@ class PreservingRemesh {
     const MeasuredSurface surface = timed(stopwatch_, "tree", [&] { return surface_of(a); });
     ResultMeasures m;
     m.quality = timed(stopwatch_, "after", [&] { return measure(surface, a.mesh, order, stopwatch_); });
-    const std::vector<Edge> before = in_order(memory_order_.order, a.result.input_creases),
-                            after = in_order(order, a.result.crease_edges);
+    const std::vector<Edge> before = memory_order_.order.new_edges(a.result.input_creases),
+                            after = order.new_edges(a.result.crease_edges);
     m.input_quality = input_quality_;
     apply_creases(m.input_quality, input_, before);
     apply_creases(m.quality, surface, after);

@@ -188,13 +188,10 @@ Json promises_json(const RunRecord& run) {
 Json creases_json(const RunRecord& run) {
   if (!run.result || run.result->creases.edges == 0) return nullptr;
   const CreaseCounts& c = run.result->creases;
-  return {{"chains", c.curves},
-          {"crease_edges", c.edges},
-          {"crease_edges_kept", c.kept},
-          {"sharp_edges", c.sharp},
-          {"sharp_edges_dropped", c.dropped},
-          {"corners", c.corners},
-          {"curve_vertices", c.curve_vertices},
+  return {{"chains", c.curves},          {"crease_edges", c.edges},
+          {"crease_edges_kept", c.kept}, {"seam_edges", run.seam_edges},
+          {"sharp_edges", c.sharp},      {"sharp_edges_dropped", c.dropped},
+          {"corners", c.corners},        {"curve_vertices", c.curve_vertices},
           {"charts", c.charts}};
 }
 

@@ -71,8 +71,9 @@ struct RunRecord {
   std::optional<PaperFigures> paper_after;
   std::optional<Deviation> deviation;
   std::optional<RemeshResult> result;
-  Notes notes;    // what reading the file did to it, as it always does
-  Notes repairs;  // what was mended as asked
+  Notes notes;         // what reading the file did to it, as it always does
+  Notes repairs;       // what was mended as asked
+  int seam_edges = 0;  // edges of the input that are kept as seams
   std::vector<GateOutcome> gates;
   Warnings warnings;
   std::vector<StageTime> stages;

@@ -34,6 +34,16 @@ std::vector<int> identity(int count) {
   return ids;
 }
 
+/// For each wedge that of the surface which it is, or is a part of.
+std::vector<int> wedges_of_surface(const Adjacency& c, const Adjacency& surface) {
+  std::vector<int> wedges = identity(c.wedge_count());
+  if (&c == &surface) return wedges;
+  for (size_t f = 0; f < c.faces.size(); ++f)
+    for (size_t k = 0; k < 3; ++k)
+      wedges[static_cast<size_t>(c.wedges_of_faces()[f][k])] = surface.wedges_of_faces()[f][k];
+  return wedges;
+}
+
 }  // namespace
 
 Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
@@ -55,7 +65,12 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   std::vector<Edge> creases;
   for (int e : detect_creases(*start, *memory_order.adjacency, vertex_length, constraint_options.features))
     creases.push_back(memory_order.adjacency->edges[static_cast<size_t>(e)]);
+  if (!constraint_options.seams.empty()) {
+    sharp_ = creases;
+    for (const Edge& seam : order.new_edges(constraint_options.seams)) creases.push_back(seam);
+  }
   connect(std::move(memory_order.adjacency), creases);
+  input_surface_ = surface();
   start_length_ = vertex_length;
   if (std::vector<double> of_edges = edge_values(source, edge_length_property, order, *adjacency);
       !of_edges.empty()) {
@@ -63,20 +78,19 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
     targets = from_edge_lengths(*adjacency, std::move(of_edges));
     edge_by_edge_ = true;
   }
-  faceted_ = is_faceted(*start, *adjacency);
+  faceted_ = is_faceted(*start, *input_surface_);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  for (int tip : detect_tips(*start, *adjacency, vertex_length, constraint_options.features))
+  for (int tip : detect_tips(*start, *input_surface_, vertex_length, constraint_options.features))
     reordered.fixed_vertices.push_back(tip);
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
   constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
   origins = identity(adjacency->vertex_count);
-  input_adjacency_ = adjacency;
 
   const Stage stage(stopwatch, "fit");
-  const SurfaceField field = fit(start);
-  input_hints_ = identity(adjacency->wedge_count());
+  const SurfaceField field = fit(start, input_surface_);
+  input_hints_ = wedges_of_surface(*adjacency, *input_surface_);
   to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
                                            RetractionOptions{.tolerance = final_projection_tolerance});
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
@@ -94,17 +108,26 @@ void Workspace::connect(std::shared_ptr<const Adjacency> smooth, const std::vect
   targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
+/// The adjacency with wedges where the surface is sharp, that is not at seams.
+std::shared_ptr<const Adjacency> Workspace::surface() const {
+  if (!sharp_) return adjacency;
+  Adjacency sharp = without_creases(*adjacency);
+  split_wedges(sharp, *sharp_);
+  return std::make_shared<const Adjacency>(std::move(sharp));
+}
+
 /// Fits a field, separate on both sides of each crease. Its deviation bound is measured in target lengths.
 /// Where these are shorter than the natural length of the faces it is as wide as that allows, but no wider
 /// than the sagittas of the faces ask for: a coarse mesh of a round body is not to be taken for a polyhedron.
-SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points) const {
-  const double natural = natural_length(total_area(*points, adjacency->faces), adjacency->faces.size());
-  const bool has_creases = !adjacency->creases.empty();
-  const auto cut = has_creases ? std::make_shared<const Adjacency>(cut_open(*adjacency)) : adjacency;
-  if (has_creases) points = std::make_shared<const Mat3X>(wedge_points(*points, *adjacency));
-  std::vector<double> lengths(static_cast<size_t>(adjacency->wedge_count()));
+SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points,
+                            const std::shared_ptr<const Adjacency>& surface) const {
+  const double natural = natural_length(total_area(*points, surface->faces), surface->faces.size());
+  const bool has_creases = !surface->creases.empty();
+  const auto cut = has_creases ? std::make_shared<const Adjacency>(cut_open(*surface)) : surface;
+  if (has_creases) points = std::make_shared<const Mat3X>(wedge_points(*points, *surface));
+  std::vector<double> lengths(static_cast<size_t>(surface->wedge_count()));
   for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
-    lengths[wedge] = vertex_length[static_cast<size_t>(adjacency->vertex_of_wedge(static_cast<int>(wedge)))];
+    lengths[wedge] = vertex_length[static_cast<size_t>(surface->vertex_of_wedge(static_cast<int>(wedge)))];
   constexpr double rounding = 1e-9;
   if (faceted_ ||
       std::ranges::any_of(lengths, [&](double length) { return length < (1 - rounding) * natural; })) {
@@ -128,11 +151,12 @@ int Workspace::chart_count() const {
 void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;
-  const SurfaceField field = fit(std::make_shared<const Mat3X>(positions.points));
+  const std::shared_ptr<const Adjacency> fitted = surface();
+  const SurfaceField field = fit(std::make_shared<const Mat3X>(positions.points), fitted);
   past_counts_ += retraction->counts();
   retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
   positions =
-      retraction->project_all(positions.points, identity(adjacency->wedge_count()), positions.segments);
+      retraction->project_all(positions.points, wedges_of_surface(*adjacency, *fitted), positions.segments);
 }
 
 SurfacePositions Workspace::project_to_input() {
@@ -201,6 +225,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
       from[v] = origins[static_cast<size_t>(old)];
   origins = std::move(from);
 
+  if (sharp_) sharp_ = constraints.creases;  // seams are no longer told from creases
   connect(std::make_shared<const Adjacency>(make_adjacency(static_cast<int>(n), std::move(order.faces))),
           constraints.creases);
   if (!constraints.creases.empty()) {
@@ -222,8 +247,8 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
 
 SurfacePoint Workspace::locate_on_input(int v) const {
   const std::vector<int>& hints = refitted_ ? input_hints_ : positions.hints;
-  return locate(*start, *input_adjacency_, positions.points.col(v),
-                input_adjacency_->vertex_of_wedge(hints[static_cast<size_t>(v)]));
+  return locate(*start, *input_surface_, positions.points.col(v),
+                input_surface_->vertex_of_wedge(hints[static_cast<size_t>(v)]));
 }
 
 void Workspace::resample_lengths() {
@@ -246,7 +271,7 @@ std::vector<double> Workspace::input_lengths() const {
       for (size_t k = 0; k < 3; ++k)
         lengths[v] +=
             point.weights[static_cast<Eigen::Index>(k)] *
-            start_length_[static_cast<size_t>(input_adjacency_->faces[static_cast<size_t>(point.face)][k])];
+            start_length_[static_cast<size_t>(input_surface_->faces[static_cast<size_t>(point.face)][k])];
     }
   });
   return lengths;

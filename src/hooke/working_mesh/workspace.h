@@ -98,7 +98,7 @@ struct Workspace {
   Stopwatch* stopwatch;
   Normalisation normalisation;
   Permutation order;  // to the ids of the result, those of the input until replace_mesh(); `faces` is empty
-  std::shared_ptr<const Adjacency> adjacency;  // with its creases
+  std::shared_ptr<const Adjacency> adjacency;  // with its creases, seams included
   VertexColoring coloring;
   std::vector<double> vertex_length;  // normalised target lengths, at the positions sampled last
   TargetLengths targets;
@@ -112,21 +112,24 @@ struct Workspace {
   SurfacePoint locate_on_input(int vertex) const;
   const Permutation& input_order() const { return input_order_ ? *input_order_ : order; }
   void connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases);
-  SurfaceField fit(std::shared_ptr<const Mat3X> points) const;
+  std::shared_ptr<const Adjacency> surface() const;
+  SurfaceField fit(std::shared_ptr<const Mat3X> points,
+                   const std::shared_ptr<const Adjacency>& surface) const;
 
   FilterOptions filter_;
   RetractionOptions retraction_options_;
   bool faces_replaced_ = false;
   bool vertices_replaced_ = false;
-  std::optional<Permutation> input_order_;            // ids in the input, once vertices were replaced
-  std::shared_ptr<const Adjacency> input_adjacency_;  // with the points `start`
-  UniformVector start_length_;                        // target lengths with the points `start`
-  bool refitted_ = false;                             // false: both fields are the same
-  bool edge_by_edge_ = false;                         // see has_edge_lengths()
-  bool faceted_ = false;                              // are the facets of the input meant?
-  std::vector<int> input_hints_;                      // per wedge: hint on the field of the input
-  std::unique_ptr<Retraction> to_input_;              // to the field of the input
-  ProjectionCounts past_counts_;                      // of retractions that no longer exist
+  std::optional<Permutation> input_order_;          // ids in the input, once vertices were replaced
+  std::optional<std::vector<Edge>> sharp_;          // creases where the surface is sharp; none: all are
+  std::shared_ptr<const Adjacency> input_surface_;  // with the points `start`, and wedges where it is sharp
+  UniformVector start_length_;                      // target lengths with the points `start`
+  bool refitted_ = false;                           // false: both fields are the same
+  bool edge_by_edge_ = false;                       // see has_edge_lengths()
+  bool faceted_ = false;                            // are the facets of the input meant?
+  std::vector<int> input_hints_;                    // per wedge: hint on the field of the input
+  std::unique_ptr<Retraction> to_input_;            // to the field of the input
+  ProjectionCounts past_counts_;                    // of retractions that no longer exist
 };
 
 }  // namespace hooke

@@ -1,0 +1,163 @@
+#include "kept_data.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "hooke/constraints/seams.h"
+#include "hooke/io/carried_data.h"
+#include "hooke/mesh/chart_places.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/mesh/normals.h"
+#include "hooke/mesh/wedges.h"
+#include "result_files.h"
+
+namespace hooke::app {
+namespace {
+
+/// Removes the channels that are not to be kept. Returns their names.
+std::vector<std::string> drop_channels(const SeamKinds& keep, FaceData& data) {
+  const auto is_dropped = [&](const FaceChannel& channel) {
+    return !(channel.kind == LabelKind::group ? keep.groups : keep.materials);
+  };
+  std::vector<std::string> names;
+  for (const FaceChannel& channel : data)
+    if (is_dropped(channel)) names.push_back(channel.name);
+  std::erase_if(data, is_dropped);
+  return names;
+}
+
+void drop_unkept(const SeamKinds& keep, LoadedMesh& loaded, RunRecord& record) {
+  const std::vector<std::string> names = drop_channels(keep, loaded.face_data);
+  if (!names.empty())
+    record.warnings.push_back({"attributes_not_kept",
+                               fmt::format("{}: face data not kept: {}: new faces have none with this --keep",
+                                           record.input.path, fmt::join(names, ", "))});
+  if (!keep.texture) {
+    if (!loaded.corner_data.empty()) append(loaded.content.anew, std::exchange(loaded.content.no_obj, {}));
+    loaded.corner_data = {};
+  }
+  if (!keep.materials) loaded.material_libraries.clear();
+}
+
+/// The words of --keep without those of the most frequent kind of seams.
+std::string without_most(const Seams& seams, const SeamKinds& keep) {
+  const std::size_t most = std::max({seams.texture, seams.materials, seams.groups});
+  std::vector<const char*> words;
+  if (keep.texture && seams.texture < most) words.push_back("seams");
+  if (keep.materials && seams.materials < most) words.push_back("materials");
+  if (keep.groups && seams.groups < most) words.push_back("groups");
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
+}
+
+/// Warns if so many edges are seams, though the surface is smooth across them, that little can change.
+void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh& loaded, RunRecord& record) {
+  constexpr double many = 1. / 3;
+  const MemoryOrder& m = loaded.memory_order;
+  const auto limit = static_cast<std::size_t>(many * static_cast<double>(m.adjacency->edges.size()));
+  if (seams.edges.size() <= limit) return;
+  const std::vector<int> sharp = sharp_edges(m.order.gather(vertex_points(loaded.mesh)), *m.adjacency,
+                                             s.remesh.constraints.features.angle);
+  std::vector<int> flat;
+  std::ranges::set_difference(seams.edges, sharp, std::back_inserter(flat));
+  if (flat.size() <= limit) return;
+  record.warnings.push_back(
+      {"many_seams",
+       fmt::format("{}: {} of {} edges are seams, which stay where they are, so that little can change "
+                   "(texture: {}, materials and labels: {}, groups: {}); --keep {} gives them up",
+                   record.input.path, seams.edges.size(), m.adjacency->edges.size(), seams.texture,
+                   seams.materials, seams.groups, without_most(seams, s.keep))});
+}
+
+/// The face of the input where each vertex of the result lies, in memory order; -1 for none.
+std::vector<int> faces_near(const std::vector<MapEntry>& map, const MemoryOrder& before,
+                            const MemoryOrder& after) {
+  std::vector<int> index(before.order.old_face.size()), near;
+  for (std::size_t f = 0; f < index.size(); ++f)
+    index[static_cast<std::size_t>(before.order.old_face[f])] = static_cast<int>(f);
+  for (const int id : after.order.old_vertex) {
+    const int face = map[static_cast<std::size_t>(id)].position.face;
+    near.push_back(face < 0 ? -1 : index[static_cast<std::size_t>(face)]);
+  }
+  return near;
+}
+
+/// The new id of each face where faces of equal labels come together, these in the order in which the input
+/// has them.
+std::vector<int> order_by_labels(const FaceData& of_input, const FaceData& of_result, std::size_t faces) {
+  const auto labels_of = [](const FaceData& data, std::size_t face) {
+    std::vector<int> labels;
+    for (const FaceChannel& channel : data)
+      if (channel.kind != LabelKind::other) labels.push_back(channel.values[face]);
+    return labels;
+  };
+  std::map<std::vector<int>, int> ranks;
+  for (std::size_t f = 0; !of_input.empty() && f < of_input.front().values.size(); ++f)
+    ranks.try_emplace(labels_of(of_input, f), static_cast<int>(ranks.size()));
+  std::vector<int> rank(faces), order(faces);
+  for (std::size_t f = 0; f < faces; ++f) rank[f] = ranks[labels_of(of_result, f)];
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int f) { return rank[static_cast<std::size_t>(f)]; });
+  return order;
+}
+
+/// Gives the faces of the result new ids: face f was order[f]. Those in the record follow.
+void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord& record) {
+  std::vector<int> fresh(order.size());
+  for (std::size_t f = 0; f < order.size(); ++f)
+    fresh[static_cast<std::size_t>(order[f])] = static_cast<int>(f);
+  const auto renumber = [&](int& face) { face = fresh[static_cast<std::size_t>(face)]; };
+  const auto renumber_all = [&](std::vector<int>& faces) {
+    std::ranges::for_each(faces, renumber);
+    std::ranges::sort(faces);
+  };
+  std::ranges::for_each(loaded.memory_order.order.old_face, renumber);
+  replace_faces(loaded.mesh, *loaded.memory_order.adjacency, loaded.memory_order.order.old_ids());
+  loaded.face_data = gather(loaded.face_data, order);
+  loaded.corner_data = gather(loaded.corner_data, order);
+  renumber_all(record.result->folded_faces);
+  renumber_all(record.deviation->flipped_faces);
+  renumber_all(record.deviation->opposing_faces);
+  for (WorstFace& face : record.after->worst_faces) renumber(face.face);
+}
+
+}  // namespace
+
+void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
+  if (keeps_faces(s)) return;
+  drop_unkept(s.keep, loaded, record);
+  if (s.format != MeshFormat::obj) loaded.corner_data = {};
+  const FormatFaceData held =
+      face_data_for_format(loaded.face_data, loaded.format, *s.format, encoding_of_output(s, loaded));
+  Seams seams = find_seams(loaded.memory_order, loaded.corner_data, held.data, s.keep);
+  warn_of_many_seams(seams, s, loaded, record);
+  record.seam_edges = static_cast<int>(seams.edges.size());
+  s.remesh.constraints.seams = std::move(seams.ends);
+  std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
+  fixed.insert(fixed.end(), seams.poles.begin(), seams.poles.end());
+  s.remesh.map |= !loaded.face_data.empty() || !loaded.corner_data.empty();
+}
+
+void carry_data(const Settings& s, LoadedMesh& loaded, const Original& original, RunRecord& record) {
+  if (keeps_faces(s) || (loaded.face_data.empty() && loaded.corner_data.empty())) return;
+  const MemoryOrder &before = original.memory_order, &after = loaded.memory_order;
+  Adjacency input = *before.adjacency, result = *after.adjacency;
+  split_wedges(input, before.order.new_edges(record.result->input_creases));
+  split_wedges(result, after.order.new_edges(record.result->crease_edges));
+  const Mat3X points = after.order.gather(vertex_points(loaded.mesh));
+  const Remeshed meshes{{original.points, input}, before, {points, result}, after.order};
+  const ChartPlaces places =
+      find_chart_places(meshes.input, meshes.result, faces_near(record.result->map, before, after));
+  const FaceData of_input = std::move(loaded.face_data);
+  loaded.face_data = carry_face_data(of_input, places, meshes);
+  loaded.corner_data = carry_corner_data(loaded.corner_data, places, meshes);
+  if (!of_input.empty())
+    renumber_faces(order_by_labels(of_input, loaded.face_data, result.faces.size()), loaded, record);
+}
+
+}  // namespace hooke::app

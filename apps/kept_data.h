@@ -1,0 +1,22 @@
+// Data of faces and corners where faces are replaced: the seams that are kept for them, and the data of the
+// new faces.
+#pragma once
+
+#include "hooke/io/read_mesh.h"
+#include "hooke/report/report.h"
+#include "options.h"
+#include "stages.h"
+
+namespace hooke::app {
+
+/// Makes the seams of the input that are to be kept, of data that the output can hold, feature edges
+/// (RemeshOptions::constraints), and warns if they are so many that hardly anything can change. Drops the
+/// data that are not to be kept, of which it warns. Does nothing where faces stay.
+void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
+
+/// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal
+/// labels together, in the order in which the input has them; ids of faces in the record follow. Does nothing
+/// where faces stay. `loaded` holds the result.
+void carry_data(const Settings& settings, LoadedMesh& loaded, const Original& original, RunRecord& record);
+
+}  // namespace hooke::app
