@@ -7,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include "batch.h"
 #include "exit_codes.h"
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
@@ -20,6 +21,7 @@
 #include "messages.h"
 #include "options.h"
 #include "output_files.h"
+#include "progress_bar.h"
 #include "result_files.h"
 #include "result_warnings.h"
 #include "signals.h"
@@ -33,15 +35,13 @@ using Clock = std::chrono::steady_clock;
 
 /// Optimizes the mesh, measures the result and prepares its output files.
 void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunRecord& record,
-                 OutputFiles& files, Stopwatch& stopwatch) {
-  {
-    ProgressLine line(s);
-    const Observer observer = [&](const Progress& p) {
-      line.show(p);
-      return caught_signal() == 0;
-    };
-    remesh_and_measure(s, loaded.mesh, loaded.memory_order, original, record, observer, stopwatch);
-  }
+                 OutputFiles& files, RunProgress& progress, Stopwatch& stopwatch) {
+  const Observer observer = [&](const Progress& p) {
+    progress.show(p);
+    return caught_signal() == 0;
+  };
+  remesh_and_measure(s, loaded.mesh, loaded.memory_order, original, record, observer, stopwatch);
+  progress.enter("write");
   timed(&stopwatch, "data", [&] { carry_data(s, loaded, original, record); });
   const Mat3X points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   PendingMesh written = timed(&stopwatch, "write",
@@ -61,8 +61,10 @@ void finish(const Settings& s, RunRecord& record, OutputFiles& files) {
   if (!s.trace.empty()) files.add(PendingFile(s.trace, trace_csv(record.stages)));
   if (!s.trace_steps.empty())
     files.add(PendingFile(s.trace_steps, time_steps_csv(record.result->time_steps)));
-  if (!s.report.empty() && s.report != "-") files.add(PendingFile(s.report, report_text(record)));
-  if (s.report == "-") write_to_standard_output(report_text(record));
+  if (s.report == "-")
+    files.add(PendingFile::to_standard_output(report_text(record)));
+  else if (!s.report.empty())
+    files.add(PendingFile(s.report, report_text(record)));
   files.commit();
   if (!s.quiet)
     for (const Note& note : record.notes) print_note(note);
@@ -92,6 +94,8 @@ int run(Settings s) {
   const auto start = Clock::now();
   const ThreadLimit threads(s.threads);
   require_outputs(s);
+  RunProgress progress(s);
+  progress.enter("read");
   Stopwatch stopwatch;
   LoadedMesh loaded = timed(&stopwatch, "read", [&] {
     return read_mesh(s.input, &stopwatch, {s.input_format, s.repair});
@@ -118,12 +122,14 @@ int run(Settings s) {
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
   if (!s.check) timed(&stopwatch, "seams", [&] { keep_seams(s, loaded, record); });
   Original original;
+  progress.enter("measure");
   measure_input(s, loaded.mesh, loaded.memory_order, loaded.origin, original, record, stopwatch);
 
   OutputFiles files;
-  if (!s.check) make_result(s, loaded, original, record, files, stopwatch);
+  if (!s.check) make_result(s, loaded, original, record, files, progress, stopwatch);
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
+  progress.clear();
   finish(s, record, files);
   if (caught_signal()) return 128 + caught_signal();
   return std::ranges::all_of(record.gates, &GateOutcome::passed) ? done : gate_failed;
@@ -140,7 +146,7 @@ int main(int argc, char** argv) {
   const Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.settings) return parsed.exit_code;
   try {
-    return run(*parsed.settings);
+    return is_batch(*parsed.settings) ? run_batch(*parsed.settings) : run(*parsed.settings);
   } catch (const InputError& e) {
     print_error(e.what());
     return malformed_input;

@@ -1,16 +1,13 @@
 #include "messages.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "hooke/core/printable.h"
 #include "hooke/remesh/result.h"
 #include "hooke/report/outcome.h"
 #include "hooke/report/table.h"
+#include "text_columns.h"
 
 namespace hooke::app {
 namespace {
@@ -19,29 +16,6 @@ namespace {
 template <typename... Arguments>
 void say(fmt::format_string<Arguments...> text, Arguments&&... arguments) {
   std::fputs(fmt::format(text, std::forward<Arguments>(arguments)...).c_str(), stderr);
-}
-
-/// The text in lines of at most 80 columns.
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t width = 80;
-  std::string lines;
-  std::size_t column = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::size_t length = end - begin;
-    if (column > 0 && column + 1 + length > width) {
-      lines += '\n';
-      column = 0;
-    }
-    if (column > 0) {
-      lines += ' ';
-      ++column;
-    }
-    lines.append(text, begin, length);
-    column += length;
-    begin = end + 1;
-  }
-  return lines;
 }
 
 std::string reason_in_words(const RunRecord& run) {
@@ -141,25 +115,8 @@ void print_summary(const Settings& s, const RunRecord& run) {
   say("{} written in {:.2f} s\n", files, run.resources.wall_s);
 }
 
-ProgressLine::ProgressLine(const Settings& s)
-    : enabled_(!s.quiet && s.progress != ProgressStyle::none &&
-               (s.progress == ProgressStyle::bar || isatty(STDERR_FILENO) == 1)) {}
-
-ProgressLine::~ProgressLine() {
-  if (shown_) say("\r{:<60}\r", "");
-}
-
-void ProgressLine::show(const Progress& p) {
-  if (!enabled_) return;
-  constexpr long long every_ms = 100;
-  const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
-                       std::chrono::steady_clock::now().time_since_epoch())
-                       .count();
-  if (now - last_ms_ < every_ms) return;
-  last_ms_ = now;
-  shown_ = true;
-  say("\r{:<60}", fmt::format("{}: outer iteration {}, step {}", p.stage, p.outer, p.step));
-  std::fflush(stderr);
+void print_text_as_it_is(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 }  // namespace hooke::app

@@ -1,7 +1,8 @@
-// Messages for the user on standard error: errors, warnings, the summary and the progress line.
+// Messages for the user on standard error: errors, warnings and the summary.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "hooke/remesh/result.h"
 #include "hooke/report/report.h"
@@ -20,20 +21,7 @@ void print_summary(const Settings& settings, const RunRecord& run);
 /// Explains why the paper's integrator stopped, by how often each of its tests limited the time step.
 std::string paper_message(const RemeshResult& result);
 
-/// A progress line that overwrites itself on a terminal.
-class ProgressLine {
- public:
-  explicit ProgressLine(const Settings& settings);
-  ~ProgressLine();
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const Progress& progress);
-
- private:
-  bool enabled_;
-  bool shown_ = false;
-  long long last_ms_ = 0;
-};
+/// Prints text of this program or another of its kind, which may be several lines.
+void print_text_as_it_is(std::string_view text);
 
 }  // namespace hooke::app

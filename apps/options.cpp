@@ -1,4 +1,4 @@
-#include "options.h"
+#include "option_table.h"
 
 #include <fmt/format.h>
 
@@ -6,15 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iostream>
-#include <numeric>
 #include <utility>
 
-#include "exit_codes.h"
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
-#include "messages.h"
 #include "words.h"
 
 namespace hooke::app {
@@ -98,7 +94,7 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
          "Target edge length: auto = sqrt(4 A / (sqrt 3 F)), mean = mean edge length, X in file units, "
          "X% of the box's diagonal, Xx times auto; with --sizing it scales the lengths: auto and Xx to cover "
          "the area, others to that mean, sizing = as they are")
-      ->type_name("LENGTH")
+      ->type_name("auto|mean|sizing|X|X%|Xx")
       ->capture_default_str();
   app.add_option(
          "--sizing", s.sizing_text,
@@ -115,12 +111,13 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
            "Target lengths of edges, one a line: two vertex ids (0-based) and a length in file units; other "
            "edges have that of --length. Springs of altitudes and angles, which ask for equilateral faces, "
            "are off then");
-  add_choice(app, "--connectivity", s.remesh.connectivity,
-             "fixed: the faces stay; flip: edges are flipped too: same vertex ids, but vertices travel; "
-             "adapt: new vertices and faces, as many as --length asks for",
-             Choices<ConnectivityMode>{{"fixed", ConnectivityMode::fixed},
-                                       {"flip", ConnectivityMode::flip},
-                                       {"adapt", ConnectivityMode::adapt}})
+  add_choice(
+      app, "--connectivity", s.remesh.connectivity,
+      "What may change: fixed = the faces stay; flip = edges are flipped too, with the same vertex ids, but "
+      "vertices travel; adapt = new vertices and faces, as many as --length asks for",
+      Choices<ConnectivityMode>{{"fixed", ConnectivityMode::fixed},
+                                {"flip", ConnectivityMode::flip},
+                                {"adapt", ConnectivityMode::adapt}})
       ->default_str("fixed");
   add_file(app, "--map", s.map,
            "Where the output's vertices lie on the input: per line its vertex id there or -1, a face "
@@ -132,9 +129,11 @@ void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
       app, "--effort", s.effort, "How long to go on for better triangles",
       Choices<Effort>{{"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}})
       ->default_str("default");
-  add_choice(app, "--integrator", s.remesh.integrator,
-             "lbfgs: minimise the springs' energy; damped: follow the paper's equation of motion",
-             Choices<IntegratorKind>{{"lbfgs", IntegratorKind::lbfgs}, {"damped", IntegratorKind::damped}})
+  add_choice(
+      app, "--integrator", s.remesh.integrator,
+      "How to come to rest: lbfgs = minimise the springs' energy, damped = follow the paper's equation of "
+      "motion",
+      Choices<IntegratorKind>{{"lbfgs", IntegratorKind::lbfgs}, {"damped", IntegratorKind::damped}})
       ->default_str("lbfgs");
   add_choice(app, "--polish", s.remesh.polish_angles,
              "Angle springs on the worst faces after the equilibrium",
@@ -298,20 +297,67 @@ void add_run(CLI::App& app, Settings& s) {
   app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");
   app.add_flag("-v,--verbose", s.verbose, "Print every outer iteration");
   add_choice(
-      app, "--progress", s.progress, "Progress line: auto = on a terminal",
+      app, "--progress", s.progress,
+      "A line with the stage, the share done and the time left, both estimated: auto = on a terminal",
       Choices<ProgressStyle>{
           {"auto", ProgressStyle::automatic}, {"bar", ProgressStyle::bar}, {"none", ProgressStyle::none}})
       ->default_str("auto");
 }
 
+void add_batch(CLI::App& app, Settings& s) {
+  app.add_option("--suffix", s.batch.suffix,
+                 "Text between name and extension of the files written to FOLDER/: part.obj becomes "
+                 "partTEXT.obj")
+      ->type_name("TEXT");
+  add_file(app, "--table", s.batch.table,
+           "A row for each mesh: file, status, exit code, seconds, numbers before and after; FILE.csv, or "
+           "FILE.jsonl with one JSON object a line");
+  app.add_flag(
+      "--skip-existing", s.batch.skip_existing,
+      "Do not run again what such a run has finished: the output is there unchanged, and the content "
+      "of the input, the options and this program are the same, as a hidden file .NAME.hooke.json "
+      "beside the output tells; after an interruption the same command goes on where it was");
+  add_number<int>(app, "--jobs", s.batch.jobs,
+                  "Meshes at the same time (default: what processors and memory allow); --threads is for all "
+                  "of them together",
+                  whole_number);
+}
+
+void add_settings(CLI::App& app, RawOptions& raw) {
+  app.set_config("--config", "",
+                 "Options from a TOML file: a line NAME = VALUE each, with the long names above; what the "
+                 "command line says goes first")
+      ->type_name("FILE")
+      ->configurable(false);
+  app.add_flag("--print-config", raw.print_config,
+               "Print the options of this command line as such a file, with all others as comments; nothing "
+               "is run")
+      ->configurable(false);
+  app.set_help_flag("-h,--help", "The options that most people need")->configurable(false);
+  app.set_help_all_flag("--help-all", "All options")->configurable(false);
+  app.set_version_flag("-V,--version", "hooke-remesh " HOOKE_VERSION, "The version")->configurable(false);
+  add_choice(app, "--completion", raw.completion, "Print the completion of this command for a shell",
+             Choices<Shell>{{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}})
+      ->configurable(false);
+  app.add_flag("--man-page", raw.man_page, "Print the manual page")->configurable(false)->group("");
+}
+
+}  // namespace
+
 void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
-  app.add_option("INPUT", s.input,
-                 "Mesh to read: .obj, .ply, .off, .stl, .msh (Gmsh) or .vtp; - for standard input")
-      ->required()
-      ->type_name("");
-  app.add_option("-o,--output", s.output, "Mesh to write; required unless --check; - for standard output")
+  app.option_defaults()->group("Files");
+  app.add_option(
+         "INPUT", s.inputs,
+         "Mesh to read: .obj, .ply, .off, .stl, .msh (Gmsh) or .vtp; - for standard input; several with "
+         "-o FOLDER/")
       ->check(named())
-      ->type_name("FILE");
+      ->type_name("");
+  app.add_option(
+         "-o,--output", s.output,
+         "Mesh to write; required unless --check; - for standard output; a folder for several inputs, "
+         "whose names stay")
+      ->check(named())
+      ->type_name("FILE|FOLDER/");
   add_choice(app, "--input-format", s.input_format, "Format of the input (default: by extension)",
              Choices<MeshFormat>{{"obj", MeshFormat::obj},
                                  {"ply", MeshFormat::ply},
@@ -351,97 +397,10 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   add_reports(app, s);
   app.option_defaults()->group("Running");
   add_run(app, s);
-  app.set_version_flag("-V,--version", "hooke-remesh " HOOKE_VERSION)->group("Options");
-}
-
-/// Prints the requested help or version to standard output. Returns the exit code.
-int print_help_or_version(const CLI::App& app, const CLI::ParseError& request) {
-  app.exit(request);
-  if (std::cout.flush()) return done;
-  print_error("standard output: cannot be written; expected an open reader or room");
-  return output_failed;
-}
-
-/// How many letters must be put in, left out or replaced to make one word of the other.
-size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = std::exchange(row[0], i + 1);
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// What is wrong with the command line. Names the option nearest to one that is unknown.
-std::string problem_with(const CLI::App& app, const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return error.what();
-  const std::vector<std::string> extras = app.remaining();
-  const auto unknown =
-      std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with("--"); });
-  if (unknown == extras.end()) return error.what();
-  const std::string name = unknown->substr(2, unknown->find('=') - 2);
-  std::string nearest;
-  size_t least = std::max<size_t>(2, name.size() / 3) + 1;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& known : option->get_lnames())
-      if (const size_t distance = edit_distance(name, known); distance < least) {
-        least = distance;
-        nearest = known;
-      }
-  return "--" + name + ": unknown option" + (nearest.empty() ? "" : "; did you mean --" + nearest + "?");
-}
-
-/// A parser whose options write to its own settings.
-struct Parser {
-  CLI::App app{
-      "Moves the vertices of a triangle mesh on its own surface until the triangles are well shaped: same "
-      "vertices, same faces, same surface.",
-      "hooke-remesh"};
-  Settings settings;
-  RawOptions raw;
-
-  Parser() {
-    app.get_formatter()->column_width(34);
-    raw.given = [this](const char* option) { return app.count(option) > 0; };
-    add_options(app, settings, raw);
-  }
-  Parser(const Parser&) = delete;
-  Parser& operator=(const Parser&) = delete;
-};
-
-}  // namespace
-
-Parsed parse_command_line(int argc, char** argv) {
-  Parser parser;
-  try {
-    parser.app.parse(argc, argv);
-    resolve(parser.settings, parser.raw);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return {std::nullopt, print_help_or_version(parser.app, e)};
-    print_error(problem_with(parser.app, e) + "; see hooke-remesh --help");
-    return {std::nullopt, usage};
-  } catch (const Error& e) {
-    print_error(e.what());
-    return {std::nullopt, usage};
-  }
-  return {std::move(parser.settings), done};
-}
-
-Settings parse_arguments(std::vector<std::string> arguments) {
-  Parser parser;
-  std::ranges::reverse(arguments);  // CLI11 takes them from the back
-  try {
-    parser.app.parse(std::move(arguments));
-  } catch (const CLI::ParseError& e) {
-    throw Error(problem_with(parser.app, e));
-  }
-  resolve(parser.settings, parser.raw);
-  return std::move(parser.settings);
+  app.option_defaults()->group("Several inputs");
+  add_batch(app, s);
+  app.option_defaults()->group("Settings and help");
+  add_settings(app, raw);
 }
 
 }  // namespace hooke::app

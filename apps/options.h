@@ -1,4 +1,4 @@
-// Parses the command line into settings. Only this module depends on CLI11.
+// Parses the command line into settings. Beside the table of options only the parser depends on CLI11.
 #pragma once
 
 #include <filesystem>
@@ -20,10 +20,27 @@ namespace hooke::app {
 /// When to show the progress line; automatic: on a terminal.
 enum class ProgressStyle { automatic, bar, none };
 
+/// What is only of several inputs, or of one that may be done already.
+struct BatchSettings {
+  std::string suffix;           // put between name and extension of the outputs
+  std::filesystem::path table;  // .csv or .jsonl; empty for none
+  bool skip_existing = false;   // leave out what is done already
+  int jobs = 0;                 // meshes at the same time; 0: as many as fit
+};
+
+/// An option as it was given on the command line or in a file of settings.
+struct GivenOption {
+  std::string name;                 // long, without dashes; "INPUT"
+  std::vector<std::string> values;  // one for each time it was given; none for a flag
+};
+
 /// All settings of a run.
 struct Settings {
-  std::filesystem::path input;             // "-" for standard input
-  std::filesystem::path output;            // empty with --check; "-" for standard output
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path input;   // the first of them; "-" for standard input
+  std::filesystem::path output;  // empty with --check; "-" for standard output
+  BatchSettings batch;
+  std::vector<GivenOption> given;          // in the order of the table of options
   std::optional<MeshFormat> input_format;  // none: by the extension
   std::optional<MeshFormat> format;        // of the output; set by its extension if not given
   bool format_given = false;               // by --format
@@ -59,6 +76,12 @@ struct Settings {
   bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
 };
+
+/// Whether the path is that of a folder: it ends with a slash, or there is such a folder.
+bool names_folder(const std::filesystem::path& path);
+
+/// Whether the settings are for a run that starts one process for each mesh, see run_batch().
+bool is_batch(const Settings& settings);
 
 /// The settings, or an exit code if the command line asks for help or is invalid; the help or the message has
 /// then been printed.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "hooke/springs/sizing.h"
@@ -47,6 +49,19 @@ void require_outputs(const Settings& s) {
                                 other.role));
     require_writable(file.path);
     taken.push_back(file);
+  }
+}
+
+void OutputFiles::commit() {
+  std::ranges::stable_partition(files_, [](const PendingFile& file) { return !file.is_standard_output(); });
+  std::size_t done = 0;
+  try {
+    for (; done < files_.size(); ++done) files_[done].commit();
+  } catch (const OutputError& e) {
+    std::size_t left = 0;
+    while (done > 0) left += files_[--done].take_back() ? 0 : 1;
+    if (left == 0) throw;
+    throw OutputError(fmt::format("{}; {} of the other output files were already replaced", e.what(), left));
   }
 }
 

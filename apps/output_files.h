@@ -1,7 +1,7 @@
 // The output files of a run, which are written all or none.
 #pragma once
 
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "hooke/io/files.h"
@@ -18,10 +18,10 @@ class OutputFiles {
  public:
   void add(PendingFile file) { files_.push_back(std::move(file)); }
 
-  /// Renames all files to their targets. Throws OutputError.
-  void commit() {
-    for (PendingFile& file : files_) file.commit();
-  }
+  /// Renames all files to their targets, then writes what goes to standard output: who reads it there finds
+  /// the files. If one of them fails the others are taken back. Throws OutputError, which names files that
+  /// could not be taken back.
+  void commit();
 
  private:
   std::vector<PendingFile> files_;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <initializer_list>
 #include <limits>
+#include <system_error>
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
@@ -187,6 +188,18 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
          "is of --connectivity fixed with --preserve on, and not of --paper");
 }
 
+/// Throws Error for options of a batch without one.
+void reject_unused_batch_options(const Settings& s, const RawOptions& raw) {
+  const bool to_folder = s.inputs.size() > 1 || !s.output.has_filename();
+  if (!s.batch.suffix.empty() && !to_folder)
+    throw Error("--suffix is of outputs in a folder; leave it out, or write --output FOLDER/");
+  if (raw.given("--jobs") && s.inputs.size() == 1) throw Error("--jobs is of several inputs; leave it out");
+  if (s.check && !s.batch.suffix.empty())
+    throw Error("--suffix is of the output, which --check has none of; leave it out");
+  if (s.check && s.batch.skip_existing)
+    throw Error("--skip-existing is of the output, which --check has none of; leave it out");
+}
+
 /// Throws Error if a standard stream is used twice, or without its format.
 void require_streams(const Settings& s) {
   if (is_standard_input(s.input) && !s.input_format)
@@ -206,7 +219,21 @@ MeshFormat format_of_output(const Settings& s) {
 
 }  // namespace
 
+bool names_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  return !path.empty() && (!path.has_filename() || std::filesystem::is_directory(path, error));
+}
+
+bool is_batch(const Settings& s) {
+  return s.inputs.size() > 1 || (!s.output.empty() && !s.output.has_filename()) || !s.batch.table.empty() ||
+         s.batch.skip_existing;
+}
+
 void resolve(Settings& s, const RawOptions& raw) {
+  if (s.inputs.empty())
+    throw Error("INPUT is required; expected the name of a mesh; see hooke-remesh --help");
+  s.input = s.inputs.front();
+  reject_unused_batch_options(s, raw);
   s.length = parsed("--length", parse_length, s.length_text);
   resolve_sizing(s, raw);
   reject_unused_options(s, raw);
@@ -240,7 +267,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
   s.format_given = s.format.has_value();
-  if (!s.format_given) s.format = format_of_output(s);
+  if (!s.format_given && !is_batch(s)) s.format = format_of_output(s);
 }
 
 }  // namespace hooke::app

@@ -9,6 +9,9 @@
 
 namespace hooke::app {
 
+/// A shell that completes command lines.
+enum class Shell { bash, zsh, fish };
+
 /// Options as given on the command line, not yet interpreted.
 struct RawOptions {
   std::string tolerance = "0.1%";
@@ -21,6 +24,9 @@ struct RawOptions {
   std::optional<Refit> refit;
   std::optional<int> max_outer, max_steps;
   std::optional<BoundaryRule> boundary;
+  bool print_config = false;
+  std::optional<Shell> completion;
+  bool man_page = false;
   std::function<bool(const char*)> given;  // whether the option was given
 };
 

@@ -203,6 +203,26 @@ class OutputErrors(CommandTest):
                              streams={"stdout": stream}, prepare=(lambda: os.close(1)) if closed else None)
             self.refused(5, "--help", names="standard output", streams={"stdout": full})
 
+    def test_who_reads_the_report_finds_the_files(self):
+        reading, writing = os.pipe()
+        os.set_inheritable(writing, True)
+        process = self.start("good.obj", "-o", "out.obj", "--map", "map", "--report", "-", "-q", streams={"stdout": writing})
+        os.close(writing)
+        first = os.read(reading, 1)
+        there = self.files()
+        while os.read(reading, 1 << 16):
+            continue
+        os.close(reading)
+        process.communicate()
+        self.assertEqual((process.returncode, first, there), (0, b"{", ["good.obj", "map", "out.obj"]))
+
+    def test_a_report_that_nobody_can_read_takes_the_files_back(self):
+        for name in ("out.obj", "map"):
+            self.write(name, "precious\n")
+        with open("/dev/full", "wb") as full:
+            self.refused(5, "good.obj", "-o", "out.obj", "--map", "map", "--fields", "new.ply", "--report", "-",
+                         names="standard output", streams={"stdout": full})
+
     def test_no_older_file_is_replaced_unless_all_can_be_written(self):
         for name in ("out.obj", "report.json", "map"):
             self.write(name, "precious\n")

@@ -34,11 +34,13 @@ TEST(AtomicWrite, NothingHasChangedBeforeTheCommit) {
   write_text(folder / "f", "old");
   { const PendingFile dropped(folder / "f", "new"); }
   EXPECT_EQ(folder.file_count(), 1u);
-  PendingFile file(folder / "f", "new");
-  EXPECT_EQ(read_text(folder / "f"), "old");
-  PendingFile moved = std::move(file);
-  moved.commit();
-  EXPECT_EQ(read_text(folder / "f"), "new");
+  {
+    PendingFile file(folder / "f", "new");
+    EXPECT_EQ(read_text(folder / "f"), "old");
+    PendingFile moved = std::move(file);
+    moved.commit();
+    EXPECT_EQ(read_text(folder / "f"), "new");
+  }
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
@@ -60,6 +62,22 @@ TEST(AtomicWrite, ReplacesAFileAndKeepsItsMode) {
   write_now(folder / "f", "new");
   EXPECT_EQ(read_text(folder / "f"), "new");
   EXPECT_EQ(mode_of(folder / "f"), 0604u);
+}
+
+TEST(AtomicWrite, IsUndoneByTakingItBack) {
+  const TemporaryFolder folder;
+  const fs::path old = folder / "old", young = folder / "young";
+  write_text(old, "before");
+  {
+    PendingFile over_old(old, "after"), new_one(young, "after");
+    over_old.commit();
+    new_one.commit();
+    EXPECT_EQ(read_text(old), "after");
+    if (!over_old.take_back()) GTEST_SKIP() << "this file system cannot exchange names";
+    EXPECT_TRUE(new_one.take_back());
+  }
+  EXPECT_EQ(read_text(old), "before");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "."), fs::directory_iterator()), 1);
 }
 
 TEST(AtomicWrite, FollowsALinkAndLeavesOtherNamesOfTheOldFile) {

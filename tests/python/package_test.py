@@ -137,6 +137,14 @@ class Refusals(unittest.TestCase):
                 remesh(vertices, faces, **options)
             self.assertIsInstance(caught.exception, ValueError)
 
+    def test_what_is_of_the_command_only(self):
+        vertices, faces = torus()
+        for option in ("output", "config", "print_config", "help_all", "completion", "man_page", "suffix", "table",
+                       "skip_existing", "jobs"):
+            for run in (remesh, measure):
+                with self.assertRaisesRegex(UsageError, option + ": is for files and the terminal"):
+                    run(vertices, faces, **{option: "x"})
+
     def test_arrays(self):
         vertices, faces = torus()
         for v, f, error in ((vertices[:, :2], faces, ValueError), (vertices, faces[:, :2], ValueError),

@@ -33,7 +33,8 @@ Progress = Callable[[str, int, int, float], Any]
 
 # What the command does with its files and its terminal.
 _OF_THE_COMMAND = {"output", "format", "map", "report", "fields", "trace", "trace_steps", "check", "quiet", "verbose",
-                   "progress", "help", "version", "input_format", "preserve", "reproject_uv", "repair", "weld",
+                   "progress", "help", "help_all", "version", "config", "print_config", "completion", "man_page", "suffix",
+                   "table", "skip_existing", "jobs", "input_format", "preserve", "reproject_uv", "repair", "weld",
                    "drop_components", "fill_holes"}
 
 

@@ -142,6 +142,17 @@ class TemporaryFile {
     path_.clear();
   }
 
+  // Exchanges the names of the two files in one step: this is then the older one. False where the file system
+  // cannot do that, or there is no older one.
+  bool exchange_with(const fs::path& target) const noexcept {
+#ifdef RENAME_EXCHANGE
+    return ::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0;
+#else
+    (void)target;
+    return false;
+#endif
+  }
+
  private:
   fs::path name_, path_;
   FileDescriptor file_;
@@ -170,11 +181,18 @@ class PendingFile::Written {
   }
 
   void commit() {
-    temporary_.rename_to(target_.path);
+    exchanged_ = target_.mode && temporary_.exchange_with(target_.path);
+    if (!exchanged_) temporary_.rename_to(target_.path);
     sync_folder(path_, target_.path);
   }
 
+  bool take_back() const noexcept {
+    if (target_.mode) return exchanged_ && temporary_.exchange_with(target_.path);
+    return ::unlink(target_.path.c_str()) == 0;
+  }
+
  private:
+  bool exchanged_ = false;  // the temporary file is the older one
   fs::path path_;
   Target target_;
   TemporaryFile temporary_;
@@ -190,6 +208,7 @@ PendingFile PendingFile::to_standard_output(std::string bytes) {
 }
 
 PendingFile::PendingFile(PendingFile&&) noexcept = default;
+PendingFile& PendingFile::operator=(PendingFile&&) noexcept = default;
 PendingFile::~PendingFile() = default;
 
 void PendingFile::commit() {
@@ -197,6 +216,10 @@ void PendingFile::commit() {
     written_->commit();
   else
     write_to_standard_output(bytes_);
+}
+
+bool PendingFile::take_back() noexcept {
+  return written_ && written_->take_back();
 }
 
 void require_writable(const fs::path& path) {

@@ -24,11 +24,20 @@ class PendingFile {
   static PendingFile to_standard_output(std::string bytes);
 
   PendingFile(PendingFile&&) noexcept;
+  PendingFile& operator=(PendingFile&&) noexcept;
   ~PendingFile();
 
-  /// Renames the temporary file to its target. To be called at most once. Throws OutputError; an existing
-  /// file is then unchanged, unless only the sync of the folder failed, as the message says.
+  /// Renames the temporary file to its target. An older file is kept under the temporary name until the end
+  /// of this object, for take_back(). To be called at most once. Throws OutputError; an existing file is then
+  /// unchanged, unless only the sync of the folder failed, as the message says.
   void commit();
+
+  /// Undoes commit(): the older file is there again, or none if there was none. To be called at most once,
+  /// after a commit() that succeeded, when another file of the set could not be committed. Returns false if
+  /// the file system cannot do that, and for standard output.
+  bool take_back() noexcept;
+
+  bool is_standard_output() const { return !written_; }
 
  private:
   PendingFile() = default;

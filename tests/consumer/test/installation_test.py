@@ -54,6 +54,14 @@ class Installation(unittest.TestCase):
         headers = [p.relative_to(self.prefix / "include") for p in self.prefix.rglob("*.h")]
         self.assertTrue(all(p.parts[0] == "hooke" for p in headers))
 
+    def test_completions_and_manual_page(self):
+        share = self.prefix / "share"
+        for file, line in (("bash-completion/completions/hooke-remesh", "complete -o default"),
+                           ("zsh/site-functions/_hooke-remesh", "#compdef hooke-remesh"),
+                           ("fish/vendor_completions.d/hooke-remesh.fish", "complete -c hooke-remesh -l connectivity"),
+                           ("man/man1/hooke-remesh.1", ".SH OPTIONS")):
+            self.assertIn("\n" + line, "\n" + (share / file).read_text())
+
     def test_find_package(self):
         build = self.configure(CONSUMER, "consumer")
         run(CMAKE, "--build", build, "-j", "2")

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "completion.h"
+#include "config_file.h"
+#include "exit_codes.h"
+#include "help.h"
+#include "hooke/core/error.h"
+#include "hooke/io/files.h"
+#include "man_page.h"
+#include "messages.h"
+#include "nearest_word.h"
+#include "option_table.h"
+#include "words.h"
+
+namespace hooke::app {
+namespace {
+
+/// A parser whose options write to its own settings.
+struct Parser {
+  CLI::App app{purpose, "hooke-remesh"};
+  Settings settings;
+  RawOptions raw;
+  std::shared_ptr<ConfigFile> config = std::make_shared<ConfigFile>(app);
+
+  Parser() {
+    raw.given = [this](const char* option) { return app.count(option) > 0; };
+    app.config_formatter(config);
+    add_options(app, settings, raw);
+  }
+  Parser(const Parser&) = delete;
+  Parser& operator=(const Parser&) = delete;
+
+  /// What is wrong with the command line or the file. Names the option nearest to one that is unknown.
+  std::string problem(const CLI::ParseError& error) const {
+    if (dynamic_cast<const CLI::FileError*>(&error) != nullptr)
+      return std::string("--config: ") + error.what() + "; expected a readable file";
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr)
+      return config->place_of(error.what()) + error.what();
+    const std::vector<std::string> extras = app.remaining();
+    const auto unknown =
+        std::ranges::find_if(extras, [](const std::string& word) { return word.starts_with("--"); });
+    if (unknown == extras.end()) return error.what();
+    const std::string name = unknown->substr(2, unknown->find('=') - 2);
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& word : option->get_lnames()) known.push_back(word);
+    const std::string nearest = nearest_word(name, known);
+    return "--" + name + ": unknown option" + (nearest.empty() ? "" : "; did you mean --" + nearest + "?");
+  }
+
+  /// Completes the settings. Throws Error.
+  void complete() {
+    for (const CLI::Option* option : given_options(app)) {
+      const bool flag = option->get_items_expected_min() == 0;
+      settings.given.push_back(
+          {option->get_single_name(), flag ? std::vector<std::string>() : option->results()});
+    }
+    try {
+      resolve(settings, raw);
+    } catch (const Error& e) {
+      throw Error(config->place_of(e.what()) + e.what());
+    }
+  }
+};
+
+/// Prints to standard output what was asked for instead of a run. Returns the exit code.
+int print_text(const std::string& text) {
+  try {
+    write_to_standard_output(text);
+    return done;
+  } catch (const OutputError& e) {
+    print_error(e.what());
+    return output_failed;
+  }
+}
+
+/// Answers the request for a help text or the version. Returns the exit code.
+int answer(const CLI::App& app, const CLI::ParseError& request) {
+  if (dynamic_cast<const CLI::CallForAllHelp*>(&request) != nullptr)
+    return print_text(full_help(entries_of(app)));
+  if (dynamic_cast<const CLI::CallForHelp*>(&request) != nullptr) return print_text(short_help());
+  return print_text(std::string(request.what()) + "\n");
+}
+
+}  // namespace
+
+Parsed parse_command_line(int argc, char** argv) {
+  Parser parser;
+  try {
+    parser.app.parse(argc, argv);
+    if (parser.raw.completion)
+      return {std::nullopt, print_text(completion(*parser.raw.completion, entries_of(parser.app)))};
+    if (parser.raw.man_page) return {std::nullopt, print_text(man_page(entries_of(parser.app)))};
+    parser.complete();
+    if (parser.raw.print_config) return {std::nullopt, print_text(parser.app.config_to_str())};
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return {std::nullopt, answer(parser.app, e)};
+    print_error(parser.problem(e) + "; see hooke-remesh --help");
+    return {std::nullopt, usage};
+  } catch (const Error& e) {
+    print_error(e.what());
+    return {std::nullopt, usage};
+  }
+  return {std::move(parser.settings), done};
+}
+
+Settings parse_arguments(std::vector<std::string> arguments) {
+  Parser parser;
+  std::ranges::reverse(arguments);  // CLI11 takes them from the back
+  try {
+    parser.app.parse(std::move(arguments));
+  } catch (const CLI::ParseError& e) {
+    throw Error(parser.problem(e));
+  }
+  parser.complete();
+  return std::move(parser.settings);
+}
+
+}  // namespace hooke::app
