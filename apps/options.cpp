@@ -7,13 +7,14 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
-#include <numeric>
 #include <utility>
 
 #include "exit_codes.h"
 #include "hooke/constraints/constraints.h"
+#include "hooke/core/edit_distance.h"
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
+#include "hooke/report/key_listings.h"
 #include "messages.h"
 #include "words.h"
 
@@ -220,6 +221,32 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
 }
 
+/// A text that the command line asks for instead of a run.
+class ListingRequest : public CLI::Success {
+ public:
+  explicit ListingRequest(std::string listing) : listing_(std::move(listing)) {}
+  const std::string& listing() const { return listing_; }
+
+ private:
+  std::string listing_;
+};
+
+/// Adds the option that lists the keys of the report. Parsing it throws ListingRequest.
+void add_listing(CLI::App& app, RawOptions& raw) {
+  const auto list = [](const std::string& form) {
+    const Choices<std::string (*)()> listings = {
+        {"text", keys_as_text}, {"markdown", keys_as_page}, {"schema", report_schema}};
+    for (const auto& [name, listing] : listings)
+      if (form == name) throw ListingRequest(listing());
+    throw CLI::ValidationError(in_quotes(form) + "; expected text, markdown or schema");
+  };
+  app.add_flag(
+         "--list-metrics{text}", raw.listing,
+         "List the keys of the report with meaning and unit; =markdown as a page, =schema as JSON Schema")
+      ->trigger_on_parse()
+      ->each(list);
+}
+
 /// Adds the option whose values are conditions.
 void add_gates(CLI::App& app, Settings& s) {
   const auto add = [&s](const std::string& text) {
@@ -236,14 +263,20 @@ void add_gates(CLI::App& app, Settings& s) {
          "repeatable")
       ->type_name("CONDITION")
       ->allow_extra_args(false);
+  add_file(
+      app, "--compare", s.compare,
+      "An older report: tells what got worse since, with exit code 6; the result is written all the same");
+  add_number(app, "--rtol", s.rtol, "By what share of its old size a figure may be worse than in --compare",
+             not_negative);
 }
 
-void add_reports(CLI::App& app, Settings& s) {
+void add_reports(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
       ->check(named())
       ->type_name("FILE");
   add_gates(app, s);
+  add_listing(app, raw);
   add_file(app, "--fields", s.fields,
            "PLY file of the result with displacement, distance, curvature and length error at the vertices "
            "and the minimum angle of each face");
@@ -340,33 +373,21 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   app.option_defaults()->group("What the output must keep");
   add_promises(app, s, raw);
   app.option_defaults()->group("Measuring and reports");
-  add_reports(app, s);
+  add_reports(app, s, raw);
   app.option_defaults()->group("Running");
   add_run(app, s);
   app.set_version_flag("-V,--version", "hooke-remesh " HOOKE_VERSION)->group("Options");
 }
 
-/// Prints the requested help or version to standard output. Returns the exit code.
+/// Prints the requested help, version or list to standard output. Returns the exit code.
 int print_help_or_version(const CLI::App& app, const CLI::ParseError& request) {
-  app.exit(request);
+  if (const auto* list = dynamic_cast<const ListingRequest*>(&request))
+    std::cout << list->listing();
+  else
+    app.exit(request);
   if (std::cout.flush()) return done;
   print_error("standard output: cannot be written; expected an open reader or room");
   return output_failed;
-}
-
-/// How many letters must be put in, left out or replaced to make one word of the other.
-size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = std::exchange(row[0], i + 1);
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 /// What is wrong with the command line. Names the option nearest to one that is unknown.

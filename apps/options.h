@@ -48,6 +48,8 @@ struct Settings {
   std::string weld_text = "off";
   std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
   std::vector<Gate> gates;            // conditions that the report must fulfil
+  std::filesystem::path compare;      // older report to compare with; empty for none
+  double rtol = .01;                  // by how much a figure may be worse than there
   std::string report;                 // path; "-" for standard output; empty for none
   std::filesystem::path fields;       // PLY file for values at vertices and faces; empty for none
   std::filesystem::path trace;        // file for the time of each stage; empty for none

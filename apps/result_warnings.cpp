@@ -51,7 +51,7 @@ void warn_of_crossings(RunRecord& run) {
 
 /// Warns if the surfaces are more than half a natural length apart.
 void warn_of_distance(const Settings& s, RunRecord& run) {
-  const double natural = run.parameters["L_natural"].get<double>();
+  const double natural = run.target.natural;
   const double distance = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
   if (!(distance > .5 * natural)) return;
   const bool closest = !s.paper && s.remesh.filter.kind == FilterKind::closest;

@@ -9,6 +9,7 @@
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/sha256.h"
 #include "hooke/io/vertex_lists.h"
+#include "judging.h"
 #include "result_warnings.h"
 #include "stages.h"
 
@@ -23,6 +24,7 @@ Settings memory_settings(std::vector<std::string> options) {
 RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
   const ThreadLimit threads(s.threads);
+  const std::optional<ReportFigures> base = read_base(s);
   if (!s.fix.empty())
     s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
         read_id_list(s.fix, mesh.memory_order.adjacency->vertex_count);
@@ -31,6 +33,7 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   record.status = "checked";
   record.input = {input_name, "", "", connectivity_sha256(triangles_of(mesh.mesh))};
   record.warnings = mesh.warnings;
+  record.connectivity = s.remesh.connectivity;
   record.parameters = parameters_of(s);
   record.parameters["preserve"] = record.parameters["reproject_uv"] = nullptr;  // of files
   Stopwatch stopwatch;
@@ -44,7 +47,7 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   record.stages = stopwatch.stages();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   record.resources = resources_used(seconds.count());
-  record.gates = judge_gates(s.gates, report_json(record));
+  judge(s, base, record);
   return record;
 }
 

@@ -77,6 +77,23 @@ void require_promises(const Settings& s, const RunRecord& record) {
   if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
 }
 
+/// Names what holds down the angles of the worst faces of the result.
+void name_limits(RunRecord& record) {
+  if (record.result->vertex_limits.empty()) return;
+  for (WorstFace& face : record.after->worst_faces)
+    face.reasons = limiting_factors(face, record.result->vertex_limits);
+}
+
+/// The crease edges of the result by the indices of their vertices in memory order.
+std::vector<Edge> creases_in_order(const RunRecord& record, const MemoryOrder& memory_order) {
+  std::vector<int> ends;
+  for (const Edge& e : record.result->crease_edges) ends.insert(ends.end(), e.begin(), e.end());
+  ends = memory_order.order.new_vertices(ends);
+  std::vector<Edge> creases;
+  for (size_t k = 0; k < ends.size(); k += 2) creases.push_back({ends[k], ends[k + 1]});
+  return creases;
+}
+
 }  // namespace
 
 void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, const MeshOrigin& origin,
@@ -93,7 +110,6 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
   record.before =
       timed(&stopwatch, "before", [&] { return measure_quality(surface, targets, {}, &stopwatch); });
   warn_of_inside_out(record);
-  require_metrics(s.gates, to_json(record.before));
   original.tree_order = surface.tree.order();
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
   if (s.max_distance_share > 0)
@@ -135,9 +151,22 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
   }
   if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
   require_promises(s, record);
-  if (!done.vertex_limits.empty())
-    for (WorstFace& face : record.after->worst_faces)
-      face.reasons = limiting_factors(face, done.vertex_limits);
+  name_limits(record);
+}
+
+void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, const MemoryOrder& memory_order,
+                     const Original& original, RunRecord& record, Stopwatch& stopwatch) {
+  vertex_points(mesh) = rounded;
+  Mat3X points = memory_order.order.gather(rounded);
+  const UniformVector targets = edge_targets(mesh, memory_order);
+  record.paper_after = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
+  const MeasuredSurface result = surface_of(std::move(points), memory_order, stopwatch,
+                                            keeps_faces(s) ? original.tree_order : std::vector<int>());
+  record.after = timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
+  if (record.result->measures) apply_creases(*record.after, result, creases_in_order(record, memory_order));
+  measure_deviation_from_input(original, result, record, stopwatch);
+  if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();
+  name_limits(record);
 }
 
 }  // namespace hooke::app

@@ -183,11 +183,8 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   set_vertex_values(mesh, target_length_property, memory_order.order.scatter(lengths));
 
   const TargetLengths targets = target_lengths_of(mesh, memory_order.order, adjacency);
-  record.parameters.update({{"L", mean_length(points, adjacency, targets)},
-                            {"L_min", *min_length},
-                            {"L_max", *max_length},
-                            {"L_spec", printable(s.length_text)},
-                            {"L_natural", natural},
+  record.target = {mean_length(points, adjacency, targets), *min_length, *max_length, natural};
+  record.parameters.update({{"L_spec", printable(s.length_text)},
                             {"sizing", printable(s.sizing_text)},
                             {"edge_lengths", nullptr}});
   if (!s.edge_lengths.empty()) record.parameters["edge_lengths"] = printable(s.edge_lengths.native());

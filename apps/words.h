@@ -13,6 +13,7 @@ namespace hooke::app {
 struct RawOptions {
   std::string tolerance = "0.1%";
   std::string gradation;
+  std::string listing;  // form of --list-metrics
   std::optional<std::string> feature_angle;
   std::optional<std::string> max_distance, drop_components;
   std::optional<double> rho, altitude;
