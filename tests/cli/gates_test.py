@@ -118,8 +118,9 @@ class Comparisons(CommandTest):
 
     def test_another_input_is_told(self):
         self.run_command(PATCH, "--check", "--report", "base.json", "-q")
-        _, err = self.run_command("good.obj", "--check", "--compare", "base.json")
+        _, err = self.run_command("good.obj", "--check", "--compare", "base.json", "--require", "input.faces == 4", expect=6)
         self.assertIn("base.json: it is of another input", err)
+        self.assertNotIn("parameters.L", err)  # follow from it
 
     def test_what_is_no_report_is_refused(self):
         self.write("empty.json", "{}")

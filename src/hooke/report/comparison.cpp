@@ -41,6 +41,11 @@ bool is_of_input(const std::string& path) {
   return path.starts_with("before.");
 }
 
+/// Whether the parameter follows from the size of the input.
+bool is_of_mesh(const std::string& parameter) {
+  return parameter == "L" || parameter == "L_min" || parameter == "L_max" || parameter == "L_natural";
+}
+
 void tell_differences(const ReportFigures& base, const ReportFigures& now, Comparison& comparison) {
   const bool same_input = base.input_sha256.empty() || now.input_sha256.empty()
                               ? base.connectivity_sha256 == now.connectivity_sha256
@@ -50,6 +55,7 @@ void tell_differences(const ReportFigures& base, const ReportFigures& now, Compa
     comparison.not_comparable.emplace_back(now.has_result ? "it is of --check: only inputs are compared"
                                                           : "it has a result: only inputs are compared");
   for (const auto& [name, value] : now.parameters) {
+    if (!same_input && is_of_mesh(name)) continue;
     const auto before = base.parameters.find(name);
     if (before == base.parameters.end())
       comparison.not_comparable.push_back(fmt::format("it has no parameters.{}", name));
