@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hooke/io/mesh_format.h"
+#include "hooke/io/vertex_lists.h"
 #include "hooke/measure/preservation.h"
 #include "hooke/mesh/repair.h"
 #include "hooke/remesh/options.h"
@@ -33,9 +34,10 @@ struct Settings {
   std::string length_text = "auto";
   SizingSource sizing;
   std::string sizing_text = "off";
-  double gradation = Sizing{}.gradation;  // limit of the gradation of a sizing
-  std::filesystem::path edge_lengths;     // file of target lengths of edges; empty for none
-  bool check = false;                     // only measure the input
+  double gradation = Sizing{}.gradation;                    // limit of the gradation of a sizing
+  std::filesystem::path edge_lengths;                       // file of target lengths of edges; empty for none
+  std::optional<std::vector<EdgeLength>> edge_length_list;  // in place of the file, for a mesh of arrays
+  bool check = false;                                       // only measure the input
   bool paper = false;
   Effort effort = Effort::standard;
   std::filesystem::path map;  // empty for none
