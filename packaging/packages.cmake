@@ -1,5 +1,5 @@
-# Debian packages by CPack: the command, the library for C++, and the Python package. Preset `package` builds them, and
-# cpack --preset deb puts them into build/package.
+# Debian packages by CPack: the command, the library for C++, and the Python package. After a build by the preset
+# `package`, cpack puts them into build/package.
 set(HOOKE_MAINTAINER "hooke-remesh developers <hooke-remesh@users.noreply.github.com>" CACHE STRING
     "Who maintains the packages")
 
@@ -26,29 +26,29 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
 set(summary "optimizes triangle meshes on their own surface")
-set(text
-" It moves the vertices of a triangle mesh on the mesh's own surface until the
- triangles are well shaped, flips edges, or makes a new mesh of the edge length
- asked for. What the result keeps of the input is checked before it is written,
- and a report tells what changed.")
+set(text "It moves the vertices of a triangle mesh on the mesh's own surface until the
+triangles are well shaped, flips edges, or makes a new mesh of the edge length
+asked for. What the result keeps of the input is checked before it is written,
+and a report tells what changed.")
 
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "${summary} (command)\n${text}")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME ${names_command})
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${summary} (library for C++)\n${text}\n .\n This package has the library, its headers, and what CMake and pkg-config need.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${summary} (library for C++)\n${text}\n.\nThis package has the library, its headers, and what CMake and pkg-config need.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${names_development})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
        libopenmesh-dev libeigen3-dev libboost-dev nlohmann-json3-dev libtbb-dev libfmt-dev libssl-dev libexpat1-dev
        zlib1g-dev)
 
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${summary} (package for Python 3)\n${text}\n .\n This package works on numpy arrays.")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${summary} (package for Python 3)\n${text}\n.\nThis package works on numpy arrays.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME ${names_python})
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 if(HOOKE_PYTHON)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")

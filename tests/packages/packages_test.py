@@ -51,8 +51,7 @@ class Packages(unittest.TestCase):
         self.assertIn("libc6", field("hooke-remesh", "Depends"))
         self.assertIn("libtbb12", field("hooke-remesh", "Depends"))
         self.assertIn("libopenmesh-dev", field("libhooke-remesh-dev", "Depends"))
-        for name in ("python3-numpy", "python3 (<<", "libtbb12"):
-            self.assertIn(name, field("python3-hooke-remesh", "Depends"))
+        self.assertRegex(field("python3-hooke-remesh", "Depends"), r"python3 \(>= 3\.\d+\), python3 \(<< 3\.\d+\), python3-numpy")
 
     def test_each_has_its_licence(self):
         for name in NAMES:
