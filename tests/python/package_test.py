@@ -347,17 +347,40 @@ class Readme(CommandTest):
         self.assertEqual(len(read(self.folder / "out.ply").vertices), len(read(DATA / "patch.obj").vertices))
 
 
-class OtherLibraries(unittest.TestCase):
-    def test_arrays_of_meshio(self):
+class OtherLibraries(CommandTest):
+    """The lines of the README for them."""
+
+    def run_lines(self, first, **modules):
+        lines = iter((DATA.parent / "README.md").read_text().split("\n"))
+        code = [next(line for line in lines if line.startswith("    " + first))]
+        code += itertools.takewhile(lambda line: line.startswith("    "), lines)
+        names = {"hooke_remesh": hooke_remesh, **modules}
+        with contextlib.chdir(self.folder) if hasattr(contextlib, "chdir") else contextlib.nullcontext():
+            exec(textwrap.dedent("\n".join(code)), names)
+        return names
+
+    def test_meshio(self):
         try:
             import meshio
         except ImportError:
             self.skipTest("python3-meshio is not installed")
         vertices, faces = torus()
-        mesh = meshio.Mesh(vertices, [("triangle", faces)])
-        done = remesh(mesh.points, mesh.cells_dict["triangle"])
-        again = meshio.Mesh(done.vertices, [("triangle", done.faces)])
-        self.assertEqual(len(again.points), len(vertices))
+        heat = vertices @ np.array([[1., 0], [0, 2], [0, 0]])
+        meshio.Mesh(vertices, [("triangle", faces)], point_data={"heat": heat}).write(self.folder / "in.vtu")
+        done = self.run_lines("m = meshio.read", meshio=meshio)["done"]
+        again = meshio.read(self.folder / "out.vtu")
+        np.testing.assert_array_equal(again.points, done.vertices)
+        np.testing.assert_array_equal(again.cells_dict["triangle"], faces)
+        np.testing.assert_array_equal(again.point_data["heat"], heat)
+
+    def test_trimesh(self):
+        try:
+            import trimesh
+        except ImportError:
+            self.skipTest("trimesh is not installed")
+        write(self.folder / "in.ply", *torus())
+        done = self.run_lines("t = trimesh.load", trimesh=trimesh)["done"]
+        self.assertEqual(len(read(self.folder / "out.ply").vertices), len(done.vertices))
 
 
 if __name__ == "__main__":
