@@ -17,6 +17,7 @@ except ImportError:
 
 import hooke_remesh
 from command import DATA, CommandTest, irregular_torus
+from schema_test import SCHEMA, faults
 from hooke_remesh import InputError, Interrupted, MeshError, ResultError, UsageError, measure, read, remesh, write
 
 
@@ -96,6 +97,18 @@ class TheCommandsResults(CommandTest):
         done = remesh(mesh.vertices, mesh.faces, require=conditions)
         self.assertEqual([gate["passed"] for gate in done.report["gates"]], [True, True, False])
         self.assertEqual(done.report["gates"][2]["value"], done.report["after"]["min_angle"]["min"])
+
+    def test_a_report_fits_the_schema_and_can_be_compared(self):
+        mesh = read(DATA / "patch.obj")
+        for options in ({}, {"connectivity": "adapt"}, {"paper": True}):
+            report = remesh(mesh.vertices, mesh.faces, **options).report
+            self.assertEqual(faults(report, SCHEMA), [])
+        self.assertEqual(faults(measure(mesh.vertices, mesh.faces), SCHEMA), [])
+        flipped = remesh(mesh.vertices, mesh.faces, connectivity="flip").report
+        self.write("base.json", json.dumps(flipped))
+        comparison = remesh(mesh.vertices, mesh.faces, compare=self.folder / "base.json").report["comparison"]
+        self.assertIn("after.min_angle.min", [worse["key"] for worse in comparison["worse"]])
+        self.assertNotIn("it is of another input", comparison["not_comparable"])
 
     def test_measures(self):
         mesh = read(DATA / "torus.off")

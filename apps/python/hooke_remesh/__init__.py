@@ -100,7 +100,7 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
                   -: effort="fast", feature_angle=30, max_distance="0.1%", polish=False, threads=2, paper=True;
                   None leaves it out; repair=True, weld="0.01%" and fill_holes=8 mend the mesh first, and what was done
                   is in report["repairs"]; require=["after.min_angle.min >= 20"] judges the report, with the outcomes in
-                  report["gates"]
+                  report["gates"], and compare="base.json" compares it with an older one, in report["comparison"]
 
     Other Python threads run meanwhile. Ctrl-C raises Interrupted, a KeyboardInterrupt with the best mesh so far as its
     `result`.

@@ -10,9 +10,9 @@
 #include "hooke/report/report_keys.h"
 
 namespace hooke {
-namespace report_table {
+namespace {
 
-using Object = nlohmann::ordered_json;
+using SchemaNode = nlohmann::ordered_json;
 
 /// The words in lines of at most `width` columns.
 std::vector<std::string> lines_of(std::string_view words, size_t width) {
@@ -139,7 +139,7 @@ std::string table_of_figures() {
   return table;
 }
 
-}  // namespace report_table
+}  // namespace
 
 std::string keys_as_text() {
   constexpr size_t width = 80, column = 36;
@@ -150,9 +150,8 @@ that depends on the run.
 
 )";
   for (const ReportKey& key : report_keys()) {
-    if (report_table::is_container(key)) continue;
-    const std::vector<std::string> lines =
-        report_table::lines_of(report_table::with_unit(key), width - column);
+    if (is_container(key)) continue;
+    const std::vector<std::string> lines = lines_of(with_unit(key), width - column);
     if (key.path.size() + 2 > column) text += fmt::format("{}\n", key.path);
     for (size_t k = 0; k < lines.size(); ++k) {
       const bool beside_key = k == 0 && key.path.size() + 2 <= column;
@@ -164,9 +163,9 @@ that depends on the run.
 
 std::string keys_as_page() {
   const auto in_quality = [](const ReportKey& key) {
-    return report_table::is_in(key.path, "before") && !report_table::is_statistic(key);
+    return is_in(key.path, "before") && !is_statistic(key);
   };
-  const auto is_quantity = [](const ReportKey& key) { return report_table::has_statistics(key.path); };
+  const auto is_quantity = [](const ReportKey& key) { return has_statistics(key.path); };
   const auto other = [&](const ReportKey& key) { return in_quality(key) && !is_quantity(key); };
   std::string page = R"(# The report
 
@@ -190,54 +189,48 @@ says which way a figure gets better; `--compare` calls the other way worse. With
   const auto add = [&](const char* title, const std::string& text) {
     page += fmt::format("\n## {}\n\n{}", title, text);
   };
-  add("The run",
-      report_table::table_of(report_table::keys_of({"schema", "tool", "status"}, report_table::all_of_them)));
-  add("The files: `input` and `output`",
-      report_table::table_of(report_table::keys_of({"input", "output"}, report_table::all_of_them)));
+  add("The run", table_of(keys_of({"schema", "tool", "status"}, all_of_them)));
+  add("The files: `input` and `output`", table_of(keys_of({"input", "output"}, all_of_them)));
   add("Quality: `before` and `after`",
       R"(`before` is the input after repair, `after` what is in the output file: where its coordinates have single precision (STL,
 some PLY), they are rounded first. Both have the same keys; the tables name those of `before`.
 
 These quantities are told by the figures below, as in `after.min_angle.p05`:
 
-)" + report_table::table_of(report_table::keys_of({"before"}, is_quantity)) +
-          "\n" + report_table::table_of_figures() + "\n" +
-          report_table::table_of(report_table::keys_of({"before"}, other)));
+)" + table_of(keys_of({"before"}, is_quantity)) +
+          "\n" + table_of_figures() + "\n" + table_of(keys_of({"before"}, other)));
   add("What the result keeps: `promises`, `geometry`",
       "`promises` was found before coordinates were rounded for the file, `geometry` after.\n\n" +
-          report_table::table_of(report_table::keys_of({"promises", "geometry"}, report_table::all_of_them)));
+          table_of(keys_of({"promises", "geometry"}, all_of_them)));
   add("Gates, comparison, warnings and repairs",
-      report_table::table_of(
-          report_table::keys_of({"gates", "comparison", "warnings", "repairs"}, report_table::all_of_them)));
-  add("The course of the run",
-      report_table::table_of(report_table::keys_of(
-          {"iterations", "projection", "held_back", "near_regular", "features", "flips", "adaptation"},
-          report_table::all_of_them)));
-  add("`parameters`",
-      report_table::table_of(report_table::keys_of({"parameters"}, report_table::all_of_them)));
-  add("`paper`", report_table::table_of(report_table::keys_of({"paper"}, report_table::all_of_them)));
-  add("`resources`", report_table::table_of(report_table::keys_of({"resources"}, report_table::all_of_them)));
+      table_of(keys_of({"gates", "comparison", "warnings", "repairs"}, all_of_them)));
+  add("The course of the run", table_of(keys_of({"iterations", "projection", "held_back", "near_regular",
+                                                 "features", "flips", "adaptation"},
+                                                all_of_them)));
+  add("`parameters`", table_of(keys_of({"parameters"}, all_of_them)));
+  add("`paper`", table_of(keys_of({"paper"}, all_of_them)));
+  add("`resources`", table_of(keys_of({"resources"}, all_of_them)));
   return page;
 }
 
 std::string report_schema() {
-  const auto closed = [](report_table::Object& object) {
-    object["properties"] = report_table::Object::object();
-    object["required"] = report_table::Object::array();
+  const auto closed = [](SchemaNode& object) {
+    object["properties"] = SchemaNode::object();
+    object["required"] = SchemaNode::array();
     object["additionalProperties"] = false;
   };
-  report_table::Object schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-                                 {"title", "hooke-remesh/report/1"},
-                                 {"description", "The report of a run of hooke-remesh"},
-                                 {"type", "object"}};
+  SchemaNode schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                       {"title", "hooke-remesh/report/1"},
+                       {"description", "The report of a run of hooke-remesh"},
+                       {"type", "object"}};
   closed(schema);
   for (const ReportKey& key : report_keys()) {
-    report_table::Object* parent = &schema;
+    SchemaNode* parent = &schema;
     std::string_view rest = key.path;
-    report_table::Object value = {{"description", key.meaning}};
+    SchemaNode value = {{"description", key.meaning}};
     if (!key.unit.empty()) value["unit"] = key.unit;
-    value["type"] = report_table::name_of(key.kind);
-    if (key.may_be_null) value["type"] = {report_table::name_of(key.kind), "null"};
+    value["type"] = name_of(key.kind);
+    if (key.may_be_null) value["type"] = {name_of(key.kind), "null"};
     if (key.kind == KeyKind::object) closed(value);
     for (size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
       const std::string step(rest.substr(0, dot));

@@ -1,5 +1,6 @@
 // The keys of the report: path, type, unit, meaning, and which way is worse. The list of --list-metrics, the
-// JSON Schema and the page about the report are made from this table, and gates and comparisons look it up.
+// JSON Schema and the page about the report are made from this table (report_key_table.cpp), and gates and
+// comparisons look it up.
 #pragma once
 
 #include <string>
