@@ -84,14 +84,14 @@ void name_limits(RunRecord& record) {
     face.reasons = limiting_factors(face, record.result->vertex_limits);
 }
 
-/// The crease edges of the result by the indices of their vertices in memory order.
-std::vector<Edge> creases_in_order(const RunRecord& record, const MemoryOrder& memory_order) {
+/// The edges by the indices of their vertices in memory order, from their ids.
+std::vector<Edge> edges_in_order(const std::vector<Edge>& edges, const MemoryOrder& memory_order) {
   std::vector<int> ends;
-  for (const Edge& e : record.result->crease_edges) ends.insert(ends.end(), e.begin(), e.end());
+  for (const Edge& e : edges) ends.insert(ends.end(), e.begin(), e.end());
   ends = memory_order.order.new_vertices(ends);
-  std::vector<Edge> creases;
-  for (size_t k = 0; k < ends.size(); k += 2) creases.push_back({ends[k], ends[k + 1]});
-  return creases;
+  std::vector<Edge> ordered;
+  for (size_t k = 0; k < ends.size(); k += 2) ordered.push_back({ends[k], ends[k + 1]});
+  return ordered;
 }
 
 }  // namespace
@@ -163,8 +163,22 @@ void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, con
   const MeasuredSurface result = surface_of(std::move(points), memory_order, stopwatch,
                                             keeps_faces(s) ? original.tree_order : std::vector<int>());
   record.after = timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
-  if (record.result->measures) apply_creases(*record.after, result, creases_in_order(record, memory_order));
-  measure_deviation_from_input(original, result, record, stopwatch);
+  const MeasuredSurface reference =
+      surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
+  record.deviation =
+      timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
+  if (record.result->measures) {
+    const std::vector<Edge> before = edges_in_order(record.result->input_creases, original.memory_order),
+                            after = edges_in_order(record.result->crease_edges, memory_order);
+    apply_creases(*record.after, result, after);
+    ResultMeasures& measures = *record.result->measures;
+    measures.preservation = timed(&stopwatch, "preservation", [&] {
+      return measure_preservation({reference, record.before, before}, {result, *record.after, after},
+                                  *record.deviation, measures.judged_by);
+    });
+    if (!coincident_boundary_vertices(reference.points, reference.adjacency).empty())
+      measures.preservation.new_crossings = 0;  // as preserving_remesh() has it
+  }
   if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();
   name_limits(record);
 }

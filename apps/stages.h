@@ -34,8 +34,8 @@ void remesh_and_measure(const Settings& settings, TriMesh& mesh, MemoryOrder& me
                         Stopwatch& stopwatch);
 
 /// Measures the result again after its coordinates were rounded for the file: `rounded` are those in the
-/// file. Sets the points of the mesh, and what the record tells of the result and its deviation.
-/// Pre-condition: remesh_and_measure().
+/// file. Sets the points of the mesh, and what the record tells of the result, its deviation and what it
+/// keeps. Pre-condition: remesh_and_measure().
 void measure_rounded(const Settings& settings, const Mat3X& rounded, TriMesh& mesh,
                      const MemoryOrder& memory_order, const Original& original, RunRecord& record,
                      Stopwatch& stopwatch);

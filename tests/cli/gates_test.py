@@ -89,9 +89,20 @@ class Rounding(CommandTest):
         self.assertAlmostEqual(report["after"]["min_angle"]["min"], angle, 9)
         exact = self.report("far.off", "-o", "out.off", "-q", "-L", ".05")["after"]["min_angle"]["min"]
         self.assertGreater(exact - angle, 1e-3)
+        self.assertEqual(report["promises"]["flipped_faces"], report["geometry"]["flipped_faces"])
         gate = ("--require", f"after.min_angle.min >= {(exact + angle) / 2!r}")
         self.run_command("far.off", "-o", "out.off", "-q", "-L", ".05", *gate)
         self.run_command("far.off", "-o", "out.stl", "-q", "-L", ".05", *gate, expect=6)
+
+
+    def test_promises_that_rounding_breaks_are_not_kept(self):
+        vertices, faces = read_mesh(PATCH)
+        write_off(self.folder / "farther.off", [(x + 1e6, y, z) for x, y, z in vertices], faces)
+        kept = lambda output: self.report("farther.off", "-o", output, "-q", "--feature-angle", "off")["promises"]["kept"]
+        self.assertTrue(kept("out.off"))
+        self.assertFalse(kept("out.stl"))
+        gate = ("--feature-angle", "off", "--require", "promises.kept == 1")
+        self.run_command("farther.off", "-o", "out.stl", "-q", *gate, expect=6)
 
 
 class Comparisons(CommandTest):

@@ -200,8 +200,11 @@ These quantities are told by the figures below, as in `after.min_angle.p05`:
 )" + table_of(keys_of({"before"}, is_quantity)) +
           "\n" + table_of_figures() + "\n" + table_of(keys_of({"before"}, other)));
   add("What the result keeps: `promises`, `geometry`",
-      "`promises` was found before coordinates were rounded for the file, `geometry` after.\n\n" +
-          table_of(keys_of({"promises", "geometry"}, all_of_them)));
+      R"(Both are of what is in the output file, as `after` is. A result that breaks a promise is not written, unless
+`--accept-invalid` is given or only the rounding to single precision broke it; a warning then tells of faces turned over
+and of intersections.
+
+)" + table_of(keys_of({"promises", "geometry"}, all_of_them)));
   add("Gates, comparison, warnings and repairs",
       table_of(keys_of({"gates", "comparison", "warnings", "repairs"}, all_of_them)));
   add("The course of the run", table_of(keys_of({"iterations", "projection", "held_back", "near_regular",
