@@ -11,6 +11,7 @@
 #include "help.h"
 #include "hooke/core/error.h"
 #include "hooke/io/files.h"
+#include "listing_request.h"
 #include "man_page.h"
 #include "messages.h"
 #include "nearest_word.h"
@@ -79,8 +80,9 @@ int print_text(const std::string& text) {
   }
 }
 
-/// Answers the request for a help text or the version. Returns the exit code.
+/// Answers the request for a help text, a list or the version. Returns the exit code.
 int answer(const CLI::App& app, const CLI::ParseError& request) {
+  if (const auto* list = dynamic_cast<const ListingRequest*>(&request)) return print_text(list->listing());
   if (dynamic_cast<const CLI::CallForAllHelp*>(&request) != nullptr)
     return print_text(full_help(entries_of(app)));
   if (dynamic_cast<const CLI::CallForHelp*>(&request) != nullptr) return print_text(short_help());

@@ -58,7 +58,7 @@ std::string work_hash(const Settings& s, const MeshTask& task) {
                  {"input", hash_of(task.input)},
                  {"extension", task.input.extension().string()},
                  {"options", task.method}};
-    for (const fs::path& file : {s.fix, s.edge_lengths})
+    for (const fs::path& file : {s.fix, s.edge_lengths, s.compare})
       if (!file.empty()) work["files"].push_back(hash_of(file));
     if (s.sizing.kind == SizingSource::Kind::file) work["files"].push_back(hash_of(s.sizing.name));
     return sha256(work.dump(-1, ' ', false, Json::error_handler_t::replace));

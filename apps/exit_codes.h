@@ -10,7 +10,7 @@ enum ExitCode {
   malformed_input = 3,    // missing, unreadable or not a well-formed mesh file
   unacceptable_mesh = 4,  // well-formed, but not an oriented manifold with area
   output_failed = 5,      // an existing file is unchanged
-  gate_failed = 6,        // a condition of --require; the result was written
+  gate_failed = 6,        // a condition of --require, or worse than --compare; the result was written
   numerical_failure = 7,
   limit_reached = 8,   // memory limit, without a usable result
   promise_broken = 9,  // the result does not keep what it must keep of the input; it was not written

@@ -17,6 +17,7 @@
 #include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/report/report.h"
+#include "judging.h"
 #include "kept_data.h"
 #include "messages.h"
 #include "options.h"
@@ -43,12 +44,16 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   remesh_and_measure(s, loaded.mesh, loaded.memory_order, original, record, observer, stopwatch);
   progress.enter("write");
   timed(&stopwatch, "data", [&] { carry_data(s, loaded, original, record); });
-  const Mat3X points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
+  Mat3X points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   PendingMesh written = timed(&stopwatch, "write",
                               [&] { return prepare_output(s, loaded, original, points, record, stopwatch); });
   static_cast<FileRecord&>(*record.output) = {name_of_output(s.output), written.sha256, name_of(*s.format),
                                               written.connectivity_sha256};
   files.add(std::move(written.file));
+  if (written.rounded.size() > 0) {
+    measure_rounded(s, written.rounded, loaded.mesh, loaded.memory_order, original, record, stopwatch);
+    points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
+  }
   if (!s.fields.empty()) files.add(PendingFile(s.fields, fields_text(loaded, points, original, record)));
   if (!s.map.empty()) files.add(PendingFile(s.map, map_text(map_to_old(record.result->map, loaded.origin))));
   add_result_warnings(s, record);
@@ -57,7 +62,6 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
 /// Writes the remaining outputs, then commits all files, so that no file is replaced before everything that
 /// can fail has succeeded. Prints the warnings and the summary.
 void finish(const Settings& s, RunRecord& record, OutputFiles& files) {
-  if (!s.gates.empty()) record.gates = judge_gates(s.gates, report_json(record));
   if (!s.trace.empty()) files.add(PendingFile(s.trace, trace_csv(record.stages)));
   if (!s.trace_steps.empty())
     files.add(PendingFile(s.trace_steps, time_steps_csv(record.result->time_steps)));
@@ -71,10 +75,7 @@ void finish(const Settings& s, RunRecord& record, OutputFiles& files) {
   for (const Note& repair : record.repairs) print_warning(repair);
   for (const Warning& w : record.warnings) print_warning(w);
   if (!s.quiet) print_summary(s, record);
-  for (const GateOutcome& gate : record.gates)
-    if (!gate.passed)
-      print_error(fmt::format("{}: required {}; it is {}", record.input.path, printable(gate.condition),
-                              gate.value ? fmt::format("{:.6g}", *gate.value) : "not there"));
+  print_judgement(s, record);
 }
 
 /// The fixed vertices of the mesh; the list has the ids of the file.
@@ -94,6 +95,7 @@ int run(Settings s) {
   const auto start = Clock::now();
   const ThreadLimit threads(s.threads);
   require_outputs(s);
+  const std::optional<ReportFigures> base = read_base(s);
   RunProgress progress(s);
   progress.enter("read");
   Stopwatch stopwatch;
@@ -113,6 +115,7 @@ int run(Settings s) {
   record.notes = loaded.notes;
   record.repairs = loaded.repairs;
   s.remesh.map |= !loaded.vertex_data.empty();
+  record.connectivity = s.remesh.connectivity;
   record.parameters = parameters_of(s);
   const std::string obstacle = obstacle_to_preserving(s, loaded);
   record.parameters["preserve"] = s.preserve && obstacle.empty() ? "on" : "off";
@@ -129,10 +132,11 @@ int run(Settings s) {
   if (!s.check) make_result(s, loaded, original, record, files, progress, stopwatch);
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
+  judge(s, base, record);
   progress.clear();
   finish(s, record, files);
   if (caught_signal()) return 128 + caught_signal();
-  return std::ranges::all_of(record.gates, &GateOutcome::passed) ? done : gate_failed;
+  return passes(record) ? done : gate_failed;
 }
 
 }  // namespace

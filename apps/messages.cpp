@@ -76,12 +76,11 @@ std::string paper_message(const RemeshResult& r) {
 }
 
 void print_summary(const Settings& s, const RunRecord& run) {
-  const auto length = [&](const char* key) { return run.parameters[key].get<double>(); };
+  const TargetRecord& target = run.target;
   std::string range;
-  if (length("L_min") < length("L_max"))
-    range = fmt::format(" on average, {:.6g} to {:.6g}", length("L_min"), length("L_max"));
+  if (target.min < target.max) range = fmt::format(" on average, {:.6g} to {:.6g}", target.min, target.max);
   say("{}: {} vertices, {} faces; target length {:.6g}{} (natural {:.6g})\n", run.input.path,
-      run.before.topology.vertices, run.before.topology.faces, length("L"), range, length("L_natural"));
+      run.before.topology.vertices, run.before.topology.faces, target.mean, range, target.natural);
   if (!run.result) {
     say("{}", quality_table(run.before));
     return;

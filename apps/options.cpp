@@ -11,6 +11,8 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
+#include "hooke/report/key_listings.h"
+#include "listing_request.h"
 #include "words.h"
 
 namespace hooke::app {
@@ -227,6 +229,23 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
 }
 
+/// Adds the option that lists the keys of the report. Parsing it throws ListingRequest.
+void add_listing(CLI::App& app, RawOptions& raw) {
+  const auto list = [](const std::string& form) {
+    const Choices<std::string (*)()> listings = {
+        {"text", keys_as_text}, {"markdown", keys_as_page}, {"schema", report_schema}};
+    for (const auto& [name, listing] : listings)
+      if (form == name) throw ListingRequest(listing());
+    throw CLI::ValidationError(in_quotes(form) + "; expected text, markdown or schema");
+  };
+  app.add_flag(
+         "--list-metrics{text}", raw.listing,
+         "List the keys of the report with meaning and unit; =markdown as a page, =schema as JSON Schema")
+      ->trigger_on_parse()
+      ->configurable(false)
+      ->each(list);
+}
+
 /// Adds the option whose values are conditions.
 void add_gates(CLI::App& app, Settings& s) {
   const auto add = [&s](const std::string& text) {
@@ -243,14 +262,20 @@ void add_gates(CLI::App& app, Settings& s) {
          "repeatable")
       ->type_name("CONDITION")
       ->allow_extra_args(false);
+  add_file(
+      app, "--compare", s.compare,
+      "An older report: tells what got worse since, with exit code 6; the result is written all the same");
+  add_number(app, "--rtol", s.rtol, "By what share of its old size a figure may be worse than in --compare",
+             not_negative);
 }
 
-void add_reports(CLI::App& app, Settings& s) {
+void add_reports(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
       ->check(named())
       ->type_name("FILE");
   add_gates(app, s);
+  add_listing(app, raw);
   add_file(app, "--fields", s.fields,
            "PLY file of the result with displacement, distance, curvature and length error at the vertices "
            "and the minimum angle of each face");
@@ -394,7 +419,7 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
   app.option_defaults()->group("What the output must keep");
   add_promises(app, s, raw);
   app.option_defaults()->group("Measuring and reports");
-  add_reports(app, s);
+  add_reports(app, s, raw);
   app.option_defaults()->group("Running");
   add_run(app, s);
   app.option_defaults()->group("Several inputs");

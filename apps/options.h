@@ -8,6 +8,7 @@
 
 #include "hooke/constraints/seams.h"
 #include "hooke/io/mesh_format.h"
+#include "hooke/io/vertex_lists.h"
 #include "hooke/measure/preservation.h"
 #include "hooke/mesh/repair.h"
 #include "hooke/remesh/options.h"
@@ -51,9 +52,10 @@ struct Settings {
   std::string length_text = "auto";
   SizingSource sizing;
   std::string sizing_text = "off";
-  double gradation = Sizing{}.gradation;  // limit of the gradation of a sizing
-  std::filesystem::path edge_lengths;     // file of target lengths of edges; empty for none
-  bool check = false;                     // only measure the input
+  double gradation = Sizing{}.gradation;                    // limit of the gradation of a sizing
+  std::filesystem::path edge_lengths;                       // file of target lengths of edges; empty for none
+  std::optional<std::vector<EdgeLength>> edge_length_list;  // in place of the file, for a mesh of arrays
+  bool check = false;                                       // only measure the input
   bool paper = false;
   Effort effort = Effort::standard;
   std::filesystem::path map;  // empty for none
@@ -67,6 +69,8 @@ struct Settings {
   std::string weld_text = "off";
   std::filesystem::path fix;          // file with the ids of fixed vertices; empty for none
   std::vector<Gate> gates;            // conditions that the report must fulfil
+  std::filesystem::path compare;      // older report to compare with; empty for none
+  double rtol = .01;                  // by how much a figure may be worse than there
   std::string report;                 // path; "-" for standard output; empty for none
   std::filesystem::path fields;       // PLY file for values at vertices and faces; empty for none
   std::filesystem::path trace;        // file for the time of each stage; empty for none

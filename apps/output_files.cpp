@@ -21,6 +21,7 @@ std::vector<NamedFile> inputs_of(const Settings& s) {
   if (!is_standard_input(s.input)) files.push_back({"INPUT", s.input});
   if (!s.fix.empty()) files.push_back({"--fix", s.fix});
   if (!s.edge_lengths.empty()) files.push_back({"--edge-lengths", s.edge_lengths});
+  if (!s.compare.empty()) files.push_back({"--compare", s.compare});
   if (s.sizing.kind == SizingSource::Kind::file) files.push_back({"--sizing", s.sizing.name});
   return files;
 }

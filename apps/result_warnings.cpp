@@ -51,7 +51,7 @@ void warn_of_crossings(RunRecord& run) {
 
 /// Warns if the surfaces are more than half a natural length apart.
 void warn_of_distance(const Settings& s, RunRecord& run) {
-  const double natural = run.parameters["L_natural"].get<double>();
+  const double natural = run.target.natural;
   const double distance = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
   if (!(distance > .5 * natural)) return;
   const bool closest = !s.paper && s.remesh.filter.kind == FilterKind::closest;
@@ -105,9 +105,36 @@ void warn_of_sizing(const Settings& s, RunRecord& run) {
            run.output->path, 100 * rms, 100 * max_rms, advice)});
 }
 
+/// What the result does not keep of the input; empty if it keeps all, or was not measured.
+std::string what_is_broken(const RunRecord& run) {
+  if (!run.result->measures || run.result->measures->preservation.holds()) return "";
+  const Preservation& p = run.result->measures->preservation;
+  std::vector<std::string> broken;
+  const auto place = [](const Vec3& x) { return fmt::format("{:.6g} {:.6g} {:.6g}", x[0], x[1], x[2]); };
+  if (!p.topology_kept) broken.push_back("components, boundary loops or holes are not those of the input");
+  if (!p.far_vertices.empty() || !p.lost_vertices.empty())
+    broken.push_back(fmt::format("the surface would be {} from that of {} at {}{}",
+                                 with_share(p.distance, run), run.input.path, place(p.place),
+                                 volume_change(run)));
+  if (!p.creases_kept)
+    broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away", p.crease_loss));
+  if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over", p.flipped_faces));
+  if (p.new_folds > 0) broken.push_back(fmt::format("{} new folds", p.new_folds));
+  if (p.new_crossings > 0) broken.push_back(fmt::format("{} new self-intersections", p.new_crossings));
+  return fmt::format("{}", fmt::join(broken, "; "));
+}
+
 void warn_of_promises(const Settings& s, RunRecord& run) {
-  const std::string broken = broken_promises(s, run);
-  if (!broken.empty()) run.warnings.push_back({"promise_broken", run.output->path + ": " + broken});
+  const std::string broken = what_is_broken(run);
+  if (broken.empty()) return;
+  // The rest was judged before the numbers were rounded for the file, and would not have been written.
+  const bool by_rounding = !s.accept_invalid && run.result->reason != StopReason::interrupted;
+  run.warnings.push_back(
+      {"promise_broken",
+       fmt::format("{}: {}", run.output->path,
+                   by_rounding ? broken + "; its numbers have 32 bits, which is too few; use PLY, "
+                                          "with --preserve off, or move the mesh to the origin"
+                               : broken_promises(s, run))});
 }
 
 /// Tells of a result that was not made as asked, because it would have broken a promise.
@@ -180,22 +207,10 @@ void warn_of_dropped_creases(RunRecord& run) {
 }  // namespace
 
 std::string broken_promises(const Settings& s, const RunRecord& run) {
-  if (!run.result->measures || run.result->measures->preservation.holds()) return "";
-  const Preservation& p = run.result->measures->preservation;
-  std::vector<std::string> broken;
-  const auto place = [](const Vec3& x) { return fmt::format("{:.6g} {:.6g} {:.6g}", x[0], x[1], x[2]); };
-  if (!p.topology_kept) broken.push_back("components, boundary loops or holes are not those of the input");
-  if (!p.far_vertices.empty() || !p.lost_vertices.empty())
-    broken.push_back(fmt::format("the surface would be {} from that of {} at {}{}",
-                                 with_share(p.distance, run), run.input.path, place(p.place),
-                                 volume_change(run)));
-  if (!p.creases_kept)
-    broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away", p.crease_loss));
-  if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over", p.flipped_faces));
-  if (p.new_folds > 0) broken.push_back(fmt::format("{} new folds", p.new_folds));
-  if (p.new_crossings > 0) broken.push_back(fmt::format("{} new self-intersections", p.new_crossings));
+  const std::string broken = what_is_broken(run);
+  if (broken.empty()) return "";
   const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
-  return fmt::format("{}; try {}, or --accept-invalid to write it nevertheless", fmt::join(broken, "; "),
+  return fmt::format("{}; try {}, or --accept-invalid to write it nevertheless", broken,
                      adapts ? "a smaller --length, --connectivity flip" : "--feature-noise off");
 }
 

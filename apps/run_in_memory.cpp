@@ -9,6 +9,7 @@
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/sha256.h"
 #include "hooke/io/vertex_lists.h"
+#include "judging.h"
 #include "result_warnings.h"
 #include "stages.h"
 
@@ -23,19 +24,25 @@ Settings memory_settings(std::vector<std::string> options) {
 RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
   const ThreadLimit threads(s.threads);
-  if (!s.fix.empty())
-    s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices =
-        read_id_list(s.fix, mesh.memory_order.adjacency->vertex_count);
+  const std::optional<ReportFigures> base = read_base(s);
+  std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
+  const size_t count =
+      mesh.origin.vertex.empty() ? mesh.memory_order.adjacency->vertex_count : mesh.origin.merged.size();
+  if (!s.fix.empty()) fixed = read_id_list(s.fix, static_cast<int>(count));
+  if (!mesh.origin.vertex.empty()) fixed = vertices_from(mesh.origin, fixed);
+  s.paper_options.constraints.fixed_vertices = fixed;
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";
   record.input = {input_name, "", "", connectivity_sha256(triangles_of(mesh.mesh))};
   record.warnings = mesh.warnings;
+  record.repairs = mesh.repairs;
+  record.connectivity = s.remesh.connectivity;
   record.parameters = parameters_of(s);
   record.parameters["preserve"] = record.parameters["reproject_uv"] = nullptr;  // of files
   Stopwatch stopwatch;
   Original original;
-  measure_input(s, mesh.mesh, mesh.memory_order, {}, original, record, stopwatch);
+  measure_input(s, mesh.mesh, mesh.memory_order, mesh.origin, original, record, stopwatch);
   if (!s.check) {
     remesh_and_measure(s, mesh.mesh, mesh.memory_order, original, record, observer, stopwatch);
     record.output = {result_name, "", "", connectivity_sha256(triangles_of(mesh.mesh))};
@@ -44,7 +51,7 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   record.stages = stopwatch.stages();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   record.resources = resources_used(seconds.count());
-  record.gates = judge_gates(s.gates, report_json(record));
+  judge(s, base, record);
   return record;
 }
 

@@ -26,12 +26,13 @@ bool keeps_faces(const Settings& s) {
 
 namespace {
 
-std::vector<const char*> words_of(const SeamKinds& keep) {
+/// As --keep takes it.
+std::string text_of(const SeamKinds& keep) {
   std::vector<const char*> words;
   if (keep.texture) words.push_back("seams");
   if (keep.materials) words.push_back("materials");
   if (keep.groups) words.push_back("groups");
-  return words;
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ nlohmann::ordered_json parameters_of(const Settings& s) {
                      {"drop_components", s.repair.drop_components},
                      {"fill_holes", s.repair.fill_holes},
                      {"keep", nullptr}});
-  if (!keeps_faces(s)) parameters["keep"] = words_of(s.keep);
+  if (!keeps_faces(s)) parameters["keep"] = text_of(s.keep);
   return parameters;
 }
 
@@ -91,6 +92,23 @@ void require_promises(const Settings& s, const RunRecord& record) {
   if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
 }
 
+/// Names what holds down the angles of the worst faces of the result.
+void name_limits(RunRecord& record) {
+  if (record.result->vertex_limits.empty()) return;
+  for (WorstFace& face : record.after->worst_faces)
+    face.reasons = limiting_factors(face, record.result->vertex_limits);
+}
+
+/// The edges by the indices of their vertices in memory order, from their ids.
+std::vector<Edge> edges_in_order(const std::vector<Edge>& edges, const MemoryOrder& memory_order) {
+  std::vector<int> ends;
+  for (const Edge& e : edges) ends.insert(ends.end(), e.begin(), e.end());
+  ends = memory_order.order.new_vertices(ends);
+  std::vector<Edge> ordered;
+  for (size_t k = 0; k < ends.size(); k += 2) ordered.push_back({ends[k], ends[k + 1]});
+  return ordered;
+}
+
 }  // namespace
 
 void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, const MeshOrigin& origin,
@@ -107,7 +125,6 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
   record.before =
       timed(&stopwatch, "before", [&] { return measure_quality(surface, targets, {}, &stopwatch); });
   warn_of_inside_out(record);
-  require_metrics(s.gates, to_json(record.before));
   original.tree_order = surface.tree.order();
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
   if (s.max_distance_share > 0)
@@ -149,9 +166,36 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
   }
   if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
   require_promises(s, record);
-  if (!done.vertex_limits.empty())
-    for (WorstFace& face : record.after->worst_faces)
-      face.reasons = limiting_factors(face, done.vertex_limits);
+  name_limits(record);
+}
+
+void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, const MemoryOrder& memory_order,
+                     const Original& original, RunRecord& record, Stopwatch& stopwatch) {
+  vertex_points(mesh) = rounded;
+  Mat3X points = memory_order.order.gather(rounded);
+  const UniformVector targets = edge_targets(mesh, memory_order);
+  record.paper_after = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
+  const MeasuredSurface result = surface_of(std::move(points), memory_order, stopwatch,
+                                            keeps_faces(s) ? original.tree_order : std::vector<int>());
+  record.after = timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
+  const MeasuredSurface reference =
+      surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
+  record.deviation =
+      timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
+  if (record.result->measures) {
+    const std::vector<Edge> before = edges_in_order(record.result->input_creases, original.memory_order),
+                            after = edges_in_order(record.result->crease_edges, memory_order);
+    apply_creases(*record.after, result, after);
+    ResultMeasures& measures = *record.result->measures;
+    measures.preservation = timed(&stopwatch, "preservation", [&] {
+      return measure_preservation({reference, record.before, before}, {result, *record.after, after},
+                                  *record.deviation, measures.judged_by);
+    });
+    if (!coincident_boundary_vertices(reference.points, reference.adjacency).empty())
+      measures.preservation.new_crossings = 0;  // as preserving_remesh() has it
+  }
+  if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();
+  name_limits(record);
 }
 
 }  // namespace hooke::app

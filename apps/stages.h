@@ -22,7 +22,7 @@ nlohmann::ordered_json parameters_of(const Settings& settings);
 
 /// Sets the target lengths of the input, measures it, completes the settings by what follows from its size,
 /// and warns of its boundaries and orientation. `origin`: of a repaired mesh. Throws Error for lengths out of
-/// range and for gates on metrics that the report has not.
+/// range.
 void measure_input(Settings& settings, TriMesh& mesh, const MemoryOrder& memory_order,
                    const MeshOrigin& origin, Original& original, RunRecord& record, Stopwatch& stopwatch);
 
@@ -32,5 +32,12 @@ void measure_input(Settings& settings, TriMesh& mesh, const MemoryOrder& memory_
 void remesh_and_measure(const Settings& settings, TriMesh& mesh, MemoryOrder& memory_order,
                         Original& original, RunRecord& record, const Observer& observer,
                         Stopwatch& stopwatch);
+
+/// Measures the result again after its coordinates were rounded for the file: `rounded` are those in the
+/// file. Sets the points of the mesh, and what the record tells of the result, its deviation and what it
+/// keeps. Pre-condition: remesh_and_measure().
+void measure_rounded(const Settings& settings, const Mat3X& rounded, TriMesh& mesh,
+                     const MemoryOrder& memory_order, const Original& original, RunRecord& record,
+                     Stopwatch& stopwatch);
 
 }  // namespace hooke::app

@@ -54,13 +54,13 @@ void require_triangles(const std::string& name, const std::vector<double>& of_ed
 }
 
 /// The target lengths of all edges: those of the file, and of others the mean of their ends.
-std::vector<double> lengths_of_edges(const std::filesystem::path& file,
-                                     const std::vector<double>& of_vertices,
+std::vector<double> lengths_of_edges(const Settings& s, const std::vector<double>& of_vertices,
                                      const MemoryOrder& memory_order) {
   const Adjacency& c = *memory_order.adjacency;
-  const std::string name = printable(file.native());
+  const std::string name = printable(s.edge_lengths.native());
   std::vector<double> lengths = spread_target_lengths(c, of_vertices).edge.values();
-  const std::vector<EdgeLength> given = read_edge_lengths(file, c.vertex_count);
+  const std::vector<EdgeLength> given =
+      s.edge_length_list ? *s.edge_length_list : read_edge_lengths(s.edge_lengths, c.vertex_count);
   std::vector<int> ends, line_of_edge(lengths.size(), 0);
   for (const EdgeLength& edge : given) ends.insert(ends.end(), edge.ends.begin(), edge.ends.end());
   ends = memory_order.order.new_vertices(ends);
@@ -147,7 +147,7 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
     case SizingSource::Kind::none:
       break;
     case SizingSource::Kind::values:
-      return memory_order.order.gather(source.values);
+      return of_vertices(source.values);
     case SizingSource::Kind::file:
       return of_vertices(read_length_list(source.name, file_count));
     case SizingSource::Kind::ply_property:
@@ -173,7 +173,7 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
   std::vector<double> of_edges;
   if (!s.edge_lengths.empty()) {
-    of_edges = lengths_of_edges(s.edge_lengths, lengths, memory_order);
+    of_edges = lengths_of_edges(s, lengths, memory_order);
     lengths = means_at_vertices(of_edges, adjacency, std::move(lengths));
     set_edge_values(mesh, edge_length_property, memory_order.order, adjacency, of_edges);
   }
@@ -183,11 +183,8 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   set_vertex_values(mesh, target_length_property, memory_order.order.scatter(lengths));
 
   const TargetLengths targets = target_lengths_of(mesh, memory_order.order, adjacency);
-  record.parameters.update({{"L", mean_length(points, adjacency, targets)},
-                            {"L_min", *min_length},
-                            {"L_max", *max_length},
-                            {"L_spec", printable(s.length_text)},
-                            {"L_natural", natural},
+  record.target = {mean_length(points, adjacency, targets), *min_length, *max_length, natural};
+  record.parameters.update({{"L_spec", printable(s.length_text)},
                             {"sizing", printable(s.sizing_text)},
                             {"edge_lengths", nullptr}});
   if (!s.edge_lengths.empty()) record.parameters["edge_lengths"] = printable(s.edge_lengths.native());

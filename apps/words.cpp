@@ -180,6 +180,7 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
          "names edges that --repair and --weld may change");
   refuse(s.paper || s.remesh.connectivity == ConnectivityMode::fixed, {"--keep"},
          "is of --connectivity flip and adapt; with fixed all is kept");
+  refuse(s.compare.empty(), {"--rtol"}, "is of --compare only");
   refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");
   refuse(s.check, {"--preserve", "--reproject-uv", "--format"},
@@ -264,6 +265,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (raw.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *raw.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
   s.preserve_given = raw.given("--preserve");
+  require_metrics(s.gates, s.check);
   if (s.check) return;
   if (s.output.empty()) throw Error("no output named; expected -o FILE, or --check to measure only");
   s.format_given = s.format.has_value();

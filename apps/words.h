@@ -16,6 +16,7 @@ enum class Shell { bash, zsh, fish };
 struct RawOptions {
   std::string tolerance = "0.1%";
   std::string gradation;
+  std::string listing;  // form of --list-metrics
   std::optional<std::string> feature_angle;
   std::optional<std::string> keep;
   std::optional<std::string> max_distance, drop_components;

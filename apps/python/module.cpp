@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <tuple>
 #include <utility>
 
 #include "arrays.h"
@@ -25,10 +26,21 @@ auto unlocked(const Work& work) {
   return work();
 }
 
-/// (vertices, faces, map or None, report as JSON, exception or None)
+/// (old vertices, old faces, whether corners 1 and 2 of the face were swapped) of a repaired mesh; None else.
+py::object origin_arrays(const MeshOrigin& origin) {
+  if (origin.vertex.empty()) return py::none();
+  return py::make_tuple(
+      py::array_t<int>(std::ssize(origin.vertex), origin.vertex.data()),
+      py::array_t<int>(std::ssize(origin.face), origin.face.data()),
+      py::array_t<char>(std::ssize(origin.flipped), origin.flipped.data()).attr("astype")("bool"));
+}
+
+/// (vertices, faces, map or None, report as JSON, origin or None, exception or None)
 py::tuple run_arrays(const PointArray& vertices, const FaceArray& faces,
                      const std::vector<std::string>& options, std::vector<double> sizing,
-                     std::vector<int> fixed_vertices, bool map, const py::object& progress) {
+                     std::vector<int> fixed_vertices,
+                     const std::vector<std::tuple<int, int, double>>& edge_lengths, bool map,
+                     const py::object& progress) {
   const Mat3X points = points_of(vertices);
   const std::vector<Triangle> triangles = triangles_of(faces);
   app::Settings settings = app::memory_settings(options);
@@ -37,21 +49,27 @@ py::tuple run_arrays(const PointArray& vertices, const FaceArray& faces,
   settings.remesh.map = map && !settings.paper;
   settings.remesh.constraints.fixed_vertices = settings.paper_options.constraints.fixed_vertices =
       std::move(fixed_vertices);
+  if (!edge_lengths.empty()) {
+    settings.edge_length_list.emplace();
+    for (const auto& [a, b, length] : edge_lengths)
+      settings.edge_length_list->push_back(
+          {{a, b}, length, static_cast<int>(settings.edge_length_list->size()) + 1});
+  }
   const bool check = settings.check;
   PythonObserver observer(progress);
   std::optional<ValidMesh> mesh;
   RunRecord record;
   std::string report;
   unlocked([&] {
-    mesh.emplace(make_valid_mesh(points, triangles, app::input_name));
+    mesh.emplace(make_valid_mesh(points, triangles, app::input_name, settings.repair));
     record = app::run_in_memory(std::move(settings), *mesh, std::ref(observer));
     report = app::report_of_memory(record).dump();
   });
-  if (check) return py::make_tuple(py::none(), py::none(), py::none(), report, py::none());
+  if (check) return py::make_tuple(py::none(), py::none(), py::none(), report, py::none(), py::none());
   py::object places = py::none();
-  if (!record.result->map.empty()) places = map_arrays(record.result->map);
+  if (!record.result->map.empty()) places = map_arrays(map_to_old(record.result->map, mesh->origin));
   return py::make_tuple(vertex_array(mesh->mesh), face_array(mesh->mesh), places, report,
-                        observer.exception());
+                        origin_arrays(mesh->origin), observer.exception());
 }
 
 /// (vertices, faces, attributes, format, [(code, message)])

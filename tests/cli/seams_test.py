@@ -95,7 +95,7 @@ class Seams(CommandTest):
                 report = self.report("can.obj", "-o", "out.obj", "-q", "--connectivity", *options)
                 self.assertEqual([w["code"] for w in report["warnings"] if "polygons" not in w["code"] and "facets" not in w["code"]], [])
                 self.assertEqual(report["features"]["seam_edges"], 20 + 20 + 10)
-                self.assertEqual(report["parameters"]["keep"], ["seams", "materials", "groups"])
+                self.assertEqual(report["parameters"]["keep"], "seams,materials,groups")
                 text = (self.folder / "out.obj").read_text()
                 self.assertTrue(text.startswith("mtllib can.mtl other.mtl\n"))
                 self.assertEqual(text.count("usemtl"), 2, "faces of one label stand together")

@@ -51,4 +51,25 @@ TEST(ValidMesh, WarnsOfWhatIsAcceptable) {
   EXPECT_EQ(valid.warnings[0].code, "isolated_vertices");
 }
 
+TEST(ValidMesh, IsMendedIfAskedTo) {
+  const test::Triangles t = test::sphere(1);
+  std::vector<Triangle> faces = t.faces;
+  std::swap(faces[3][1], faces[3][2]);
+  faces.push_back(faces[5]);
+  EXPECT_THROW(make_valid_mesh(t.points, faces, "mine", {}), MeshError);
+  const ValidMesh valid = make_valid_mesh(t.points, faces, "mine", {.repair = true});
+  EXPECT_EQ(triangles_of(valid.mesh), t.faces);
+  EXPECT_EQ(vertex_points(valid.mesh), t.points);
+  EXPECT_EQ(valid.repairs.size(), 2u);
+  EXPECT_TRUE(valid.origin.flipped[3]);
+}
+
+TEST(ValidMesh, OfAGoodMeshIsTheSameAfterARepair) {
+  const test::Triangles t = test::grid(5, test::paraboloid, .3);
+  const ValidMesh valid = make_valid_mesh(t.points, t.faces, "mine", {.repair = true});
+  EXPECT_EQ(triangles_of(valid.mesh), t.faces);
+  EXPECT_EQ(vertex_points(valid.mesh), t.points);
+  EXPECT_TRUE(valid.repairs.empty());
+}
+
 }  // namespace hooke::valid_mesh_test

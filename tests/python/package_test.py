@@ -17,6 +17,7 @@ except ImportError:
 
 import hooke_remesh
 from command import DATA, CommandTest, irregular_torus
+from schema_test import SCHEMA, faults
 from hooke_remesh import InputError, Interrupted, MeshError, ResultError, UsageError, measure, read, remesh, write
 
 
@@ -97,10 +98,114 @@ class TheCommandsResults(CommandTest):
         self.assertEqual([gate["passed"] for gate in done.report["gates"]], [True, True, False])
         self.assertEqual(done.report["gates"][2]["value"], done.report["after"]["min_angle"]["min"])
 
+    def test_a_report_fits_the_schema_and_can_be_compared(self):
+        mesh = read(DATA / "patch.obj")
+        for options in ({}, {"connectivity": "adapt"}, {"paper": True}):
+            report = remesh(mesh.vertices, mesh.faces, **options).report
+            self.assertEqual(faults(report, SCHEMA), [])
+        self.assertEqual(faults(measure(mesh.vertices, mesh.faces), SCHEMA), [])
+        flipped = remesh(mesh.vertices, mesh.faces, connectivity="flip").report
+        self.write("base.json", json.dumps(flipped))
+        comparison = remesh(mesh.vertices, mesh.faces, compare=self.folder / "base.json").report["comparison"]
+        self.assertIn("after.min_angle.min", [worse["key"] for worse in comparison["worse"]])
+        self.assertNotIn("it is of another input", comparison["not_comparable"])
+
     def test_measures(self):
         mesh = read(DATA / "torus.off")
         self.assertEqual(without_times(measure(mesh.vertices, mesh.faces)),
                          without_times(self.report(DATA / "torus.off", "--check")))
+
+
+    def test_lengths_of_edges_in_arrays(self):
+        mesh = read(DATA / "patch.obj")
+        edges = np.unique(np.sort(mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)
+        lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
+        self.write("edges.txt", "".join(f"{a} {b} {l!r}\n" for (a, b), l in zip(edges.tolist(), lengths.tolist())))
+        self.run_command(DATA / "patch.obj", "-o", "command.ply", "--edge-lengths", "edges.txt")
+        done = remesh(mesh.vertices, mesh.faces, edge_lengths=(edges, lengths))
+        write(self.folder / "python.ply", done.vertices, done.faces)
+        self.assertEqual((self.folder / "python.ply").read_bytes(), (self.folder / "command.ply").read_bytes())
+
+    def test_repair(self):
+        self.write("torn.obj", TORN)
+        self.run_command("torn.obj", "-o", "command.ply", "--repair", "--report", "report.json", "-q")
+        vertices, faces = torn()
+        with self.assertRaises(MeshError):
+            remesh(vertices, faces)
+        done = remesh(vertices, faces, repair=True)
+        write(self.folder / "python.ply", done.vertices, done.faces)
+        self.assertEqual((self.folder / "python.ply").read_bytes(), (self.folder / "command.ply").read_bytes())
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual([(r["code"], r["count"]) for r in done.report["repairs"]],
+                         [(r["code"], r["count"]) for r in report["repairs"]])
+        self.assertEqual(measure(vertices, faces, repair=True)["before"]["min_angle"], done.report["before"]["min_angle"])
+
+
+# A tetrahedron with a face turned over, one listed twice, and a vertex in no face before the others.
+TORN = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 4 5 2\nf 4 5 2\n"
+
+
+def torn():
+    rows = [line.split() for line in TORN.splitlines()]
+    return (np.array([row[1:] for row in rows if row[0] == "v"], float),
+            np.array([row[1:] for row in rows if row[0] == "f"], int) - 1)
+
+
+class Attributes(CommandTest):
+    def test_stay_with_fixed_faces(self):
+        vertices, faces = torus()
+        given = {"label": np.arange(len(vertices)), "uv": np.random.default_rng(1).random((len(vertices), 2))}
+        material = np.arange(len(faces)) % 3
+        corners = np.arange(6 * len(faces)).reshape(-1, 3, 2)
+        done = remesh(vertices, faces, attributes=given, face_attributes={"material": material},
+                      corner_attributes={"uv": corners})
+        for name, values in given.items():
+            np.testing.assert_array_equal(done.attributes[name], values)
+        np.testing.assert_array_equal(done.face_attributes["material"], material)
+        np.testing.assert_array_equal(done.corner_attributes["uv"], corners)
+        self.assertIsNot(done.face_attributes["material"], material)
+
+    def test_are_interpolated_as_the_command_does(self):
+        mesh = read(DATA / "torus.off")
+        given = {"red": (127 * (1 + mesh.vertices[:, 0] / np.abs(mesh.vertices).max())).astype(np.uint8),
+                 "quality": mesh.vertices[:, 1] ** 2}
+        write(self.folder / "in.ply", mesh.vertices, mesh.faces, given)
+        for mode in ("flip", "adapt"):
+            self.run_command("in.ply", "-o", "out.ply", "--connectivity", mode, "--effort", "fast", "-q")
+            done = remesh(mesh.vertices, mesh.faces, connectivity=mode, effort="fast", attributes=given, map=False)
+            self.assertIsNone(done.map)
+            expected = read(self.folder / "out.ply").attributes
+            for name in given:
+                np.testing.assert_array_equal(done.attributes[name], expected[name])
+                self.assertEqual(done.attributes[name].dtype, given[name].dtype)
+
+    def test_of_several_columns_and_of_words(self):
+        vertices, faces = torus()
+        words = np.where(vertices[:, 0] > 0, "right", "left")
+        done = remesh(vertices, faces, connectivity="adapt", attributes={"place": vertices, "side": words})
+        np.testing.assert_allclose(done.attributes["place"], done.vertices, atol=.1)
+        far = np.abs(done.vertices[:, 0]) > .3
+        np.testing.assert_array_equal(done.attributes["side"][far] == "right", done.vertices[far, 0] > 0)
+
+    def test_follow_a_repair(self):
+        vertices, faces = torn()
+        corners = np.stack([faces, 10 * faces], axis=-1)
+        done = remesh(vertices, faces, repair=True, attributes={"id": np.arange(len(vertices))},
+                      face_attributes={"id": np.arange(len(faces))}, corner_attributes={"vertex": corners})
+        np.testing.assert_array_equal(done.attributes["id"], [1, 2, 3, 4])
+        self.assertEqual(len(done.face_attributes["id"]), 4)
+        old = done.attributes["id"][done.faces]
+        np.testing.assert_array_equal(done.corner_attributes["vertex"], np.stack([old, 10 * old], axis=-1))
+
+    def test_of_other_shapes_and_of_new_faces_are_refused(self):
+        vertices, faces = torus()
+        for options, says in (({"attributes": {"a": [1, 2]}}, r"attributes\['a'\] of shape"),
+                              ({"corner_attributes": {"a": np.zeros(len(faces))}}, "x 3 x"),
+                              ({"face_attributes": {"a": np.zeros(len(faces))}, "connectivity": "flip"}, "new faces"),
+                              ({"edge_lengths": [1, 2, 3]}, "expected a pair"),
+                              ({"edge_lengths": ([[0, 1]], [-1.])}, "expected a pair")):
+            with self.subTest(options=options), self.assertRaisesRegex(UsageError, says):
+                remesh(vertices, faces, **options)
 
 
 class Arrays(unittest.TestCase):
@@ -263,17 +368,40 @@ class Readme(CommandTest):
         self.assertEqual(len(read(self.folder / "out.ply").vertices), len(read(DATA / "patch.obj").vertices))
 
 
-class OtherLibraries(unittest.TestCase):
-    def test_arrays_of_meshio(self):
+class OtherLibraries(CommandTest):
+    """The lines of the README for them."""
+
+    def run_lines(self, first, **modules):
+        lines = iter((DATA.parent / "README.md").read_text().split("\n"))
+        code = [next(line for line in lines if line.startswith("    " + first))]
+        code += itertools.takewhile(lambda line: line.startswith("    "), lines)
+        names = {"hooke_remesh": hooke_remesh, **modules}
+        with contextlib.chdir(self.folder) if hasattr(contextlib, "chdir") else contextlib.nullcontext():
+            exec(textwrap.dedent("\n".join(code)), names)
+        return names
+
+    def test_meshio(self):
         try:
             import meshio
         except ImportError:
             self.skipTest("python3-meshio is not installed")
         vertices, faces = torus()
-        mesh = meshio.Mesh(vertices, [("triangle", faces)])
-        done = remesh(mesh.points, mesh.cells_dict["triangle"])
-        again = meshio.Mesh(done.vertices, [("triangle", done.faces)])
-        self.assertEqual(len(again.points), len(vertices))
+        heat = vertices @ np.array([[1., 0], [0, 2], [0, 0]])
+        meshio.Mesh(vertices, [("triangle", faces)], point_data={"heat": heat}).write(self.folder / "in.vtu")
+        done = self.run_lines("m = meshio.read", meshio=meshio)["done"]
+        again = meshio.read(self.folder / "out.vtu")
+        np.testing.assert_array_equal(again.points, done.vertices)
+        np.testing.assert_array_equal(again.cells_dict["triangle"], faces)
+        np.testing.assert_array_equal(again.point_data["heat"], heat)
+
+    def test_trimesh(self):
+        try:
+            import trimesh
+        except ImportError:
+            self.skipTest("trimesh is not installed")
+        write(self.folder / "in.ply", *torus())
+        done = self.run_lines("t = trimesh.load", trimesh=trimesh)["done"]
+        self.assertEqual(len(read(self.folder / "out.ply").vertices), len(done.vertices))
 
 
 if __name__ == "__main__":

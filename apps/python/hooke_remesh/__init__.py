@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._attributes import carry_corners, carry_faces, carry_vertices
 from ._core import __version__
 from .errors import (Error, InputError, Interrupted, LimitError, MeshError, NumericalError, OutputError, ResultError,
                      UsageError)
@@ -34,8 +35,7 @@ Progress = Callable[[str, int, int, float], Any]
 # What the command does with its files and its terminal.
 _OF_THE_COMMAND = {"output", "format", "map", "report", "fields", "trace", "trace_steps", "check", "quiet", "verbose",
                    "progress", "help", "help_all", "version", "config", "print_config", "completion", "man_page", "suffix",
-                   "table", "skip_existing", "jobs", "input_format", "preserve", "reproject_uv", "repair", "weld",
-                   "drop_components", "fill_holes"}
+                   "table", "skip_existing", "jobs", "input_format", "preserve", "reproject_uv", "list_metrics"}
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,9 @@ class Result:
     faces: NDArray[np.int32]  #: (m, 3) vertex ids
     map: Map | None  #: None with `map=False` and `paper=True`
     report: dict[str, Any]  #: as the command's JSON report; warnings are in `report["warnings"]`
+    attributes: dict[str, NDArray[Any]]  #: (n, ...) each
+    face_attributes: dict[str, NDArray[Any]]  #: (m, ...) each
+    corner_attributes: dict[str, NDArray[Any]]  #: (m, 3, ...) each
 
 
 @dataclass(frozen=True)
@@ -71,7 +74,10 @@ class Mesh:
 
 def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
            connectivity: Literal["fixed", "flip", "adapt"] = "fixed", *, sizing: Option | NDArray[Any] = None,
-           fix: ArrayLike | os.PathLike[str] | str | None = None, map: bool = True, progress: Progress | None = None,
+           edge_lengths: os.PathLike[str] | str | tuple[ArrayLike, ArrayLike] | None = None,
+           fix: ArrayLike | os.PathLike[str] | str | None = None, attributes: Mapping[str, ArrayLike] | None = None,
+           face_attributes: Mapping[str, ArrayLike] | None = None,
+           corner_attributes: Mapping[str, ArrayLike] | None = None, map: bool = True, progress: Progress | None = None,
            **options: Option) -> Result:
     """Remeshes a mesh; the arrays given are not changed.
 
@@ -81,15 +87,21 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
                   box's diagonal, "2x" the natural length; default "auto", as many triangles as there are
     connectivity  "fixed": the faces stay; "flip": edges are flipped too; "adapt": new vertices and faces
     sizing        n target lengths, one per vertex; or as the command takes it: "curvature:0.1%" or a file
+    edge_lengths  target lengths of single edges, with "fixed": a pair of k x 2 vertex ids and k lengths, or a file
     fix           ids of vertices that stay where they are, or a file of them
+    attributes    values of the vertices, n x ... each: "flip" and "adapt" interpolate them in the faces, integers are
+                  rounded, and of other types each vertex takes the value of the nearest corner
+    face_attributes, corner_attributes
+                  values of the faces, m x ..., and of their corners, m x 3 x ...; with "fixed", where faces stay
     map           whether to tell where the result's vertices lie on the input
     progress      is called at most twenty times a second with the stage, the outer iteration, the step, and the energy
                   in units of the mean target length; the run stops if it returns False, and the result is the best so
                   far, with the status "interrupted"
     options       every other option of the command but those for its files and its terminal, by the same name with _ for
                   -: effort="fast", feature_angle=30, max_distance="0.1%", polish=False, threads=2, paper=True;
-                  None leaves it out; require=["after.min_angle.min >= 20"] judges the report, with the outcomes in
-                  report["gates"]
+                  None leaves it out; repair=True, weld="0.01%" and fill_holes=8 mend the mesh first, and what was done
+                  is in report["repairs"]; require=["after.min_angle.min >= 20"] judges the report, with the outcomes in
+                  report["gates"], and compare="base.json" compares it with an older one, in report["comparison"]
 
     Other Python threads run meanwhile. Ctrl-C raises Interrupted, a KeyboardInterrupt with the best mesh so far as its
     `result`.
@@ -99,7 +111,15 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
     NumericalError, and what `progress` raises. TypeError and ValueError for arrays of other types and shapes.
     """
     points, triangles = _arrays(vertices, faces)
+    keeps_faces = connectivity == "fixed"
+    of_vertices = _attributes("attributes", attributes, (len(points),))
+    of_faces = _attributes("face_attributes", face_attributes, (len(triangles),))
+    of_corners = _attributes("corner_attributes", corner_attributes, (len(triangles), 3))
+    if (of_faces or of_corners) and not keeps_faces:
+        raise UsageError(f"face_attributes and corner_attributes: new faces have none; expected connectivity='fixed', "
+                         f"not {connectivity!r}")
     lengths: Sequence[float] = []
+    edges: Sequence[tuple[int, int, float]] = []
     ids: Sequence[int] = []
     if isinstance(sizing, str) and sizing.startswith("ply:"):
         raise UsageError(f"sizing {sizing!r}; expected an array, a file of lengths or 'curvature'")
@@ -108,14 +128,25 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
     else:
         options["sizing"] = "values"
         lengths = _lengths(sizing, len(points))
+    if edge_lengths is None or isinstance(edge_lengths, (str, os.PathLike)):
+        options["edge_lengths"] = edge_lengths
+    else:
+        options["edge_lengths"] = "edge_lengths"
+        edges = _edge_lengths(edge_lengths, len(points))
     if fix is None or isinstance(fix, (str, os.PathLike)):
         options["fix"] = fix
     else:
         ids = _ids(fix, len(points))
     arguments = _arguments({"length": length, "connectivity": connectivity, **options})
-    out_vertices, out_faces, places, report, exception = _core.run(points, triangles, arguments, lengths, ids, map,
-                                                                   progress)
-    result = Result(out_vertices, out_faces, Map(*places) if places else None, json.loads(report))
+    needs_map = map or bool(of_vertices) and not keeps_faces
+    out_vertices, out_faces, places, report, origin, exception = _core.run(
+        points, triangles, arguments, lengths, ids, edges, needs_map, progress)
+    old_vertices, old_faces, swapped = origin or (None, None, None)
+    where = None if keeps_faces else places
+    result = Result(out_vertices, out_faces, Map(*places) if places and map else None, json.loads(report),
+                    {name: carry_vertices(values, triangles, old_vertices, where) for name, values in of_vertices.items()},
+                    {name: carry_faces(values, old_faces) for name, values in of_faces.items()},
+                    {name: carry_corners(values, old_faces, swapped) for name, values in of_corners.items()})
     if isinstance(exception, KeyboardInterrupt):
         raise Interrupted(result) from exception
     if exception is not None:
@@ -129,13 +160,13 @@ def measure(vertices: ArrayLike, faces: ArrayLike, length: Option = None, **opti
     vertices      n x 3 coordinates
     faces         m x 3 vertex ids, of any integer type
     length        target edge length, for the length errors; as for remesh()
-    options       threads, and others that remesh() takes
+    options       threads, repair, and others that remesh() takes
 
     Raises what remesh() raises.
     """
     points, triangles = _arrays(vertices, faces)
     arguments = _arguments({"length": length, **options}) + ["--check"]
-    return json.loads(_core.run(points, triangles, arguments, [], [], False, None)[3])
+    return json.loads(_core.run(points, triangles, arguments, [], [], [], False, None)[3])
 
 
 def read(path: str | os.PathLike[str]) -> Mesh:
@@ -193,6 +224,28 @@ def _lengths(sizing: Any, count: int) -> Sequence[float]:
     if lengths.shape != (count,) or not (np.isfinite(lengths) & (lengths > 0)).all():
         raise UsageError(f"sizing of shape {lengths.shape}; expected a positive length for each of the {count} vertices")
     return lengths.tolist()
+
+
+def _edge_lengths(edge_lengths: Any, count: int) -> Sequence[tuple[int, int, float]]:
+    expected = "expected a pair: k x 2 vertex ids, and k positive lengths"
+    if not isinstance(edge_lengths, (tuple, list)) or len(edge_lengths) != 2:
+        raise UsageError(f"edge_lengths of type {type(edge_lengths).__name__}; {expected}")
+    ends, lengths = np.asarray(edge_lengths[0]), np.asarray(edge_lengths[1], dtype=np.float64)
+    if ends.ndim != 2 or ends.shape[1] != 2 or ends.dtype.kind not in "iu" or lengths.shape != (len(ends),) or not (
+            np.isfinite(lengths) & (lengths > 0)).all():
+        raise UsageError(f"edge_lengths of shapes {ends.shape} and {lengths.shape}; {expected}")
+    ids = _as_ids(ends, count, "edge_lengths[0]")
+    return list(zip(ids[:, 0].tolist(), ids[:, 1].tolist(), lengths.tolist()))
+
+
+def _attributes(name: str, attributes: Mapping[str, ArrayLike] | None, shape: tuple[int, ...]
+                ) -> dict[str, NDArray[Any]]:
+    """The arrays of these attributes, whose first axes must have this shape."""
+    arrays = {key: np.asarray(values) for key, values in (attributes or {}).items()}
+    for key, values in arrays.items():
+        if values.shape[:len(shape)] != shape:
+            raise UsageError(f"{name}[{key!r}] of shape {values.shape}; expected {' x '.join(map(str, shape))} x ...")
+    return arrays
 
 
 def _ids(fix: Any, count: int) -> Sequence[int]:

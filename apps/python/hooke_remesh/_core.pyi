@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 __version__: str
 
 def run(vertices: NDArray[np.float64], faces: NDArray[np.int32], options: list[str], sizing: list[float],
-        fixed_vertices: list[int], map: bool, progress: Callable[[str, int, int, float], Any] | None, /
+        fixed_vertices: list[int], edge_lengths: list[tuple[int, int, float]], map: bool, progress: Callable[[str, int, int, float], Any] | None, /
         ) -> tuple[NDArray[np.float64] | None, NDArray[np.int32] | None,
                    tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]] | None, str,
-                   BaseException | None]: ...
+                   tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.bool_]] | None, BaseException | None]: ...
 
 def read(path: str | os.PathLike[str], /) -> tuple[NDArray[np.float64], NDArray[np.int32], dict[str, NDArray[Any]],
                                                    str, list[tuple[str, str]]]: ...

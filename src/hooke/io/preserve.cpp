@@ -54,7 +54,8 @@ PreservedMesh prepare_preserved_mesh(const std::filesystem::path& path, const Tr
                                               : PendingFile(path, rewritten.bytes));
       },
       [&] { hash = sha256(rewritten.bytes); });
-  result.mesh.emplace(PendingMesh{*std::move(file), std::move(hash), source.connectivity_sha256});
+  result.mesh.emplace(PendingMesh{*std::move(file), std::move(hash), source.connectivity_sha256,
+                                  std::move(rewritten.rounded)});
   return result;
 }
 

@@ -64,6 +64,9 @@ PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh,
       throw OutputError(fmt::format("{}: {}", name_of_output(path), e.what()));
     }
   });
+  Mat3X rounded;
+  if (format == MeshFormat::stl && encoding != PlyEncoding::ascii)
+    rounded = vertex_points(mesh).cast<float>().cast<double>();
   const Stage stage(stopwatch, "file");
   std::optional<PendingFile> file;
   std::string hash, faces_hash;
@@ -73,10 +76,11 @@ PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh,
   };
   if (is_standard_output(path)) {
     take_hashes();
-    return {PendingFile::to_standard_output(std::move(bytes)), std::move(hash), std::move(faces_hash)};
+    return {PendingFile::to_standard_output(std::move(bytes)), std::move(hash), std::move(faces_hash),
+            std::move(rounded)};
   }
   parallel_invoke([&] { file.emplace(path, bytes); }, take_hashes);
-  return {*std::move(file), std::move(hash), std::move(faces_hash)};
+  return {*std::move(file), std::move(hash), std::move(faces_hash), std::move(rounded)};
 }
 
 }  // namespace hooke

@@ -35,6 +35,7 @@ struct PendingMesh {
   PendingFile file;                 // to be committed by the caller
   std::string sha256;               // of its bytes, hexadecimal
   std::string connectivity_sha256;  // see sha256.h
+  Mat3X rounded;                    // the points as they stand in the file, if any was rounded; else empty
 };
 
 /// Writes mesh_bytes() to a temporary file for `path`, or keeps them for standard output ("-"). Throws what

@@ -16,11 +16,7 @@ void require_ids(int vertex_count, const std::vector<Triangle>& triangles, const
       if (v < 0 || v >= vertex_count) require_valid(points, triangles, source);
 }
 
-}  // namespace
-
-ValidMesh make_valid_mesh(const Mat3X& points, const std::vector<Triangle>& triangles,
-                          const std::string& name) {
-  const MeshSource source{name, {}, {}};
+ValidMesh built(const Mat3X& points, const std::vector<Triangle>& triangles, const MeshSource& source) {
   const int vertex_count = static_cast<int>(points.cols());
   require_ids(vertex_count, triangles, points, source);
   MemoryOrder memory_order{reorder(triangles, bfs_cluster_order(vertex_count, triangles)), nullptr};
@@ -31,10 +27,31 @@ ValidMesh make_valid_mesh(const Mat3X& points, const std::vector<Triangle>& tria
     warnings = require_valid(points, triangles, source);
   memory_order.adjacency =
       std::make_shared<const Adjacency>(make_adjacency(std::exchange(order.faces, {}), std::move(fans)));
-  require_workable_size(points, name);
+  require_workable_size(points, source.name);
   // Constructed in place, because OpenMesh meshes can only be copied, not moved.
   return {build_mesh(points, *memory_order.adjacency, order.old_ids()), std::move(memory_order),
           std::move(warnings)};
+}
+
+}  // namespace
+
+ValidMesh make_valid_mesh(const Mat3X& points, const std::vector<Triangle>& triangles,
+                          const std::string& name) {
+  return built(points, triangles, {name, {}, {}});
+}
+
+ValidMesh make_valid_mesh(const Mat3X& points, const std::vector<Triangle>& triangles,
+                          const std::string& name, const RepairOptions& options) {
+  if (!options.any()) return make_valid_mesh(points, triangles, name);
+  MeshSource source{name, {}, {}};
+  require_ids(static_cast<int>(points.cols()), triangles, points, source);
+  Repaired repaired = repair(points, triangles, options, source);
+  source.face = repaired.origin.face;
+  source.repaired = options.repair;
+  ValidMesh valid = built(repaired.points, repaired.triangles, source);
+  valid.origin = std::move(repaired.origin);
+  valid.repairs = std::move(repaired.changes);
+  return valid;
 }
 
 }  // namespace hooke

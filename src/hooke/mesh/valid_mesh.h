@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/repair.h"
 
 namespace hooke {
 
@@ -12,6 +13,8 @@ struct ValidMesh {
   TriMesh mesh;              // vertices and faces in the order given
   MemoryOrder memory_order;  // with the adjacency
   Warnings warnings;         // of validation, see require_valid()
+  MeshOrigin origin = {};    // if the mesh was repaired: ids before are those of the arrays
+  Notes repairs = {};        // what the repair did
 };
 
 /// Validates points, one column per vertex in any unit of length, and triangles of vertex ids (0-based,
@@ -21,5 +24,9 @@ struct ValidMesh {
 /// large.
 ValidMesh make_valid_mesh(const Mat3X& points, const std::vector<Triangle>& triangles,
                           const std::string& name);
+
+/// The same after a repair, if the options ask for one.
+ValidMesh make_valid_mesh(const Mat3X& points, const std::vector<Triangle>& triangles,
+                          const std::string& name, const RepairOptions& options);
 
 }  // namespace hooke

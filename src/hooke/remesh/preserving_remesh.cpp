@@ -360,6 +360,7 @@ class PreservingRemesh {
     });
     // The two sides of a cut touch in as many pairs as there are faces.
     if (has_coincident_boundary_) m.preservation.new_crossings = 0;
+    m.judged_by = preservation_;
     a.angle = m.quality.worst_faces.front().min_angle;
     a.result.measures = std::move(m);
   }

@@ -63,6 +63,7 @@ struct ResultMeasures {
   Quality quality;
   Deviation deviation;
   Preservation preservation;
+  PreservationOptions judged_by;  // the options of that, completed by what the input is
 };
 
 struct RemeshResult {

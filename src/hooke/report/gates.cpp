@@ -12,6 +12,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
+#include "hooke/report/report_keys.h"
 
 namespace hooke {
 namespace {
@@ -32,28 +33,22 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-/// The keys of an object, as a message lists them.
-std::string keys_of(const Json& object) {
-  std::string keys;
-  for (const auto& [key, value] : object.items()) keys += (keys.empty() ? "" : ", ") + key;
-  return keys;
-}
-
-/// The member of an object or element of a list. Throws Error if there is none.
-const Json& member(const Json& json, const std::string& key, const std::string& metric) {
+/// The member of an object or element of a list; null if there is none.
+const Json* member(const Json& json, const std::string& key) {
   if (json.is_object()) {
     const auto found = json.find(key);
-    if (found != json.end()) return *found;
-    throw Error(fmt::format("{}: the report has no {} there; expected one of {}", in_quotes(metric),
-                            in_quotes(key), keys_of(json)));
+    return found == json.end() ? nullptr : &*found;
   }
   size_t index = 0;
   const auto [rest, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  if (!json.is_array() || error != std::errc() || rest != key.data() + key.size() || index >= json.size())
-    throw Error(
-        fmt::format("{}: the report has no {} there; expected {}", in_quotes(metric), in_quotes(key),
-                    json.is_array() ? fmt::format("an index below {}", json.size()) : "nothing more"));
-  return json[index];
+  const bool is_index = error == std::errc() && rest == key.data() + key.size();
+  return json.is_array() && is_index && index < json.size() ? &json[index] : nullptr;
+}
+
+/// The key of the input that is most like this one of the result.
+std::string nearest_of_input(const std::string& metric) {
+  constexpr std::string_view after = "after.";
+  return metric.starts_with(after) ? "before." + metric.substr(after.size()) : "before.min_angle.min";
 }
 
 }  // namespace
@@ -77,39 +72,40 @@ Gate parse_gate(const std::string& text) {
   throw Error(fmt::format("{}; {}", in_quotes(text), expected));
 }
 
-std::optional<double> metric_of(const Json& report, const std::string& metric) {
-  const Json* json = &report;
-  for (size_t begin = 0; begin <= metric.size() && !json->is_null();) {
-    const size_t end = std::min(metric.find('.', begin), metric.size());
-    json = &member(*json, metric.substr(begin, end - begin), metric);
-    begin = end + 1;
+void require_metrics(const std::vector<Gate>& gates, bool check_only) {
+  for (const Gate& gate : gates) {
+    const ReportKey* const key = find_report_key(gate.metric);
+    if (key == nullptr)
+      throw Error(fmt::format("{}: the report has no such key; did you mean {}? See --list-metrics",
+                              in_quotes(gate.metric), nearest_number(gate.metric)));
+    if (!is_number(*key))
+      throw Error(
+          fmt::format("{}: is not a number of the report; expected one such as {}; see --list-metrics",
+                      in_quotes(gate.metric), nearest_number(gate.metric + ".min")));
+    if (check_only && key->of_result)
+      throw Error(fmt::format(
+          "{}: is of the result, which --check has none of; expected a key of the input, such as {}",
+          in_quotes(gate.metric), nearest_of_input(gate.metric)));
   }
-  if (json->is_null()) return std::nullopt;
-  if (json->is_boolean()) return json->get<bool>() ? 1 : 0;
-  if (json->is_number()) return json->get<double>();
-  throw Error(fmt::format("{}: is not a number of the report{}", in_quotes(metric),
-                          json->is_object() ? "; expected one of its " + keys_of(*json) : ""));
 }
 
-void require_metrics(const std::vector<Gate>& gates, const Json& block) {
-  for (const Gate& gate : gates) {
-    const size_t dot = gate.metric.find('.');
-    const std::string first = gate.metric.substr(0, dot);
-    if (dot == std::string::npos || (first != "before" && first != "after")) continue;
-    const std::string rest = gate.metric.substr(dot + 1);
-    // What these hold depends on the mesh.
-    if (!rest.starts_with("worst_faces.") && !rest.starts_with("valence.")) metric_of(block, rest);
+std::optional<double> number_at(const Json& report, const std::string& path) {
+  const Json* json = &report;
+  for (size_t begin = 0; begin <= path.size() && json != nullptr;) {
+    const size_t end = std::min(path.find('.', begin), path.size());
+    json = member(*json, path.substr(begin, end - begin));
+    begin = end + 1;
   }
+  if (json == nullptr) return std::nullopt;
+  if (json->is_boolean()) return json->get<bool>() ? 1 : 0;
+  if (!json->is_number() || !std::isfinite(json->get<double>())) return std::nullopt;
+  return json->get<double>();
 }
 
 std::vector<GateOutcome> judge_gates(const std::vector<Gate>& gates, const Json& report) {
   std::vector<GateOutcome> outcomes;
   for (const Gate& gate : gates) {
-    std::optional<double> value;
-    try {
-      value = metric_of(report, gate.metric);
-    } catch (const Error&) {  // a key that no report has: the gate fails, and the result is written
-    }
+    const std::optional<double> value = number_at(report, gate.metric);
     const auto* const relation =
         std::ranges::find_if(relations, [&](const auto& r) { return gate.relation == r.first; });
     outcomes.push_back({gate.text, value, value && relation->second(*value, gate.bound)});

@@ -20,22 +20,23 @@ struct Gate {
 /// What became of a gate.
 struct GateOutcome {
   std::string condition;
-  std::optional<double> value;  // empty where the report has null or no such key; the gate then fails
+  std::optional<double> value;  // empty where the report has none; the gate then fails
   bool passed = false;
 };
 
 /// Parses "METRIC RELATION NUMBER". Throws an Error whose message begins with the text.
 Gate parse_gate(const std::string& text);
 
-/// The number of the report that a metric names; yes and no are 1 and 0, null is empty. Throws Error for a
-/// key that the report does not have, and for what is not a number.
-std::optional<double> metric_of(const nlohmann::ordered_json& report, const std::string& metric);
+/// Throws Error for gates that no report could fulfil: on keys that the table of keys has not, with the
+/// nearest one that it has, on what is no number, and, with `check_only`, on the result that --check has none
+/// of.
+void require_metrics(const std::vector<Gate>& gates, bool check_only);
 
-/// Throws Error for gates on the blocks `before` and `after` of a report whose numbers such a block does not
-/// have: to be called before the work that they are to judge.
-void require_metrics(const std::vector<Gate>& gates, const nlohmann::ordered_json& block);
+/// The number at a path of the report; yes and no are 1 and 0. Empty for what is not there, null, or no
+/// finite number.
+std::optional<double> number_at(const nlohmann::ordered_json& report, const std::string& path);
 
-/// The outcomes of the gates, in order. Throws what metric_of() throws.
+/// The outcomes of the gates, in order.
 std::vector<GateOutcome> judge_gates(const std::vector<Gate>& gates, const nlohmann::ordered_json& report);
 
 }  // namespace hooke

@@ -11,6 +11,7 @@
 #include "hooke/measure/statistics.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/report/report_keys.h"
 
 namespace hooke {
 namespace {
@@ -86,6 +87,8 @@ Json to_json(const Quality& q) {
   json["edge_ratio"] = to_json(q.edge_ratio);
   json["edge_length"] = to_json(q.edge_length);
   json["length_error"] = to_json(q.length_error);
+  json["faces_below_20"] = q.faces_below_20;
+  json["faces_below_30"] = q.faces_below_30;
   json["folded_edges"] = q.folded_edges;
   json["self_intersections"] = q.self_intersections ? Json(*q.self_intersections) : Json(nullptr);
   json["degenerate_faces"] = q.degenerate_faces;
@@ -198,7 +201,7 @@ Json creases_json(const RunRecord& run) {
 /// Counts of mode `flip`, which also runs after the adaptation in mode `adapt`; null in mode `fixed`. Travel
 /// is in target lengths, null in mode `adapt`.
 Json flips_json(const RunRecord& run) {
-  if (!run.result || run.parameters.value("connectivity", "fixed") == "fixed") return nullptr;
+  if (!run.result || run.connectivity == ConnectivityMode::fixed) return nullptr;
   const FlipResult& f = run.result->flips;
   Json j = {{"flips", f.flips},   {"flow_rounds", f.flow.rounds}, {"spring_rounds", f.spring_rounds},
             {"passes", f.passes}, {"max_travel", f.max_travel},   {"rms_travel", f.rms_travel}};
@@ -214,6 +217,27 @@ Json adaptation_json(const RunRecord& run) {
           {"count_rounds", a.count_rounds}, {"splits", a.splits},
           {"collapses", a.collapses},       {"flips", a.flips},
           {"wanted_faces", a.target_faces}};
+}
+
+/// The parameters, and null for those that have no part in the run.
+Json parameters_json(const RunRecord& run) {
+  Json j = run.parameters;
+  const TargetRecord& t = run.target;
+  j.update({{"L", t.mean}, {"L_min", t.min}, {"L_max", t.max}, {"L_natural", t.natural}});
+  for (const std::string& name : parameter_names()) j.emplace(name, nullptr);
+  return j;
+}
+
+Json comparison_json(const RunRecord& run) {
+  if (!run.comparison) return nullptr;
+  const Comparison& c = *run.comparison;
+  Json worse = Json::array();
+  for (const Worsening& w : c.worse) worse.push_back({{"key", w.key}, {"base", w.base}, {"value", w.value}});
+  return {{"base", c.base},
+          {"rtol", c.rtol},
+          {"compared", c.compared},
+          {"worse", worse},
+          {"not_comparable", c.not_comparable}};
 }
 
 Json stages_json(const std::vector<StageTime>& stages) {
@@ -261,13 +285,13 @@ Json report_json(const RunRecord& run) {
   j["input"] = file_json(run.input, run.before);
   j["output"] = run.output ? file_json(*run.output, *run.after) : Json();
   if (run.output) j["output"]["preserved"] = run.output->preserved;
-  j["parameters"] = run.parameters;
+  j["parameters"] = parameters_json(run);
   j["promises"] = promises_json(run);
   j["before"] = to_json(run.before);
   j["after"] = run.after ? to_json(*run.after) : Json();
   j["geometry"] = run.deviation ? geometry_json(run) : Json();
   j["iterations"] = Json::array();
-  j["projection"] = nullptr;
+  j["projection"] = j["held_back"] = j["near_regular"] = nullptr;
   if (run.result) {
     for (const IterationRecord& r : run.result->iterations) j["iterations"].push_back(iteration_json(r));
     j["projection"] = projection_json(run.result->projection);
@@ -281,6 +305,7 @@ Json report_json(const RunRecord& run) {
   j["gates"] = Json::array();
   for (const GateOutcome& g : run.gates)
     j["gates"].push_back({{"condition", g.condition}, {"value", number(g.value)}, {"passed", g.passed}});
+  j["comparison"] = comparison_json(run);
   j["warnings"] = Json::array();
   for (const Warning& w : run.warnings) j["warnings"].push_back({{"code", w.code}, {"message", w.message}});
   j["repairs"] = Json::array();

@@ -11,6 +11,7 @@
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
 #include "hooke/remesh/result.h"
+#include "hooke/report/comparison.h"
 #include "hooke/report/gates.h"
 #include "hooke/report/paper_block.h"
 
@@ -58,13 +59,23 @@ struct Resources {
 /// The resources that the process has used so far.
 Resources resources_used(double wall_seconds);
 
+/// The target lengths of the edges, in file units.
+struct TargetRecord {
+  double mean = 0;
+  double min = 0;
+  double max = 0;
+  double natural = 0;  // that of --length auto
+};
+
 /// The contents of a report. Parts that a run did not produce stay empty.
 struct RunRecord {
   std::string tool_version;
   std::string status;  // see status_of()
   FileRecord input;
   std::optional<OutputRecord> output;
-  nlohmann::ordered_json parameters;  // see parameters_json()
+  ConnectivityMode connectivity = ConnectivityMode::fixed;
+  TargetRecord target;
+  nlohmann::ordered_json parameters;  // see parameters_json(); those that are missing have no part in the run
   Quality before;
   std::optional<Quality> after;
   PaperFigures paper_before;
@@ -75,6 +86,7 @@ struct RunRecord {
   Notes repairs;       // what was mended as asked
   int seam_edges = 0;  // edges of the input that are kept as seams
   std::vector<GateOutcome> gates;
+  std::optional<Comparison> comparison;  // with an older report
   Warnings warnings;
   std::vector<StageTime> stages;
   Resources resources;
@@ -88,7 +100,7 @@ std::string status_of(StopReason reason);
 /// deviation.
 std::vector<int> folded_faces(const RunRecord& run);
 
-/// The whole report.
+/// The whole report, with every key of report_keys.h.
 nlohmann::ordered_json report_json(const RunRecord& run);
 
 /// The report as indented text. Bytes that are not UTF-8 are replaced.
