@@ -36,6 +36,14 @@ struct Run {
 
   std::size_t flaws() const { return result.measures ? preservation().flaws() : std::size_t(-1); }
 
+  /// Faces that lie against the surface where others lie like them, as a chord across a sharp rounding: no
+  /// broken promise, but better avoided. None if there are so many that the input is rough.
+  std::size_t chords() const {
+    constexpr std::size_t max_chords = 20;
+    const std::size_t count = result.measures->deviation.opposing_faces.size();
+    return count > max_chords ? 0 : count;
+  }
+
   std::size_t face_count() const { return result.memory_order.adjacency->faces.size(); }
 
   /// Does nothing break a promise, and have angles not become small for it?
@@ -105,12 +113,13 @@ class PreservingRemesh {
     return next.is_better_than(run) ? std::move(next) : std::move(run);
   }
 
-  /// Moves vertices to the input while that leaves fewer flaws.
+  /// Moves vertices to the input while that leaves fewer flaws, or fewer chords.
   void mend(Run& run) const {
     constexpr int max_rounds = 6;
     if (!run.result.measures) return;  // not finite
     run.unmended_angle = run.angle;
-    for (int round = 0; round < max_rounds && run.flaws() > 0 && move_to_input(run); ++round) continue;
+    for (int round = 0; round < max_rounds && run.flaws() + run.chords() > 0 && move_to_input(run); ++round)
+      continue;
   }
 
   /// Moves vertices that are too far to the closest points of the input, the corners of faces that are turned
@@ -157,7 +166,10 @@ class PreservingRemesh {
     for (int v = 0; v < moved.cols(); ++v)
       if (moved.col(v) != surface.points.col(v)) place(v, moved.col(v), run);
     judge(run);
-    if (run.flaws() < before.flaws()) return true;
+    const bool only_chords = before.flaws() == 0;
+    if (only_chords ? run.flaws() == 0 && run.chords() < before.chords() && run.angle >= before.angle
+                    : run.flaws() < before.flaws())
+      return true;
     run = std::move(before);
     return false;
   }
@@ -167,13 +179,15 @@ class PreservingRemesh {
     return run.result.vertex_limits[static_cast<size_t>(surface.ids.vertex(vertex))];
   }
 
-  /// The vertices, none on a crease, of faces of the result that are turned over or intersect.
+  /// The vertices, none on a crease, of faces of the result that are turned over, chords or intersecting.
   std::vector<int> corners_of_wrong_faces(const Run& run, const MeasuredSurface& surface) const {
     std::vector<char> is_wrong(surface.adjacency.faces.size(), 0);
-    const std::vector<int>& flipped = run.result.measures->deviation.flipped_faces;
-    if (!flipped.empty())
+    const Deviation& deviation = run.result.measures->deviation;
+    const std::vector<int>& turned =
+        run.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces;  // the former hold the latter
+    if (!turned.empty())
       for (size_t f = 0; f < is_wrong.size(); ++f)
-        is_wrong[f] = std::ranges::binary_search(flipped, surface.ids.face(static_cast<int>(f)));
+        is_wrong[f] = std::ranges::binary_search(turned, surface.ids.face(static_cast<int>(f)));
     if (run.preservation().new_crossings > 0)
       for (const auto& pair : find_self_intersections(surface.tree))
         for (int f : pair) is_wrong[static_cast<size_t>(f)] = 1;
