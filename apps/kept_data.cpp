@@ -59,7 +59,7 @@ std::string without_most(const Seams& seams, const SeamKinds& keep) {
 void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh& loaded, RunRecord& record) {
   constexpr double many = 1. / 3;
   const MemoryOrder& m = loaded.memory_order;
-  const auto limit = static_cast<std::size_t>(many * static_cast<double>(m.adjacency->edges.size()));
+  const std::size_t limit = many * static_cast<double>(m.adjacency->edges.size());
   if (seams.edges.size() <= limit) return;
   const std::vector<int> sharp = sharp_edges(m.order.gather(vertex_points(loaded.mesh)), *m.adjacency,
                                              s.remesh.constraints.features.angle);
@@ -78,11 +78,10 @@ void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh&
 std::vector<int> faces_near(const std::vector<MapEntry>& map, const MemoryOrder& before,
                             const MemoryOrder& after) {
   std::vector<int> index(before.order.old_face.size()), near;
-  for (std::size_t f = 0; f < index.size(); ++f)
-    index[static_cast<std::size_t>(before.order.old_face[f])] = static_cast<int>(f);
+  for (std::size_t f = 0; f < index.size(); ++f) index[before.order.old_face[f]] = static_cast<int>(f);
   for (const int id : after.order.old_vertex) {
-    const int face = map[static_cast<std::size_t>(id)].position.face;
-    near.push_back(face < 0 ? -1 : index[static_cast<std::size_t>(face)]);
+    const int face = map[id].position.face;
+    near.push_back(face < 0 ? -1 : index[face]);
   }
   return near;
 }
@@ -102,16 +101,15 @@ std::vector<int> order_by_labels(const FaceData& of_input, const FaceData& of_re
   std::vector<int> rank(faces), order(faces);
   for (std::size_t f = 0; f < faces; ++f) rank[f] = ranks[labels_of(of_result, f)];
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](int f) { return rank[static_cast<std::size_t>(f)]; });
+  std::ranges::stable_sort(order, {}, [&](int f) { return rank[f]; });
   return order;
 }
 
 /// Gives the faces of the result new ids: face f was order[f]. Those in the record follow.
 void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord& record) {
   std::vector<int> fresh(order.size());
-  for (std::size_t f = 0; f < order.size(); ++f)
-    fresh[static_cast<std::size_t>(order[f])] = static_cast<int>(f);
-  const auto renumber = [&](int& face) { face = fresh[static_cast<std::size_t>(face)]; };
+  for (std::size_t f = 0; f < order.size(); ++f) fresh[order[f]] = static_cast<int>(f);
+  const auto renumber = [&](int& face) { face = fresh[face]; };
   const auto renumber_all = [&](std::vector<int>& faces) {
     std::ranges::for_each(faces, renumber);
     std::ranges::sort(faces);

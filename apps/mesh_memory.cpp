@@ -36,7 +36,7 @@ std::size_t memory_for(const std::filesystem::path& mesh, const Settings& s) {
   if (!s.check && !s.paper && s.remesh.connectivity == ConnectivityMode::adapt &&
       s.length.kind == LengthSpec::Kind::times_natural)
     vertices *= std::max(1., 1 / (s.length.value * s.length.value));
-  return static_cast<std::size_t>(program + per_vertex * vertices);
+  return program + per_vertex * vertices;
 }
 
 }  // namespace hooke::app

@@ -52,7 +52,7 @@ void ProgressBar::show(const std::string& what, double share) {
   constexpr double first_share = .02, first_seconds = 1;  // before that nobody can tell
   last_ = Clock::now();
   const double seconds = std::chrono::duration<double>(last_ - start_).count();
-  const auto full = static_cast<std::size_t>(std::lround(share * bar_columns));
+  const std::size_t full = std::lround(share * bar_columns);
   std::string line =
       fmt::format("[{:.<{}}] {:3.0f} %  {}", std::string(full, '#'), bar_columns, 100 * share, what);
   if (share >= first_share && seconds >= first_seconds)

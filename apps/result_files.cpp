@@ -152,8 +152,7 @@ std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Ori
   for (VertexChannel& channel : fields.faces) {
     const std::vector<double> in_memory = std::exchange(channel.values, {});
     channel.values.resize(in_memory.size());
-    for (size_t f = 0; f < in_memory.size(); ++f)
-      channel.values[static_cast<size_t>(order.old_face[f])] = in_memory[f];
+    for (size_t f = 0; f < in_memory.size(); ++f) channel.values[order.old_face[f]] = in_memory[f];
   }
   return write_ply(vertex_points(mesh), triangles_of(mesh), PlyEncoding::binary_little_endian,
                    fields.vertices, fields.faces);

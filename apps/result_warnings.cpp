@@ -171,13 +171,12 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   const std::vector<WorstFace>& faces = run.after->worst_faces;
   const auto is_between_creases = [&](const WorstFace& f) {
     return f.min_angle < small_angle && std::ranges::all_of(f.vertices, [&](int v) {
-             return limits[static_cast<size_t>(v)] & (limited_by_crease | limited_at_corner);
+             return limits[v] & (limited_by_crease | limited_at_corner);
            });
   };
   const auto is_at_fixed_edge = [&](const WorstFace& f) {
-    return f.min_angle < small_angle && std::ranges::count_if(f.vertices, [&](int v) {
-                                          return limits[static_cast<size_t>(v)] & limited_by_request;
-                                        }) >= 2;
+    return f.min_angle < small_angle &&
+           std::ranges::count_if(f.vertices, [&](int v) { return limits[v] & limited_by_request; }) >= 2;
   };
   const auto warn = [&](const char* code, const WorstFace& f, const char* text) {
     run.warnings.push_back({code, fmt::format("{}: face {} is left with an angle of {:.2g} degrees: {}",

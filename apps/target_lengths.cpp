@@ -43,7 +43,7 @@ void require_triangles(const std::string& name, const std::vector<double>& of_ed
                        const MeshIds& ids) {
   for (size_t f = 0; f < c.faces.size(); ++f) {
     std::array<double, 3> l{};
-    for (size_t k = 0; k < 3; ++k) l[k] = of_edges[static_cast<size_t>(c.face_edges[f][k])];
+    for (size_t k = 0; k < 3; ++k) l[k] = of_edges[c.face_edges[f][k]];
     if (2 * std::ranges::max(l) < l[0] + l[1] + l[2]) continue;
     const Triangle corners = ids.corners(c.faces[f]);
     throw InputError(fmt::format(
@@ -74,12 +74,12 @@ std::vector<double> lengths_of_edges(const Settings& s, const std::vector<double
     if (edge == around.end())
       fail(fmt::format("no edge from vertex {} to {}; expected an edge of the mesh; remove the line",
                        given[k].ends[0], given[k].ends[1]));
-    int& line = line_of_edge[static_cast<size_t>(*edge)];
+    int& line = line_of_edge[*edge];
     if (line > 0)
       fail(fmt::format("edge {} {} a second time, after line {}; expected it once; remove one",
                        given[k].ends[0], given[k].ends[1], line));
     line = given[k].line;
-    lengths[static_cast<size_t>(*edge)] = given[k].length;
+    lengths[*edge] = given[k].length;
   }
   require_triangles(name, lengths, c, memory_order.order.old_ids());
   return lengths;
@@ -92,8 +92,8 @@ std::vector<double> means_at_vertices(const std::vector<double>& of_edges, const
     const auto around = c.vertex_edges[v];
     if (around.empty()) continue;
     double sum = 0;
-    for (int e : around) sum += of_edges[static_cast<size_t>(e)];
-    lengths[static_cast<size_t>(v)] = sum / static_cast<double>(around.size());
+    for (int e : around) sum += of_edges[e];
+    lengths[v] = sum / static_cast<double>(around.size());
   }
   return lengths;
 }
@@ -120,8 +120,7 @@ void require_reasonable(const Settings& s, double min_length, double max_length,
 std::vector<Edge> creases_at(const std::vector<double>& lengths, const Mat3X& points, const Adjacency& c,
                              const CreaseOptions& features) {
   std::vector<Edge> creases;
-  for (int e : detect_creases(points, c, lengths, features))
-    creases.push_back(c.edges[static_cast<size_t>(e)]);
+  for (int e : detect_creases(points, c, lengths, features)) creases.push_back(c.edges[e]);
   return creases;
 }
 
@@ -129,7 +128,7 @@ std::vector<Edge> creases_at(const std::vector<double>& lengths, const Mat3X& po
 std::vector<double> taken(const std::vector<double>& values, const std::vector<int>& indices) {
   std::vector<double> result;
   result.reserve(indices.size());
-  for (const int i : indices) result.push_back(values[static_cast<size_t>(i)]);
+  for (const int i : indices) result.push_back(values[i]);
   return result;
 }
 

@@ -16,7 +16,7 @@ constexpr std::array number_types = {"int8",  "uint8",  "int16",   "uint16",
                                      "int32", "uint32", "float32", "float64"};
 
 py::object as_type(const py::array_t<double>& values, NumberType type) {
-  return values.attr("astype")(number_types[static_cast<std::size_t>(type)]);
+  return values.attr("astype")(number_types[static_cast<size_t>(type)]);
 }
 
 NumberType type_of(const std::string& name, const py::array& values) {
@@ -35,7 +35,7 @@ Mat3X points_of(const PointArray& vertices) {
 }
 
 std::vector<Triangle> triangles_of(const FaceArray& faces) {
-  std::vector<Triangle> triangles(static_cast<std::size_t>(faces.shape(0)));
+  std::vector<Triangle> triangles(faces.shape(0));
   static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
   if (!triangles.empty()) std::memcpy(triangles.data(), faces.data(), triangles.size() * sizeof(Triangle));
   return triangles;
@@ -61,7 +61,7 @@ py::tuple map_arrays(const std::vector<MapEntry>& map) {
   py::array_t<std::int32_t> vertices(count), faces(count);
   PointArray weights({count, py::ssize_t{3}});
   for (py::ssize_t v = 0; v < count; ++v) {
-    const MapEntry& entry = map[static_cast<std::size_t>(v)];
+    const MapEntry& entry = map[v];
     vertices.mutable_at(v) = entry.vertex;
     faces.mutable_at(v) = entry.position.face;
     for (py::ssize_t k = 0; k < 3; ++k) weights.mutable_at(v, k) = entry.position.weights[k];

@@ -98,7 +98,7 @@ struct Turn {
 std::vector<Turn> turns(const WorkingMesh& m) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& N = m.positions.normals;
-  std::vector<Turn> turns(static_cast<size_t>(t.half_edge_count()), Turn{0, 0});
+  std::vector<Turn> turns(t.half_edge_count(), Turn{0, 0});
   parallel_for(turns.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int h = static_cast<int>(i);
@@ -125,7 +125,7 @@ double exceeded_by(double share, std::vector<Turn> turns) {
 
 /// Number of ids in [0, count) that satisfy the predicate, which is called from several threads.
 double count_of(int count, const auto& is_such) {
-  return parallel_sum(static_cast<size_t>(count), 4096, [&](size_t begin, size_t end) {
+  return parallel_sum(count, 4096, [&](size_t begin, size_t end) {
     double number = 0;
     for (size_t i = begin; i < end; ++i) number += is_such(static_cast<int>(i));
     return number;
@@ -187,7 +187,7 @@ void AdaptationSteps::release_bends() {
   Constraints& constraints = work_.constraints;
   for (size_t v = 0; v < constraints.freedom.size(); ++v) {
     if (!constraints.at_bend(static_cast<int>(v))) continue;
-    const auto curve = static_cast<size_t>(constraints.curve[v]);
+    const size_t curve = constraints.curve[v];
     const double target = m_.curve_edges.target[curve], ratio = target / m_.curve_edges.present[curve];
     const bool is_resolved = ratio >= options_.resolve_bends;
     if (!is_resolved && std::max(ratio, 1 / ratio) > options_.keep_bends)

@@ -52,7 +52,7 @@ bool collapse_about(WorkingMesh& m, int face, const CollapseOptions& options) {
   const HalfedgeMesh& t = m.halfedges;
   for (int h = 3 * face; h < 3 * face + 3; ++h)
     if (collapse_edge(m, h, options) >= 0) return true;
-  for (int corner : t.faces()[static_cast<size_t>(face)])
+  for (int corner : t.faces()[face])
     for (int h : t.outgoing(corner))
       if (collapse_edge(m, h, options) >= 0) return true;
   return false;
@@ -63,7 +63,7 @@ bool collapse_about(WorkingMesh& m, int face, const CollapseOptions& options) {
 int collapse_folded_faces(WorkingMesh& m, const CollapseOptions& options) {
   const HalfedgeMesh& t = m.halfedges;
   const auto is_folded = [&](int f) {
-    const auto face = static_cast<size_t>(f);
+    const size_t face = f;
     return face_alignment(m.positions.points, m.positions.normals, t.faces()[face], t.wedges()[face]) <
            options.alignment;
   };

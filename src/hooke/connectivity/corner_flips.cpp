@@ -23,7 +23,7 @@ class Corner {
       : m_(mesh), t_(mesh.halfedges), options_(options), vertex_(vertex), wedge_(wedge) {}
 
   int match_valence() {
-    const int target = m_.corner_valences[static_cast<size_t>(wedge_)];
+    const int target = m_.corner_valences[wedge_];
     while (valence() < target && flip_best(opposite_edges())) ++flips_;
     while (valence() > target) {
       if (!flip_best(inner_edges()) && !free_inner_neighbour() && !push_inner_neighbour()) break;
@@ -110,10 +110,10 @@ class Corner {
 
   bool push_once(int v) {
     const Mat3X& X = m_.positions.points;
-    if (m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed) return true;
+    if (m_.constraints.freedom[v] == Freedom::fixed) return true;
     const std::vector<double> before = alignments(v);
     const Vec3 away = (X.col(v) - X.col(vertex_)).normalized();
-    const double length = push * m_.vertex_length[static_cast<size_t>(v)];
+    const double length = push * m_.vertex_length[v];
     m_.retraction.moved(m_.positions, v, length * away).write_to(m_.positions, v);
     const std::vector<double> after = alignments(v);
     for (size_t i = 0; i < before.size(); ++i)
@@ -124,7 +124,7 @@ class Corner {
   std::vector<double> alignments(int v) const {
     std::vector<double> values;
     for (int h : t_.outgoing(v)) {
-      const auto f = static_cast<size_t>(h / 3);
+      const size_t f = h / 3;
       values.push_back(
           face_alignment(m_.positions.points, m_.positions.normals, t_.faces()[f], t_.wedges()[f]));
     }
@@ -146,7 +146,7 @@ int flip_corners_to_valence(FlippableMesh& m, const FlipGuardOptions& options) {
   int flips = 0;
   for (size_t wedge = 0; wedge < m.corner_valences.size(); ++wedge) {
     const int i = static_cast<int>(wedge);
-    const int v = i < vertices ? i : m.constraints.extra_wedges[static_cast<size_t>(i - vertices)];
+    const int v = i < vertices ? i : m.constraints.extra_wedges[i - vertices];
     if (m.corner_valences[wedge] > 0 && m.halfedges.valence(v) > 0)
       flips += Corner(m, options, v, i).match_valence();
   }

@@ -89,7 +89,7 @@ void CollapsedRing::add_face(int outgoing, int wedge) {
             .neighbour_area = Vec3::Zero(),
             .next = -1};
   if (face.has_neighbour) {
-    const auto across = static_cast<size_t>(t_.twin(next) / 3);
+    const size_t across = t_.twin(next) / 3;
     face.neighbour_area = doubled_area_vector(m_.positions.points, t_.faces()[across]);
   }
   faces_.push_back(face);
@@ -142,8 +142,7 @@ WorstShape CollapsedRing::worst(const SurfacePosition& position) {
     measure_edge(f, 1, face.first_target, worst);
     measure_edge(f, 2, face.last_target, worst);
     if (face.has_neighbour) worst.fold = std::min(worst.fold, cosine_between(areas_[f], face.neighbour_area));
-    if (face.next >= 0)
-      worst.fold = std::min(worst.fold, cosine_between(areas_[f], areas_[static_cast<size_t>(face.next)]));
+    if (face.next >= 0) worst.fold = std::min(worst.fold, cosine_between(areas_[f], areas_[face.next]));
   }
   return worst;
 }
@@ -217,7 +216,7 @@ class CollapseTest {
     SmallIntList a, b;  // neighbours of the two ends
   };
 
-  Freedom freedom(int v) const { return m_.constraints.freedom[static_cast<size_t>(v)]; }
+  Freedom freedom(int v) const { return m_.constraints.freedom[v]; }
 
   bool is_removable(int v) const {
     if (freedom(v) == Freedom::fixed) return false;
@@ -239,7 +238,7 @@ class CollapseTest {
   /// The remaining vertex: the more constrained end, else the older one.
   int staying_end() const {
     const auto rank = [&](int v) {
-      const int origin = m_.origins[static_cast<size_t>(v)];
+      const int origin = m_.origins[v];
       return std::tuple(is_removable(v), freedom(v) == Freedom::surface && !t_.on_boundary(v), origin < 0,
                         origin < 0 ? v : origin);
     };
@@ -309,7 +308,7 @@ std::optional<Collapse> find_collapse(const WorkingMesh& m, int half_edge, const
 
 void make_collapse(WorkingMesh& m, const Collapse& c) {
   const int curve = m.halfedges.is_feature_edge(c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
-  if (curve >= 0) --m.curve_edges.present[static_cast<size_t>(curve)];
+  if (curve >= 0) --m.curve_edges.present[curve];
   m.halfedges.collapse(c.half_edge, c.stays);
   c.position.write_to(m.positions, c.stays);
 }
@@ -325,7 +324,7 @@ bool may_remove_curve_edge(const WorkingMesh& m, int half_edge) {
   if (!m.halfedges.is_feature_edge(half_edge)) return true;
   const int curve = curve_of(m, half_edge).curve;
   if (curve < 0) return true;
-  const auto c = static_cast<size_t>(curve);
+  const size_t c = curve;
   return m.curve_edges.present[c] > m.curve_edges.target[c];
 }
 

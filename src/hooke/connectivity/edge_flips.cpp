@@ -59,7 +59,7 @@ bool improves(const HalfedgeMesh& t, const Mat3X& points, int h) {
 }
 
 std::deque<int> improvable_edges(const HalfedgeMesh& t, const Mat3X& points) {
-  std::vector<char> improvable(static_cast<size_t>(t.half_edge_count()), 0);
+  std::vector<char> improvable(t.half_edge_count(), 0);
   parallel_for(improvable.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int h = static_cast<int>(i);
@@ -83,7 +83,7 @@ bool folds(const FlippableMesh& m, int h, double limit) {
   const auto breaks_across = [&](int half_edge, const Triangle& before, const Triangle& after) {
     const int twin = t.twin(half_edge);
     if (twin < 0 || t.is_crease(half_edge)) return false;
-    const Triangle& neighbour = t.faces()[static_cast<size_t>(twin / 3)];
+    const Triangle& neighbour = t.faces()[twin / 3];
     return breaks(cosine_between(X, before, neighbour), cosine_between(X, after, neighbour));
   };
   const Triangle of_h = {a, b, c}, of_g = {b, a, d};
@@ -103,7 +103,7 @@ double opposite_angles(const HalfedgeMesh& t, const Mat3X& points, int h) {
 
 CornerValence corner_valence(const FlippableMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  const int target = m.corner_valences[static_cast<size_t>(t.wedge(h))];
+  const int target = m.corner_valences[t.wedge(h)];
   return {target, target > 0 ? static_cast<int>(t.wedge_halfedges(h).size()) + 1 : t.valence(t.from(h))};
 }
 
@@ -126,8 +126,7 @@ bool may_flip(const FlippableMesh& m, int h, const FlipGuardOptions& o) {
            face_alignment(X, N, f, wedges) >= std::min(o.alignment, old_alignment);
   };
   if (!is_fair({c, a, d}, {sc, sa, sd}) || !is_fair({d, b, c}, {sd, sb, sc})) return false;
-  const double length =
-      .5 * (m.vertex_length[static_cast<size_t>(c)] + m.vertex_length[static_cast<size_t>(d)]);
+  const double length = .5 * (m.vertex_length[c] + m.vertex_length[d]);
   const double sagitta = edge_sagitta(X, N, {c, d}, {sc, sd});
   if (sagitta > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}, {sa, sb}))) return false;
   return !t.adjacent(c, d) && !folds(m, h, o.fold);

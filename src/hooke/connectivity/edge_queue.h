@@ -18,7 +18,7 @@ class EdgeQueue {
   /// without a positive one do not come at all. It is called from several threads.
   EdgeQueue(const HalfedgeMesh& halfedges, std::function<double(int half_edge)> urgency)
       : t_(halfedges), urgency_(std::move(urgency)) {
-    queued_.resize(static_cast<size_t>(t_.half_edge_count()), 0);
+    queued_.resize(t_.half_edge_count(), 0);
     parallel_for(queued_.size(), 4096, [this](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
         if (const int h = static_cast<int>(i); !t_.is_removed(h / 3) && t_.twin(h) < h)
@@ -31,10 +31,9 @@ class EdgeQueue {
     const int other = std::min(h, t_.twin(h));
     h = std::max(h, t_.twin(h));
     const double urgency = std::max(urgency_(h), 0.);
-    queued_.resize(static_cast<size_t>(t_.half_edge_count()), 0);
-    if (other >= 0) queued_[static_cast<size_t>(other)] = 0;  // in case it represented another edge
-    if (std::exchange(queued_[static_cast<size_t>(h)], urgency) != urgency && urgency >= horizon_)
-      entries_.push({urgency, h});
+    queued_.resize(t_.half_edge_count(), 0);
+    if (other >= 0) queued_[other] = 0;  // in case it represented another edge
+    if (std::exchange(queued_[h], urgency) != urgency && urgency >= horizon_) entries_.push({urgency, h});
   }
 
   /// Pushes all edges of the faces around the vertex. After a split the edges opposite the vertex are also
@@ -52,8 +51,8 @@ class EdgeQueue {
     while (!entries_.empty() || refill()) {
       const auto [urgency, h] = entries_.top();
       entries_.pop();
-      if (queued_[static_cast<size_t>(h)] != urgency) continue;  // outdated entry
-      queued_[static_cast<size_t>(h)] = 0;
+      if (queued_[h] != urgency) continue;  // outdated entry
+      queued_[h] = 0;
       if (!t_.is_removed(h / 3)) return h;
     }
     return -1;
@@ -67,7 +66,7 @@ class EdgeQueue {
   std::vector<int> pop_apart(size_t max_count, const Wanted& wanted) {
     std::vector<int> apart, later;
     first_of_batch_ = claims_ + 1;
-    claimed_by_.resize(static_cast<size_t>(t_.id_count()), 0);
+    claimed_by_.resize(t_.id_count(), 0);
     while (apart.size() + later.size() < max_count && later.size() < 16 + apart.size()) {
       const int h = pop();
       if (h < 0) break;
@@ -103,8 +102,8 @@ class EdgeQueue {
     bool free = true;
     for (int end : {t_.from(h), t_.to(h)})
       for (int outgoing : t_.outgoing(end))
-        for (int v : t_.faces()[static_cast<size_t>(outgoing / 3)]) {
-          int& by = claimed_by_[static_cast<size_t>(v)];
+        for (int v : t_.faces()[outgoing / 3]) {
+          int& by = claimed_by_[v];
           free = free && (by < first_of_batch_ || by == claims_);
           by = claims_;
         }

@@ -37,7 +37,7 @@ bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge, const SplitOp
 /// Is the edge part of a fixed boundary?
 bool is_fixed(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  const auto fixed = [&](int v) { return m.constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed; };
+  const auto fixed = [&](int v) { return m.constraints.freedom[v] == Freedom::fixed; };
   return t.is_feature_edge(h) && fixed(t.from(h)) && fixed(t.to(h)) && curve_of(m, h).curve < 0;
 }
 
@@ -64,8 +64,7 @@ int split_edge(WorkingMesh& m, int h, const SplitOptions& options, const Surface
     return -1;
   }
   t.split(h);
-  if (const int curve = m.constraints.curve[static_cast<size_t>(v)]; curve >= 0)
-    ++m.curve_edges.present[static_cast<size_t>(curve)];
+  if (const int curve = m.constraints.curve[v]; curve >= 0) ++m.curve_edges.present[curve];
   return v;
 }
 
@@ -126,7 +125,7 @@ class Subdivision {
       const int v = split_edge(m_, h, options_, middle ? &*middle : nullptr);
       if (v < 0) continue;
       ends_.resize(ids(), Edge{-1, -1});
-      ends_[static_cast<size_t>(v)] = edge;
+      ends_[v] = edge;
       ++splits;
     }
     m_.retraction.count();
@@ -137,14 +136,14 @@ class Subdivision {
  private:
   size_t ids() const { return static_cast<size_t>(t_.id_count()); }
 
-  bool is_middle(int v) const { return ends_[static_cast<size_t>(v)][0] >= 0; }
+  bool is_middle(int v) const { return ends_[v][0] >= 0; }
 
   /// The first split of a face joins the new vertex to the opposite corner. After all splits that edge lies
   /// between two midpoints, which are to be joined instead.
   bool is_between_middles(int h) const {
     if (t_.twin(h) < 0 || t_.is_crease(h)) return false;
     const int a = t_.from(h), b = t_.to(h);
-    const auto& [first, second] = ends_[static_cast<size_t>(a)];
+    const auto& [first, second] = ends_[a];
     return is_middle(a) && !is_middle(b) && b != first && b != second && is_middle(t_.opposite_vertex(h)) &&
            is_middle(t_.opposite_vertex(t_.twin(h)));
   }
@@ -153,7 +152,7 @@ class Subdivision {
   /// one of them, so no flip affects another.
   void join_middles() {
     const FlippableMesh flipping = m_.flipping();
-    std::vector<char> joins(static_cast<size_t>(t_.half_edge_count()), 0);
+    std::vector<char> joins(t_.half_edge_count(), 0);
     parallel_for(joins.size(), 1024, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
         if (const int h = static_cast<int>(i); is_between_middles(h))

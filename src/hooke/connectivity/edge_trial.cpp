@@ -63,9 +63,7 @@ PatchQuality measure_patch(const SurfacePositions& p, const Adjacency& c, const 
   for (const Triangle& t : c.faces) add_face(p, t, limits, quality);
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
     add_edge(p, c.edges[e], targets.edge[e], limits, quality);
-    if (const auto [f, g] = c.edge_faces[e]; g >= 0)
-      add_fold(p, c.faces[static_cast<std::size_t>(f)], c.faces[static_cast<std::size_t>(g)], limits,
-               quality);
+    if (const auto [f, g] = c.edge_faces[e]; g >= 0) add_fold(p, c.faces[f], c.faces[g], limits, quality);
   }
   return quality;
 }
@@ -114,8 +112,7 @@ class ChangeFinder {
   }
 
   bool is_removable(int v) const {
-    return m_.constraints.freedom[static_cast<size_t>(v)] == Freedom::surface && !t_.on_boundary(v) &&
-           !t_.on_crease(v);
+    return m_.constraints.freedom[v] == Freedom::surface && !t_.on_boundary(v) && !t_.on_crease(v);
   }
 
   /// Would a remaining corner have no more edges than its target?
@@ -137,7 +134,7 @@ class ChangeFinder {
   EdgeChange collapse(int h) const {
     const int a = t_.from(h), b = t_.to(h);
     const auto rank = [this](int v) {
-      const int origin = m_.origins[static_cast<size_t>(v)];
+      const int origin = m_.origins[v];
       return std::tuple(is_removable(v), origin < 0, origin < 0 ? v : origin);
     };
     return {h, ChangeKind::collapse, rank(a) < rank(b) ? 0 : 1, is_removable(a) && is_removable(b)};
@@ -168,14 +165,14 @@ void collapse_ends(EdgePatch& patch, const EdgeChange& collapse, const Surface& 
                    const RetractionOptions& options) {
   const int goes = 1 - collapse.stays;
   if (collapse.to_midpoint) move_to_midpoint(patch, collapse.stays, goes, surface, options);
-  patch.constraints.freedom[static_cast<size_t>(goes)] = Freedom::fixed;
+  patch.constraints.freedom[goes] = Freedom::fixed;
 }
 
 }  // namespace
 
 std::vector<int> inner_edges_about(const HalfedgeMesh& t, int face) {
   std::vector<int> edges;
-  for (int corner : t.faces()[static_cast<size_t>(face)])
+  for (int corner : t.faces()[face])
     for (int entry : t.outgoing(corner))
       for (int h : {entry, HalfedgeMesh::next(entry), HalfedgeMesh::previous(entry)})
         if (!t.is_feature_edge(h)) edges.push_back(std::min(h, t.twin(h)));
@@ -308,8 +305,8 @@ bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.positions.points;
   return std::ranges::any_of(patch.boundary, [&](const PatchBoundary& edge) {
-    const Triangle& face = t.faces()[static_cast<size_t>(edge.half_edge / 3)];
-    const Triangle& neighbour = t.faces()[static_cast<size_t>(t.twin(edge.half_edge) / 3)];
+    const Triangle& face = t.faces()[edge.half_edge / 3];
+    const Triangle& neighbour = t.faces()[t.twin(edge.half_edge) / 3];
     const double before = cosine_between(X, face, neighbour);
     const Triangle& changed = face_along(faces, edge.from, edge.to);
     const Vec3 across = edge.twin_ends[0] < 0

@@ -22,7 +22,7 @@ int face_count(const HalfedgeMesh& t) {
 /// valence.
 int valence_excess(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  if (m.corner_valences[static_cast<size_t>(t.wedge(h))] > 0) return 0;
+  if (m.corner_valences[t.wedge(h)] > 0) return 0;
   return t.valence(t.from(h)) - (t.on_boundary(t.from(h)) ? 4 : 6);
 }
 
@@ -60,7 +60,7 @@ double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces
   double count = 0;
   for (const Triangle& t : faces) {
     double length = 0;
-    for (int v : t) length += vertex_length[static_cast<size_t>(v)] / 3;
+    for (int v : t) length += vertex_length[v] / 3;
     count += 4 * face_shape(points, t).area / (std::sqrt(3.) * length * length);
   }
   return count;
@@ -73,8 +73,7 @@ CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
   const auto lacking = [&](int h) {  // edges missing on the curve of h
     const int curve = t.is_feature_edge(h) ? curve_of(m, h).curve : -1;
     if (curve < 0) return 0;
-    return m.curve_edges.target[static_cast<size_t>(curve)] -
-           m.curve_edges.present[static_cast<size_t>(curve)];
+    return m.curve_edges.target[curve] - m.curve_edges.present[curve];
   };
   const auto feature_edge_length = [&](int h) { return t.is_feature_edge(h) ? relative_length(m, h) : 0; };
 
@@ -106,19 +105,19 @@ CountChanges approach_face_count(WorkingMesh& m, double target, const CountOptio
   const bool split = missing > 0;
   const int max_changes = std::max(1, static_cast<int>(options.largest_part * 1.5 * faces));
   const int count = std::min(max_changes, static_cast<int>(std::lround(std::abs(missing))));
-  std::vector<char> touched(static_cast<size_t>(t.id_count() + count), 0);
+  std::vector<char> touched(t.id_count() + count, 0);
   int done = 0;
   for (const Candidate& c :
        candidates(m, split, 8 * static_cast<size_t>(count) + 64, options.valence_weight)) {
     if (done == count) break;
     const int h = c.half_edge;
     if (t.is_removed(h / 3) || t.twin(h) < 0) continue;
-    const auto near = [&](int v) { return touched[static_cast<size_t>(v)] != 0; };
+    const auto near = [&](int v) { return touched[v] != 0; };
     if (near(t.from(h)) || near(t.to(h))) continue;
     const int v = split ? split_edge(m, h, options.split) : collapse_edge(m, h, options.collapse);
     if (v < 0) continue;
-    touched[static_cast<size_t>(v)] = 1;
-    for (int w : t.neighbours(v)) touched[static_cast<size_t>(w)] = 1;
+    touched[v] = 1;
+    for (int w : t.neighbours(v)) touched[w] = 1;
     ++done;
   }
   m.retraction.count();

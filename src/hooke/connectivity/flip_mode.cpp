@@ -184,8 +184,7 @@ FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const Ener
 void measure_travel(const Workspace& work, FlipResult& result) {
   double sum2 = 0;
   for (Eigen::Index v = 0; v < work.start->cols(); ++v) {
-    const double travel = (work.positions.points.col(v) - work.start->col(v)).norm() /
-                          work.vertex_length[static_cast<size_t>(v)];
+    const double travel = (work.positions.points.col(v) - work.start->col(v)).norm() / work.vertex_length[v];
     result.max_travel = std::max(result.max_travel, travel);
     sum2 += travel * travel;
   }

@@ -57,7 +57,7 @@ std::vector<char> non_delaunay_edges(const std::vector<FaceCell>& cells, const A
       std::array<double, 2> cotangent = {0, 0};  // that of a right angle where there is no face
       for (size_t i = 0; i < 2; ++i) {
         if (c.edge_faces[e][i] < 0) continue;
-        const auto face = static_cast<size_t>(c.edge_faces[e][i]);
+        const size_t face = c.edge_faces[e][i];
         const Triangle& edges = c.face_edges[face];
         const Eigen::Index k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
         cotangent[i] = cells[face].cotangent[k];
@@ -122,8 +122,8 @@ class Lloyd {
 
   bool has_voronoi_cell(int v) const {
     for (int f : c_.vertex_faces[v])
-      for (int e : c_.face_edges[static_cast<size_t>(f)])
-        if (non_delaunay_[static_cast<size_t>(e)]) return false;
+      for (int e : c_.face_edges[f])
+        if (non_delaunay_[e]) return false;
     return true;
   }
 
@@ -134,9 +134,9 @@ class Lloyd {
     for (int f : c_.vertex_faces[v]) {
       const size_t k = corner(f, v);
       const auto [p, q] = others(f, k);
-      const FaceCell& face = cells_[static_cast<size_t>(f)];
+      const FaceCell& face = cells_[f];
       const Vec3 a = X_.col(p) - X_.col(v), b = X_.col(q) - X_.col(v);
-      const Vec3 o = X_.col(c_.faces[static_cast<size_t>(f)][0]) - X_.col(v) + face.circumcentre;
+      const Vec3 o = X_.col(c_.faces[f][0]) - X_.col(v) + face.circumcentre;
       const double beside_a = .125 * a.squaredNorm() * face.cotangent[static_cast<Eigen::Index>(k)];
       const double beside_b = .125 * b.squaredNorm() * face.cotangent[static_cast<Eigen::Index>((k + 2) % 3)];
       const double at_v = density(length(v)), at_o = density((length(v) + length(p) + length(q)) / 3);
@@ -158,19 +158,19 @@ class Lloyd {
 
   /// Index of the vertex in the face.
   size_t corner(int face, int v) const {
-    const Triangle& t = c_.faces[static_cast<size_t>(face)];
+    const Triangle& t = c_.faces[face];
     return t[0] == v ? 0 : t[1] == v ? 1 : 2;
   }
 
   /// The vertices that follow corner k of the face.
   Edge others(int face, size_t k) const {
-    const Triangle& t = c_.faces[static_cast<size_t>(face)];
+    const Triangle& t = c_.faces[face];
     return {t[(k + 1) % 3], t[(k + 2) % 3]};
   }
 
   double density(double length) const { return even_ ? 1 : 1 / (length * length * length * length); }
 
-  double length(int v) const { return length_[static_cast<size_t>(v)]; }
+  double length(int v) const { return length_[v]; }
 
   const Mat3X& X_;
   const Adjacency& c_;
@@ -187,7 +187,7 @@ Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
                  const std::vector<double>& vertex_length, const LloydOptions& options) {
   const Lloyd lloyd(positions, adjacency, vertex_length, options);
   Mat3X step(3, positions.points.cols());
-  parallel_for(static_cast<size_t>(step.cols()), 512, [&](size_t begin, size_t end) {
+  parallel_for(step.cols(), 512, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
       step.col(static_cast<Eigen::Index>(v)) = lloyd.step(static_cast<int>(v));
   });

@@ -68,9 +68,7 @@ class SliverPass {
     return left < limit;
   }
 
-  double cotangent(int f) const {
-    return max_cotangent(m_.positions.points, t_.faces()[static_cast<size_t>(f)]);
-  }
+  double cotangent(int f) const { return max_cotangent(m_.positions.points, t_.faces()[f]); }
 
   bool is_sliver(int f) const { return !t_.is_removed(f) && cotangent(f) > sliver_cotangent_; }
 
@@ -85,13 +83,12 @@ class SliverPass {
 
   /// Edges whose neighbourhood has changed noticeably since they were tested last.
   std::vector<int> untested_edges_about(int face) {
-    tested_at_.resize(static_cast<size_t>(t_.half_edge_count()), -1);
-    changed_at_.resize(static_cast<size_t>(t_.id_count()), 0);
+    tested_at_.resize(t_.half_edge_count(), -1);
+    changed_at_.resize(t_.id_count(), 0);
     std::vector<int> edges = inner_edges_about(t_, face);
     std::erase_if(edges, [this](int h) {
-      const int changed =
-          std::max(changed_at_[static_cast<size_t>(t_.from(h))], changed_at_[static_cast<size_t>(t_.to(h))]);
-      return tested_at_[static_cast<size_t>(h)] >= changed;
+      const int changed = std::max(changed_at_[t_.from(h)], changed_at_[t_.to(h)]);
+      return tested_at_[h] >= changed;
     });
     return edges;
   }
@@ -104,7 +101,7 @@ class SliverPass {
     for (int h : edges) {
       const std::vector<EdgeChange> allowed = allowed_changes(m_, h, rules);
       changes.insert(changes.end(), allowed.begin(), allowed.end());
-      tested_at_[static_cast<size_t>(h)] = changes_.count();
+      tested_at_[h] = changes_.count();
     }
     return changes;
   }
@@ -136,13 +133,13 @@ class SliverPass {
     if (candidate.change.kind == ChangeKind::collapse)
       for (int end : {t_.from(h), t_.to(h)})
         for (int v : t_.neighbours(end)) vertices.push_back(v);
-    unnoticed_.resize(static_cast<size_t>(t_.id_count()), 0);
+    unnoticed_.resize(t_.id_count(), 0);
     for (Eigen::Index i = 0; i < candidate.patch.positions.points.cols(); ++i) {
-      const int v = candidate.patch.vertices[static_cast<size_t>(i)];
+      const int v = candidate.patch.vertices[i];
       if (v < 0) continue;  // the new vertex of a split
-      double& moved = unnoticed_[static_cast<size_t>(v)];
+      double& moved = unnoticed_[v];
       moved += (candidate.patch.positions.points.col(i) - m_.positions.points.col(v)).norm();
-      if (moved <= options_.noticeable_move * m_.vertex_length[static_cast<size_t>(v)]) continue;
+      if (moved <= options_.noticeable_move * m_.vertex_length[v]) continue;
       moved = 0;
       vertices.push_back(v);
     }
@@ -166,8 +163,8 @@ class SliverPass {
         faces_ -= 2;
         break;
     }
-    changed_at_.resize(static_cast<size_t>(t_.id_count()), 0);
-    for (int v : changed) changed_at_[static_cast<size_t>(v)] = changes_.count();
+    changed_at_.resize(t_.id_count(), 0);
+    for (int v : changed) changed_at_[v] = changes_.count();
   }
 
   WorkingMesh& m_;

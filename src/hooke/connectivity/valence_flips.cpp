@@ -94,13 +94,13 @@ class FlipPass {
   }
 
   bool is_near(int h) const {
-    const auto near = [this](int v) { return near_[static_cast<size_t>(v)] != 0; };
+    const auto near = [this](int v) { return near_[v] != 0; };
     return near_.empty() || near(t_.from(h)) || near(t_.to(h)) || near(t_.opposite_vertex(h)) ||
            near(t_.opposite_vertex(t_.twin(h)));
   }
 
   std::vector<int> candidates() const {
-    std::vector<char> found(static_cast<size_t>(t_.half_edge_count()), 0);
+    std::vector<char> found(t_.half_edge_count(), 0);
     parallel_for(found.size(), 4096, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) {
         const int h = static_cast<int>(i);
@@ -169,18 +169,17 @@ class FlipPass {
   }
 
   bool meets_another(const EdgePatch& patch) const {
-    return std::ranges::any_of(patch.vertices,
-                               [this](int v) { return batch_of_[static_cast<size_t>(v)] == batch_; });
+    return std::ranges::any_of(patch.vertices, [this](int v) { return batch_of_[v] == batch_; });
   }
 
   void mark_for_retest(const EdgePatch& patch, size_t vertices) {
-    for (size_t id = 0; id < vertices; ++id) near_[static_cast<size_t>(patch.vertices[id])] = 1;
+    for (size_t id = 0; id < vertices; ++id) near_[patch.vertices[id]] = 1;
   }
 
   void keep(int edge, const EdgePatch& patch) {
     t_.flip(edge);
     move_vertices(patch, m_.positions);
-    for (size_t id = 0; id < patch.movable; ++id) batch_of_[static_cast<size_t>(patch.vertices[id])] = batch_;
+    for (size_t id = 0; id < patch.movable; ++id) batch_of_[patch.vertices[id]] = batch_;
     mark_for_retest(patch, patch.movable);
     ++flips_;
   }

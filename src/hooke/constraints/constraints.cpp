@@ -44,9 +44,9 @@ void set_tangents(Curve& curve) {
 
 /// The vertex after each boundary vertex along its loop, -1 elsewhere.
 std::vector<int> boundary_successors(const Adjacency& c) {
-  std::vector<int> next(static_cast<size_t>(c.vertex_count), -1);
+  std::vector<int> next(c.vertex_count, -1);
   for (size_t e = 0; e < c.edges.size(); ++e)
-    if (c.is_boundary_edge(static_cast<int>(e))) next[static_cast<size_t>(c.edges[e][0])] = c.edges[e][1];
+    if (c.is_boundary_edge(static_cast<int>(e))) next[c.edges[e][0]] = c.edges[e][1];
   return next;
 }
 
@@ -62,7 +62,7 @@ void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool close
   curve.closed = closed;
   curve.points.resize(3, std::ssize(vertices));
   for (size_t i = 0; i < vertices.size(); ++i) {
-    const auto v = static_cast<size_t>(vertices[i]);
+    const size_t v = vertices[i];
     curve.points.col(static_cast<Eigen::Index>(i)) = points.col(static_cast<Eigen::Index>(v));
     if (result.freedom[v] == Freedom::fixed) continue;
     result.freedom[v] = Freedom::curve;
@@ -79,11 +79,10 @@ void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corn
   const size_t n = loop.size();
   std::vector<size_t> corners;
   for (size_t i = 0; i < n; ++i)
-    if (breaks[static_cast<size_t>(loop[i])] ||
-        is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner))
+    if (breaks[loop[i]] || is_corner(points, loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n], cos_corner))
       corners.push_back(i);
   if (corners.empty()) return add_curve(points, loop, true, result);
-  for (size_t i : corners) result.freedom[static_cast<size_t>(loop[i])] = Freedom::fixed;
+  for (size_t i : corners) result.freedom[loop[i]] = Freedom::fixed;
   for (size_t p = 0; p < corners.size(); ++p) {
     const size_t begin = corners[p];
     const size_t length = (corners[(p + 1) % corners.size()] + n - begin - 1) % n + 2;
@@ -112,12 +111,12 @@ class CreaseTracer {
       for (size_t v = 0; v < breaks_.size(); ++v)
         if (!at_corners || breaks_[v])
           for (int e : c_.vertex_edges[static_cast<int>(v)])
-            if (c_.is_crease(e) && !traced_[static_cast<size_t>(e)]) trace(static_cast<int>(v), e);
+            if (c_.is_crease(e) && !traced_[e]) trace(static_cast<int>(v), e);
   }
 
   /// Marks the vertices where crease curves end.
   static std::vector<char> crease_breaks(const Mat3X& points, const Adjacency& c, double cos_corner) {
-    std::vector<char> breaks(static_cast<size_t>(c.vertex_count), 0);
+    std::vector<char> breaks(c.vertex_count, 0);
     if (c.creases.empty()) return breaks;
     for (int v = 0; v < c.vertex_count; ++v) {
       std::vector<int> ends;
@@ -127,8 +126,7 @@ class CreaseTracer {
         boundary |= c.is_boundary_edge(e);
       }
       if (ends.empty()) continue;
-      breaks[static_cast<size_t>(v)] =
-          boundary || ends.size() != 2 || is_corner(points, ends[0], v, ends[1], cos_corner);
+      breaks[v] = boundary || ends.size() != 2 || is_corner(points, ends[0], v, ends[1], cos_corner);
     }
     return breaks;
   }
@@ -137,12 +135,12 @@ class CreaseTracer {
   void trace(int start, int edge) {
     std::vector<int> vertices = {start};
     while (edge >= 0) {
-      traced_[static_cast<size_t>(edge)] = 1;
-      const Edge& ends = c_.edges[static_cast<size_t>(edge)];
+      traced_[edge] = 1;
+      const Edge& ends = c_.edges[edge];
       const int v = ends[0] == vertices.back() ? ends[1] : ends[0];
-      if (v == start && !breaks_[static_cast<size_t>(v)]) return add_crease(vertices, true);
+      if (v == start && !breaks_[v]) return add_crease(vertices, true);
       vertices.push_back(v);
-      edge = breaks_[static_cast<size_t>(v)] ? -1 : next_at(v);
+      edge = breaks_[v] ? -1 : next_at(v);
     }
     add_crease(vertices, false);
   }
@@ -168,12 +166,12 @@ class CreaseTracer {
     const double limit = options_.crease_bend * sum / static_cast<double>(segments);
     for (size_t i = closed ? n : 1; i < segments + (closed ? n : 0); ++i)
       if (distance_to_segment(point(i), point(i - 1), point(i + 1)) > limit)
-        result_.freedom[static_cast<size_t>(vertices[i % n])] = Freedom::fixed;
+        result_.freedom[vertices[i % n]] = Freedom::fixed;
   }
 
   int next_at(int v) const {
     for (int e : c_.vertex_edges[v])
-      if (c_.is_crease(e) && !traced_[static_cast<size_t>(e)]) return e;
+      if (c_.is_crease(e) && !traced_[e]) return e;
     return -1;
   }
 
@@ -193,12 +191,12 @@ void add_boundary(const Mat3X& points, const Adjacency& c, BoundaryRule rule, do
   for (size_t start = 0; start < next.size(); ++start) {
     if (next[start] < 0 || seen[start]) continue;
     std::vector<int> loop;
-    for (int v = static_cast<int>(start); !seen[static_cast<size_t>(v)]; v = next[static_cast<size_t>(v)]) {
-      seen[static_cast<size_t>(v)] = true;
+    for (int v = static_cast<int>(start); !seen[v]; v = next[v]) {
+      seen[v] = true;
       loop.push_back(v);
     }
     if (rule == BoundaryRule::fixed)
-      for (int v : loop) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+      for (int v : loop) result.freedom[v] = Freedom::fixed;
     else
       add_loop(points, loop, cos_corner, breaks, result);
   }
@@ -208,16 +206,15 @@ void add_boundary(const Mat3X& points, const Adjacency& c, BoundaryRule rule, do
 
 Constraints find_constraints(const Mat3X& points, const Adjacency& c, const ConstraintOptions& options) {
   Constraints result;
-  const auto n = static_cast<size_t>(c.vertex_count);
+  const size_t n = c.vertex_count;
   result.freedom.assign(n, Freedom::surface);
   result.curve.assign(n, -1);
   result.segment.assign(n, 0);
   for (size_t v = 0; v < n; ++v)
     if (c.vertex_faces[static_cast<int>(v)].empty()) result.freedom[v] = Freedom::fixed;
-  for (int v : options.fixed_vertices) result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+  for (int v : options.fixed_vertices) result.freedom[v] = Freedom::fixed;
 
-  for (int v : coincident_boundary_vertices(points, c))
-    result.freedom[static_cast<size_t>(v)] = Freedom::fixed;
+  for (int v : coincident_boundary_vertices(points, c)) result.freedom[v] = Freedom::fixed;
 
   const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);
   if (options.boundary != BoundaryRule::free) add_boundary(points, c, options.boundary, cos_corner, result);
@@ -229,23 +226,21 @@ Constraints find_constraints(const Mat3X& points, const Adjacency& c, const Cons
 
 std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const Constraints& constraints,
                                  double corner_angle) {
-  std::vector<int> feature_edge_count(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<int> feature_edge_count(c.vertex_count, 0);
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.is_feature_edge(static_cast<int>(e)))
-      for (int v : c.edges[e]) ++feature_edge_count[static_cast<size_t>(v)];
+      for (int v : c.edges[e]) ++feature_edge_count[v];
   const auto is_corner = [&](int v) {
-    return feature_edge_count[static_cast<size_t>(v)] >= 2 &&
-           constraints.freedom[static_cast<size_t>(v)] == Freedom::fixed;
+    return feature_edge_count[v] >= 2 && constraints.freedom[v] == Freedom::fixed;
   };
-  std::vector<double> angles(static_cast<size_t>(c.wedge_count()), 0);  // degrees
+  std::vector<double> angles(c.wedge_count(), 0);  // degrees
   for (size_t f = 0; f < c.faces.size(); ++f) {
     const Triangle& t = c.faces[f];
     for (size_t k = 0; k < 3; ++k) {
       if (!is_corner(t[k])) continue;
       const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(t[k]);
       const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(t[k]);
-      angles[static_cast<size_t>(c.wedges_of_faces()[f][k])] +=
-          std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+      angles[c.wedges_of_faces()[f][k]] += std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
     }
   }
   std::vector<int> target(angles.size(), 0);

@@ -48,7 +48,7 @@ struct Constraints {
 
   /// Whether the vertex stands still at a bend of the curve that it is on.
   bool at_bend(int vertex) const {
-    const auto v = static_cast<size_t>(vertex);
+    const size_t v = vertex;
     return freedom[v] == Freedom::fixed && curve[v] >= 0;
   }
 };

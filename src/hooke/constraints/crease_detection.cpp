@@ -17,10 +17,6 @@
 namespace hooke {
 namespace {
 
-size_t idx(int i) {
-  return static_cast<size_t>(i);
-}
-
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
 std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
@@ -67,44 +63,43 @@ class FeatureSearch {
   /// surface evidently continues, are left out.
   double bend_ratio(int edge, bool goes_on = false) const {
     double worst = 0;
-    for (int f : c_.edge_faces[idx(edge)]) {
+    for (int f : c_.edge_faces[edge]) {
       if (is_facet(f)) continue;
       double smallest = 180;
-      for (int e : c_.face_edges[idx(f)])
-        if (e != edge && !(goes_on && c_.is_boundary_edge(e))) smallest = std::min(smallest, angle_[idx(e)]);
+      for (int e : c_.face_edges[f])
+        if (e != edge && !(goes_on && c_.is_boundary_edge(e))) smallest = std::min(smallest, angle_[e]);
       worst = std::max(worst, smallest);
     }
-    return worst / angle_[idx(edge)];
+    return worst / angle_[edge];
   }
 
   /// Is the face a flat facet of its own: sharp on all sides, in a place where edges are sharp or flat?
   bool is_facet(int face) const {
     const auto is_sharp = [&](int e) {
-      return c_.is_boundary_edge(e) || angle_[idx(e)] > o_.facet_angle * o_.angle;
+      return c_.is_boundary_edge(e) || angle_[e] > o_.facet_angle * o_.angle;
     };
-    const auto is_flat = [&](int e) { return angle_[idx(e)] < o_.flat_bend_ratio * o_.angle; };
-    return std::ranges::all_of(c_.face_edges[idx(face)], is_sharp) &&
-           std::ranges::all_of(c_.faces[idx(face)], [&](int v) {
+    const auto is_flat = [&](int e) { return angle_[e] < o_.flat_bend_ratio * o_.angle; };
+    return std::ranges::all_of(c_.face_edges[face], is_sharp) &&
+           std::ranges::all_of(c_.faces[face], [&](int v) {
              return std::ranges::all_of(c_.vertex_edges[v], [&](int e) { return is_sharp(e) || is_flat(e); });
            });
   }
 
   /// Height of the face over one of its edges, in target lengths.
   double height(int face, int edge) const {
-    const auto& [a, b] = c_.edges[idx(edge)];
-    const double target = .5 * (length_[idx(a)] + length_[idx(b)]);
-    return doubled_area_vector(X_, c_.faces[idx(face)]).norm() / (X_.col(a) - X_.col(b)).norm() / target;
+    const auto& [a, b] = c_.edges[edge];
+    const double target = .5 * (length_[a] + length_[b]);
+    return doubled_area_vector(X_, c_.faces[face]).norm() / (X_.col(a) - X_.col(b)).norm() / target;
   }
 
   /// Is the sharp edge so long that the target length resolves it, and are its faces as high, or is the edge
   /// twice as long and beside a flat region, or does it divide facets that are meant? Then it is no noise.
   bool is_resolved(int edge, const std::vector<int>& regions) const {
-    const auto& [left, right] = c_.edge_faces[idx(edge)];
+    const auto& [left, right] = c_.edge_faces[edge];
     if (narrower_width(edge, regions) > o_.noise_width) return true;
     if (length(edge) <= o_.resolved) return false;
     if (height(left, edge) > o_.resolved && height(right, edge) > o_.resolved) return true;
-    return length(edge) > 2 * o_.resolved &&
-           (flat_mesh_ || regions[idx(left)] >= 0 || regions[idx(right)] >= 0);
+    return length(edge) > 2 * o_.resolved && (flat_mesh_ || regions[left] >= 0 || regions[right] >= 0);
   }
 
   /// Adds the sharp edges that are resolved or divide flat regions, and weaker edges between resolved flat
@@ -129,10 +124,10 @@ class FeatureSearch {
   /// Does the edge divide flat regions where edges at both its ends that are hardly sharper are creases? A
   /// body is round both ways or not at all.
   bool goes_with_creases(int edge, const std::vector<char>& kept, const std::vector<int>& regions) const {
-    return angle_[idx(edge)] > o_.flat_angle && narrower_width(edge, regions) > o_.resolved_facet &&
-           std::ranges::all_of(c_.edges[idx(edge)], [&](int v) {
+    return angle_[edge] > o_.flat_angle && narrower_width(edge, regions) > o_.resolved_facet &&
+           std::ranges::all_of(c_.edges[edge], [&](int v) {
              return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
-               return kept[idx(e)] && angle_[idx(e)] < (1 + o_.strip_angle) * angle_[idx(edge)];
+               return kept[e] && angle_[e] < (1 + o_.strip_angle) * angle_[edge];
              });
            });
   }
@@ -146,46 +141,44 @@ class FeatureSearch {
     });
     std::vector<int> order;
     for (size_t f = 0; f < areas.size(); ++f)
-      if (std::ranges::any_of(c_.face_edges[f], [&](int e) {
-            return angle_[idx(e)] <= o_.flat_angle && !c_.is_boundary_edge(e);
-          }))
+      if (std::ranges::any_of(c_.face_edges[f],
+                              [&](int e) { return angle_[e] <= o_.flat_angle && !c_.is_boundary_edge(e); }))
         order.push_back(static_cast<int>(f));
-    std::ranges::stable_sort(order, std::greater(), [&](int f) { return areas[idx(f)]; });
+    std::ranges::stable_sort(order, std::greater(), [&](int f) { return areas[f]; });
     const double tolerance = o_.flatness * diagonal_;
     constexpr int none = -1, alone = -2;
     size_t faces_in_regions = 0;
     std::vector<int> regions(areas.size(), none);
     region_vertices_.clear();
     for (int seed : order) {
-      if (regions[idx(seed)] != none || !(areas[idx(seed)] > 0)) continue;
-      const Vec3 normal = doubled_area_vector(X_, c_.faces[idx(seed)]).normalized();
-      const Vec3 origin = X_.col(c_.faces[idx(seed)][0]);
+      if (regions[seed] != none || !(areas[seed] > 0)) continue;
+      const Vec3 normal = doubled_area_vector(X_, c_.faces[seed]).normalized();
+      const Vec3 origin = X_.col(c_.faces[seed][0]);
       const auto lies_in_plane = [&](int f) {
         return std::ranges::all_of(
-            c_.faces[idx(f)], [&](int v) { return std::abs(normal.dot(X_.col(v) - origin)) <= tolerance; });
+            c_.faces[f], [&](int v) { return std::abs(normal.dot(X_.col(v) - origin)) <= tolerance; });
       };
       const auto region = static_cast<int>(region_vertices_.size());
       std::vector<int> members = {seed}, vertices;
-      regions[idx(seed)] = region;
+      regions[seed] = region;
       for (size_t i = 0; i < members.size(); ++i)
-        for (int e : c_.face_edges[idx(members[i])])
-          for (int f : c_.edge_faces[idx(e)]) {
-            if (f < 0 || regions[idx(f)] != none || angle_[idx(e)] > o_.flat_angle || !lies_in_plane(f))
-              continue;
-            regions[idx(f)] = region;
+        for (int e : c_.face_edges[members[i]])
+          for (int f : c_.edge_faces[e]) {
+            if (f < 0 || regions[f] != none || angle_[e] > o_.flat_angle || !lies_in_plane(f)) continue;
+            regions[f] = region;
             members.push_back(f);
           }
       if (members.size() < 2) {
-        regions[idx(seed)] = alone;
+        regions[seed] = alone;
         continue;
       }
-      for (int f : members) vertices.insert(vertices.end(), c_.faces[idx(f)].begin(), c_.faces[idx(f)].end());
+      for (int f : members) vertices.insert(vertices.end(), c_.faces[f].begin(), c_.faces[f].end());
       region_vertices_.push_back(std::move(vertices));
-      const auto is_member = [&](int f) { return regions[idx(f)] == region; };
+      const auto is_member = [&](int f) { return regions[f] == region; };
       std::vector<int> borders;
       for (int f : members)
-        for (int e : c_.face_edges[idx(f)])
-          if (!c_.is_boundary_edge(e) && !std::ranges::all_of(c_.edge_faces[idx(e)], is_member))
+        for (int e : c_.face_edges[f])
+          if (!c_.is_boundary_edge(e) && !std::ranges::all_of(c_.edge_faces[e], is_member))
             borders.push_back(e);
       region_borders_.push_back(std::move(borders));
       faces_in_regions += members.size();
@@ -198,9 +191,9 @@ class FeatureSearch {
 
   /// Has the face a sharp edge that the target length resolves?
   bool has_resolved_edge(int face) const {
-    return std::ranges::any_of(c_.face_edges[idx(face)], [&](int e) {
-      return angle_[idx(e)] > o_.angle && length(e) > o_.resolved &&
-             std::ranges::all_of(c_.edge_faces[idx(e)], [&](int f) { return height(f, e) > o_.resolved; });
+    return std::ranges::any_of(c_.face_edges[face], [&](int e) {
+      return angle_[e] > o_.angle && length(e) > o_.resolved &&
+             std::ranges::all_of(c_.edge_faces[e], [&](int f) { return height(f, e) > o_.resolved; });
     });
   }
 
@@ -208,18 +201,18 @@ class FeatureSearch {
   /// its height.
   double width(int face, int region, int edge) const {
     if (region < 0) return height(face, edge);
-    const auto& [a, b] = c_.edges[idx(edge)];
+    const auto& [a, b] = c_.edges[edge];
     const Vec3 along = (X_.col(b) - X_.col(a)).normalized();
     double widest = 0;
-    for (int v : region_vertices_[idx(region)])
+    for (int v : region_vertices_[region])
       widest = std::max(widest, along.cross(X_.col(v) - X_.col(a)).norm());
-    return widest / (.5 * (length_[idx(a)] + length_[idx(b)]));
+    return widest / (.5 * (length_[a] + length_[b]));
   }
 
   /// Does the edge divide two flat regions, one of which is large?
   bool divides_flat_regions(int edge, const std::vector<int>& regions) const {
-    const auto& [left, right] = c_.edge_faces[idx(edge)];
-    const int a = regions[idx(left)], b = regions[idx(right)];
+    const auto& [left, right] = c_.edge_faces[edge];
+    const int a = regions[left], b = regions[right];
     return flat_mesh_ && a >= 0 && b >= 0 && a != b &&
            std::max(width(left, a, edge), width(right, b, edge)) > 2 * o_.resolved;
   }
@@ -228,17 +221,16 @@ class FeatureSearch {
   /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
   bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
     return narrower_width(edge, regions) > o_.resolved_facet &&
-           std::ranges::all_of(c_.edge_faces[idx(edge)], [&](int f) {
-             return strip_width(f, regions[idx(f)], edge) > o_.resolved_strip;
-           });
+           std::ranges::all_of(c_.edge_faces[edge],
+                               [&](int f) { return strip_width(f, regions[f], edge) > o_.resolved_strip; });
   }
 
   /// The smaller width of the two flat regions, or single faces, that the edge divides; 0 if it divides none,
   /// or few faces of the mesh are in such regions.
   double narrower_width(int edge, const std::vector<int>& regions) const {
-    const auto& [left, right] = c_.edge_faces[idx(edge)];
+    const auto& [left, right] = c_.edge_faces[edge];
     if (!flat_mesh_ || right < 0) return 0;
-    const int a = regions[idx(left)], b = regions[idx(right)];
+    const int a = regions[left], b = regions[right];
     return a >= 0 && a == b ? 0 : std::min(width(left, a, edge), width(right, b, edge));
   }
 
@@ -249,15 +241,15 @@ class FeatureSearch {
   double strip_width(int face, int region, int edge) const {
     constexpr double parallel = .96;  // cosine; the meridians of a sphere meet at its poles
     const Vec3 along = direction(edge);
-    const int a = c_.edges[idx(edge)][0], b = c_.edges[idx(edge)][1];
-    const double target = .5 * (length_[idx(a)] + length_[idx(b)]);
+    const int a = c_.edges[edge][0], b = c_.edges[edge][1];
+    const double target = .5 * (length_[a] + length_[b]);
     double least = std::numeric_limits<double>::infinity();
     const auto bend_on = [&](int e) {
-      const double ratio = angle_[idx(e)] / angle_[idx(edge)];
+      const double ratio = angle_[e] / angle_[edge];
       if (e == edge || (std::abs(ratio - 1) >= o_.strip_angle && std::abs(ratio - 2) >= o_.strip_end_angle) ||
           is_convex(e) != is_convex(edge))
         return;
-      const Vec3 other = direction(e), origin = X_.col(c_.edges[idx(e)][0]);
+      const Vec3 other = direction(e), origin = X_.col(c_.edges[e][0]);
       if (are_in_line(e, edge, along) || continues(e, edge)) return;
       if (std::abs(other.dot(along)) > parallel)
         for (int v : {a, b}) least = std::min(least, other.cross(X_.col(v) - origin).norm() / target);
@@ -265,28 +257,28 @@ class FeatureSearch {
         least = std::min(least, height(face, edge));
     };
     if (region < 0)
-      std::ranges::for_each(c_.face_edges[idx(face)], bend_on);
+      std::ranges::for_each(c_.face_edges[face], bend_on);
     else
-      std::ranges::for_each(region_borders_[idx(region)], bend_on);
+      std::ranges::for_each(region_borders_[region], bend_on);
     return least;
   }
 
   Vec3 direction(int edge) const {
-    const auto& [a, b] = c_.edges[idx(edge)];
+    const auto& [a, b] = c_.edges[edge];
     return (X_.col(b) - X_.col(a)).normalized();
   }
 
   /// Are both edges pieces of one straight line?
   bool are_in_line(int edge, int other, const Vec3& along) const {
-    const Vec3 apart = X_.col(c_.edges[idx(edge)][0]) - X_.col(c_.edges[idx(other)][0]);
+    const Vec3 apart = X_.col(c_.edges[edge][0]) - X_.col(c_.edges[other][0]);
     return apart.cross(along).norm() <= o_.flatness * diagonal_;
   }
 
   /// Do the edges meet at an obtuse angle, of more than 96 degrees?
   bool continues(int edge, int other) const {
     constexpr double obtuse = -.1;  // cosine
-    for (int v : c_.edges[idx(edge)]) {
-      if (std::ranges::find(c_.edges[idx(other)], v) == c_.edges[idx(other)].end()) continue;
+    for (int v : c_.edges[edge]) {
+      if (std::ranges::find(c_.edges[other], v) == c_.edges[other].end()) continue;
       const Vec3 a = X_.col(other_end(edge, v)) - X_.col(v), b = X_.col(other_end(other, v)) - X_.col(v);
       return a.dot(b) < obtuse * a.norm() * b.norm();
     }
@@ -294,24 +286,24 @@ class FeatureSearch {
   }
 
   bool is_convex(int edge) const {
-    const auto& [left, right] = c_.edge_faces[idx(edge)];
-    const Triangle& t = c_.faces[idx(right)];
-    const Vec3 n = doubled_area_vector(X_, c_.faces[idx(left)]);
-    return n.dot(X_.col(t[0]) + X_.col(t[1]) + X_.col(t[2]) - 3 * X_.col(c_.edges[idx(edge)][0])) < 0;
+    const auto& [left, right] = c_.edge_faces[edge];
+    const Triangle& t = c_.faces[right];
+    const Vec3 n = doubled_area_vector(X_, c_.faces[left]);
+    return n.dot(X_.col(t[0]) + X_.col(t[1]) + X_.col(t[2]) - 3 * X_.col(c_.edges[edge][0])) < 0;
   }
 
   bool may_belong(int edge, double min_angle) const {
-    return angle_[idx(edge)] > min_angle && bend_ratio(edge) <= o_.max_bend_ratio;
+    return angle_[edge] > min_angle && bend_ratio(edge) <= o_.max_bend_ratio;
   }
 
   int other_end(int edge, int vertex) const {
-    const Edge& e = c_.edges[idx(edge)];
+    const Edge& e = c_.edges[edge];
     return e[0] == vertex ? e[1] : e[0];
   }
 
   double length(int edge) const {
-    const auto& [a, b] = c_.edges[idx(edge)];
-    return (X_.col(a) - X_.col(b)).norm() / (.5 * (length_[idx(a)] + length_[idx(b)]));
+    const auto& [a, b] = c_.edges[edge];
+    return (X_.col(a) - X_.col(b)).norm() / (.5 * (length_[a] + length_[b]));
   }
 
   /// Whether the chain continues nearly straight at the vertex.
@@ -334,11 +326,10 @@ class FeatureSearch {
       const int edge = front.back();
       front.pop_back();
       ++count;
-      for (int v : c_.edges[idx(edge)])
+      for (int v : c_.edges[edge])
         for (int next : c_.vertex_edges[v]) {
-          if (kept_[idx(next)] || !may_belong(next, o_.hysteresis * o_.angle) || !goes_on(edge, next, v))
-            continue;
-          kept_[idx(next)] = 1;
+          if (kept_[next] || !may_belong(next, o_.hysteresis * o_.angle) || !goes_on(edge, next, v)) continue;
+          kept_[next] = 1;
           front.push_back(next);
         }
     }
@@ -348,7 +339,7 @@ class FeatureSearch {
   std::vector<int> kept_edges(int vertex) const {
     std::vector<int> edges;
     for (int e : c_.vertex_edges[vertex])
-      if (kept_[idx(e)]) edges.push_back(e);
+      if (kept_[e]) edges.push_back(e);
     return edges;
   }
 
@@ -393,7 +384,7 @@ class FeatureSearch {
     int sharp = 0;
     for (int e : chain.edges) {
       sum += length(e);
-      sharp += angle_[idx(e)] > o_.angle;
+      sharp += angle_[e] > o_.angle;
     }
     const auto edges = static_cast<int>(chain.edges.size());
     const double ratio = median_bend_ratio(chain.edges);
@@ -416,7 +407,7 @@ class FeatureSearch {
       if (here.size() != 1) continue;
       const Chain chain = chain_from(v, here[0]);
       if (is_worth_keeping(chain)) continue;
-      for (int e : chain.edges) kept_[idx(e)] = 0;
+      for (int e : chain.edges) kept_[e] = 0;
       ends.push_back(chain.last);
     }
   }
@@ -424,11 +415,11 @@ class FeatureSearch {
   /// All kept edges connected with this one.
   std::vector<int> network_of(int edge, std::vector<char>& seen) const {
     std::vector<int> network = {edge};
-    seen[idx(edge)] = 1;
+    seen[edge] = 1;
     for (size_t i = 0; i < network.size(); ++i)
-      for (int v : c_.edges[idx(network[i])])
+      for (int v : c_.edges[network[i]])
         for (int e : kept_edges(v))
-          if (!std::exchange(seen[idx(e)], 1)) network.push_back(e);
+          if (!std::exchange(seen[e], 1)) network.push_back(e);
     return network;
   }
 
@@ -436,7 +427,7 @@ class FeatureSearch {
   int curve_ends(const std::vector<int>& network) const {
     int ends = 0;
     for (int e : network)
-      for (int v : c_.edges[idx(e)]) {
+      for (int v : c_.edges[e]) {
         const std::vector<int> here = kept_edges(v);
         ends += here.size() != 2 || !goes_on(here[0], here[1], v);
       }
@@ -450,7 +441,7 @@ class FeatureSearch {
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
       const bool short_curves = 2 * static_cast<double>(network.size()) < o_.min_curve * curve_ends(network);
       if (short_curves && median_bend_ratio(network) > o_.flat_bend_ratio)
-        for (int i : network) kept_[idx(i)] = 0;
+        for (int i : network) kept_[i] = 0;
     }
   }
 
@@ -475,7 +466,7 @@ std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
   if (o.angle >= 180) return tips;
   for (int v = 0; v < c.vertex_count; ++v) {
     const auto is_resolved = [&](int e) {
-      return (points.col(c.other_end(e, v)) - points.col(v)).norm() > o.resolved * vertex_length[idx(v)];
+      return (points.col(c.other_end(e, v)) - points.col(v)).norm() > o.resolved * vertex_length[v];
     };
     if (std::ranges::all_of(c.vertex_edges[v], is_resolved) && is_tip(points, c, v)) tips.push_back(v);
   }

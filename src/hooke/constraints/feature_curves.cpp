@@ -106,8 +106,7 @@ CurveFinder::Location CurveFinder::common(const Vec3& a, const Vec3& b) const {
     for (const Location& q : at_b->second) {
       if (p.curve != q.curve) continue;
       const int halfway = (p.segment + q.segment) / 2;
-      const CurveProjection projection =
-          project_to_curve((*curves_)[static_cast<size_t>(p.curve)], middle, halfway);
+      const CurveProjection projection = project_to_curve((*curves_)[p.curve], middle, halfway);
       const double distance = (projection.point - middle).squaredNorm();
       if (distance >= smallest) continue;
       smallest = distance;

@@ -8,7 +8,7 @@ namespace hooke {
 namespace {
 
 std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
+  return i;
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct IntLists {
   std::vector<int> items;  // all lists, end to end
 
   std::span<const int> operator[](int i) const {
-    return {items.data() + first[static_cast<size_t>(i)], items.data() + first[static_cast<size_t>(i) + 1]};
+    return {items.data() + first[i], items.data() + first[static_cast<size_t>(i) + 1]};
   }
 };
 
@@ -42,7 +42,7 @@ IntLists inverse(int count, const Rows& rows) {
   constexpr int min_share = 1 << 14;
   const int shares = std::clamp(count / min_share, 1, thread_count());
   const auto for_each_share = [&](const auto& use) {  // calls use(row, index) for the indices of each share
-    parallel_for(static_cast<size_t>(shares), 1, [&](size_t first, size_t last) {
+    parallel_for(shares, 1, [&](size_t first, size_t last) {
       const auto bound = [&](size_t share) {
         return static_cast<int>(static_cast<size_t>(count) * share / static_cast<size_t>(shares));
       };
@@ -56,9 +56,9 @@ IntLists inverse(int count, const Rows& rows) {
   lists.first.assign(static_cast<size_t>(count) + 1, 0);
   for_each_share([&](int, size_t i) { ++lists.first[i + 1]; });
   std::partial_sum(lists.first.begin(), lists.first.end(), lists.first.begin());
-  lists.items.resize(static_cast<size_t>(lists.first.back()));
+  lists.items.resize(lists.first.back());
   std::vector<int> next(lists.first.begin(), lists.first.end() - 1);
-  for_each_share([&](int r, size_t i) { lists.items[static_cast<size_t>(next[i]++)] = r; });
+  for_each_share([&](int r, size_t i) { lists.items[next[i]++] = r; });
   return lists;
 }
 

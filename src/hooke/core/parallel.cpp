@@ -47,7 +47,7 @@ void parallel_invoke(const std::function<void()>& first, const std::function<voi
 }
 
 void parallel_pipeline(const std::function<void*()>& make, const std::function<void(void*)>& use) {
-  const auto threads = static_cast<std::size_t>(thread_count());
+  const std::size_t threads = thread_count();
   if (threads == 1) {
     while (void* piece = make()) use(piece);
     return;

@@ -19,7 +19,7 @@ double seconds_of(clockid_t clock) {
 
 size_t Stopwatch::find(const std::string& name) {
   const auto known = std::ranges::find(stages_, name, &StageTime::name);
-  const auto index = static_cast<size_t>(known - stages_.begin());
+  const size_t index = known - stages_.begin();
   if (known == stages_.end()) stages_.push_back({.name = name});
   return index;
 }

@@ -14,7 +14,7 @@ namespace hooke {
 namespace {
 
 std::size_t index_of(int i) {
-  return static_cast<std::size_t>(i);
+  return i;
 }
 
 constexpr std::size_t facet_block = 1024;
@@ -209,7 +209,7 @@ Projection CurvedFacets::lift(const Place& place) const {
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
   for (Eigen::Index k = 0; k < 3; ++k) {
-    const auto v = t[static_cast<std::size_t>(k)];
+    const auto v = t[k];
     const Vec3 n = is_tip_[index_of(v)] ? facet.normal : Vec3(normals_.col(v));  // tips have none
     offset += .5 * weights[k] * n.dot(points_.col(v) - place.point) * n;
     normal += weights[k] * n;
@@ -218,8 +218,8 @@ Projection CurvedFacets::lift(const Place& place) const {
   const double share = height > rise ? rise / height : 1;  // of the curved facet, the rest is flat
   const bool has_normal = !facet.normal.isZero(0);
   return {place.point + share * offset,
-          Vec3(has_normal ? facet.normal + share * (normal - facet.normal) : normal).normalized(),
-          t[static_cast<std::size_t>(corner)], ProjectionStatus::converged, 0};
+          Vec3(has_normal ? facet.normal + share * (normal - facet.normal) : normal).normalized(), t[corner],
+          ProjectionStatus::converged, 0};
 }
 
 bool CurvedFacets::allows(const Place& place) const {

@@ -43,7 +43,7 @@ class CurvedFacets {
   Place find(const Vec3& x, int hint) const;
 
   /// Is the facet one of those that the surface is made of?
-  bool is_curved(int index) const { return facets_[static_cast<std::size_t>(index)].is_curved; }
+  bool is_curved(int index) const { return facets_[index].is_curved; }
 
   /// Is there a facet, and may a smooth surface pass it at the distance of the place?
   bool allows(const Place& place) const;
@@ -52,7 +52,7 @@ class CurvedFacets {
   Projection lift(const Place& place) const;
 
   /// May a point tracked at the vertex lie over one of these facets?
-  bool is_near(int vertex) const { return near_[static_cast<std::size_t>(vertex)] != 0; }
+  bool is_near(int vertex) const { return near_[vertex] != 0; }
 
   std::size_t memory_bytes() const;
 

@@ -11,10 +11,6 @@ namespace {
 constexpr double min_normal_agreement = -.2;  // minimum cosine with the axis: excludes the opposite sheet
 constexpr double tie = 1 + 1e-6;              // for distances: rounding must not choose between equal ones
 
-std::size_t to_index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 }  // namespace
 
 PatchGrower::PatchGrower(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
@@ -23,12 +19,12 @@ PatchGrower::PatchGrower(const Eigen::Ref<const Mat3X>& points, const Adjacency&
       adjacency_(adjacency),
       normals_(normals),
       unfolded_(unfolded),
-      visited_in_(to_index(adjacency.vertex_count), -1),
-      member_in_(to_index(adjacency.vertex_count), -1) {}
+      visited_in_(adjacency.vertex_count, -1),
+      member_in_(adjacency.vertex_count, -1) {}
 
 void PatchGrower::grow(int centre, int size) {
   axis_ = axis_at(centre);
-  search(centre, to_index(size + size / 2));
+  search(centre, size + size / 2);
   distances_.clear();
   for (int m : members_) distances_.push_back((points_.col(m) - points_.col(centre)).norm());
   std::vector<double> sorted = distances_;
@@ -41,7 +37,7 @@ void PatchGrower::grow(int centre, int size) {
     if (distances_[i] > farthest_ * tie) continue;
     members_[kept] = members_[i];
     distances_[kept++] = distances_[i];
-    member_in_[to_index(members_[i])] = round_;
+    member_in_[members_[i]] = round_;
   }
   members_.resize(kept);
   distances_.resize(kept);
@@ -49,32 +45,32 @@ void PatchGrower::grow(int centre, int size) {
 
 bool PatchGrower::is_inside(int vertex) const {
   return std::ranges::all_of(adjacency_.vertex_neighbours[vertex],
-                             [&](int n) { return member_in_[to_index(n)] == round_ || !is_admitted(n); });
+                             [&](int n) { return member_in_[n] == round_ || !is_admitted(n); });
 }
 
 /// Folded vertices are always admitted: their normals are meaningless.
 bool PatchGrower::is_admitted(int vertex) const {
-  return !unfolded_[to_index(vertex)] || normals_.col(vertex).dot(axis_) > min_normal_agreement;
+  return !unfolded_[vertex] || normals_.col(vertex).dot(axis_) > min_normal_agreement;
 }
 
 /// The normal of the centre or, where that is meaningless, the mean normal of its unfolded neighbours.
 Vec3 PatchGrower::axis_at(int centre) const {
   Vec3 sum = Vec3::Zero();
-  if (!unfolded_[to_index(centre)])
+  if (!unfolded_[centre])
     for (int n : adjacency_.vertex_neighbours[centre])
-      if (unfolded_[to_index(n)]) sum += normals_.col(n);
+      if (unfolded_[n]) sum += normals_.col(n);
   return sum.isZero(0) ? Vec3(normals_.col(centre)) : sum.normalized();
 }
 
 void PatchGrower::search(int centre, std::size_t max_size) {
   ++round_;
   members_.assign(1, centre);
-  visited_in_[to_index(centre)] = round_;
+  visited_in_[centre] = round_;
   for (std::size_t i = 0; i < members_.size(); ++i)
     for (int n : adjacency_.vertex_neighbours[members_[i]]) {
       if (members_.size() >= max_size) return;
-      if (visited_in_[to_index(n)] == round_) continue;
-      visited_in_[to_index(n)] = round_;
+      if (visited_in_[n] == round_) continue;
+      visited_in_[n] = round_;
       if (is_admitted(n)) members_.push_back(n);
     }
 }
@@ -112,7 +108,7 @@ PatchList PatchCover::next(size_t count) {
 }
 
 bool PatchCover::is_centre(int vertex) const {
-  const auto v = static_cast<size_t>(vertex);
+  const size_t v = vertex;
   return !covered_[v] && (unfolded_[v] == 0) == folded_ && !adjacency_.vertex_faces[vertex].empty();
 }
 
@@ -123,7 +119,7 @@ void PatchCover::add_patch(int centre, PatchList& patches) {
       grower_.farthest() > 0 ? patch_radius_ratio * grower_.farthest() : 2 * edge_lengths_[centre];
   for (size_t i = 0; i < members.size(); ++i)
     if (i == 0 || (grower_.distances()[i] <= options_.coverage * radius && grower_.is_inside(members[i])))
-      covered_[static_cast<size_t>(members[i])] = 1;
+      covered_[members[i]] = 1;
   patches.centres.push_back(centre);
   patches.radii.push_back(radius);
   patches.members.items.insert(patches.members.items.end(), members.begin(), members.end());
@@ -139,7 +135,7 @@ constexpr double min_height = 1e-8;             // in radii; smaller values are 
 
 /// Patches per batch: many in a large mesh, so that short-lived small allocations do not fragment memory.
 std::size_t patches_of_batch(int vertices) {
-  return std::clamp<std::size_t>(to_index(vertices) / 1000, 32, 512);
+  return std::clamp<std::size_t>(vertices / 1000, 32, 512);
 }
 
 /// Wendland's C2 function of the squared distance over the squared radius, for r2 < 1.
@@ -152,13 +148,13 @@ double weight(double r2) {
 std::vector<char> unfolded_vertices(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                                     const Mat3X& normals) {
   const Mat3X of_faces = face_normals(points, adjacency);
-  std::vector<char> unfolded(to_index(adjacency.vertex_count), 0);
+  std::vector<char> unfolded(adjacency.vertex_count, 0);
   parallel_for(unfolded.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       double smallest = normals.col(v).squaredNorm();
       for (int f : adjacency.vertex_faces[v])
         smallest = std::min(smallest, of_faces.col(f).dot(normals.col(v)));
-      unfolded[to_index(v)] = smallest >= min_fold_agreement;
+      unfolded[v] = smallest >= min_fold_agreement;
     }
   });
   return unfolded;
@@ -235,7 +231,7 @@ void PartitionOfUnity::gather(const Samples& samples, const PatchList& list, std
   for (int v : vertices) add(samples.points.col(v), v, 0);
   for (std::size_t i = 0; i < vertices.size(); i += offset_stride) {
     const int v = vertices[i];
-    if (!samples.unfolded[to_index(v)]) continue;
+    if (!samples.unfolded[v]) continue;
     const double rho = (i % (2 * offset_stride) == 0 ? 1 : -1) * samples.offset * samples.edge_lengths[v];
     add(samples.points.col(v) + rho * samples.normals.col(v), v, rho);
   }
@@ -291,22 +287,22 @@ void PartitionOfUnity::index_patches(int vertex_count, const std::deque<Batch>& 
     for (const Batch& batch : batches)
       for (std::size_t p = 0; p < batch.patches.size(); ++p, ++id)
         if (batch.patches[p].fit != PatchFit::failed)
-          for (int v : batch.list.members[static_cast<int>(p)]) visit(to_index(v), id);
+          for (int v : batch.list.members[static_cast<int>(p)]) visit(v, id);
   };
   std::vector<int>&first = vertex_patches_.first, &items = vertex_patches_.items;
-  first.assign(to_index(vertex_count) + 1, 0);
+  first.assign(vertex_count + 1, 0);
   for_each_pair([&](std::size_t v, int) { ++first[v + 1]; });
   for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-  items.resize(to_index(first.back()));
+  items.resize(first.back());
   std::vector<int> next = first;
-  for_each_pair([&](std::size_t v, int p) { items[to_index(next[v]++)] = p; });
+  for_each_pair([&](std::size_t v, int p) { items[next[v]++] = p; });
 }
 
 FieldSample PartitionOfUnity::operator()(const Vec3& x, int hint) const {
   FieldSample sum;
   double total = 0;
   for (int p : vertex_patches_[hint]) {
-    const Patch& patch = patches_[to_index(p)];
+    const Patch& patch = patches_[p];
     const Vec3 local = (x - patch.centre) / patch.radius;
     const double r2 = local.squaredNorm();
     if (!(r2 < 1)) continue;
@@ -324,7 +320,7 @@ FieldSample PartitionOfUnity::operator()(const Vec3& x, int hint) const {
 }
 
 std::size_t PartitionOfUnity::count(PatchFit fit) const {
-  return static_cast<std::size_t>(std::ranges::count(patches_, fit, &Patch::fit));
+  return std::ranges::count(patches_, fit, &Patch::fit);
 }
 
 std::size_t PartitionOfUnity::memory_bytes() const {

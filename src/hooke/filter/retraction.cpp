@@ -59,41 +59,40 @@ Retraction::Retraction(Surface surface, const Constraints& constraints, const Re
 SurfacePosition::SurfacePosition(const SurfacePositions& p, int vertex)
     : point(p.points.col(vertex)),
       normal(p.normals.col(vertex)),
-      hint(p.hints[static_cast<size_t>(vertex)]),
-      segment(p.segments[static_cast<size_t>(vertex)]),
-      drift(p.drift[static_cast<size_t>(vertex)]),
+      hint(p.hints[vertex]),
+      segment(p.segments[vertex]),
+      drift(p.drift[vertex]),
       other_wedge(p.other_wedge_of(vertex)) {
   if (other_wedge < 0) return;
   other_normal = p.normals.col(other_wedge);
-  other_hint = p.hints[static_cast<size_t>(other_wedge)];
+  other_hint = p.hints[other_wedge];
 }
 
 void SurfacePosition::write_to(SurfacePositions& p, int vertex) const {
   p.points.col(vertex) = point;
   p.normals.col(vertex) = normal;
-  p.hints[static_cast<size_t>(vertex)] = hint;
-  p.segments[static_cast<size_t>(vertex)] = segment;
-  p.drift[static_cast<size_t>(vertex)] = drift;
+  p.hints[vertex] = hint;
+  p.segments[vertex] = segment;
+  p.drift[vertex] = drift;
   if (other_wedge < 0) return;
   p.normals.col(other_wedge) = other_normal;
-  p.hints[static_cast<size_t>(other_wedge)] = other_hint;
+  p.hints[other_wedge] = other_hint;
 }
 
 Vec3 Retraction::within_max_travel(const Vec3& point, int vertex) const {
   if (constraints_.max_travel.empty()) return point;
   const Vec3 rest = constraints_.rest_position.col(vertex), displacement = point - rest;
-  const double length = displacement.norm(),
-               max_travel = constraints_.max_travel[static_cast<size_t>(vertex)];
+  const double length = displacement.norm(), max_travel = constraints_.max_travel[vertex];
   return length > max_travel ? Vec3(rest + displacement * (max_travel / length)) : point;
 }
 
 CurveProjection Retraction::project_to_curve_of(const Vec3& point, int segment, int vertex) const {
-  const auto curve = static_cast<size_t>(constraints_.curve[static_cast<size_t>(vertex)]);
+  const size_t curve = constraints_.curve[vertex];
   return project_to_curve(constraints_.curves[curve], point, segment);
 }
 
 Vec3 Retraction::tangent(const SurfacePositions& at, int vertex) const {
-  const auto v = static_cast<size_t>(vertex);
+  const size_t v = vertex;
   if (constraints_.freedom[v] != Freedom::curve) return Vec3::Zero();
   return project_to_curve_of(at.points.col(vertex), at.segments[v], vertex).tangent;
 }
@@ -130,19 +129,18 @@ SurfacePosition Retraction::on_surface(SurfacePosition position, int vertex, Fre
 }
 
 bool Retraction::stands_still(int vertex) const {
-  return constraints_.freedom[static_cast<size_t>(vertex)] == Freedom::fixed;
+  return constraints_.freedom[vertex] == Freedom::fixed;
 }
 
 SurfacePosition Retraction::moved(const SurfacePositions& from, int vertex, const Vec3& displacement) {
-  return moved(SurfacePosition(from, vertex), vertex, constraints_.freedom[static_cast<size_t>(vertex)],
-               displacement);
+  return moved(SurfacePosition(from, vertex), vertex, constraints_.freedom[vertex], displacement);
 }
 
 SurfacePosition Retraction::moved_copy(const SurfacePositions& from, int vertex, int wedge,
                                        const Vec3& displacement) {
   SurfacePosition position(from, vertex);
   position.normal = from.normals.col(wedge);
-  position.hint = from.hints[static_cast<size_t>(wedge)];
+  position.hint = from.hints[wedge];
   position.drift = 0;
   position.other_wedge = -1;
   return moved(position, vertex, Freedom::surface, displacement);
@@ -184,7 +182,7 @@ SurfacePosition Retraction::drifted(SurfacePosition position, const Vec3& displa
 }
 
 SurfacePosition Retraction::projected(SurfacePosition position, int vertex) {
-  const Freedom freedom = constraints_.freedom[static_cast<size_t>(vertex)];
+  const Freedom freedom = constraints_.freedom[vertex];
   return on_surface(freedom == Freedom::curve ? on_curve(position, vertex) : position, vertex, freedom);
 }
 
@@ -196,9 +194,9 @@ SurfacePositions Retraction::project_all(const Mat3X& points, std::vector<int> h
   p.normals = Mat3X::Zero(3, points.cols() + std::ssize(extra_wedges));
   p.hints = std::move(hints);
   p.segments = std::move(segments);
-  p.drift.assign(static_cast<size_t>(points.cols()), 0);
+  p.drift.assign(points.cols(), 0);
   p.other_wedge = other_wedges(p.drift.size(), extra_wedges);
-  parallel_for(static_cast<size_t>(points.cols()), retraction_block, [&](size_t begin, size_t end) {
+  parallel_for(points.cols(), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
       projected(SurfacePosition(p, v), v).write_to(p, v);
@@ -230,7 +228,7 @@ void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, S
   copy_extra_wedges(from, to);
   to.segments.resize(from.segments.size());
   to.drift.resize(from.drift.size());
-  parallel_for(static_cast<size_t>(from.points.cols()), retraction_block, [&](size_t begin, size_t end) {
+  parallel_for(from.points.cols(), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
       moved(from, v, displacement.col(v)).write_to(to, v);
@@ -259,7 +257,7 @@ void Retraction::project_drifted(std::span<const int> vertices, SurfacePositions
 }
 
 void Retraction::constrain(const SurfacePositions& at, Mat3X& vectors) const {
-  parallel_for(static_cast<size_t>(vectors.cols()), 4096, [&](size_t begin, size_t end) {
+  parallel_for(vectors.cols(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const auto v = static_cast<Eigen::Index>(i);
       auto u = vectors.col(v);

@@ -19,9 +19,7 @@ struct SurfacePositions {
   std::vector<double> drift;     // per vertex: length moved since the last projection
   std::vector<int> other_wedge;  // per vertex: its second wedge, -1 without one; empty without creases
 
-  int other_wedge_of(int vertex) const {
-    return other_wedge.empty() ? -1 : other_wedge[static_cast<size_t>(vertex)];
-  }
+  int other_wedge_of(int vertex) const { return other_wedge.empty() ? -1 : other_wedge[vertex]; }
 };
 
 /// Surface position of one vertex. It holds at most two wedges: vertices with more stand still.

@@ -43,7 +43,7 @@ ShapeOperator unknown_shape_operator() {
 }
 
 std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& normals, const Adjacency& c) {
-  const auto n = static_cast<std::size_t>(c.vertex_count);
+  const std::size_t n = c.vertex_count;
   std::vector<ShapeOperator> shape_operators(n);
   parallel_for(n, surface_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
@@ -59,8 +59,7 @@ std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& nor
       for (int w : neighbours) {
         const Vec3 edge = points.col(w) - points.col(static_cast<Eigen::Index>(v));
         const auto normal = normals.col(static_cast<Eigen::Index>(v));
-        Vec3 turn =
-            shape_operators[v].shape * edge - shape_operators[static_cast<std::size_t>(w)].shape * edge;
+        Vec3 turn = shape_operators[v].shape * edge - shape_operators[w].shape * edge;
         turn -= normal.dot(turn) * normal;  // without the rotation of the tangent plane
         if (!edge.isZero(0)) squares += turn.squaredNorm() / edge.squaredNorm();
       }
@@ -72,7 +71,7 @@ std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& nor
     for (std::size_t v = begin; v < end; ++v) {
       shape_operators[v].change = change[v];
       for (int w : c.vertex_neighbours[static_cast<int>(v)])
-        shape_operators[v].change = std::max(shape_operators[v].change, change[static_cast<std::size_t>(w)]);
+        shape_operators[v].change = std::max(shape_operators[v].change, change[w]);
     }
   });
   return shape_operators;

@@ -43,7 +43,7 @@ Projection NearFaces::closest_point_of_ring(const Vec3& x, int hint) const {
   double smallest = std::numeric_limits<double>::infinity();
   const auto visit = [&](int v) {
     for (int f : adjacency.vertex_faces[v]) {
-      const Triangle& face = adjacency.faces[static_cast<std::size_t>(f)];
+      const Triangle& face = adjacency.faces[f];
       if (v != hint && std::ranges::find(face, hint) != face.end()) continue;  // visited with the hint
       const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
       if (squared_distance_to_box(a, b, c, x) >= smallest) continue;
@@ -52,11 +52,10 @@ Projection NearFaces::closest_point_of_ring(const Vec3& x, int hint) const {
       smallest = near.squared_distance;
       projection.point = near.point;
       projection.normal.setZero();
-      for (int k = 0; k < 3; ++k)
-        projection.normal += near.weights[k] * normals.col(face[static_cast<std::size_t>(k)]);
+      for (int k = 0; k < 3; ++k) projection.normal += near.weights[k] * normals.col(face[k]);
       Eigen::Index corner;
       near.weights.maxCoeff(&corner);
-      projection.hint = face[static_cast<std::size_t>(corner)];
+      projection.hint = face[corner];
       projection.status = ProjectionStatus::converged;
     }
   };
@@ -68,7 +67,7 @@ Projection NearFaces::closest_point_of_ring(const Vec3& x, int hint) const {
 
 bool NearFaces::has_face_within(const Vec3& x, int hint, double distance) const {
   return std::ranges::any_of(adjacency.vertex_faces[hint], [&](int f) {
-    const Triangle& face = adjacency.faces[static_cast<std::size_t>(f)];
+    const Triangle& face = adjacency.faces[f];
     return closest_point_on_triangle(points.col(face[0]), points.col(face[1]), points.col(face[2]), x)
                .squared_distance <= distance * distance;
   });
@@ -113,7 +112,7 @@ std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviat
   std::vector<float> deviation_bounds;
   if (max_deviation == std::numeric_limits<double>::infinity()) return deviation_bounds;
   const auto max_deviation_at = [&](int v) {
-    return lengths.empty() ? max_deviation : max_deviation * lengths[static_cast<std::size_t>(v)];
+    return lengths.empty() ? max_deviation : max_deviation * lengths[v];
   };
   std::vector<char> bends_sharply(adjacency.edges.size());
   parallel_for(bends_sharply.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -126,11 +125,11 @@ std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviat
   });
   for (std::size_t e = 0; e < bends_sharply.size(); ++e) {
     if (!bends_sharply[e]) continue;
-    deviation_bounds.resize(static_cast<std::size_t>(adjacency.vertex_count), no_limit);
+    deviation_bounds.resize(adjacency.vertex_count, no_limit);
     for (int end : adjacency.edges[e]) {
-      deviation_bounds[static_cast<std::size_t>(end)] = static_cast<float>(max_deviation_at(end));
+      deviation_bounds[end] = static_cast<float>(max_deviation_at(end));
       for (int v : adjacency.vertex_neighbours[end])
-        deviation_bounds[static_cast<std::size_t>(v)] = static_cast<float>(max_deviation_at(v));
+        deviation_bounds[v] = static_cast<float>(max_deviation_at(v));
     }
   }
   return deviation_bounds;
@@ -139,7 +138,7 @@ std::vector<float> deviation_bounds_of(const NearFaces& faces, double max_deviat
 Projection within_deviation_bound(const NearFaces& faces, const std::vector<float>& deviation_bounds,
                                   const Vec3& x, const Projection& projection) {
   if (deviation_bounds.empty()) return projection;
-  const double max_deviation = deviation_bounds[static_cast<std::size_t>(projection.hint)];
+  const double max_deviation = deviation_bounds[projection.hint];
   if (max_deviation == no_limit || faces.has_face_within(projection.point, projection.hint, max_deviation))
     return projection;
   Projection nearest = faces.closest_point(projection.point, projection.hint);
@@ -167,9 +166,7 @@ std::vector<int> distinct_vertices(const Mat3X& points, const Adjacency& adjacen
                                    const std::vector<int>& pieces, int piece) {
   std::vector<int> vertices;
   for (int v = 0; v < adjacency.vertex_count; ++v)
-    if (!adjacency.vertex_faces[v].empty() &&
-        (pieces.empty() || pieces[static_cast<std::size_t>(v)] == piece))
-      vertices.push_back(v);
+    if (!adjacency.vertex_faces[v].empty() && (pieces.empty() || pieces[v] == piece)) vertices.push_back(v);
   const auto coordinates = [&](int v) { return std::array{points(0, v), points(1, v), points(2, v)}; };
   std::ranges::stable_sort(vertices, {}, coordinates);
   vertices.erase(std::unique(vertices.begin(), vertices.end(),
@@ -234,8 +231,7 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
     case FilterKind::local:
       return (*partition)(x, hint);
     case FilterKind::global:
-      return splines[pieces.empty() ? 0 : static_cast<std::size_t>(pieces[static_cast<std::size_t>(hint)])](
-          x);
+      return splines[pieces.empty() ? 0 : static_cast<std::size_t>(pieces[hint])](x);
     case FilterKind::closest: {
       const Projection projection = faces().closest_point(x, hint);
       const double distance = (x - projection.point).norm();
@@ -338,7 +334,7 @@ Surface SurfaceField::surface() const {
   };
   const auto shape_operator_at = [state = state_](int hint) {
     if (state->shape_operators.empty()) return unknown_shape_operator();
-    return state->shape_operators[static_cast<std::size_t>(hint)];
+    return state->shape_operators[hint];
   };
   return {project, shape_operator_at};
 }

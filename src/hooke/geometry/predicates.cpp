@@ -104,7 +104,7 @@ int exact_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
 int exact_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   std::array<Binary, 12> numbers;
   for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<size_t>(i);
+    const size_t k = i;
     numbers[k] = to_binary(a[i]);
     numbers[k + 3] = to_binary(b[i]);
     numbers[k + 6] = to_binary(c[i]);

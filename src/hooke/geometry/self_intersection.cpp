@@ -168,15 +168,14 @@ std::vector<std::array<int, 2>> find_self_intersections(const AabbTree& tree) {
   std::vector<char> has_area(faces.size());  // by id
   parallel_for(faces.size(), faces_per_task, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k)
-      has_area[static_cast<size_t>(faces[k].id)] =
-          !is_collinear(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
+      has_area[faces[k].id] = !is_collinear(faces[k].corners[0], faces[k].corners[1], faces[k].corners[2]);
   });
 
   std::vector<std::vector<std::array<int, 2>>> found(tree.parts() / parts_per_task + 1);
   parallel_for(tree.parts(), parts_per_task, [&](size_t begin, size_t end) {
     tree.for_each_overlapping_pair(begin, end, [&](const Face& f, const Face& g) {
       const auto [low, high] = std::minmax(f.id, g.id);
-      if (!has_area[static_cast<size_t>(low)] || !has_area[static_cast<size_t>(high)]) return;
+      if (!has_area[low] || !has_area[high]) return;
       if (f.id < g.id ? faces_meet(f, g) : faces_meet(g, f))
         found[begin / parts_per_task].push_back({low, high});
     });

@@ -42,7 +42,7 @@ TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3
   TrianglePoint best;
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
-    const Vec3 &from = corners[static_cast<std::size_t>(k)], &to = corners[static_cast<std::size_t>(next)];
+    const Vec3 &from = corners[k], &to = corners[next];
     const double t = closest_parameter(from, to, x);
     const Vec3 point = from + t * (to - from);
     const double squared_distance = (point - x).squaredNorm();

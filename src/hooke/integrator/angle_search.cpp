@@ -87,7 +87,7 @@ void VertexSearch::gather(int vertex) {
   worst_ = 0;
   for (int s = 0; s < count_; ++s) {
     const int id = s == 0 ? vertex : at.other_wedge_of(vertex);
-    auto& [ring, before, after] = wedges_[static_cast<size_t>(s)];
+    auto& [ring, before, after] = wedges_[s];
     ring.gather(at, id);
     ring.shape(at.points.col(vertex), at.normals.col(id), before);
     worst_ = std::max(worst_, ring.max_cotangent(before));
@@ -98,7 +98,7 @@ void VertexSearch::gather(int vertex) {
 double VertexSearch::max_cotangent_at(const SurfacePosition& position) {
   double worst = 0;
   for (int s = 0; s < count_; ++s) {
-    auto& [ring, before, after] = wedges_[static_cast<size_t>(s)];
+    auto& [ring, before, after] = wedges_[s];
     ring.shape(position.point, s == 0 ? position.normal : position.other_normal, after);
     worst = std::max(worst, ring.max_cotangent(after));
   }
@@ -120,7 +120,7 @@ bool VertexSearch::move_to_best(int vertex, double step) {
   const Vec3 edge = at.points.col(neighbour) - at.points.col(vertex);
   const Vec3 u = on_curve ? tangent : Vec3((edge - normal * normal.dot(edge)).normalized());
   const Vec3 v = normal.cross(u);
-  const double length = step * r_.vertex_length[static_cast<size_t>(vertex)];
+  const double length = step * r_.vertex_length[vertex];
   // At a face without area any finite angle is better.
   double cotangent_to_beat = std::isfinite(worst_) ? worst_ - o_.min_relative_gain * std::abs(worst_)
                                                    : std::numeric_limits<double>::max();
@@ -228,17 +228,17 @@ class Measures {
   void set_aside(double angle) {
     const double limit = cotangent_of(angle);
     for (int f : listed_)
-      if (const double cotangent = cotangents_[static_cast<size_t>(f)]; cotangent >= limit) {
-        is_aside_[static_cast<size_t>(f)] = 1;
+      if (const double cotangent = cotangents_[f]; cotangent >= limit) {
+        is_aside_[f] = 1;
         aside_.emplace_back(f, angle_with_cotangent(cotangent));
       }
-    std::erase_if(listed_, [&](int f) { return is_aside_[static_cast<size_t>(f)] != 0; });
+    std::erase_if(listed_, [&](int f) { return is_aside_[f] != 0; });
   }
 
   /// Has a face lost more than this (degrees) since it was set aside?
   bool has_lost_aside(double tolerance) const {
     return std::ranges::any_of(aside_, [&](const auto& face) {
-      return angle_with_cotangent(cotangents_[static_cast<size_t>(face.first)]) < face.second - tolerance;
+      return angle_with_cotangent(cotangents_[face.first]) < face.second - tolerance;
     });
   }
 
@@ -258,13 +258,12 @@ class Measures {
     if (limit < listed_from_) list_below(goal + listed_above);
     std::vector<std::pair<double, int>> worst;
     for (int f : listed_)
-      if (const double cotangent = cotangents_[static_cast<size_t>(f)]; cotangent >= limit)
-        worst.emplace_back(-cotangent, f);
+      if (const double cotangent = cotangents_[f]; cotangent >= limit) worst.emplace_back(-cotangent, f);
     std::ranges::sort(worst);
-    if (std::ssize(worst) > max_faces) worst.resize(static_cast<size_t>(max_faces));
+    if (std::ssize(worst) > max_faces) worst.resize(max_faces);
     std::vector<int> corners;
     for (const auto& [cotangent, f] : worst) {
-      const Triangle& t = r_.adjacency.faces[static_cast<size_t>(f)];
+      const Triangle& t = r_.adjacency.faces[f];
       corners.insert(corners.end(), t.begin(), t.end());
     }
     return corners;
@@ -291,7 +290,7 @@ class Measures {
 
   double max_cotangent_of(const std::vector<int>& faces) const {
     double largest = -std::numeric_limits<double>::infinity();
-    for (int f : faces) largest = std::max(largest, cotangents_[static_cast<size_t>(f)]);
+    for (int f : faces) largest = std::max(largest, cotangents_[f]);
     return largest;
   }
 
@@ -310,10 +309,8 @@ class Measures {
   }
 
   void list_if_low(int f) {
-    char& is_listed = is_listed_[static_cast<size_t>(f)];
-    if (is_listed || is_aside_[static_cast<size_t>(f)] ||
-        !(cotangents_[static_cast<size_t>(f)] >= listed_from_))
-      return;
+    char& is_listed = is_listed_[f];
+    if (is_listed || is_aside_[f] || !(cotangents_[f] >= listed_from_)) return;
     is_listed = 1;
     listed_.push_back(f);
   }

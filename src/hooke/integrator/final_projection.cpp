@@ -29,7 +29,7 @@ std::vector<int> revert(const Guards& guards, const SurfacePositions& from, std:
   std::vector<char> is_back(from.drift.size(), 0);
   std::vector<int> all;
   while (!offending.empty()) {
-    std::erase_if(offending, [&](int v) { return std::exchange(is_back[static_cast<size_t>(v)], 1); });
+    std::erase_if(offending, [&](int v) { return std::exchange(is_back[v], 1); });
     for (int v : offending) {
       to.points.col(v) = from.points.col(v);
       to.normals.col(v) = from.normals.col(v);
@@ -46,17 +46,15 @@ using FacePairs = std::vector<std::array<int, 2>>;
 std::vector<int> corners_of(const FacePairs& pairs, const std::vector<Triangle>& faces) {
   std::vector<int> corners;
   for (const auto& pair : pairs)
-    for (int f : pair)
-      corners.insert(corners.end(), faces[static_cast<size_t>(f)].begin(),
-                     faces[static_cast<size_t>(f)].end());
+    for (int f : pair) corners.insert(corners.end(), faces[f].begin(), faces[f].end());
   return corners;
 }
 
 /// Marks the vertices of intersecting faces and of `rings` rings around them.
 std::vector<char> mark_around_crossings(const SurfacePositions& p, const Adjacency& c, int rings) {
-  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<char> marked(c.vertex_count, 0);
   for (int v : with_rings(c, corners_of(find_self_intersections(p.points, c.faces), c.faces), rings))
-    marked[static_cast<size_t>(v)] = 1;
+    marked[v] = 1;
   return marked;
 }
 
@@ -82,8 +80,7 @@ std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacen
     if (crossings.empty()) break;
     if (!crossed) crossed = mark_around_crossings(from, adjacency, rings_along);
     const auto touches = [&](int f) {
-      return std::ranges::any_of(adjacency.faces[static_cast<size_t>(f)],
-                                 [&](int v) { return (*crossed)[static_cast<size_t>(v)] != 0; });
+      return std::ranges::any_of(adjacency.faces[f], [&](int v) { return (*crossed)[v] != 0; });
     };
     std::erase_if(crossings, [&](const auto& pair) { return touches(pair[0]) && touches(pair[1]); });
     std::vector<int> vertices = with_rings(adjacency, corners_of(crossings, adjacency.faces), round);

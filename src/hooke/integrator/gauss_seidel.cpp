@@ -114,7 +114,7 @@ LocalCurvature LocalNewton::curvature(int vertex) {
 double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
   if (!gather(vertex)) return 0;
   SurfacePositions& at = r_.positions;
-  const double length = r_.vertex_length[static_cast<size_t>(vertex)];
+  const double length = r_.vertex_length[vertex];
   Vec3 step = -options.over_relaxation * (curvature_of(model_, basis_).inverse * (basis_ * model_.gradient));
   const double size = step.norm(), cap = options.max_move * length;
   if (!(size > options.rest * length)) return 0;
@@ -133,12 +133,11 @@ double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
 
 std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& active,
                                        const LocalNewtonOptions& options) {
-  std::vector<double> moves(static_cast<size_t>(r.adjacency.vertex_count), 0);
+  std::vector<double> moves(r.adjacency.vertex_count, 0);
   for_each_block(r.coloring, [&](int begin, int end) {
     LocalNewton newton(r);
     for (int v = begin; v < end; ++v)
-      if (active.empty() || active[static_cast<size_t>(v)])
-        moves[static_cast<size_t>(v)] = newton.improve(v, options);
+      if (active.empty() || active[v]) moves[v] = newton.improve(v, options);
   });
   r.retraction.count();
   return moves;
@@ -152,13 +151,13 @@ constexpr double min_step_factor = .3;  // of `rest`: a vertex with a shorter st
 /// are any.
 bool mark_active(const Adjacency& c, const std::vector<int>& vertices, const std::vector<double>& moves,
                  double rest, std::vector<char>& active) {
-  const auto moved = [&](int v) { return moves[static_cast<size_t>(v)] > rest; };
+  const auto moved = [&](int v) { return moves[v] > rest; };
   parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      active[static_cast<size_t>(vertices[i])] =
+      active[vertices[i]] =
           moved(vertices[i]) || std::ranges::any_of(c.vertex_neighbours[vertices[i]], moved);
   });
-  return std::ranges::any_of(vertices, [&](int v) { return active[static_cast<size_t>(v)] != 0; });
+  return std::ranges::any_of(vertices, [&](int v) { return active[v] != 0; });
 }
 
 }  // namespace
@@ -168,8 +167,8 @@ bool mark_active(const Adjacency& c, const std::vector<int>& vertices, const std
 LocalRelaxationResult relax_locally(Relaxation& r, const std::vector<int>& vertices,
                                     const LocalRelaxationOptions& o, const Observer& observer) {
   LocalRelaxationResult result;
-  std::vector<char> active(static_cast<size_t>(r.adjacency.vertex_count), 0);
-  for (int v : vertices) active[static_cast<size_t>(v)] = 1;
+  std::vector<char> active(r.adjacency.vertex_count, 0);
+  for (int v : vertices) active[v] = 1;
   bool any_active = !vertices.empty();
   while (any_active && result.sweeps < o.sweeps && !result.interrupted) {
     const std::vector<double> moves = local_newton_sweep(

@@ -86,8 +86,7 @@ double Guards::sagitta(const SurfacePositions& p, size_t edge) const {
 double Guards::fold(const SurfacePositions& p, size_t edge) const {
   const auto [left, right] = adjacency_.edge_faces[edge];
   if (right < 0) return 1;
-  return cosine_between(p.points, adjacency_.faces[static_cast<size_t>(left)],
-                        adjacency_.faces[static_cast<size_t>(right)]);
+  return cosine_between(p.points, adjacency_.faces[left], adjacency_.faces[right]);
 }
 
 bool Guards::face_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t f) const {
@@ -107,8 +106,8 @@ bool Guards::face_breaks(const SurfacePositions& from, const SurfacePositions& t
 bool Guards::fold_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t e) const {
   const auto [left, right] = adjacency_.edge_faces[e];
   if (right < 0) return false;
-  const Vec3 n = doubled_area_vector(to.points, adjacency_.faces[static_cast<size_t>(left)]);
-  const Vec3 m = doubled_area_vector(to.points, adjacency_.faces[static_cast<size_t>(right)]);
+  const Vec3 n = doubled_area_vector(to.points, adjacency_.faces[left]);
+  const Vec3 m = doubled_area_vector(to.points, adjacency_.faces[right]);
   if (cosine_exceeds(options_.fold, n.dot(m), n.squaredNorm(), m.squaredNorm())) return false;
   const double before = fold(from, e), after = cosine(n, m, 1);
   return adjacency_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(options_, before, after)
@@ -126,13 +125,13 @@ bool Guards::edge_breaks(const SurfacePositions& from, const SurfacePositions& t
 }
 
 void Guards::add_corners(int face, std::vector<int>& vertices) const {
-  const Triangle& t = adjacency_.faces[static_cast<size_t>(face)];
+  const Triangle& t = adjacency_.faces[face];
   vertices.insert(vertices.end(), t.begin(), t.end());
 }
 
 /// The ends of the edge and, for a fold, all corners of its two faces.
 void Guards::add_vertices_around(int edge, bool folds, std::vector<int>& vertices) const {
-  const auto e = static_cast<size_t>(edge);
+  const size_t e = edge;
   vertices.insert(vertices.end(), adjacency_.edges[e].begin(), adjacency_.edges[e].end());
   if (!folds) return;
   for (int f : adjacency_.edge_faces[e]) add_corners(f, vertices);
@@ -153,7 +152,7 @@ std::vector<int> Guards::offenders_around(const SurfacePositions& from, const Su
   std::vector<int> vertices;
   std::vector<int> edges;  // of the faces around: those opposite a moved vertex fold too
   for (int f : sorted_union(adjacency_.vertex_faces, moved)) {
-    const auto face = static_cast<size_t>(f);
+    const size_t face = f;
     edges.insert(edges.end(), adjacency_.face_edges[face].begin(), adjacency_.face_edges[face].end());
     if (face_breaks(from, to, face)) add_corners(f, vertices);
   }
@@ -171,14 +170,14 @@ std::vector<int> Guards::step(Retraction& retraction, const SurfacePositions& fr
   std::vector<int> offending = offenders(from, to);
   if (offending.empty()) return {};
 
-  std::vector<unsigned char> halvings(static_cast<size_t>(adjacency_.vertex_count), 0);
+  std::vector<unsigned char> halvings(adjacency_.vertex_count, 0);
   std::vector<int> limited;
   while (!offending.empty()) {
     std::vector<int> slowed;
     for (int v : offending) {
       auto u = displacement.col(v);
       if (u.isZero(0)) continue;
-      auto& count = halvings[static_cast<size_t>(v)];
+      auto& count = halvings[v];
       if (++count == 1) limited.push_back(v);
       if (count > options_.max_halvings)
         u.setZero();

@@ -46,7 +46,7 @@ class LbfgsMemory {
 /// Calls body(first, count) on blocks of columns.
 template <typename Body>
 void for_columns(Eigen::Index columns, const Body& body) {
-  parallel_for(static_cast<std::size_t>(columns), 4096, [&](std::size_t begin, std::size_t end) {
+  parallel_for(columns, 4096, [&](std::size_t begin, std::size_t end) {
     body(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
   });
 }
@@ -54,7 +54,7 @@ void for_columns(Eigen::Index columns, const Body& body) {
 /// Sum of the products of all entries, of any precision, in double precision.
 template <typename A, typename B>
 double dot(const A& a, const B& b) {
-  return parallel_sum(static_cast<std::size_t>(a.cols()), 4096, [&](std::size_t begin, std::size_t end) {
+  return parallel_sum(a.cols(), 4096, [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
     return a.middleCols(first, count)
         .template cast<double>()
@@ -65,7 +65,7 @@ double dot(const A& a, const B& b) {
 
 /// dot(a, b - c)
 inline double dot_with_difference(const Mat3X& a, const Mat3X& b, const Mat3X& c) {
-  return parallel_sum(static_cast<std::size_t>(a.cols()), 4096, [&](std::size_t begin, std::size_t end) {
+  return parallel_sum(a.cols(), 4096, [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
     return a.middleCols(first, count)
         .cwiseProduct(b.middleCols(first, count) - c.middleCols(first, count))
@@ -151,7 +151,7 @@ double capped_fraction(const Relaxation& r, double max_move, const Mat3X& d) {
   constexpr double almost = 1 - 1e-6;
   Eigen::Index capped = 0;
   for (Eigen::Index v = 0; v < d.cols(); ++v)
-    capped += d.col(v).norm() >= almost * max_move * r.vertex_length[static_cast<size_t>(v)];
+    capped += d.col(v).norm() >= almost * max_move * r.vertex_length[v];
   return static_cast<double>(capped) / static_cast<double>(d.cols());
 }
 

@@ -88,7 +88,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
   if (points.cols() == 0) return;
   const Eigen::Matrix3d frame = frame_of(points);
   const Vec3 origin = points.col(0);
-  const auto n = static_cast<size_t>(points.cols());
+  const size_t n = points.cols();
   grid_positions_.resize(n);
   std::vector<Cell> cells(n);
   parallel_for(n, 4096, [&](size_t begin, size_t end) {
@@ -149,7 +149,7 @@ std::vector<GridHierarchy::Part> GridHierarchy::part_vertices() const {
     part = {i * grid_positions_.size() / parts.size(), (i + 1) * grid_positions_.size() / parts.size(),
             levels_[0].nodes, 0};
     for (size_t v = part.first_vertex; v < part.last_vertex; ++v)
-      for (int node : cells_[static_cast<size_t>(grid_positions_[v].cell)]) {
+      for (int node : cells_[grid_positions_[v].cell]) {
         part.first_node = std::min(part.first_node, node);
         part.last_node = std::max(part.last_node, node + 1);
       }
@@ -165,7 +165,7 @@ Mat3X GridHierarchy::collect(const Mat3X& residual) const {
       const Part& part = parts_[i];
       sums[i] = Mat3X::Zero(3, part.last_node - part.first_node);
       for (size_t v = part.first_vertex; v < part.last_vertex; ++v) {
-        const auto& nodes = cells_[static_cast<size_t>(grid_positions_[v].cell)];
+        const auto& nodes = cells_[grid_positions_[v].cell];
         const auto weights = hat_values(grid_positions_[v].within);
         for (size_t k = 0; k < 8; ++k)
           sums[i].col(nodes[k] - part.first_node) += weights[k] * residual.col(static_cast<Eigen::Index>(v));
@@ -201,7 +201,7 @@ GridHierarchy::Correction GridHierarchy::solve(const Mat3X& residual) const {
 void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vectors) const {
   parallel_for(grid_positions_.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
-      const auto& nodes = cells_[static_cast<size_t>(grid_positions_[v].cell)];
+      const auto& nodes = cells_[grid_positions_[v].cell];
       const auto weights = hat_values(grid_positions_[v].within);
       for (size_t k = 0; k < 8; ++k)
         vectors.col(static_cast<Eigen::Index>(v)) += weight * weights[k] * correction.at_nodes.col(nodes[k]);
@@ -210,7 +210,7 @@ void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vect
 }
 
 void Preconditioner::refresh(Relaxation& r) {
-  const auto n = static_cast<size_t>(r.adjacency.vertex_count);
+  const size_t n = r.adjacency.vertex_count;
   inverse_.resize(n);
   std::vector<float> mean(n, 0);  // single precision suffices for a weight, and saves memory at the peak
   parallel_for(n, 256, [&](size_t begin, size_t end) {
@@ -228,7 +228,7 @@ void Preconditioner::refresh(Relaxation& r) {
 
 void Preconditioner::apply(const Relaxation& r, Mat3X& vectors) const {
   const GridHierarchy::Correction correction = grids_.solve(vectors);
-  parallel_for(static_cast<size_t>(vectors.cols()), 4096, [&](size_t begin, size_t end) {
+  parallel_for(vectors.cols(), 4096, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       auto u = vectors.col(static_cast<Eigen::Index>(v));
       u = inverse_[v] * Vec3(u);

@@ -17,7 +17,7 @@ void cap_displacement(const std::vector<double>& vertex_length, double max_move,
 
 bool RestDetector::at_rest(double energy) {
   history_.push_back(energy);
-  const auto window = static_cast<size_t>(options_.window);
+  const size_t window = options_.window;
   if (history_.size() <= window) return false;
   const double before = history_[history_.size() - 1 - window];
   return before - energy <= options_.energy_drop * std::abs(energy);

@@ -10,7 +10,7 @@ namespace {
 std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {
   std::vector<int> vertices;
   for (int f : faces) {
-    const Triangle& t = c.faces[static_cast<size_t>(f)];
+    const Triangle& t = c.faces[f];
     vertices.insert(vertices.end(), t.begin(), t.end());
   }
   return vertices;

@@ -127,9 +127,8 @@ void VertexRing::gather(const SurfacePositions& at, int wedge) {
   const std::size_t S = stride_;
   columns_.resize(fixed_columns * S);
   double* const data = columns_.data();
-  const auto item = static_cast<std::size_t>(rings_.first[static_cast<std::size_t>(wedge)]);
-  if (begins_at_crease())
-    crease_opposite_ = at.points.col(rings_.crease_opposite[static_cast<std::size_t>(wedge)]);
+  const std::size_t item = rings_.first[wedge];
+  if (begins_at_crease()) crease_opposite_ = at.points.col(rings_.crease_opposite[wedge]);
   const auto normal = [&](std::size_t i) {
     return at.normals.col(rings_.wedges.empty() ? ring[i].neighbour : rings_.wedges[item + i]);
   };
@@ -149,9 +148,8 @@ void VertexRing::gather(const SurfacePositions& at, int wedge) {
       other = (at.points.col(entry.neighbour) - b).cross(at.points.col(entry.across) - b);
     }
     put(other, data + beyond * S + i, S);
-    data[edge_target * S + i] = targets_.edge[static_cast<std::size_t>(entry.edge)];
-    data[face_target * S + i] =
-        face ? targets_.face[static_cast<std::size_t>(entry.face)] : data[edge_target * S + i];
+    data[edge_target * S + i] = targets_.edge[entry.edge];
+    data[face_target * S + i] = face ? targets_.face[entry.face] : data[edge_target * S + i];
     data[has_edge * S + i] = rings_.owned.empty() || rings_.owned[item + i];
     data[has_face * S + i] = face;
   }
@@ -270,7 +268,7 @@ bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMea
   const auto breaks = [&](bool crease, double before, double after) {
     return crease ? crease_fold_breaks(o, before, after) : hooke::fold_breaks(o, before, after);
   };
-  const auto item = static_cast<std::size_t>(rings_.first[static_cast<std::size_t>(wedge_)]) + i;
+  const auto item = static_cast<std::size_t>(rings_.first[wedge_]) + i;
   const bool far_crease = !rings_.far_crease.empty() && rings_.far_crease[item];
   return breaks(i == 0 && begins_at_crease(), b.fold[i], a.fold[i]) ||
          breaks(far_crease, b.far_fold[i], a.far_fold[i]);

@@ -68,7 +68,7 @@ class VertexRing {
   bool fold_breaks(const GuardOptions& options, std::size_t entry, const RingMeasures& before,
                    const RingMeasures& after) const;
   bool begins_at_crease() const {
-    return !rings_.crease_opposite.empty() && rings_.crease_opposite[static_cast<std::size_t>(wedge_)] >= 0;
+    return !rings_.crease_opposite.empty() && rings_.crease_opposite[wedge_] >= 0;
   }
 
   int wedge_ = 0;

@@ -31,7 +31,7 @@ bool swaps_bytes(std::endian order) {
 
 size_t size_of(NumberType type) {
   static constexpr size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[static_cast<size_t>(type)];
+  return sizes[static_cast<std::size_t>(type)];
 }
 
 double binary_number(std::string_view bytes, NumberType type, bool swap) {

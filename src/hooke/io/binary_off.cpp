@@ -71,7 +71,7 @@ VertexData allocate_binary_data(const OffHeader& header) {
   VertexData data;
   const auto add = [&](ChannelNames names) {
     for (const char* name : names)
-      data.push_back({name, NumberType::float32, std::vector<double>(static_cast<size_t>(header.vertices))});
+      data.push_back({name, NumberType::float32, std::vector<double>(header.vertices)});
   };
   if (header.normals) add(normal_names);
   if (header.colours) add(colour_names);
@@ -86,7 +86,7 @@ void read_binary_vertices(Words& words, MeshFile& file) {
       if (!std::isfinite(file.points(k, v)))
         words.fail(fmt::format("vertex {} is not finite; expected finite numbers; correct it", v));
     }
-    for (VertexChannel& channel : file.vertex_data) channel.values[static_cast<size_t>(v)] = words.real();
+    for (VertexChannel& channel : file.vertex_data) channel.values[v] = words.real();
   }
 }
 

@@ -12,10 +12,6 @@
 namespace hooke {
 namespace {
 
-std::size_t to_index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 constexpr double at_corner = 1 - 1e-9;  // weight beyond which a place is a vertex
 
 /// Faces as lists of corners.
@@ -45,7 +41,7 @@ struct Interpolated {
 
 Interpolated interpolate(const CornerValues& values, const SurfacePoint& place, const Permutation& order) {
   if (place.face < 0) return {};
-  const Triangle& corners = values.corners[to_index(order.old_face[to_index(place.face)])];
+  const Triangle& corners = values.corners[order.old_face[place.face]];
   if (corners[0] < 0) return {};
   Interpolated result{.exists = true};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -61,18 +57,18 @@ template <typename AreEqual>
 CornerValues interpolate(const CornerValues& values, const ChartPlaces& places, const Remeshed& meshes,
                          const AreEqual& are_equal) {
   const Adjacency& c = meshes.result.adjacency;
-  const auto wedges = to_index(c.wedge_count());
+  const std::size_t wedges = c.wedge_count();
   std::vector<Interpolated> of_wedges(wedges);
   for (std::size_t wedge = 0; wedge < wedges; ++wedge)
     of_wedges[wedge] = interpolate(values, places.wedges[wedge], meshes.input_order.order);
-  std::vector<int> shared(wedges), last(to_index(c.vertex_count), -1), earlier(wedges, -1);
+  std::vector<int> shared(wedges), last(c.vertex_count, -1), earlier(wedges, -1);
   for (std::size_t wedge = 0; wedge < wedges; ++wedge) {
-    const auto v = to_index(c.vertex_of_wedge(static_cast<int>(wedge)));
+    const auto v = c.vertex_of_wedge(static_cast<int>(wedge));
     shared[wedge] = static_cast<int>(wedge);
-    for (int other = last[v]; other >= 0; other = earlier[to_index(other)])
-      if (of_wedges[wedge].exists && of_wedges[to_index(other)].exists &&
-          are_equal(of_wedges[wedge].value, of_wedges[to_index(other)].value))
-        shared[wedge] = shared[to_index(other)];
+    for (int other = last[v]; other >= 0; other = earlier[other])
+      if (of_wedges[wedge].exists && of_wedges[other].exists &&
+          are_equal(of_wedges[wedge].value, of_wedges[other].value))
+        shared[wedge] = shared[other];
     earlier[wedge] = std::exchange(last[v], static_cast<int>(wedge));
   }
   CornerValues result;
@@ -80,14 +76,13 @@ CornerValues interpolate(const CornerValues& values, const ChartPlaces& places, 
   result.corners.resize(c.faces.size());
   std::vector<Triangle> by_id(c.faces.size());
   for (std::size_t f = 0; f < c.faces.size(); ++f)
-    by_id[to_index(meshes.result_order.old_face[f])] = c.wedges_of_faces()[f];
+    by_id[meshes.result_order.old_face[f]] = c.wedges_of_faces()[f];
   std::vector<int> number(wedges, -1);
   int count = 0;
   for (std::size_t f = 0; f < by_id.size(); ++f) {
-    const bool has_all =
-        std::ranges::all_of(by_id[f], [&](int wedge) { return of_wedges[to_index(wedge)].exists; });
+    const bool has_all = std::ranges::all_of(by_id[f], [&](int wedge) { return of_wedges[wedge].exists; });
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto wedge = to_index(shared[to_index(by_id[f][k])]);
+      const auto wedge = shared[by_id[f][k]];
       if (has_all && number[wedge] < 0) number[wedge] = count++;
       result.corners[f][k] = has_all ? number[wedge] : -1;
     }
@@ -101,7 +96,7 @@ CornerValues interpolate(const CornerValues& values, const ChartPlaces& places, 
 /// The vertex of the input at a place, -1 for none.
 int vertex_at(const SurfacePoint& place, const Adjacency& c) {
   for (std::size_t k = 0; place.face >= 0 && k < 3; ++k)
-    if (place.weights[static_cast<Eigen::Index>(k)] >= at_corner) return c.faces[to_index(place.face)][k];
+    if (place.weights[static_cast<Eigen::Index>(k)] >= at_corner) return c.faces[place.face][k];
   return -1;
 }
 
@@ -115,9 +110,9 @@ int value_towards(const CornerValues& values, const Remeshed& meshes, int vertex
     shortest = std::min(shortest, (points.col(n) - points.col(vertex)).norm());
   const Vec3 way = (x - points.col(vertex)).stableNormalized();
   const int face = locate(points, c, points.col(vertex) + near * shortest * way, vertex).face;
-  const Triangle& t = c.faces[to_index(face)];
+  const Triangle& t = c.faces[face];
   for (std::size_t k = 0; k < 3; ++k)
-    if (t[k] == vertex) return values.corners[to_index(meshes.input_order.order.old_face[to_index(face)])][k];
+    if (t[k] == vertex) return values.corners[meshes.input_order.order.old_face[face]][k];
   return -1;
 }
 
@@ -131,9 +126,9 @@ void set_values_at_poles(const CornerValues& values, const ChartPlaces& places, 
   std::vector<Vec3> added;
   for (std::size_t f = 0; f < c.faces.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
-      const SurfacePoint& place = places.wedges[to_index(c.wedges_of_faces()[f][k])];
+      const SurfacePoint& place = places.wedges[c.wedges_of_faces()[f][k]];
       const int pole = vertex_at(place, meshes.input.adjacency);
-      int& corner = result.corners[to_index(meshes.result_order.old_face[f])][k];
+      int& corner = result.corners[meshes.result_order.old_face[f]][k];
       if (corner < 0 || !std::ranges::binary_search(poles, pole)) continue;
       const Triangle& t = c.faces[f];
       const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
@@ -169,8 +164,7 @@ bool is_hard_everywhere(const CornerValues& normals, const ChartedSurface& surfa
   const Adjacency& c = surface.adjacency;
   std::size_t inner = 0, hard = 0;
   const auto normal_at = [&](int face, int vertex) -> Vec3 {
-    const Triangle &t = c.faces[to_index(face)],
-                   &values = normals.corners[to_index(order.old_face[to_index(face)])];
+    const Triangle &t = c.faces[face], &values = normals.corners[order.old_face[face]];
     const int value = values[t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2];
     return value < 0 ? Vec3(Vec3::Zero()) : Vec3(normals.values.col(value));
   };
@@ -207,7 +201,7 @@ CornerValues carry_normals(const CornerValues& normals, const ChartPlaces& place
   RenewedNormals renewed =
       renew_corner_normals({polygons, nowhere, points}, as_list(result.corners), result.values);
   for (Eigen::Index n = 0; n < result.values.cols(); ++n)
-    if (renewed.renewed[static_cast<std::size_t>(n)]) result.values.col(n) = renewed.values.col(n);
+    if (renewed.renewed[n]) result.values.col(n) = renewed.values.col(n);
   return result;
 }
 
@@ -216,8 +210,7 @@ CornerValues carry_normals(const CornerValues& normals, const ChartPlaces& place
 FaceData carry_face_data(const FaceData& data, const ChartPlaces& places, const Remeshed& meshes) {
   std::vector<int> source(places.faces.size());
   for (std::size_t f = 0; f < source.size(); ++f)
-    source[to_index(meshes.result_order.old_face[f])] =
-        meshes.input_order.order.old_face[to_index(places.faces[f])];
+    source[meshes.result_order.old_face[f]] = meshes.input_order.order.old_face[places.faces[f]];
   return gather(data, source);
 }
 
@@ -235,7 +228,7 @@ CornerValues moved_normals(const CornerValues& normals, const std::vector<Triang
   const RenewedNormals renewed =
       renew_corner_normals({polygons, before, after}, as_list(normals.corners), normals.values);
   for (Eigen::Index n = 0; n < result.values.cols(); ++n)
-    if (renewed.renewed[static_cast<std::size_t>(n)]) result.values.col(n) = renewed.values.col(n);
+    if (renewed.renewed[n]) result.values.col(n) = renewed.values.col(n);
   return result;
 }
 

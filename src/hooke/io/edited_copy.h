@@ -23,7 +23,7 @@ class EditedCopy {
 
   /// Replaces a part of the source, which must lie behind the parts replaced before.
   void replace(std::string_view part, std::string_view by) {
-    const auto begin = static_cast<std::size_t>(part.data() - source_.data());
+    const std::size_t begin = part.data() - source_.data();
     result_.append(source_, copied_, begin - copied_);
     result_.append(by);
     copied_ = begin + part.size();

@@ -413,7 +413,7 @@ void take_polygons(const MshContent& content, MeshFile& file) {
                                      file.name, where, f, content.corners[corner]));
       }
       node_of_corner.push_back(found->second);
-      vertex[static_cast<size_t>(found->second)] = 0;
+      vertex[found->second] = 0;
     }
     file.polygons.items.resize(corner);
     end_polygon(file);
@@ -421,8 +421,7 @@ void take_polygons(const MshContent& content, MeshFile& file) {
   int used = 0;
   for (int& v : vertex)
     if (v == 0) v = used++;
-  for (size_t c = 0; c < node_of_corner.size(); ++c)
-    file.polygons.items[c] = vertex[static_cast<size_t>(node_of_corner[c])];
+  for (size_t c = 0; c < node_of_corner.size(); ++c) file.polygons.items[c] = vertex[node_of_corner[c]];
   file.points.resize(3, used);
   for (size_t n = 0; n < vertex.size(); ++n)
     if (vertex[n] >= 0) file.points.col(vertex[n]) = content.nodes[n];

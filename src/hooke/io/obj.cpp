@@ -250,7 +250,7 @@ class Names {
 
 // Adds the labels of the faces to the file: channels for those kinds that the text has.
 void keep_labels(const std::vector<ObjReader>& readers, MeshFile& file) {
-  const auto faces = static_cast<size_t>(std::ssize(file.polygons.first) - 1);
+  const size_t faces = std::ssize(file.polygons.first) - 1;
   for (size_t label = 0; label < obj_labels.size(); ++label) {
     const auto has = [&](const ObjReader& reader) {
       return std::ranges::find(reader.labels, label, &LabelStatement::label) != reader.labels.end();

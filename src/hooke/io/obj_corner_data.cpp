@@ -31,7 +31,7 @@ std::vector<PolygonEdge> edges_at(const std::vector<char>& chosen, const Element
       size_t from = static_cast<size_t>(c), to = static_cast<size_t>(c + 1 < end ? c + 1 : begin);
       if (polygons.items[from] > polygons.items[to]) std::swap(from, to);
       const Edge ends{polygons.items[from], polygons.items[to]};
-      if (chosen[static_cast<size_t>(ends[0])] || chosen[static_cast<size_t>(ends[1])])
+      if (chosen[ends[0]] || chosen[ends[1]])
         edges.push_back({ends, {data.elements[from], data.elements[to]}});
     }
   }
@@ -81,9 +81,9 @@ Warning warning_of(const CornerSeams& seams, const std::string& name, const Corn
 
 std::vector<int> elements_of_vertices(const ElementsOfCorners& data, const IntLists& polygons,
                                       int vertex_count) {
-  std::vector<int> of_vertices(static_cast<size_t>(vertex_count), -1);
+  std::vector<int> of_vertices(vertex_count, -1);
   for (size_t c = 0; c < polygons.items.size(); ++c) {
-    int& element = of_vertices[static_cast<size_t>(polygons.items[c])];
+    int& element = of_vertices[polygons.items[c]];
     if (element < 0) element = data.elements[c];
   }
   return of_vertices;

@@ -44,8 +44,7 @@ void allocate_vertices(const PlyElement& vertex, MeshFile& file) {
   file.points.resize(3, vertex.count);
   for (const PlyProperty& property : vertex.properties)
     if (coordinate_of(property) < 0 && !property.count_type)
-      file.vertex_data.push_back(
-          {property.name, property.type, std::vector<double>(static_cast<size_t>(vertex.count))});
+      file.vertex_data.push_back({property.name, property.type, std::vector<double>(vertex.count)});
 }
 
 template <typename Body>
@@ -61,7 +60,7 @@ void read_vertices(Body& body, const PlyElement& vertex, const PlyRows& rows, Me
       else if (property.count_type)
         skip_property(body, property);
       else
-        (channel++)->values[static_cast<size_t>(row)] = body.any_number(property.type, property.name);
+        (channel++)->values[row] = body.any_number(property.type, property.name);
     }
     body.end_row();
   }
@@ -363,7 +362,7 @@ std::vector<double> read_lengths(Body body, const PlyHeader& header, const PlyEl
     skip_element(body, element);
   }
   std::vector<double> lengths;
-  lengths.reserve(static_cast<size_t>(vertex.count));
+  lengths.reserve(vertex.count);
   for (long long row = 0; row < vertex.count; ++row) {
     body.begin_row(vertex, row);
     for (const PlyProperty& property : vertex.properties) {

@@ -241,7 +241,7 @@ void BinaryPlyBody::begin_element(const PlyElement& element) {
   size_t shortest_row = 0;
   for (const PlyProperty& property : element.properties)
     shortest_row += size_of(property.count_type.value_or(property.type));
-  const auto remaining = static_cast<size_t>(end_ - cursor_);
+  const size_t remaining = end_ - cursor_;
   if (!fits(element.count, shortest_row, remaining)) fail(too_few_bytes(element, remaining));
 }
 

@@ -181,8 +181,7 @@ TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons) 
       if (!clean) ++result.not_simple;
     }
     for (const auto& [a, b, c] : cuts) {
-      result.triangles.push_back({corners[static_cast<size_t>(a)], corners[static_cast<size_t>(b)],
-                                  corners[static_cast<size_t>(c)]});
+      result.triangles.push_back({corners[a], corners[b], corners[c]});
       result.polygon.push_back(f);
     }
   }

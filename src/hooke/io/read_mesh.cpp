@@ -48,8 +48,7 @@ CornerValues values_of_triangles(PolygonCorners&& of_polygons, const IntLists& p
     Triangle& values = result.corners.emplace_back();
     for (size_t k = 0; k < 3; ++k) {
       const auto corner = std::ranges::find(corners, triangles[t][k]) - corners.begin();
-      values[k] = of_polygons.corners[static_cast<size_t>(polygons.first[static_cast<size_t>(polygon)] +
-                                                          static_cast<int>(corner))];
+      values[k] = of_polygons.corners[polygons.first[polygon] + static_cast<int>(corner)];
     }
     if (std::ranges::min(values) < 0) values = {-1, -1, -1};
   }
@@ -75,13 +74,13 @@ void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_da
   for (VertexChannel& channel : vertex_data) {
     std::vector<double> values;
     values.reserve(origin.vertex.size());
-    for (const int v : origin.vertex) values.push_back(channel.values[static_cast<size_t>(v)]);
+    for (const int v : origin.vertex) values.push_back(channel.values[v]);
     channel.values = std::move(values);
   }
   face_data = gather(face_data, origin.face);
   std::vector<int> face;
   face.reserve(origin.face.size());
-  for (const int f : origin.face) face.push_back(source.face[static_cast<size_t>(f)]);
+  for (const int f : origin.face) face.push_back(source.face[f]);
   source.face = std::move(face);
 }
 

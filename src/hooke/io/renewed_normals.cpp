@@ -14,10 +14,6 @@ namespace {
 constexpr std::size_t elements_per_task = 1024;
 constexpr double degree = std::numbers::pi / 180;
 
-std::size_t to_index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 int polygon_count(const MovedPolygons& moved) {
   return static_cast<int>(moved.polygons.first.size()) - 1;
 }
@@ -45,7 +41,7 @@ Vec3 newell_normal(const Mat3X& points, std::span<const int> corners) {
 
 // Which polygons have a vertex that moved.
 std::vector<char> touched_polygons(const MovedPolygons& moved) {
-  std::vector<char> touched(to_index(polygon_count(moved)), 0);
+  std::vector<char> touched(polygon_count(moved), 0);
   parallel_for(touched.size(), elements_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
       touched[f] = std::ranges::any_of(moved.polygons[static_cast<int>(f)],
@@ -81,7 +77,7 @@ Vec3 weighted_normal(const Mat3X& points, std::span<const int> corners, std::siz
 Mat3X weighted_normals(const MovedPolygons& moved) {
   const double scale = some_length(moved);
   Mat3X normals(3, static_cast<Eigen::Index>(moved.polygons.items.size()));
-  parallel_for(to_index(polygon_count(moved)), elements_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_for(polygon_count(moved), elements_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const std::span<const int> corners = moved.polygons[static_cast<int>(f)];
       for (std::size_t k = 0; k < corners.size(); ++k)
@@ -108,17 +104,17 @@ bool same_fan(const Mat3X& values, int a, int b) {
 Fans find_fans(const MovedPolygons& moved, const std::vector<int>& elements, const Mat3X& values) {
   const std::vector<int>& vertices = moved.polygons.items;
   Fans fans{vertices, static_cast<int>(moved.after.cols())};
-  std::vector<int> first(to_index(fans.count), -1);  // element of each vertex
+  std::vector<int> first(fans.count, -1);  // element of each vertex
   std::vector<char> has_several(first.size(), 0);
   for (std::size_t c = 0; c < vertices.size(); ++c) {
-    int& element = first[to_index(vertices[c])];
+    int& element = first[vertices[c]];
     if (elements[c] < 0) fans.of_corners[c] = -1;
     if (element < 0) element = elements[c];
-    has_several[to_index(vertices[c])] |= static_cast<char>(elements[c] >= 0 && elements[c] != element);
+    has_several[vertices[c]] |= static_cast<char>(elements[c] >= 0 && elements[c] != element);
   }
   std::vector<std::pair<int, std::size_t>> corners;  // of vertices with several elements
   for (std::size_t c = 0; c < vertices.size(); ++c)
-    if (has_several[to_index(vertices[c])] && elements[c] >= 0) corners.emplace_back(vertices[c], c);
+    if (has_several[vertices[c]] && elements[c] >= 0) corners.emplace_back(vertices[c], c);
   std::ranges::sort(corners);
   std::vector<std::pair<int, int>> here;  // elements and fans at a vertex
   int vertex = -1;
@@ -143,13 +139,13 @@ struct FanNormals {
 FanNormals fan_normals(const MovedPolygons& moved, const Fans& fans) {
   const Mat3X corners = weighted_normals(moved);
   const std::vector<char> touched = touched_polygons(moved);
-  FanNormals result{Mat3X::Zero(3, fans.count), std::vector<char>(to_index(fans.count), 0)};
+  FanNormals result{Mat3X::Zero(3, fans.count), std::vector<char>(fans.count, 0)};
   for (int f = 0; f < polygon_count(moved); ++f)
-    for (int c = moved.polygons.first[to_index(f)]; c < moved.polygons.first[to_index(f) + 1]; ++c) {
-      const int fan = fans.of_corners[to_index(c)];
+    for (int c = moved.polygons.first[f]; c < moved.polygons.first[f + 1]; ++c) {
+      const int fan = fans.of_corners[c];
       if (fan < 0) continue;
       result.values.col(fan) += corners.col(c);
-      result.moved[to_index(fan)] |= touched[to_index(f)];
+      result.moved[fan] |= touched[f];
     }
   for (Eigen::Index fan = 0; fan < fans.count; ++fan)
     result.values.col(fan) = unit_normal(result.values.col(fan));
@@ -159,18 +155,18 @@ FanNormals fan_normals(const MovedPolygons& moved, const Fans& fans) {
 // The mean normals of the elements: over the corners that refer to each.
 RenewedNormals mean_normals(const Fans& fans, const FanNormals& normals, const std::vector<int>& elements,
                             Eigen::Index count) {
-  RenewedNormals result{Mat3X::Zero(3, count), std::vector<char>(static_cast<std::size_t>(count), 0)};
+  RenewedNormals result{Mat3X::Zero(3, count), std::vector<char>(count, 0)};
   const auto for_corners = [&](const auto& use) {  // calls use(element, its index, fan)
     for (std::size_t c = 0; c < elements.size(); ++c)
-      if (elements[c] >= 0) use(elements[c], to_index(elements[c]), fans.of_corners[c]);
+      if (elements[c] >= 0) use(elements[c], elements[c], fans.of_corners[c]);
   };
   for_corners([&](int element, std::size_t e, int fan) {
     result.values.col(element) += normals.values.col(fan);
-    result.renewed[e] |= normals.moved[to_index(fan)];
+    result.renewed[e] |= normals.moved[fan];
   });
   for (Eigen::Index n = 0; n < count; ++n) {
     result.values.col(n) = unit_normal(result.values.col(n));
-    result.renewed[static_cast<std::size_t>(n)] &= static_cast<char>(!result.values.col(n).isZero(0));
+    result.renewed[n] &= static_cast<char>(!result.values.col(n).isZero(0));
   }
   std::vector<char> torn(result.renewed.size(), 0);
   for_corners([&](int element, std::size_t e, int fan) {
@@ -194,7 +190,7 @@ RenewedNormals renew_vertex_normals(const MovedPolygons& moved) {
   const Fans fans{moved.polygons.items, static_cast<int>(moved.after.cols())};
   FanNormals normals = fan_normals(moved, fans);
   for (Eigen::Index v = 0; v < fans.count; ++v)
-    normals.moved[static_cast<std::size_t>(v)] &= static_cast<char>(!normals.values.col(v).isZero(0));
+    normals.moved[v] &= static_cast<char>(!normals.values.col(v).isZero(0));
   return {std::move(normals.values), std::move(normals.moved)};
 }
 

@@ -28,7 +28,7 @@ class Charts {
   }
 
  private:
-  int& parent(int element) { return parents_[static_cast<std::size_t>(element)]; }
+  int& parent(int element) { return parents_[element]; }
 
   std::vector<int> parents_;
 };
@@ -52,8 +52,7 @@ Triangles triangles_of(const TextureMotion& motion) {
     Triangle& elements = result.elements.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const auto corner = std::ranges::find(corners, result.vertices[t][k]) - corners.begin();
-      elements[k] = motion.elements[static_cast<std::size_t>(
-          motion.polygons.first[static_cast<std::size_t>(f)] + corner)];
+      elements[k] = motion.elements[motion.polygons.first[f] + corner];
     }
   }
   return result;
@@ -111,8 +110,8 @@ bool has_all(const Triangle& elements) {
 Vec3 new_value(const TextureMotion& motion, const Triangles& triangles, Charts& charts,
                std::span<const Use> uses) {
   const int vertex = uses.front().vertex, element = uses.front().element;
-  const SurfacePoint& place = motion.map[static_cast<std::size_t>(vertex)].position;
-  const auto elements_at = [&](int t) { return triangles.elements[static_cast<std::size_t>(t)]; };
+  const SurfacePoint& place = motion.map[vertex].position;
+  const auto elements_at = [&](int t) { return triangles.elements[t]; };
   if (place.face >= 0 && has_all(elements_at(place.face)) &&
       charts.find(elements_at(place.face)[0]) == charts.find(element))
     return interpolate(motion.values, elements_at(place.face), place.weights);
@@ -120,8 +119,8 @@ Vec3 new_value(const TextureMotion& motion, const Triangles& triangles, Charts& 
   double best_fit = -1;  // farther away than an edge a value is not extrapolated
   for (const Use& use : uses) {
     if (!has_all(elements_at(use.triangle))) continue;
-    const Vec3 weights = weights_in_plane(
-        motion.before, triangles.vertices[static_cast<std::size_t>(use.triangle)], motion.after.col(vertex));
+    const Vec3 weights =
+        weights_in_plane(motion.before, triangles.vertices[use.triangle], motion.after.col(vertex));
     if (weights.minCoeff() <= best_fit) continue;
     best_fit = weights.minCoeff();
     best = interpolate(motion.values, elements_at(use.triangle), weights);
@@ -135,8 +134,7 @@ ReprojectedTexture reproject_texture(const TextureMotion& motion) {
   const Triangles triangles = triangles_of(motion);
   const std::vector<Use> uses = uses_of(triangles);
   Charts charts = charts_of(motion, triangles, uses);
-  ReprojectedTexture result{motion.values,
-                            std::vector<char>(static_cast<std::size_t>(motion.values.cols()), 0)};
+  ReprojectedTexture result{motion.values, std::vector<char>(motion.values.cols(), 0)};
   std::vector<char> seen(result.moved.size(), 0), torn(result.moved.size(), 0);
   for (auto first = uses.begin(); first != uses.end();) {
     const auto next = std::find_if(first, uses.end(), [&](const Use& u) {
@@ -145,7 +143,7 @@ ReprojectedTexture reproject_texture(const TextureMotion& motion) {
     const bool stays = motion.before.col(first->vertex) == motion.after.col(first->vertex);
     const Vec3 value =
         stays ? Vec3(motion.values.col(first->element)) : new_value(motion, triangles, charts, {first, next});
-    const auto e = static_cast<std::size_t>(first->element);
+    const std::size_t e = first->element;
     if (!std::exchange(seen[e], 1))
       result.values.col(first->element) = value;
     else

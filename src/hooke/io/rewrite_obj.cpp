@@ -31,7 +31,7 @@ void set_vertex(Scanner& in, const Mat3X& points, Eigen::Index vertex, EditedCop
 }
 
 void set_normal_line(Scanner& in, const RenewedNormals& normals, Eigen::Index normal, EditedCopy& copy) {
-  if (!normals.renewed[static_cast<size_t>(normal)]) return;
+  if (!normals.renewed[normal]) return;
   const auto tokens = three_tokens(in);
   if (tokens.back().empty() || !in.token().empty()) return;  // not three numbers: no normal
   for (size_t k = 0; k < 3; ++k)
@@ -40,7 +40,7 @@ void set_normal_line(Scanner& in, const RenewedNormals& normals, Eigen::Index no
 
 void set_texture_line(Scanner& in, const ReprojectedTexture& texture, Eigen::Index element,
                       EditedCopy& copy) {
-  if (!texture.moved[static_cast<size_t>(element)]) return;
+  if (!texture.moved[element]) return;
   const auto tokens = three_tokens(in);
   for (size_t k = 0; k < 3; ++k) {
     double old = 0;

@@ -32,7 +32,7 @@ std::string rewrite_off_text(std::string_view text, const std::string& name, con
     Scanner in = piece.scanner;
     for (long long row = piece.first_row; row < header.vertices && in.next_line(); ++row) {
       for (Eigen::Index k = 0; k < 3; ++k) copy.set_number(in.token(), points(k, row));
-      if (!normals || !normals->renewed[static_cast<size_t>(row)]) continue;
+      if (!normals || !normals->renewed[row]) continue;
       for (Eigen::Index k = 0; k < 3; ++k) copy.set_normal(in.token(), normals->values(k, row));
     }
   });

@@ -121,7 +121,7 @@ class PlyRewriter {
         const int component = normals ? normal_of(property) : -1;
         if (coordinate >= 0)
           set_coordinate(body.raw(property.type), property.type, values_.stored(coordinate, row));
-        else if (component >= 0 && normals->renewed[static_cast<size_t>(row)])
+        else if (component >= 0 && normals->renewed[row])
           set_normal(body.raw(property.type), property.type, normals->values(component, row));
         else
           skip_property(body, property);

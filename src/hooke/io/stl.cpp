@@ -53,7 +53,7 @@ class PointNumbers {
     for (const double x : point)
       hash = mixed(hash + std::bit_cast<std::uint64_t>(x + 0.) + 1);  // -0 + 0 is 0
     for (size_t i = hash & (slots_.size() - 1);; i = (i + 1) & (slots_.size() - 1))
-      if (slots_[i] < 0 || points_[static_cast<size_t>(slots_[i])] == point) return slots_[i];
+      if (slots_[i] < 0 || points_[slots_[i]] == point) return slots_[i];
   }
 
   void grow() {
@@ -72,8 +72,7 @@ void add_facet(MeshFile& file, PointNumbers& numbers, const std::array<Vec3, 3>&
 
 void take_points(MeshFile& file, const PointNumbers& numbers) {
   file.points.resize(3, static_cast<Eigen::Index>(numbers.points().size()));
-  for (Eigen::Index v = 0; v < file.points.cols(); ++v)
-    file.points.col(v) = numbers.points()[static_cast<size_t>(v)];
+  for (Eigen::Index v = 0; v < file.points.cols(); ++v) file.points.col(v) = numbers.points()[v];
   file.notes.push_back({"corners_welded", file.polygons.items.size(),
                         fmt::format("{}: {} corners of facets are {} different points, its vertices",
                                     file.name, file.polygons.items.size(), file.points.cols())});
@@ -347,9 +346,9 @@ std::string write_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
 
 Warnings losses_in_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
                        PlyEncoding encoding, const std::string& name) {
-  std::vector<char> used(static_cast<size_t>(points.cols()), 0);
+  std::vector<char> used(points.cols(), 0);
   for (const Triangle& triangle : triangles)
-    for (const int v : triangle) used[static_cast<size_t>(v)] = 1;
+    for (const int v : triangle) used[v] = 1;
   PointNumbers numbers(used.size());
   size_t count = 0;
   for (size_t v = 0; v < used.size(); ++v) {

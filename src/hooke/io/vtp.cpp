@@ -196,7 +196,7 @@ class DocumentReader {
   }
 
   void take_appended(const Attributes& attributes) {
-    const auto index = static_cast<size_t>(XML_GetCurrentByteIndex(parser_.get()));
+    const size_t index = XML_GetCurrentByteIndex(parser_.get());
     const size_t tag = bytes_.find('>', std::min(index, bytes_.size()));
     const size_t begin = tag == bytes_.npos ? tag : bytes_.find('_', tag);
     if (begin == bytes_.npos)
@@ -283,7 +283,7 @@ class ArrayReader {
         static_cast<size_t>(offset) > document_.appended.size())
       throw Error(fmt::format("offset {} in {} bytes of appended data; expected less; the file is truncated",
                               in_quotes(value_of(array.attributes, "offset")), document_.appended.size()));
-    const auto begin = static_cast<size_t>(offset);
+    const size_t begin = offset;
     const auto next = std::ranges::upper_bound(offsets_, begin);
     const size_t end =
         next == offsets_.end() ? document_.appended.size() : std::min(*next, document_.appended.size());
@@ -340,7 +340,7 @@ void add_polygons(const Piece& piece, const ArrayReader& reader, long long first
               fmt::format("polygon {} has corners {} to {} of {}; expected at least 3; correct the offsets",
                           f, begin, ends[f], corners.size()));
     for (; begin < ends[f]; ++begin) {
-      const long long id = corners[static_cast<size_t>(begin)];
+      const long long id = corners[begin];
       if (id < 0 || id >= piece.points)
         fail_at(
             file.name, piece.connectivity->line,

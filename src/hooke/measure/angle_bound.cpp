@@ -42,7 +42,7 @@ void sort_unique(std::vector<int>& ids) {
 std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {
   std::vector<int> vertices;
   for (int f : faces)
-    for (int v : c.faces[static_cast<size_t>(f)]) vertices.push_back(v);
+    for (int v : c.faces[f]) vertices.push_back(v);
   sort_unique(vertices);
   return vertices;
 }
@@ -57,11 +57,11 @@ Patch patch_around(const Mat3X& points, const Adjacency& c, int face, int rings)
     sort_unique(patch.faces);
   }
   patch.vertices = corners_of(c, patch.faces);
-  const auto index_of = [](const std::vector<int>& ids, int id) {
-    return static_cast<size_t>(std::ranges::lower_bound(ids, id) - ids.begin());
+  const auto index_of = [](const std::vector<int>& ids, int id) -> size_t {
+    return std::ranges::lower_bound(ids, id) - ids.begin();
   };
   for (int f : patch.faces) {
-    const Triangle& t = c.faces[static_cast<size_t>(f)];
+    const Triangle& t = c.faces[f];
     patch.corners.push_back(
         {index_of(patch.vertices, t[0]), index_of(patch.vertices, t[1]), index_of(patch.vertices, t[2])});
   }
@@ -69,7 +69,7 @@ Patch patch_around(const Mat3X& points, const Adjacency& c, int face, int rings)
     double sum = 0;
     bool enclosed = true;
     for (int f : c.vertex_faces[v]) {
-      const Triangle& t = c.faces[static_cast<size_t>(f)];
+      const Triangle& t = c.faces[f];
       sum += corner_angle(points, t, t[0] == v ? 0 : t[1] == v ? 1 : 2);
       enclosed = enclosed && std::ranges::binary_search(patch.faces, f);
     }
@@ -224,11 +224,11 @@ struct SubMesh {
 };
 
 SubMesh cut_out(const Adjacency& c, int face) {
-  const Triangle& t = c.faces[static_cast<size_t>(face)];
+  const Triangle& t = c.faces[face];
   const std::vector<int> faces = sorted_union(c.vertex_faces, with_rings(c, {t.begin(), t.end()}, rings));
   SubMesh part;
   part.face = static_cast<int>(std::ranges::lower_bound(faces, face) - faces.begin());
-  for (int f : faces) part.faces.push_back(c.faces[static_cast<size_t>(f)]);
+  for (int f : faces) part.faces.push_back(c.faces[f]);
   for (const Triangle& corners : part.faces)
     part.vertices.insert(part.vertices.end(), corners.begin(), corners.end());
   sort_unique(part.vertices);
@@ -248,8 +248,7 @@ AngleBound bound_in_submesh(const MeasuredSurface& surface, int face, const std:
   split_wedges(c, here);
   const Mat3X points = surface.points(Eigen::all, part.vertices);
   AngleBound bound = bound_min_angle(wedge_points(points, c), cut_open(c), part.face, rings);
-  for (int& v : bound.vertices)
-    v = surface.ids.vertex(part.vertices[static_cast<size_t>(c.vertex_of_wedge(v))]);
+  for (int& v : bound.vertices) v = surface.ids.vertex(part.vertices[c.vertex_of_wedge(v)]);
   sort_unique(bound.vertices);
   return bound;
 }
@@ -269,7 +268,7 @@ std::vector<AngleBound> bound_min_angles(const MeasuredSurface& surface, const s
   const Adjacency& c = surface.adjacency;
   const std::vector<int> face_at = inverse_of(surface.ids.faces, c.faces.size());
   std::vector<AngleBound> bounds;
-  for (int f : faces) bounds.push_back(bound_in_submesh(surface, face_at[static_cast<size_t>(f)], creases));
+  for (int f : faces) bounds.push_back(bound_in_submesh(surface, face_at[f], creases));
   return bounds;
 }
 

@@ -105,7 +105,7 @@ class Samples {
 MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to, VertexDistances& vertices,
                         std::vector<ClosestFacePoint>* centres) {
   const std::span<const Face> faces = from.tree.faces();
-  const auto vertex_count = static_cast<size_t>(from.adjacency.vertex_count);
+  const size_t vertex_count = from.adjacency.vertex_count;
   vertices = {std::vector<double>(vertex_count, 0), std::vector<int>(vertex_count, -1)};
   if (centres) centres->assign(faces.size(), {});
   std::vector<double> max_squared(faces.size() / deviation_block + 1, 0);
@@ -119,7 +119,7 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to, 
       nearest.resize(samples.points().size());
       find(samples.points(), nearest);
       for (size_t k = 0; k < some.size(); ++k) {
-        const auto id = static_cast<size_t>(some[k].id);
+        const size_t id = some[k].id;
         max_squared[begin / deviation_block] =
             std::max(max_squared[begin / deviation_block], samples.max_squared(nearest, k));
         integrals[id] = area_of(some[k]) * samples.mean(nearest, k);
@@ -127,13 +127,12 @@ MaxRms measure_distance(const MeasuredSurface& from, const MeasuredSurface& to, 
           const int v = some[k].vertices[corner];
           if (from.adjacency.vertex_faces[v].front() != some[k].id) continue;  // another face tells
           const NearestFace& at_vertex = nearest[samples.corner_of(k, corner)];
-          vertices.distances[static_cast<size_t>(v)] = std::sqrt(at_vertex.squared_distance);
-          if (at_vertex.index >= 0)
-            vertices.faces[static_cast<size_t>(v)] = to.tree.faces()[static_cast<size_t>(at_vertex.index)].id;
+          vertices.distances[v] = std::sqrt(at_vertex.squared_distance);
+          if (at_vertex.index >= 0) vertices.faces[v] = to.tree.faces()[at_vertex.index].id;
         }
         const size_t centre = Samples::centre_of(k);
         if (!centres || nearest[centre].index < 0) continue;
-        const auto& [a, b, c] = to.tree.faces()[static_cast<size_t>(nearest[centre].index)].corners;
+        const auto& [a, b, c] = to.tree.faces()[nearest[centre].index].corners;
         (*centres)[first + k] = {closest_point(samples.points()[centre], a, b, c).point,
                                  nearest[centre].index};
       }
@@ -170,7 +169,7 @@ Vec3 area_vector(const Face& face) {
 }
 
 const Face& face_at(const MeasuredSurface& surface, const ClosestFacePoint& projection) {
-  return surface.tree.faces()[static_cast<size_t>(projection.face_index)];
+  return surface.tree.faces()[projection.face_index];
 }
 
 Vec3 weights_at(const Face& face, const ClosestFacePoint& projection) {
@@ -222,8 +221,8 @@ bool opposes_at_fold(const MeasuredSurface& reference, const ClosestFacePoint& a
   const Vec3 own = area_vector(face).normalized();
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
-  for (int f : reference.adjacency.vertex_faces[t[static_cast<size_t>(corner)]]) {
-    const Triangle& other = reference.adjacency.faces[static_cast<size_t>(f)];
+  for (int f : reference.adjacency.vertex_faces[t[corner]]) {
+    const Triangle& other = reference.adjacency.faces[f];
     const Vec3 m = area_vector(reference.points, other).normalized();
     if (touches(other) && m.dot(own) < fold && m.dot(n) < 0) return true;
   }
@@ -238,7 +237,7 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
   parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
       if (closest[k].face_index < 0) continue;
-      const auto f = static_cast<size_t>(faces[k].id);
+      const size_t f = faces[k].id;
       const Vec3 n = area_vector(faces[k]);
       angles[f] = angle_between(n, area_vector(face_at(reference, closest[k])));
       weights[f] = n.norm();
@@ -267,7 +266,7 @@ bool faces_no_like(const MeasuredSurface& reference, const Face& face, const Vec
   const double length = n.norm();
   if (!(length > 0)) return false;
   const ClosestPoint like = reference.tree.closest(centre, [&](int f) {
-    const Vec3 m = area_vector(reference.points, reference.adjacency.faces[static_cast<size_t>(f)]);
+    const Vec3 m = area_vector(reference.points, reference.adjacency.faces[f]);
     return m.dot(n) >= min_cosine * m.norm() * length;
   });
   const double limit = as_close * (centre - at.point).norm() + touching * reference.extent.diagonal;
@@ -277,11 +276,11 @@ bool faces_no_like(const MeasuredSurface& reference, const Face& face, const Vec
 /// Unit vertex normals, weighted by face area, so that a folded sliver does not turn them.
 Mat3X vertex_normals(const MeasuredSurface& surface) {
   Mat3X normals = Mat3X::Zero(3, surface.adjacency.vertex_count);
-  parallel_for(static_cast<size_t>(normals.cols()), deviation_block, [&](size_t begin, size_t end) {
+  parallel_for(normals.cols(), deviation_block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       Vec3 sum = Vec3::Zero();
       for (int f : surface.adjacency.vertex_faces[v])
-        sum += area_vector(surface.points, surface.adjacency.faces[static_cast<size_t>(f)]);
+        sum += area_vector(surface.points, surface.adjacency.faces[f]);
       normals.col(v) = sum.normalized();
     }
   });
@@ -304,7 +303,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
   parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
       if (closest[k].face_index < 0) continue;
-      const auto f = static_cast<size_t>(faces[k].id);
+      const size_t f = faces[k].id;
       const Vec3 n = area_vector(faces[k]);
       const Face& there = face_at(reference, closest[k]);
       flipped[f] = n.dot(normal_at(normals, there, closest[k])) < 0 &&

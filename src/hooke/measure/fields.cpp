@@ -11,12 +11,12 @@ namespace hooke {
 namespace {
 
 std::vector<double> length_errors(const Mat3X& points, const Adjacency& c, const UniformVector& targets) {
-  std::vector<double> worst(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<double> worst(c.vertex_count, 0);
   for (size_t e = 0; e < c.edges.size(); ++e) {
     const auto& [v, w] = c.edges[e];
     const double error = std::abs((points.col(v) - points.col(w)).norm() - targets[e]) / targets[e];
     for (int end : {v, w}) {
-      double& at_vertex = worst[static_cast<size_t>(end)];
+      double& at_vertex = worst[end];
       at_vertex = std::max(at_vertex, error);
     }
   }
@@ -32,7 +32,7 @@ Fields measure_fields(const Mat3X& points, const Adjacency& c, const UniformVect
     data.push_back({name, NumberType::float64, std::move(values)});
   };
   if (start) {
-    std::vector<double> moved(static_cast<size_t>(c.vertex_count));
+    std::vector<double> moved(c.vertex_count);
     for (size_t v = 0; v < moved.size(); ++v)
       moved[v] = (points.col(static_cast<Eigen::Index>(v)) - start->col(static_cast<Eigen::Index>(v))).norm();
     add(fields.vertices, "displacement", std::move(moved));

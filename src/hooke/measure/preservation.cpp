@@ -20,7 +20,7 @@ constexpr double max_rough = .5;    // of the mean edge, over 2 sagittas
 constexpr double max_crease_loss = .5;
 
 std::size_t index_of(int i) {
-  return static_cast<std::size_t>(i);
+  return i;
 }
 
 /// The arcs of the edges, sharp ones left out.

@@ -60,7 +60,7 @@ size_t count_where(size_t count, const Condition& condition) {
     for (size_t i = begin; i < end; ++i) found += condition(i);
     return static_cast<double>(found);
   });
-  return static_cast<size_t>(sum);
+  return sum;
 }
 
 bool is_fold(const Vec3& area_vector, const Vec3& other) {
@@ -77,9 +77,9 @@ size_t count_folded_edges(const Mat3X& area_vector, const Adjacency& adjacency) 
 }
 
 bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge) {
-  const auto [left, right] = adjacency.edge_faces[static_cast<size_t>(edge)];
-  return right >= 0 && is_fold(doubled_area_vector(points, adjacency.faces[static_cast<size_t>(left)]),
-                               doubled_area_vector(points, adjacency.faces[static_cast<size_t>(right)]));
+  const auto [left, right] = adjacency.edge_faces[edge];
+  return right >= 0 && is_fold(doubled_area_vector(points, adjacency.faces[left]),
+                               doubled_area_vector(points, adjacency.faces[right]));
 }
 
 size_t count_degenerate_faces(const Mat3X& area_vector, double min_area) {
@@ -94,15 +94,15 @@ template <typename IsWorse>
 std::vector<int> worst_of_each_region(const Adjacency& c, std::vector<int> faces, size_t max_count,
                                       const IsWorse& is_worse) {
   std::vector<int> chosen;
-  std::vector<char> is_taken(static_cast<size_t>(c.vertex_count), 0);
-  const auto taken = [&](int v) -> char& { return is_taken[static_cast<size_t>(v)]; };
+  std::vector<char> is_taken(c.vertex_count, 0);
+  const auto taken = [&](int v) -> char& { return is_taken[v]; };
   const auto begin = faces.begin();
   for (std::ptrdiff_t sorted = 0, all = std::ssize(faces); sorted < all && chosen.size() < max_count;) {
     const std::ptrdiff_t next = std::min<std::ptrdiff_t>(all, 2 * sorted + 100);
     std::partial_sort(begin + sorted, begin + next, faces.end(), is_worse);
     for (; sorted < next && chosen.size() < max_count; ++sorted) {
-      const int f = faces[static_cast<size_t>(sorted)];
-      const Triangle& t = c.faces[static_cast<size_t>(f)];
+      const int f = faces[sorted];
+      const Triangle& t = c.faces[f];
       if (std::ranges::any_of(t, taken)) continue;
       for (int v : t) taken(v) = 1;
       chosen.push_back(f);
@@ -116,7 +116,7 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const Fa
   const Mat3X& X = surface.points;
   std::vector<int> order(shapes.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto min_angle = [&](int face) { return shapes[static_cast<size_t>(face)].min_angle; };
+  const auto min_angle = [&](int face) { return shapes[face].min_angle; };
   const auto is_worse = [&](int f, int g) {
     return std::pair(min_angle(f), surface.ids.face(f)) < std::pair(min_angle(g), surface.ids.face(g));
   };
@@ -126,7 +126,7 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const Fa
   parallel_for(worst.size(), 1, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int f = chosen[i];
-      const Triangle& t = surface.adjacency.faces[static_cast<size_t>(f)];
+      const Triangle& t = surface.adjacency.faces[f];
       worst[i] = {surface.ids.face(f), min_angle(f), surface.ids.corners(t),
                   (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3, bound_min_angle(X, surface.adjacency, f)};
       std::vector<int>& bounding = worst[i].bound.vertices;

@@ -12,9 +12,7 @@ class EvenBins {
   EvenBins(double min, double max, size_t count)
       : min_(min), scale_(static_cast<double>(count) / (max - min)), last_(static_cast<double>(count - 1)) {}
 
-  size_t operator()(double x) const {
-    return static_cast<size_t>(std::min(last_, std::max(0., (x - min_) * scale_)));
-  }
+  size_t operator()(double x) const { return std::min(last_, std::max(0., (x - min_) * scale_)); }
 
  private:
   double min_, scale_, last_;

@@ -33,10 +33,9 @@ void collect(int vertex, std::span<const int> its_faces, const std::vector<Trian
              std::vector<FaceInRing>& ring) {
   ring.clear();
   for (int f : its_faces) {
-    const Triangle& t = faces[static_cast<size_t>(f)];
+    const Triangle& t = faces[f];
     const int k = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2, before = (k + 2) % 3;
-    ring.push_back(
-        {3 * f + k, 3 * f + before, t[static_cast<size_t>((k + 1) % 3)], t[static_cast<size_t>(before)]});
+    ring.push_back({3 * f + k, 3 * f + before, t[(k + 1) % 3], t[before]});
   }
   sort_by_previous(ring);
 }
@@ -55,7 +54,7 @@ Fan classify(const std::vector<FaceInRing>& ring, std::vector<char>& followed) {
     if (std::exchange(followed[follower(ring, entry)], 1)) return Fan::broken;  // two ends, or a branch
   // No entry follows two others, and at most one has no follower: it remains to check whether all entries
   // form one chain or cycle.
-  const auto first = static_cast<size_t>(std::ranges::find(followed, 0) - followed.begin());
+  const size_t first = std::ranges::find(followed, 0) - followed.begin();
   const size_t start = first < ring.size() ? first : 0;
   size_t reached = 1;
   size_t at = follower(ring, ring[start]);
@@ -68,7 +67,7 @@ Fan classify(const std::vector<FaceInRing>& ring, std::vector<char>& followed) {
 template <typename Visit>
 void for_each_ring(int vertex_count, const std::vector<Triangle>& faces, HalfEdges& half_edges,
                    const Visit& visit) {
-  parallel_for(static_cast<size_t>(vertex_count), adjacency_block, [&](size_t begin, size_t end) {
+  parallel_for(vertex_count, adjacency_block, [&](size_t begin, size_t end) {
     std::vector<FaceInRing> ring;
     std::vector<char> scratch;
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
@@ -76,7 +75,7 @@ void for_each_ring(int vertex_count, const std::vector<Triangle>& faces, HalfEdg
       visit(v, ring, scratch);
       for (const FaceInRing& entry : ring)
         if (const size_t other = follower(ring, entry); other < ring.size())
-          half_edges.twins[static_cast<size_t>(entry.out)] = ring[other].in;
+          half_edges.twins[entry.out] = ring[other].in;
     }
   });
 }
@@ -92,10 +91,10 @@ HalfEdges pair_half_edges(int vertex_count, const std::vector<Triangle>& faces) 
 
 VertexFans examine_fans(int vertex_count, const std::vector<Triangle>& faces) {
   VertexFans fans{{inverse(vertex_count, faces), std::vector<int>(3 * faces.size(), -1)},
-                  std::vector<Fan>(static_cast<size_t>(vertex_count))};
+                  std::vector<Fan>(vertex_count)};
   for_each_ring(vertex_count, faces, fans,
                 [&](int v, const std::vector<FaceInRing>& ring, std::vector<char>& followed) {
-                  fans.kinds[static_cast<size_t>(v)] = classify(ring, followed);
+                  fans.kinds[v] = classify(ring, followed);
                 });
   return fans;
 }
@@ -119,7 +118,7 @@ void number_edges(const std::vector<int>& twins, Adjacency& c) {
     for (size_t h = begin; h < end; ++h) first[h / adjacency_block + 1] += names_edge(twins, h);
   });
   std::partial_sum(first.begin(), first.end(), first.begin());
-  c.edges.resize(static_cast<size_t>(first.back()));
+  c.edges.resize(first.back());
   c.edge_faces.resize(c.edges.size());
   c.face_edges.resize(c.faces.size());
   parallel_for(twins.size(), adjacency_block, [&](size_t begin, size_t end) {
@@ -127,8 +126,8 @@ void number_edges(const std::vector<int>& twins, Adjacency& c) {
     for (size_t h = begin; h < end; ++h) {
       if (!names_edge(twins, h)) continue;
       const Triangle& t = c.faces[h / 3];
-      c.edges[static_cast<size_t>(edge)] = {t[h % 3], t[(h + 1) % 3]};
-      c.edge_faces[static_cast<size_t>(edge)] = {static_cast<int>(h / 3), twins[h] < 0 ? -1 : twins[h] / 3};
+      c.edges[edge] = {t[h % 3], t[(h + 1) % 3]};
+      c.edge_faces[edge] = {static_cast<int>(h / 3), twins[h] < 0 ? -1 : twins[h] / 3};
       c.face_edges[h / 3][h % 3] = edge;
       if (twins[h] >= 0)
         c.face_edges[static_cast<size_t>(twins[h]) / 3][static_cast<size_t>(twins[h]) % 3] = edge;
@@ -140,7 +139,7 @@ void number_edges(const std::vector<int>& twins, Adjacency& c) {
 /// The other end of every edge in c.vertex_edges.
 IntLists other_ends(const Adjacency& c) {
   IntLists lists = c.vertex_edges;
-  parallel_for(static_cast<size_t>(c.vertex_count), adjacency_block, [&](size_t begin, size_t end) {
+  parallel_for(c.vertex_count, adjacency_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
       for (auto i = static_cast<size_t>(lists.first[v]); i < static_cast<size_t>(lists.first[v + 1]); ++i)
         lists.items[i] = c.other_end(lists.items[i], static_cast<int>(v));
@@ -167,10 +166,10 @@ Adjacency make_adjacency(std::vector<Triangle> faces, HalfEdges half_edges) {
 }
 
 std::vector<int> with_rings(const Adjacency& c, const std::vector<int>& vertices, int rings) {
-  std::vector<char> marked(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<char> marked(c.vertex_count, 0);
   std::vector<int> all;
   const auto add = [&](int v) {
-    if (!std::exchange(marked[static_cast<size_t>(v)], 1)) all.push_back(v);
+    if (!std::exchange(marked[v], 1)) all.push_back(v);
   };
   std::ranges::for_each(vertices, add);
   for (int ring = 0; ring < rings; ++ring)

@@ -52,16 +52,16 @@ struct Adjacency {
   std::vector<Edge> wedge_edges;      // wedges of the ends in the edge's first face
   std::vector<int> extra_wedges;      // vertex of each extra wedge, ascending
 
-  bool is_boundary_edge(int edge) const { return edge_faces[static_cast<size_t>(edge)][1] < 0; }
-  bool is_crease(int edge) const { return !creases.empty() && creases[static_cast<size_t>(edge)] != 0; }
+  bool is_boundary_edge(int edge) const { return edge_faces[edge][1] < 0; }
+  bool is_crease(int edge) const { return !creases.empty() && creases[edge] != 0; }
   bool is_feature_edge(int edge) const { return is_boundary_edge(edge) || is_crease(edge); }
   int other_end(int edge, int vertex) const {
-    const auto& [a, b] = edges[static_cast<size_t>(edge)];
+    const auto& [a, b] = edges[edge];
     return a == vertex ? b : a;
   }
   int wedge_count() const { return vertex_count + static_cast<int>(extra_wedges.size()); }
   int vertex_of_wedge(int wedge) const {
-    return wedge < vertex_count ? wedge : extra_wedges[static_cast<size_t>(wedge - vertex_count)];
+    return wedge < vertex_count ? wedge : extra_wedges[wedge - vertex_count];
   }
 
   /// Indices of normals: the wedges of corners and of edge ends, which are the vertices without creases.

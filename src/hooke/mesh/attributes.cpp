@@ -11,13 +11,13 @@ namespace {
 
 double value_at(const MapEntry& entry, const std::vector<double>& values,
                 const std::vector<Triangle>& faces) {
-  if (entry.position.face < 0) return entry.vertex < 0 ? 0 : values[static_cast<size_t>(entry.vertex)];
-  const Triangle& corners = faces[static_cast<size_t>(entry.position.face)];
+  if (entry.position.face < 0) return entry.vertex < 0 ? 0 : values[entry.vertex];
+  const Triangle& corners = faces[entry.position.face];
   double value = 0, smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
   for (size_t k = 0; k < 3; ++k) {  // the value of a corner without weight may be NaN
     const double weight = entry.position.weights[static_cast<Eigen::Index>(k)];
     if (!(weight > 0)) continue;
-    const double corner = values[static_cast<size_t>(corners[k])];
+    const double corner = values[corners[k]];
     value += weight * corner;
     smallest = std::min(smallest, corner);
     largest = std::max(largest, corner);
@@ -67,8 +67,7 @@ bool has_normals(const VertexData& data) {
 void set_normals(VertexData& data, const Mat3X& normals) {
   for (size_t k = 0; k < 3; ++k) {
     std::vector<double>& values = find_channel(data, normal_names[k])->values;
-    for (Eigen::Index v = 0; v < normals.cols(); ++v)
-      values[static_cast<size_t>(v)] = normals(static_cast<Eigen::Index>(k), v);
+    for (Eigen::Index v = 0; v < normals.cols(); ++v) values[v] = normals(static_cast<Eigen::Index>(k), v);
   }
 }
 

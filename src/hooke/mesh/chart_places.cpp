@@ -14,7 +14,7 @@ namespace hooke {
 namespace {
 
 std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
+  return i;
 }
 
 Vec3 centre_of(const ChartedSurface& surface, int face) {
@@ -156,7 +156,7 @@ class PlaceSearch {
   SurfacePoint from(const SurfacePoint& near, const Vec3& x) const {
     Eigen::Index corner;
     near.weights.maxCoeff(&corner);
-    return locate(cut_points_, cut_, x, cut_.faces[at(near.face)][static_cast<std::size_t>(corner)]);
+    return locate(cut_points_, cut_, x, cut_.faces[at(near.face)][corner]);
   }
 
   /// Finds the places of the faces of a chart, from that of one of them.

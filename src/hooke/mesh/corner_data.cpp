@@ -8,7 +8,7 @@ CornerData gather(const CornerData& data, const std::vector<int>& old_face) {
        {std::pair{&data.texture, &result.texture}, std::pair{&data.normals, &result.normals}}) {
     if (from->empty()) continue;
     to->corners.clear();
-    for (const int face : old_face) to->corners.push_back(from->corners[static_cast<size_t>(face)]);
+    for (const int face : old_face) to->corners.push_back(from->corners[face]);
   }
   return result;
 }

@@ -12,12 +12,12 @@ CornerDifferences::CornerDifferences(const MemoryOrder& memory_order, const Corn
 bool CornerDifferences::differ_at(int edge, int vertex) const {
   const Adjacency& c = *memory_order_.adjacency;
   const auto value_in = [&](int face) {
-    const Triangle& t = c.faces[static_cast<size_t>(face)];
-    const int id = memory_order_.order.old_face[static_cast<size_t>(face)];
-    const Triangle& values = values_.corners[static_cast<size_t>(id)];
+    const Triangle& t = c.faces[face];
+    const int id = memory_order_.order.old_face[face];
+    const Triangle& values = values_.corners[id];
     return values[t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2];
   };
-  const auto& [left, right] = c.edge_faces[static_cast<size_t>(edge)];
+  const auto& [left, right] = c.edge_faces[edge];
   const int a = value_in(left), b = value_in(right);
   if (a == b) return false;
   if (a < 0 || b < 0) return true;

@@ -75,7 +75,7 @@ void add_face(const Vec3& p, const Vec3& q, const Vec3& r, RingSums& sums) {
 }  // namespace
 
 VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacency) {
-  const auto n = static_cast<size_t>(adjacency.vertex_count);
+  const size_t n = adjacency.vertex_count;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   VertexCurvature curvature{std::vector<double>(n, none), std::vector<double>(n, none)};
   const std::vector<char> on_boundary = boundary_vertices(adjacency);
@@ -85,7 +85,7 @@ VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacenc
       if (on_boundary[v] || ring.empty()) continue;
       RingSums sums;
       for (int f : ring) {
-        const Triangle& t = adjacency.faces[static_cast<size_t>(f)];
+        const Triangle& t = adjacency.faces[f];
         const size_t k = t[0] == static_cast<int>(v) ? 0 : t[1] == static_cast<int>(v) ? 1 : 2;
         add_face(points.col(t[k]), points.col(t[(k + 1) % 3]), points.col(t[(k + 2) % 3]), sums);
       }
@@ -150,7 +150,7 @@ Eigen::Vector2d fit_curvatures(const Mat3X& points, const Vec3& n, const std::ve
   Eigen::Matrix<double, Eigen::Dynamic, 6> monomials(rows, 6);
   Eigen::VectorXd height(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
-    const Vec3 p = (points.col(vertices[static_cast<size_t>(i)]) - origin) / radius;
+    const Vec3 p = (points.col(vertices[i]) - origin) / radius;
     const double x = u.dot(p), y = v.dot(p);
     monomials.row(i) << 1, x, y, .5 * x * x, x * y, .5 * y * y;
     height[i] = n.dot(p);
@@ -164,7 +164,7 @@ Eigen::Vector2d fit_curvatures(const Mat3X& points, const Vec3& n, const std::ve
 Eigen::Matrix2Xd curvatures_of_pieces(const Mat3X& points, const Adjacency& c) {
   const Mat3X normals = vertex_normals(points, c);
   Eigen::Matrix2Xd curvatures = Eigen::Matrix2Xd::Zero(2, c.vertex_count);
-  parallel_for(static_cast<size_t>(c.vertex_count), 256, [&](size_t begin, size_t end) {
+  parallel_for(c.vertex_count, 256, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       const int centre = static_cast<int>(v);
       const Vec3 axis = axis_at(c, normals, centre);
@@ -180,13 +180,13 @@ Eigen::Matrix2Xd curvatures_of_pieces(const Mat3X& points, const Adjacency& c) {
 /// and where curves meet, end, or turn by more than 60 degrees.
 std::vector<std::array<int, 2>> neighbours_on_curves(const Mat3X& points, const Adjacency& c) {
   constexpr std::array<int, 2> none = {-1, -1};
-  std::vector<std::array<int, 2>> neighbours(static_cast<size_t>(c.vertex_count), none);
+  std::vector<std::array<int, 2>> neighbours(c.vertex_count, none);
   std::vector<int> count(neighbours.size(), 0);
   for (size_t e = 0; e < c.edges.size(); ++e) {
     if (!c.is_boundary_edge(static_cast<int>(e)) && !c.is_crease(static_cast<int>(e))) continue;
     for (size_t end : {0, 1}) {
-      const auto v = static_cast<size_t>(c.edges[e][end]);
-      if (count[v] < 2) neighbours[v][static_cast<size_t>(count[v])] = c.edges[e][1 - end];
+      const size_t v = c.edges[e][end];
+      if (count[v] < 2) neighbours[v][count[v]] = c.edges[e][1 - end];
       ++count[v];
     }
   }
@@ -206,7 +206,7 @@ std::vector<std::array<int, 2>> neighbours_on_curves(const Mat3X& points, const 
 std::vector<double> curvatures_of_curves(const Mat3X& points, const Adjacency& c) {
   const std::vector<std::array<int, 2>> neighbours = neighbours_on_curves(points, c);
   const auto second = [&](int first, int v) {
-    const auto& [a, b] = neighbours[static_cast<size_t>(first)];
+    const auto& [a, b] = neighbours[first];
     return a < 0 ? first : a == v ? b : a;
   };
   std::vector<double> curvature(neighbours.size(), 0);
@@ -229,8 +229,8 @@ bool is_tip(const Mat3X& points, const Adjacency& c, int vertex) {
   if (edges.empty() || std::ranges::any_of(edges, [&](int e) { return c.is_feature_edge(e); })) return false;
   double sum = 0;
   for (int f : c.vertex_faces[vertex]) {
-    const Triangle& t = c.faces[static_cast<std::size_t>(f)];
-    const auto k = static_cast<std::size_t>(std::ranges::find(t, vertex) - t.begin());
+    const Triangle& t = c.faces[f];
+    const std::size_t k = std::ranges::find(t, vertex) - t.begin();
     const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(vertex),
                b = points.col(t[(k + 2) % 3]) - points.col(vertex);
     sum += std::atan2(a.cross(b).norm(), a.dot(b));
@@ -242,7 +242,7 @@ std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) 
   std::vector<double> largest = curvatures_of_curves(points, c);
   const Eigen::Matrix2Xd of_wedges = curvatures_of_pieces(wedge_points(points, c), cut_open(c));
   for (int w = 0; w < c.wedge_count(); ++w) {
-    double& l = largest[static_cast<size_t>(c.vertex_of_wedge(w))];
+    double& l = largest[c.vertex_of_wedge(w)];
     l = std::max(l, of_wedges.col(w).cwiseAbs().maxCoeff());
   }
   return largest;
@@ -250,7 +250,7 @@ std::vector<double> largest_curvatures(const Mat3X& points, const Adjacency& c) 
 
 VertexCurvature fitted_curvature(const Mat3X& points, const Adjacency& c) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const auto n = static_cast<size_t>(c.vertex_count);
+  const size_t n = c.vertex_count;
   VertexCurvature curvature{std::vector<double>(n, none), std::vector<double>(n, none)};
   const Eigen::Matrix2Xd principal = curvatures_of_pieces(points, c);
   const std::vector<char> on_boundary = boundary_vertices(c);

@@ -15,7 +15,7 @@ FaceData gather(const FaceData& data, const std::vector<int>& old_face) {
     FaceChannel& taken =
         result.emplace_back(FaceChannel{channel.name, {}, channel.names, channel.kind, channel.type});
     taken.values.reserve(old_face.size());
-    for (const int face : old_face) taken.values.push_back(channel.values[static_cast<size_t>(face)]);
+    for (const int face : old_face) taken.values.push_back(channel.values[face]);
   }
   return result;
 }

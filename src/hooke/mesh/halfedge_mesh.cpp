@@ -21,8 +21,8 @@ HalfedgeMesh::HalfedgeMesh(const Adjacency& c)
   for (size_t f = 0; f < faces_.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
       const int h = static_cast<int>(3 * f + k);
-      outgoing_halfedge_[static_cast<size_t>(faces_[f][k])] = h;
-      int& other = first[static_cast<size_t>(c.face_edges[f][k])];
+      outgoing_halfedge_[faces_[f][k]] = h;
+      int& other = first[c.face_edges[f][k]];
       if (other < 0)
         other = h;
       else
@@ -30,15 +30,15 @@ HalfedgeMesh::HalfedgeMesh(const Adjacency& c)
     }
   for (size_t e = 0; e < c.edges.size(); ++e)
     for (int v : c.edges[e]) {
-      ++valences_[static_cast<size_t>(v)];
-      if (c.is_boundary_edge(static_cast<int>(e))) on_boundary_[static_cast<size_t>(v)] = 1;
+      ++valences_[v];
+      if (c.is_boundary_edge(static_cast<int>(e))) on_boundary_[v] = 1;
     }
   for (size_t h = 0; h < twins_.size(); ++h)
     if (c.is_crease(c.face_edges[h / 3][h % 3])) constrained_[h] = 1;
 }
 
 int HalfedgeMesh::first_outgoing(int vertex) const {
-  const int any = outgoing_halfedge_[static_cast<size_t>(vertex)];
+  const int any = outgoing_halfedge_[vertex];
   int start = any;
   if (any >= 0 && on_boundary(vertex))  // rotate clockwise to the boundary
     for (int t = twin(start); t >= 0 && next(t) != any; t = twin(start)) start = next(t);
@@ -90,8 +90,8 @@ bool HalfedgeMesh::adjacent(int a, int b) const {
 }
 
 void HalfedgeMesh::link(int h, int twin) {
-  if (h >= 0) twins_[static_cast<size_t>(h)] = twin;
-  if (twin >= 0) twins_[static_cast<size_t>(twin)] = h;
+  if (h >= 0) twins_[h] = twin;
+  if (twin >= 0) twins_[twin] = h;
 }
 
 void HalfedgeMesh::flip(int h) {
@@ -100,30 +100,30 @@ void HalfedgeMesh::flip(int h) {
   const int a = from(h), b = to(h), c = opposite_vertex(h), d = opposite_vertex(t);
   const int ca = twin(previous(h)), bc = twin(next(h)), ad = twin(next(t)), db = twin(previous(t));
   const int f = h / 3, g = t / 3;
-  const auto mark = [this](int halfedge) { return constrained_[static_cast<size_t>(halfedge)]; };
+  const auto mark = [this](int halfedge) { return constrained_[halfedge]; };
   const std::array<char, 4> marks = {mark(previous(h)), mark(next(t)), mark(previous(t)), mark(next(h))};
   if (!wedges_.empty()) {  // both faces stay in their wedges
     const int sa = wedge(h), sb = wedge(t), sc = wedge(previous(h)), sd = wedge(previous(t));
-    wedges_[static_cast<size_t>(f)] = {sc, sa, sd};
-    wedges_[static_cast<size_t>(g)] = {sd, sb, sc};
+    wedges_[f] = {sc, sa, sd};
+    wedges_[g] = {sd, sb, sc};
   }
-  faces_[static_cast<size_t>(f)] = {c, a, d};
-  faces_[static_cast<size_t>(g)] = {d, b, c};
+  faces_[f] = {c, a, d};
+  faces_[g] = {d, b, c};
   link(3 * f, ca);
   link(3 * f + 1, ad);
   link(3 * f + 2, 3 * g + 2);
   link(3 * g, db);
   link(3 * g + 1, bc);
   for (size_t i = 0; i < 4; ++i) constrained_[static_cast<size_t>(i < 2 ? 3 * f : 3 * g) + i % 2] = marks[i];
-  constrained_[static_cast<size_t>(3 * f + 2)] = constrained_[static_cast<size_t>(3 * g + 2)] = 0;
-  outgoing_halfedge_[static_cast<size_t>(c)] = 3 * f;
-  outgoing_halfedge_[static_cast<size_t>(a)] = 3 * f + 1;
-  outgoing_halfedge_[static_cast<size_t>(d)] = 3 * g;
-  outgoing_halfedge_[static_cast<size_t>(b)] = 3 * g + 1;
-  --valences_[static_cast<size_t>(a)];
-  --valences_[static_cast<size_t>(b)];
-  ++valences_[static_cast<size_t>(c)];
-  ++valences_[static_cast<size_t>(d)];
+  constrained_[3 * f + 2] = constrained_[3 * g + 2] = 0;
+  outgoing_halfedge_[c] = 3 * f;
+  outgoing_halfedge_[a] = 3 * f + 1;
+  outgoing_halfedge_[d] = 3 * g;
+  outgoing_halfedge_[b] = 3 * g + 1;
+  --valences_[a];
+  --valences_[b];
+  ++valences_[c];
+  ++valences_[d];
 }
 
 /// Splits the face of h between its opposite vertex and the new vertex, whose wedge there is `wedge`. h then
@@ -139,14 +139,14 @@ void HalfedgeMesh::split(int h, int vertex, int wedge) {
   faces_[f][cut % 3] = vertex;
   faces_.push_back({vertex, b, c});
   twins_.insert(twins_.end(), 3, -1);
-  constrained_.insert(constrained_.end(), {constrained_[static_cast<size_t>(h)], constrained_[cut], 0});
+  constrained_.insert(constrained_.end(), {constrained_[h], constrained_[cut], 0});
   constrained_[cut] = 0;
   link(g + 1, across);
   link(g + 2, next(h));
-  outgoing_halfedge_[static_cast<size_t>(vertex)] = g;
-  outgoing_halfedge_[static_cast<size_t>(b)] = g + 1;
-  ++valences_[static_cast<size_t>(vertex)];
-  ++valences_[static_cast<size_t>(c)];
+  outgoing_halfedge_[vertex] = g;
+  outgoing_halfedge_[b] = g + 1;
+  ++valences_[vertex];
+  ++valences_[c];
 }
 
 int HalfedgeMesh::split(int h) {
@@ -158,7 +158,7 @@ int HalfedgeMesh::split(int h) {
   on_boundary_.resize(valences_.size(), t < 0);
   split(h, vertex, vertex);
   const int back_half = half_edge_count() - 3;  // from the vertex to the old end of h
-  outgoing_halfedge_[static_cast<size_t>(a)] = h;
+  outgoing_halfedge_[a] = h;
   if (t < 0) return vertex;
   split(t, vertex, right_wedge);
   link(h, half_edge_count() - 3);
@@ -185,17 +185,17 @@ void HalfedgeMesh::close(int h) {
   const int b = to(h), c = opposite_vertex(h);
   const int left = twin(next(h)), right = twin(previous(h));
   const bool marked = is_crease(next(h)) || is_crease(previous(h));
-  if (left >= 0) twins_[static_cast<size_t>(left)] = right;
-  if (right >= 0) twins_[static_cast<size_t>(right)] = left;
+  if (left >= 0) twins_[left] = right;
+  if (right >= 0) twins_[right] = left;
   for (int halfedge : {left, right})
-    if (halfedge >= 0) constrained_[static_cast<size_t>(halfedge)] = marked;
-  outgoing_halfedge_[static_cast<size_t>(b)] = left >= 0 ? next(left) : right;
-  outgoing_halfedge_[static_cast<size_t>(c)] = left >= 0 ? left : next(right);
-  --valences_[static_cast<size_t>(c)];
-  faces_[static_cast<size_t>(h / 3)] = {-1, -1, -1};
+    if (halfedge >= 0) constrained_[halfedge] = marked;
+  outgoing_halfedge_[b] = left >= 0 ? next(left) : right;
+  outgoing_halfedge_[c] = left >= 0 ? left : next(right);
+  --valences_[c];
+  faces_[h / 3] = {-1, -1, -1};
   for (int halfedge : {h, next(h), previous(h)}) {
-    twins_[static_cast<size_t>(halfedge)] = -1;
-    constrained_[static_cast<size_t>(halfedge)] = 0;
+    twins_[halfedge] = -1;
+    constrained_[halfedge] = 0;
   }
 }
 
@@ -218,17 +218,17 @@ void HalfedgeMesh::collapse(int h, int stays) {
     if (!wedges_.empty()) wedges_[f][k] = wedges[i];
   }
   // `stays` gains the edges of `removed`, except those to `stays` and to the opposite vertices.
-  valences_[static_cast<size_t>(stays)] += valences_[static_cast<size_t>(removed)] - (t < 0 ? 3 : 4);
-  on_boundary_[static_cast<size_t>(stays)] |= on_boundary_[static_cast<size_t>(removed)];
+  valences_[stays] += valences_[removed] - (t < 0 ? 3 : 4);
+  on_boundary_[stays] |= on_boundary_[removed];
   close(h);
   if (t >= 0) close(t);
-  outgoing_halfedge_[static_cast<size_t>(removed)] = -1;
-  valences_[static_cast<size_t>(removed)] = -1;
+  outgoing_halfedge_[removed] = -1;
+  valences_[removed] = -1;
 }
 
 void HalfedgeMesh::set_wedges(const Adjacency& c) {
   wedges_ = c.wedge_faces;
-  valences_.resize(static_cast<size_t>(c.wedge_count()), -1);
+  valences_.resize(c.wedge_count(), -1);
   outgoing_halfedge_.resize(valences_.size(), -1);
   on_boundary_.resize(valences_.size(), 0);
 }
@@ -255,25 +255,23 @@ std::vector<int> HalfedgeMesh::compact() {
   for (int f = 0; f < old_face_count; ++f)
     if (!is_removed(f)) left.push_back(f);
   std::vector<Triangle> faces(left.size());
-  for_each_index(left.size(), [&](size_t i) { faces[i] = faces_[static_cast<size_t>(left[i])]; });
+  for_each_index(left.size(), [&](size_t i) { faces[i] = faces_[left[i]]; });
 
   std::vector<int> kept = bfs_cluster_order(id_count(), faces);
   std::erase_if(kept, [this](int v) { return valence(v) < 0; });
   std::vector<int> vertex_id(valences_.size(), -1);
-  for (size_t i = 0; i < kept.size(); ++i) vertex_id[static_cast<size_t>(kept[i])] = static_cast<int>(i);
+  for (size_t i = 0; i < kept.size(); ++i) vertex_id[kept[i]] = static_cast<int>(i);
 
   std::vector<std::array<int, 1>> first_corners(left.size());  // smallest vertex of each face
   for_each_index(left.size(), [&](size_t i) {
-    for (int& v : faces[i]) v = vertex_id[static_cast<size_t>(v)];
+    for (int& v : faces[i]) v = vertex_id[v];
     first_corners[i][0] = std::ranges::min(faces[i]);
   });
   const std::vector<int> order = inverse(static_cast<int>(kept.size()), first_corners).items;
   std::vector<int> face_id(faces_.size(), -1);
-  for_each_index(order.size(), [&](size_t g) {
-    face_id[static_cast<size_t>(left[static_cast<size_t>(order[g])])] = static_cast<int>(g);
-  });
+  for_each_index(order.size(), [&](size_t g) { face_id[left[order[g]]] = static_cast<int>(g); });
 
-  const auto renumber = [&](int h) { return h < 0 ? -1 : 3 * face_id[static_cast<size_t>(h / 3)] + h % 3; };
+  const auto renumber = [&](int h) { return h < 0 ? -1 : 3 * face_id[h / 3] + h % 3; };
   const HalfedgeMesh old = std::move(*this);
   faces_.resize(order.size());
   wedges_.resize(old.wedges_.empty() ? 0 : order.size());
@@ -292,7 +290,7 @@ std::vector<int> HalfedgeMesh::compact() {
   valences_.resize(kept.size());
   on_boundary_.resize(kept.size());
   for_each_index(kept.size(), [&](size_t i) {
-    const auto v = static_cast<size_t>(kept[i]);
+    const size_t v = kept[i];
     outgoing_halfedge_[i] = renumber(old.outgoing_halfedge_[v]);
     valences_[i] = old.valences_[v];
     on_boundary_[i] = old.on_boundary_[v];

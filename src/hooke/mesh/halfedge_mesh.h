@@ -22,22 +22,22 @@ class HalfedgeMesh {
   const std::vector<Triangle>& wedges() const { return wedges_.empty() ? faces_ : wedges_; }
   int half_edge_count() const { return static_cast<int>(twins_.size()); }
 
-  int from(int h) const { return faces_[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
+  int from(int h) const { return faces_[h / 3][h % 3]; }
   int to(int h) const { return from(next(h)); }
-  int opposite_vertex(int h) const { return from(previous(h)); }    // in the face of h
-  int twin(int h) const { return twins_[static_cast<size_t>(h)]; }  // -1 on the boundary
+  int opposite_vertex(int h) const { return from(previous(h)); }  // in the face of h
+  int twin(int h) const { return twins_[h]; }                     // -1 on the boundary
   /// The wedge of from(h) in the face of h.
-  int wedge(int h) const { return wedges()[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; }
+  int wedge(int h) const { return wedges()[h / 3][h % 3]; }
   static int next(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static int previous(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
   /// Number of edges at the vertex.
-  int valence(int vertex) const { return valences_[static_cast<size_t>(vertex)]; }
+  int valence(int vertex) const { return valences_[vertex]; }
 
   /// Whether a collapse has removed the face; its half-edges then have neither vertices nor twins.
-  bool is_removed(int face) const { return faces_[static_cast<size_t>(face)][0] < 0; }
+  bool is_removed(int face) const { return faces_[face][0] < 0; }
 
-  bool on_boundary(int vertex) const { return on_boundary_[static_cast<size_t>(vertex)] != 0; }
+  bool on_boundary(int vertex) const { return on_boundary_[vertex] != 0; }
 
   /// The outgoing half-edges of the vertex, counter-clockwise, on the boundary beginning with the boundary
   /// half-edge.
@@ -56,7 +56,7 @@ class HalfedgeMesh {
   bool adjacent(int a, int b) const;
 
   /// Whether the edge of h is a crease edge.
-  bool is_crease(int h) const { return constrained_[static_cast<size_t>(h)] != 0; }
+  bool is_crease(int h) const { return constrained_[h] != 0; }
   /// Whether the edge of h is a crease edge or a boundary edge.
   bool is_feature_edge(int h) const { return twin(h) < 0 || is_crease(h); }
 

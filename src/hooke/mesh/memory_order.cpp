@@ -12,7 +12,7 @@ constexpr size_t order_block = 8192;
 
 std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours) {
   constexpr size_t cluster_size = 256;  // vertices whose data fit in the first-level cache
-  const auto n = static_cast<size_t>(vertex_count);
+  const size_t n = vertex_count;
   std::vector<int> order;
   order.reserve(n);
   std::vector<bool> taken(n, false), waiting(n, false);
@@ -20,11 +20,11 @@ std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours)
 
   const auto grow = [&](int seed) {
     const size_t begin = order.size();
-    taken[static_cast<size_t>(seed)] = true;
+    taken[seed] = true;
     order.push_back(seed);
     for (size_t i = begin; i < order.size(); ++i)
       for (int w : neighbours[order[i]]) {
-        const auto u = static_cast<size_t>(w);
+        const size_t u = w;
         if (taken[u]) continue;
         if (order.size() - begin < cluster_size) {
           taken[u] = true;
@@ -41,7 +41,7 @@ std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours)
     while (!seeds.empty()) {
       const int seed = seeds.front();
       seeds.pop_front();
-      if (!taken[static_cast<size_t>(seed)]) grow(seed);
+      if (!taken[seed]) grow(seed);
     }
   }
   return order;
@@ -52,12 +52,11 @@ std::vector<int> order_by_clusters(int vertex_count, const IntLists& neighbours)
 /// which only affects the order. Computed in parallel beforehand, not during the sequential search.
 IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
   IntLists corners = inverse(vertex_count, faces);
-  parallel_for(static_cast<size_t>(vertex_count), order_block, [&](size_t begin, size_t end) {
+  parallel_for(vertex_count, order_block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      for (int i = corners.first[static_cast<size_t>(v)]; i < corners.first[static_cast<size_t>(v) + 1];
-           ++i) {
-        int& item = corners.items[static_cast<size_t>(i)];
-        const Triangle& t = faces[static_cast<size_t>(item)];
+      for (int i = corners.first[v]; i < corners.first[static_cast<size_t>(v) + 1]; ++i) {
+        int& item = corners.items[i];
+        const Triangle& t = faces[item];
         item = t[0] == v ? t[1] : t[1] == v ? t[2] : t[0];
       }
   });
@@ -102,10 +101,9 @@ std::vector<int> bfs_cluster_order(int vertex_count, const std::vector<Triangle>
 std::vector<int> Permutation::new_vertices(const std::vector<int>& old) const {
   if (old.empty()) return {};
   std::vector<int> fresh(old_vertex.size());
-  for (size_t i = 0; i < old_vertex.size(); ++i)
-    fresh[static_cast<size_t>(old_vertex[i])] = static_cast<int>(i);
+  for (size_t i = 0; i < old_vertex.size(); ++i) fresh[old_vertex[i]] = static_cast<int>(i);
   std::vector<int> result;
-  for (int v : old) result.push_back(fresh[static_cast<size_t>(v)]);
+  for (int v : old) result.push_back(fresh[v]);
   return result;
 }
 
@@ -139,19 +137,18 @@ std::vector<Triangle> Permutation::scatter(const std::vector<Triangle>& fresh) c
   std::vector<Triangle> old(fresh.size());
   parallel_for(fresh.size(), order_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f)
-      for (size_t k = 0; k < 3; ++k)
-        old[static_cast<size_t>(old_face[f])][k] = old_vertex[static_cast<size_t>(fresh[f][k])];
+      for (size_t k = 0; k < 3; ++k) old[old_face[f]][k] = old_vertex[fresh[f][k]];
   });
   return old;
 }
 
 Permutation reorder(std::vector<Triangle> faces, const std::vector<int>& order) {
   std::vector<int> fresh(order.size());
-  for (size_t i = 0; i < order.size(); ++i) fresh[static_cast<size_t>(order[i])] = static_cast<int>(i);
+  for (size_t i = 0; i < order.size(); ++i) fresh[order[i]] = static_cast<int>(i);
   std::vector<std::array<int, 1>> smallest(faces.size());  // vertex of each face
   parallel_for(faces.size(), order_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
-      for (int& v : faces[f]) v = fresh[static_cast<size_t>(v)];
+      for (int& v : faces[f]) v = fresh[v];
       smallest[f][0] = std::ranges::min(faces[f]);
     }
   });
@@ -160,7 +157,7 @@ Permutation reorder(std::vector<Triangle> faces, const std::vector<int>& order) 
   r.old_face = inverse(static_cast<int>(order.size()), smallest).items;
   r.faces.resize(faces.size());
   parallel_for(faces.size(), order_block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) r.faces[f] = faces[static_cast<size_t>(r.old_face[f])];
+    for (size_t f = begin; f < end; ++f) r.faces[f] = faces[r.old_face[f]];
   });
   return r;
 }

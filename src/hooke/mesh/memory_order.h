@@ -14,9 +14,9 @@ namespace hooke {
 struct MeshIds {
   std::span<const int> vertices = {}, faces = {};
 
-  int vertex(int v) const { return vertices.empty() ? v : vertices[static_cast<std::size_t>(v)]; }
+  int vertex(int v) const { return vertices.empty() ? v : vertices[v]; }
   Triangle corners(const Triangle& t) const { return {vertex(t[0]), vertex(t[1]), vertex(t[2])}; }
-  int face(int f) const { return faces.empty() ? f : faces[static_cast<std::size_t>(f)]; }
+  int face(int f) const { return faces.empty() ? f : faces[f]; }
 };
 
 /// order[new] = old vertex id: clusters grown breadth-first over the mesh, so that a ring mostly lies within

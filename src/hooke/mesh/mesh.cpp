@@ -16,7 +16,7 @@ using OpenMesh::HalfedgeHandle, OpenMesh::FaceHandle, OpenMesh::VertexHandle;
 
 /// OpenMesh's half-edge along edge k of the face.
 HalfedgeHandle half_edge(const Adjacency& c, size_t face, size_t k) {
-  const auto edge = static_cast<size_t>(c.face_edges[face][k]);
+  const size_t edge = c.face_edges[face][k];
   const bool along = c.edge_faces[edge][0] == static_cast<int>(face);
   return HalfedgeHandle(static_cast<int>(2 * edge + (along ? 0 : 1)));
 }
@@ -38,7 +38,7 @@ void link_inside(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
 
 /// Sets the outgoing half-edge of each vertex; link_boundary() replaces it by the one without a face.
 void link_vertices(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
-  parallel_for(static_cast<size_t>(c.vertex_count), mesh_block, [&](size_t begin, size_t end) {
+  parallel_for(c.vertex_count, mesh_block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
       const VertexHandle vertex(ids.vertex(v));
       const auto ring = c.vertex_faces[v];
@@ -46,7 +46,7 @@ void link_vertices(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
         mesh.set_isolated(vertex);
         continue;
       }
-      const Triangle& t = c.faces[static_cast<size_t>(ring.front())];
+      const Triangle& t = c.faces[ring.front()];
       const size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
       mesh.set_halfedge_handle(vertex, half_edge(c, static_cast<size_t>(ring.front()), k));
     }
@@ -71,7 +71,7 @@ void link_boundary(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
 
 TriMesh build_mesh(const Mat3X& points, const Adjacency& adjacency, const MeshIds& ids) {
   TriMesh mesh;
-  mesh.resize(static_cast<size_t>(points.cols()), 0, 0);
+  mesh.resize(points.cols(), 0, 0);
   vertex_points(mesh) = points;
   replace_faces(mesh, adjacency, ids);
   return mesh;
@@ -128,7 +128,7 @@ void set_vertex_values(TriMesh& mesh, const char* property, double value) {
 
 void set_vertex_values(TriMesh& mesh, const char* property, const std::vector<double>& values) {
   auto stored = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, property);
-  for (const auto v : mesh.vertices()) stored[v] = values[static_cast<size_t>(v.idx())];
+  for (const auto v : mesh.vertices()) stored[v] = values[v.idx()];
 }
 
 namespace {

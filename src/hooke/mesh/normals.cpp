@@ -41,29 +41,26 @@ Mat3X face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjac
 
 Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
   Mat3X normals(3, points.cols());
-  parallel_for(static_cast<std::size_t>(points.cols()), normals_block,
-               [&](std::size_t begin, std::size_t end) {
-                 for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-                   Vec3 sum = Vec3::Zero();
-                   for (int f : adjacency.vertex_faces[v])
-                     sum += weighted_corner_normal(points, adjacency.faces[static_cast<std::size_t>(f)], v);
-                   normals.col(v) = unit_or_zero(sum);
-                 }
-               });
+  parallel_for(points.cols(), normals_block, [&](std::size_t begin, std::size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      Vec3 sum = Vec3::Zero();
+      for (int f : adjacency.vertex_faces[v]) sum += weighted_corner_normal(points, adjacency.faces[f], v);
+      normals.col(v) = unit_or_zero(sum);
+    }
+  });
   return normals;
 }
 
 Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {
   Eigen::VectorXd lengths(points.cols());
-  parallel_for(static_cast<std::size_t>(points.cols()), normals_block,
-               [&](std::size_t begin, std::size_t end) {
-                 for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
-                   const auto neighbours = adjacency.vertex_neighbours[v];
-                   double sum = 0;
-                   for (int n : neighbours) sum += (points.col(n) - points.col(v)).norm();
-                   lengths[v] = neighbours.empty() ? 0 : sum / static_cast<double>(neighbours.size());
-                 }
-               });
+  parallel_for(points.cols(), normals_block, [&](std::size_t begin, std::size_t end) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+      const auto neighbours = adjacency.vertex_neighbours[v];
+      double sum = 0;
+      for (int n : neighbours) sum += (points.col(n) - points.col(v)).norm();
+      lengths[v] = neighbours.empty() ? 0 : sum / static_cast<double>(neighbours.size());
+    }
+  });
   return lengths;
 }
 

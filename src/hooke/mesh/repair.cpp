@@ -20,7 +20,7 @@ namespace hooke {
 namespace {
 
 size_t at(int i) {
-  return static_cast<size_t>(i);
+  return i;
 }
 
 std::array<int, 3> sorted(Triangle t) {

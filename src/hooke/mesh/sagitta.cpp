@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t sagitta_block = 4096;
 
 std::size_t index_of(int i) {
-  return static_cast<std::size_t>(i);
+  return i;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ int face_of(Side side) {
   return side / 3;
 }
 size_t next_corner(Side side) {
-  return static_cast<size_t>(side % 3 == 2 ? side - 2 : side + 1);
+  return side % 3 == 2 ? side - 2 : side + 1;
 }
 
 // The sides of all faces, grouped by their edges.
@@ -246,7 +246,7 @@ class SheetMaker {
       join(side, same_way ? other : other_end);
       join(end, same_way ? other_end : other);
     }
-    const auto vertices = static_cast<size_t>(points_.cols());
+    const size_t vertices = points_.cols();
     std::vector<char> taken(vertices, 0);
     std::vector<int> vertex_of_fan(partner_.size(), -1);
     result_.source.resize(vertices);

@@ -25,7 +25,7 @@ class Steps {
       return (step - other).norm() <= limit || (step + other).norm() <= limit;
     };
     const auto found = std::ranges::find_if(steps_, is_same);
-    const auto index = static_cast<std::size_t>(found - steps_.begin());
+    const std::size_t index = found - steps_.begin();
     if (found == steps_.end() && steps_.size() < 3) steps_.push_back(step);
     return index;
   }
@@ -42,7 +42,7 @@ bool is_staircase(const Mat3X& points, const Adjacency& c, const std::vector<dou
   Steps steps;
   std::size_t count = 0;
   // Per vertex: how many sharp edges there are along each step.
-  std::vector<std::array<int, 3>> along(static_cast<std::size_t>(c.vertex_count), {0, 0, 0});
+  std::vector<std::array<int, 3>> along(c.vertex_count, {0, 0, 0});
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
     const auto& [left, right] = c.edge_faces[e];
     if (right < 0) continue;
@@ -50,10 +50,10 @@ bool is_staircase(const Mat3X& points, const Adjacency& c, const std::vector<dou
     if (n.dot(m) > cosine || n.isZero(0) || m.isZero(0)) continue;
     const auto& [a, b] = c.edges[e];
     const Vec3 step = points.col(b) - points.col(a);
-    const auto length = [&](int v) { return vertex_length[static_cast<std::size_t>(v)]; };
+    const auto length = [&](int v) { return vertex_length[v]; };
     const std::size_t index = steps.index_of(step);
     if (index == 3 || step.norm() > resolved_step * std::min(length(a), length(b))) return false;
-    for (int v : {a, b}) ++along[static_cast<std::size_t>(v)][index];
+    for (int v : {a, b}) ++along[v][index];
     ++count;
   }
   const auto is_sharp = [](const std::array<int, 3>& n) { return n != std::array<int, 3>{0, 0, 0}; };

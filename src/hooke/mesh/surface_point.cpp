@@ -13,7 +13,7 @@ struct Nearest {
 
   void update(const Mat3X& points, const Adjacency& c, const Vec3& x, int vertex) {
     for (int f : c.vertex_faces[vertex]) {
-      const Triangle& t = c.faces[static_cast<size_t>(f)];
+      const Triangle& t = c.faces[f];
       const TrianglePoint near =
           closest_point_on_triangle(points.col(t[0]), points.col(t[1]), points.col(t[2]), x);
       if (!(near.squared_distance < squared_distance)) continue;
@@ -34,7 +34,7 @@ SurfacePoint locate(const Mat3X& points, const Adjacency& c, const Vec3& x, int 
     if (!(nearest.squared_distance < before)) return nearest.point;
     Eigen::Index corner;
     nearest.point.weights.maxCoeff(&corner);
-    hint = c.faces[static_cast<size_t>(nearest.point.face)][static_cast<size_t>(corner)];
+    hint = c.faces[nearest.point.face][corner];
   }
 }
 

@@ -13,14 +13,14 @@ class DisjointSets {
   }
 
   int root(int i) {
-    while (parent_[static_cast<size_t>(i)] != i) {
-      int& parent = parent_[static_cast<size_t>(i)];
-      parent = parent_[static_cast<size_t>(parent)];
+    while (parent_[i] != i) {
+      int& parent = parent_[i];
+      parent = parent_[parent];
       i = parent;
     }
     return i;
   }
-  void join(const Edge& e) { parent_[static_cast<size_t>(root(e[0]))] = root(e[1]); }
+  void join(const Edge& e) { parent_[root(e[0])] = root(e[1]); }
 
  private:
   std::vector<int> parent_;
@@ -29,10 +29,10 @@ class DisjointSets {
 }  // namespace
 
 std::vector<char> boundary_vertices(const Adjacency& adjacency) {
-  std::vector<char> on_boundary(static_cast<size_t>(adjacency.vertex_count), 0);
+  std::vector<char> on_boundary(adjacency.vertex_count, 0);
   for (size_t e = 0; e < adjacency.edges.size(); ++e)
     if (adjacency.is_boundary_edge(static_cast<int>(e)))
-      for (int v : adjacency.edges[e]) on_boundary[static_cast<size_t>(v)] = 1;
+      for (int v : adjacency.edges[e]) on_boundary[v] = 1;
   return on_boundary;
 }
 
@@ -57,7 +57,7 @@ Topology measure_topology(const Adjacency& adjacency) {
       continue;
     }
     t.components += components.root(v) == v;
-    t.boundary_loops += on_boundary[static_cast<size_t>(v)] && boundary_loops.root(v) == v;
+    t.boundary_loops += on_boundary[v] && boundary_loops.root(v) == v;
   }
   t.euler = t.vertices - t.isolated_vertices - t.edges + t.faces;
   return t;
@@ -69,7 +69,7 @@ Valence count_valences(const Adjacency& adjacency) {
   for (int v = 0; v < adjacency.vertex_count; ++v) {
     const size_t edges = adjacency.vertex_edges[v].size();
     if (edges == 0) continue;
-    std::vector<int>& counts = on_boundary[static_cast<size_t>(v)] ? valence.boundary : valence.interior;
+    std::vector<int>& counts = on_boundary[v] ? valence.boundary : valence.interior;
     if (counts.size() <= edges) counts.resize(edges + 1, 0);
     ++counts[edges];
   }

@@ -67,7 +67,7 @@ Buckets<Item> fill_buckets(size_t vertices, size_t faces, const Each& each) {
   buckets.items.resize(buckets.first[vertices]);
   std::vector<size_t> next(buckets.first.begin(), buckets.first.end() - 1);
   for (size_t f = 0; f < faces; ++f)
-    each(f, [&](int v, const Item& item) { buckets.items[next[static_cast<size_t>(v)]++] = item; });
+    each(f, [&](int v, const Item& item) { buckets.items[next[v]++] = item; });
   return buckets;
 }
 
@@ -220,7 +220,7 @@ std::vector<Problem> find_problems(const Mat3X& points, const std::vector<Triang
   if (triangles.empty()) findings.add(ProblemKind::no_faces, {}, {});
   find_bad_corners(points, triangles, findings);
   if (!findings.empty()) return findings.sorted();
-  const auto vertices = static_cast<size_t>(points.cols());
+  const size_t vertices = points.cols();
   VertexFans own_fans = examine_fans(static_cast<int>(vertices), triangles);
   if (first_broken(own_fans) >= 0) {  // find out what and where
     find_bad_edges(vertices, triangles, findings);
@@ -297,9 +297,8 @@ std::string problem_text(const Problem& problem, const MeshSource& source) {
 }  // namespace
 
 std::string face_text(int triangle, const MeshSource& source) {
-  const int face = source.face.empty() ? triangle : source.face[static_cast<size_t>(triangle)];
-  return source.line.empty() ? std::to_string(face)
-                             : fmt::format("{} (line {})", face, source.line[static_cast<size_t>(face)]);
+  const int face = source.face.empty() ? triangle : source.face[triangle];
+  return source.line.empty() ? std::to_string(face) : fmt::format("{} (line {})", face, source.line[face]);
 }
 
 std::string name_of(ProblemKind kind) {

@@ -21,24 +21,24 @@ size_t fan_corner(const Triangle& face, int vertex) {
 
 /// The face on the other side of the edge; -1 without one.
 int face_across(const Adjacency& c, int edge, int face) {
-  const auto [a, b] = c.edge_faces[static_cast<size_t>(edge)];
+  const auto [a, b] = c.edge_faces[edge];
   return a == face ? b : a;
 }
 
 /// The opposite vertex across edge k of the face; -1 without one.
 int vertex_across(const Adjacency& c, int face, size_t k) {
-  const int edge = c.face_edges[static_cast<size_t>(face)][k];
+  const int edge = c.face_edges[face][k];
   const int other = face_across(c, edge, face);
   if (other < 0) return -1;
-  for (int v : c.faces[static_cast<size_t>(other)])
-    if (v != c.edges[static_cast<size_t>(edge)][0] && v != c.edges[static_cast<size_t>(edge)][1]) return v;
+  for (int v : c.faces[other])
+    if (v != c.edges[edge][0] && v != c.edges[edge][1]) return v;
   return -1;
 }
 
 /// The first face of a fan: the clockwise one at the boundary, or the given face of a closed fan.
 int first_of_fan(const Adjacency& c, int vertex, int start) {
   for (int face = start;;) {
-    const auto f = static_cast<size_t>(face);
+    const size_t f = face;
     const int before = face_across(c, c.face_edges[f][fan_corner(c.faces[f], vertex)], face);
     if (before < 0) return face;
     if (before == start) return start;
@@ -49,7 +49,7 @@ int first_of_fan(const Adjacency& c, int vertex, int start) {
 /// Writes the ring entries of one fan, beginning with this face; returns the end.
 RingEntry* write_fan(const Adjacency& c, int vertex, int start, RingEntry* out) {
   for (int face = start;;) {
-    const auto f = static_cast<size_t>(face);
+    const size_t f = face;
     const Triangle& t = c.faces[f];
     const size_t k = fan_corner(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
     *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next)};
@@ -78,7 +78,7 @@ VertexRings make_rings_of_mesh(const Adjacency& c) {
   VertexRings rings;
   rings.first = c.vertex_edges.first;
   rings.items.resize(c.vertex_edges.items.size());
-  parallel_for(static_cast<size_t>(c.vertex_count), fan_block, [&](size_t begin, size_t end) {
+  parallel_for(c.vertex_count, fan_block, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
       write_ring(c, static_cast<int>(v), rings.items.data() + rings.first[v]);
   });
@@ -90,25 +90,25 @@ VertexRings make_wedge_rings(const Adjacency& c) {
   const Adjacency cut = cut_open(c);
   VertexRings rings = make_rings_of_mesh(cut);
   const auto vertex_of = [&](int wedge) {
-    return wedge < c.vertex_count ? wedge : c.extra_wedges[static_cast<size_t>(wedge - c.vertex_count)];
+    return wedge < c.vertex_count ? wedge : c.extra_wedges[wedge - c.vertex_count];
   };
   for (int s = 0; s < cut.vertex_count; ++s) {
     const int v = vertex_of(s);
     int face = -1;
     rings.crease_opposite.push_back(-1);
-    for (int i = rings.first[static_cast<size_t>(s)]; i < rings.first[static_cast<size_t>(s) + 1]; ++i) {
-      RingEntry& entry = rings.items[static_cast<size_t>(i)];
+    for (int i = rings.first[s]; i < rings.first[static_cast<size_t>(s) + 1]; ++i) {
+      RingEntry& entry = rings.items[i];
       rings.wedges.push_back(entry.neighbour);
       entry.neighbour = vertex_of(entry.neighbour);
       if (entry.face >= 0) face = entry.face;
-      const auto f = static_cast<size_t>(face);
+      const size_t f = face;
       const size_t k = fan_corner(c.faces[f], v), far = (k + 1) % 3;
       entry.across = entry.face >= 0 ? vertex_across(c, face, far) : -1;
       rings.far_crease.push_back(entry.face >= 0 && c.is_crease(c.face_edges[f][far]));
       entry.edge = c.face_edges[f][entry.face >= 0 ? k : (k + 2) % 3];
-      if (i == rings.first[static_cast<size_t>(s)] && c.is_crease(entry.edge))
+      if (i == rings.first[s] && c.is_crease(entry.edge))
         rings.crease_opposite.back() = vertex_across(c, face, k);
-      const auto e = static_cast<size_t>(entry.edge);
+      const size_t e = entry.edge;
       rings.owned.push_back(c.wedge_edges[e][c.edges[e][0] == v ? 0 : 1] == s);
     }
   }
@@ -118,7 +118,7 @@ VertexRings make_wedge_rings(const Adjacency& c) {
 /// Block adjacency: the other blocks on which the vertices of each block depend, which is symmetric.
 std::vector<std::vector<int>> block_adjacency(const VertexRings& rings, const Adjacency& c, int block) {
   const int vertex_count = c.vertex_count;
-  const auto blocks = static_cast<size_t>((vertex_count + block - 1) / block);
+  const size_t blocks = (vertex_count + block - 1) / block;
   std::vector<std::vector<int>> adjacent(blocks);
   const auto extra_wedge = [&](int vertex) {  // first one of this vertex or a later one
     return static_cast<size_t>(std::ranges::lower_bound(c.extra_wedges, vertex) - c.extra_wedges.begin());
@@ -126,8 +126,8 @@ std::vector<std::vector<int>> block_adjacency(const VertexRings& rings, const Ad
   parallel_for(blocks, 8, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {
       const int first = static_cast<int>(b) * block, last = std::min(first + block, vertex_count);
-      const auto from = rings.items.begin() + rings.first[static_cast<size_t>(first)];
-      const auto to = rings.items.begin() + rings.first[static_cast<size_t>(last)];
+      const auto from = rings.items.begin() + rings.first[first];
+      const auto to = rings.items.begin() + rings.first[last];
       const auto visit = [&](const RingEntry& s) {
         for (int v : {s.neighbour, s.across})
           if (v >= 0 && (v < first || v >= last)) adjacent[b].push_back(v / block);
@@ -150,8 +150,8 @@ std::vector<std::vector<int>> first_fit_coloring(const std::vector<std::vector<i
   for (size_t b = 0; b < neighbours.size(); ++b) {
     used.assign(colors.size() + 1, 0);
     for (int n : neighbours[b])
-      if (color[static_cast<size_t>(n)] >= 0) used[static_cast<size_t>(color[static_cast<size_t>(n)])] = 1;
-    const auto free = static_cast<size_t>(std::ranges::find(used, 0) - used.begin());
+      if (color[n] >= 0) used[color[n]] = 1;
+    const size_t free = std::ranges::find(used, 0) - used.begin();
     if (free == colors.size()) colors.emplace_back();
     colors[free].push_back(static_cast<int>(b));
     color[b] = static_cast<int>(free);

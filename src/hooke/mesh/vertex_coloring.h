@@ -28,7 +28,7 @@ struct VertexRings {
   std::vector<int> crease_opposite;
 
   std::span<const RingEntry> operator[](int wedge) const {
-    const auto s = static_cast<size_t>(wedge);
+    const size_t s = wedge;
     return {items.data() + first[s], items.data() + first[s + 1]};
   }
 };

@@ -33,7 +33,7 @@ class Grid {
   void add(int vertex) {
     const auto [head, fresh] = heads_.try_emplace(cell_of(vertex), vertex);
     if (fresh) return;
-    next_[static_cast<size_t>(vertex)] = head->second;
+    next_[vertex] = head->second;
     head->second = vertex;
   }
 
@@ -51,7 +51,7 @@ class Grid {
     Cell cell;
     for (Eigen::Index k = 0; k < 3; ++k) {
       const double x = points_(k, vertex) + 0.;  // no -0
-      cell[static_cast<size_t>(k)] = size_ == 0 ? x : std::floor(x / size_) + 0.;
+      cell[k] = size_ == 0 ? x : std::floor(x / size_) + 0.;
     }
     return cell;
   }
@@ -60,7 +60,7 @@ class Grid {
   void for_each_in(const Cell& cell, const Use& use) const {
     const auto head = heads_.find(cell);
     if (head == heads_.end()) return;
-    for (int v = head->second; v >= 0; v = next_[static_cast<size_t>(v)]) use(v);
+    for (int v = head->second; v >= 0; v = next_[v]) use(v);
   }
 
   const Mat3X& points_;
@@ -75,31 +75,31 @@ std::vector<int> weld_vertices(const Mat3X& points, const std::vector<double>& r
   std::vector<int> merged(reach.size());
   Grid grid(points, reach.empty() ? 0 : std::max(0., std::ranges::max(reach)));
   for (int v = 0; v < static_cast<int>(reach.size()); ++v) {
-    merged[static_cast<size_t>(v)] = v;
-    const double own = reach[static_cast<size_t>(v)];
+    merged[v] = v;
+    const double own = reach[v];
     if (own < 0) continue;
     int closest = v;
     double least = std::numeric_limits<double>::infinity();
     grid.for_each_near(v, [&](int other) {
       const double distance = (points.col(v) - points.col(other)).norm();
-      if (distance > std::min(own, reach[static_cast<size_t>(other)])) return;
+      if (distance > std::min(own, reach[other])) return;
       if (distance < least || (distance == least && other < closest)) {
         least = distance;
         closest = other;
       }
     });
-    merged[static_cast<size_t>(v)] = closest;
+    merged[v] = closest;
     if (closest == v) grid.add(v);
   }
   return merged;
 }
 
 std::vector<double> reach_of_edges(const Mat3X& points, const std::vector<Edge>& edges) {
-  std::vector<double> reach(static_cast<size_t>(points.cols()), -1);
+  std::vector<double> reach(points.cols(), -1);
   for (const auto& [a, b] : edges) {
     const double length = welding_share * (points.col(a) - points.col(b)).norm();
     for (const int v : {a, b}) {
-      double& own = reach[static_cast<size_t>(v)];
+      double& own = reach[v];
       own = own < 0 ? length : std::min(own, length);
     }
   }

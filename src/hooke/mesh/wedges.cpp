@@ -27,7 +27,7 @@ class Sectors {
       visit(f);
       const int e = edge_at(f, 2);
       if (c_.is_feature_edge(e)) return;
-      const auto& [left, right] = c_.edge_faces[static_cast<size_t>(e)];
+      const auto& [left, right] = c_.edge_faces[e];
       f = left == f ? right : left;
     }
   }
@@ -35,12 +35,12 @@ class Sectors {
  private:
   /// Edge of the face that leaves the vertex (0) or comes back to it (2).
   int edge_at(int face, size_t offset) const {
-    const auto f = static_cast<size_t>(face);
+    const size_t f = face;
     return c_.face_edges[f][(wedge_corner(c_.faces[f], vertex_) + offset) % 3];
   }
 
   int neighbour_at(int face) const {
-    const Triangle& t = c_.faces[static_cast<size_t>(face)];
+    const Triangle& t = c_.faces[face];
     return t[(wedge_corner(t, vertex_) + 1) % 3];
   }
 
@@ -55,7 +55,7 @@ void mark(Adjacency& c, const std::vector<Edge>& creases) {
     const int a = crease[0], b = crease[1];
     const auto edges = c.vertex_edges[a];
     const auto edge = std::ranges::find_if(edges, [&](int e) { return c.other_end(e, a) == b; });
-    if (edge != edges.end()) c.creases[static_cast<size_t>(*edge)] = 1;
+    if (edge != edges.end()) c.creases[*edge] = 1;
   }
 }
 
@@ -75,15 +75,13 @@ void split_wedges(Adjacency& c, const std::vector<Edge>& creases) {
     const Sectors sectors(c, v);
     for (size_t s = 1; s < sectors.count(); ++s) {
       const int wedge = c.wedge_count();
-      sectors.for_each_face(s, [&](int f) {
-        c.wedge_faces[static_cast<size_t>(f)][wedge_corner(c.faces[static_cast<size_t>(f)], v)] = wedge;
-      });
+      sectors.for_each_face(s, [&](int f) { c.wedge_faces[f][wedge_corner(c.faces[f], v)] = wedge; });
       c.extra_wedges.push_back(v);
     }
   }
   c.wedge_edges.resize(c.edges.size());
   for (size_t e = 0; e < c.edges.size(); ++e) {
-    const auto f = static_cast<size_t>(c.edge_faces[e][0]);
+    const size_t f = c.edge_faces[e][0];
     for (size_t k = 0; k < 2; ++k)
       c.wedge_edges[e][k] = c.wedge_faces[f][wedge_corner(c.faces[f], c.edges[e][k])];
   }
@@ -111,17 +109,16 @@ Adjacency cut_open(const Adjacency& c) {
 std::vector<int> wedges_before(const Adjacency& c, const std::vector<Triangle>& wedges,
                                std::vector<int> vertices) {
   std::vector<int> before = std::move(vertices);
-  before.resize(static_cast<size_t>(c.wedge_count()), -1);
+  before.resize(c.wedge_count(), -1);
   for (size_t f = 0; f < wedges.size(); ++f)
-    for (size_t k = 0; k < 3; ++k) before[static_cast<size_t>(c.wedges_of_faces()[f][k])] = wedges[f][k];
+    for (size_t k = 0; k < 3; ++k) before[c.wedges_of_faces()[f][k]] = wedges[f][k];
   return before;
 }
 
 std::vector<int> other_wedges(std::size_t vertex_count, const std::vector<int>& extra_wedges) {
   if (extra_wedges.empty()) return {};
   std::vector<int> others(vertex_count, -1);
-  for (size_t s = extra_wedges.size(); s-- > 0;)
-    others[static_cast<size_t>(extra_wedges[s])] = static_cast<int>(vertex_count + s);
+  for (size_t s = extra_wedges.size(); s-- > 0;) others[extra_wedges[s]] = static_cast<int>(vertex_count + s);
   return others;
 }
 
@@ -134,17 +131,17 @@ Mat3X wedge_points(const Mat3X& points, const Adjacency& c) {
 }
 
 std::vector<int> label_components(const Adjacency& c) {
-  std::vector<int> label(static_cast<size_t>(c.vertex_count), -1);
+  std::vector<int> label(c.vertex_count, -1);
   int count = 0;
   for (int start = 0; start < c.vertex_count; ++start) {
-    if (label[static_cast<size_t>(start)] >= 0) continue;
+    if (label[start] >= 0) continue;
     std::vector<int> front = {start};
-    label[static_cast<size_t>(start)] = count;
+    label[start] = count;
     while (!front.empty()) {
       const int v = front.back();
       front.pop_back();
       for (int w : c.vertex_neighbours[v])
-        if (int& l = label[static_cast<size_t>(w)]; l < 0) {
+        if (int& l = label[w]; l < 0) {
           l = count;
           front.push_back(w);
         }

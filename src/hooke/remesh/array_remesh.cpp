@@ -5,9 +5,8 @@
 namespace hooke {
 
 ValidMesh mesh_from_arrays(const Eigen::MatrixX3d& vertices, const Eigen::MatrixX3i& faces) {
-  std::vector<Triangle> triangles(static_cast<size_t>(faces.rows()));
-  for (Eigen::Index f = 0; f < faces.rows(); ++f)
-    triangles[static_cast<size_t>(f)] = {faces(f, 0), faces(f, 1), faces(f, 2)};
+  std::vector<Triangle> triangles(faces.rows());
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) triangles[f] = {faces(f, 0), faces(f, 1), faces(f, 2)};
   return make_valid_mesh(vertices.transpose(), triangles, "mesh of arrays");
 }
 
@@ -24,8 +23,7 @@ RemeshedArrays preserving_remesh(const Eigen::MatrixX3d& vertices, const Eigen::
   const std::vector<Triangle> triangles = triangles_of(input.mesh);
   done.faces.resize(std::ssize(triangles), 3);
   for (Eigen::Index f = 0; f < done.faces.rows(); ++f)
-    for (Eigen::Index k = 0; k < 3; ++k)
-      done.faces(f, k) = triangles[static_cast<size_t>(f)][static_cast<size_t>(k)];
+    for (Eigen::Index k = 0; k < 3; ++k) done.faces(f, k) = triangles[f][k];
   return done;
 }
 

@@ -31,7 +31,7 @@ std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const 
   for (size_t v = 0; v < vertex_limits.size(); ++v) vertex_limits[v] = limit_of_curve(work, v);
   for (size_t e = 0; e < c.edges.size(); ++e)
     for (const int v : c.edges[e]) {
-      auto& limit = vertex_limits[static_cast<size_t>(v)];
+      auto& limit = vertex_limits[v];
       if (c.edge_faces[e][1] < 0) limit |= limited_by_boundary;
       if (c.is_crease(static_cast<int>(e))) limit |= limited_by_crease;
     }
@@ -43,12 +43,10 @@ std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const 
         (asked.boundary == BoundaryRule::fixed && (vertex_limits[v] & limited_by_boundary));
     vertex_limits[v] |= requested ? limited_by_request : limited_at_corner;
   }
-  for (const int v : guards.vertices_at_limits(work.positions))
-    vertex_limits[static_cast<size_t>(v)] |= limited_by_guard;
+  for (const int v : guards.vertices_at_limits(work.positions)) vertex_limits[v] |= limited_by_guard;
 
   std::vector<unsigned char> of_result(vertex_limits.size());
-  for (size_t v = 0; v < vertex_limits.size(); ++v)
-    of_result[static_cast<size_t>(work.order.old_vertex[v])] = vertex_limits[v];
+  for (size_t v = 0; v < vertex_limits.size(); ++v) of_result[work.order.old_vertex[v]] = vertex_limits[v];
   return of_result;
 }
 
@@ -58,7 +56,7 @@ std::vector<std::string> limiting_factors(const WorstFace& face,
   unsigned char all = 0;
   bool inside = false;
   const auto add = [&](int v) {
-    const unsigned char limit = vertex_limits[static_cast<size_t>(v)];
+    const unsigned char limit = vertex_limits[v];
     inside = inside || (limit & ~(limited_by_guard | put_back)) == not_limited;
     all |= limit;
   };

@@ -90,7 +90,7 @@ class PaperRun {
     if (all_free) return nullptr;
     return [this](Mat3X& forces) {
       for (Eigen::Index v = 0; v < forces.cols(); ++v) {
-        const Freedom freedom = work_.constraints.freedom[static_cast<size_t>(v)];
+        const Freedom freedom = work_.constraints.freedom[v];
         if (freedom == Freedom::surface) continue;
         const Vec3 tangent =
             work_.retraction->tangent(work_.positions, static_cast<int>(v));  // zero if fixed

@@ -130,25 +130,23 @@ class PreservingRemesh {
     const Preservation& p = run.preservation();
     const MeasuredSurface surface = surface_of(run);
     Mat3X moved = surface.points;
-    std::vector<char> is_held(static_cast<size_t>(moved.cols()), 0);
+    std::vector<char> is_held(moved.cols(), 0);
     constexpr unsigned char immovable = limited_by_boundary | limited_at_corner | limited_by_request;
-    const auto may_move = [&](int v) {
-      return !is_held[static_cast<size_t>(v)] && (limits_of(run, surface, v) & immovable) == 0;
-    };
+    const auto may_move = [&](int v) { return !is_held[v] && (limits_of(run, surface, v) & immovable) == 0; };
     std::vector<FarVertex> lost = p.lost_vertices;
     std::ranges::stable_sort(lost, std::greater(), &FarVertex::distance);
     for (const FarVertex& tip : lost) {
       const Vec3 x = input_.points.col(tip.vertex);
       const int face = surface.tree.closest(x).face;
       if (face < 0) continue;
-      const Triangle& t = surface.adjacency.faces[static_cast<size_t>(face)];
+      const Triangle& t = surface.adjacency.faces[face];
       const int v = *std::ranges::min_element(
           t, {}, [&](int corner) { return (surface.points.col(corner) - x).squaredNorm(); });
       const Vec3 way = x - moved.col(v);
       constexpr double well_within = .95;
       const double share = 1 - well_within * tip.limit / way.norm();
       if (!(share > 0) || !may_move(v)) continue;
-      is_held[static_cast<size_t>(v)] = 1;
+      is_held[v] = 1;
       moved.col(v) += share * way;
     }
     const auto move = [&](int v, const Vec3& x) {
@@ -176,7 +174,7 @@ class PreservingRemesh {
 
   /// What limits a vertex of the run's surface: bits of VertexLimit.
   static unsigned char limits_of(const Run& run, const MeasuredSurface& surface, int vertex) {
-    return run.result.vertex_limits[static_cast<size_t>(surface.ids.vertex(vertex))];
+    return run.result.vertex_limits[surface.ids.vertex(vertex)];
   }
 
   /// The vertices, none on a crease, of faces of the result that are turned over, chords or intersecting.
@@ -190,11 +188,11 @@ class PreservingRemesh {
         is_wrong[f] = std::ranges::binary_search(turned, surface.ids.face(static_cast<int>(f)));
     if (run.preservation().new_crossings > 0)
       for (const auto& pair : find_self_intersections(surface.tree))
-        for (int f : pair) is_wrong[static_cast<size_t>(f)] = 1;
-    std::vector<char> is_corner(static_cast<size_t>(surface.adjacency.vertex_count), 0);
+        for (int f : pair) is_wrong[f] = 1;
+    std::vector<char> is_corner(surface.adjacency.vertex_count, 0);
     for (size_t f = 0; f < is_wrong.size(); ++f)
       if (is_wrong[f])
-        for (int v : surface.adjacency.faces[f]) is_corner[static_cast<size_t>(v)] = 1;
+        for (int v : surface.adjacency.faces[f]) is_corner[v] = 1;
     std::vector<int> corners;
     for (size_t v = 0; v < is_corner.size(); ++v)
       if (is_corner[v] && (limits_of(run, surface, static_cast<int>(v)) & limited_by_crease) == 0)
@@ -204,16 +202,15 @@ class PreservingRemesh {
 
   /// Moves a vertex, by its index in memory order, and finds it on the input again.
   void place(int vertex, const Vec3& point, Run& run) const {
-    const int id = run.result.memory_order.order.old_vertex[static_cast<size_t>(vertex)];
+    const int id = run.result.memory_order.order.old_vertex[vertex];
     vertex_points(run.mesh).col(id) = point;
     if (run.result.map.empty()) return;
     const ClosestPoint closest = input_.tree.closest(point);
     if (closest.face < 0) return;
-    const Triangle& t = input_.adjacency.faces[static_cast<size_t>(closest.face)];
-    run.result.map[static_cast<size_t>(id)].position = {
-        memory_order_.order.old_face[static_cast<size_t>(closest.face)],
-        barycentric(closest.point, input_.points.col(t[0]), input_.points.col(t[1]),
-                    input_.points.col(t[2]))};
+    const Triangle& t = input_.adjacency.faces[closest.face];
+    run.result.map[id].position = {memory_order_.order.old_face[closest.face],
+                                   barycentric(closest.point, input_.points.col(t[0]),
+                                               input_.points.col(t[1]), input_.points.col(t[2]))};
   }
 
   /// Holds vertices of the input, as the tip of a cone, that a result has lost.
@@ -227,8 +224,7 @@ class PreservingRemesh {
       };
       if (held.size() < max_tips && std::ranges::none_of(held, is_near)) held.push_back(tip.vertex);
     }
-    for (int v : held)
-      options_.constraints.fixed_vertices.push_back(memory_order_.order.old_vertex[static_cast<size_t>(v)]);
+    for (int v : held) options_.constraints.fixed_vertices.push_back(memory_order_.order.old_vertex[v]);
   }
 
   /// Makes an attempt on the faces of the input, and keeps it if it is better.
@@ -272,7 +268,7 @@ class PreservingRemesh {
       move_back(best, wrong, rings);
     }
     if (best.flaws() == 0 && best.result.measures->quality.shape.mean >= input_quality_.shape.mean) return;
-    std::vector<int> all(static_cast<size_t>(input_.adjacency.vertex_count));
+    std::vector<int> all(input_.adjacency.vertex_count);
     std::iota(all.begin(), all.end(), 0);
     move_back(best, all, 1);
   }
@@ -284,7 +280,7 @@ class PreservingRemesh {
     const Adjacency& c = input_.adjacency;
     std::vector<int> wrong;
     const auto add_face = [&](int f) {
-      const Triangle& t = c.faces[static_cast<size_t>(f)];
+      const Triangle& t = c.faces[f];
       wrong.insert(wrong.end(), t.begin(), t.end());
     };
     for (const auto& pair : find_self_intersections(now.tree))
@@ -292,16 +288,13 @@ class PreservingRemesh {
         for (int f : pair) add_face(f);
     std::vector<int> index_of_face(c.faces.size());
     const auto& old_face = run.result.memory_order.order.old_face;
-    for (size_t f = 0; f < old_face.size(); ++f)
-      index_of_face[static_cast<size_t>(old_face[f])] = static_cast<int>(f);
-    for (int id : run.result.measures->deviation.flipped_faces)
-      add_face(index_of_face[static_cast<size_t>(id)]);
+    for (size_t f = 0; f < old_face.size(); ++f) index_of_face[old_face[f]] = static_cast<int>(f);
+    for (int id : run.result.measures->deviation.flipped_faces) add_face(index_of_face[id]);
     for (size_t e = 0; e < c.edges.size(); ++e) {
       const int left = c.edge_faces[e][0], right = c.edge_faces[e][1];
       if (right < 0) continue;
       const auto fold = [&](const Mat3X& points) {
-        return cosine_between(points, c.faces[static_cast<size_t>(left)],
-                              c.faces[static_cast<size_t>(right)]);
+        return cosine_between(points, c.faces[left], c.faces[right]);
       };
       if (fold(now.points) < 0 && fold(now.points) < fold(input_.points)) {
         add_face(left);
@@ -321,19 +314,19 @@ class PreservingRemesh {
     const auto points = vertex_points(run.mesh);
     const auto input = vertex_points(mesh_);
     const Adjacency& c = input_.adjacency;
-    std::vector<int> ring(static_cast<size_t>(c.vertex_count), rings), front = vertices;
-    for (int v : vertices) ring[static_cast<size_t>(v)] = 0;
+    std::vector<int> ring(c.vertex_count, rings), front = vertices;
+    for (int v : vertices) ring[v] = 0;
     for (size_t i = 0; i < front.size(); ++i)
       for (int n : c.vertex_neighbours[front[i]]) {
-        const int next = ring[static_cast<size_t>(front[i])] + 1;
-        if (next >= ring[static_cast<size_t>(n)]) continue;
-        ring[static_cast<size_t>(n)] = next;
+        const int next = ring[front[i]] + 1;
+        if (next >= ring[n]) continue;
+        ring[n] = next;
         front.push_back(n);
       }
     for (int v : front) {
-      const int id = memory_order_.order.old_vertex[static_cast<size_t>(v)];
-      const double share = static_cast<double>(ring[static_cast<size_t>(v)]) / rings;
-      if (share == 0) run.result.vertex_limits[static_cast<size_t>(id)] |= VertexLimit::put_back;
+      const int id = memory_order_.order.old_vertex[v];
+      const double share = static_cast<double>(ring[v]) / rings;
+      if (share == 0) run.result.vertex_limits[id] |= VertexLimit::put_back;
       place(v, input.col(id) + share * (points.col(id) - input.col(id)), run);
     }
     judge(run);

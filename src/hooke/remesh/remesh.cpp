@@ -272,7 +272,7 @@ class OuterIterations {
     result_.creases = count_creases(work_);
     result_.crease_edges = crease_edges(*work_.adjacency);
     for (Edge& e : result_.crease_edges)
-      for (int& v : e) v = work_.order.old_vertex[static_cast<size_t>(v)];
+      for (int& v : e) v = work_.order.old_vertex[v];
     result_.projection = work_.projection_counts();
   }
 
@@ -360,7 +360,7 @@ struct InputCreases {
 InputCreases input_creases(const Workspace& work, const CreaseOptions& options) {
   InputCreases input{.edges = crease_edges(*work.adjacency)};
   for (Edge& e : input.edges)
-    for (int& v : e) v = work.order.old_vertex[static_cast<size_t>(v)];
+    for (int& v : e) v = work.order.old_vertex[v];
   if (options.angle >= 180) return input;
   for (int e : sharp_edges(*work.start, *work.adjacency, options.angle)) {
     ++input.sharp;

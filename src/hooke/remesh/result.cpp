@@ -41,8 +41,7 @@ CreaseCounts count_creases(const Workspace& work) {
   std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   for (int v : ends) {
-    const bool inner =
-        constraints.freedom[static_cast<size_t>(v)] == Freedom::curve || constraints.at_bend(v);
+    const bool inner = constraints.freedom[v] == Freedom::curve || constraints.at_bend(v);
     ++(inner ? counts.curve_vertices : counts.corners);
   }
   return counts;
@@ -50,7 +49,7 @@ CreaseCounts count_creases(const Workspace& work) {
 
 std::vector<int> faces_of_result(const Workspace& work, const std::vector<int>& faces) {
   std::vector<int> ids;
-  for (int f : faces) ids.push_back(work.order.old_face[static_cast<size_t>(f)]);
+  for (int f : faces) ids.push_back(work.order.old_face[f]);
   std::ranges::sort(ids);
   return ids;
 }

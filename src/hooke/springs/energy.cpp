@@ -243,7 +243,7 @@ double Energy::face_energy(const Points& at, size_t face, double* corner_gradien
   std::array<Vec3, 3> gradient = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 
   for (size_t k = 0; k < 3; ++k) {  // an edge belongs to its first face
-    const auto e = static_cast<size_t>(adjacency_.face_edges[face][(k + 1) % 3]);
+    const size_t e = adjacency_.face_edges[face][(k + 1) % 3];
     if (adjacency_.edge_faces[e][0] != static_cast<int>(face)) continue;
     const double L = targets_.edge[e];
     const Potential u = spring_potential(f.length[k], L);
@@ -294,7 +294,7 @@ void Energy::gather_faces(const Points& at, size_t face, size_t count, FaceSprin
     const size_t f = face + std::min(i, count - 1);
     const Triangle& t = adjacency_.faces[f];
     for (size_t k = 0; k < 3; ++k) {
-      const auto e = static_cast<size_t>(adjacency_.face_edges[f][(k + 1) % 3]);
+      const size_t e = adjacency_.face_edges[f][(k + 1) % 3];
       for (size_t d = 0; d < 3; ++d)
         four.corners[(3 * k + d) * lane_count + i] = at.points(static_cast<Eigen::Index>(d), t[k]);
       four.edge_target[k * lane_count + i] = targets_.edge[e];
@@ -308,12 +308,12 @@ void Energy::gather_faces(const Points& at, size_t face, size_t count, FaceSprin
 
 /// Adds the gradients of the part's faces to those of the vertices, in the order of each vertex's fan.
 void Energy::add_corner_gradients(const Part& part, Mat3X& gradient) const {
-  const auto first = static_cast<size_t>(part.first_vertex);
+  const size_t first = part.first_vertex;
   parallel_for(static_cast<size_t>(part.last_vertex) + 1 - first, 2048, [&](size_t begin, size_t end) {
     for (size_t v = first + begin; v < first + end; ++v) {
       Vec3 sum = gradient.col(static_cast<Eigen::Index>(v));
       for (int face : adjacency_.vertex_faces[static_cast<int>(v)]) {
-        const auto f = static_cast<size_t>(face);
+        const size_t f = face;
         if (f < part.begin || f >= part.end) continue;
         const size_t k = corner_of(adjacency_.faces[f], static_cast<int>(v));
         sum += Eigen::Map<const Vec3>(corner_gradients_.data() + 9 * (f - part.begin) + 3 * k);

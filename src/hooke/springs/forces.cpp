@@ -138,7 +138,7 @@ FaceAltitudes face_altitudes(const Eigen::Ref<const Mat3X>& points, const Mat3X*
   if (normals)
     for (int v : t) normal += normals->col(v);
   double length = 0;
-  for (int e : c.face_edges[face]) length += target_lengths[static_cast<std::size_t>(e)] / 3;
+  for (int e : c.face_edges[face]) length += target_lengths[e] / 3;
   return face_altitudes({points.col(t[0]), points.col(t[1]), points.col(t[2])}, normal.normalized(), length);
 }
 
@@ -157,7 +157,7 @@ void add_altitude_forces(const Eigen::Ref<const Mat3X>& points, const Mat3X* nor
       Vec3 sum = Vec3::Zero();
       for (int f : c.vertex_faces[v]) {
         const Triangle& t = c.faces[f];
-        sum += faces[f].push[static_cast<std::size_t>(std::ranges::find(t, static_cast<int>(v)) - t.begin())];
+        sum += faces[f].push[std::ranges::find(t, static_cast<int>(v)) - t.begin()];
       }
       forces.col(v) += weight * sum;
     }

@@ -104,7 +104,7 @@ std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing&
                                            const Adjacency& c) {
   std::vector<double> lengths = sizing.vertex_length;
   if (lengths.empty()) {
-    lengths.assign(static_cast<size_t>(c.vertex_count), resolve_length(spec, points, c));
+    lengths.assign(c.vertex_count, resolve_length(spec, points, c));
     return lengths;
   }
   if (spec.kind == LengthSpec::Kind::as_given) {
@@ -140,7 +140,7 @@ std::vector<double> curvature_lengths(const Mat3X& points, const Adjacency& c, d
 
 void limit_gradation(const Mat3X& points, const Adjacency& c, double slope, std::vector<double>& length) {
   if (std::isinf(slope)) return;
-  const auto at = [&](int v) -> double& { return length[static_cast<size_t>(v)]; };
+  const auto at = [&](int v) -> double& { return length[v]; };
   const auto limit = [&](int from, int to) {
     return at(from) + slope * (points.col(to) - points.col(from)).norm();
   };

@@ -46,7 +46,7 @@ double mean_length(const Mat3X& points, const Adjacency& c, const TargetLengths&
       double part = 0;
       for (size_t f = begin; f < end; ++f) {
         double of_edges = 0;
-        for (int e : c.face_edges[f]) of_edges += value(targets.edge[static_cast<size_t>(e)]);
+        for (int e : c.face_edges[f]) of_edges += value(targets.edge[e]);
         part += of_edges * face_area(points, c.faces[f]);
       }
       return part;
@@ -61,8 +61,7 @@ TargetLengths from_edge_lengths(const Adjacency& c, std::vector<double> edge) {
   parallel_for(face.size(), length_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [a, b, d] = c.face_edges[f];
-      face[f] = mean_of_three(edge[static_cast<size_t>(a)], edge[static_cast<size_t>(b)],
-                              edge[static_cast<size_t>(d)]);
+      face[f] = mean_of_three(edge[a], edge[b], edge[d]);
     }
   });
   return {std::move(edge), std::move(face)};
@@ -78,7 +77,7 @@ TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double
   parallel_for(edge.size(), length_block, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
       const auto& [a, b] = c.edges[e];
-      edge[e] = .5 * (vertex_length[static_cast<size_t>(a)] + vertex_length[static_cast<size_t>(b)]);
+      edge[e] = .5 * (vertex_length[a] + vertex_length[b]);
     }
   });
   return from_edge_lengths(c, std::move(edge));

@@ -107,8 +107,8 @@ class PatchCutter {
         if (inside && !t.is_crease(h)) continue;
         PatchBoundary edge = {h, from, to, {-1, -1}};
         if (inside) {
-          const Triangle& other = patch_.faces[static_cast<size_t>(across - faces.begin())];
-          const auto i = static_cast<size_t>(t.twin(h) % 3);
+          const Triangle& other = patch_.faces[across - faces.begin()];
+          const size_t i = t.twin(h) % 3;
           edge.twin_ends = {other[i], other[(i + 1) % 3]};
         }
         patch_.boundary.push_back(edge);
@@ -128,10 +128,10 @@ class PatchCutter {
 
   void copy_vertex(size_t id) {
     const int wedge = patch_.wedges[id], vertex = patch_.vertices[id];
-    const auto v = static_cast<size_t>(vertex);
+    const size_t v = vertex;
     SurfacePosition position(m_.positions, vertex);
     position.normal = m_.positions.normals.col(wedge);
-    position.hint = m_.positions.hints[static_cast<size_t>(wedge)];
+    position.hint = m_.positions.hints[wedge];
     position.other_wedge = -1;
     position.write_to(patch_.positions, static_cast<int>(id));
     const bool free = id < patch_.movable && m_.constraints.freedom[v] == Freedom::surface &&
@@ -158,7 +158,7 @@ std::array<FaceOfEdge, 2> faces_of_edge(const std::vector<Triangle>& faces) {
   for (size_t f = 0; f < faces.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
       const int from = faces[f][k], to = faces[f][(k + 1) % 3];
-      if (from + to == 1) found[static_cast<size_t>(from)] = {f, faces[f][(k + 2) % 3]};
+      if (from + to == 1) found[from] = {f, faces[f][(k + 2) % 3]};
     }
   return found;
 }

@@ -30,7 +30,7 @@ void reserve_ids(WorkingMesh& m, size_t ids) {
 
 /// Resizes the lists to `ids` entries.
 void resize_lists(WorkingMesh& m, int ids) {
-  const auto n = static_cast<size_t>(ids);
+  const size_t n = ids;
   m.constraints.freedom.resize(n, Freedom::fixed);
   m.constraints.curve.resize(n, -1);
   m.constraints.segment.resize(n, 0);
@@ -42,7 +42,7 @@ void resize_lists(WorkingMesh& m, int ids) {
 template <typename T>
 void keep_only(std::vector<T>& values, const std::vector<int>& kept) {
   std::vector<T> left(kept.size());
-  for (size_t i = 0; i < kept.size(); ++i) left[i] = values[static_cast<size_t>(kept[i])];
+  for (size_t i = 0; i < kept.size(); ++i) left[i] = values[kept[i]];
   values = std::move(left);
 }
 
@@ -51,8 +51,7 @@ void keep_only(std::vector<T>& values, const std::vector<int>& kept) {
 CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
   const int a = m.halfedges.from(h), b = m.halfedges.to(h);
   for (int v : {a, b})
-    if (const int curve = m.constraints.curve[static_cast<size_t>(v)]; curve >= 0)
-      return {curve, m.positions.segments[static_cast<size_t>(v)]};
+    if (const int curve = m.constraints.curve[v]; curve >= 0) return {curve, m.positions.segments[v]};
   return m.curve_finder.common(m.positions.points.col(a), m.positions.points.col(b));
 }
 
@@ -71,8 +70,8 @@ void count_curve_edges(WorkingMesh& m, double chord_error) {
     if (t.is_removed(h / 3) || !t.is_feature_edge(h) || t.twin(h) > h) continue;
     const int curve = curve_of(m, h).curve;
     if (curve < 0) continue;
-    lengths[static_cast<size_t>(curve)] += target_length(m, t.from(h), t.to(h));
-    ++m.curve_edges.present[static_cast<size_t>(curve)];
+    lengths[curve] += target_length(m, t.from(h), t.to(h));
+    ++m.curve_edges.present[curve];
   }
   for (size_t c = 0; c < curves; ++c)
     if (m.curve_edges.present[c] > 0)
@@ -95,7 +94,7 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
   const int ids = std::max(v, other_wedge) + 1;
   reserve_ids(m, static_cast<size_t>(ids));
   resize_lists(m, ids);
-  const auto i = static_cast<size_t>(v);
+  const size_t i = v;
   m.constraints.freedom[i] = on.curve >= 0 ? Freedom::curve : Freedom::surface;
   m.constraints.curve[i] = on.curve;
   m.constraints.segment[i] = on.segment;
@@ -110,14 +109,14 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
   start.segment = on.segment;
   start.drift = 0;
   start.normal = p.normals.col(t.wedge(h));
-  start.hint = p.hints[static_cast<size_t>(t.wedge(h))];
+  start.hint = p.hints[t.wedge(h)];
   start.other_wedge = other_wedge;
   if (other_wedge >= 0) {
     if (p.other_wedge.empty()) p.other_wedge.assign(p.drift.size(), -1);  // the first vertex with two wedges
     p.other_wedge[i] = other_wedge;
     const int wedge_across = t.wedge(HalfedgeMesh::next(twin));  // of the same end
     start.other_normal = p.normals.col(wedge_across);
-    start.other_hint = p.hints[static_cast<size_t>(wedge_across)];
+    start.other_hint = p.hints[wedge_across];
   }
   start.write_to(p, v);
   const Vec3 half_way = .5 * (p.points.col(b) - p.points.col(a));

@@ -47,7 +47,7 @@ CurveFinder::Location curve_of(const WorkingMesh& mesh, int half_edge);
 
 /// Target length of an edge between the vertices.
 inline double target_length(const WorkingMesh& m, int v, int w) {
-  return .5 * (m.vertex_length[static_cast<size_t>(v)] + m.vertex_length[static_cast<size_t>(w)]);
+  return .5 * (m.vertex_length[v] + m.vertex_length[w]);
 }
 
 /// Length of the edge over its target length.

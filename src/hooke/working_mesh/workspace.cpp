@@ -29,7 +29,7 @@ Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& l
 constexpr double final_projection_tolerance = 1e-9;  // in mean target lengths
 
 std::vector<int> identity(int count) {
-  std::vector<int> ids(static_cast<size_t>(count));
+  std::vector<int> ids(count);
   std::iota(ids.begin(), ids.end(), 0);
   return ids;
 }
@@ -39,8 +39,7 @@ std::vector<int> wedges_of_surface(const Adjacency& c, const Adjacency& surface)
   std::vector<int> wedges = identity(c.wedge_count());
   if (&c == &surface) return wedges;
   for (size_t f = 0; f < c.faces.size(); ++f)
-    for (size_t k = 0; k < 3; ++k)
-      wedges[static_cast<size_t>(c.wedges_of_faces()[f][k])] = surface.wedges_of_faces()[f][k];
+    for (size_t k = 0; k < 3; ++k) wedges[c.wedges_of_faces()[f][k]] = surface.wedges_of_faces()[f][k];
   return wedges;
 }
 
@@ -64,7 +63,7 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
   for (int e : detect_creases(*start, *memory_order.adjacency, vertex_length, constraint_options.features))
-    creases.push_back(memory_order.adjacency->edges[static_cast<size_t>(e)]);
+    creases.push_back(memory_order.adjacency->edges[e]);
   if (!constraint_options.seams.empty()) {
     sharp_ = creases;
     for (const Edge& seam : order.new_edges(constraint_options.seams)) creases.push_back(seam);
@@ -125,9 +124,9 @@ SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points,
   const bool has_creases = !surface->creases.empty();
   const auto cut = has_creases ? std::make_shared<const Adjacency>(cut_open(*surface)) : surface;
   if (has_creases) points = std::make_shared<const Mat3X>(wedge_points(*points, *surface));
-  std::vector<double> lengths(static_cast<size_t>(surface->wedge_count()));
+  std::vector<double> lengths(surface->wedge_count());
   for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
-    lengths[wedge] = vertex_length[static_cast<size_t>(surface->vertex_of_wedge(static_cast<int>(wedge)))];
+    lengths[wedge] = vertex_length[surface->vertex_of_wedge(static_cast<int>(wedge))];
   constexpr double rounding = 1e-9;
   if (faceted_ ||
       std::ranges::any_of(lengths, [&](double length) { return length < (1 - rounding) * natural; })) {
@@ -185,8 +184,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   const auto n = before.size();
   std::vector<int> kept_as(order.old_vertex.size(), -1);  // by previous id in the result
   for (size_t v = 0; v < n; ++v)
-    if (before[v] >= 0)
-      kept_as[static_cast<size_t>(order.old_vertex[static_cast<size_t>(before[v])])] = static_cast<int>(v);
+    if (before[v] >= 0) kept_as[order.old_vertex[before[v]]] = static_cast<int>(v);
   std::vector<int> by_id;  // vertices in the order of the result
   by_id.reserve(n);
   std::ranges::copy_if(kept_as, std::back_inserter(by_id), [](int v) { return v >= 0; });
@@ -194,21 +192,21 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
     if (before[v] < 0) by_id.push_back(static_cast<int>(v));
   if (!input_order_) input_order_ = order;
   std::vector<int> id(n);
-  for (size_t i = 0; i < n; ++i) id[static_cast<size_t>(by_id[i])] = static_cast<int>(i);
+  for (size_t i = 0; i < n; ++i) id[by_id[i]] = static_cast<int>(i);
   for (Triangle& t : faces)
-    for (int& v : t) v = id[static_cast<size_t>(v)];
+    for (int& v : t) v = id[v];
   const std::vector<int> local = bfs_cluster_order(static_cast<int>(n), faces);
   order = reorder(std::move(faces), local);
 
   // Index of the caller for each index in memory order, and its inverse.
   std::vector<int> source(n), inverse(n);
   for (size_t v = 0; v < n; ++v) {
-    source[v] = by_id[static_cast<size_t>(order.old_vertex[v])];
-    inverse[static_cast<size_t>(source[v])] = static_cast<int>(v);
+    source[v] = by_id[order.old_vertex[v]];
+    inverse[source[v]] = static_cast<int>(v);
   }
   const auto arrange = [&](auto& values) {
     const auto old = values;
-    for (size_t v = 0; v < n; ++v) values[v] = old[static_cast<size_t>(source[v])];
+    for (size_t v = 0; v < n; ++v) values[v] = old[source[v]];
   };
   positions.points = positions.points(Eigen::all, source).eval();
   arrange(positions.segments);
@@ -218,11 +216,10 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
   arrange(constraints.curve);
   arrange(constraints.segment);
   for (Edge& crease : constraints.creases)
-    for (int& v : crease) v = inverse[static_cast<size_t>(v)];
+    for (int& v : crease) v = inverse[v];
   std::vector<int> from(n, -1);
   for (size_t v = 0; v < n; ++v)
-    if (const int old = before[static_cast<size_t>(source[v])]; old >= 0)
-      from[v] = origins[static_cast<size_t>(old)];
+    if (const int old = before[source[v]]; old >= 0) from[v] = origins[old];
   origins = std::move(from);
 
   if (sharp_) sharp_ = constraints.creases;  // seams are no longer told from creases
@@ -230,13 +227,13 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
           constraints.creases);
   if (!constraints.creases.empty()) {
     std::vector<Triangle> moved;
-    for (int f : order.old_face) moved.push_back(wedges[static_cast<size_t>(f)]);
+    for (int f : order.old_face) moved.push_back(wedges[f]);
     source = wedges_before(*adjacency, moved, source);
     constraints.extra_wedges = adjacency->extra_wedges;
   }
   positions.normals = positions.normals(Eigen::all, source).eval();
   std::vector<int> hints;
-  for (int wedge : source) hints.push_back(positions.hints[static_cast<size_t>(wedge)]);
+  for (int wedge : source) hints.push_back(positions.hints[wedge]);
   positions.hints = std::move(hints);
   positions.other_wedge = other_wedges(n, constraints.extra_wedges);
   input_hints_ = positions.hints;
@@ -247,8 +244,7 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
 
 SurfacePoint Workspace::locate_on_input(int v) const {
   const std::vector<int>& hints = refitted_ ? input_hints_ : positions.hints;
-  return locate(*start, *input_surface_, positions.points.col(v),
-                input_surface_->vertex_of_wedge(hints[static_cast<size_t>(v)]));
+  return locate(*start, *input_surface_, positions.points.col(v), input_surface_->vertex_of_wedge(hints[v]));
 }
 
 void Workspace::resample_lengths() {
@@ -270,26 +266,24 @@ std::vector<double> Workspace::input_lengths() const {
       lengths[v] = 0;
       for (size_t k = 0; k < 3; ++k)
         lengths[v] +=
-            point.weights[static_cast<Eigen::Index>(k)] *
-            start_length_[static_cast<size_t>(input_surface_->faces[static_cast<size_t>(point.face)][k])];
+            point.weights[static_cast<Eigen::Index>(k)] * start_length_[input_surface_->faces[point.face][k]];
     }
   });
   return lengths;
 }
 
 int Workspace::vertex_of_input(int vertex) const {
-  const int origin = origins[static_cast<size_t>(vertex)];
-  return origin < 0 ? -1 : input_order().old_vertex[static_cast<size_t>(origin)];
+  const int origin = origins[vertex];
+  return origin < 0 ? -1 : input_order().old_vertex[origin];
 }
 
 std::vector<MapEntry> Workspace::map() const {
   std::vector<MapEntry> entries(order.old_vertex.size());
   parallel_for(entries.size(), 256, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
-      MapEntry& entry = entries[static_cast<size_t>(order.old_vertex[v])];
+      MapEntry& entry = entries[order.old_vertex[v]];
       entry.position = locate_on_input(static_cast<int>(v));
-      if (entry.position.face >= 0)
-        entry.position.face = input_order().old_face[static_cast<size_t>(entry.position.face)];
+      if (entry.position.face >= 0) entry.position.face = input_order().old_face[entry.position.face];
       entry.vertex = vertex_of_input(static_cast<int>(v));
     }
   });
@@ -301,13 +295,13 @@ Mat3X Workspace::copy_back(TriMesh& target) const {
   Mat3X points(3, positions.points.cols());
   std::vector<double> lengths(vertex_length.size());
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    const auto id = static_cast<size_t>(order.old_vertex[static_cast<size_t>(v)]);
-    const int origin = origins[static_cast<size_t>(v)];
+    const size_t id = order.old_vertex[v];
+    const int origin = origins[v];
     const bool stayed = origin >= 0 && positions.points.col(v) == start->col(origin);
     points.col(static_cast<Eigen::Index>(id)) =
-        stayed ? Vec3(input.col(input_order().old_vertex[static_cast<size_t>(origin)]))
+        stayed ? Vec3(input.col(input_order().old_vertex[origin]))
                : Vec3(normalisation.centre + normalisation.unit * positions.points.col(v));
-    lengths[id] = normalisation.unit * vertex_length[static_cast<size_t>(v)];
+    lengths[id] = normalisation.unit * vertex_length[v];
   }
   if (vertices_replaced_)
     target = build_mesh(points, *adjacency, order.old_ids());
