@@ -56,7 +56,7 @@ class Batch {
         hashes_(tasks_.size()),
         threads_(s.threads > 0 ? s.threads : thread_count()),
         jobs_(s.batch.jobs > 0 ? s.batch.jobs : threads_),
-        memory_(memory_limit()),
+        memory_(memory_allowed(s)),
         shows_progress_(shows_progress(s)),
         bar_(shows_progress_ && tasks_.size() > 1) {
     if (!s.batch.table.empty()) require_writable(s.batch.table);

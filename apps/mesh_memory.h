@@ -4,9 +4,17 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "hooke/report/report.h"
 #include "options.h"
 
 namespace hooke::app {
+
+/// Bytes that a run may take: --memory-limit, else memory_limit().
+std::size_t memory_allowed(const Settings& settings);
+
+/// Throws LimitError, with the figures, if a run on a mesh of so many vertices would take more than
+/// --memory-limit. Pre-condition: the mesh is measured and its target lengths are known.
+void require_memory(const Settings& settings, std::size_t vertices, const RunRecord& record);
 
 /// An upper estimate of the peak in bytes, by the size of the file, its format, and the finer mesh that
 /// `adapt` makes of it where the length is given in natural lengths.

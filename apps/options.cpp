@@ -319,6 +319,17 @@ void add_run(CLI::App& app, Settings& s) {
       app, "-j,--threads", s.threads,
       "Threads (default: SLURM_CPUS_PER_TASK, OMP_NUM_THREADS, or all); results do not depend on it",
       whole_number);
+  add_number(app, "--time-limit", s.time_limit,
+             "Seconds after which the work ends with the best valid mesh so far, which is then measured and "
+             "written (status time_limit); exit code 8 if there is none",
+             positive)
+      ->type_name("S");
+  add_number(
+      app, "--memory-limit", s.memory_limit,
+      "Megabytes that the run may take (default: 80 % of what is there); a mesh that would take more is "
+      "refused before the work, with exit code 8",
+      positive)
+      ->type_name("MB");
   app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");
   app.add_flag("-v,--verbose", s.verbose, "Print every outer iteration");
   add_choice(

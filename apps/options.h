@@ -1,6 +1,7 @@
 // Parses the command line into settings. Beside the table of options only the parser depends on CLI11.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -75,7 +76,10 @@ struct Settings {
   std::filesystem::path fields;       // PLY file for values at vertices and faces; empty for none
   std::filesystem::path trace;        // file for the time of each stage; empty for none
   std::filesystem::path trace_steps;  // file for the time steps of --paper; empty for none
-  int threads = 0;                    // 0: as many as the process may use
+  double time_limit = 0;              // of the whole run, s; 0: none
+  double memory_limit = 0;            // MB; 0: what memory_limit() finds
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+  int threads = 0;  // 0: as many as the process may use
   bool quiet = false;
   bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;

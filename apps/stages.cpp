@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
 
 #include "hooke/constraints/constraints.h"
@@ -15,6 +16,7 @@
 #include "hooke/remesh/preserving_remesh.h"
 #include "hooke/springs/sizing.h"
 #include "memory_limit.h"
+#include "mesh_memory.h"
 #include "result_warnings.h"
 #include "target_lengths.h"
 
@@ -85,10 +87,15 @@ void measure_deviation_from_input(const Original& original, const MeasuredSurfac
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
 }
 
-/// Throws ResultError if the result does not keep what it must keep and is not accepted nevertheless.
+/// Throws ResultError, or LimitError at the end of the time, if the result does not keep what it must keep
+/// and is not accepted nevertheless.
 void require_promises(const Settings& s, const RunRecord& record) {
-  if (s.accept_invalid || record.result->reason == StopReason::interrupted) return;
+  const bool is_out_of_time = record.status == "time_limit";
+  if (s.accept_invalid || (record.result->reason == StopReason::interrupted && !is_out_of_time)) return;
   const std::string broken = broken_promises(s, record);
+  if (is_out_of_time && !broken.empty())
+    throw LimitError(fmt::format("{}: no valid mesh within --time-limit {:g}: {}", name_of_input(s.input),
+                                 s.time_limit, broken));
   if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
 }
 
@@ -126,7 +133,8 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
       timed(&stopwatch, "before", [&] { return measure_quality(surface, targets, {}, &stopwatch); });
   warn_of_inside_out(record);
   original.tree_order = surface.tree.order();
-  s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_limit();
+  s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_allowed(s);
+  if (!s.check) require_memory(s, mesh.n_vertices(), record);
   if (s.max_distance_share > 0)
     s.preservation.max_distance = s.max_distance_share * record.before.extent.diagonal;
 }
@@ -135,11 +143,18 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
                         RunRecord& record, const Observer& observer, Stopwatch& stopwatch) {
   const std::string name = name_of_input(s.input);
   if (!keeps_faces(s)) original.memory_order = memory_order;
+  bool is_out_of_time = false;
+  const Observer limited = [&](const Progress& p) {
+    if (observer && !observer(p)) return false;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - s.started;
+    is_out_of_time = s.time_limit > 0 && elapsed.count() > s.time_limit;
+    return !is_out_of_time;
+  };
   record.result = timed(&stopwatch, "remesh", [&] {
     return in_the_name_of(name, [&] {
-      return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, observer)
+      return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, limited)
                      : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation,
-                                         {&record.before, original.tree_order}, observer, &stopwatch);
+                                         {&record.before, original.tree_order}, limited, &stopwatch);
     });
   });
   return_free_memory();
@@ -149,7 +164,8 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
   original.points = original.memory_order.order.gather(std::exchange(done.input_points, {}));
   if (!vertex_points(mesh).allFinite())
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", name));
-  record.status = status_of(done.reason);
+  is_out_of_time &= done.reason == StopReason::interrupted;
+  record.status = is_out_of_time ? "time_limit" : status_of(done.reason);
   Mat3X points = memory_order.order.gather(vertex_points(mesh));
   const UniformVector targets = edge_targets(mesh, memory_order);
   record.paper_after = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);

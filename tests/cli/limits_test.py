@@ -1,0 +1,66 @@
+"""--time-limit and --memory-limit: what is reached is valid, and what cannot be is said before the work."""
+
+import json
+import unittest
+
+from command import CommandTest, irregular_torus, read_mesh, write_off
+
+
+class Limits(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.vertices, self.faces = irregular_torus(200, 100)
+        write_off(self.folder / "torus.off", self.vertices, self.faces)
+
+    def test_the_best_mesh_at_the_end_of_the_time_is_written(self):
+        for mode in ("fixed", "flip", "adapt"):
+            for seconds in (.05, .2, .6):
+                with self.subTest(mode=mode, seconds=seconds):
+                    out = self.folder / "out.off"
+                    out.unlink(missing_ok=True)
+                    process = self.start("torus.off", "-o", "out.off", "-q", "--report", "report.json", "--connectivity", mode,
+                                         "--time-limit", seconds)
+                    _, err = process.communicate()
+                    if process.returncode == 8:  # nothing valid yet: only where faces change
+                        self.assertNotEqual(mode, "fixed", err)
+                        self.assertIn(b"--time-limit", err)
+                        self.assertFalse(out.exists())
+                        continue
+                    self.assertEqual(process.returncode, 0, err)
+                    report = json.loads((self.folder / "report.json").read_text())
+                    self.assertIn(report["status"], ("time_limit", "stalled", "converged"))
+                    self.assertTrue(report["promises"]["kept"])
+                    self.assertEqual(report["geometry"]["flipped_faces"], 0)
+                    if mode == "fixed":
+                        self.assertEqual(read_mesh(out)[1], self.faces)
+
+    def test_a_limit_that_is_not_reached_changes_nothing(self):
+        self.run_command("torus.off", "-o", "a.off", "-q")
+        self.run_command("torus.off", "-o", "b.off", "-q", "--time-limit", "1000", "--memory-limit", "4000")
+        self.assertEqual((self.folder / "a.off").read_bytes(), (self.folder / "b.off").read_bytes())
+
+    def test_the_time_is_up_at_once(self):
+        report = self.report("torus.off", "-o", "out.off", "-q", "--time-limit", "1e-6")
+        self.assertEqual(report["status"], "time_limit")
+
+    def test_a_mesh_beyond_the_memory_is_refused_with_what_would_fit(self):
+        err = self.refused(8, "torus.off", "-o", "out.off", "--memory-limit", "20", names="torus.off", says="20000 vertices")
+        self.assertIn("--memory-limit allows 20", err)
+        err = self.refused(8, "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".2x", "--memory-limit", "200",
+                           names="torus.off", says="new ones")
+        self.run_command("torus.off", "-o", "out.off", "-q", "--memory-limit", "100")
+
+    def test_half_of_what_is_taken_is_refused(self):
+        for mode in ("fixed", "flip", "adapt"):
+            report = self.report("torus.off", "-o", "out.off", "-q", "--connectivity", mode, "--memory-limit", "1000")
+            taken = report["resources"]["peak_rss_bytes"] / 2**20
+            self.refused(8, "torus.off", "-o", "no.off", "--connectivity", mode, "--memory-limit", max(1, taken / 2 - 12))
+
+    def test_limits_are_numbers(self):
+        for option in ("--time-limit", "--memory-limit"):
+            for value in ("0", "-1", "x"):
+                self.refused(2, "torus.off", "-o", "out.off", option, value, names=option)
+
+
+if __name__ == "__main__":
+    unittest.main()
