@@ -257,9 +257,9 @@ EdgeCandidate CandidateEvaluator::cut(const EdgeChange& change) const {
   if (!patch) return candidate;
   candidate.patch = std::move(*patch);
   candidate.before = quality_before(candidate.patch);
-  candidate.adjacency =
-      make_adjacency(static_cast<int>(candidate.patch.wedges.size()),
-                     change_patch(candidate.patch, change, m_.retraction.surface(), m_.retraction.options()));
+  const std::vector<Triangle> faces = change_patch(candidate.patch, change, m_.retraction.surface(),
+                                                   m_.retraction.options());  // may append a vertex
+  candidate.adjacency = make_adjacency(static_cast<int>(candidate.patch.wedges.size()), faces);
   candidate.targets = spread_target_lengths(candidate.adjacency, candidate.patch.vertex_length);
   candidate.is_viable = true;
   return candidate;

@@ -105,8 +105,9 @@ Comparison compare(const ReportFigures& base, const ReportFigures& now, double r
     if (worsening(key.better, old->second, value) > rtol * std::abs(old->second) + rounding * scale)
       comparison.worse.push_back({path, old->second, value});
   }
-  for (const auto& [path, value] : base.figures)
-    if (is_of_input(path) == of_inputs &&
+  for (const auto& old : base.figures)
+    if (const std::string& path = old.first;
+        is_of_input(path) == of_inputs &&
         std::ranges::none_of(now.figures, [&](const auto& figure) { return figure.first == path; }))
       comparison.not_comparable.push_back(fmt::format("there is no {} now", path));
   return comparison;
