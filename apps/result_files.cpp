@@ -22,13 +22,22 @@
 
 namespace hooke::app {
 
+namespace {
+
+/// Whether a repair has changed the mesh: what it left says so too.
+bool is_repaired(const LoadedMesh& loaded) {
+  return std::ranges::any_of(loaded.repairs, [](const Note& n) { return !n.code.ends_with("_left"); });
+}
+
+}  // namespace
+
 std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) {
   if (s.check) return "nothing is written";
   if (!keeps_faces(s)) return "faces change with this --connectivity";
   if (loaded.format != s.format)
     return fmt::format("the input is {} and the output {}", name_of(loaded.format), name_of(*s.format));
   if (!can_rewrite(*s.format)) return fmt::format("{} files are always written anew", name_of(*s.format));
-  if (!loaded.repairs.empty()) return "the input was repaired";
+  if (is_repaired(loaded)) return "the input was repaired";
   if (is_standard_input(s.input)) return "standard input cannot be read again";
   if (!s.preserve_given && !loaded.misread.empty())
     return fmt::format("simple readers would misread its {}; --preserve on keeps them", loaded.misread);
@@ -44,7 +53,7 @@ namespace {
 /// Whether a user would expect the output to be the input's bytes with other digits: a file of a format that
 /// can be, the same faces, and nothing repaired.
 bool is_of_its_kind(const Settings& s, const LoadedMesh& loaded) {
-  return keeps_faces(s) && loaded.format == s.format && can_rewrite(*s.format) && loaded.repairs.empty();
+  return keeps_faces(s) && loaded.format == s.format && can_rewrite(*s.format) && !is_repaired(loaded);
 }
 
 /// The vertex data of the result: that of the input if the faces are kept, else interpolated at the surface

@@ -122,6 +122,13 @@ class Repair(CommandTest):
         self.assertEqual(report["input"]["boundary_loops"], 0)
         self.assertEqual(report["parameters"]["fill_holes"], 3)
 
+    def test_a_repair_that_only_leaves_holes_keeps_the_file(self):
+        vertices = "".join("v %d %d 0\n" % (x, y) for y in range(3) for x in range(3))
+        self.write("square.obj", "# mine\n" + vertices + "".join(
+            "f %d %d %d %d\n" % (i, i + 1, i + 4, i + 3) for i in (1, 2, 4, 5)))
+        self.run_command("square.obj", "-o", "out.obj", "--repair", "--fill-holes", "3")
+        self.assertTrue((self.folder / "out.obj").read_text().startswith("# mine\n"))
+
     def test_lists_of_vertices_have_the_ids_of_the_file(self):
         """Every face has vertices of its own: 3 f + k is corner k of face f."""
         vertices = [self.vertices[v] for f in self.faces for v in f]

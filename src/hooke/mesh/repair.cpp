@@ -394,22 +394,29 @@ class Repair {
   /// A component in another may be meant to be inside out: a cavity.
   void turn_outward() {
     const std::vector<Component> components = closed_components();
-    std::vector<int> turned, firsts;
+    std::vector<int> turned, firsts, left;
     size_t faces_tested = 0;
     for (const Component& c : components) {
       const Vec3 x = r_.points.col(c.triangles.front()[0]);
       const auto holds_it = [&](const Component& other) {
         if (&other == &c || !other.box.contains(c.box)) return false;
         faces_tested += other.triangles.size();
-        return faces_tested > most_faces_tested ||
-               std::abs(winding_number(r_.points, other.triangles, x)) > .5;
+        return std::abs(winding_number(r_.points, other.triangles, x)) > .5;
       };
-      if (c.volume >= 0 || std::ranges::any_of(components, holds_it)) continue;
+      if (c.volume >= 0) continue;
+      if (faces_tested > most_faces_tested) {
+        left.push_back(c.faces.front());
+        continue;
+      }
+      if (std::ranges::any_of(components, holds_it)) continue;
       firsts.push_back(c.faces.front());
       turned.insert(turned.end(), c.faces.begin(), c.faces.end());
     }
     tell("components_turned", firsts.size(),
          fmt::format("components turned outward, {} faces", turned.size()), face_places(firsts));
+    tell("components_left", left.size(),
+         "components are inside out, and too many to tell whether they are cavities: left as they are",
+         face_places(left));
     for (const int f : turned) {
       std::swap(r_.triangles[at(f)][1], r_.triangles[at(f)][2]);
       r_.origin.flipped[at(f)] ^= 1;
