@@ -61,6 +61,7 @@ class Batch {
         bar_(shows_progress_ && tasks_.size() > 1) {
     if (!s.batch.table.empty()) require_writable(s.batch.table);
     create_folders(tasks_);
+    if (shows_progress_ && tasks_.size() == 1) hand_on_columns();
     for (size_t t = 0; t < tasks_.size(); ++t) waiting_.push_back(t);
   }
 
@@ -212,6 +213,11 @@ class Batch {
                         .seconds = std::chrono::duration<double>(Clock::now() - mesh.start).count(),
                         .report = {}};
     if (leaves_a_report(code)) outcome.report = report_of(mesh);
+    if (code == done && !outcome.report.is_object())
+      return fail(t, output_failed,
+                  name + ": its report cannot be read again: " +
+                      (tasks_[t].report.empty() ? "standard output" : printable(tasks_[t].report.string())) +
+                      "; expected it as it was written; choose a place that nothing else writes to");
     if (code >= 0)
       outcome.status = outcome.report.is_object() ? outcome.report.value("status", "") : failure_word(code);
     close(t, outcome);

@@ -11,6 +11,7 @@
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"
+#include "input_files.h"
 
 namespace hooke::app {
 namespace {
@@ -18,13 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Options of files that each mesh has its own of, and the extensions of these.
-constexpr std::array<std::pair<std::string_view, const char*>, 6> further_outputs = {
-    {{"report", ".json"},
-     {"html", ".html"},
-     {"fields", ".ply"},
-     {"map", ".txt"},
-     {"trace", ".csv"},
-     {"trace-steps", ".csv"}}};
+constexpr std::array<std::pair<std::string_view, const char*>, 5> further_outputs = {
+    {{"report", ".json"}, {"fields", ".ply"}, {"map", ".txt"}, {"trace", ".csv"}, {"trace-steps", ".csv"}}};
 
 /// Options that the process of a mesh does not need, or gets from its task.
 constexpr std::array<std::string_view, 10> of_the_batch = {
@@ -112,6 +108,8 @@ std::vector<MeshTask> plan_batch(const Settings& s) {
   std::map<std::string, std::string> taken;  // what a file is, by its identity
   for (const fs::path& input : s.inputs)
     taken.emplace(identity(input), "the input " + printable(input.string()));
+  for (const NamedFile& file : option_files(s))
+    taken.emplace(identity(file.path), std::string("the file of ") + file.role);
   if (!s.batch.table.empty()) {
     if (s.batch.table.extension() != ".csv" && s.batch.table.extension() != ".jsonl")
       throw Error(fmt::format("--table {}; expected a name that ends with .csv or .jsonl",

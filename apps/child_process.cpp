@@ -26,8 +26,10 @@ namespace {
                                std::generic_category().message(error)));
 }
 
-/// Becomes the program. Calls only what is allowed between fork and exec.
-[[noreturn]] void become_program(char* const* arguments, pid_t parent, int out, int errors) {
+/// Becomes the program, with its own signals and this mask of them. Calls only what is allowed between fork
+/// and exec.
+[[noreturn]] void become_program(char* const* arguments, pid_t parent, int out, int errors,
+                                 const sigset_t& mask) {
   ::setpgid(0, 0);
 #ifdef __linux__
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -39,6 +41,8 @@ namespace {
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(errors, STDERR_FILENO);
+  for (int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
+  ::sigprocmask(SIG_SETMASK, &mask, nullptr);
   ::execv("/proc/self/exe", arguments);
   ::_exit(127);
 }
@@ -59,10 +63,15 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
     for (int end : out) ::close(end);
     fail_to_start(error);
   }
+  // A signal in between would go to the handlers of this program, in the child, and be lost.
+  sigset_t all, mask;
+  ::sigfillset(&all);
+  ::sigprocmask(SIG_SETMASK, &all, &mask);
   const pid_t parent = ::getpid();
   process_ = ::fork();
   const int error = errno;
-  if (process_ == 0) become_program(words.data(), parent, out[1], errors[1]);
+  if (process_ == 0) become_program(words.data(), parent, out[1], errors[1], mask);
+  ::sigprocmask(SIG_SETMASK, &mask, nullptr);
   ::close(out[1]);
   ::close(errors[1]);
   out_.descriptor = out[0];

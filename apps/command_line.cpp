@@ -56,6 +56,7 @@ struct Parser {
 
   /// Completes the settings. Throws Error.
   void complete() {
+    if (app.get_config_ptr()->count() > 0) settings.config = app.get_config_ptr()->as<std::string>();
     for (const CLI::Option* option : given_options(app)) {
       const bool flag = option->get_items_expected_min() == 0;
       settings.given.push_back(

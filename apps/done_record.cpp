@@ -7,7 +7,7 @@
 #include "hooke/core/error.h"
 #include "hooke/io/files.h"
 #include "hooke/io/sha256.h"
-#include "hooke/springs/sizing.h"
+#include "input_files.h"
 
 namespace hooke::app {
 namespace {
@@ -58,9 +58,7 @@ std::string work_hash(const Settings& s, const MeshTask& task) {
                  {"input", hash_of(task.input)},
                  {"extension", task.input.extension().string()},
                  {"options", task.method}};
-    for (const fs::path& file : {s.fix, s.edge_lengths, s.compare})
-      if (!file.empty()) work["files"].push_back(hash_of(file));
-    if (s.sizing.kind == SizingSource::Kind::file) work["files"].push_back(hash_of(s.sizing.name));
+    for (const NamedFile& file : data_files(s)) work["files"].push_back(hash_of(file.path));
     return sha256(work.dump(-1, ' ', false, Json::error_handler_t::replace));
   } catch (const Error&) {
     return "";  // the run itself says what is wrong
@@ -70,11 +68,12 @@ std::string work_hash(const Settings& s, const MeshTask& task) {
 std::optional<Json> row_if_done(const MeshTask& task, const std::string& hash) {
   std::ifstream file(place_of_record(task));
   const Json record = Json::parse(file, nullptr, false);
-  if (hash.empty() || !record.is_object() || record.value("work", "") != hash || !record.contains("row"))
+  if (hash.empty() || !record.is_object() || record.value("work", Json()) != hash) return {};
+  const Json row = record.value("row", Json()), hashes = hashes_of_outputs(task);
+  if (!row.is_object() || std::ranges::any_of(hashes, &Json::is_null) ||
+      record.value("outputs", Json()) != hashes)
     return {};
-  const Json hashes = hashes_of_outputs(task);
-  if (std::ranges::any_of(hashes, &Json::is_null) || record.value("outputs", Json()) != hashes) return {};
-  return record["row"];
+  return row;
 }
 
 void record_done(const MeshTask& task, const std::string& hash, const Json& row) {

@@ -36,7 +36,7 @@ void judge(const Settings& s, const std::optional<ReportFigures>& base, RunRecor
 
 bool passes(const RunRecord& record) {
   return std::ranges::all_of(record.gates, &GateOutcome::passed) &&
-         (!record.comparison || record.comparison->worse.empty());
+         (!record.comparison || (record.comparison->worse.empty() && record.comparison->compared > 0));
 }
 
 void print_judgement(const Settings& s, const RunRecord& record) {
@@ -47,10 +47,13 @@ void print_judgement(const Settings& s, const RunRecord& record) {
   if (!record.comparison) return;
   const Comparison& c = *record.comparison;
   for (const std::string& reason : c.not_comparable)
-    if (!s.quiet) print_note({"not_comparable", 1, fmt::format("{}: {}", c.base, reason)});
+    print_warning(Warning{"not_comparable", fmt::format("{}: {}", c.base, reason)});
+  if (c.compared == 0)
+    print_error(fmt::format("{}: has no figure in common with {}; expected the report of such a run", c.base,
+                            record.input.path));
   for (const Worsening& w : c.worse)
     print_error(fmt::format("{}: worse than in {}: {}", record.input.path, c.base, in_words(w)));
-  if (!s.quiet && c.worse.empty())
+  if (!s.quiet && c.worse.empty() && c.compared > 0)
     print_note({"compared", c.compared,
                 fmt::format("{}: none of {} figures got worse by more than {:.4g} %", c.base, c.compared,
                             100 * c.rtol)});

@@ -41,6 +41,7 @@ struct Settings {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path input;   // the first of them; "-" for standard input
   std::filesystem::path output;  // empty with --check; "-" for standard output
+  std::filesystem::path config;  // file of settings; empty for none
   BatchSettings batch;
   std::vector<GivenOption> given;          // in the order of the table of options
   std::optional<MeshFormat> input_format;  // none: by the extension

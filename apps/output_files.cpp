@@ -6,23 +6,14 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
-#include "hooke/springs/sizing.h"
+#include "input_files.h"
 
 namespace hooke::app {
 namespace {
 
-struct NamedFile {
-  const char* role;  // the option that specifies it
-  std::filesystem::path path;
-};
-
 std::vector<NamedFile> inputs_of(const Settings& s) {
-  std::vector<NamedFile> files;
+  std::vector<NamedFile> files = option_files(s);
   if (!is_standard_input(s.input)) files.push_back({"INPUT", s.input});
-  if (!s.fix.empty()) files.push_back({"--fix", s.fix});
-  if (!s.edge_lengths.empty()) files.push_back({"--edge-lengths", s.edge_lengths});
-  if (!s.compare.empty()) files.push_back({"--compare", s.compare});
-  if (s.sizing.kind == SizingSource::Kind::file) files.push_back({"--sizing", s.sizing.name});
   return files;
 }
 

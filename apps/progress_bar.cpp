@@ -19,11 +19,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr char columns_variable[] = "COLUMNS";
+
 /// Columns of the terminal, at most 80; one is left free, as some break the line after the last.
 std::size_t usable_columns() {
   struct winsize size {};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return terminal_columns - 1;
-  return std::min<std::size_t>(size.ws_col, terminal_columns) - 1;
+  std::size_t columns = terminal_columns;
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+    columns = size.ws_col;
+  else if (const char* const given = std::getenv(columns_variable))
+    columns = std::strtoul(given, nullptr, 10);
+  return std::clamp<std::size_t>(columns, 2, terminal_columns) - 1;
 }
 
 std::string time_left(double seconds) {
@@ -39,6 +45,10 @@ bool shows_progress(const Settings& s) {
   if (s.progress == ProgressStyle::bar) return true;
   const char* const terminal = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) == 1 && (terminal == nullptr || std::string_view(terminal) != "dumb");
+}
+
+void hand_on_columns() {
+  ::setenv(columns_variable, std::to_string(usable_columns() + 1).c_str(), 1);
 }
 
 bool ProgressBar::is_due() const {

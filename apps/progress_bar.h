@@ -12,6 +12,9 @@ namespace hooke::app {
 /// Whether progress is shown: on a terminal, or if it was asked for; never with --quiet.
 bool shows_progress(const Settings& settings);
 
+/// Tells processes that are started from now on how wide the terminal is, which they do not see themselves.
+void hand_on_columns();
+
 /// A bar on the last line of standard error, with the time that is left if things go on as they did. Without
 /// colours. Leaves a clean line at its end.
 class ProgressBar {

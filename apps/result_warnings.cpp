@@ -124,17 +124,10 @@ std::string what_is_broken(const RunRecord& run) {
   return fmt::format("{}", fmt::join(broken, "; "));
 }
 
-void warn_of_promises(const Settings& s, RunRecord& run) {
+void warn_of_promises(RunRecord& run) {
   const std::string broken = what_is_broken(run);
   if (broken.empty()) return;
-  // The rest was judged before the numbers were rounded for the file, and would not have been written.
-  const bool by_rounding = !s.accept_invalid && run.result->reason != StopReason::interrupted;
-  run.warnings.push_back(
-      {"promise_broken",
-       fmt::format("{}: {}", run.output->path,
-                   by_rounding ? broken + "; its numbers have 32 bits, which is too few; use PLY, "
-                                          "with --preserve off, or move the mesh to the origin"
-                               : broken_promises(s, run))});
+  run.warnings.push_back({"promise_broken", fmt::format("{}: {}", run.output->path, broken)});
 }
 
 /// Tells of a result that was not made as asked, because it would have broken a promise.
@@ -205,12 +198,15 @@ void warn_of_dropped_creases(RunRecord& run) {
 
 }  // namespace
 
-std::string broken_promises(const Settings& s, const RunRecord& run) {
+std::string broken_promises(const Settings& s, const RunRecord& run, BrokenBy cause) {
   const std::string broken = what_is_broken(run);
   if (broken.empty()) return "";
-  const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
-  return fmt::format("{}; try {}, or --accept-invalid to write it nevertheless", broken,
-                     adapts ? "a smaller --length, --connectivity flip" : "--feature-noise off");
+  const char* const remedy =
+      cause == BrokenBy::rounding
+          ? "PLY with --preserve off, whose numbers have 64 bits, not 32, or the mesh moved to the origin"
+      : s.remesh.connectivity == ConnectivityMode::adapt ? "a smaller --length, --connectivity flip"
+                                                         : "--feature-noise off";
+  return fmt::format("{}; try {}, or --accept-invalid to write it nevertheless", broken, remedy);
 }
 
 void warn_of_length(const Settings& s, double length, double natural, RunRecord& run) {
@@ -268,7 +264,7 @@ void warn_of_inside_out(RunRecord& run) {
 
 void add_result_warnings(const Settings& s, RunRecord& run) {
   const std::vector<Warning> earlier = std::exchange(run.warnings, {});
-  warn_of_promises(s, run);
+  warn_of_promises(run);
   warn_of_distance(s, run);
   warn_of_crossings(run);
   warn_of_folds(run);

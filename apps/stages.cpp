@@ -89,11 +89,11 @@ void measure_deviation_from_input(const Original& original, const MeasuredSurfac
 
 /// Throws ResultError, or LimitError at the end of the time, if the result does not keep what it must keep
 /// and is not accepted nevertheless.
-void require_promises(const Settings& s, const RunRecord& record) {
+void require_promises(const Settings& s, const RunRecord& record, BrokenBy cause) {
   const bool is_out_of_time = record.status == "time_limit";
   if (s.accept_invalid || (record.result->reason == StopReason::interrupted && !is_out_of_time)) return;
-  const std::string broken = broken_promises(s, record);
-  if (is_out_of_time && !broken.empty())
+  const std::string broken = broken_promises(s, record, cause);
+  if (is_out_of_time && cause == BrokenBy::method && !broken.empty())
     throw LimitError(fmt::format("{}: no valid mesh within --time-limit {:g}: {}", name_of_input(s.input),
                                  s.time_limit, broken));
   if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
@@ -181,7 +181,7 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
     measure_deviation_from_input(original, result, record, stopwatch);
   }
   if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
-  require_promises(s, record);
+  require_promises(s, record, BrokenBy::method);
   name_limits(record);
 }
 
@@ -211,6 +211,7 @@ void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, con
       measures.preservation.new_crossings = 0;  // as preserving_remesh() has it
   }
   if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();
+  require_promises(s, record, BrokenBy::rounding);
   name_limits(record);
 }
 

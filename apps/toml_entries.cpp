@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -14,8 +13,22 @@
 namespace hooke::app {
 
 bool is_toml_number(const std::string& text) {
-  static const std::regex number(R"([+-]?(0|[1-9][0-9]*)([.][0-9]+)?([eE][+-]?[0-9]+)?)");
-  return std::regex_match(text, number);
+  std::string_view rest = text;
+  const auto take_one_of = [&](std::string_view characters) {
+    if (rest.empty() || characters.find(rest.front()) == std::string_view::npos) return false;
+    rest.remove_prefix(1);
+    return true;
+  };
+  const auto take_digits = [&] {
+    const size_t count = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    rest.remove_prefix(count);
+    return count > 0;
+  };
+  take_one_of("+-");
+  if (!take_one_of("0") && !take_digits()) return false;
+  if (take_one_of(".") && !take_digits()) return false;
+  if (take_one_of("eE") && (take_one_of("+-"), !take_digits())) return false;
+  return rest.empty();
 }
 
 namespace {

@@ -103,6 +103,30 @@ class Batch(CommandTest):
         self.refused(5, *two, "-o", "out/", "--table", "no/table.csv", names="table.csv")
         self.refused(5, *two, "-o", "patch.obj/", names="patch.obj")
 
+    def test_no_output_takes_the_place_of_a_file_that_is_read(self):
+        self.run_command("patch.obj", "--check", "--report", "base.json", "-q")
+        for option, name, text in (("--fix", "fix.csv", "0\n"), ("--edge-lengths", "lengths.csv", "0 1 .1\n"),
+                                   ("--sizing", "sizes.csv", ".1\n"), ("--compare", "base.csv", self.content("base.json").decode()),
+                                   ("--config", "set.csv", "quiet = true\n")):
+            self.write(name, text)
+            with self.subTest(option=option):
+                self.refused(2, "patch.obj", "-o", "out.obj", option, name, "--table", name, says="is the file of " + option)
+                self.refused(2, "patch.obj", "-o", "out/", option, name, "--skip-existing", "--report", name,
+                             says="is the file of " + option)
+                self.refused(2, "patch.obj", "-o", "out.obj", option, name, "--report", name, says="of " + option)
+
+    def test_a_record_of_other_content_is_no_record(self):
+        run = ("patch.obj", "-o", "out.obj", "--skip-existing", "-q")
+        self.run_command(*run)
+        record = json.loads(self.content(".out.obj.hooke.json"))
+        for broken in ({"work": 1}, {"work": None}, {"row": 1}, {"row": None}, {"outputs": "x"}, None, [], "text"):
+            content = {**record, **broken} if isinstance(broken, dict) else broken
+            self.write(".out.obj.hooke.json", json.dumps(content))
+            before = (self.folder / "out.obj").stat().st_mtime_ns
+            self.run_command(*run)
+            self.assertNotEqual((self.folder / "out.obj").stat().st_mtime_ns, before, broken)
+        self.assertEqual(json.loads(self.content(".out.obj.hooke.json"))["work"], record["work"])
+
     def test_what_is_done_is_skipped_until_something_changes(self):
         run = (*SAMPLES, "bad.off", "-o", "out/", "--table", "table.csv", "--skip-existing")
         self.run_command(*run, expect=3)

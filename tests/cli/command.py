@@ -42,6 +42,16 @@ class CommandTest(unittest.TestCase):
         return subprocess.Popen([TOOL, *(a if isinstance(a, bytes) else str(a) for a in arguments)], cwd=self.folder, env={**env, **environment},
                                 preexec_fn=prepare, **streams)
 
+    def start_until(self, mark, *arguments, **how):
+        """The running command, once its progress bar has shown the mark."""
+        process = self.start(*arguments, "--progress", "bar", **how)
+        seen = b""
+        while mark not in seen:
+            byte = process.stderr.read(1)
+            self.assertTrue(byte, seen)
+            seen += byte
+        return process
+
     def run_command(self, *arguments, expect=0, **environment):
         """(standard output, standard error) of a run that must end with the exit code expected."""
         process = self.start(*arguments, **environment)

@@ -77,9 +77,14 @@ class Config(CommandTest):
         for text, line in (("[target]\nlength = 1\n", 1), ("length 1\n", 1), ("length = \n", 1), ("length = fast\n", 1),
                            ("length = '1x\n", 1), ("length = '1x' 2\n", 1), ("length = 1\nlength = 2\n", 2),
                            ("require = ['a >= 1',\n", 2), ("length = \"a\\n\"\n", 1), ("length = 01\n", 1),
-                           ("length = 1\n= 2\n", 2), ("q\n", 1), ("\x1b = 1\n", 1)):
+                           ("length = 1.\n", 1), ("length = 1e\n", 1), ("length = +\n", 1), ("length = 1\n= 2\n", 2), ("q\n", 1), ("\x1b = 1\n", 1)):
             with self.subTest(text=text):
                 self.refused_file(text, says="bad.toml:%d: " % line)
+
+    def test_a_number_of_any_length(self):
+        digits = "1" * 300000
+        self.refused_file("max-outer = %s\n" % digits, says="bad.toml:1: --max-outer")
+        self.refused_file("length = %s.\n" % digits, says="bad.toml:1: ")
 
     def test_a_missing_file(self):
         self.refused(2, "in.obj", "-o", "out.obj", "--config", "gone.toml", names="gone.toml")

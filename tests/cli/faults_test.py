@@ -77,13 +77,7 @@ class Meanwhile(CommandTest):
 
     def running(self):
         write_off(self.folder / "torus.off", *irregular_torus(240, 100))
-        process = self.start("torus.off", "-o", "out.off", "--progress", "bar")
-        seen = b""
-        while b"step" not in seen:
-            byte = process.stderr.read(1)
-            self.assertTrue(byte, seen)
-            seen += byte
-        return process
+        return self.start_until(b"step", "torus.off", "-o", "out.off")
 
     def test_an_older_output_is_deleted(self):
         self.write("out.off", "older\n")
@@ -105,12 +99,7 @@ class Meanwhile(CommandTest):
     def test_the_folder_of_the_output_is_removed(self):
         (self.folder / "place").mkdir()
         write_off(self.folder / "torus.off", *irregular_torus(240, 100))
-        process = self.start("torus.off", "-o", "place/out.off", "--progress", "bar")
-        seen = b""
-        while b"step" not in seen:
-            byte = process.stderr.read(1)
-            self.assertTrue(byte, seen)
-            seen += byte
+        process = self.start_until(b"step", "torus.off", "-o", "place/out.off")
         for p in (self.folder / "place").iterdir():
             p.unlink()
         (self.folder / "place").rmdir()

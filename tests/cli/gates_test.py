@@ -98,11 +98,13 @@ class Rounding(CommandTest):
     def test_promises_that_rounding_breaks_are_not_kept(self):
         vertices, faces = read_mesh(PATCH)
         write_off(self.folder / "farther.off", [(x + 1e6, y, z) for x, y, z in vertices], faces)
-        kept = lambda output: self.report("farther.off", "-o", output, "-q", "--feature-angle", "off")["promises"]["kept"]
-        self.assertTrue(kept("out.off"))
-        self.assertFalse(kept("out.stl"))
-        gate = ("--feature-angle", "off", "--require", "promises.kept == 1")
-        self.run_command("farther.off", "-o", "out.stl", "-q", *gate, expect=6)
+        run = ("farther.off", "-q", "--feature-angle", "off")
+        self.assertTrue(self.report(*run, "-o", "out.off")["promises"]["kept"])
+        self.refused(9, *run, "-o", "out.stl", names="out.stl", says="whose numbers have 64 bits, not 32")
+        report = self.report(*run, "-o", "out.stl", "--accept-invalid")
+        self.assertFalse(report["promises"]["kept"])
+        self.assertIn("promise_broken", [w["code"] for w in report["warnings"]])
+        self.run_command(*run, "-o", "out.stl", "--accept-invalid", "--require", "promises.kept == 1", expect=6)
 
 
 class Comparisons(CommandTest):
@@ -126,6 +128,22 @@ class Comparisons(CommandTest):
         self.assertEqual(err.count("hooke-remesh: error: "), len(worse))
         self.assertRegex(err, r"worse than in base.json: after.min_angle.min: [\d.]+ -> [\d.]+ \([\d.]+ % worse\)")
         self.assertIn('parameters.connectivity was "flip", and is "fixed"', err)
+
+    def test_a_base_without_the_figures_is_no_success(self):
+        self.base()
+        base = json.loads((self.folder / "base.json").read_text())
+        base["before"] = base["after"] = base["geometry"] = base["promises"] = None
+        for name, value in base.items():
+            if isinstance(value, dict) and name not in ("input", "parameters"):
+                base[name] = None
+        self.write("base.json", json.dumps(base))
+        _, err = self.run_command(PATCH, "-o", "out.obj", "-q", "--compare", "base.json", expect=6)
+        self.assertIn("error: base.json: has no figure in common", err)
+
+    def test_lost_figures_are_told_with_quiet_too(self):
+        self.base()
+        _, err = self.run_command(PATCH, "-o", "out.obj", "-q", "--compare", "base.json", "--feature-angle", "off")
+        self.assertIn("warning: base.json: parameters.feature_angle was ", err)
 
     def test_another_input_is_told(self):
         self.run_command(PATCH, "--check", "--report", "base.json", "-q")

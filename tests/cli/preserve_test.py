@@ -265,12 +265,7 @@ class Preserve(CommandTest):
     def test_an_input_that_changes_meanwhile_is_refused(self):
         data = off_file("OFF", *irregular_torus(240, 100))
         self.put("in.off", data)
-        process = self.start("in.off", "-o", "out.off", "--progress", "bar")
-        seen = b""
-        while b"step" not in seen:  # the work has begun
-            byte = process.stderr.read(1)
-            self.assertTrue(byte, seen)
-            seen += byte
+        process = self.start_until(b"step", "in.off", "-o", "out.off")
         self.put("in.off", data.replace(b"made here", b"made there"))
         _, err = process.communicate()
         self.assertEqual(process.returncode, 3, err)

@@ -81,13 +81,8 @@ class Schema(CommandTest):
 
     def test_interrupted(self):
         write_off(self.folder / "torus.off", *irregular_torus(300, 100))
-        process = self.start("torus.off", "-o", "out.off", "--report", "report.json", "--connectivity", "adapt", "-v",
-                             "--effort", "thorough", "--progress", "bar")
-        seen = b""
-        while b"%" not in seen:  # the work has begun
-            byte = process.stderr.read(1)
-            self.assertTrue(byte, seen)
-            seen += byte
+        process = self.start_until(b"%", "torus.off", "-o", "out.off", "--report", "report.json", "--connectivity", "adapt", "-v",
+                             "--effort", "thorough")
         process.send_signal(signal.SIGINT)
         process.communicate()
         self.assertEqual(process.returncode, 130)

@@ -11,12 +11,7 @@ class Signals(CommandTest):
     def interrupt(self, number, *options):
         vertices, faces = irregular_torus(240, 100)
         write_off(self.folder / "torus.off", vertices, faces)
-        process = self.start("torus.off", "-o", "out.off", "--report", "report.json", "--progress", "bar", *options)
-        seen = b""
-        while b"step" not in seen:  # the work has begun
-            byte = process.stderr.read(1)
-            self.assertTrue(byte, seen)
-            seen += byte
+        process = self.start_until(b"step", "torus.off", "-o", "out.off", "--report", "report.json", *options)
         process.send_signal(number)
         process.communicate()
         self.assertEqual(process.returncode, 128 + number)

@@ -73,6 +73,8 @@ TEST(Comparison, SaysWhatIsNotComparable) {
   other["input"]["sha256"] = "ab";
   reasons = compared(report(20), other).not_comparable;
   EXPECT_EQ(reasons, (Keys{"parameters.L was 0.5, and is 0.25", always[0], always[1]}));
+  reasons = compared(other, report(20)).not_comparable;
+  EXPECT_EQ(reasons[1], "parameters.polish was true, and is not there now");
 }
 
 TEST(Comparison, OfACheckIsOfTheInputs) {
@@ -83,6 +85,11 @@ TEST(Comparison, OfACheckIsOfTheInputs) {
   EXPECT_EQ(c.compared, 1U);
   ASSERT_EQ(c.worse.size(), 1U);
   EXPECT_EQ(in_words(c.worse[0]), "before.min_angle.min: 1 -> 0.5 (50 % worse)");
+}
+
+TEST(Comparison, SharesAreOfTheDistanceGone) {
+  EXPECT_EQ(in_words({"after.min_angle.min", 10, -5}), "after.min_angle.min: 10 -> -5 (150 % worse)");
+  EXPECT_EQ(in_words({"geometry.area_change", .1, -.2}), "geometry.area_change: 0.1 -> -0.2 (100 % worse)");
 }
 
 TEST(Comparison, RefusesWhatIsNoReport) {

@@ -63,6 +63,10 @@ void tell_differences(const ReportFigures& base, const ReportFigures& now, Compa
       comparison.not_comparable.push_back(
           fmt::format("parameters.{} was {}, and is {}", name, before->second, value));
   }
+  for (const auto& [name, value] : base.parameters)
+    if (!now.parameters.contains(name))
+      comparison.not_comparable.push_back(
+          fmt::format("parameters.{} was {}, and is not there now", name, value));
 }
 
 }  // namespace
@@ -114,7 +118,7 @@ Comparison compare(const ReportFigures& base, const ReportFigures& now, double r
 }
 
 std::string in_words(const Worsening& w) {
-  const double change = std::abs(std::abs(w.value) - std::abs(w.base));
+  const double change = worsening(find_report_key(w.key)->better, w.base, w.value);
   const std::string share =
       w.base != 0 ? fmt::format(" ({:.3g} % worse)", 100 * change / std::abs(w.base)) : "";
   return fmt::format("{}: {:.6g} -> {:.6g}{}", w.key, w.base, w.value, share);
