@@ -106,6 +106,17 @@ class Rounding(CommandTest):
         self.assertIn("promise_broken", [w["code"] for w in report["warnings"]])
         self.run_command(*run, "-o", "out.stl", "--accept-invalid", "--require", "promises.kept == 1", expect=6)
 
+    def test_where_bodies_cross_in_the_input_rounding_may_add_pairs(self):
+        vertices, faces = read_mesh(DATA / "blob.ply")
+        shift = (.5, .25, .125)
+        both = list(vertices) + [tuple(x + d for x, d in zip(v, shift)) for v in vertices]
+        write_off(self.folder / "two.off", [tuple(x + 3e4 for x in v) for v in both],
+                  list(faces) + [tuple(i + len(vertices) for i in f) for f in faces])
+        report = self.report("two.off", "-o", "out.stl", "-q", "-L", ".9x")
+        self.assertGreater(report["before"]["self_intersections"], 0)
+        self.assertGreater(report["after"]["self_intersections"], report["before"]["self_intersections"])
+        self.assertEqual(report["promises"]["new_self_intersections"], 0)
+
 
 class Comparisons(CommandTest):
     def base(self, *options):
