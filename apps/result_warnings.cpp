@@ -44,9 +44,13 @@ void warn_of_folds(RunRecord& run) {
 void warn_of_crossings(RunRecord& run) {
   const size_t crossings = run.after->self_intersections.value_or(0),
                before = run.before.self_intersections.value_or(0);
-  if (crossings > before)
-    run.warnings.push_back({"self_intersections_added", fmt::format("{}: {} self-intersections, {} before",
-                                                                    run.output->path, crossings, before)});
+  if (crossings <= before) return;
+  const auto& measures = run.result->measures;
+  const bool only_there = measures && measures->preservation.new_crossings == 0;
+  run.warnings.push_back(
+      {"self_intersections_added",
+       fmt::format("{}: {} self-intersections, {} before{}", run.output->path, crossings, before,
+                   only_there ? ", all where the surface crosses itself already" : "")});
 }
 
 /// Warns if the surfaces are more than half a natural length apart.

@@ -207,10 +207,6 @@ void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, con
       return measure_preservation({reference, record.before, before}, {result, *record.after, after},
                                   *record.deviation, measures.judged_by);
     });
-    // As preserving_remesh() has it; and where surfaces cross, the last digits decide on the faces that do.
-    if (!coincident_boundary_vertices(reference.points, reference.adjacency).empty() ||
-        record.before.self_intersections > size_t{0})
-      measures.preservation.new_crossings = 0;
   }
   if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();
   require_promises(s, record, BrokenBy::rounding);

@@ -85,6 +85,19 @@ TEST(SelfIntersection, TrianglesWithACommonEdge) {
   expect_pair(sharing_edge({1, 1, 1}), false);
 }
 
+TEST(SelfIntersection, SegmentIsWhatBothTrianglesShare) {
+  const std::array<Vec3, 3> flat = {a, b, c}, upright = {Vec3(1, -1, -1), Vec3(1, -1, 3), Vec3(1, 3, -1)};
+  for (const auto& [from, to] : {crossing_segment(flat, upright), crossing_segment(upright, flat)}) {
+    const auto [low, high] =
+        std::minmax(from, to, [](const Vec3& p, const Vec3& q) { return p.y() < q.y(); });
+    EXPECT_LT((low - Vec3(1, 0, 0)).norm(), 1e-12);
+    EXPECT_LT((high - Vec3(1, 2, 0)).norm(), 1e-12);
+  }
+  const auto [from, to] = crossing_segment(flat, {Vec3(1, 1, 0), b, c});  // in one plane
+  EXPECT_EQ(from, to);
+  EXPECT_NEAR(from.z(), 0, 1e-12);
+}
+
 TEST(SelfIntersection, SameThreeVerticesAreNoPair) {
   EXPECT_EQ(count(test::triangles({a, b, c}, {{0, 1, 2}, {0, 2, 1}})), 0u);
 }

@@ -50,6 +50,30 @@ TEST(Preservation, ASpikeThatComesOrGoesBreaksIt) {
   EXPECT_EQ(goes.lost_vertices[0].vertex, tip);
 }
 
+TEST(Preservation, CrossingsAreNewOnlyWhereThereWereNone) {
+  const auto two = [](int fineness, const Vec3& shift) {
+    const test::Triangles a = test::sphere(fineness), b = test::sphere(fineness, .3, 1);
+    test::Triangles both = a;
+    const auto n = a.points.cols();
+    both.points.conservativeResize(3, n + b.points.cols());
+    both.points.rightCols(b.points.cols()) = b.points.colwise() + shift;
+    for (const Triangle& t : b.faces)
+      both.faces.push_back(
+          {t[0] + static_cast<int>(n), t[1] + static_cast<int>(n), t[2] + static_cast<int>(n)});
+    return both;
+  };
+  const Vec3 crosses(1.2, .3, .1), moved(1.2, -.5, .1), apart(3, 0, 0);
+  const Measured coarse(two(2, crosses)), fine(two(3, crosses)), elsewhere(two(2, moved)),
+      none(two(2, apart));
+  EXPECT_GT(fine.quality.self_intersections, coarse.quality.self_intersections);
+  EXPECT_TRUE(new_crossings(coarse.surface, fine.surface).empty());
+  EXPECT_TRUE(new_crossings(fine.surface, coarse.surface).empty());
+  EXPECT_GT(new_crossings(coarse.surface, elsewhere.surface).size(), 0u);
+  EXPECT_LT(new_crossings(coarse.surface, elsewhere.surface).size(), *elsewhere.quality.self_intersections);
+  EXPECT_EQ(new_crossings(none.surface, coarse.surface).size(), *coarse.quality.self_intersections);
+  EXPECT_EQ(compare(two(2, apart), two(2, crosses)).new_crossings, *coarse.quality.self_intersections);
+}
+
 TEST(Preservation, AFaceTurnedOverBreaksIt) {
   const test::Triangles t = test::grid(6, test::flat);
   test::Triangles folded = t;

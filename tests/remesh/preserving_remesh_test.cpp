@@ -54,6 +54,21 @@ TEST(PreservingRemesh, LeavesAGoodResultAsItIs) {
   }
 }
 
+TEST(PreservingRemesh, BodiesThatCrossAreAsGoodAsEachAlone) {
+  const test::Triangles one = test::sphere(2, .3, 1);
+  const auto n = static_cast<int>(one.points.cols());
+  test::Triangles two = one;
+  two.points.conservativeResize(3, 2 * n);
+  two.points.rightCols(n) = one.points.colwise() + Vec3(.9, .5, .2);
+  for (const Triangle& t : one.faces) two.faces.push_back({t[0] + n, t[1] + n, t[2] + n});
+  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
+    const test::Outcome alone = preserved(one, options_for(mode)), both = preserved(two, options_for(mode));
+    EXPECT_EQ(both.result.rescue, Rescue::none);
+    EXPECT_TRUE(both.result.measures->preservation.holds());
+    EXPECT_GT(both.result.measures->quality.min_angle.min, alone.result.measures->quality.min_angle.min - 3);
+  }
+}
+
 TEST(PreservingRemesh, KeepsWhatOneRunMayNot) {
   int mended = 0;
   for (const ConnectivityMode mode :

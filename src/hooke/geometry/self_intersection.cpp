@@ -162,6 +162,30 @@ bool triangles_meet(const Corners& s, const Corners& t) {
   return false;
 }
 
+std::array<Vec3, 2> crossing_segment(const Corners& s, const Corners& t) {
+  std::vector<Vec3> ends;
+  const auto add_piercings = [&](const Corners& edges_of, const Corners& plane_of) {
+    const Vec3 normal = (plane_of[1] - plane_of[0]).cross(plane_of[2] - plane_of[0]);
+    const auto height = [&](const Vec3& x) { return normal.dot(x - plane_of[0]); };
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = edges_of[k], &b = edges_of[(k + 1) % 3];
+      const double from = height(a), to = height(b);
+      if ((from < 0) == (to < 0)) continue;
+      const Vec3 x = a + from / (from - to) * (b - a);
+      const auto is_inside = [&](size_t i) {
+        return normal.dot((plane_of[(i + 1) % 3] - plane_of[i]).cross(x - plane_of[i])) >= 0;
+      };
+      if (is_inside(0) && is_inside(1) && is_inside(2)) ends.push_back(x);
+    }
+  };
+  add_piercings(s, t);
+  add_piercings(t, s);
+  if (ends.empty()) ends.push_back((s[0] + s[1] + s[2] + t[0] + t[1] + t[2]) / 6);
+  const auto farthest =
+      std::ranges::max_element(ends, {}, [&](const Vec3& x) { return (x - ends.front()).squaredNorm(); });
+  return {ends.front(), *farthest};
+}
+
 std::vector<std::array<int, 2>> find_self_intersections(const AabbTree& tree) {
   constexpr size_t faces_per_task = 1024, parts_per_task = 64;
   const std::span<const Face> faces = tree.faces();

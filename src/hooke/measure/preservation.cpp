@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/self_intersection.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
 
@@ -241,6 +242,38 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
 
 }  // namespace
 
+std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
+                                              const MeasuredSurface& result) {
+  using Pair = std::array<int, 2>;
+  const auto segment_of = [](const MeasuredSurface& surface, const Pair& pair) {
+    const auto corners = [&](int f) {
+      const Triangle& t = surface.adjacency.faces[index_of(f)];
+      return std::array<Vec3, 3>{surface.points.col(t[0]), surface.points.col(t[1]),
+                                 surface.points.col(t[2])};
+    };
+    return crossing_segment(corners(pair[0]), corners(pair[1]));
+  };
+  std::vector<Pair> crossings = find_self_intersections(result.tree);
+  const std::vector<Pair> old = crossings.empty() ? crossings : find_self_intersections(reference.tree);
+  if (old.empty()) return crossings;
+  Mat3X ends(3, 2 * std::ssize(old));
+  std::vector<Edge> segments;
+  for (const Pair& pair : old) {
+    const int next = 2 * static_cast<int>(segments.size());
+    const auto [from, to] = segment_of(reference, pair);
+    ends.col(next) = from;
+    ends.col(next + 1) = to;
+    segments.push_back({next, next + 1});
+  }
+  const AabbTree tree(ends, as_segments(segments));
+  std::erase_if(crossings, [&](const Pair& pair) {
+    const auto [from, to] = segment_of(result, pair);
+    const double reach = std::max(longest_edge(result, pair[0]), longest_edge(result, pair[1]));
+    return tree.closest((from + to) / 2).squared_distance <= reach * reach;
+  });
+  return crossings;
+}
+
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
                                   const Deviation& deviation, const PreservationOptions& options) {
   Preservation p;
@@ -253,6 +286,8 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   p.new_folds = excess_of(result.quality.folded_edges, reference.quality.folded_edges);
   p.new_crossings = excess_of(result.quality.self_intersections.value_or(0),
                               reference.quality.self_intersections.value_or(0));
+  if (p.new_crossings > 0)
+    p.new_crossings = std::min(p.new_crossings, new_crossings(reference.surface, result.surface).size());
   const Topology &before = reference.quality.topology, &after = result.quality.topology;
   p.topology_kept = before.components == after.components && before.boundary_loops == after.boundary_loops &&
                     before.euler == after.euler;

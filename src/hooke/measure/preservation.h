@@ -40,7 +40,7 @@ struct Preservation {
   double distance = 0;                   // the distance there
   Vec3 place = Vec3::Zero();             // the vertex there
   std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
-  std::size_t new_crossings = 0;         // intersecting pairs of faces, likewise
+  std::size_t new_crossings = 0;         // new_crossings(), likewise
   bool topology_kept = true;             // components, boundary loops and Euler number
   double crease_loss = 0;    // greatest distance of the reference's creases from those of the result
   bool creases_kept = true;  // within half an edge
@@ -61,6 +61,12 @@ struct CreasedSurface {
   const Quality& quality;
   const std::vector<Edge>& creases;
 };
+
+/// The pairs of faces of the result that intersect where no faces of the reference do: the middle of their
+/// crossing_segment() is farther from those of the reference than their longest edge. So surfaces that cross
+/// may cross in other faces. Ascending pairs of faces of the adjacency.
+std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
+                                              const MeasuredSurface& result);
 
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
                                   const Deviation& deviation, const PreservationOptions& options = {});

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "hooke/core/stopwatch.h"
-#include "hooke/geometry/self_intersection.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/sagitta.h"
@@ -187,7 +186,7 @@ class PreservingRemesh {
       for (size_t f = 0; f < is_wrong.size(); ++f)
         is_wrong[f] = std::ranges::binary_search(turned, surface.ids.face(static_cast<int>(f)));
     if (run.preservation().new_crossings > 0)
-      for (const auto& pair : find_self_intersections(surface.tree))
+      for (const auto& pair : new_crossings(input_, surface))
         for (int f : pair) is_wrong[f] = 1;
     std::vector<char> is_corner(surface.adjacency.vertex_count, 0);
     for (size_t f = 0; f < is_wrong.size(); ++f)
@@ -260,10 +259,9 @@ class PreservingRemesh {
       }
     }
     best.result.rescue = Rescue::put_back;
-    const auto input_pairs = find_self_intersections(input_.tree);
     for (int rings : {1, 2, 4, 8, 16}) {
       if (best.flaws() == 0) break;
-      const std::vector<int> wrong = wrong_vertices(best, input_pairs);
+      const std::vector<int> wrong = wrong_vertices(best);
       if (wrong.empty()) break;
       move_back(best, wrong, rings);
     }
@@ -275,7 +273,7 @@ class PreservingRemesh {
 
   /// The vertices, in memory order, of faces that are turned over, intersect or fold as those of the input do
   /// not, and those that are too far. Pre-condition: the faces are those of the input.
-  std::vector<int> wrong_vertices(const Run& run, const std::vector<std::array<int, 2>>& input_pairs) const {
+  std::vector<int> wrong_vertices(const Run& run) const {
     const MeasuredSurface now = surface_of(run);
     const Adjacency& c = input_.adjacency;
     std::vector<int> wrong;
@@ -283,8 +281,8 @@ class PreservingRemesh {
       const Triangle& t = c.faces[f];
       wrong.insert(wrong.end(), t.begin(), t.end());
     };
-    for (const auto& pair : find_self_intersections(now.tree))
-      if (!std::ranges::binary_search(input_pairs, pair))
+    if (run.preservation().new_crossings > 0)
+      for (const auto& pair : new_crossings(input_, now))
         for (int f : pair) add_face(f);
     std::vector<int> index_of_face(c.faces.size());
     const auto& old_face = run.result.memory_order.order.old_face;
@@ -365,8 +363,6 @@ class PreservingRemesh {
       return measure_preservation({input_, m.input_quality, before}, {surface, m.quality, after}, m.deviation,
                                   preservation_);
     });
-    // The two sides of a cut touch in as many pairs as there are faces.
-    if (has_coincident_boundary_) m.preservation.new_crossings = 0;
     m.judged_by = preservation_;
     a.angle = m.quality.worst_faces.front().min_angle;
     a.result.measures = std::move(m);
@@ -380,8 +376,6 @@ class PreservingRemesh {
   const MeasuredSurface input_;
   PreservationOptions preservation_;
   const Quality input_quality_;
-  const bool has_coincident_boundary_ =
-      !coincident_boundary_vertices(input_.points, input_.adjacency).empty();
 };
 
 }  // namespace
