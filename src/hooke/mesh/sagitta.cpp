@@ -112,15 +112,23 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
   const auto is_flat = [&](int e) {
     return arcs[index_of(e)].chord > 0 && arcs[index_of(e)].sagitta <= flat * arcs[index_of(e)].chord;
   };
-  const auto flats = std::ranges::count_if(
-      c.face_edges, [&](const Triangle& edges) { return std::ranges::any_of(edges, is_flat); });
-  if (static_cast<double>(flats) >= flat_share * faces) return true;
+  const auto is_sharp = [&](int e) { return arcs[index_of(e)].sagitta > sharp * arcs[index_of(e)].chord; };
+  // Two faces in a plane are a quadrilateral, which a smooth surface, such as one of revolution, has too.
+  const bool is_smooth = std::ranges::none_of(
+      c.face_edges, [&](const Triangle& edges) { return std::ranges::any_of(edges, is_sharp); });
+  const std::ptrdiff_t least_flat = is_smooth ? 2 : 1;
+  const auto is_in_facet = [&](const Triangle& edges) {
+    return std::ranges::any_of(edges, [&](int e) {
+      return is_flat(e) && std::ranges::any_of(c.edge_faces[index_of(e)], [&](int f) {
+               return std::ranges::count_if(c.face_edges[index_of(f)], is_flat) >= least_flat;
+             });
+    });
+  };
+  if (static_cast<double>(std::ranges::count_if(c.face_edges, is_in_facet)) >= flat_share * faces)
+    return true;
   const std::vector<double> unevenness = face_unevenness(points, c);
   if (c.faces.size() < few_faces) {
-    const auto has_sharp_edge = [&](const Triangle& edges) {
-      return std::ranges::any_of(
-          edges, [&](int e) { return arcs[index_of(e)].sagitta > sharp * arcs[index_of(e)].chord; });
-    };
+    const auto has_sharp_edge = [&](const Triangle& edges) { return std::ranges::any_of(edges, is_sharp); };
     if (2 * std::ranges::count_if(c.face_edges, has_sharp_edge) >= std::ssize(c.faces)) return true;
   }
   const auto unevens = std::ranges::count_if(unevenness, [&](double u) { return u > uneven; });

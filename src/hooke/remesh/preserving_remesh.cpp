@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "hooke/core/stopwatch.h"
@@ -28,6 +29,7 @@ struct Run {
   RemeshResult result;
   double angle = 0;           // minimum angle, degrees
   double unmended_angle = 0;  // before vertices were moved to the input
+  bool lost_angle = false;    // is it less than in the input, with the faces of the input?
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -45,14 +47,18 @@ struct Run {
 
   std::size_t face_count() const { return result.memory_order.adjacency->faces.size(); }
 
-  /// Does nothing break a promise, and have angles not become small for it?
+  /// Does nothing break a promise?
+  bool keeps_promises() const { return flaws() == 0 && !lost_angle; }
+
+  /// The same, and have angles not become small for it?
   bool is_good() const {
     constexpr double good_angle = 25, kept_share = .8;
-    return flaws() == 0 && angle >= std::min(good_angle, kept_share * unmended_angle);
+    return keeps_promises() && angle >= std::min(good_angle, kept_share * unmended_angle);
   }
 
   bool is_better_than(const Run& other) const {
-    return std::pair(flaws(), -angle) < std::pair(other.flaws(), -other.angle);
+    return std::tuple(flaws(), lost_angle, -angle) <
+           std::tuple(other.flaws(), other.lost_angle, -other.angle);
   }
 };
 
@@ -76,6 +82,10 @@ class PreservingRemesh {
         is_staircase(input_.points, input_.adjacency,
                      memory_order.order.gather(vertex_values(mesh, target_length_property)));
     if (is_noise) preservation_.feature_angle = 180;
+    constexpr double rounding = 1e-9;
+    const bool must_unfold = input_quality_.folded_edges > 0;
+    if (!must_unfold && !target_lengths_of(mesh, memory_order.order, input_.adjacency).edge.is_varying())
+      least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
     preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
     preservation_.keeps_facets = preservation_.faceted && options.connectivity != ConnectivityMode::adapt;
   }
@@ -84,7 +94,7 @@ class PreservingRemesh {
     Run best = attempt();
     if (!best.result.measures) return best;  // not finite
     if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
-    if (!best.is_interrupted() && best.flaws() > 0) put_back(best);
+    if (!best.is_interrupted() && !best.keeps_promises()) put_back(best);
     return best;
   }
 
@@ -252,27 +262,26 @@ class PreservingRemesh {
         return;
       }
       judge(next);
+      if (!next.result.measures) return;  // not finite
       best = std::move(next);
-      if (best.flaws() == 0) {
-        best.result.rescue = Rescue::put_back;
-        return;
-      }
     }
     best.result.rescue = Rescue::put_back;
     for (int rings : {1, 2, 4, 8, 16}) {
-      if (best.flaws() == 0) break;
+      if (best.keeps_promises()) break;
       const std::vector<int> wrong = wrong_vertices(best);
       if (wrong.empty()) break;
       move_back(best, wrong, rings);
     }
-    if (best.flaws() == 0 && best.result.measures->quality.shape.mean >= input_quality_.shape.mean) return;
+    if (best.keeps_promises() && best.result.measures->quality.shape.mean >= input_quality_.shape.mean)
+      return;
     std::vector<int> all(input_.adjacency.vertex_count);
     std::iota(all.begin(), all.end(), 0);
     move_back(best, all, 1);
   }
 
   /// The vertices, in memory order, of faces that are turned over, intersect or fold as those of the input do
-  /// not, and those that are too far. Pre-condition: the faces are those of the input.
+  /// not, or have smaller angles, and those that are too far. Pre-condition: the faces are those of the
+  /// input.
   std::vector<int> wrong_vertices(const Run& run) const {
     const MeasuredSurface now = surface_of(run);
     const Adjacency& c = input_.adjacency;
@@ -299,6 +308,9 @@ class PreservingRemesh {
         add_face(right);
       }
     }
+    if (run.lost_angle)
+      for (size_t f = 0; f < c.faces.size(); ++f)
+        if (min_angle(now.points, {c.faces[f]}) < least_angle_) add_face(static_cast<int>(f));
     for (const FarVertex& far : run.preservation().far_vertices) wrong.push_back(far.vertex);
     for (const FarVertex& lost : run.preservation().lost_vertices) wrong.push_back(lost.vertex);
     std::ranges::sort(wrong);
@@ -365,6 +377,7 @@ class PreservingRemesh {
     });
     m.judged_by = preservation_;
     a.angle = m.quality.worst_faces.front().min_angle;
+    a.lost_angle = options_.connectivity == ConnectivityMode::fixed && a.angle < least_angle_;
     a.result.measures = std::move(m);
   }
 
@@ -376,6 +389,7 @@ class PreservingRemesh {
   const MeasuredSurface input_;
   PreservationOptions preservation_;
   const Quality input_quality_;
+  double least_angle_ = 0;  // that faces of the input must keep, degrees
 };
 
 }  // namespace
