@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/crease_solids.h"
+#include "support/solids.h"
 
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
@@ -124,6 +125,27 @@ TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
     EXPECT_TRUE(features_of(test::shaken(test::sphere(2, 0, seed), .04, seed)).empty());
     EXPECT_TRUE(features_of(test::shaken(test::grid(15, test::flat), .02, seed)).empty());
   }
+}
+
+/// Their faces lie in planes two by two, and the angles between these vary from place to place.
+TEST(Features, QuadrilateralsOfASmoothSurfaceMakeNone) {
+  test::Triangles saddle =
+      test::grid(24, [](double x, double y) { return 4 * x * (1 - x) - 2 * y * (1 - y); });
+  saddle.points *= 24;
+  EXPECT_TRUE(features_of(saddle).empty());
+  for (const auto& [meridians, bands] : {std::pair(24, 12), {20, 20}, {12, 24}, {64, 16}}) {
+    test::Triangles globe = test::globe(meridians, bands);
+    globe.points *= std::sqrt(.5 * meridians * bands / std::numbers::pi);
+    EXPECT_TRUE(features_of(globe).empty()) << meridians << " " << bands;
+  }
+}
+
+TEST(Features, FoldsOfASheetThatTurnToAndFroAreKept) {
+  test::Triangles sheet = test::grid(20, test::flat);
+  sheet.points *= 20;
+  for (Eigen::Index v = 0; v < sheet.points.cols(); ++v)
+    sheet.points(2, v) = .25 * (std::lround(sheet.points(0, v)) % 2);
+  EXPECT_EQ(features_of(sheet).size(), 19u * 20);
 }
 
 /// A hull of few triangles, seen from lengths much smaller than its edges: each triangle is a facet, also

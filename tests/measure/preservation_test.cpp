@@ -5,6 +5,7 @@
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/sagitta.h"
 #include "support/meshes.h"
+#include "support/solids.h"
 
 namespace hooke::preservation_test {
 
@@ -100,6 +101,9 @@ TEST(Preservation, FacetsAreMeantWhereTheyAreFlatOrLong) {
   EXPECT_FALSE(faceted(test::sphere(1)));
   EXPECT_FALSE(faceted(test::sphere(3)));
   EXPECT_FALSE(faceted(test::sphere(3, .3, 1)));
+  EXPECT_FALSE(faceted(test::globe(24, 12)));  // of quadrilaterals
+  EXPECT_FALSE(faceted(test::globe(64, 16)));
+  EXPECT_TRUE(faceted(test::both(test::globe(24, 12), test::cube())));
 }
 
 }  // namespace hooke::preservation_test

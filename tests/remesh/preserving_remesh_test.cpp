@@ -31,11 +31,11 @@ RemeshOptions options_for(ConnectivityMode mode) {
 }
 
 test::Outcome preserved(const test::Triangles& t, const RemeshOptions& options,
-                        const Observer& observer = nullptr) {
+                        const Observer& observer = nullptr, const PreservationOptions& preservation = {}) {
   test::Outcome o;
   o.mesh = test::with_length(t, test::natural(t));
   const MemoryOrder memory_order = find_memory_order(o.mesh);
-  o.result = preserving_remesh(o.mesh, memory_order, options, {}, {}, observer);
+  o.result = preserving_remesh(o.mesh, memory_order, options, preservation, {}, observer);
   o.points = vertex_points(o.mesh);
   o.faces = triangles_of(o.mesh);
   return o;
@@ -67,6 +67,30 @@ TEST(PreservingRemesh, BodiesThatCrossAreAsGoodAsEachAlone) {
     EXPECT_TRUE(both.result.measures->preservation.holds());
     EXPECT_GT(both.result.measures->quality.min_angle.min, alone.result.measures->quality.min_angle.min - 3);
   }
+}
+
+TEST(PreservingRemesh, GlobesBecomeRegular) {
+  for (const auto& [meridians, bands] : {std::pair(24, 12), {20, 20}}) {
+    const test::Triangles globe = test::globe(meridians, bands);
+    const test::Outcome o = preserved(globe, options_for(ConnectivityMode::flip));
+    EXPECT_EQ(o.result.rescue, Rescue::none);
+    EXPECT_GT(o.result.measures->quality.min_angle.min, 40) << meridians;
+  }
+}
+
+TEST(PreservingRemesh, FacesThatStayDoNotGetSmallerAnglesWhereTheyGoBack) {
+  int rescued = 0;
+  for (const test::Triangles& t : {test::globe(64, 16), test::globe(20, 20)})
+    for (const double max_distance : {1e-3, 1e-2}) {
+      const test::Outcome o =
+          preserved(t, options_for(ConnectivityMode::fixed), nullptr, {.max_distance = max_distance});
+      rescued += o.result.rescue != Rescue::none;
+      EXPECT_TRUE(o.result.measures->preservation.holds());
+      EXPECT_GE(o.result.measures->quality.min_angle.min,
+                (1 - 1e-9) * o.result.measures->input_quality.min_angle.min)
+          << max_distance;
+    }
+  EXPECT_GT(rescued, 0);
 }
 
 TEST(PreservingRemesh, KeepsWhatOneRunMayNot) {

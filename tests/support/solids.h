@@ -49,6 +49,32 @@ inline Triangles cube() {
                     {3, 4, 7}});
 }
 
+/// A unit sphere of quadrilaterals cut in two between meridians and circles of latitude; triangles at the
+/// poles.
+inline Triangles globe(int meridians, int bands) {
+  std::vector<Vec3> p = {{0, 0, 1}};
+  Triangles t;
+  const auto vertex = [&](int band, int i) { return 1 + (band - 1) * meridians + i % meridians; };
+  for (int j = 1; j < bands; ++j)
+    for (int i = 0; i < meridians; ++i) {
+      const double north = std::numbers::pi * j / bands, east = 2 * std::numbers::pi * i / meridians;
+      p.emplace_back(std::sin(north) * std::cos(east), std::sin(north) * std::sin(east), std::cos(north));
+    }
+  const int south = static_cast<int>(p.size());
+  p.emplace_back(0, 0, -1);
+  for (int i = 0; i < meridians; ++i) {
+    t.faces.push_back({0, vertex(1, i), vertex(1, i + 1)});
+    t.faces.push_back({south, vertex(bands - 1, i + 1), vertex(bands - 1, i)});
+    for (int j = 1; j < bands - 1; ++j) {
+      t.faces.push_back({vertex(j, i), vertex(j + 1, i), vertex(j + 1, i + 1)});
+      t.faces.push_back({vertex(j, i), vertex(j + 1, i + 1), vertex(j, i + 1)});
+    }
+  }
+  t.points.resize(3, static_cast<Eigen::Index>(p.size()));
+  for (size_t v = 0; v < p.size(); ++v) t.points.col(static_cast<Eigen::Index>(v)) = p[v];
+  return t;
+}
+
 inline Triangles both(const Triangles& a, const Triangles& b) {
   Triangles t{Mat3X(3, a.points.cols() + b.points.cols()), a.faces};
   t.points << a.points, b.points;

@@ -221,8 +221,10 @@ class FeatureSearch {
   /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
   bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
     return narrower_width(edge, regions) > o_.resolved_facet &&
-           std::ranges::all_of(c_.edge_faces[edge],
-                               [&](int f) { return strip_width(f, regions[f], edge) > o_.resolved_strip; });
+           std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
+             return strip_width(f, regions[f], edge) >
+                    (is_gentle(regions[f]) ? o_.resolved_gentle_strip : o_.resolved_strip);
+           });
   }
 
   /// The smaller width of the two flat regions, or single faces, that the edge divides; 0 if it divides none,
@@ -236,19 +238,22 @@ class FeatureSearch {
 
   /// The least distance, in target lengths, of the ends of the edge from a parallel edge at which the face or
   /// its region bends on, as a strip of a round body does: to the same side, and about as much, or twice as
-  /// much where the round begins at this edge. Edges in line with it or at an obtuse angle to it do not
+  /// much where the round begins at this edge; where no edge is sharp at least 2/3 as much, as on a surface
+  /// whose curvature varies. Edges in line with it or at an obtuse angle to it do not
   /// count. A face alone may bend on at any other edge: its height then. Infinite if there is no such edge.
   double strip_width(int face, int region, int edge) const {
-    constexpr double parallel = .96;  // cosine; the meridians of a sphere meet at its poles
+    const bool gentle = is_gentle(region);
+    const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
     const Vec3 along = direction(edge);
     const int a = c_.edges[edge][0], b = c_.edges[edge][1];
     const double target = .5 * (length_[a] + length_[b]);
     double least = std::numeric_limits<double>::infinity();
     const auto bend_on = [&](int e) {
       const double ratio = angle_[e] / angle_[edge];
-      if (e == edge || (std::abs(ratio - 1) >= o_.strip_angle && std::abs(ratio - 2) >= o_.strip_end_angle) ||
-          is_convex(e) != is_convex(edge))
-        return;
+      const bool bends_on =
+          gentle ? ratio > o_.gentle_ratio
+                 : std::abs(ratio - 1) < o_.strip_angle || std::abs(ratio - 2) < o_.strip_end_angle;
+      if (e == edge || !bends_on || is_convex(e) != is_convex(edge)) return;
       const Vec3 other = direction(e), origin = X_.col(c_.edges[e][0]);
       if (are_in_line(e, edge, along) || continues(e, edge)) return;
       if (std::abs(other.dot(along)) > parallel)
@@ -261,6 +266,12 @@ class FeatureSearch {
     else
       std::ranges::for_each(region_borders_[region], bend_on);
     return least;
+  }
+
+  /// Is no edge of the flat region sharp, as of the quadrilaterals of a smooth surface?
+  bool is_gentle(int region) const {
+    return region >= 0 &&
+           std::ranges::none_of(region_borders_[region], [&](int e) { return angle_[e] > o_.angle; });
   }
 
   Vec3 direction(int edge) const {

@@ -31,7 +31,9 @@ struct CreaseOptions {
       .2;  // degrees; an edge between resolved flat regions is a crease above it
   static constexpr double resolved_strip =
       1.9;  // the same between such regions, where one is a strip of a round body
-  static constexpr double resolved_facet = .5;  // and where none is
+  static constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
+  static constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
+  static constexpr double resolved_facet = .5;        // and where none is
   static constexpr double strip_angle =
       .05;  // maximum relative difference of the angles at both edges of a strip
   static constexpr double strip_end_angle =

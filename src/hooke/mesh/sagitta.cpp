@@ -132,7 +132,7 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
     if (2 * std::ranges::count_if(c.face_edges, has_sharp_edge) >= std::ssize(c.faces)) return true;
   }
   const auto unevens = std::ranges::count_if(unevenness, [&](double u) { return u > uneven; });
-  return static_cast<double>(unevens) >= uneven_share * faces;
+  return !is_smooth && static_cast<double>(unevens) >= uneven_share * faces;
 }
 
 }  // namespace hooke
