@@ -116,7 +116,7 @@ std::string what_is_broken(const RunRecord& run) {
   std::vector<std::string> broken;
   const auto place = [](const Vec3& x) { return fmt::format("{:.6g} {:.6g} {:.6g}", x[0], x[1], x[2]); };
   if (!p.topology_kept) broken.push_back("components, boundary loops or holes are not those of the input");
-  if (!p.far_vertices.empty() || !p.lost_vertices.empty())
+  if (!p.far_vertices.empty() || !p.lost_vertices.empty() || !p.within_max_distance)
     broken.push_back(fmt::format("the surface would be {} from that of {} at {}{}",
                                  with_share(p.distance, run), run.input.path, place(p.place),
                                  volume_change(run)));
@@ -125,6 +125,8 @@ std::string what_is_broken(const RunRecord& run) {
   if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over", p.flipped_faces));
   if (p.new_folds > 0) broken.push_back(fmt::format("{} new folds", p.new_folds));
   if (p.new_crossings > 0) broken.push_back(fmt::format("{} new self-intersections", p.new_crossings));
+  if (p.new_degenerate_faces > 0)
+    broken.push_back(fmt::format("{} new faces without area", p.new_degenerate_faces));
   return fmt::format("{}", fmt::join(broken, "; "));
 }
 

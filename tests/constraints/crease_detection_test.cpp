@@ -127,6 +127,15 @@ TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
   }
 }
 
+TEST(Features, FacesFoldedOverByNoiseMakeNone) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    test::Triangles t = test::sphere(4, .8, seed);
+    t.points *= std::sqrt(2560 / (4 * std::numbers::pi));  // edges of about 1
+    EXPECT_GT(sharp_edges(t.points, test::connect(t), 90).size(), 100u);
+    EXPECT_TRUE(features_of(t).empty()) << seed;
+  }
+}
+
 /// Their faces lie in planes two by two, and the angles between these vary from place to place.
 TEST(Features, QuadrilateralsOfASmoothSurfaceMakeNone) {
   test::Triangles saddle =

@@ -86,6 +86,26 @@ TEST(Preservation, AFaceTurnedOverBreaksIt) {
   EXPECT_GT(p.new_folds, 0u);
 }
 
+TEST(Preservation, AFaceThatLosesItsAreaBreaksIt) {
+  const test::Triangles t = test::sphere(2);
+  test::Triangles flat = t;
+  const auto [a, b, c] = t.faces[30];
+  flat.points.col(a) = .5 * (t.points.col(b) + t.points.col(c));
+  EXPECT_EQ(compare(t, flat).new_degenerate_faces, 1u);
+  EXPECT_EQ(compare(flat, flat).new_degenerate_faces, 0u);
+}
+
+TEST(Preservation, AMaximumDistanceHoldsBetweenVerticesToo) {
+  const test::Triangles fine = test::sphere(3), coarse = test::sphere(1);
+  const double chord = measure_deviation(Measured(fine).surface, Measured(coarse).surface).from_reference.max;
+  EXPECT_TRUE(compare(fine, coarse, {.max_distance = 1.01 * chord}).within_max_distance);
+  EXPECT_TRUE(compare(fine, coarse, {.max_distance = 1.01 * chord}).holds());
+  const Preservation p = compare(fine, coarse, {.max_distance = .99 * chord});
+  EXPECT_FALSE(p.within_max_distance);
+  EXPECT_FALSE(p.holds());
+  EXPECT_NEAR(p.excess, 1 / .99, 1e-3);
+}
+
 TEST(Preservation, AnotherTopologyBreaksIt) {
   test::Triangles t = test::sphere(2), open = t;
   open.faces.pop_back();

@@ -117,8 +117,28 @@ class FeatureSearch {
     const std::vector<char> kept = kept_;
     for (size_t e = 0; e < kept_.size(); ++e)
       if (!kept[e] && goes_with_creases(static_cast<int>(e), kept, regions)) kept_[e] = 1;
-    for (size_t e = 0; o_.drops_noise && e < kept_.size(); ++e)  // a lone edge is an accident
-      if (kept_[e] && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); })) kept_[e] = 0;
+    if (o_.drops_noise) drop_accidents();
+  }
+
+  /// Drops single edges and, where most sharp edges are noise, small networks: faces that are folded over by
+  /// noise have sharp edges all around.
+  void drop_accidents() {
+    int sharp = 0, kept = 0;
+    for (size_t e = 0; e < kept_.size(); ++e)
+      if (angle_[e] > o_.angle) {
+        ++sharp;
+        kept += kept_[e];
+      }
+    const bool is_noisy = 2 * kept < sharp;
+    std::vector<char> seen(kept_.size(), 0);
+    for (size_t e = 0; e < kept_.size(); ++e) {
+      if (!kept_[e] || seen[e]) continue;
+      const std::vector<int> network = network_of(static_cast<int>(e), seen);
+      const bool is_single =
+          network.size() == 1 && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); });
+      if (is_single || (is_noisy && std::ssize(network) < o_.min_edges))
+        for (int i : network) kept_[i] = 0;
+    }
   }
 
   /// Does the edge divide flat regions where edges at both its ends that are hardly sharper are creases? A

@@ -127,10 +127,18 @@ void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& 
   };
   p.far_vertices = vertices_beyond(result, deviation.vertices_to_reference, limit_of_result, p);
   p.lost_vertices = vertices_beyond(reference, deviation.vertices_from_reference, limit_of_reference, p);
-  if (!o.keeps_facets || o.max_distance) return;
-  const std::vector<double> limits = facet_limits(reference);
+  if (!o.keeps_facets && !o.max_distance) return;
+  const std::vector<double> limits =
+      o.max_distance ? std::vector<double>(reference.adjacency.faces.size(), *o.max_distance)
+                     : facet_limits(reference);
   add_faces_beyond(result, reference, limits, false, p.far_vertices, p);
   add_faces_beyond(reference, result, limits, true, p.lost_vertices, p);
+  if (!o.max_distance) return;
+  const double farthest = std::max(deviation.to_reference.max, deviation.from_reference.max);
+  p.within_max_distance = farthest <= *o.max_distance;
+  if (farthest <= p.distance) return;
+  p.distance = farthest;
+  p.excess = farthest / *o.max_distance;
 }
 
 std::vector<Triangle> as_segments(const std::vector<Edge>& edges) {
@@ -284,6 +292,7 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
     return after - std::min(after, before);
   };
   p.new_folds = excess_of(result.quality.folded_edges, reference.quality.folded_edges);
+  p.new_degenerate_faces = excess_of(result.quality.degenerate_faces, reference.quality.degenerate_faces);
   p.new_crossings = excess_of(result.quality.self_intersections.value_or(0),
                               reference.quality.self_intersections.value_or(0));
   if (p.new_crossings > 0)

@@ -36,11 +36,13 @@ struct Preservation {
   std::size_t flipped_faces = 0;         // of the result, see Deviation
   std::vector<FarVertex> far_vertices;   // of the result: beyond the limit from the reference
   std::vector<FarVertex> lost_vertices;  // of the reference: beyond the limit from the result
+  bool within_max_distance = true;       // are the surfaces, by the samples of the Deviation?
   double excess = 0;                     // the greatest distance of these vertices over its limit
   double distance = 0;                   // the distance there
   Vec3 place = Vec3::Zero();             // the vertex there
   std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
   std::size_t new_crossings = 0;         // new_crossings(), likewise
+  std::size_t new_degenerate_faces = 0;  // likewise
   bool topology_kept = true;             // components, boundary loops and Euler number
   double crease_loss = 0;    // greatest distance of the reference's creases from those of the result
   bool creases_kept = true;  // within half an edge
@@ -51,7 +53,8 @@ struct Preservation {
   /// Number of things that are not.
   std::size_t flaws() const {
     return flipped_faces + far_vertices.size() + lost_vertices.size() + new_folds + new_crossings +
-           (topology_kept ? 0 : 1) + (creases_kept ? 0 : 1);
+           new_degenerate_faces + (within_max_distance ? 0 : 1) + (topology_kept ? 0 : 1) +
+           (creases_kept ? 0 : 1);
   }
 };
 

@@ -308,9 +308,12 @@ class PreservingRemesh {
         add_face(right);
       }
     }
-    if (run.lost_angle)
+    if (run.lost_angle || run.preservation().new_degenerate_faces > 0) {
+      constexpr double no_angle = 1e-6;
       for (size_t f = 0; f < c.faces.size(); ++f)
-        if (min_angle(now.points, {c.faces[f]}) < least_angle_) add_face(static_cast<int>(f));
+        if (min_angle(now.points, {c.faces[f]}) < std::max(least_angle_, no_angle))
+          add_face(static_cast<int>(f));
+    }
     for (const FarVertex& far : run.preservation().far_vertices) wrong.push_back(far.vertex);
     for (const FarVertex& lost : run.preservation().lost_vertices) wrong.push_back(lost.vertex);
     std::ranges::sort(wrong);

@@ -177,6 +177,7 @@ Json promises_json(const RunRecord& run) {
           {"flipped_faces", p.flipped_faces},
           {"new_folds", p.new_folds},
           {"new_self_intersections", p.new_crossings},
+          {"new_degenerate_faces", p.new_degenerate_faces},
           {"topology_kept", p.topology_kept},
           {"creases_kept", p.creases_kept},
           {"crease_loss", number(p.crease_loss)},
