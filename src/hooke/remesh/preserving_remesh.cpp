@@ -168,6 +168,7 @@ class PreservingRemesh {
       for (int n : surface.adjacency.vertex_neighbours[v]) middle += surface.points.col(n);
       move(v, middle / std::ssize(surface.adjacency.vertex_neighbours[v]));
     }
+    take_back_needles(surface, moved);
     if (moved == surface.points) return false;
     Run before = run;
     for (int v = 0; v < moved.cols(); ++v)
@@ -179,6 +180,23 @@ class PreservingRemesh {
       return true;
     run = std::move(before);
     return false;
+  }
+
+  /// Takes back what was moved at faces that would lose nearly all of their angle, as where two corners go to
+  /// the same place, until there are none.
+  static void take_back_needles(const MeasuredSurface& surface, Mat3X& moved) {
+    constexpr double kept_share = .05;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Triangle& t : surface.adjacency.faces) {
+        const auto has_moved = [&](int v) { return moved.col(v) != surface.points.col(v); };
+        if (std::ranges::none_of(t, has_moved) ||
+            min_angle(moved, {t}) >= kept_share * min_angle(surface.points, {t}))
+          continue;
+        for (int v : t) moved.col(v) = surface.points.col(v);
+        changed = true;
+      }
+    }
   }
 
   /// What limits a vertex of the run's surface: bits of VertexLimit.
