@@ -148,13 +148,18 @@ void warn_of_rescue(RunRecord& run) {
         return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input, "
                "or "
                "only with small angles";
-      case Rescue::put_back:
-        return fmt::format(
-            "{} of {} vertices were put back to where they were, with the faces of the input, to keep its "
-            "surface; --connectivity adapt, which makes new vertices, can do more",
-            std::ranges::count_if(run.result->vertex_limits,
-                                  [](unsigned char limits) { return limits & VertexLimit::put_back; }),
-            run.after->topology.vertices);
+      case Rescue::put_back: {
+        const auto count = std::ranges::count_if(
+            run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });
+        const std::string what =
+            count > 0
+                ? fmt::format(
+                      "{} of {} vertices were put back to where they were, with the faces of the input,",
+                      count, run.after->topology.vertices)
+                : "it has the faces of the input";
+        return what +
+               " to keep its surface and angles; --connectivity adapt, which makes new vertices, can do more";
+      }
     }
     return "";
   };

@@ -78,6 +78,14 @@ TEST(PreservingRemesh, GlobesBecomeRegular) {
   }
 }
 
+TEST(PreservingRemesh, FlipsDoNotMakeSmallAngles) {
+  const test::Triangles stairs = test::cells(
+      8, 8, 8, [](int x, int y, int z) { return x + y + z < 10; }, 0, 1);
+  const test::Outcome o = preserved(stairs, options_for(ConnectivityMode::flip));
+  EXPECT_GE(o.result.measures->quality.min_angle.min,
+            std::min(25., (1 - 1e-9) * o.result.measures->input_quality.min_angle.min));
+}
+
 TEST(PreservingRemesh, FacesThatStayDoNotGetSmallerAnglesWhereTheyGoBack) {
   int rescued = 0;
   for (const test::Triangles& t : {test::globe(64, 16), test::globe(20, 20)})

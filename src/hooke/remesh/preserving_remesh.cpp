@@ -29,7 +29,7 @@ struct Run {
   RemeshResult result;
   double angle = 0;           // minimum angle, degrees
   double unmended_angle = 0;  // before vertices were moved to the input
-  bool lost_angle = false;    // is it less than in the input, with the faces of the input?
+  bool lost_angle = false;  // is it less than in the input with fixed faces, or with flipped ones and small?
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -398,7 +398,10 @@ class PreservingRemesh {
     });
     m.judged_by = preservation_;
     a.angle = m.quality.worst_faces.front().min_angle;
-    a.lost_angle = options_.connectivity == ConnectivityMode::fixed && a.angle < least_angle_;
+    constexpr double small_angle = 25;
+    a.lost_angle =
+        (options_.connectivity == ConnectivityMode::fixed && a.angle < least_angle_) ||
+        (options_.connectivity == ConnectivityMode::flip && a.angle < std::min(least_angle_, small_angle));
     a.result.measures = std::move(m);
   }
 
