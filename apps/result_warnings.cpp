@@ -53,18 +53,19 @@ void warn_of_crossings(RunRecord& run) {
                    only_there ? ", all where the surface crosses itself already" : "")});
 }
 
-/// Warns if the surfaces are more than half a natural length apart.
+/// Warns if the surfaces are more than half a natural length or a fiftieth of the size apart.
 void warn_of_distance(const Settings& s, RunRecord& run) {
-  const double natural = run.target.natural;
+  constexpr double max_lengths = .5, max_share = .02;
   const double distance = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
-  if (!(distance > .5 * natural)) return;
+  if (distance <= std::min(max_lengths * run.target.natural, max_share * run.deviation->diagonal)) return;
   const bool closest = !s.paper && s.remesh.filter.kind == FilterKind::closest;
   run.warnings.push_back(
       {"surface_left",
-       fmt::format("{}: its surface and that of {} are up to {} apart{}; that is {:.2g} natural lengths, "
-                   "expected at most 0.5; try {}a smaller --length, or another --feature-angle",
-                   run.output->path, run.input.path, with_share(distance, run), volume_change(run),
-                   distance / natural, closest ? "" : "--filter closest, ")});
+       fmt::format(
+           "{}: its surface and that of {} are up to {} apart{}; try {}a smaller --length, or another "
+           "--feature-angle; --max-distance sets a limit",
+           run.output->path, run.input.path, with_share(distance, run), volume_change(run),
+           closest ? "" : "--filter closest, ")});
 }
 
 void warn_of_count(RunRecord& run) {
