@@ -58,8 +58,7 @@ std::vector<char> non_delaunay_edges(const std::vector<FaceCell>& cells, const A
       for (size_t i = 0; i < 2; ++i) {
         if (c.edge_faces[e][i] < 0) continue;
         const size_t face = c.edge_faces[e][i];
-        const Triangle& edges = c.face_edges[face];
-        const Eigen::Index k = edges[0] == static_cast<int>(e) ? 0 : edges[1] == static_cast<int>(e) ? 1 : 2;
+        const Eigen::Index k = corner_of(c.face_edges[face], static_cast<int>(e));
         cotangent[i] = cells[face].cotangent[k];
       }
       const bool is_delaunay = c.is_feature_edge(static_cast<int>(e))
@@ -132,7 +131,7 @@ class Lloyd {
   Moments voronoi_cell(int v) const {
     Moments cell;
     for (int f : c_.vertex_faces[v]) {
-      const size_t k = corner(f, v);
+      const size_t k = corner_of(c_.faces[f], v);
       const auto [p, q] = others(f, k);
       const FaceCell& face = cells_[f];
       const Vec3 a = X_.col(p) - X_.col(v), b = X_.col(q) - X_.col(v);
@@ -149,17 +148,11 @@ class Lloyd {
   Moments faces_about(int v) const {
     Moments faces;
     for (int f : c_.vertex_faces[v]) {
-      const auto [p, q] = others(f, corner(f, v));
+      const auto [p, q] = others(f, corner_of(c_.faces[f], v));
       const Vec3 a = X_.col(p) - X_.col(v), b = X_.col(q) - X_.col(v);
       faces.add(.5 * a.cross(b).norm(), a, b, density(length(v)), density(length(p)), density(length(q)));
     }
     return faces;
-  }
-
-  /// Index of the vertex in the face.
-  size_t corner(int face, int v) const {
-    const Triangle& t = c_.faces[face];
-    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
   }
 
   /// The vertices that follow corner k of the face.

@@ -5,14 +5,6 @@
 #include "hooke/mesh/corner_differences.h"
 
 namespace hooke {
-namespace {
-
-std::size_t at(int i) {
-  return i;
-}
-
-}  // namespace
-
 Seams find_seams(const MemoryOrder& memory_order, const CornerData& corners, const FaceData& faces,
                  const SeamKinds& kinds) {
   const Adjacency& c = *memory_order.adjacency;
@@ -20,21 +12,20 @@ Seams find_seams(const MemoryOrder& memory_order, const CornerData& corners, con
   const bool has_texture = kinds.texture && !corners.texture.empty();
   const std::vector<int> poles = has_texture ? differences.find_poles() : std::vector<int>();
   const auto texture_differs = [&](int edge) {
-    return has_texture && std::ranges::any_of(c.edges[at(edge)], [&](int v) {
+    return has_texture && std::ranges::any_of(c.edges[edge], [&](int v) {
              const bool is_pole = std::ranges::binary_search(poles, v);
              return differences.differ_at(edge, is_pole ? c.other_end(edge, v) : v);
            });
   };
   const auto labels_differ = [&](std::size_t edge, LabelKind kind) {
     const auto& [left, right] = c.edge_faces[edge];
-    const std::size_t a = at(memory_order.order.old_face[at(left)]),
-                      b = at(memory_order.order.old_face[at(right)]);
+    const std::size_t a = memory_order.order.old_face[left], b = memory_order.order.old_face[right];
     return std::ranges::any_of(faces, [&](const FaceChannel& channel) {
       return channel.kind == kind && channel.values[a] != channel.values[b];
     });
   };
   Seams seams;
-  for (const int v : poles) seams.poles.push_back(memory_order.order.old_vertex[at(v)]);
+  for (const int v : poles) seams.poles.push_back(memory_order.order.old_vertex[v]);
   if (corners.texture.empty() && faces.empty()) return seams;
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
     if (c.is_boundary_edge(static_cast<int>(e))) continue;
@@ -47,7 +38,7 @@ Seams find_seams(const MemoryOrder& memory_order, const CornerData& corners, con
     if (!by_texture && !by_material && !by_group) continue;
     const auto& [a, b] = c.edges[e];
     seams.edges.push_back(static_cast<int>(e));
-    seams.ends.push_back({memory_order.order.old_vertex[at(a)], memory_order.order.old_vertex[at(b)]});
+    seams.ends.push_back({memory_order.order.old_vertex[a], memory_order.order.old_vertex[b]});
   }
   return seams;
 }

@@ -16,6 +16,12 @@ using Mat3X = Eigen::Matrix3Xd;  // one column per vertex
 using Triangle = std::array<int, 3>;  // vertex ids, counter-clockwise as seen from outside
 using Edge = std::array<int, 2>;      // vertex ids
 
+/// Index of the vertex among the corners of the face, or of an edge among its edges. Pre-condition: it is one
+/// of them.
+inline std::size_t corner_of(const Triangle& face, int vertex) {
+  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
+}
+
 /// Value and gradient of a scalar field at a point.
 struct FieldSample {
   double value = 0;

@@ -101,25 +101,24 @@ int vertex_at(const SurfacePoint& place, const Adjacency& c) {
 }
 
 /// The value at the vertex of the input of its face in the direction of x; -1 for none.
-int value_towards(const CornerValues& values, const Remeshed& meshes, int vertex, const Vec3& x) {
+int value_towards(const CornerDifferences& values, const ChartedSurface& input, int vertex, const Vec3& x) {
   constexpr double near = .01;  // of the shortest edge there
-  const Mat3X& points = meshes.input.points;
-  const Adjacency& c = meshes.input.adjacency;
+  const Mat3X& points = input.points;
+  const Adjacency& c = input.adjacency;
   double shortest = std::numeric_limits<double>::infinity();
   for (const int n : c.vertex_neighbours[vertex])
     shortest = std::min(shortest, (points.col(n) - points.col(vertex)).norm());
   const Vec3 way = (x - points.col(vertex)).stableNormalized();
   const int face = locate(points, c, points.col(vertex) + near * shortest * way, vertex).face;
-  const Triangle& t = c.faces[face];
-  for (std::size_t k = 0; k < 3; ++k)
-    if (t[k] == vertex) return values.corners[meshes.input_order.order.old_face[face]][k];
-  return -1;
+  const bool is_at_vertex = std::ranges::find(c.faces[face], vertex) != c.faces[face].end();
+  return is_at_vertex ? values.value_in(face, vertex) : -1;
 }
 
 /// Gives each face at a pole of the input a value of its own there.
 void set_values_at_poles(const CornerValues& values, const ChartPlaces& places, const Remeshed& meshes,
                          CornerValues& result) {
-  const std::vector<int> poles = CornerDifferences(meshes.input_order, values).find_poles();
+  const CornerDifferences differences(meshes.input_order, values);
+  const std::vector<int> poles = differences.find_poles();
   if (poles.empty()) return;
   const Adjacency& c = meshes.result.adjacency;
   const Mat3X& points = meshes.result.points;
@@ -132,7 +131,7 @@ void set_values_at_poles(const CornerValues& values, const ChartPlaces& places, 
       if (corner < 0 || !std::ranges::binary_search(poles, pole)) continue;
       const Triangle& t = c.faces[f];
       const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
-      const int value = value_towards(values, meshes, pole, centre);
+      const int value = value_towards(differences, meshes.input, pole, centre);
       if (value < 0) continue;
       corner = static_cast<int>(result.values.cols() + std::ssize(added));
       added.push_back(values.values.col(value));
@@ -158,14 +157,13 @@ bool are_parallel(const Vec3& a, const Vec3& b, double degrees) {
 }
 
 /// Whether the normals of nearly all edges of the input differ on both sides.
-bool is_hard_everywhere(const CornerValues& normals, const ChartedSurface& surface,
-                        const Permutation& order) {
+bool is_hard_everywhere(const CornerValues& normals, const MemoryOrder& order) {
   constexpr double nearly_all = .9, half_a_degree = .5;
-  const Adjacency& c = surface.adjacency;
+  const Adjacency& c = *order.adjacency;
+  const CornerDifferences differences(order, normals);
   std::size_t inner = 0, hard = 0;
   const auto normal_at = [&](int face, int vertex) -> Vec3 {
-    const Triangle &t = c.faces[face], &values = normals.corners[order.old_face[face]];
-    const int value = values[t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2];
+    const int value = differences.value_in(face, vertex);
     return value < 0 ? Vec3(Vec3::Zero()) : Vec3(normals.values.col(value));
   };
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
@@ -192,7 +190,7 @@ CornerValues carry_normals(const CornerValues& normals, const ChartPlaces& place
   const IntLists polygons = as_polygons(faces);
   const Mat3X points = meshes.result_order.scatter(meshes.result.points),
               nowhere = Mat3X::Constant(3, points.cols(), std::numeric_limits<double>::quiet_NaN());
-  if (is_hard_everywhere(normals, meshes.input, meshes.input_order.order)) {
+  if (is_hard_everywhere(normals, meshes.input_order)) {
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (result.corners[f][0] >= 0) result.corners[f].fill(static_cast<int>(f));
     result.values = renew_polygon_normals({polygons, nowhere, points}).values;

@@ -57,7 +57,7 @@ class EarClipper {
       int ear = best_ear();
       if (ear < 0) {
         for (int i = 0; i < n; ++i)
-          if (live_[at(i)]) push_if_ear(i);  // the corner that blocked them may be clipped
+          if (live_[i]) push_if_ear(i);  // the corner that blocked them may be clipped
         ear = best_ear();
       }
       clean &= ear >= 0;
@@ -65,26 +65,25 @@ class EarClipper {
     }
     const int last = next_live(0);
     clean &= shape_at(last) > straight;
-    out.push_back({previous_[at(last)], last, next_[at(last)]});
+    out.push_back({previous_[last], last, next_[last]});
     return clean;
   }
 
  private:
   using Candidate = std::tuple<double, int, int>;  // shape, -corner (lower corners first), stamp
 
-  static size_t at(int i) { return static_cast<size_t>(i); }
-  const Vec2& point(int i) const { return (*plane_)[at(i)]; }
-  double shape_at(int i) const { return shape(point(previous_[at(i)]), point(i), point(next_[at(i)])); }
+  const Vec2& point(int i) const { return (*plane_)[i]; }
+  double shape_at(int i) const { return shape(point(previous_[i]), point(i), point(next_[i])); }
 
   void start(int n) {
-    previous_.resize(at(n));
-    next_.resize(at(n));
-    live_.assign(at(n), true);
-    stamp_.assign(at(n), 0);
+    previous_.resize(n);
+    next_.resize(n);
+    live_.assign(n, true);
+    stamp_.assign(n, 0);
     candidates_ = {};
     for (int i = 0; i < n; ++i) {
-      previous_[at(i)] = (i + n - 1) % n;
-      next_[at(i)] = (i + 1) % n;
+      previous_[i] = (i + n - 1) % n;
+      next_[i] = (i + 1) % n;
     }
     blockers_.clear();
     for (int i = 0; i < n; ++i)
@@ -96,10 +95,10 @@ class EarClipper {
   // need testing.
   bool is_ear(int i) const {
     if (shape_at(i) <= straight) return false;
-    const Vec2 &a = point(previous_[at(i)]), &b = point(i), &c = point(next_[at(i)]);
+    const Vec2 &a = point(previous_[i]), &b = point(i), &c = point(next_[i]);
     for (const int k : blockers_) {
       const Vec2& p = point(k);
-      if (!live_[at(k)] || k == previous_[at(i)] || k == next_[at(i)] || p == a || p == b || p == c) continue;
+      if (!live_[k] || k == previous_[i] || k == next_[i] || p == a || p == b || p == c) continue;
       if (turn(a, b, p) >= -straight && turn(b, c, p) >= -straight && turn(c, a, p) >= -straight)
         return false;
     }
@@ -107,38 +106,38 @@ class EarClipper {
   }
 
   void push_if_ear(int i) {
-    ++stamp_[at(i)];
-    if (is_ear(i)) candidates_.emplace(shape_at(i), -i, stamp_[at(i)]);
+    ++stamp_[i];
+    if (is_ear(i)) candidates_.emplace(shape_at(i), -i, stamp_[i]);
   }
 
   int best_ear() {
     while (!candidates_.empty()) {
       const auto [quality, corner, stamp] = candidates_.top();
       candidates_.pop();
-      if (live_[at(-corner)] && stamp == stamp_[at(-corner)]) return -corner;
+      if (live_[-corner] && stamp == stamp_[-corner]) return -corner;
     }
     return -1;
   }
 
   int next_live(int i) const {
-    while (!live_[at(i)]) ++i;
+    while (!live_[i]) ++i;
     return i;
   }
 
   int best_shaped_corner() const {
     int best = next_live(0);
     for (int i = 0; i < static_cast<int>(live_.size()); ++i)
-      if (live_[at(i)] && shape_at(i) > shape_at(best)) best = i;
+      if (live_[i] && shape_at(i) > shape_at(best)) best = i;
     return best;
   }
 
   void cut(int ear, std::vector<Triangle>& out) {
-    const int before = previous_[at(ear)], after = next_[at(ear)];
+    const int before = previous_[ear], after = next_[ear];
     out.push_back({before, ear, after});
-    live_[at(ear)] = false;
-    next_[at(before)] = after;
-    previous_[at(after)] = before;
-    std::erase_if(blockers_, [&](int k) { return !live_[at(k)] || shape_at(k) > straight; });
+    live_[ear] = false;
+    next_[before] = after;
+    previous_[after] = before;
+    std::erase_if(blockers_, [&](int k) { return !live_[k] || shape_at(k) > straight; });
     push_if_ear(before);
     push_if_ear(after);
   }
@@ -202,6 +201,20 @@ bool misread_as_fans(const Mat3X& points, const IntLists& polygons,
     for (size_t k = 2; k < corners.size(); ++k) of_fans += twice_area(corners[0], corners[k - 1], corners[k]);
   }
   return of_fans > 1.25 * area;
+}
+
+std::vector<Triangle> items_of_triangles(const TriangulatedPolygons& triangulation, const IntLists& polygons,
+                                         const std::vector<int>& of_corners) {
+  std::vector<Triangle> items(triangulation.triangles.size());
+  for (size_t t = 0; t < items.size(); ++t) {
+    const int polygon = triangulation.polygon[t];
+    const auto corners = polygons[polygon];
+    for (size_t k = 0; k < 3; ++k) {
+      const auto corner = std::ranges::find(corners, triangulation.triangles[t][k]) - corners.begin();
+      items[t][k] = of_corners[polygons.first[polygon] + corner];
+    }
+  }
+  return items;
 }
 
 void append_warnings(const TriangulatedPolygons& triangulation, const std::string& name,

@@ -26,6 +26,10 @@ struct TriangulatedPolygons {
 /// Pre-condition: corners are columns of `points`; every polygon has at least three.
 TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons);
 
+/// The items at the corners of the triangles, given one for each corner of the polygons, in their order.
+std::vector<Triangle> items_of_triangles(const TriangulatedPolygons& triangulation, const IntLists& polygons,
+                                         const std::vector<int>& of_corners);
+
 /// Whether the polygons make another surface where each is cut as a fan from its first corner, as simple
 /// readers do: one with more than 1.25 times the area, because fans of concave polygons overlap.
 bool misread_as_fans(const Mat3X& points, const IntLists& polygons,

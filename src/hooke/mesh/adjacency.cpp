@@ -34,7 +34,7 @@ void collect(int vertex, std::span<const int> its_faces, const std::vector<Trian
   ring.clear();
   for (int f : its_faces) {
     const Triangle& t = faces[f];
-    const int k = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2, before = (k + 2) % 3;
+    const int k = static_cast<int>(corner_of(t, vertex)), before = (k + 2) % 3;
     ring.push_back({3 * f + k, 3 * f + before, t[(k + 1) % 3], t[before]});
   }
   sort_by_previous(ring);

@@ -13,21 +13,17 @@
 namespace hooke {
 namespace {
 
-std::size_t at(int i) {
-  return i;
-}
-
 Vec3 centre_of(const ChartedSurface& surface, int face) {
-  const Triangle& t = surface.adjacency.faces[at(face)];
+  const Triangle& t = surface.adjacency.faces[face];
   return (surface.points.col(t[0]) + surface.points.col(t[1]) + surface.points.col(t[2])) / 3;
 }
 
 /// Calls use(neighbour) for the faces across the edges of a face that are no features.
 template <typename Use>
 void for_neighbours(const Adjacency& c, int face, const Use& use) {
-  for (const int e : c.face_edges[at(face)]) {
+  for (const int e : c.face_edges[face]) {
     if (c.is_feature_edge(e)) continue;
-    const auto& [left, right] = c.edge_faces[at(e)];
+    const auto& [left, right] = c.edge_faces[e];
     use(left == face ? right : left);
   }
 }
@@ -48,8 +44,8 @@ Charts charts_of(const Adjacency& c) {
       const int face = front.back();
       front.pop_back();
       for_neighbours(c, face, [&](int next) {
-        if (charts.of_faces[at(next)] >= 0) return;
-        charts.of_faces[at(next)] = charts.count;
+        if (charts.of_faces[next] >= 0) return;
+        charts.of_faces[next] = charts.count;
         front.push_back(next);
       });
     }
@@ -87,30 +83,29 @@ class PlaceSearch {
     constexpr std::size_t max_votes = 64;
     const Charts charts = charts_of(result_.adjacency), input_charts = charts_of(input_.adjacency);
     std::vector<double> areas(charts.of_faces.size());
-    std::vector<std::vector<int>> faces(at(charts.count));
+    std::vector<std::vector<int>> faces(charts.count);
     for (std::size_t f = 0; f < areas.size(); ++f) {
       areas[f] = doubled_area_vector(result_.points, result_.adjacency.faces[f]).norm();
-      faces[at(charts.of_faces[f])].push_back(static_cast<int>(f));
+      faces[charts.of_faces[f]].push_back(static_cast<int>(f));
     }
     std::vector<int> seeds(faces.size());
     parallel_for(faces.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t chart = begin; chart < end; ++chart) {
         std::vector<int>& larger = faces[chart];
         const auto last = larger.begin() + static_cast<std::ptrdiff_t>(std::min(larger.size(), max_votes));
-        std::ranges::partial_sort(larger, last, [&](int f, int g) {
-          return std::pair(-areas[at(f)], f) < std::pair(-areas[at(g)], g);
-        });
+        std::ranges::partial_sort(
+            larger, last, [&](int f, int g) { return std::pair(-areas[f], f) < std::pair(-areas[g], g); });
         larger.resize(std::min(larger.size(), max_votes));
         std::map<int, double> votes;
         std::vector<int> chart_of;
         for (const int f : larger) {
-          places_[at(f)] = closest(f);
-          chart_of.push_back(input_charts.of_faces[at(places_[at(f)].face)]);
-          votes[chart_of.back()] += areas[at(f)];
+          places_[f] = closest(f);
+          chart_of.push_back(input_charts.of_faces[places_[f].face]);
+          votes[chart_of.back()] += areas[f];
         }
         const int winner =
             std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second; })->first;
-        seeds[chart] = larger[at(static_cast<int>(std::ranges::find(chart_of, winner) - chart_of.begin()))];
+        seeds[chart] = larger[std::ranges::find(chart_of, winner) - chart_of.begin()];
       }
     });
     is_found_.assign(places_.size(), 0);
@@ -122,11 +117,10 @@ class PlaceSearch {
     const Vec3 x = centre_of(result_, face);
     SurfacePoint best;
     double least = std::numeric_limits<double>::infinity();
-    for (const int v : result_.adjacency.faces[at(face)]) {
-      const int hint = near_.empty() ? -1 : near_[at(v)];
+    for (const int v : result_.adjacency.faces[face]) {
+      const int hint = near_.empty() ? -1 : near_[v];
       if (hint < 0) continue;
-      const SurfacePoint place =
-          locate(input_.points, input_.adjacency, x, input_.adjacency.faces[at(hint)][0]);
+      const SurfacePoint place = locate(input_.points, input_.adjacency, x, input_.adjacency.faces[hint][0]);
       const double distance = squared_distance(place, x);
       if (distance >= least) continue;
       least = distance;
@@ -136,9 +130,9 @@ class PlaceSearch {
   }
 
   SurfacePoint closest_in_space(int face, const Vec3& x) const {
-    const Vec3 normal = doubled_area_vector(result_.points, result_.adjacency.faces[at(face)]);
+    const Vec3 normal = doubled_area_vector(result_.points, result_.adjacency.faces[face]);
     const auto same_side = [&](int f) {  // the other side of a thin wall may be nearer
-      return doubled_area_vector(input_.points, input_.adjacency.faces[at(f)]).dot(normal) > 0;
+      return doubled_area_vector(input_.points, input_.adjacency.faces[f]).dot(normal) > 0;
     };
     int there = tree_.closest(x, same_side).face;
     if (there < 0) there = tree_.closest(x).face;
@@ -146,7 +140,7 @@ class PlaceSearch {
   }
 
   SurfacePoint on_face(int face, const Vec3& x) const {
-    const Triangle& t = input_.adjacency.faces[at(face)];
+    const Triangle& t = input_.adjacency.faces[face];
     return {face, closest_point_on_triangle(input_.points.col(t[0]), input_.points.col(t[1]),
                                             input_.points.col(t[2]), x)
                       .weights};
@@ -156,23 +150,23 @@ class PlaceSearch {
   SurfacePoint from(const SurfacePoint& near, const Vec3& x) const {
     Eigen::Index corner;
     near.weights.maxCoeff(&corner);
-    return locate(cut_points_, cut_, x, cut_.faces[at(near.face)][corner]);
+    return locate(cut_points_, cut_, x, cut_.faces[near.face][corner]);
   }
 
   /// Finds the places of the faces of a chart, from that of one of them.
   void flood(int seed) {
-    is_found_[at(seed)] = 1;
+    is_found_[seed] = 1;
     std::vector<int> front = {seed};
     for (std::size_t i = 0; i < front.size(); ++i)
       for_neighbours(result_.adjacency, front[i], [&](int next) {
-        if (std::exchange(is_found_[at(next)], 1)) return;
-        places_[at(next)] = from(places_[at(front[i])], centre_of(result_, next));
+        if (std::exchange(is_found_[next], 1)) return;
+        places_[next] = from(places_[front[i]], centre_of(result_, next));
         front.push_back(next);
       });
   }
 
   double squared_distance(const SurfacePoint& place, const Vec3& x) const {
-    const Triangle& t = input_.adjacency.faces[at(place.face)];
+    const Triangle& t = input_.adjacency.faces[place.face];
     Vec3 point = Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k)
       point += place.weights[static_cast<Eigen::Index>(k)] * input_.points.col(t[k]);
@@ -185,7 +179,7 @@ class PlaceSearch {
   SurfacePoint beside_feature(int face, const Vec3& x) const {
     constexpr double inside = .02;  // of the way to the centre
     constexpr int max_edges = 3;
-    const SurfacePoint start = from(places_[at(face)], x + inside * (centre_of(result_, face) - x));
+    const SurfacePoint start = from(places_[face], x + inside * (centre_of(result_, face) - x));
     SurfacePoint best = on_face(start.face, x);
     double least = squared_distance(best, x);
     std::vector<int> reached = {start.face};
@@ -211,7 +205,7 @@ class PlaceSearch {
   std::vector<SurfacePoint> places_of_wedges() const {
     const Adjacency& c = result_.adjacency;
     const IntLists faces = faces_of_wedges();
-    std::vector<SurfacePoint> places(at(c.wedge_count()));
+    std::vector<SurfacePoint> places(c.wedge_count());
     parallel_for(places.size(), 256, [&](std::size_t begin, std::size_t end) {
       for (std::size_t wedge = begin; wedge < end; ++wedge) {
         const int v = c.vertex_of_wedge(static_cast<int>(wedge));
@@ -219,7 +213,7 @@ class PlaceSearch {
         const auto here = faces[static_cast<int>(wedge)];
         if (here.empty()) continue;
         if (std::ranges::none_of(c.vertex_edges[v], [&](int e) { return c.is_crease(e); })) {
-          places[wedge] = from(places_[at(here[0])], x);
+          places[wedge] = from(places_[here[0]], x);
           continue;
         }
         double least = std::numeric_limits<double>::infinity();

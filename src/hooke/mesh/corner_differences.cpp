@@ -9,16 +9,14 @@ CornerDifferences::CornerDifferences(const MemoryOrder& memory_order, const Corn
     tolerance_ = share_of_range * (values.values.rowwise().maxCoeff() - values.values.rowwise().minCoeff());
 }
 
+int CornerDifferences::value_in(int face, int vertex) const {
+  const Triangle& values = values_.corners[memory_order_.order.old_face[face]];
+  return values[corner_of(memory_order_.adjacency->faces[face], vertex)];
+}
+
 bool CornerDifferences::differ_at(int edge, int vertex) const {
-  const Adjacency& c = *memory_order_.adjacency;
-  const auto value_in = [&](int face) {
-    const Triangle& t = c.faces[face];
-    const int id = memory_order_.order.old_face[face];
-    const Triangle& values = values_.corners[id];
-    return values[t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2];
-  };
-  const auto& [left, right] = c.edge_faces[edge];
-  const int a = value_in(left), b = value_in(right);
+  const auto& [left, right] = memory_order_.adjacency->edge_faces[edge];
+  const int a = value_in(left, vertex), b = value_in(right, vertex);
   if (a == b) return false;
   if (a < 0 || b < 0) return true;
   return ((values_.values.col(a) - values_.values.col(b)).cwiseAbs().array() > tolerance_.array()).any();

@@ -86,7 +86,7 @@ VertexCurvature measure_curvature(const Mat3X& points, const Adjacency& adjacenc
       RingSums sums;
       for (int f : ring) {
         const Triangle& t = adjacency.faces[f];
-        const size_t k = t[0] == static_cast<int>(v) ? 0 : t[1] == static_cast<int>(v) ? 1 : 2;
+        const size_t k = corner_of(t, static_cast<int>(v));
         add_face(points.col(t[k]), points.col(t[(k + 1) % 3]), points.col(t[(k + 2) % 3]), sums);
       }
       if (!sums.defined || !(sums.mixed_area > 0)) continue;
@@ -230,7 +230,7 @@ bool is_tip(const Mat3X& points, const Adjacency& c, int vertex) {
   double sum = 0;
   for (int f : c.vertex_faces[vertex]) {
     const Triangle& t = c.faces[f];
-    const std::size_t k = std::ranges::find(t, vertex) - t.begin();
+    const std::size_t k = corner_of(t, vertex);
     const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(vertex),
                b = points.col(t[(k + 2) % 3]) - points.col(vertex);
     sum += std::atan2(a.cross(b).norm(), a.dot(b));

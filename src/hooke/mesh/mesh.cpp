@@ -46,9 +46,8 @@ void link_vertices(const Adjacency& c, const MeshIds& ids, TriMesh& mesh) {
         mesh.set_isolated(vertex);
         continue;
       }
-      const Triangle& t = c.faces[ring.front()];
-      const size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-      mesh.set_halfedge_handle(vertex, half_edge(c, static_cast<size_t>(ring.front()), k));
+      const size_t f = ring.front();
+      mesh.set_halfedge_handle(vertex, half_edge(c, f, corner_of(c.faces[f], v)));
     }
   });
 }
@@ -175,13 +174,15 @@ std::vector<Triangle> triangles_of(const TriMesh& mesh) {
   return triangles;
 }
 
-MemoryOrder find_memory_order(const TriMesh& mesh) {
-  const int n = static_cast<int>(mesh.n_vertices());
-  const std::vector<Triangle> faces = triangles_of(mesh);
-  MemoryOrder memory_order{reorder(faces, bfs_cluster_order(n, faces)), nullptr};
-  memory_order.adjacency =
-      std::make_shared<const Adjacency>(make_adjacency(n, std::exchange(memory_order.order.faces, {})));
+MemoryOrder find_memory_order(int vertex_count, const std::vector<Triangle>& faces) {
+  MemoryOrder memory_order{reorder(faces, bfs_cluster_order(vertex_count, faces)), nullptr};
+  memory_order.adjacency = std::make_shared<const Adjacency>(
+      make_adjacency(vertex_count, std::exchange(memory_order.order.faces, {})));
   return memory_order;
+}
+
+MemoryOrder find_memory_order(const TriMesh& mesh) {
+  return find_memory_order(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
 }
 
 }  // namespace hooke

@@ -89,7 +89,8 @@ struct MemoryOrder {
   std::shared_ptr<const Adjacency> adjacency;
 };
 
-/// The memory order of the mesh, and its adjacency in that order.
+/// The memory order of a mesh, and its adjacency in that order. Pre-condition as for make_adjacency().
+MemoryOrder find_memory_order(int vertex_count, const std::vector<Triangle>& faces);
 MemoryOrder find_memory_order(const TriMesh& mesh);
 
 }  // namespace hooke

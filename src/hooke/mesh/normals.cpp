@@ -18,7 +18,7 @@ Vec3 unit_or_zero(const Vec3& v) {
 
 /// Normal of the face weighted for its corner at `v`: sin(angle) / (product of the two edges there).
 Vec3 weighted_corner_normal(const Eigen::Ref<const Mat3X>& points, const Triangle& face, int v) {
-  const std::size_t k = face[0] == v ? 0 : face[1] == v ? 1 : 2;
+  const std::size_t k = corner_of(face, v);
   const Vec3 a = points.col(face[(k + 1) % 3]) - points.col(v);
   const Vec3 b = points.col(face[(k + 2) % 3]) - points.col(v);
   const double weight = a.squaredNorm() * b.squaredNorm();

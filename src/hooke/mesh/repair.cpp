@@ -19,10 +19,6 @@
 namespace hooke {
 namespace {
 
-size_t at(int i) {
-  return i;
-}
-
 std::array<int, 3> sorted(Triangle t) {
   std::ranges::sort(t);
   return t;
@@ -33,14 +29,14 @@ std::vector<int> components_of(const std::vector<Triangle>& triangles, size_t ve
   std::vector<int> parent(vertices);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {
-    while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
   for (const Triangle& t : triangles)
-    for (size_t k = 1; k < 3; ++k) parent[at(root(t[k]))] = root(t[0]);
+    for (size_t k = 1; k < 3; ++k) parent[root(t[k])] = root(t[0]);
   std::vector<int> first(vertices, -1), component(triangles.size());
   for (size_t f = 0; f < triangles.size(); ++f) {
-    int& smallest = first[at(root(triangles[f][0]))];
+    int& smallest = first[root(triangles[f][0])];
     if (smallest < 0) smallest = static_cast<int>(f);
     component[f] = smallest;
   }
@@ -73,7 +69,7 @@ class Repair {
       : options_(options), source_(source) {
     r_.points = points;
     r_.triangles = std::move(triangles);
-    r_.origin.vertex.resize(at(static_cast<int>(points.cols())));
+    r_.origin.vertex.resize(points.cols());
     std::iota(r_.origin.vertex.begin(), r_.origin.vertex.end(), 0);
     r_.origin.merged = r_.origin.vertex;
     r_.origin.face.resize(r_.triangles.size());
@@ -113,22 +109,22 @@ class Repair {
   std::string vertex_places(const std::vector<int>& vertices) const {
     std::string text;
     for (size_t k = 0; k < std::min(places_told, vertices.size()); ++k)
-      text += (k == 0 ? "vertices " : ", ") + std::to_string(r_.origin.vertex[at(vertices[k])]);
+      text += (k == 0 ? "vertices " : ", ") + std::to_string(r_.origin.vertex[vertices[k]]);
     return text;
   }
 
   std::string edge_places(const std::vector<Edge>& edges) const {
     std::string text;
     for (size_t k = 0; k < std::min(places_told, edges.size()); ++k)
-      text += fmt::format("{}{}-{}", k == 0 ? "edges " : ", ", r_.origin.vertex[at(edges[k][0])],
-                          r_.origin.vertex[at(edges[k][1])]);
+      text += fmt::format("{}{}-{}", k == 0 ? "edges " : ", ", r_.origin.vertex[edges[k][0]],
+                          r_.origin.vertex[edges[k][1]]);
     return text;
   }
 
   std::string face_places(const std::vector<int>& faces) const {
     std::string text;
     for (size_t k = 0; k < std::min(places_told, faces.size()); ++k)
-      text += (k == 0 ? "faces " : ", ") + face_text(r_.origin.face[at(faces[k])], source_);
+      text += (k == 0 ? "faces " : ", ") + face_text(r_.origin.face[faces[k]], source_);
     return text;
   }
 
@@ -140,8 +136,8 @@ class Repair {
     for (size_t v = 0; v < into.size(); ++v)
       if (into[v] != static_cast<int>(v)) merged.push_back(static_cast<int>(v));
     for (Triangle& t : r_.triangles)
-      for (int& v : t) v = into[at(v)];
-    for (int& v : r_.origin.merged) v = into[at(v)];
+      for (int& v : t) v = into[v];
+    for (int& v : r_.origin.merged) v = into[v];
     tell("vertices_welded", merged.size(), "vertices merged with others that lie where they do",
          vertex_places(merged));
   }
@@ -171,7 +167,7 @@ class Repair {
   void remove(const std::vector<int>& faces) {
     size_t kept = 0, next = 0;
     for (size_t f = 0; f < r_.triangles.size(); ++f) {
-      if (next < faces.size() && at(faces[next]) == f) {
+      if (next < faces.size() && faces[next] == static_cast<int>(f)) {
         ++next;
         continue;
       }
@@ -185,7 +181,7 @@ class Repair {
   }
 
   bool repeats_a_vertex(int f) const {
-    const auto& [a, b, c] = r_.triangles[at(f)];
+    const auto& [a, b, c] = r_.triangles[f];
     return a == b || b == c || c == a;
   }
 
@@ -199,30 +195,28 @@ class Repair {
     std::iota(order.begin(), order.end(), 0);
     std::vector<std::array<int, 3>> keys;
     for (const Triangle& t : r_.triangles) keys.push_back(sorted(t));
-    std::ranges::sort(order,
-                      [&](int a, int b) { return std::tie(keys[at(a)], a) < std::tie(keys[at(b)], b); });
+    std::ranges::sort(order, [&](int a, int b) { return std::tie(keys[a], a) < std::tie(keys[b], b); });
     std::vector<char> duplicate(order.size(), 0);
-    for (size_t i = 1; i < order.size(); ++i)
-      duplicate[at(order[i])] = keys[at(order[i])] == keys[at(order[i - 1])];
+    for (size_t i = 1; i < order.size(); ++i) duplicate[order[i]] = keys[order[i]] == keys[order[i - 1]];
     drop_faces("duplicate_faces_dropped", "faces dropped whose vertices another face has",
-               [&](int f) { return duplicate[at(f)] != 0; });
+               [&](int f) { return duplicate[f] != 0; });
   }
 
   void drop_small_components() {
     if (options_.drop_components <= 0 || r_.triangles.empty()) return;
-    const std::vector<int> component = components_of(r_.triangles, at(static_cast<int>(r_.points.cols())));
+    const std::vector<int> component = components_of(r_.triangles, r_.points.cols());
     std::vector<double> area(component.size(), 0);
     double total = 0;
     for (size_t f = 0; f < component.size(); ++f) {
       const double own = area_of(r_.points, r_.triangles[f]);
-      area[at(component[f])] += own;
+      area[component[f]] += own;
       total += own;
     }
     std::vector<int> faces, firsts;
     for (int f = 0; f < static_cast<int>(component.size()); ++f) {
-      if (area[at(component[at(f)])] >= options_.drop_components * total) continue;
+      if (area[component[f]] >= options_.drop_components * total) continue;
       faces.push_back(f);
-      if (component[at(f)] == f) firsts.push_back(f);
+      if (component[f] == f) firsts.push_back(f);
     }
     tell("components_dropped", firsts.size(),
          fmt::format("components dropped, {} faces, with less than {:.4g} % of the area each", faces.size(),
@@ -234,15 +228,15 @@ class Repair {
   void drop_unused_vertices() {
     std::vector<char> used(r_.origin.vertex.size(), 0);
     for (const Triangle& t : r_.triangles)
-      for (const int v : t) used[at(v)] = 1;
+      for (const int v : t) used[v] = 1;
     if (!options_.repair)  // vertices in no face stay, but for those that were merged
       for (size_t v = 0; v < used.size(); ++v) used[v] |= r_.origin.merged[v] == static_cast<int>(v);
     std::vector<int> fresh(used.size(), -1), loose, source;
     for (int v = 0; v < static_cast<int>(used.size()); ++v) {
-      if (used[at(v)]) {
-        fresh[at(v)] = static_cast<int>(source.size());
+      if (used[v]) {
+        fresh[v] = static_cast<int>(source.size());
         source.push_back(v);
-      } else if (v < static_cast<int>(r_.origin.merged.size()) && r_.origin.merged[at(v)] == v) {
+      } else if (v < static_cast<int>(r_.origin.merged.size()) && r_.origin.merged[v] == v) {
         loose.push_back(v);
       }
     }
@@ -252,12 +246,12 @@ class Repair {
     std::vector<int> origin;
     for (const int v : source) {
       points.col(static_cast<Eigen::Index>(origin.size())) = r_.points.col(v);
-      origin.push_back(r_.origin.vertex[at(v)]);
+      origin.push_back(r_.origin.vertex[v]);
     }
     r_.points = std::move(points);
     r_.origin.vertex = std::move(origin);
     for (Triangle& t : r_.triangles)
-      for (int& v : t) v = fresh[at(v)];
+      for (int& v : t) v = fresh[v];
   }
 
   // Cutting and orienting.
@@ -272,12 +266,12 @@ class Repair {
          "vertices split in which separate parts only touched", vertex_places(sheets.split_vertices));
     tell("faces_flipped", sheets.flipped_faces.size(),
          "faces turned over to be oriented like their neighbours", face_places(sheets.flipped_faces));
-    for (const int f : sheets.flipped_faces) r_.origin.flipped[at(f)] ^= 1;
+    for (const int f : sheets.flipped_faces) r_.origin.flipped[f] ^= 1;
     Mat3X points(3, static_cast<Eigen::Index>(sheets.source.size()));
     std::vector<int> origin;
     for (const int v : sheets.source) {
       points.col(static_cast<Eigen::Index>(origin.size())) = r_.points.col(v);
-      origin.push_back(r_.origin.vertex[at(v)]);
+      origin.push_back(r_.origin.vertex[v]);
     }
     r_.points = std::move(points);
     r_.origin.vertex = std::move(origin);
@@ -306,8 +300,8 @@ class Repair {
       for (size_t k = 0; k < 3; ++k) {
         const int from = r_.triangles[f][k], to = r_.triangles[f][(k + 1) % 3];
         if (twice.contains(key(from, to))) continue;
-        b.next[at(from)] = to;
-        b.face[at(from)] = static_cast<int>(f);
+        b.next[from] = to;
+        b.face[from] = static_cast<int>(f);
       }
     return b;
   }
@@ -319,13 +313,13 @@ class Repair {
     std::vector<int> filled, left;  // a vertex of each hole
     size_t faces = 0;
     for (int start = 0; start < static_cast<int>(seen.size()); ++start) {
-      if (seen[at(start)] || boundary.next[at(start)] < 0) continue;
+      if (seen[start] || boundary.next[start] < 0) continue;
       std::vector<int> loop;
-      for (int v = start; v >= 0 && !seen[at(v)]; v = boundary.next[at(v)]) {
-        seen[at(v)] = 1;
+      for (int v = start; v >= 0 && !seen[v]; v = boundary.next[v]) {
+        seen[v] = 1;
         loop.push_back(v);
       }
-      if (loop.size() > at(options_.fill_holes)) continue;
+      if (std::ssize(loop) > options_.fill_holes) continue;
       const size_t added = fill(loop, boundary);
       (added > 0 ? filled : left).push_back(start);
       faces += added;
@@ -338,8 +332,8 @@ class Repair {
 
   /// Fills the hole inside a boundary. Returns the number of new faces.
   size_t fill(std::vector<int> loop, Boundary& boundary) {
-    const int neighbour = boundary.face[at(loop.front())];
-    if (loop.size() == 3 && sorted({loop[0], loop[1], loop[2]}) == sorted(r_.triangles[at(neighbour)]))
+    const int neighbour = boundary.face[loop.front()];
+    if (loop.size() == 3 && sorted({loop[0], loop[1], loop[2]}) == sorted(r_.triangles[neighbour]))
       return 0;  // the outer edges of a single triangle
     if (loop.size() < 3) return 0;
     std::ranges::reverse(loop);
@@ -349,7 +343,7 @@ class Repair {
     for (const Triangle& t : *triangles) {
       for (size_t k = 0; k < 3; ++k) boundary.edges.insert(key(t[k], t[(k + 1) % 3]));
       r_.triangles.push_back(t);
-      r_.origin.face.push_back(r_.origin.face[at(neighbour)]);
+      r_.origin.face.push_back(r_.origin.face[neighbour]);
       r_.origin.flipped.push_back(0);
     }
     return triangles->size();
@@ -369,13 +363,13 @@ class Repair {
     std::vector<int> number(component.size(), -1);
     std::vector<Component> found;
     for (int f = 0; f < static_cast<int>(component.size()); ++f) {
-      int& n = number[at(component[at(f)])];
+      int& n = number[component[f]];
       if (n < 0) {
         n = static_cast<int>(found.size());
         found.emplace_back();
       }
-      Component& c = found[at(n)];
-      const Triangle& t = r_.triangles[at(f)];
+      Component& c = found[n];
+      const Triangle& t = r_.triangles[f];
       c.faces.push_back(f);
       c.triangles.push_back(t);
       const Vec3 origin = r_.points.col(c.triangles.front()[0]);
@@ -384,7 +378,7 @@ class Repair {
                   6;
       for (const int v : t) {
         c.box.extend(Vec3(r_.points.col(v)));
-        c.closed &= boundary.next[at(v)] < 0;
+        c.closed &= boundary.next[v] < 0;
       }
     }
     std::erase_if(found, [](const Component& c) { return !c.closed; });
@@ -418,8 +412,8 @@ class Repair {
          "components are inside out, and too many to tell whether they are cavities: left as they are",
          face_places(left));
     for (const int f : turned) {
-      std::swap(r_.triangles[at(f)][1], r_.triangles[at(f)][2]);
-      r_.origin.flipped[at(f)] ^= 1;
+      std::swap(r_.triangles[f][1], r_.triangles[f][2]);
+      r_.origin.flipped[f] ^= 1;
     }
   }
 
@@ -437,14 +431,14 @@ Repaired repair(const Mat3X& points, std::vector<Triangle> triangles, const Repa
 
 std::vector<int> vertices_from(const MeshOrigin& origin, const std::vector<int>& old, int* lost) {
   std::vector<char> wanted(origin.merged.size(), 0), found(origin.merged.size(), 0);
-  for (const int v : old) wanted[at(origin.merged[at(v)])] = 1;
+  for (const int v : old) wanted[origin.merged[v]] = 1;
   std::vector<int> vertices;
   for (size_t v = 0; v < origin.vertex.size(); ++v) {
-    if (!wanted[at(origin.vertex[v])]) continue;
-    found[at(origin.vertex[v])] = 1;
+    if (!wanted[origin.vertex[v]]) continue;
+    found[origin.vertex[v]] = 1;
     vertices.push_back(static_cast<int>(v));
   }
-  const auto gone = std::ranges::find_if(old, [&](int v) { return !found[at(origin.merged[at(v)])]; });
+  const auto gone = std::ranges::find_if(old, [&](int v) { return !found[origin.merged[v]]; });
   if (lost) *lost = gone == old.end() ? -1 : *gone;
   return vertices;
 }
@@ -453,15 +447,15 @@ std::vector<MapEntry> map_to_old(std::vector<MapEntry> map, const MeshOrigin& or
   if (origin.vertex.empty()) return map;
   const size_t over_holes = origin.face.size() - origin.filled;
   for (MapEntry& entry : map) {
-    if (entry.vertex >= 0) entry.vertex = origin.vertex[at(entry.vertex)];
+    if (entry.vertex >= 0) entry.vertex = origin.vertex[entry.vertex];
     SurfacePoint& point = entry.position;
     if (point.face < 0) continue;
-    if (at(point.face) >= over_holes) {
+    if (static_cast<size_t>(point.face) >= over_holes) {
       point = {};
       continue;
     }
-    if (origin.flipped[at(point.face)]) std::swap(point.weights[1], point.weights[2]);
-    point.face = origin.face[at(point.face)];
+    if (origin.flipped[point.face]) std::swap(point.weights[1], point.weights[2]);
+    point.face = origin.face[point.face];
   }
   return map;
 }

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::size_t sagitta_block = 4096;
 
-std::size_t index_of(int i) {
-  return i;
-}
-
 }  // namespace
 
 std::vector<EdgeArc> edge_arcs(const Mat3X& points, const Adjacency& c) {
@@ -36,10 +32,10 @@ std::vector<EdgeArc> edge_arcs(const Mat3X& points, const Adjacency& c) {
       const auto& [left, right] = c.edge_faces[e];
       const Vec3 n = normals.col(left), m = normals.col(right);
       const double length = (points.col(b) - points.col(a)).norm();
-      const double areas_product = areas[index_of(left)] * areas[index_of(right)];
+      const double areas_product = areas[left] * areas[right];
       if (!(length > 0 && areas_product > 0)) continue;
       const double sine = n.cross(m).norm(), one_plus_cosine = areas_product + n.dot(m);
-      arcs[e].chord = std::min(areas[index_of(left)], areas[index_of(right)]) / length;
+      arcs[e].chord = std::min(areas[left], areas[right]) / length;
       const double denominator = one_plus_cosine + std::hypot(one_plus_cosine, sine);
       arcs[e].sagitta = .5 * arcs[e].chord * (denominator > 0 ? sine / denominator : 1);  // tan(theta / 4)
     }
@@ -51,32 +47,30 @@ std::vector<double> face_sagittas(const std::vector<EdgeArc>& arcs, const Adjace
   std::vector<double> own(c.faces.size()), sagittas(own);
   parallel_for(own.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
-      for (int e : c.face_edges[f]) own[f] += arcs[index_of(e)].sagitta;
+      for (int e : c.face_edges[f]) own[f] += arcs[e].sagitta;
   });
   parallel_for(own.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       sagittas[f] = own[f];
       for (int e : c.face_edges[f])
         if (!c.is_feature_edge(e))
-          for (int other : c.edge_faces[index_of(e)])
-            sagittas[f] = std::max(sagittas[f], own[index_of(other)]);
+          for (int other : c.edge_faces[e]) sagittas[f] = std::max(sagittas[f], own[other]);
     }
   });
   return sagittas;
 }
 
 std::vector<double> vertex_sagittas(const std::vector<double>& of_faces, const Adjacency& c) {
-  std::vector<double> sagittas(index_of(c.vertex_count), 0);
+  std::vector<double> sagittas(c.vertex_count, 0);
   parallel_for(sagittas.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
-      for (int f : c.vertex_faces[static_cast<int>(v)])
-        sagittas[v] = std::max(sagittas[v], of_faces[index_of(f)]);
+      for (int f : c.vertex_faces[static_cast<int>(v)]) sagittas[v] = std::max(sagittas[v], of_faces[f]);
   });
   return sagittas;
 }
 
 std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
-  std::vector<double> spacing(index_of(c.vertex_count));  // the second shortest edge
+  std::vector<double> spacing(c.vertex_count);  // the second shortest edge
   parallel_for(spacing.size(), sagitta_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       double shortest = std::numeric_limits<double>::infinity(), second = shortest;
@@ -95,7 +89,7 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
       double longest = 0, narrowest = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < 3; ++k) {
         longest = std::max(longest, (points.col(t[k]) - points.col(t[(k + 1) % 3])).squaredNorm());
-        narrowest = std::min(narrowest, spacing[index_of(t[k])]);
+        narrowest = std::min(narrowest, spacing[t[k]]);
       }
       unevenness[f] = std::sqrt(longest / narrowest);
     }
@@ -109,18 +103,16 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
   constexpr double sharp = .088;  // tan(40 degrees / 4) / 2
   const auto faces = static_cast<double>(c.faces.size());
   const std::vector<EdgeArc> arcs = edge_arcs(points, c);
-  const auto is_flat = [&](int e) {
-    return arcs[index_of(e)].chord > 0 && arcs[index_of(e)].sagitta <= flat * arcs[index_of(e)].chord;
-  };
-  const auto is_sharp = [&](int e) { return arcs[index_of(e)].sagitta > sharp * arcs[index_of(e)].chord; };
+  const auto is_flat = [&](int e) { return arcs[e].chord > 0 && arcs[e].sagitta <= flat * arcs[e].chord; };
+  const auto is_sharp = [&](int e) { return arcs[e].sagitta > sharp * arcs[e].chord; };
   // Two faces in a plane are a quadrilateral, which a smooth surface, such as one of revolution, has too.
   const bool is_smooth = std::ranges::none_of(
       c.face_edges, [&](const Triangle& edges) { return std::ranges::any_of(edges, is_sharp); });
   const std::ptrdiff_t least_flat = is_smooth ? 2 : 1;
   const auto is_in_facet = [&](const Triangle& edges) {
     return std::ranges::any_of(edges, [&](int e) {
-      return is_flat(e) && std::ranges::any_of(c.edge_faces[index_of(e)], [&](int f) {
-               return std::ranges::count_if(c.face_edges[index_of(f)], is_flat) >= least_flat;
+      return is_flat(e) && std::ranges::any_of(c.edge_faces[e], [&](int f) {
+               return std::ranges::count_if(c.face_edges[f], is_flat) >= least_flat;
              });
     });
   };

@@ -61,15 +61,15 @@ class TurnedSets {
   std::pair<int, bool> root(int face) {  // and whether the face is turned against it
     int top = face;
     bool turned = false;
-    while (parent_[at(top)] != top) {
-      turned ^= turned_[at(top)] != 0;
-      top = parent_[at(top)];
+    while (parent_[top] != top) {
+      turned ^= turned_[top] != 0;
+      top = parent_[top];
     }
-    for (bool rest = turned; parent_[at(face)] != top && face != top;) {  // shortens the way
-      const int up = parent_[at(face)];
-      const bool own = turned_[at(face)] != 0;
-      parent_[at(face)] = top;
-      turned_[at(face)] = rest ? 1 : 0;
+    for (bool rest = turned; parent_[face] != top && face != top;) {  // shortens the way
+      const int up = parent_[face];
+      const bool own = turned_[face] != 0;
+      parent_[face] = top;
+      turned_[face] = rest ? 1 : 0;
       rest ^= own;
       face = up;
     }
@@ -83,8 +83,8 @@ class TurnedSets {
     const auto [root_b, turned_b] = root(b);
     const bool turned = turned_a ^ turned_b ^ against;
     if (root_a == root_b) return !turned;
-    parent_[at(root_b)] = root_a;
-    turned_[at(root_b)] = turned ? 1 : 0;
+    parent_[root_b] = root_a;
+    turned_[root_b] = turned ? 1 : 0;
     return true;
   }
 
@@ -93,20 +93,18 @@ class TurnedSets {
     std::vector<std::array<int, 2>> counts(parent_.size());
     for (int f = 0; f < static_cast<int>(parent_.size()); ++f) {
       const auto [top, turned] = root(f);
-      ++counts[at(top)][turned ? 1 : 0];
+      ++counts[top][turned ? 1 : 0];
     }
     std::vector<char> flips(parent_.size());
     for (int f = 0; f < static_cast<int>(parent_.size()); ++f) {
       const auto [top, turned] = root(f);
-      const bool most_are_turned = counts[at(top)][1] > counts[at(top)][0];
-      flips[at(f)] = turned != most_are_turned;
+      const bool most_are_turned = counts[top][1] > counts[top][0];
+      flips[f] = turned != most_are_turned;
     }
     return flips;
   }
 
  private:
-  static size_t at(int face) { return static_cast<size_t>(face); }
-
   std::vector<int> parent_;
   std::vector<char> turned_;  // against the parent
 };
@@ -135,22 +133,20 @@ class SheetMaker {
   }
 
  private:
-  static size_t at(int i) { return static_cast<size_t>(i); }
-
-  int start_of(Side side) const { return old_[at(face_of(side))][at(side % 3)]; }
-  int end_of(Side side) const { return old_[at(face_of(side))][(at(side % 3) + 1) % 3]; }
+  int start_of(Side side) const { return old_[face_of(side)][side % 3]; }
+  int end_of(Side side) const { return old_[face_of(side)][(side % 3 + 1) % 3]; }
   Edge edge_of(Side side) const {
     return {std::min(start_of(side), end_of(side)), std::max(start_of(side), end_of(side))};
   }
   bool runs_up(Side side) const { return start_of(side) < end_of(side); }  // as in the input
-  bool runs_up_flipped(Side side) const { return runs_up(side) != (flips_[at(face_of(side))] != 0); }
+  bool runs_up_flipped(Side side) const { return runs_up(side) != (flips_[face_of(side)] != 0); }
 
   void pair(Side a, Side b) {
-    partner_[at(a)] = b;
-    partner_[at(b)] = a;
+    partner_[a] = b;
+    partner_[b] = a;
   }
   void cut(Side side) {
-    if (const Side other = std::exchange(partner_[at(side)], -1); other >= 0) partner_[at(other)] = -1;
+    if (const Side other = std::exchange(partner_[side], -1); other >= 0) partner_[other] = -1;
   }
 
   void pair_two(Side a, Side b) {
@@ -180,7 +176,7 @@ class SheetMaker {
     Eigen::Index thin = 0;
     axis.cwiseAbs().minCoeff(&thin);
     const Vec3 u = axis.cross(Vec3::Unit(thin)).stableNormalized(), v = axis.cross(u);
-    const int opposite = old_[at(face_of(side))][(at(side % 3) + 2) % 3];
+    const int opposite = old_[face_of(side)][(side % 3 + 2) % 3];
     const Vec3 out = (points_.col(opposite) - points_.col(low)).stableNormalized();
     return std::atan2(out.dot(v), out.dot(u));
   }
@@ -223,7 +219,7 @@ class SheetMaker {
       }
     std::ranges::sort(candidates, [](const Candidate& x, const Candidate& y) { return x.key() < y.key(); });
     for (const Candidate& c : candidates)
-      if (partner_[at(c.a)] < 0 && partner_[at(c.b)] < 0) try_pair(c.a, c.b);
+      if (partner_[c.a] < 0 && partner_[c.b] < 0) try_pair(c.a, c.b);
   }
 
   // Numbers the fans of neighbours around each vertex: the first keeps the vertex, others get new ones.
@@ -231,15 +227,15 @@ class SheetMaker {
     std::vector<int> fan(partner_.size());  // of each corner: the first corner of its fan
     std::iota(fan.begin(), fan.end(), 0);
     const auto root = [&](int corner) {
-      while (fan[at(corner)] != corner) corner = fan[at(corner)] = fan[at(fan[at(corner)])];
+      while (fan[corner] != corner) corner = fan[corner] = fan[fan[corner]];
       return corner;
     };
     const auto join = [&](int a, int b) {
       const int x = root(a), y = root(b);
-      fan[at(std::max(x, y))] = std::min(x, y);
+      fan[std::max(x, y)] = std::min(x, y);
     };
     for (Side side = 0; side < static_cast<Side>(partner_.size()); ++side) {
-      const Side other = partner_[at(side)];
+      const Side other = partner_[side];
       if (other < side) continue;
       const int end = static_cast<int>(next_corner(side)), other_end = static_cast<int>(next_corner(other));
       const bool same_way = start_of(side) == start_of(other);
@@ -253,12 +249,12 @@ class SheetMaker {
     std::iota(result_.source.begin(), result_.source.end(), 0);
     result_.triangles = old_;
     for (int corner = 0; corner < static_cast<int>(partner_.size()); ++corner) {
-      int& v = result_.triangles[at(corner / 3)][at(corner % 3)];
-      int& own = vertex_of_fan[at(root(corner))];
+      int& v = result_.triangles[corner / 3][corner % 3];
+      int& own = vertex_of_fan[root(corner)];
       if (own < 0) {
-        own = taken[at(v)] ? static_cast<int>(result_.source.size()) : v;
-        if (taken[at(v)]) result_.source.push_back(v);
-        taken[at(v)] = 1;
+        own = taken[v] ? static_cast<int>(result_.source.size()) : v;
+        if (taken[v]) result_.source.push_back(v);
+        taken[v] = 1;
       }
       v = own;
     }
@@ -271,8 +267,8 @@ class SheetMaker {
     bool found = false;
     for (size_t g = 0; g < groups.count(); ++g) {
       const std::vector<Side> sides = groups[g];
-      if (sides.size() < 2 || (sides.size() == 2 && partner_[at(sides[0])] == sides[1])) continue;
-      const bool all_cut = std::ranges::all_of(sides, [&](Side side) { return partner_[at(side)] < 0; });
+      if (sides.size() < 2 || (sides.size() == 2 && partner_[sides[0]] == sides[1])) continue;
+      const bool all_cut = std::ranges::all_of(sides, [&](Side side) { return partner_[side] < 0; });
       if (sides.size() == 2 && all_cut && runs_up_flipped(sides[0]) != runs_up_flipped(sides[1])) {
         pair(sides[0], sides[1]);  // neighbours after all
         continue;
@@ -291,13 +287,13 @@ class SheetMaker {
       std::swap(result_.triangles[f][1], result_.triangles[f][2]);
       result_.flipped_faces.push_back(static_cast<int>(f));
     }
-    std::vector<char> at_cut(at(static_cast<int>(points_.cols())), 0);
+    std::vector<char> at_cut(points_.cols(), 0);
     for (const auto* edges : {&result_.cut_edges, &result_.opened_edges})
       for (const Edge& edge : *edges)
-        for (const int v : edge) at_cut[at(v)] = 1;
+        for (const int v : edge) at_cut[v] = 1;
     std::vector<int>& split = result_.split_vertices;
     for (size_t v = at_cut.size(); v < result_.source.size(); ++v)
-      if (!at_cut[at(result_.source[v])]) split.push_back(result_.source[v]);
+      if (!at_cut[result_.source[v]]) split.push_back(result_.source[v]);
     std::ranges::sort(split);
     split.erase(std::unique(split.begin(), split.end()), split.end());
   }

@@ -15,10 +15,6 @@ int block_size(int vertex_count) {
   return std::clamp(vertex_count / 128, 8, 256);
 }
 
-size_t fan_corner(const Triangle& face, int vertex) {
-  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
-}
-
 /// The face on the other side of the edge; -1 without one.
 int face_across(const Adjacency& c, int edge, int face) {
   const auto [a, b] = c.edge_faces[edge];
@@ -39,7 +35,7 @@ int vertex_across(const Adjacency& c, int face, size_t k) {
 int first_of_fan(const Adjacency& c, int vertex, int start) {
   for (int face = start;;) {
     const size_t f = face;
-    const int before = face_across(c, c.face_edges[f][fan_corner(c.faces[f], vertex)], face);
+    const int before = face_across(c, c.face_edges[f][corner_of(c.faces[f], vertex)], face);
     if (before < 0) return face;
     if (before == start) return start;
     face = before;
@@ -51,7 +47,7 @@ RingEntry* write_fan(const Adjacency& c, int vertex, int start, RingEntry* out) 
   for (int face = start;;) {
     const size_t f = face;
     const Triangle& t = c.faces[f];
-    const size_t k = fan_corner(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
+    const size_t k = corner_of(t, vertex), next = (k + 1) % 3, last = (k + 2) % 3;
     *out++ = {t[next], c.face_edges[f][k], face, vertex_across(c, face, next)};
     const int after = face_across(c, c.face_edges[f][last], face);
     if (after < 0) *out++ = {t[last], c.face_edges[f][last], -1, -1};
@@ -102,7 +98,7 @@ VertexRings make_wedge_rings(const Adjacency& c) {
       entry.neighbour = vertex_of(entry.neighbour);
       if (entry.face >= 0) face = entry.face;
       const size_t f = face;
-      const size_t k = fan_corner(c.faces[f], v), far = (k + 1) % 3;
+      const size_t k = corner_of(c.faces[f], v), far = (k + 1) % 3;
       entry.across = entry.face >= 0 ? vertex_across(c, face, far) : -1;
       rings.far_crease.push_back(entry.face >= 0 && c.is_crease(c.face_edges[f][far]));
       entry.edge = c.face_edges[f][entry.face >= 0 ? k : (k + 2) % 3];

@@ -6,10 +6,6 @@
 namespace hooke {
 namespace {
 
-size_t wedge_corner(const Triangle& face, int vertex) {
-  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
-}
-
 /// The sectors of faces between feature edges around one vertex.
 class Sectors {
  public:
@@ -36,12 +32,12 @@ class Sectors {
   /// Edge of the face that leaves the vertex (0) or comes back to it (2).
   int edge_at(int face, size_t offset) const {
     const size_t f = face;
-    return c_.face_edges[f][(wedge_corner(c_.faces[f], vertex_) + offset) % 3];
+    return c_.face_edges[f][(corner_of(c_.faces[f], vertex_) + offset) % 3];
   }
 
   int neighbour_at(int face) const {
     const Triangle& t = c_.faces[face];
-    return t[(wedge_corner(t, vertex_) + 1) % 3];
+    return t[(corner_of(t, vertex_) + 1) % 3];
   }
 
   const Adjacency& c_;
@@ -75,7 +71,7 @@ void split_wedges(Adjacency& c, const std::vector<Edge>& creases) {
     const Sectors sectors(c, v);
     for (size_t s = 1; s < sectors.count(); ++s) {
       const int wedge = c.wedge_count();
-      sectors.for_each_face(s, [&](int f) { c.wedge_faces[f][wedge_corner(c.faces[f], v)] = wedge; });
+      sectors.for_each_face(s, [&](int f) { c.wedge_faces[f][corner_of(c.faces[f], v)] = wedge; });
       c.extra_wedges.push_back(v);
     }
   }
@@ -83,7 +79,7 @@ void split_wedges(Adjacency& c, const std::vector<Edge>& creases) {
   for (size_t e = 0; e < c.edges.size(); ++e) {
     const size_t f = c.edge_faces[e][0];
     for (size_t k = 0; k < 2; ++k)
-      c.wedge_edges[e][k] = c.wedge_faces[f][wedge_corner(c.faces[f], c.edges[e][k])];
+      c.wedge_edges[e][k] = c.wedge_faces[f][corner_of(c.faces[f], c.edges[e][k])];
   }
 }
 

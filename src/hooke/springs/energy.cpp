@@ -210,11 +210,6 @@ double unfold_energy(const Vec3& r, const FaceFrame& f, const EnergyTerms& terms
   return 1.5 * terms.unfold * (d - s) * (d - s) / (d * d);
 }
 
-/// Index of the vertex in the face.
-size_t corner_of(const Triangle& face, int vertex) {
-  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
-}
-
 }  // namespace
 
 Energy::Energy(const Adjacency& adjacency, const TargetLengths& targets, const EnergyTerms& energy_terms)

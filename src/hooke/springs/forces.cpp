@@ -155,10 +155,7 @@ void add_altitude_forces(const Eigen::Ref<const Mat3X>& points, const Mat3X* nor
   parallel_for(forces.cols(), forces_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       Vec3 sum = Vec3::Zero();
-      for (int f : c.vertex_faces[v]) {
-        const Triangle& t = c.faces[f];
-        sum += faces[f].push[std::ranges::find(t, static_cast<int>(v)) - t.begin()];
-      }
+      for (int f : c.vertex_faces[v]) sum += faces[f].push[corner_of(c.faces[f], static_cast<int>(v))];
       forces.col(v) += weight * sum;
     }
   });
