@@ -110,6 +110,21 @@ TEST(ReadMesh, GathersTheWarningsOfEachStep) {
   EXPECT_EQ(codes(loaded.warnings), Codes{"isolated_vertices"});
 }
 
+TEST(ReadMesh, WarnsOfTrianglesThatLoseTheValuesOfTheirCorners) {
+  const TemporaryFolder folder;
+  write_text(folder / "m.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+             "f 1/1 2/2 3/3\nf 1/1 3 4\nf 2 5 3\n");
+  const LoadedMesh loaded = read_mesh(folder / "m.obj");
+  EXPECT_EQ(loaded.corner_data.texture.corners,
+            (std::vector<Triangle>{{0, 1, 2}, {-1, -1, -1}, {-1, -1, -1}}));
+  ASSERT_EQ(loaded.content.anew.size(), 1u);
+  EXPECT_EQ(loaded.content.anew[0].code, "attributes_not_kept");
+  EXPECT_TRUE(test::has(loaded.content.anew[0].message,
+                        "texture coordinates of triangles of which another corner has none: 1"))
+      << loaded.content.anew[0].message;
+}
+
 TEST(ReadMesh, ABadMeshIsNamedByTheLinesOfItsPolygons) {
   const TemporaryFolder folder;
   const auto path = folder / "m.obj";

@@ -34,24 +34,26 @@ MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& trian
   return memory_order;
 }
 
-/// The values at the corners of the triangles. A triangle has none where one of its corners has none.
-CornerValues values_of_triangles(PolygonCorners&& of_polygons, const IntLists& polygons,
-                                 const std::vector<Triangle>& triangles, const std::vector<int>& polygon_of) {
+/// The values at the corners of the triangles. A triangle has none where one of its corners has none, of
+/// which a new file warns.
+CornerValues values_of_triangles(PolygonCorners& of_polygons, const char* what, MeshFile& file,
+                                 const TriangulatedPolygons& triangulation) {
   CornerValues result;
   if (of_polygons.corners.empty()) return result;
-  result.values = std::move(of_polygons.values);
-  result.width = of_polygons.width;
-  result.corners.reserve(triangles.size());
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    const int polygon = polygon_of[t];
-    const auto corners = polygons[polygon];
-    Triangle& values = result.corners.emplace_back();
-    for (size_t k = 0; k < 3; ++k) {
-      const auto corner = std::ranges::find(corners, triangles[t][k]) - corners.begin();
-      values[k] = of_polygons.corners[polygons.first[polygon] + static_cast<int>(corner)];
-    }
-    if (std::ranges::min(values) < 0) values = {-1, -1, -1};
+  result = {std::move(of_polygons.values), of_polygons.width,
+            items_of_triangles(triangulation, file.polygons, of_polygons.corners)};
+  int lost = 0;
+  for (Triangle& values : result.corners) {
+    const auto [least, greatest] = std::ranges::minmax(values);
+    if (least >= 0) continue;
+    lost += greatest >= 0;
+    values = {-1, -1, -1};
   }
+  if (lost > 0)
+    file.content.anew.push_back(
+        {"attributes_not_kept",
+         fmt::format("{}: not kept in the output: {} of triangles of which another corner has none: {}",
+                     file.name, what, lost)});
   return result;
 }
 
@@ -114,16 +116,13 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   TriangulatedPolygons triangulation =
       timed(stopwatch, "triangulate", [&] { return triangulate(file.points, file.polygons); });
   Warnings warnings = std::move(file.warnings);
-  ContentWarnings content_warnings = std::move(file.content);
-  append_warnings(triangulation, file.name, content_warnings, warnings);
+  append_warnings(triangulation, file.name, file.content, warnings);
   if (misread_as_fans(file.points, file.polygons, triangulation))
     file.misread = "concave polygons, which overlap when they are cut as fans";
+  CornerData corner_data{values_of_triangles(file.texture, "texture coordinates", file, triangulation),
+                         values_of_triangles(file.normals, "normals", file, triangulation)};
   MeshSource source{file.name, std::move(triangulation.polygon), std::move(file.lines)};
   FaceData face_data = gather(file.face_data, source.face);
-  const auto of_triangles = [&](PolygonCorners& values) {
-    return values_of_triangles(std::move(values), file.polygons, triangulation.triangles, source.face);
-  };
-  CornerData corner_data{of_triangles(file.texture), of_triangles(file.normals)};
   Notes repairs;
   MeshOrigin origin;
   if (options.repair.any())
@@ -171,7 +170,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       std::move(origin),
       std::move(file.notes),
       std::move(repairs),
-      std::move(content_warnings),
+      std::move(file.content),
       std::move(file.misread),
       std::move(warnings)};
 }
