@@ -123,7 +123,7 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
   if (s.preserve && obstacle.empty()) {
     PreservedMesh preserved = prepare_preserved_mesh(
         s.output, loaded.mesh, {s.input, loaded.format, loaded.sha256, loaded.connectivity_sha256},
-        s.reproject_uv ? &record.result->map : nullptr, &stopwatch);
+        s.reproject_uv, &stopwatch);
     if (preserved.mesh) {
       record.output->preserved = true;
       append(record.warnings, loaded.content.preserved);

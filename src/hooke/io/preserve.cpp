@@ -28,14 +28,13 @@ FileBytes read_unchanged(const SourceFile& source) {
 }  // namespace
 
 PreservedMesh prepare_preserved_mesh(const std::filesystem::path& path, const TriMesh& mesh,
-                                     const SourceFile& source, const std::vector<MapEntry>* map,
-                                     Stopwatch* stopwatch) {
+                                     const SourceFile& source, bool texture_follows, Stopwatch* stopwatch) {
   RewrittenMesh rewritten;
   {
     const FileBytes file = timed(stopwatch, "read again", [&] { return read_unchanged(source); });
     rewritten = timed(stopwatch, "rewrite", [&] {
       return rewrite_mesh(file.text(), printable(source.path.native()), source.format, vertex_points(mesh),
-                          map);
+                          texture_follows);
     });
   }
   PreservedMesh result{{}, std::move(rewritten.obstacle), std::move(rewritten.warnings)};

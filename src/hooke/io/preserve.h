@@ -29,9 +29,9 @@ struct PreservedMesh {
 /// file of single precision is an obstacle if rounding would turn a face over. Throws InputError if the
 /// source cannot be read or has changed since, and OutputError. Pre-condition: vertices and faces of the mesh
 /// are those of the source, in its order; can_rewrite(source.format).
-/// With a `map` of the vertices to the source, its texture coordinates follow them: see rewrite_mesh().
+/// For `texture_follows` see rewrite_mesh().
 PreservedMesh prepare_preserved_mesh(const std::filesystem::path& path, const TriMesh& mesh,
-                                     const SourceFile& source, const std::vector<MapEntry>* map = nullptr,
+                                     const SourceFile& source, bool texture_follows = false,
                                      Stopwatch* stopwatch = nullptr);
 
 }  // namespace hooke

@@ -6,7 +6,6 @@
 
 #include "hooke/core/lists.h"
 #include "hooke/core/types.h"
-#include "hooke/mesh/surface_point.h"
 
 namespace hooke {
 
@@ -17,8 +16,6 @@ struct TextureMotion {
   const Mat3X& values;               // texture coordinates of the file
   const Mat3X& before;               // the vertices
   const Mat3X& after;
-  const std::vector<MapEntry>&
-      map;  // of the vertices to the triangles that triangulate() makes of the polygons
 };
 
 struct ReprojectedTexture {
@@ -27,9 +24,12 @@ struct ReprojectedTexture {
   int torn = 0;  // elements shared by vertices that now need different ones; they keep the old value
 };
 
-/// Interpolates linearly in the triangle where a vertex is now, if that triangle has texture coordinates of
-/// the same chart (connected by polygons without a seam). A vertex that has crossed a seam extrapolates from
-/// the triangle of its own chart that fits best.
+/// Interpolates linearly in the triangle where a vertex is now. The search for it starts at the faces of the
+/// corner and goes on from face to face, nearer and nearer, but across no seam (an edge with different values
+/// at either end): each corner stays on its own side, also where a chart borders on itself. A vertex that has
+/// left its side extrapolates from the nearest triangle there, by an edge at most. Where a corner of a
+/// polygon would turn over in the texture, its values stay. Pre-condition: the triangles of the polygons are
+/// manifold and consistently oriented.
 ReprojectedTexture reproject_texture(const TextureMotion& motion);
 
 }  // namespace hooke

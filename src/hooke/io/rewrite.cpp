@@ -14,9 +14,9 @@ bool can_rewrite(MeshFormat format) {
 }
 
 RewrittenMesh rewrite_mesh(std::string_view bytes, const std::string& name, MeshFormat format,
-                           const Mat3X& points, const std::vector<MapEntry>* map) {
+                           const Mat3X& points, bool texture_follows) {
   const std::string_view content = without_byte_order_mark(bytes);
-  RewrittenMesh result = format == MeshFormat::obj   ? rewrite_obj(content, name, points, map)
+  RewrittenMesh result = format == MeshFormat::obj   ? rewrite_obj(content, name, points, texture_follows)
                          : format == MeshFormat::ply ? rewrite_ply(content, name, points)
                                                      : rewrite_off(content, name, points);
   result.bytes.insert(0, bytes.substr(0, bytes.size() - content.size()));

@@ -8,7 +8,6 @@
 
 #include "hooke/core/types.h"
 #include "hooke/io/mesh_format.h"
-#include "hooke/mesh/surface_point.h"
 
 namespace hooke {
 
@@ -32,11 +31,10 @@ bool can_rewrite(MeshFormat format);
 /// precision rounds, and an integer that would need a fraction is an obstacle, as is a float out of range.
 /// Normals of vertices, of face corners (OBJ) and of faces (PLY) are renewed where a vertex of their faces
 /// moved (see renewed_normals.h); the warning `normals_shared` counts those that no longer suit all of their
-/// corners. Texture coordinates stay, unless it is OBJ and `map` tells where the vertices are on the
-/// triangles of the file: they then follow (see reprojected_texture.h); the warning `texture_shared` counts
-/// those that cannot. Pre-condition: parse_mesh_file() accepts the bytes and finds as many vertices;
-/// can_rewrite(format).
+/// corners. Texture coordinates stay, unless it is OBJ and `texture_follows` (see reprojected_texture.h); the
+/// warning `texture_shared` counts those that cannot. Pre-condition: parse_mesh_file() accepts the bytes and
+/// finds as many vertices; can_rewrite(format); where `texture_follows`, require_valid() accepts the mesh.
 RewrittenMesh rewrite_mesh(std::string_view bytes, const std::string& name, MeshFormat format,
-                           const Mat3X& points, const std::vector<MapEntry>* map = nullptr);
+                           const Mat3X& points, bool texture_follows = false);
 
 }  // namespace hooke

@@ -56,15 +56,15 @@ struct NewCorners {
 };
 
 NewCorners renew_corners(std::string_view text, const std::string& name, const Mat3X& points,
-                         const std::vector<MapEntry>* map) {
+                         bool texture_follows) {
   const ObjCorners old = read_obj_corners(text, name);
   const auto& [values, width, of_corners] = old.normals;
   NewCorners result;
   if (!of_corners.empty())
     result.normals = renew_corner_normals({old.polygons, old.points, points}, of_corners, values);
-  if (map && !old.texture.corners.empty())
+  if (texture_follows && !old.texture.corners.empty())
     result.texture =
-        reproject_texture({old.polygons, old.texture.corners, old.texture.values, old.points, points, *map});
+        reproject_texture({old.polygons, old.texture.corners, old.texture.values, old.points, points});
   return result;
 }
 
@@ -86,14 +86,16 @@ void warn_of_torn(const NewCorners& corners, const std::string& name, Warnings& 
 }  // namespace
 
 RewrittenMesh rewrite_obj(std::string_view text, const std::string& name, const Mat3X& points,
-                          const std::vector<MapEntry>* map) {
+                          bool texture_follows) {
   const std::vector<TextPiece> pieces = remaining_pieces(Scanner(text, name, obj_syntax), changed_rows);
   std::vector<std::array<Eigen::Index, row_kinds>> first(pieces.size() + 1,
                                                          {0, 0, 0});  // rows before a piece
   for (size_t p = 0; p < pieces.size(); ++p)
     for (size_t k = 0; k < row_kinds; ++k) first[p + 1][k] = first[p][k] + pieces[p].rows_of[k];
-  const bool has_corner_data = first.back()[normal_rows] > 0 || (map && first.back()[texture_rows] > 0);
-  const NewCorners corners = has_corner_data ? renew_corners(text, name, points, map) : NewCorners{};
+  const bool has_corner_data =
+      first.back()[normal_rows] > 0 || (texture_follows && first.back()[texture_rows] > 0);
+  const NewCorners corners =
+      has_corner_data ? renew_corners(text, name, points, texture_follows) : NewCorners{};
   RewrittenMesh result;
   result.bytes = edited_text(text, pieces, [&](const TextPiece& piece, size_t p, EditedCopy& copy) {
     auto [vertex, element, normal] = first[p];

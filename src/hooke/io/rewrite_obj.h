@@ -7,6 +7,6 @@ namespace hooke {
 
 /// rewrite_mesh() for an OBJ text without a byte order mark.
 RewrittenMesh rewrite_obj(std::string_view text, const std::string& name, const Mat3X& points,
-                          const std::vector<MapEntry>* map = nullptr);
+                          bool texture_follows);
 
 }  // namespace hooke
