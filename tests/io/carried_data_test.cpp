@@ -63,7 +63,9 @@ Textured remeshed(const Textured& t, ConnectivityMode mode, double length) {
   RemeshOptions options;
   options.connectivity = mode;
   set_effort(options, Effort::fast);
-  options.constraints.seams = seams_of(t).ends;
+  const Seams seams = seams_of(t);
+  options.constraints.seams = seams.ends;
+  options.constraints.fixed_vertices = seams.poles;
   TriMesh mesh = test::with_length(t.mesh, length * test::natural(t.mesh));
   const MemoryOrder before = find_memory_order(mesh);
   const RemeshResult result = remesh(mesh, options);
@@ -195,6 +197,77 @@ TEST(CarriedData, ASeamDoesNotChangeTheSurface) {
     return worst;
   };
   EXPECT_LT(error(true), 1.5 * error(false));
+}
+
+/// A globe whose texture is (longitude, latitude), with a value of its own in each face at a pole.
+Textured textured_globe(int meridians, int bands) {
+  Textured t{test::globe(meridians, bands), {}, {}};
+  const auto longitude = [&](int v) {
+    const double turn = std::atan2(t.mesh.points(1, v), t.mesh.points(0, v)) / (2 * std::numbers::pi);
+    return turn < -1e-9 ? turn + 1 : turn;
+  };
+  const auto is_pole = [&](int v) { return std::abs(t.mesh.points(2, v)) == 1; };
+  std::vector<Vec3> values;
+  for (const Triangle& face : t.mesh.faces) {
+    Triangle& corners = t.corners.texture.corners.emplace_back();
+    std::array<double, 3> u;
+    double sum = 0, greatest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!is_pole(face[k])) greatest = std::max(greatest, longitude(face[k]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      u[k] = is_pole(face[k]) ? 0 : longitude(face[k]) + (greatest - longitude(face[k]) > .5 ? 1 : 0);
+      sum += u[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = static_cast<int>(values.size());
+      values.emplace_back(is_pole(face[k]) ? sum / 2 : u[k],
+                          1 - std::acos(t.mesh.points(2, face[k])) / std::numbers::pi, 0);
+    }
+  }
+  t.corners.texture.width = 2;
+  t.corners.texture.values.resize(3, std::ssize(values));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    t.corners.texture.values.col(static_cast<Eigen::Index>(i)) = values[i];
+  return t;
+}
+
+TEST(CarriedData, EachFaceAtAPoleHasAValueOfItsOwn) {
+  const Textured before = textured_globe(24, 12);
+  ASSERT_EQ(seams_of(before).poles.size(), 2u);
+  const Textured after = remeshed(before, ConnectivityMode::adapt, 1);
+  EXPECT_NE(after.mesh.faces, before.mesh.faces);
+  std::set<int> at_poles;
+  int corners_at_poles = 0;
+  for (std::size_t f = 0; f < after.mesh.faces.size(); ++f) {
+    const Triangle& corners = after.corners.texture.corners[f];
+    EXPECT_GT(doubled_area_vector(after.corners.texture.values, corners)[2], 0) << f;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (std::abs(after.mesh.points(2, after.mesh.faces[f][k])) < 1) continue;
+      ++corners_at_poles;
+      at_poles.insert(corners[k]);
+    }
+  }
+  EXPECT_GE(corners_at_poles, 8);
+  EXPECT_EQ(std::ssize(at_poles), corners_at_poles);
+}
+
+TEST(CarriedData, WhereAllEdgesAreHardTheyStayHard) {
+  Textured before{test::torus(24, 10, .2), {}, {}};
+  const auto normal_of = [](const Textured& t, std::size_t f) -> Vec3 {
+    return doubled_area_vector(t.mesh.points, t.mesh.faces[f]).normalized();
+  };
+  CornerValues& normals = before.corners.normals;
+  normals.values.resize(3, std::ssize(before.mesh.faces));
+  for (std::size_t f = 0; f < before.mesh.faces.size(); ++f) {
+    const int id = static_cast<int>(f);
+    normals.values.col(id) = normal_of(before, f);
+    normals.corners.push_back({id, id, id});
+  }
+  const Textured after = remeshed(before, ConnectivityMode::adapt, 1);
+  EXPECT_NE(after.mesh.faces, before.mesh.faces);
+  for (std::size_t f = 0; f < after.mesh.faces.size(); ++f)
+    for (const int n : after.corners.normals.corners[f])
+      EXPECT_NEAR((after.corners.normals.values.col(n) - normal_of(after, f)).norm(), 0, 1e-9) << f;
 }
 
 TEST(CarriedData, NormalsOfABoxStayHardAtItsEdgesAndSmoothElsewhere) {

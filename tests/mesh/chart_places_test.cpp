@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hooke/mesh/wedges.h"
-#include "support/meshes.h"
+#include "support/solids.h"
 
 namespace hooke::chart_places_test {
 namespace {
@@ -62,6 +62,18 @@ TEST(ChartPlaces, AreOnTheirOwnSideOfAFeatureEdgeThatEnds) {
                 side(fine.points, result.faces[f]));
     }
   EXPECT_GT(on_cut, 20);
+}
+
+TEST(ChartPlaces, OneLargeFaceNearAnotherChartDoesNotDecide) {
+  const test::Triangles low = test::grid(8, test::flat);
+  test::Triangles high = low, moved = low;
+  high.points.row(2).setOnes();
+  moved.points(2, moved.points.cols() - 1) =
+      1.8;  // faces at this corner are the largest, and nearer to `high`
+  const test::Triangles input = test::both(high, low);
+  const Adjacency c = adjacency_of(input), result = adjacency_of(moved);
+  const ChartPlaces places = find_chart_places({input.points, c}, {moved.points, result});
+  for (const int face : places.faces) EXPECT_GE(face, std::ssize(high.faces));
 }
 
 TEST(ChartPlaces, NearFacesTellSheetsApart) {

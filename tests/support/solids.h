@@ -75,6 +75,25 @@ inline Triangles globe(int meridians, int bands) {
   return t;
 }
 
+/// Radii 1 and .4. Each point is moved along the torus by up to `jitter` cells.
+inline Triangles torus(int around, int across, double jitter) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  Triangles t;
+  t.points.resize(3, around * across);
+  const auto id = [&](int i, int j) { return (i % around) * across + j % across; };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double u = 2 * std::numbers::pi * (i + shift(random)) / around;
+      const double v = 2 * std::numbers::pi * (j + shift(random)) / across;
+      t.points.col(id(i, j)) =
+          Vec3((1 + .4 * std::cos(v)) * std::cos(u), (1 + .4 * std::cos(v)) * std::sin(u), .4 * std::sin(v));
+      t.faces.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+      t.faces.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
+    }
+  return t;
+}
+
 inline Triangles both(const Triangles& a, const Triangles& b) {
   Triangles t{Mat3X(3, a.points.cols() + b.points.cols()), a.faces};
   t.points << a.points, b.points;
