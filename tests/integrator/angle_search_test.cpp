@@ -120,6 +120,18 @@ TEST(AngleSearch, SpringsAndPatternSearchTogetherReachMore) {
   EXPECT_LT(lost, 1);
 }
 
+TEST(AngleSearch, PatternSearchGoesOnWhereSpringsMakeTheEdgesTooUnequal) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    AngleSearchOptions options{.edge_error_limit = 1.01, .sagitta = 0};
+    options.vertex.first_step = .02;
+    options.springs.range = .9;
+    const Outcome both = search(irregular(seed), options);
+    options.springs.range = 0;
+    const Outcome pattern = search(irregular(seed), options);
+    EXPECT_GT(both.angle_after, pattern.angle_after + 1.1);
+  }
+}
+
 TEST(AngleSearch, GoesOnWhereOneFaceCannotRise) {
   test::Triangles t = irregular(4);
   const Triangle flat = t.faces[70];  // its corners are held

@@ -356,7 +356,8 @@ class Search {
       : r_(r), o_(o), guards_(guards), measures_(measures), result_(result), pattern_(o.vertex) {}
 
   /// Alternates rounds of angle springs (unless `with_springs` is false) and of pattern searches: each goes
-  /// on while it raises the minimum angle. Faces that neither can raise are set aside.
+  /// on while it raises the minimum angle. Faces that neither can raise are set aside. Ends where even a
+  /// pattern search makes the edges too unequal.
   void run(bool with_springs) {
     int set_aside = 0, failures = 0;
     bool springs = with_springs;
@@ -396,9 +397,9 @@ class Search {
 
   enum class Outcome {
     raised,
-    kept,      // the minimum angle is the same; other faces have gained
+    kept,      // the minimum angle has risen little, or lost no more than is tolerated
     worse,     // taken back
-    too_long,  // taken back: even a small range makes the edges too unequal
+    too_long,  // taken back: even a small range of a pattern search makes the edges too unequal
   };
 
   /// Moves the vertices around the faces within `range` (degrees) of the minimum angle.
@@ -419,7 +420,7 @@ class Search {
       measures_.update_around(vertices, [&] {
         for (size_t i = 0; i < vertices.size(); ++i) before[i].write_to(r_.positions, vertices[i]);
       });
-      return is_too_long && range / 2 < min_range ? Outcome::too_long : Outcome::worse;
+      return is_too_long && !springs && range / 2 < min_range ? Outcome::too_long : Outcome::worse;
     }
     result_.moves += moves;
     result_.vertices.insert(result_.vertices.end(), vertices.begin(), vertices.end());
