@@ -12,6 +12,7 @@
 #include "hooke/io/files.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
+#include "hooke/io/polygon_triangulation.h"
 #include "hooke/io/preserve.h"
 #include "hooke/io/rewrite.h"
 #include "hooke/io/stl.h"
@@ -114,6 +115,20 @@ MeshData data_of_result(const Settings& s, const LoadedMesh& loaded, const Origi
   return result;
 }
 
+/// Polygons that are concave now make another surface in programs that cut them as fans.
+void warn_of_concave_polygons(const Settings& s, const LoadedMesh& loaded, const Original& original,
+                              RunRecord& run) {
+  const size_t after = count_concave(vertex_points(loaded.mesh), loaded.polygons);
+  if (after == 0) return;
+  const size_t before = count_concave(original.memory_order.order.scatter(original.points), loaded.polygons);
+  if (after > before)
+    run.warnings.push_back(
+        {"polygons_concave",
+         fmt::format("{}: {} polygons are concave, {} before, and programs may cut them in another way than "
+                     "was measured; --preserve off writes the triangles",
+                     name_of_output(s.output), after, before)});
+}
+
 }  // namespace
 
 PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Original& original,
@@ -128,6 +143,7 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
       record.output->preserved = true;
       append(record.warnings, loaded.content.preserved);
       append(record.warnings, preserved.warnings);
+      warn_of_concave_polygons(s, loaded, original, record);
       return *std::move(preserved.mesh);
     }
     obstacle = std::move(preserved.obstacle);

@@ -140,6 +140,18 @@ TEST(Polygons, WithoutACleanCutTheCountStaysRightAndItIsSaid) {
   }
 }
 
+TEST(Polygons, ConcaveOnesAreCounted) {
+  const auto count = [](const std::vector<Vec3>& points) {
+    const Polygon p = polygon(points);
+    return count_concave(p.points, p.corners);
+  };
+  EXPECT_EQ(count({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}), 0u);
+  EXPECT_EQ(count({{0, 0, 0}, {1, 0, 0}, {1, 1, .3}, {0, 1, 0}}), 0u);
+  EXPECT_EQ(count({{0, 0, 0}, {1, 0, 0}, {.5, .5, 0}, {0, 1, 0}}), 0u);  // straight
+  EXPECT_EQ(count({{0, 0, 0}, {1, 0, 0}, {.4, .4, 0}, {0, 1, 0}}), 1u);
+  EXPECT_EQ(count({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), 0u);
+}
+
 TEST(Polygons, FansThatOverlapAreMisread) {
   const auto misread = [](const std::vector<Vec3>& points) {
     const Polygon p = polygon(points);

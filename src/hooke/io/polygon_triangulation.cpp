@@ -187,6 +187,23 @@ TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons) 
   return result;
 }
 
+std::size_t count_concave(const Mat3X& points, const IntLists& polygons) {
+  std::vector<Vec2> plane;
+  std::size_t count = 0;
+  for (int f = 0; f + 1 < static_cast<int>(polygons.first.size()); ++f) {
+    const std::span<const int> corners = polygons[f];
+    if (corners.size() < 4) continue;
+    project(points, corners, plane);
+    const std::size_t n = plane.size();
+    for (std::size_t k = 0; k < n; ++k)
+      if (shape(plane[k], plane[(k + 1) % n], plane[(k + 2) % n]) < -straight) {
+        ++count;
+        break;
+      }
+  }
+  return count;
+}
+
 bool misread_as_fans(const Mat3X& points, const IntLists& polygons,
                      const TriangulatedPolygons& triangulation) {
   if (triangulation.polygons_cut == 0) return false;

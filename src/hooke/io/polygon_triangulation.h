@@ -30,6 +30,9 @@ TriangulatedPolygons triangulate(const Mat3X& points, const IntLists& polygons);
 std::vector<Triangle> items_of_triangles(const TriangulatedPolygons& triangulation, const IntLists& polygons,
                                          const std::vector<int>& of_corners);
 
+/// The number of polygons with a corner that is concave in the plane of their Newell normal.
+std::size_t count_concave(const Mat3X& points, const IntLists& polygons);
+
 /// Whether the polygons make another surface where each is cut as a fan from its first corner, as simple
 /// readers do: one with more than 1.25 times the area, because fans of concave polygons overlap.
 bool misread_as_fans(const Mat3X& points, const IntLists& polygons,

@@ -153,6 +153,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
     return valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
   });
   require_workable_size(file.points, file.name);
+  const int polygons_cut = triangulation.polygons_cut;
   triangulation = {};
   // Constructed in place, because OpenMesh meshes can only be copied, not moved.
   return {
@@ -163,6 +164,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       file.encoding,
       std::move(hash),
       std::move(faces_hash),
+      polygons_cut > 0 ? std::move(file.polygons) : IntLists(),
       std::move(file.vertex_data),
       std::move(face_data),
       std::move(corner_data),

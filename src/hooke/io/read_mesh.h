@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hooke/core/lists.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/mesh_file.h"
 #include "hooke/mesh/corner_data.h"
@@ -22,6 +23,7 @@ struct LoadedMesh {
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of PLY and STL files
   std::string sha256;                                        // of the bytes of the file, hexadecimal
   std::string connectivity_sha256;                           // see sha256.h
+  IntLists polygons;                                         // of the file; empty if all are triangles
   VertexData vertex_data;                                    // values of the vertices in the file
   FaceData face_data;                                        // of the triangles
   CornerData corner_data;                                    // of the triangles, where not of the vertices
