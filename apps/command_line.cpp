@@ -21,6 +21,16 @@
 namespace hooke::app {
 namespace {
 
+/// Throws Error for `--option=`, for which CLI11 would take the next argument as the value.
+void require_values(const std::vector<std::string>& arguments) {
+  for (const std::string& word : arguments) {
+    if (word == "--") return;
+    if (word.starts_with("--") && word.find('=') == word.size() - 1)
+      throw Error(word.substr(0, word.size() - 1) +
+                  ": ''; expected a value after the =; give one, or leave the option out");
+  }
+}
+
 /// A parser whose options write to its own settings.
 struct Parser {
   CLI::App app{purpose, "hooke-remesh"};
@@ -35,6 +45,13 @@ struct Parser {
   }
   Parser(const Parser&) = delete;
   Parser& operator=(const Parser&) = delete;
+
+  /// Throws Error and CLI::ParseError.
+  void parse(std::vector<std::string> arguments) {
+    require_values(arguments);
+    std::ranges::reverse(arguments);  // CLI11 takes them from the back
+    app.parse(std::move(arguments));
+  }
 
   /// What is wrong with the command line or the file. Names the option nearest to one that is unknown.
   std::string problem(const CLI::ParseError& error) const {
@@ -95,7 +112,7 @@ int answer(const CLI::App& app, const CLI::ParseError& request) {
 Parsed parse_command_line(int argc, char** argv) {
   Parser parser;
   try {
-    parser.app.parse(argc, argv);
+    parser.parse({argv + std::min(argc, 1), argv + argc});
     if (parser.raw.completion)
       return {std::nullopt, print_text(completion(*parser.raw.completion, entries_of(parser.app)))};
     if (parser.raw.man_page) return {std::nullopt, print_text(man_page(entries_of(parser.app)))};
@@ -114,9 +131,8 @@ Parsed parse_command_line(int argc, char** argv) {
 
 Settings parse_arguments(std::vector<std::string> arguments) {
   Parser parser;
-  std::ranges::reverse(arguments);  // CLI11 takes them from the back
   try {
-    parser.app.parse(std::move(arguments));
+    parser.parse(std::move(arguments));
   } catch (const CLI::ParseError& e) {
     throw Error(parser.problem(e));
   }

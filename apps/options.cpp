@@ -70,20 +70,28 @@ CLI::Option* add_number(CLI::App& app, const char* name, double& value, const ch
   return add_number<double, double>(app, name, value, help, range)->default_str(fmt::format("{}", value));
 }
 
-/// Accepts any name but the empty one and `-`, which does not stand for a stream here.
-CLI::Validator file_name() {
-  const auto check = [](const std::string& text) {
-    return text.empty() || text == "-" ? in_quotes(text) + "; expected the name of a file" : std::string();
+/// Accepts any text but the empty one and the next option, which stands in its place where a variable of a
+/// script is not set.
+CLI::Validator given(const char* expected) {
+  const auto check = [expected](const std::string& text) -> std::string {
+    if (text.empty()) return fmt::format("''; expected {}", expected);
+    return text.starts_with("--") ? fmt::format("{}; expected {}, not an option", in_quotes(text), expected)
+                                  : "";
   };
   return {check, ""};
 }
 
-/// Accepts any name but the empty one; `-` stands for a standard stream.
-CLI::Validator named() {
-  const auto check = [](const std::string& text) {
-    return text.empty() ? "''; expected the name of a file, or -" : std::string();
+/// Accepts the name of a file; not `-`, which does not stand for a stream here.
+CLI::Validator file_name() {
+  const auto check = [](const std::string& text) -> std::string {
+    return text == "-" ? "'-'; expected the name of a file" : given("the name of a file")(text);
   };
   return {check, ""};
+}
+
+/// Accepts the name of a file, or `-` for a standard stream.
+CLI::Validator file_or_stream() {
+  return given("the name of a file, or -");
 }
 
 CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file, const char* help) {
@@ -272,7 +280,7 @@ void add_gates(CLI::App& app, Settings& s) {
 void add_reports(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_flag("--check", s.check, "Measure the input only; nothing is written but the report");
   app.add_option("--report", s.report, "JSON report; - for standard output")
-      ->check(named())
+      ->check(file_or_stream())
       ->type_name("FILE");
   add_gates(app, s);
   add_listing(app, raw);
@@ -345,6 +353,7 @@ void add_batch(CLI::App& app, Settings& s) {
                  "Text between name and extension of the files written to FOLDER/: part.obj becomes "
                  "partTEXT.obj")
       ->type_name("TEXT");
+      ->check(given("text"))
   add_file(app, "--table", s.batch.table,
            "A row for each mesh: file, status, exit code, seconds, numbers before and after; FILE.csv, or "
            "FILE.jsonl with one JSON object a line");
@@ -364,6 +373,7 @@ void add_settings(CLI::App& app, RawOptions& raw) {
                  "Options from a TOML file: a line NAME = VALUE each, with the long names above; what the "
                  "command line says goes first")
       ->type_name("FILE")
+      ->check(file_name())
       ->configurable(false);
   app.add_flag("--print-config", raw.print_config,
                "Print the options of this command line as such a file, with all others as comments; nothing "
@@ -386,13 +396,15 @@ void add_options(CLI::App& app, Settings& s, RawOptions& raw) {
          "INPUT", s.inputs,
          "Mesh to read: .obj, .ply, .off, .stl, .msh (Gmsh) or .vtp; - for standard input; several with "
          "-o FOLDER/")
-      ->check(named())
+      ->check([](const std::string& text) {
+        return text.empty() ? "''; expected the name of a file, or -" : std::string();
+      })
       ->type_name("");
   app.add_option(
          "-o,--output", s.output,
          "Mesh to write; required unless --check; - for standard output; a folder for several inputs, "
          "whose names stay")
-      ->check(named())
+      ->check(file_or_stream())
       ->type_name("FILE|FOLDER/");
   add_choice(app, "--input-format", s.input_format, "Format of the input (default: by extension)",
              Choices<MeshFormat>{{"obj", MeshFormat::obj},

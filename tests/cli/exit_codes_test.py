@@ -63,6 +63,26 @@ class UsageErrors(CommandTest):
                     with self.subTest(option=option, name=name):
                         self.refused(2, "good.obj", *output, option + "=" + name, says=option)
 
+    def test_the_next_option_is_no_value(self):
+        """As where a variable of a script is not set."""
+        for option in ("--fix", "--report", "--map", "--sizing", "--output", "--table", "--suffix", "--config"):
+            output = [] if option == "--output" else ["-o", "out.obj"]
+            for value in ([option + "="], [option, ""], [option]):
+                with self.subTest(value=value):
+                    self.refused(2, "good.obj", *output, *value, "--repair", says=option + ": '")
+        self.write("other.obj", TETRAHEDRON)
+        self.refused(2, "good.obj", "-o", "out.obj", "--report=", "other.obj", says="--report: ''; expected a value")
+        self.run_command("good.obj", "-o", "out.obj", "-q", "--report", "./--repair")
+        self.assertIn("--repair", self.files())
+
+    def test_a_flag_that_is_off_is_as_good_as_none(self):
+        self.write("lengths", "0 1 1\n")
+        for options in (["--edge-lengths", "lengths", "--repair=off"], ["--paper", "--accept-invalid=false"],
+                        ["--edge-lengths", "lengths", "--weld", "off"]):
+            with self.subTest(options=options):
+                self.run_command("good.obj", "-o", "out.obj", "-q", *options)
+        self.refused(2, "good.obj", "-o", "out.obj", "--edge-lengths", "lengths", "--repair=on", names="--edge-lengths")
+
     def test_options_that_would_do_nothing(self):
         for option in (["--effort", "fast"], ["--map", "map"], ["--integrator", "damped"], ["--polish", "on"],
                        ["--filter", "local"], ["--connectivity", "flip"]):

@@ -236,7 +236,7 @@ class Refusals(unittest.TestCase):
         for options, says in (({"effort": "much"}, "fast|default|thorough"), ({"length": -1}, "--length"),
                               ({"conectivity": "flip"}, "conectivity"), ({"paper": True, "effort": "fast"}, "--effort"),
                               ({"report": "a.json"}, "report"), ({"effort": {1}}, "set"), ({"require": "after.angle.min > 1"}, "min_angle"),
-                              ({"sizing": [1., 2.]}, "each of the"), ({"sizing": "ply:quality"}, "ply:"),
+                              ({"sizing": [1., 2.]}, "each of the"), ({"sizing": ""}, "sizing"), ({"sizing": "ply:quality"}, "ply:"),
                               ({"length": 1e9}, "target lengths")):
             with self.subTest(options=options), self.assertRaisesRegex(UsageError, says.replace("|", r"\|")) as caught:
                 remesh(vertices, faces, **options)
