@@ -39,7 +39,7 @@ struct Parser {
   std::shared_ptr<ConfigFile> config = std::make_shared<ConfigFile>(app);
 
   Parser() {
-    raw.given = [this](const char* option) { return app.count(option) > 0; };
+    raw.given = [this](const char* option) { return is_given(*app.get_option(option)); };
     app.config_formatter(config);
     add_options(app, settings, raw);
   }

@@ -67,12 +67,14 @@ std::string comment_line(const CLI::Option& option) {
 
 }  // namespace
 
+bool is_given(const CLI::Option& option) {
+  return option.count() > 0 && (!is_flag(option) || CLI::detail::to_flag_value(option.results().back()) > 0);
+}
+
 std::vector<const CLI::Option*> given_options(const CLI::App& app) {
   std::vector<const CLI::Option*> given;
   for (const CLI::Option* option : app.get_options())
-    if (option->count() > 0 && may_stand_in_file(*option) &&
-        (!is_flag(*option) || CLI::detail::to_flag_value(option->results().back()) > 0))
-      given.push_back(option);
+    if (is_given(*option) && may_stand_in_file(*option)) given.push_back(option);
   return given;
 }
 

@@ -9,6 +9,9 @@
 
 namespace hooke::app {
 
+/// Whether the option was given; a flag that is switched off was not.
+bool is_given(const CLI::Option& option);
+
 /// The options given so far that a file of settings may hold, in the order of the table.
 std::vector<const CLI::Option*> given_options(const CLI::App& app);
 

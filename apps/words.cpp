@@ -176,7 +176,7 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
   refuse(!s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--edge-lengths"},
          "is of --connectivity fixed, where edges stay");
-  refuse(raw.given("--repair") || raw.given("--weld"), {"--edge-lengths"},
+  refuse(s.repair.repair || s.weld_text != "off", {"--edge-lengths"},
          "names edges that --repair and --weld may change");
   refuse(s.paper || s.remesh.connectivity == ConnectivityMode::fixed, {"--keep"},
          "is of --connectivity flip and adapt; with fixed all is kept");

@@ -28,7 +28,7 @@ struct RawOptions {
   bool print_config = false;
   std::optional<Shell> completion;
   bool man_page = false;
-  std::function<bool(const char*)> given;  // whether the option was given
+  std::function<bool(const char*)> given;  // whether it was; a flag that is off was not
 };
 
 /// Interprets the raw options, completes the settings and checks that they are consistent. Throws Error that

@@ -268,6 +268,12 @@ class Refusals(unittest.TestCase):
             measure(vertices, np.empty((0, 3), int))
         with self.assertRaises(MeshError):
             measure(vertices, np.concatenate([faces, faces[:1]]))
+    def test_what_is_off_is_not_refused(self):
+        vertices, faces = torus()
+        a, b = faces[0][:2]
+        remesh(vertices, faces, edge_lengths=([[a, b]], [np.linalg.norm(vertices[a] - vertices[b])]), repair=False)
+        remesh(vertices, faces, paper=True, accept_invalid=False, max_outer=1, max_steps=5)
+
         vertices[5, 2] = np.nan
         with self.assertRaisesRegex(MeshError, "5"):
             remesh(vertices, faces)
