@@ -11,10 +11,8 @@
 #include "exit_codes.h"
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
-#include "hooke/core/printable.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/read_mesh.h"
-#include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/report/report.h"
 #include "judging.h"
@@ -78,19 +76,6 @@ void finish(const Settings& s, RunRecord& record, OutputFiles& files) {
   print_judgement(s, record);
 }
 
-/// The fixed vertices of the mesh; the list has the ids of the file.
-std::vector<int> read_fixed(const Settings& s, const LoadedMesh& loaded) {
-  if (loaded.origin.vertex.empty()) return read_id_list(s.fix, loaded.memory_order.adjacency->vertex_count);
-  const std::vector<int> ids = read_id_list(s.fix, static_cast<int>(loaded.origin.merged.size()));
-  int lost = -1;
-  std::vector<int> fixed = vertices_from(loaded.origin, ids, &lost);
-  if (lost >= 0)
-    throw InputError(
-        fmt::format("{}: vertex {} was dropped by --repair; expected one that is left; remove its line",
-                    printable(s.fix.string()), lost));
-  return fixed;
-}
-
 int run(Settings s) {
   const auto start = Clock::now();
   const ThreadLimit threads(s.threads);
@@ -104,8 +89,7 @@ int run(Settings s) {
   });
   if (s.format == MeshFormat::msh && loaded.format == MeshFormat::msh2 && !s.format_given)
     s.format = MeshFormat::msh2;
-  if (!s.fix.empty())
-    s.remesh.constraints.fixed_vertices = s.paper_options.constraints.fixed_vertices = read_fixed(s, loaded);
+  set_fixed_vertices(s, loaded.origin, loaded.memory_order.adjacency->vertex_count);
 
   RunRecord record;
   record.tool_version = HOOKE_VERSION;

@@ -8,7 +8,6 @@
 #include "hooke/core/parallel.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/sha256.h"
-#include "hooke/io/vertex_lists.h"
 #include "judging.h"
 #include "result_warnings.h"
 #include "stages.h"
@@ -25,12 +24,7 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
   const ThreadLimit threads(s.threads);
   const std::optional<ReportFigures> base = read_base(s);
-  std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
-  const size_t count =
-      mesh.origin.vertex.empty() ? mesh.memory_order.adjacency->vertex_count : mesh.origin.merged.size();
-  if (!s.fix.empty()) fixed = read_id_list(s.fix, static_cast<int>(count));
-  if (!mesh.origin.vertex.empty()) fixed = vertices_from(mesh.origin, fixed);
-  s.paper_options.constraints.fixed_vertices = fixed;
+  set_fixed_vertices(s, mesh.origin, mesh.memory_order.adjacency->vertex_count);
   RunRecord record;
   record.tool_version = HOOKE_VERSION;
   record.status = "checked";

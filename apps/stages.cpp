@@ -8,8 +8,10 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
 #include "hooke/core/stopwatch.h"
+#include "hooke/core/printable.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"
+#include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/paper_mode.h"
@@ -115,6 +117,22 @@ std::vector<Edge> edges_in_order(const std::vector<Edge>& edges, const MemoryOrd
   for (size_t k = 0; k < ends.size(); k += 2) ordered.push_back({ends[k], ends[k + 1]});
   return ordered;
 }
+void set_fixed_vertices(Settings& s, const MeshOrigin& origin, int vertices) {
+  std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
+  const bool repaired = !origin.vertex.empty();
+  if (!s.fix.empty())
+    fixed = read_id_list(s.fix, repaired ? static_cast<int>(origin.merged.size()) : vertices);
+  int lost = -1;
+  if (repaired) fixed = vertices_from(origin, fixed, &lost);
+  const auto problem = [&](const std::string& list, const char* remedy) {
+    return fmt::format("{}: vertex {} was dropped by --repair; expected one that is left; {}", list, lost,
+                       remedy);
+  };
+  if (lost >= 0 && s.fix.empty()) throw Error(problem("fix", "leave it out"));
+  if (lost >= 0) throw InputError(problem(printable(s.fix.string()), "remove its line"));
+  s.paper_options.constraints.fixed_vertices = fixed;
+}
+
 
 }  // namespace
 

@@ -20,6 +20,11 @@ bool keeps_faces(const Settings& settings);
 /// The parameters of the run for its report, but those of the target lengths and of the output.
 nlohmann::ordered_json parameters_of(const Settings& settings);
 
+/// Completes the fixed vertices of the settings, whose ids are those before a repair, with those of their
+/// file. `vertices`: of the mesh, as `origin` tells. Throws InputError for what the file is not, Error for
+/// vertices that a repair has dropped.
+void set_fixed_vertices(Settings& settings, const MeshOrigin& origin, int vertices);
+
 /// Sets the target lengths of the input, measures it, completes the settings by what follows from its size,
 /// and warns of its boundaries and orientation. `origin`: of a repaired mesh. Throws Error for lengths out of
 /// range.

@@ -47,9 +47,8 @@ py::tuple run_arrays(const PointArray& vertices, const FaceArray& faces,
   if (!sizing.empty())
     settings.sizing = {.kind = SizingSource::Kind::values, .values = std::move(sizing), .name = {}};
   settings.remesh.map = map && !settings.paper;
-  settings.remesh.constraints.fixed_vertices = settings.paper_options.constraints.fixed_vertices =
-      std::move(fixed_vertices);
-  if (!edge_lengths.empty()) {
+  settings.remesh.constraints.fixed_vertices = std::move(fixed_vertices);
+  if (edge_lengths) {
     settings.edge_length_list.emplace();
     for (const auto& [a, b, length] : edge_lengths)
       settings.edge_length_list->push_back(

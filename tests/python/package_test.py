@@ -167,6 +167,9 @@ class Attributes(CommandTest):
 
     def test_are_interpolated_as_the_command_does(self):
         mesh = read(DATA / "torus.off")
+        with self.assertRaisesRegex(UsageError, "fix: vertex 0 was dropped"):
+            remesh(vertices, faces, repair=True, fix=[1, 0])
+        remesh(vertices, faces, repair=True, fix=[1, 2])
         given = {"red": (127 * (1 + mesh.vertices[:, 0] / np.abs(mesh.vertices).max())).astype(np.uint8),
                  "quality": mesh.vertices[:, 1] ** 2}
         write(self.folder / "in.ply", mesh.vertices, mesh.faces, given)
