@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -37,20 +38,20 @@ py::object origin_arrays(const MeshOrigin& origin) {
 
 /// (vertices, faces, map or None, report as JSON, origin or None, exception or None)
 py::tuple run_arrays(const PointArray& vertices, const FaceArray& faces,
-                     const std::vector<std::string>& options, std::vector<double> sizing,
+                     const std::vector<std::string>& options, std::optional<std::vector<double>> sizing,
                      std::vector<int> fixed_vertices,
-                     const std::vector<std::tuple<int, int, double>>& edge_lengths, bool map,
+                     const std::optional<std::vector<std::tuple<int, int, double>>>& edge_lengths, bool map,
                      const py::object& progress) {
   const Mat3X points = points_of(vertices);
   const std::vector<Triangle> triangles = triangles_of(faces);
   app::Settings settings = app::memory_settings(options);
-  if (!sizing.empty())
-    settings.sizing = {.kind = SizingSource::Kind::values, .values = std::move(sizing), .name = {}};
+  if (sizing)
+    settings.sizing = {.kind = SizingSource::Kind::values, .values = *std::move(sizing), .name = {}};
   settings.remesh.map = map && !settings.paper;
   settings.remesh.constraints.fixed_vertices = std::move(fixed_vertices);
   if (edge_lengths) {
     settings.edge_length_list.emplace();
-    for (const auto& [a, b, length] : edge_lengths)
+    for (const auto& [a, b, length] : *edge_lengths)
       settings.edge_length_list->push_back(
           {{a, b}, length, static_cast<int>(settings.edge_length_list->size()) + 1});
   }

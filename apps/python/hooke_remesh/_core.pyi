@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 __version__: str
 
-def run(vertices: NDArray[np.float64], faces: NDArray[np.int32], options: list[str], sizing: list[float],
-        fixed_vertices: list[int], edge_lengths: list[tuple[int, int, float]], map: bool, progress: Callable[[str, int, int, float], Any] | None, /
+def run(vertices: NDArray[np.float64], faces: NDArray[np.int32], options: list[str], sizing: list[float] | None,
+        fixed_vertices: list[int], edge_lengths: list[tuple[int, int, float]] | None, map: bool,
+        progress: Callable[[str, int, int, float], Any] | None, /
         ) -> tuple[NDArray[np.float64] | None, NDArray[np.int32] | None,
                    tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]] | None, str,
                    tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.bool_]] | None, BaseException | None]: ...
