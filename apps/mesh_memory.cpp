@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <system_error>
 
@@ -15,6 +16,11 @@ namespace hooke::app {
 namespace {
 
 constexpr double megabyte = 1 << 20;
+
+/// The number as a size; a greater one than any machine has becomes 2^60, so that sums fit too.
+std::size_t whole_bytes(double bytes) {
+  return static_cast<std::size_t>(std::min(bytes, 0x1p60));
+}
 
 double equilateral_faces(double area, double edge) {
   return 4 * area / (std::numbers::sqrt3 * edge * edge);
@@ -39,7 +45,7 @@ std::size_t file_bytes_per_vertex(const std::filesystem::path& mesh) {
 }  // namespace
 
 std::size_t memory_allowed(const Settings& s) {
-  return s.memory_limit > 0 ? static_cast<std::size_t>(s.memory_limit * megabyte) : memory_limit();
+  return s.memory_limit > 0 ? whole_bytes(s.memory_limit * megabyte) : memory_limit();
 }
 
 /// The estimate is of the peaks measured with 10000 to 400000 vertices, in each mode.
@@ -52,24 +58,26 @@ void require_memory(const Settings& s, std::size_t vertices, const RunRecord& re
     result = std::max(count, equilateral_faces(record.before.extent.area, record.target.mean) / 2);
   const double needed = program + per_vertex * count + per_vertex_of_result * result;
   if (needed <= s.memory_limit * megabyte) return;
-  const double share = std::max(0., s.memory_limit * megabyte - program) / (needed - program);
+  const double fits = std::floor((s.memory_limit * megabyte - program) / (needed - program) * count);
   throw LimitError(fmt::format(
-      "{}: needs about {:.0f} MB for {} vertices{}, --memory-limit allows {:g}; expected a mesh of at most "
-      "about {:.0f} vertices, or a higher limit",
-      name_of_input(s.input), needed / megabyte, vertices,
-      result > count ? fmt::format(" and {:.0f} new ones", result) : "", s.memory_limit, share * count));
+      "{}: needs about {:.0f} MB for {} vertices{}, --memory-limit allows {:g}; expected {}",
+      name_of_input(s.input), std::ceil(needed / megabyte), vertices,
+      result > count ? fmt::format(" and {:.0f} new ones", result) : "", s.memory_limit,
+      fits >= 1
+          ? fmt::format("a mesh of at most about {:.0f} vertices, or a higher limit", fits)
+          : fmt::format("at least that; the program takes {:.0f} MB without a mesh", program / megabyte)));
 }
 
 std::size_t memory_for(const std::filesystem::path& mesh, const Settings& s) {
   constexpr double program = 64 << 20, per_vertex = 6000;  // 4200 measured with 100000 vertices
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(mesh, error);
-  if (error) return static_cast<std::size_t>(program);
+  if (error) return whole_bytes(program);
   double vertices = static_cast<double>(size) / static_cast<double>(file_bytes_per_vertex(mesh));
   if (!s.check && !s.paper && s.remesh.connectivity == ConnectivityMode::adapt &&
       s.length.kind == LengthSpec::Kind::times_natural)
     vertices *= std::max(1., 1 / (s.length.value * s.length.value));
-  return program + per_vertex * vertices;
+  return whole_bytes(program + per_vertex * vertices);
 }
 
 }  // namespace hooke::app

@@ -334,8 +334,9 @@ void add_run(CLI::App& app, Settings& s) {
       ->type_name("S");
   add_number(
       app, "--memory-limit", s.memory_limit,
-      "Megabytes that the run may take (default: 80 % of what is there); a mesh that would take more is "
-      "refused before the work, with exit code 8",
+      "Megabytes that the run may take; a mesh that would take more is refused before the work, with exit "
+      "code 8 (default: none is; dense splines and several inputs together take at most 80 % of what is "
+      "free)",
       positive)
       ->type_name("MB");
   app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");
@@ -352,8 +353,8 @@ void add_batch(CLI::App& app, Settings& s) {
   app.add_option("--suffix", s.batch.suffix,
                  "Text between name and extension of the files written to FOLDER/: part.obj becomes "
                  "partTEXT.obj")
-      ->type_name("TEXT");
       ->check(given("text"))
+      ->type_name("TEXT");
   add_file(app, "--table", s.batch.table,
            "A row for each mesh: file, status, exit code, seconds, numbers before and after; FILE.csv, or "
            "FILE.jsonl with one JSON object a line");
@@ -372,8 +373,8 @@ void add_settings(CLI::App& app, RawOptions& raw) {
   app.set_config("--config", "",
                  "Options from a TOML file: a line NAME = VALUE each, with the long names above; what the "
                  "command line says goes first")
-      ->type_name("FILE")
       ->check(file_name())
+      ->type_name("FILE")
       ->configurable(false);
   app.add_flag("--print-config", raw.print_config,
                "Print the options of this command line as such a file, with all others as comments; nothing "

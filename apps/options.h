@@ -78,7 +78,7 @@ struct Settings {
   std::filesystem::path trace;        // file for the time of each stage; empty for none
   std::filesystem::path trace_steps;  // file for the time steps of --paper; empty for none
   double time_limit = 0;              // of the whole run, s; 0: none
-  double memory_limit = 0;            // MB; 0: what memory_limit() finds
+  double memory_limit = 0;            // MB; 0: not given, see memory_allowed()
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   int threads = 0;  // 0: as many as the process may use
   bool quiet = false;

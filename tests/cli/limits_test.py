@@ -50,6 +50,12 @@ class Limits(CommandTest):
                            names="torus.off", says="new ones")
         self.run_command("torus.off", "-o", "out.off", "-q", "--memory-limit", "100")
 
+    def test_a_limit_that_no_mesh_fits_in_says_so(self):
+        self.refused(8, "torus.off", "-o", "out.off", "--memory-limit", "1", says="expected at least that; the program takes 12 MB")
+
+    def test_a_limit_beyond_all_machines_is_none(self):
+        self.run_command("good.obj", "-o", "out.obj", "-q", "--filter", "global", "--memory-limit", "1e14")
+
     def test_half_of_what_is_taken_is_refused(self):
         for mode in ("fixed", "flip", "adapt"):
             report = self.report("torus.off", "-o", "out.off", "-q", "--connectivity", mode, "--memory-limit", "1000")
