@@ -210,6 +210,12 @@ class Attributes(CommandTest):
             with self.subTest(options=options), self.assertRaisesRegex(UsageError, says):
                 remesh(vertices, faces, **options)
 
+    def test_of_vertices_that_stay_are_exact(self):
+        vertices, faces = torus()
+        ids, held = 2 ** 60 + np.arange(len(vertices)), np.arange(0, len(vertices), 5)
+        done = remesh(vertices, faces, connectivity="flip", effort="fast", fix=held, attributes={"id": ids})
+        np.testing.assert_array_equal(done.attributes["id"][held], ids[held])
+
 
 class Arrays(unittest.TestCase):
     def test_types_and_layouts_make_no_difference_and_inputs_stay(self):

@@ -22,6 +22,8 @@ def carry_vertices(values: NDArray[Any], faces: NDArray[np.int32], old: NDArray[
         if values.dtype.kind != "f":
             result = np.sign(result) * np.floor(np.abs(result) + .5)
         result = result.astype(values.dtype)
+        stays = weights.max(axis=1) == 1
+        result[stays] = nearest[stays]  # exact, also where integers have more digits than float64
     else:
         result = nearest
     alone = on_face < 0  # of no face of the input: vertices without faces, and what fills holes
