@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "hooke/constraints/constraints.h"
@@ -50,6 +51,12 @@ nlohmann::ordered_json parameters_of(const Settings& s) {
                      {"fill_holes", s.repair.fill_holes},
                      {"keep", nullptr}});
   if (!keeps_faces(s)) parameters["keep"] = text_of(s.keep);
+  if (s.time_limit > 0) parameters["time_limit"] = s.time_limit;
+  if (s.paper) return parameters;
+  parameters["accept_invalid"] = s.accept_invalid;
+  const double distance = s.preservation.max_distance.value_or(s.max_distance_share);
+  parameters["distance_limit"] = distance == 0 ? "curvature" : std::isinf(distance) ? "off" : "given";
+  if (s.preservation.max_distance && std::isfinite(distance)) parameters["max_distance"] = distance;
   return parameters;
 }
 
@@ -154,7 +161,8 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_allowed(s);
   if (!s.check) require_memory(s, mesh.n_vertices(), record);
   if (s.max_distance_share > 0)
-    s.preservation.max_distance = s.max_distance_share * record.before.extent.diagonal;
+    record.parameters["max_distance"] =
+        s.preservation.max_distance.emplace(s.max_distance_share * record.before.extent.diagonal);
 }
 
 void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_order, Original& original,

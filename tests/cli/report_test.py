@@ -168,6 +168,17 @@ class Report(CommandTest):
                             "--rho", .02, "--rho-unit", "edge")
         self.assertEqual([letter[key] for key in keys], ["outer", "each", 0, .02, "edge"])
 
+    def test_limits_are_parameters(self):
+        names = ("max_distance", "distance_limit", "accept_invalid", "time_limit")
+        diagonal = self.report(DATA / "patch.obj", "--check")["input"]["bbox_diagonal"]
+        for options, expected in (([], [None, "curvature", False, None]),
+                                  (["--max-distance", "off", "--accept-invalid"], [None, "off", True, None]),
+                                  (["--max-distance", ".25", "--time-limit", 100], [.25, "given", False, 100]),
+                                  (["--max-distance", "50%"], [.5 * diagonal, "given", False, None]),
+                                  (["--paper", "--max-outer", 1, "--max-steps", 5], [None, None, None, None])):
+            parameters = self.report(DATA / "patch.obj", "-o", "out.off", *options)["parameters"]
+            self.assertEqual([parameters[name] for name in names], expected)
+
     def test_the_paper_block_tells_energies_and_with_paper_fitted_curvatures(self):
         plain, paper = (self.report(DATA / "patch.obj", "-o", "out.off", *options)["paper"]
                         for options in ([], ["--paper", "--max-outer", 1]))
