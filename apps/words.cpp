@@ -180,6 +180,8 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
          "names edges that --repair and --weld may change");
   refuse(s.paper || s.remesh.connectivity == ConnectivityMode::fixed, {"--keep"},
          "is of --connectivity flip and adapt; with fixed all is kept");
+  refuse(!s.paper && s.remesh.connectivity == ConnectivityMode::adapt, {"--refit"},
+         "is of --connectivity fixed and flip; adapt keeps the field of the input");
   refuse(s.compare.empty(), {"--rtol"}, "is of --compare only");
   refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");

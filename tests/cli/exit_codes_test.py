@@ -99,6 +99,7 @@ class UsageErrors(CommandTest):
         for mode in ("flip", "adapt"):
             self.refused(2, "good.obj", "-o", "out.obj", "--edge-lengths", "lengths", "--connectivity", mode,
                          names="--edge-lengths")
+        self.refused(2, "good.obj", "-o", "out.obj", "--connectivity", "adapt", "--refit", "each", names="--refit")
         self.refused(2, "good.obj", "--check", "--fields", "fields.ply", names="--fields")
         for option in (["--kernel", "r3"], ["--rho", ".1"]):
             self.refused(2, "good.obj", "-o", "out.obj", "--filter", "closest", *option, names=option[0])
