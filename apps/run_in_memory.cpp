@@ -33,7 +33,7 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   record.repairs = mesh.repairs;
   record.connectivity = s.remesh.connectivity;
   record.parameters = parameters_of(s);
-  record.parameters["preserve"] = record.parameters["reproject_uv"] = nullptr;  // of files
+  for (const char* of_files : {"preserve", "reproject_uv", "keep"}) record.parameters[of_files] = nullptr;
   Stopwatch stopwatch;
   Original original;
   measure_input(s, mesh.mesh, mesh.memory_order, mesh.origin, original, record, stopwatch);

@@ -9,6 +9,7 @@ import sys
 import textwrap
 import threading
 import unittest
+import warnings
 
 try:
     import numpy as np
@@ -18,7 +19,7 @@ except ImportError:
 import hooke_remesh
 from command import DATA, CommandTest, irregular_torus
 from schema_test import SCHEMA, faults
-from hooke_remesh import InputError, Interrupted, MeshError, ResultError, UsageError, measure, read, remesh, write
+from hooke_remesh import InputError, Interrupted, MeshError, MeshWarning, ResultError, UsageError, measure, read, remesh, write
 
 
 def torus(around=30, across=12):
@@ -30,7 +31,7 @@ def without_times(value):
     """A report without what varies from run to run, or only files have."""
     if isinstance(value, dict):
         return {k: without_times(v) for k, v in value.items()
-                if k not in ("resources", "path", "sha256", "format", "warnings", "preserve", "preserved", "reproject_uv") and not k.endswith("_s")}
+                if k not in ("resources", "path", "sha256", "format", "warnings", "preserve", "preserved", "reproject_uv", "keep") and not k.endswith("_s")}
     return [without_times(v) for v in value] if isinstance(value, list) else value
 
 
@@ -65,6 +66,17 @@ class TheCommandsResults(CommandTest):
         places = np.einsum("vk,vk...->v...", done.map.weights, corners)
         self.assertLess(np.abs(places - done.vertices).max(), .1 * done.report["input"]["bbox_diagonal"])
         self.assertTrue(np.allclose(done.map.weights.sum(axis=1), 1))
+
+    def test_warnings(self):
+        vertices, faces = torus()
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            done = remesh(vertices, faces, length="20x")
+        self.assertEqual([str(w.message) for w in caught], [w["message"] for w in done.report["warnings"]])
+        self.assertIn("length_out_of_reach", [w["code"] for w in done.report["warnings"]])
+        self.assertEqual({(w.category, w.filename) for w in caught}, {(MeshWarning, __file__)})
+        with self.assertWarnsRegex(MeshWarning, "inside out"):
+            measure(vertices, faces[:, ::-1])
 
     def test_numbers_words_and_flags(self):
         self.same("patch.obj", ["-L", "0.07", "--polish", "off", "--max-outer", "2", "--accept-invalid", "--boundary", "fixed"],
@@ -125,6 +137,22 @@ class TheCommandsResults(CommandTest):
         done = remesh(mesh.vertices, mesh.faces, edge_lengths=(edges, lengths))
         write(self.folder / "python.ply", done.vertices, done.faces)
         self.assertEqual((self.folder / "python.ply").read_bytes(), (self.folder / "command.ply").read_bytes())
+        self.assertEqual(without_times(measure(mesh.vertices, mesh.faces, edge_lengths=(edges, lengths))["before"]),
+                         without_times(done.report["before"]))
+
+    def test_no_lengths_of_edges(self):
+        mesh = read(DATA / "patch.obj")
+        self.write("none", "# none\n")
+        self.run_command(DATA / "patch.obj", "-o", "command.ply", "--edge-lengths", "none")
+        done = remesh(mesh.vertices, mesh.faces, edge_lengths=(np.empty((0, 2), int), []))
+        write(self.folder / "python.ply", done.vertices, done.faces)
+        self.assertEqual((self.folder / "python.ply").read_bytes(), (self.folder / "command.ply").read_bytes())
+
+    def test_measures_take_arrays_too(self):
+        vertices, faces = torus()
+        lengths = 1 + .2 * vertices[:, 0]
+        report = measure(vertices, faces, "sizing", sizing=lengths, gradation="off", fix=[3, 4])
+        self.assertEqual((report["parameters"]["L_max"], report["parameters"]["fixed_vertices"]), (lengths.max(), 2))
 
     def test_repair(self):
         self.write("torn.obj", TORN)
@@ -139,6 +167,9 @@ class TheCommandsResults(CommandTest):
         self.assertEqual([(r["code"], r["count"]) for r in done.report["repairs"]],
                          [(r["code"], r["count"]) for r in report["repairs"]])
         self.assertEqual(measure(vertices, faces, repair=True)["before"]["min_angle"], done.report["before"]["min_angle"])
+        with self.assertRaisesRegex(UsageError, "fix: vertex 0 was dropped"):
+            remesh(vertices, faces, repair=True, fix=[1, 0])
+        remesh(vertices, faces, repair=True, fix=[1, 2])
 
 
 # A tetrahedron with a face turned over, one listed twice, and a vertex in no face before the others.
@@ -167,9 +198,6 @@ class Attributes(CommandTest):
 
     def test_are_interpolated_as_the_command_does(self):
         mesh = read(DATA / "torus.off")
-        with self.assertRaisesRegex(UsageError, "fix: vertex 0 was dropped"):
-            remesh(vertices, faces, repair=True, fix=[1, 0])
-        remesh(vertices, faces, repair=True, fix=[1, 2])
         given = {"red": (127 * (1 + mesh.vertices[:, 0] / np.abs(mesh.vertices).max())).astype(np.uint8),
                  "quality": mesh.vertices[:, 1] ** 2}
         write(self.folder / "in.ply", mesh.vertices, mesh.faces, given)
@@ -181,6 +209,12 @@ class Attributes(CommandTest):
             for name in given:
                 np.testing.assert_array_equal(done.attributes[name], expected[name])
                 self.assertEqual(done.attributes[name].dtype, given[name].dtype)
+
+    def test_of_vertices_that_stay_are_exact(self):
+        vertices, faces = torus()
+        ids, held = 2 ** 60 + np.arange(len(vertices)), np.arange(0, len(vertices), 5)
+        done = remesh(vertices, faces, connectivity="flip", effort="fast", fix=held, attributes={"id": ids})
+        np.testing.assert_array_equal(done.attributes["id"][held], ids[held])
 
     def test_of_several_columns_and_of_words(self):
         vertices, faces = torus()
@@ -210,12 +244,6 @@ class Attributes(CommandTest):
             with self.subTest(options=options), self.assertRaisesRegex(UsageError, says):
                 remesh(vertices, faces, **options)
 
-    def test_of_vertices_that_stay_are_exact(self):
-        vertices, faces = torus()
-        ids, held = 2 ** 60 + np.arange(len(vertices)), np.arange(0, len(vertices), 5)
-        done = remesh(vertices, faces, connectivity="flip", effort="fast", fix=held, attributes={"id": ids})
-        np.testing.assert_array_equal(done.attributes["id"][held], ids[held])
-
 
 class Arrays(unittest.TestCase):
     def test_types_and_layouts_make_no_difference_and_inputs_stay(self):
@@ -240,6 +268,12 @@ class Arrays(unittest.TestCase):
 
 
 class Refusals(unittest.TestCase):
+    def test_what_is_off_is_not_refused(self):
+        vertices, faces = torus()
+        a, b = faces[0][:2]
+        remesh(vertices, faces, edge_lengths=([[a, b]], [np.linalg.norm(vertices[a] - vertices[b])]), repair=False)
+        remesh(vertices, faces, paper=True, accept_invalid=False, max_outer=1, max_steps=5)
+
     def test_options(self):
         vertices, faces = torus()
         for options, says in (({"effort": "much"}, "fast|default|thorough"), ({"length": -1}, "--length"),
@@ -253,8 +287,8 @@ class Refusals(unittest.TestCase):
 
     def test_what_is_of_the_command_only(self):
         vertices, faces = torus()
-        for option in ("output", "config", "print_config", "help_all", "completion", "man_page", "suffix", "table",
-                       "skip_existing", "jobs"):
+        for option in ("output", "config", "print_config", "print-config", "help-all", "completion", "man_page", "suffix",
+                       "table", "skip_existing", "jobs", "keep"):
             for run in (remesh, measure):
                 with self.assertRaisesRegex(UsageError, option + ": is for files and the terminal"):
                     run(vertices, faces, **{option: "x"})
@@ -277,12 +311,6 @@ class Refusals(unittest.TestCase):
             measure(vertices, np.empty((0, 3), int))
         with self.assertRaises(MeshError):
             measure(vertices, np.concatenate([faces, faces[:1]]))
-    def test_what_is_off_is_not_refused(self):
-        vertices, faces = torus()
-        a, b = faces[0][:2]
-        remesh(vertices, faces, edge_lengths=([[a, b]], [np.linalg.norm(vertices[a] - vertices[b])]), repair=False)
-        remesh(vertices, faces, paper=True, accept_invalid=False, max_outer=1, max_steps=5)
-
         vertices[5, 2] = np.nan
         with self.assertRaisesRegex(MeshError, "5"):
             remesh(vertices, faces)

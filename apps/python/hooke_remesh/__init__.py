@@ -23,19 +23,21 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._attributes import carry_corners, carry_faces, carry_vertices
 from ._core import __version__
-from .errors import (Error, InputError, Interrupted, LimitError, MeshError, NumericalError, OutputError, ResultError,
-                     UsageError)
+from .errors import (Error, InputError, Interrupted, LimitError, MeshError, MeshWarning, NumericalError, OutputError,
+                     ResultError, UsageError)
 
 __all__ = ["remesh", "measure", "read", "write", "Result", "Map", "Mesh", "Error", "UsageError", "InputError",
-           "MeshError", "OutputError", "LimitError", "NumericalError", "ResultError", "Interrupted", "__version__"]
+           "MeshError", "OutputError", "LimitError", "NumericalError", "ResultError", "Interrupted", "MeshWarning",
+           "__version__"]
 
 Option = Union[None, bool, int, float, str, "os.PathLike[str]", "Sequence[str]"]
 Progress = Callable[[str, int, int, float], Any]
 
-# What the command does with its files and its terminal.
+# What the command does with its files, the data in them, and its terminal.
 _OF_THE_COMMAND = {"output", "format", "map", "report", "fields", "trace", "trace_steps", "check", "quiet", "verbose",
                    "progress", "help", "help_all", "version", "config", "print_config", "completion", "man_page", "suffix",
-                   "table", "skip_existing", "jobs", "input_format", "preserve", "reproject_uv", "list_metrics"}
+                   "table", "skip_existing", "jobs", "input_format", "preserve", "reproject_uv", "keep",
+                   "list_metrics"}
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class Result:
     vertices: NDArray[np.float64]  #: (n, 3) coordinates, in the unit of the input
     faces: NDArray[np.int32]  #: (m, 3) vertex ids
     map: Map | None  #: None with `map=False` and `paper=True`
-    report: dict[str, Any]  #: as the command's JSON report; warnings are in `report["warnings"]`
+    report: dict[str, Any]  #: as the command's JSON report
     attributes: dict[str, NDArray[Any]]  #: (n, ...) each
     face_attributes: dict[str, NDArray[Any]]  #: (m, ...) each
     corner_attributes: dict[str, NDArray[Any]]  #: (m, 3, ...) each
@@ -104,7 +106,7 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
                   report["gates"], and compare="base.json" compares it with an older one, in report["comparison"]
 
     Other Python threads run meanwhile. Ctrl-C raises Interrupted, a KeyboardInterrupt with the best mesh so far as its
-    `result`.
+    `result`. Each of report["warnings"] is also emitted as a MeshWarning.
 
     Raises UsageError for options, MeshError for a mesh that is no oriented manifold, InputError for a file that an
     option names, ResultError for a result that would not keep the input's surface, LimitError for too little memory,
@@ -118,32 +120,15 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
     if (of_faces or of_corners) and not keeps_faces:
         raise UsageError(f"face_attributes and corner_attributes: new faces have none; expected connectivity='fixed', "
                          f"not {connectivity!r}")
-    lengths: Sequence[float] = []
-    edges: Sequence[tuple[int, int, float]] = []
-    ids: Sequence[int] = []
-    if isinstance(sizing, str) and sizing.startswith("ply:"):
-        raise UsageError(f"sizing {sizing!r}; expected an array, a file of lengths or 'curvature'")
-    if sizing is None or isinstance(sizing, (str, os.PathLike)):
-        options["sizing"] = sizing
-    else:
-        options["sizing"] = "values"
-        lengths = _lengths(sizing, len(points))
-    if edge_lengths is None or isinstance(edge_lengths, (str, os.PathLike)):
-        options["edge_lengths"] = edge_lengths
-    else:
-        options["edge_lengths"] = "edge_lengths"
-        edges = _edge_lengths(edge_lengths, len(points))
-    if fix is None or isinstance(fix, (str, os.PathLike)):
-        options["fix"] = fix
-    else:
-        ids = _ids(fix, len(points))
-    arguments = _arguments({"length": length, "connectivity": connectivity, **options})
+    prepared = _prepared(len(points), sizing, edge_lengths, fix,
+                         {"length": length, "connectivity": connectivity, **options})
     needs_map = map or bool(of_vertices) and not keeps_faces
-    out_vertices, out_faces, places, report, origin, exception = _core.run(
-        points, triangles, arguments, lengths, ids, edges, needs_map, progress)
+    out_vertices, out_faces, places, text, origin, exception = _core.run(
+        points, triangles, *prepared, needs_map, progress)
+    report = _warned(json.loads(text))
     old_vertices, old_faces, swapped = origin or (None, None, None)
     where = None if keeps_faces else places
-    result = Result(out_vertices, out_faces, Map(*places) if places and map else None, json.loads(report),
+    result = Result(out_vertices, out_faces, Map(*places) if places and map else None, report,
                     {name: carry_vertices(values, triangles, old_vertices, where) for name, values in of_vertices.items()},
                     {name: carry_faces(values, old_faces) for name, values in of_faces.items()},
                     {name: carry_corners(values, old_faces, swapped) for name, values in of_corners.items()})
@@ -154,19 +139,21 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
     return result
 
 
-def measure(vertices: ArrayLike, faces: ArrayLike, length: Option = None, **options: Option) -> dict[str, Any]:
+def measure(vertices: ArrayLike, faces: ArrayLike, length: Option = None, *, sizing: Option | NDArray[Any] = None,
+            edge_lengths: os.PathLike[str] | str | tuple[ArrayLike, ArrayLike] | None = None,
+            fix: ArrayLike | os.PathLike[str] | str | None = None, **options: Option) -> dict[str, Any]:
     """The report of a mesh as it is: `report["input"]` counts, `report["before"]` has the figures of its quality.
 
     vertices      n x 3 coordinates
     faces         m x 3 vertex ids, of any integer type
-    length        target edge length, for the length errors; as for remesh()
+    length        target edge length, for the length errors; as for remesh(), and so are sizing, edge_lengths and fix
     options       threads, repair, and others that remesh() takes
 
-    Raises what remesh() raises.
+    Raises and warns as remesh() does.
     """
     points, triangles = _arrays(vertices, faces)
-    arguments = _arguments({"length": length, **options}) + ["--check"]
-    return json.loads(_core.run(points, triangles, arguments, [], [], [], False, None)[3])
+    arguments, *lists = _prepared(len(points), sizing, edge_lengths, fix, {"length": length, **options})
+    return _warned(json.loads(_core.run(points, triangles, arguments + ["--check"], *lists, False, None)[3]))
 
 
 def read(path: str | os.PathLike[str]) -> Mesh:
@@ -193,7 +180,37 @@ def write(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike,
     values = {name: np.asarray(value) for name, value in (attributes or {}).items()}
     left_out = _core.write(path, *_arrays(vertices, faces), values, format, ascii)
     if left_out:
-        _warnings.warn(f"{os.fspath(path)}: its format cannot hold {', '.join(left_out)}; use PLY", stacklevel=2)
+        _warnings.warn(f"{os.fspath(path)}: its format cannot hold {', '.join(left_out)}; use PLY", MeshWarning,
+                       stacklevel=2)
+
+
+def _prepared(count: int, sizing: Any, edge_lengths: Any, fix: Any, options: Mapping[str, Option]) -> tuple[
+        list[str], Sequence[float] | None, Sequence[int], Sequence[tuple[int, int, float]] | None]:
+    """The options as the command takes them, and the lengths, fixed vertices and lengths of edges that come as arrays.
+    `count`: of vertices."""
+    lengths = edges = None
+    ids: Sequence[int] = []
+    files = {"sizing": sizing, "edge_lengths": edge_lengths, "fix": fix}
+    if isinstance(sizing, str) and sizing.startswith("ply:"):
+        raise UsageError(f"sizing {sizing!r}; expected an array, a file of lengths or 'curvature'")
+    if _is_array(sizing):
+        files["sizing"], lengths = "values", _lengths(sizing, count)
+    if _is_array(edge_lengths):
+        files["edge_lengths"], edges = "edge_lengths", _edge_lengths(edge_lengths, count)
+    if _is_array(fix):
+        files["fix"], ids = None, _ids(fix, count)
+    return _arguments({**options, **files}), lengths, ids, edges
+
+
+def _is_array(value: Any) -> bool:
+    return value is not None and not isinstance(value, (str, os.PathLike))
+
+
+def _warned(report: dict[str, Any]) -> dict[str, Any]:
+    """The report, whose warnings the caller of this package's function gets."""
+    for warning in report["warnings"]:
+        _warnings.warn(warning["message"], MeshWarning, stacklevel=3)
+    return report
 
 
 def _arrays(vertices: ArrayLike, faces: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
@@ -259,9 +276,9 @@ def _arguments(options: Mapping[str, Option]) -> list[str]:
     """The options as the command takes them."""
     arguments = []
     for name, value in options.items():
-        option = name.replace("_", "-")
-        if name in _OF_THE_COMMAND:
+        if name.replace("-", "_") in _OF_THE_COMMAND:
             raise UsageError(f"{name}: is for files and the terminal of the command; leave it out")
+        option = name.replace("_", "-")
         if value is not None:
             values = value if isinstance(value, (list, tuple)) else [value]
             arguments += [f"--{option}={_text(name, v)}" for v in values]

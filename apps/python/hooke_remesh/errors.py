@@ -1,7 +1,7 @@
-"""The exceptions of hooke_remesh. Messages are one line: the problem; what was expected; what to do about it."""
+"""The exceptions of hooke_remesh, and its warning. Messages are one line: the problem; what was expected; what to do."""
 
 __all__ = ["Error", "UsageError", "InputError", "MeshError", "OutputError", "LimitError", "NumericalError",
-           "ResultError", "Interrupted"]
+           "ResultError", "Interrupted", "MeshWarning"]
 
 
 class Error(Exception):
@@ -43,3 +43,7 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, result):
         super().__init__("interrupted; the exception's `result` is the best mesh so far")
         self.result = result
+
+
+class MeshWarning(UserWarning):
+    """What the command warns of: each of a report's warnings, and attributes that a file cannot hold."""
