@@ -8,11 +8,11 @@
 
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
-#include "hooke/core/stopwatch.h"
 #include "hooke/core/printable.h"
+#include "hooke/core/stopwatch.h"
 #include "hooke/io/read_mesh.h"
-#include "hooke/io/write_mesh.h"
 #include "hooke/io/vertex_lists.h"
+#include "hooke/io/write_mesh.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/paper_mode.h"
@@ -115,15 +115,8 @@ void name_limits(RunRecord& record) {
     face.reasons = limiting_factors(face, record.result->vertex_limits);
 }
 
-/// The edges by the indices of their vertices in memory order, from their ids.
-std::vector<Edge> edges_in_order(const std::vector<Edge>& edges, const MemoryOrder& memory_order) {
-  std::vector<int> ends;
-  for (const Edge& e : edges) ends.insert(ends.end(), e.begin(), e.end());
-  ends = memory_order.order.new_vertices(ends);
-  std::vector<Edge> ordered;
-  for (size_t k = 0; k < ends.size(); k += 2) ordered.push_back({ends[k], ends[k + 1]});
-  return ordered;
-}
+}  // namespace
+
 void set_fixed_vertices(Settings& s, const MeshOrigin& origin, int vertices) {
   std::vector<int>& fixed = s.remesh.constraints.fixed_vertices;
   const bool repaired = !origin.vertex.empty();
@@ -140,16 +133,13 @@ void set_fixed_vertices(Settings& s, const MeshOrigin& origin, int vertices) {
   s.paper_options.constraints.fixed_vertices = fixed;
 }
 
-
-}  // namespace
-
 void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, const MeshOrigin& origin,
                    Original& original, RunRecord& record, Stopwatch& stopwatch) {
   Mat3X points = memory_order.order.gather(vertex_points(mesh));
   if (!s.check)
     warn_of_coincident_boundary(s, coincident_boundary_vertices(points, *memory_order.adjacency).size(),
                                 record);
-  timed(&stopwatch, "seams", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
+  timed(&stopwatch, "boundary", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, origin, points, record); });
   const UniformVector targets = edge_targets(mesh, memory_order);
   record.paper_before = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
@@ -225,8 +215,8 @@ void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, con
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
   if (record.result->measures) {
-    const std::vector<Edge> before = edges_in_order(record.result->input_creases, original.memory_order),
-                            after = edges_in_order(record.result->crease_edges, memory_order);
+    const std::vector<Edge> before = original.memory_order.order.new_edges(record.result->input_creases),
+                            after = memory_order.order.new_edges(record.result->crease_edges);
     apply_creases(*record.after, result, after);
     ResultMeasures& measures = *record.result->measures;
     measures.preservation = timed(&stopwatch, "preservation", [&] {

@@ -305,6 +305,7 @@ class Report(CommandTest):
         for name in ("read/parse", "before/self_intersections", "remesh/fit", "remesh/relax/energy",
                      "remesh/relax/guards/projection", "remesh/polish", "remesh/deviation/to_reference", "write/file"):
             self.assertIn(name, stages)
+        self.assertEqual((stages["seams"]["calls"], stages["boundary"]["calls"]), (1, 1))
         top = sum(stage["wall_s"] for name, stage in stages.items() if "/" not in name)
         self.assertLessEqual(top, report["resources"]["wall_s"])
 
