@@ -25,6 +25,10 @@ class Gates(CommandTest):
         self.assertIn(f"required after.min_angle.min > 50; it is {gates[0]['value']:.6g}", err)
         self.assertEqual(err.count("error"), 1)
 
+    def test_yes_and_no(self):
+        for condition, code in (("promises.kept == true", 0), ("promises.kept == false", 6)):
+            self.run_command("good.obj", "-o", "out.obj", "-q", "--require", condition, expect=code)
+
     def test_of_a_check(self):
         self.run_command(PATCH, "--check", "--require", "before.min_angle.min > 1")
         self.run_command(PATCH, "--check", "--require", "before.min_angle.min > 2", expect=6)

@@ -62,7 +62,9 @@ Gate parse_gate(const std::string& text) {
     const std::string_view sign = relation;
     if (text.compare(at, sign.size(), sign) != 0) continue;
     Gate gate{trimmed(text), trimmed(text.substr(0, at)), relation, 0};
-    const std::string number = trimmed(text.substr(at + sign.size()));
+    const std::string bound = trimmed(text.substr(at + sign.size())), number = bound == "true"    ? "1"
+                                                                               : bound == "false" ? "0"
+                                                                                                  : bound;
     const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), gate.bound);
     if (gate.metric.empty() || error != std::errc() || rest != number.data() + number.size() ||
         !std::isfinite(gate.bound))

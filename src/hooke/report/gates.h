@@ -24,7 +24,8 @@ struct GateOutcome {
   bool passed = false;
 };
 
-/// Parses "METRIC RELATION NUMBER". Throws an Error whose message begins with the text.
+/// Parses "METRIC RELATION NUMBER"; true and false are 1 and 0. Throws an Error whose message begins with the
+/// text.
 Gate parse_gate(const std::string& text);
 
 /// Throws Error for gates that no report could fulfil: on keys that the table of keys has not, with the
