@@ -45,6 +45,13 @@ class Result(CommandTest):
         self.assertEqual(report["promises"]["rescue"], "put_back")
         self.assertLess(report["geometry"]["distance_to_input"]["max_over_diagonal"], 1e-5)
 
+    def test_a_mesh_that_went_back_is_not_said_to_be_at_rest(self):
+        _, err = self.run_command(DATA / "torus.off", "-o", "out.off", "--max-distance", "1e-12%")
+        err = " ".join(err.split())
+        self.assertIn("the surface did not move", err)
+        self.assertIn("nothing moved: vertices were put back", err)
+        self.assertNotIn("equilibrium", err)
+
     def test_formats_hold_the_same_doubles(self):
         meshes = [self.optimized(DATA / "patch.obj", "out." + ext) for ext in ("obj", "ply", "off")]
         self.assertEqual(meshes[0], meshes[1])

@@ -31,7 +31,23 @@ std::string held_by(const Quality& q) {
   return "";
 }
 
+/// Whether creases hold nearly all of the faces that are not fair.
+bool is_held_by_creases(const Quality& q) {
+  constexpr double nearly_all = .9;
+  const auto is_bad = [](const WorstFace& face) { return face.min_angle < fair; };
+  const auto is_held = [&](const WorstFace& face) {
+    return is_bad(face) && std::ranges::find(face.reasons, "crease") != face.reasons.end();
+  };
+  const auto bad = static_cast<double>(std::ranges::count_if(q.worst_faces, is_bad)),
+             held = static_cast<double>(std::ranges::count_if(q.worst_faces, is_held));
+  return bad > 0 && held >= nearly_all * bad;
+}
+
 }  // namespace
+
+bool is_rounding(double distance, const Deviation& deviation) {
+  return distance <= 1e-11 * deviation.diagonal;
+}
 
 std::string outcome_in_words(const RunRecord& run) {
   const Quality &before = run.before, &after = *run.after;
@@ -41,6 +57,7 @@ std::string outcome_in_words(const RunRecord& run) {
   const std::string holder = held_by(after);
   if (after.min_angle.min < fair && !holder.empty()) text += "; the worst is held by " + holder;
   const double moved = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
+  if (is_rounding(moved, *run.deviation)) return text + "; the surface did not move";
   return text + fmt::format("; the surface moved by at most {:.2g} % of its size",
                             100 * moved / run.deviation->diagonal);
 }
@@ -49,6 +66,9 @@ std::string advice_in_words(const RunRecord& run, ConnectivityMode mode) {
   if (run.after->min_angle.min >= fair) return "";
   switch (mode) {
     case ConnectivityMode::fixed:
+      if (is_held_by_creases(*run.after))
+        return "for better angles --connectivity adapt makes new vertices: creases hold nearly all of the "
+               "worst faces";
       return "for better angles let edges change: --connectivity flip keeps the vertices, adapt makes new "
              "ones";
     case ConnectivityMode::flip:

@@ -9,12 +9,16 @@
 
 namespace hooke {
 
+/// Whether a distance in a mesh of this size is no more than rounding makes.
+bool is_rounding(double distance, const Deviation& deviation);
+
 /// "minimum angle 1.23 -> 27.8 degrees; 0 faces below 20 degrees (326 before); the worst is held by ...; the
-/// surface moved by at most 0.4 % of its size". Pre-condition: the run has a result.
+/// surface moved by at most 0.4 % of its size", or "did not move". Pre-condition: the run has a result.
 std::string outcome_in_words(const RunRecord& run);
 
 /// The one change of options that would help most, for a run with this connectivity, or an empty text:
-/// "--connectivity flip ..." where the neighbours of vertices hold small angles that other edges would not.
+/// "--connectivity flip ..." where the neighbours of vertices hold small angles that other edges would not,
+/// "--connectivity adapt ..." where creases do.
 std::string advice_in_words(const RunRecord& run, ConnectivityMode mode);
 
 }  // namespace hooke
