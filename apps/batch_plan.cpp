@@ -11,6 +11,7 @@
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"
+#include "hooke/io/mesh_format.h"
 #include "input_files.h"
 
 namespace hooke::app {
@@ -26,7 +27,16 @@ constexpr std::array<std::pair<std::string_view, const char*>, 5> further_output
 constexpr std::array<std::string_view, 10> of_the_batch = {
     "INPUT", "output", "suffix", "table", "skip-existing", "jobs", "threads", "quiet", "verbose", "progress"};
 
+/// Throws InputError for an input whose name cannot be that of an output: a folder, a pattern of the shell.
+void require_mesh_name(const Settings& s, const fs::path& input) {
+  if (std::error_code error; fs::is_directory(input, error))
+    throw InputError(
+        fmt::format("{}: is a folder; expected meshes; name those in it", printable(input.string())));
+  if (!s.input_format) input_format_of(input);
+}
+
 fs::path output_in_folder(const Settings& s, const fs::path& input) {
+  if (!s.format_given) require_mesh_name(s, input);
   const std::string extension =
       s.format_given ? "." + name_of(*s.format == MeshFormat::msh2 ? MeshFormat::msh : *s.format)
                      : input.extension().string();

@@ -48,9 +48,7 @@ namespace {
 
 std::string outcome_word(const nlohmann::ordered_json& row) {
   const int code = row["exit_code"].get<int>();
-  return code == done          ? "done"
-         : code == gate_failed ? "written, but a condition of --require does not hold"
-                               : row["status"].get<std::string>();
+  return code == done || code == gate_failed ? "done" : row["status"].get<std::string>();
 }
 
 }  // namespace
@@ -58,6 +56,7 @@ std::string outcome_word(const nlohmann::ordered_json& row) {
 std::string row_in_words(const nlohmann::ordered_json& row) {
   std::string line = fmt::format("{}: {} in {:.2f} s", printable(row["file"].get<std::string>()),
                                  outcome_word(row), row["seconds"].get<double>());
+  if (row["exit_code"].get<int>() == gate_failed) line += ", but --require or --compare does not hold";
   const nlohmann::ordered_json &before = row["least_angle_before"], &after = row["least_angle_after"];
   if (before.is_number() && after.is_number())
     line += fmt::format(": least angle {:.3g} -> {:.3g} degrees", before.get<double>(), after.get<double>());

@@ -61,7 +61,8 @@ class Batch(CommandTest):
 
     def test_the_exit_code_is_that_of_the_first_that_failed(self):
         self.run_command("patch.obj", "bad.off", "open.obj", "-o", "out/", expect=3)
-        self.run_command("patch.obj", "cube.obj", "-o", "out/", "--require", "before.min_angle.min >= 2", expect=6)
+        _, err = self.run_command("patch.obj", "cube.obj", "-o", "out/", "--require", "before.min_angle.min >= 2", expect=6)
+        self.assertRegex(err, r"patch.obj: done in [\d.]+ s, but --require or --compare does not hold: least angle")
 
     def test_table_as_lines_of_json(self):
         self.run_command("cube.obj", "bad.off", "--check", "--table", "table.jsonl", expect=3)
@@ -100,6 +101,8 @@ class Batch(CommandTest):
                 (["patch.obj", "--check", "--skip-existing"], "--skip-existing")):
             with self.subTest(arguments=arguments):
                 self.refused(2, *arguments, says=says)
+        for name, says in (("*.nothing", "unknown format"), ("sub", "is a folder")):
+            self.refused(3, name, "-o", "out/", says=f"error: {name}: {says}")
         self.refused(5, *two, "-o", "out/", "--table", "no/table.csv", names="table.csv")
         self.refused(5, *two, "-o", "patch.obj/", names="patch.obj")
 
