@@ -106,7 +106,8 @@ MeshData data_of_result(const Settings& s, const LoadedMesh& loaded, const Origi
     result.material_libraries = loaded.material_libraries;
   }
   std::vector<std::string> lost = vertices.dropped;
-  lost.insert(lost.end(), faces.dropped.begin(), faces.dropped.end());
+  for (const std::string& channel : faces.dropped)
+    lost.push_back(channel.starts_with("names of ") ? channel + "s" : channel);
   if (!lost.empty())
     run.warnings.push_back(
         {"attributes_not_kept",

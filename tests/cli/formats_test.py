@@ -167,7 +167,7 @@ class Msh(CommandTest):
 
     def test_dropped_groups_are_named(self):
         for arguments, why in ((["out.obj"], "obj files cannot hold entity; use MSH"), (["out.off"], "off files cannot hold group, entity; use MSH"),
-                               (["out.stl"], "stl files cannot hold group, entity; use MSH"), (["out.ply"], "ply files cannot hold names of group; use MSH"),
+                               (["out.stl"], "stl files cannot hold group, entity; use MSH"), (["out.ply"], "ply files cannot hold names of groups; use MSH"),
                                (["out.msh", "--connectivity", "flip", "--keep", "groups"], "face data not kept: group, entity: new faces have none")):
             _, err = self.run_command("in.msh", "-q", "--effort", "fast", "-o", *arguments)
             self.assertIn(why, err)

@@ -45,6 +45,10 @@ class Readme(CommandTest):
                 self.assertEqual(shlex.split(line)[-1], "report.json")
                 self.assertNotIn("null", self.shell(line))
                 self.assertTrue(self.shell(line).strip())
+        self.run_command("in.obj", "--check", "-q", "--report", "report.json")
+        for line in lines:
+            if line.startswith("jq -r"):
+                self.shell(line)
 
 
 if __name__ == "__main__":
