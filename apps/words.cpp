@@ -243,7 +243,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   require_streams(s);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
   set_effort(s.remesh, s.effort);
-  s.remesh.map = !s.map.empty() || s.reproject_uv;
+  s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
