@@ -158,6 +158,18 @@ TEST(PreservingRemesh, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.faces, two.faces);
 }
 
+TEST(PreservingRemesh, VerticesThatStayMakeAValidMeshWheneverTheyAreStopped) {
+  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip})
+    for (unsigned seed = 1; seed <= 4; ++seed)
+      for (int stop : {1, 2, 4, 8, 16, 40}) {
+        int calls = 0;
+        const test::Outcome o =
+            preserved(lens(seed), options_for(mode), [&](const Progress&) { return ++calls < stop; });
+        EXPECT_TRUE(o.result.measures->preservation.holds()) << seed << " " << stop;
+        EXPECT_TRUE(calls < stop || o.result.reason == StopReason::interrupted);
+      }
+}
+
 TEST(PreservingRemesh, DiscardsAnInterruptedRunButTheFirst) {
   const RemeshOptions options = options_for(ConnectivityMode::adapt);
   int tried = 0;

@@ -94,7 +94,7 @@ class PreservingRemesh {
     Run best = attempt();
     if (!best.result.measures) return best;  // not finite
     if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
-    if (!best.is_interrupted() && !best.keeps_promises()) put_back(best);
+    if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
     return best;
   }
 
@@ -274,14 +274,11 @@ class PreservingRemesh {
     if (options_.connectivity == ConnectivityMode::adapt) return;
     if (options_.connectivity == ConnectivityMode::flip) {
       options_.connectivity = ConnectivityMode::fixed;
-      Run next = make();
-      if (next.is_interrupted()) {
-        best.result.reason = StopReason::interrupted;
-        return;
-      }
+      Run next = make();  // ends at once if the work is interrupted
+      const bool interrupted = best.is_interrupted() || next.is_interrupted();
       judge(next);
-      if (!next.result.measures) return;  // not finite
-      best = std::move(next);
+      if (next.result.measures) best = std::move(next);  // else not finite
+      if (interrupted) best.result.reason = StopReason::interrupted;
     }
     best.result.rescue = Rescue::put_back;
     for (int rings : {1, 2, 4, 8, 16}) {
