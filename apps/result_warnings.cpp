@@ -35,10 +35,11 @@ void warn_of_folds(RunRecord& run) {
   folded.resize(std::min(count, max_listed));
   run.warnings.push_back(
       {"folded_faces",
-       fmt::format("{}: {} of its faces lie against the surface of {}, or at folds that are there already: "
-                   "faces {}{}; look at both meshes there",
-                   run.output->path, count, run.input.path, fmt::join(folded, " "),
-                   count > max_listed ? " ..." : "")});
+       fmt::format(
+           "{}: {} of its faces point the other way than {} does near them, which is folded there or has "
+           "two sheets close together: faces {}{}; look whether that is meant",
+           run.output->path, count, run.input.path, fmt::join(folded, " "),
+           count > max_listed ? " ..." : "")});
 }
 
 void warn_of_crossings(RunRecord& run) {
@@ -115,17 +116,19 @@ std::string what_is_broken(const RunRecord& run) {
   if (!run.result->measures || run.result->measures->preservation.holds()) return "";
   const Preservation& p = run.result->measures->preservation;
   std::vector<std::string> broken;
-  const auto place = [](const Vec3& x) { return fmt::format("{:.6g} {:.6g} {:.6g}", x[0], x[1], x[2]); };
+  const std::string place = fmt::format("{:.6g} {:.6g} {:.6g}", p.place[0], p.place[1], p.place[2]);
+  const std::string at = p.excess > 1 ? "" : ", one at " + place;
   if (!p.topology_kept) broken.push_back("components, boundary loops or holes are not those of the input");
   if (!p.far_vertices.empty() || !p.lost_vertices.empty() || !p.within_max_distance)
     broken.push_back(fmt::format("the surface would be {} from that of {} at {}{}",
-                                 with_share(p.distance, run), run.input.path, place(p.place),
-                                 volume_change(run)));
+                                 with_share(p.distance, run), run.input.path, place, volume_change(run)));
   if (!p.creases_kept)
     broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away", p.crease_loss));
-  if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over", p.flipped_faces));
+  if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over{}", p.flipped_faces, at));
   if (p.new_folds > 0) broken.push_back(fmt::format("{} new folds", p.new_folds));
-  if (p.new_crossings > 0) broken.push_back(fmt::format("{} new self-intersections", p.new_crossings));
+  if (p.new_crossings > 0)
+    broken.push_back(
+        fmt::format("{} new self-intersections{}", p.new_crossings, p.flipped_faces == 0 ? at : ""));
   if (p.new_degenerate_faces > 0)
     broken.push_back(fmt::format("{} new faces without area", p.new_degenerate_faces));
   return fmt::format("{}", fmt::join(broken, "; "));

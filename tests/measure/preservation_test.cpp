@@ -72,7 +72,10 @@ TEST(Preservation, CrossingsAreNewOnlyWhereThereWereNone) {
   EXPECT_GT(new_crossings(coarse.surface, elsewhere.surface).size(), 0u);
   EXPECT_LT(new_crossings(coarse.surface, elsewhere.surface).size(), *elsewhere.quality.self_intersections);
   EXPECT_EQ(new_crossings(none.surface, coarse.surface).size(), *coarse.quality.self_intersections);
-  EXPECT_EQ(compare(two(2, apart), two(2, crosses)).new_crossings, *coarse.quality.self_intersections);
+  const Preservation p = compare(two(2, apart), two(2, crosses), {.max_distance = 10});
+  EXPECT_EQ(p.new_crossings, *coarse.quality.self_intersections);
+  EXPECT_GT(p.place.x(), .2);  // between the spheres
+  EXPECT_LT(p.place.x(), 1);
 }
 
 TEST(Preservation, AFaceTurnedOverBreaksIt) {

@@ -282,6 +282,21 @@ std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
   return crossings;
 }
 
+namespace {
+
+int face_with_id(const MeasuredSurface& surface, int id) {
+  int face = 0;
+  while (surface.ids.face(face) != id) ++face;
+  return face;
+}
+
+Vec3 centre_of(const MeasuredSurface& surface, int face) {
+  const Triangle& t = surface.adjacency.faces[index_of(face)];
+  return (surface.points.col(t[0]) + surface.points.col(t[1]) + surface.points.col(t[2])) / 3;
+}
+
+}  // namespace
+
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
                                   const Deviation& deviation, const PreservationOptions& options) {
   Preservation p;
@@ -295,8 +310,14 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   p.new_degenerate_faces = excess_of(result.quality.degenerate_faces, reference.quality.degenerate_faces);
   p.new_crossings = excess_of(result.quality.self_intersections.value_or(0),
                               reference.quality.self_intersections.value_or(0));
-  if (p.new_crossings > 0)
-    p.new_crossings = std::min(p.new_crossings, new_crossings(reference.surface, result.surface).size());
+  std::optional<int> wrong;  // a face
+  if (p.flipped_faces > 0) wrong = face_with_id(result.surface, deviation.flipped_faces.front());
+  if (p.new_crossings > 0) {
+    const auto pairs = new_crossings(reference.surface, result.surface);
+    p.new_crossings = std::min(p.new_crossings, pairs.size());
+    if (p.new_crossings > 0 && !wrong) wrong = pairs.front()[0];
+  }
+  if (wrong && p.excess <= 1) p.place = centre_of(result.surface, *wrong);
   const Topology &before = reference.quality.topology, &after = result.quality.topology;
   p.topology_kept = before.components == after.components && before.boundary_loops == after.boundary_loops &&
                     before.euler == after.euler;

@@ -39,7 +39,9 @@ struct Preservation {
   bool within_max_distance = true;       // are the surfaces, by the samples of the Deviation?
   double excess = 0;                     // the greatest distance of these vertices over its limit
   double distance = 0;                   // the distance there
-  Vec3 place = Vec3::Zero();             // the vertex there
+  /// The vertex there; if no distance is beyond its limit, the centre of a face that is turned over or
+  /// crosses another, if there is one.
+  Vec3 place = Vec3::Zero();
   std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
   std::size_t new_crossings = 0;         // new_crossings(), likewise
   std::size_t new_degenerate_faces = 0;  // likewise
