@@ -9,7 +9,7 @@ import threading
 import time
 import unittest
 
-from command import CommandTest, irregular_torus, read_mesh, write_off
+from command import SANITIZED, CommandTest, irregular_torus, read_mesh, write_off
 
 
 class Disks(CommandTest):
@@ -108,6 +108,7 @@ class Meanwhile(CommandTest):
         self.assertIn(b"place", err)
 
 
+@unittest.skipIf(SANITIZED, "needs a program without sanitizers")
 class Memory(CommandTest):
     def test_too_little_memory_is_said_and_an_older_output_stays(self):
         write_off(self.folder / "torus.off", *irregular_torus(300, 200))
@@ -150,7 +151,7 @@ class Kills(CommandTest):
 class Signals(CommandTest):
     """SIGINT and SIGTERM at moments spread over each mode: what is written is valid, and the exit code tells it."""
 
-    def at_moments(self, *options, size=(60, 40), moments=20):
+    def at_moments(self, *options, size=(60, 40), moments=6 if SANITIZED else 20):
         vertices, faces = irregular_torus(*size)
         write_off(self.folder / "torus.off", vertices, faces)
         start = time.perf_counter()
@@ -161,9 +162,12 @@ class Signals(CommandTest):
             number = (signal.SIGINT, signal.SIGTERM)[i % 2]
             (self.folder / "out.off").unlink(missing_ok=True)
             process = self.start("torus.off", "-o", "out.off", "-q", *options)
+            start = time.perf_counter()
             timer = threading.Timer(whole * (i + .5) / moments, lambda: process.send_signal(number))
             timer.start()
             _, err = process.communicate()
+            if process.returncode == 0:  # the machine is less busy now
+                whole = min(whole, time.perf_counter() - start)
             timer.cancel()
             timer.join()
             self.assertIn(process.returncode, (0, 128 + number, -number), err)
