@@ -127,7 +127,7 @@ void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& 
   };
   p.far_vertices = vertices_beyond(result, deviation.vertices_to_reference, limit_of_result, p);
   p.lost_vertices = vertices_beyond(reference, deviation.vertices_from_reference, limit_of_reference, p);
-  if (!o.keeps_facets && !o.max_distance) return;
+  if (o.max_distance ? std::isinf(*o.max_distance) : !o.keeps_facets) return;
   const std::vector<double> limits =
       o.max_distance ? std::vector<double>(reference.adjacency.faces.size(), *o.max_distance)
                      : facet_limits(reference);

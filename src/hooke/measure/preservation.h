@@ -12,7 +12,7 @@
 namespace hooke {
 
 struct PreservationOptions {
-  /// Maximum distance between the surfaces, both ways, in file units. None: of the result's vertices from the
+  /// Maximum distance between the surfaces, both ways and at all samples, in file units. None: of the result's vertices from the
   /// reference 12 local sagittas (see mesh/sagitta.h), but no more than 2 and half a mean edge, or 1e-3 of
   /// the diagonal, whichever is more; of the reference's vertices from the result as much or .6 of the edges
   /// there.

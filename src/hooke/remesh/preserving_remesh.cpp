@@ -277,7 +277,8 @@ class PreservingRemesh {
       Run next = make();  // ends at once if the work is interrupted
       const bool interrupted = best.is_interrupted() || next.is_interrupted();
       judge(next);
-      if (next.result.measures) best = std::move(next);  // else not finite
+      if (!next.result.measures) return;  // not finite
+      best = std::move(next);
       if (interrupted) best.result.reason = StopReason::interrupted;
     }
     best.result.rescue = Rescue::put_back;
