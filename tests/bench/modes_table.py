@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 
 import artificial_meshes
-from run_tool import run_tool
+from run_tool import quality, run_tool
 
 FAMILIES = ("G1", "M1", "M2", "M3", "S1", "S2")
 RUNS = {
@@ -23,10 +23,6 @@ RUNS = {
     "adapt": ["--connectivity", "adapt"],
     "adapt, thorough": ["--connectivity", "adapt", "--effort", "thorough"],
 }
-
-
-def quality(measures):
-    return measures["min_angle"]["min"], measures["edge_length"]["std"] / measures["edge_length"]["mean"]
 
 
 def cell(values):

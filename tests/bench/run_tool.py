@@ -14,6 +14,11 @@ def run_tool(tool, source, output, *options):
     return json.loads(run.stdout)
 
 
+def quality(measures):
+    """Least angle in degrees and the edges' standard deviation over their mean, before or after a run."""
+    return measures["min_angle"]["min"], measures["edge_length"]["std"] / measures["edge_length"]["mean"]
+
+
 def timed_run(tool, source, output, *options):
     """Wall seconds and report of a run."""
     start = time.perf_counter()

@@ -127,6 +127,19 @@ TEST(Deviation, AFaceWellBeyondTheMiddleOfAWallIsTurnedOver) {
   EXPECT_TRUE(is_turned_over(.1));
 }
 
+TEST(Deviation, WhereBodiesCrossNoFaceIsTurnedOverForTheOtherBody) {
+  for (const double apart : {1.8, 1.9, 1.95}) {
+    const auto two = [&](int levels) {
+      return test::both(test::sphere(levels, .3, 1), shifted(test::sphere(levels, .3, 2), {apart, .1, 0}));
+    };
+    const test::Triangles fine = two(4), coarse = two(2);
+    EXPECT_TRUE(measure(fine, coarse).flipped_faces.empty()) << apart;
+    test::Triangles turned = coarse;
+    for (Triangle& t : turned.faces) std::swap(t[0], t[1]);
+    EXPECT_GT(measure(fine, turned).flipped_faces.size(), .9 * static_cast<double>(turned.faces.size()));
+  }
+}
+
 TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {
   // Its second face is folded back over the first; the result lies over it, the right way up.
   const auto folded =

@@ -61,7 +61,8 @@ TEST(PreservingRemesh, BodiesThatCrossAreAsGoodAsEachAlone) {
   two.points.conservativeResize(3, 2 * n);
   two.points.rightCols(n) = one.points.colwise() + Vec3(.9, .5, .2);
   for (const Triangle& t : one.faces) two.faces.push_back({t[0] + n, t[1] + n, t[2] + n});
-  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
     const test::Outcome alone = preserved(one, options_for(mode)), both = preserved(two, options_for(mode));
     EXPECT_EQ(both.result.rescue, Rescue::none);
     EXPECT_TRUE(both.result.measures->preservation.holds());

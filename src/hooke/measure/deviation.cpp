@@ -8,6 +8,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/closest_faces.h"
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {
@@ -256,12 +257,15 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
 }
 
 /// Is there no face of the reference about as close to the centre of this face as the closest one, `at`, that
-/// faces the same way? Beside creases and on thin walls there is one.
-bool faces_no_like(const MeasuredSurface& reference, const Face& face, const Vec3& n,
-                   const ClosestFacePoint& at) {
-  constexpr double as_close = 1.25;   // over the distance of the closest face
-  constexpr double touching = 1e-6;   // of the diagonal
-  constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
+/// faces the same way? Beside creases and on thin walls there is one. Where bodies cross the closest one may
+/// be of another body: one of its own body is close then by the size of the face. `body`: per vertex of the
+/// reference.
+bool faces_no_like(const MeasuredSurface& reference, const std::vector<int>& body, const Face& face,
+                   const Vec3& n, const ClosestFacePoint& at) {
+  constexpr double across_bodies = .25;  // of the longest edge of the face
+  constexpr double as_close = 1.25;      // over the distance of the closest face
+  constexpr double touching = 1e-6;      // of the diagonal
+  constexpr double min_cosine = -.1;     // a face across a right-angled crease is not turned over
   const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
   const double length = n.norm();
   if (!(length > 0)) return false;
@@ -269,8 +273,12 @@ bool faces_no_like(const MeasuredSurface& reference, const Face& face, const Vec
     const Vec3 m = area_vector(reference.points, reference.adjacency.faces[f]);
     return m.dot(n) >= min_cosine * m.norm() * length;
   });
-  const double limit = as_close * (centre - at.point).norm() + touching * reference.extent.diagonal;
-  return like.face < 0 || like.squared_distance > limit * limit;
+  if (like.face < 0) return true;
+  double limit = as_close * (centre - at.point).norm() + touching * reference.extent.diagonal;
+  if (body[reference.adjacency.faces[like.face][0]] != body[face_at(reference, at).vertices[0]])
+    for (size_t k = 0; k < 3; ++k)
+      limit = std::max(limit, across_bodies * (face.corners[(k + 1) % 3] - face.corners[k]).norm());
+  return like.squared_distance > limit * limit;
 }
 
 /// Unit vertex normals, weighted by face area, so that a folded sliver does not turn them.
@@ -298,6 +306,7 @@ Vec3 normal_at(const Mat3X& normals, const Face& face, const ClosestFacePoint& a
 void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
                          const std::vector<ClosestFacePoint>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
+  const std::vector<int> body = label_components(reference.adjacency);
   std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
   const std::span<const Face> faces = result.tree.faces();
   parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {
@@ -307,7 +316,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       const Vec3 n = area_vector(faces[k]);
       const Face& there = face_at(reference, closest[k]);
       flipped[f] = n.dot(normal_at(normals, there, closest[k])) < 0 &&
-                   faces_no_like(reference, faces[k], n, closest[k]);
+                   faces_no_like(reference, body, faces[k], n, closest[k]);
       opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
     }
   });
