@@ -42,12 +42,33 @@ TEST(Vtp, OtherContentIsNamedOnce) {
   Sample sample;
   sample.piece += " NumberOfLines=\"3\"";
   sample.more =
-      "<PointData><DataArray Name=\"heat\" format=\"ascii\">1 2 3 4 5</DataArray></PointData>"
+      "<PointData><Array type=\"String\" Name=\"names\" format=\"ascii\">1 2 3 4 5</Array></PointData>"
+      "<CellData><DataArray type=\"Int32\" Name=\"label\" format=\"ascii\">1 2</DataArray></CellData>"
       "<Lines><DataArray Name=\"connectivity\">0 1</DataArray></Lines>";
   const MeshFile file = read_vtp(sample.text(), "m");
   ASSERT_EQ(file.content.anew.size(), 1u);
-  EXPECT_EQ(file.content.anew[0].message, "m: not kept in the output: 3 lines, point data 'heat'");
+  EXPECT_EQ(file.content.anew[0].message,
+            "m: not kept in the output: 3 lines, cell data 'label', point data 'names'");
   EXPECT_EQ(file.polygons.items.size(), 7u);
+}
+
+TEST(Vtp, PointDataAreValuesOfTheVertices) {
+  Sample sample;
+  sample.more =
+      "<PointData><DataArray type=\"Float32\" Name=\"wall thickness\" format=\"ascii\">1 2 3 4 .5</DataArray>"
+      "<DataArray type=\"Float64\" Name=\"Normals\" NumberOfComponents=\"3\" format=\"ascii\">"
+      "0 0 1 0 0 1 0 0 1 0 0 1 0 1 0</DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"pair\" NumberOfComponents=\"2\" format=\"ascii\">"
+      "0 1 2 3 4 5 6 7 8 9</DataArray></PointData>";
+  const MeshFile file = read_vtp(sample.text(), "m");
+  EXPECT_TRUE(file.content.anew.empty());
+  EXPECT_EQ(find_channel(file.vertex_data, "wall_thickness")->values, (std::vector{1., 2., 3., 4., .5}));
+  EXPECT_EQ(find_channel(file.vertex_data, "wall_thickness")->type, NumberType::float32);
+  EXPECT_EQ(find_channel(file.vertex_data, "ny")->values, (std::vector{0., 0., 0., 0., 1.}));
+  EXPECT_EQ(find_channel(file.vertex_data, "pair_1")->values, (std::vector{1., 3., 5., 7., 9.}));
+  sample.more =
+      "<PointData><DataArray type=\"Float32\" Name=\"heat\" format=\"ascii\">1 2</DataArray></PointData>";
+  EXPECT_ERROR(InputError, "m:12: 2 numbers; expected 1 of each of 5 points", read_vtp(sample.text(), "m"));
 }
 
 TEST(Vtp, PiecesArePutTogether) {

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "hooke/core/error.h"
@@ -38,6 +40,7 @@ struct Piece {
   long long points = 0, polygons = 0;
   int line = 1;
   std::optional<Array> coordinates, connectivity, offsets;
+  std::map<std::string, std::optional<Array>> point_data;  // by name
 };
 
 // What a file holds.
@@ -160,7 +163,7 @@ class DocumentReader {
   void start_piece(const Attributes& attributes) {
     open_ = nullptr;  // it points into the pieces
     document_.pieces.push_back(
-        {count(attributes, "NumberOfPoints"), count(attributes, "NumberOfPolys"), line(), {}, {}, {}});
+        {count(attributes, "NumberOfPoints"), count(attributes, "NumberOfPolys"), line(), {}, {}, {}, {}});
     for (const auto& [attribute, kind] : {std::pair{"NumberOfVerts", "vertex cells"},
                                           {"NumberOfLines", "lines"},
                                           {"NumberOfStrips", "strips of triangles"}})
@@ -180,7 +183,7 @@ class DocumentReader {
     if (parent() == "Points") return &piece.coordinates;
     if (parent() == "Polys" && array_name == "connectivity") return &piece.connectivity;
     if (parent() == "Polys" && array_name == "offsets") return &piece.offsets;
-    if (parent() == "PointData") note("point data " + in_quotes(array_name));
+    if (parent() == "PointData") return &piece.point_data[array_name];
     if (parent() == "CellData") note("cell data " + in_quotes(array_name));
     return nullptr;
   }
@@ -351,6 +354,71 @@ void add_polygons(const Piece& piece, const ArrayReader& reader, long long first
   }
 }
 
+std::optional<NumberType> number_type(const std::string& name) {
+  static const std::map<std::string, NumberType> types = {
+      {"Int8", NumberType::int8},      {"UInt8", NumberType::uint8},    {"Int16", NumberType::int16},
+      {"UInt16", NumberType::uint16},  {"Int32", NumberType::int32},    {"UInt32", NumberType::uint32},
+      {"Int64", NumberType::float64},  {"UInt64", NumberType::float64}, {"Float32", NumberType::float32},
+      {"Float64", NumberType::float64}};
+  const auto found = types.find(name);
+  return found == types.end() ? std::nullopt : std::optional(found->second);
+}
+
+// The names of the values of a vertex: those of PLY files for normals and texture coordinates, else that of
+// the array with a number for each of several.
+std::vector<std::string> channel_names(std::string array, size_t width) {
+  if (array == "Normals" && width == 3) return {normal_names.begin(), normal_names.end()};
+  if (array == "TCoords" && width == 2) return {texture_names[0], texture_names[1]};
+  std::ranges::replace_if(
+      array, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  if (array == "x" || array == "y" || array == "z") array = "point_" + array;
+  if (width == 1) return {array};
+  std::vector<std::string> names;
+  for (size_t k = 0; k < width; ++k) names.push_back(array + "_" + std::to_string(k));
+  return names;
+}
+
+// Adds the array of point data that all pieces with points have, with numbers of one type. Returns whether
+// that is so.
+bool add_point_data(const std::vector<Piece>& pieces, const std::string& array_name,
+                    const ArrayReader& reader, MeshFile& file) {
+  std::string type, width_text;
+  std::vector<double> all;
+  for (const Piece& piece : pieces) {
+    if (piece.points == 0) continue;
+    const auto found = piece.point_data.find(array_name);
+    if (found == piece.point_data.end() || !found->second) return false;
+    const Array& array = *found->second;
+    const std::string own = value_of(array.attributes, "type"),
+                      own_width = value_of(array.attributes, "NumberOfComponents", "1");
+    if (all.empty()) {
+      type = own;
+      width_text = own_width;
+    }
+    long long width = 0;
+    if (own != type || own_width != width_text || !number_type(own) ||
+        parse_integer(own_width, width) != NumberError::none || width < 1 || width > 16)
+      return false;
+    const std::vector<double> numbers = reader.reals(array);
+    if (static_cast<long long>(numbers.size()) != width * piece.points)
+      fail_at(file.name, array.line,
+              fmt::format("{} numbers; expected {} of each of {} points; is the file truncated?",
+                          numbers.size(), width, piece.points));
+    all.insert(all.end(), numbers.begin(), numbers.end());
+  }
+  if (all.empty()) return false;
+  const size_t width = std::stoul(width_text);
+  const std::vector<std::string> names = channel_names(array_name, width);
+  if (std::ranges::any_of(names, [&](const std::string& n) { return find_channel(file.vertex_data, n); }))
+    return false;
+  for (size_t k = 0; k < width; ++k) {
+    VertexChannel channel{names[k], *number_type(type), {}};
+    for (size_t i = k; i < all.size(); i += width) channel.values.push_back(all[i]);
+    file.vertex_data.push_back(std::move(channel));
+  }
+  return true;
+}
+
 }  // namespace
 
 MeshFile read_vtp(std::string_view bytes, const std::string& name) {
@@ -370,6 +438,12 @@ MeshFile read_vtp(std::string_view bytes, const std::string& name) {
   }
   file.points =
       Eigen::Map<const Mat3X>(coordinates.data(), 3, static_cast<Eigen::Index>(coordinates.size() / 3));
+  std::set<std::string> arrays;
+  for (const Piece& piece : document.pieces)
+    for (const auto& [array, content] : piece.point_data) arrays.insert(array);
+  for (const std::string& array : arrays)
+    if (!add_point_data(document.pieces, array, reader, file))
+      document.not_kept.push_back("point data " + in_quotes(array));
   warn_not_kept(file, document.not_kept);
   return file;
 }
