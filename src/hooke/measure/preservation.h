@@ -12,10 +12,10 @@
 namespace hooke {
 
 struct PreservationOptions {
-  /// Maximum distance between the surfaces, both ways and at all samples, in file units. None: of the result's vertices from the
-  /// reference 12 local sagittas (see mesh/sagitta.h), but no more than 2 and half a mean edge, or 1e-3 of
-  /// the diagonal, whichever is more; of the reference's vertices from the result as much or .6 of the edges
-  /// there.
+  /// Maximum distance between the surfaces, both ways and at all samples, in file units. None: of the
+  /// result's vertices from the reference 12 local sagittas (see mesh/sagitta.h), but no more than 2 and half
+  /// a mean edge, or 1e-3 of the diagonal, whichever is more; of the reference's vertices from the result as
+  /// much or .6 of the edges there.
   std::optional<double> max_distance = {};
   double feature_angle = 40;  // degrees; sharper edges of the reference have no sagitta
   bool faceted = false;       // is_faceted(reference): no half edges and no more than 2 sagittas
