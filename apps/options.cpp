@@ -72,7 +72,7 @@ CLI::Option* add_number(CLI::App& app, const char* name, double& value, const ch
 
 /// Accepts any text but the empty one and the next option, which stands in its place where a variable of a
 /// script is not set.
-CLI::Validator given(const char* expected) {
+CLI::Validator no_option(const char* expected) {
   const auto check = [expected](const std::string& text) -> std::string {
     if (text.empty()) return fmt::format("''; expected {}", expected);
     return text.starts_with("--") ? fmt::format("{}; expected {}, not an option", in_quotes(text), expected)
@@ -84,14 +84,14 @@ CLI::Validator given(const char* expected) {
 /// Accepts the name of a file; not `-`, which does not stand for a stream here.
 CLI::Validator file_name() {
   const auto check = [](const std::string& text) -> std::string {
-    return text == "-" ? "'-'; expected the name of a file" : given("the name of a file")(text);
+    return text == "-" ? "'-'; expected the name of a file" : no_option("the name of a file")(text);
   };
   return {check, ""};
 }
 
 /// Accepts the name of a file, or `-` for a standard stream.
 CLI::Validator file_or_stream() {
-  return given("the name of a file, or -");
+  return no_option("the name of a file, or -");
 }
 
 CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file, const char* help) {
@@ -353,7 +353,7 @@ void add_batch(CLI::App& app, Settings& s) {
   app.add_option("--suffix", s.batch.suffix,
                  "Text between name and extension of the files written to FOLDER/: part.obj becomes "
                  "partTEXT.obj")
-      ->check(given("text"))
+      ->check(no_option("text"))
       ->type_name("TEXT");
   add_file(app, "--table", s.batch.table,
            "A row for each mesh: file, status, exit code, seconds, numbers before and after; FILE.csv, or "
