@@ -359,17 +359,17 @@ struct CreasedScene : test::WorkingScene {
 TEST(WorkingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
   for (double factor : {.4, 2.5}) {
     CreasedScene s;
-    for (double& length : s.vertex_length) length *= factor;
+    for (double& length : s.vertices.vertex_length) length *= factor;
     for (int round = 0; round < 4; ++round) {
-      count_curve_edges(s.working, .1);
-      split_long_edges(s.working, {});
-      FlippableMesh flipping = s.working.flipping();
+      count_curve_edges(s.mesh, .1);
+      split_long_edges(s.mesh, {});
+      WorkingMesh flipping = s.mesh;
       flip_to_delaunay(flipping, {});
-      collapse_short_edges(s.working, {});
-      match_curve_edges(s.working, {});
-      compact(s.working);
+      collapse_short_edges(s.mesh, {});
+      match_curve_edges(s.mesh, {});
+      compact(s.mesh);
     }
-    const double wanted = std::lround(1 / s.vertex_length[0]);
+    const double wanted = std::lround(1 / s.vertices.vertex_length[0]);
     EXPECT_NEAR(static_cast<double>(s.constraints.creases.size()), wanted, 1);
     double length = 0;
     for (const auto& [a, b] : s.constraints.creases) {
@@ -385,7 +385,7 @@ constexpr CoarseLimits any_number{
     .levels = 10, .min_faces = 0, .constrained_share = 9, .irregular_share = -1};
 
 int levels_of(const test::WorkingScene& s, const CoarseLimits& limits = any_number) {
-  return coarse_levels(s.working, static_cast<double>(s.adjacency.faces.size()), limits);
+  return coarse_levels(s.mesh, static_cast<double>(s.adjacency.faces.size()), limits);
 }
 
 TEST(CoarseLevels, GrowByOneWhereTheMeshIsTwiceAsFine) {
@@ -401,7 +401,7 @@ TEST(CoarseLevels, AreThoseThatTheSagittaAllows) {
     CoarseLimits limits = any_number;
     limits.sagitta = sagitta;
     const auto on_unit_circle = [&](int level) {
-      return std::tan(std::ldexp(s.vertex_length[0], level) / 4) / 2;
+      return std::tan(std::ldexp(s.vertices.vertex_length[0], level) / 4) / 2;
     };
     const int levels = levels_of(s, limits);
     EXPECT_LE(on_unit_circle(levels), 1.1 * sagitta);  // edges are a little longer than arcs turn
@@ -428,7 +428,7 @@ TEST(CoarseLevels, AMeshThatIsRegularAlreadyHasNone) {
   const test::WorkingScene regular(test::sphere(4), test::unit_sphere());
   EXPECT_EQ(levels_of(regular, {}), 0);
   test::WorkingScene too_fine(test::sphere(4), test::unit_sphere());
-  for (double& length : too_fine.vertex_length) length *= 1.5;
+  for (double& length : too_fine.vertices.vertex_length) length *= 1.5;
   EXPECT_EQ(levels_of(too_fine, {}), 1);
   EXPECT_EQ(levels_of(test::WorkingScene(test::sphere(4, .3, 3), test::unit_sphere()), {}), 1);
 }
@@ -445,7 +445,7 @@ TEST(CoarseLevels, AreThoseOfTheSurfaceHoweverFinelyItIsMeshed) {
     return Projection{centre + (x[0] > 3 ? 1 : 2) * n, n, hint, ProjectionStatus::converged, 1};
   };
   test::WorkingScene s(t, both);
-  for (double& length : s.vertex_length) length = .3;
+  for (double& length : s.vertices.vertex_length) length = .3;
   CoarseLimits limits = any_number;
   const double round = .5 * std::tan(.3 / 4);  // sagitta of an edge of the small sphere over its length
   limits.sagitta = 1.5 * round;

@@ -41,7 +41,7 @@ TEST(CollapseTrial, LeavesTheMeshAlone) {
   const Mat3X points = s.positions.points, normals = s.positions.normals;
   const std::vector<Triangle> faces = s.halfedges.faces();
   int allowed = 0;
-  for (int h : inner_edges(s.halfedges)) allowed += find_collapse(s.working, h, {}).has_value();
+  for (int h : inner_edges(s.halfedges)) allowed += find_collapse(s.mesh, h, {}).has_value();
   EXPECT_GT(allowed, 0);
   EXPECT_EQ(s.positions.points, points);
   EXPECT_EQ(s.positions.normals, normals);
@@ -52,8 +52,8 @@ TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
   for (int k = 0; k < 200; k += 7) {
     test::WorkingScene s(rough(), test::plane());
     const int h = inner_edges(s.halfedges)[static_cast<size_t>(k)];
-    const std::optional<Collapse> collapse = find_collapse(s.working, h, {});
-    EXPECT_EQ(collapse_edge(s.working, h, {}), collapse ? collapse->stays : -1);
+    const std::optional<Collapse> collapse = find_collapse(s.mesh, h, {});
+    EXPECT_EQ(collapse_edge(s.mesh, h, {}), collapse ? collapse->stays : -1);
     if (collapse) {
       EXPECT_EQ(Vec3(s.positions.points.col(collapse->stays)), collapse->position.point);
       EXPECT_TRUE(s.halfedges.is_removed(h / 3));
@@ -68,11 +68,11 @@ TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
     test::WorkingScene s(rough(), test::plane());
     const int h = inner_edges(s.halfedges)[k];
     const double before =
-        std::max(longest_at(s.working, s.halfedges.from(h)), longest_at(s.working, s.halfedges.to(h)));
-    const int v = collapse_edge(s.working, h, {.longest = longest});
+        std::max(longest_at(s.mesh, s.halfedges.from(h)), longest_at(s.mesh, s.halfedges.to(h)));
+    const int v = collapse_edge(s.mesh, h, {.longest = longest});
     (v < 0 ? refused : allowed)++;
     if (v >= 0) {
-      EXPECT_LE(longest_at(s.working, v), std::max(longest, before) + 1e-9);
+      EXPECT_LE(longest_at(s.mesh, v), std::max(longest, before) + 1e-9);
     }
   }
   EXPECT_GT(allowed, 0);
@@ -82,7 +82,7 @@ TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
 /// The worst shape of the faces at the vertex, its edges, and the dihedral angles of its faces.
 WorstShape worst_at(const WorkingMesh& m, int v) {
   const HalfedgeMesh& t = m.halfedges;
-  const Mat3X &X = m.positions.points, &N = m.positions.normals;
+  const Mat3X &X = m.vertices.positions.points, &N = m.vertices.positions.normals;
   WorstShape worst;
   for (int outgoing : t.outgoing(v)) {
     const auto f = static_cast<size_t>(outgoing / 3);
@@ -108,11 +108,11 @@ void expect_rings_to_predict(const MakeScene& make_scene, int every) {
   int collapses = 0;
   for (int h = 0; h < make_scene()->halfedges.half_edge_count(); h += every) {
     const auto s = make_scene();
-    const std::optional<Collapse> collapse = find_collapse(s->working, h, {.longest = 3});
+    const std::optional<Collapse> collapse = find_collapse(s->mesh, h, {.longest = 3});
     if (!collapse) continue;
-    const WorstShape predicted = CollapsedRing(s->working, h, collapse->stays).worst(collapse->position);
-    ASSERT_EQ(collapse_edge(s->working, h, {.longest = 3}), collapse->stays);
-    const WorstShape measured = worst_at(s->working, collapse->stays);
+    const WorstShape predicted = CollapsedRing(s->mesh, h, collapse->stays).worst(collapse->position);
+    ASSERT_EQ(collapse_edge(s->mesh, h, {.longest = 3}), collapse->stays);
+    const WorstShape measured = worst_at(s->mesh, collapse->stays);
     EXPECT_NEAR(predicted.cotangent, measured.cotangent, 1e-12);
     EXPECT_NEAR(predicted.alignment, measured.alignment, 1e-12);
     EXPECT_NEAR(predicted.fold, measured.fold, 1e-12);
@@ -133,7 +133,7 @@ TEST(CollapsedRing, PredictsItOnBothSidesOfACrease) {
   for (int v = cells / 2 * (cells + 1); row.size() < cells; ++v) row.push_back({v, v + 1});
   const auto creased = [&] {
     auto s = std::make_unique<test::WorkingScene>(test::grid(cells, test::flat), test::plane(), row);
-    for (int& target : s->curve_edges.target) target = 1;
+    for (int& target : s->mesh.curve_edges.target) target = 1;
     return s;
   };
   expect_rings_to_predict(creased, 1);
@@ -145,10 +145,10 @@ TEST(EdgeCollapses, DoNotDependOnThreads) {
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     test::WorkingScene s(rough(), test::plane());
-    for (double& length : s.vertex_length) length *= 1.5;
-    count_curve_edges(s.working, .1);
-    EXPECT_GT(collapse_short_edges(s.working, {}), cells);
-    compact(s.working);
+    for (double& length : s.vertices.vertex_length) length *= 1.5;
+    count_curve_edges(s.mesh, .1);
+    EXPECT_GT(collapse_short_edges(s.mesh, {}), cells);
+    compact(s.mesh);
     points.push_back(s.positions.points);
     faces.push_back(s.halfedges.faces());
     const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), faces.back());
@@ -162,14 +162,14 @@ TEST(EdgeCollapses, DoNotDependOnThreads) {
 TEST(EdgeCollapses, LeaveCurvesTheirTargetEdgeCount) {
   constexpr int n = 40;
   test::WorkingScene s(test::grid(n, test::flat), test::plane());
-  for (size_t v = 0; v < s.vertex_length.size(); ++v)
-    s.vertex_length[v] = (s.halfedges.on_boundary(static_cast<int>(v)) ? 1.1 : 1.) / n;
-  count_curve_edges(s.working, .1);
-  EXPECT_GT(collapse_short_edges(s.working, {.shortest = .95, .longest = 10}), 0);
-  ASSERT_EQ(s.curve_edges.target.size(), 4u);
+  for (size_t v = 0; v < s.vertices.vertex_length.size(); ++v)
+    s.vertices.vertex_length[v] = (s.halfedges.on_boundary(static_cast<int>(v)) ? 1.1 : 1.) / n;
+  count_curve_edges(s.mesh, .1);
+  EXPECT_GT(collapse_short_edges(s.mesh, {.shortest = .95, .longest = 10}), 0);
+  ASSERT_EQ(s.mesh.curve_edges.target.size(), 4u);
   for (size_t c = 0; c < 4; ++c) {
-    EXPECT_LT(s.curve_edges.target[c], n);
-    EXPECT_EQ(s.curve_edges.present[c], s.curve_edges.target[c]);
+    EXPECT_LT(s.mesh.curve_edges.target[c], n);
+    EXPECT_EQ(s.mesh.curve_edges.present[c], s.mesh.curve_edges.target[c]);
   }
 }
 
@@ -195,14 +195,14 @@ FaceSummary summarize(const WorkingMesh& m) {
     if (m.halfedges.is_removed(static_cast<int>(f))) continue;
     const Triangle& t = m.halfedges.faces()[f];
     ++summary.faces;
-    summary.min_alignment =
-        std::min(summary.min_alignment, face_alignment(m.positions.points, m.positions.normals, t));
+    summary.min_alignment = std::min(
+        summary.min_alignment, face_alignment(m.vertices.positions.points, m.vertices.positions.normals, t));
   }
   return summary;
 }
 
 void expect_a_disk(test::WorkingScene& s) {
-  compact(s.working);
+  compact(s.mesh);
   const Adjacency c = make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces());
   EXPECT_EQ(measure_topology(c).euler, 1);
   EXPECT_EQ(measure_topology(c).boundary_loops, 1);
@@ -210,9 +210,9 @@ void expect_a_disk(test::WorkingScene& s) {
 
 TEST(FaceCollapses, TakeOutFoldedFaces) {
   test::WorkingScene s(with_moved_middle(1.4, 0), test::plane());
-  ASSERT_LT(summarize(s.working).min_alignment, 0);
-  EXPECT_GE(collapse_folded_faces(s.working, folded_face_options()), 1);
-  const FaceSummary after = summarize(s.working);
+  ASSERT_LT(summarize(s.mesh).min_alignment, 0);
+  EXPECT_GE(collapse_folded_faces(s.mesh, folded_face_options()), 1);
+  const FaceSummary after = summarize(s.mesh);
   EXPECT_GT(after.min_alignment, .99);
   EXPECT_GE(after.faces, 2 * fold_cells * fold_cells - 4);
   expect_a_disk(s);
@@ -220,8 +220,8 @@ TEST(FaceCollapses, TakeOutFoldedFaces) {
 
 TEST(FaceCollapses, LeaveGoodFacesAlone) {
   test::WorkingScene s(test::grid(fold_cells, test::flat), test::plane());
-  EXPECT_EQ(collapse_folded_faces(s.working, folded_face_options()), 0);
-  EXPECT_EQ(summarize(s.working).faces, 2 * fold_cells * fold_cells);
+  EXPECT_EQ(collapse_folded_faces(s.mesh, folded_face_options()), 0);
+  EXPECT_EQ(summarize(s.mesh).faces, 2 * fold_cells * fold_cells);
 }
 
 }  // namespace hooke::collapse_passes_test

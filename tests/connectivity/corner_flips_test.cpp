@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/flippable_scene.h"
+#include "support/working_scene.h"
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/constraints/constraints.h"
@@ -45,14 +45,14 @@ class CornerIsForced : public testing::TestWithParam<Fan> {};
 
 TEST_P(CornerIsForced, ToItsTargetValenceAndStaysThere) {
   const test::Triangles t = test::fan(GetParam().angle, GetParam().edge_count);
-  test::FlippableScene s(t, test::plane());
-  s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  test::WorkingScene s(t, test::plane());
+  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   const Vec3 tip = s.positions.points.col(0);
   EXPECT_GT(flip_corners_to_valence(s.mesh, {}), 0);
-  EXPECT_EQ(s.halfedges.valence(0), s.corner_valences[0]);
+  EXPECT_EQ(s.halfedges.valence(0), s.vertices.corner_valences[0]);
   EXPECT_EQ(Vec3(s.positions.points.col(0)), tip);
   flip_to_delaunay(s.mesh, {});
-  EXPECT_EQ(s.halfedges.valence(0), s.corner_valences[0]);
+  EXPECT_EQ(s.halfedges.valence(0), s.vertices.corner_valences[0]);
   for (const Triangle& f : s.halfedges.faces())
     EXPECT_GE(face_alignment(s.positions.points, s.positions.normals, f), .3);
   const int n = static_cast<int>(t.points.cols());
@@ -63,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Fans, CornerIsForced,
 
 TEST(CornerFlips, ACornerCutOffByOneFaceIsOpened) {
   const test::Triangles t = test::grid(4, test::flat);
-  test::FlippableScene s(t, test::plane());
-  s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  test::WorkingScene s(t, test::plane());
+  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   for (int corner : {4, 20}) ASSERT_EQ(s.halfedges.valence(corner), 2);
   EXPECT_EQ(flip_corners_to_valence(s.mesh, {}), 2);
   for (int corner : {0, 4, 20, 24}) EXPECT_EQ(s.halfedges.valence(corner), 3);
@@ -74,8 +74,8 @@ TEST(CornerFlips, ACornerCutOffByOneFaceIsOpened) {
 TEST(CornerFlips, AnInnerNeighbourDeepInTheEarIsMovedOutOfIt) {
   test::Triangles t = test::fan(42, 3);
   t.points.col(2) *= .6;  // behind the line between its neighbours: the edge to it cannot be flipped directly
-  test::FlippableScene s(t, test::plane());
-  s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  test::WorkingScene s(t, test::plane());
+  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   ASSERT_FALSE(may_flip(s.mesh, test::half_edge(s.halfedges, 0, 2), {}));
   flip_corners_to_valence(s.mesh, {});
   EXPECT_EQ(s.halfedges.valence(0), 2);
@@ -85,9 +85,9 @@ TEST(CornerFlips, WhatBringsNothingIsUndone) {
   // The neighbour of the tip has no room: its ring is one face behind it.
   const test::Triangles t{(Mat3X(3, 4) << 0, 1, .4, 0, 0, 0, .4, 1, 0, 0, 0, 0).finished(),
                           {{0, 1, 2}, {0, 2, 3}}};
-  test::FlippableScene s(t, test::plane());
+  test::WorkingScene s(t, test::plane());
   s.constraints.freedom.assign(4, Freedom::fixed);
-  s.corner_valences = {2, 2, 3, 2};
+  s.vertices.corner_valences = {2, 2, 3, 2};
   EXPECT_EQ(flip_corners_to_valence(s.mesh, {}), 0);
   EXPECT_EQ(s.positions.points, t.points);
   EXPECT_EQ(s.halfedges.faces(), t.faces);

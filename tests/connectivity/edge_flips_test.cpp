@@ -10,7 +10,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/mesh/halfedge_mesh.h"
-#include "support/flippable_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke::edge_flips_test {
 
@@ -46,7 +46,7 @@ test::Triangles fan_in_square(const Vec3& inner) {
 TEST(EdgeFlips, APlaneMeshBecomesDelaunay) {
   test::Triangles t = test::grid(8, test::flat, .45, 5);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) t.points(0, v) *= 3;  // stretched: many flips to do
-  test::FlippableScene s(t, test::plane());
+  test::WorkingScene s(t, test::plane());
   ASSERT_GT(worst_opposite_angles(s.halfedges, t.points), std::numbers::pi + .1);
   EXPECT_GT(flip_to_delaunay(s.mesh, {}), 0);
   EXPECT_LE(worst_opposite_angles(s.halfedges, t.points), std::numbers::pi + 1e-9);
@@ -55,7 +55,7 @@ TEST(EdgeFlips, APlaneMeshBecomesDelaunay) {
 
 TEST(EdgeFlips, BoundaryEdgesStay) {
   const test::Triangles t = test::grid(8, test::paraboloid, .45, 6);
-  test::FlippableScene s(t, test::plane());
+  test::WorkingScene s(t, test::plane());
   ASSERT_GT(flip_to_delaunay(s.mesh, {}), 0);
   const int n = static_cast<int>(t.points.cols());
   EXPECT_EQ(test::boundary_edges(n, s.halfedges.faces()), test::boundary_edges(n, t.faces));
@@ -65,7 +65,7 @@ TEST(EdgeFlips, BoundaryEdgesStay) {
 
 TEST(EdgeFlips, NoFaceFoldsAndNoVertexLosesItsThirdEdgeOnASphere) {
   const test::Triangles t = test::sphere(2, .35, 2);
-  test::FlippableScene s(t, test::unit_sphere());
+  test::WorkingScene s(t, test::unit_sphere());
   ASSERT_GT(flip_to_delaunay(s.mesh, {}), 0);
   for (const Triangle& f : s.halfedges.faces())
     EXPECT_GE(face_alignment(s.positions.points, s.positions.normals, f), .3);
@@ -79,7 +79,7 @@ TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
   const Surface rough = [](const Vec3& x, int hint, double) {
     return Projection{x, x.normalized(), hint, ProjectionStatus::converged, 1};
   };
-  test::FlippableScene s(t, rough);
+  test::WorkingScene s(t, rough);
   const FlipGuardOptions folds_only{.area_share = 0, .alignment = -2, .fold = .1, .sagitta = 99};
   const auto cosine = [&](int a, int b) {
     const int h = test::half_edge(s.halfedges, a, b);
@@ -108,17 +108,17 @@ TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
 }
 
 TEST(EdgeFlips, AConvexQuadMayFlipAndADentedOneMayNot) {
-  test::FlippableScene convex(quad(Vec3(1, 1, 0)), test::plane());
-  convex.corner_valences = {2, 2, 3, 3};  // vertices 0 and 2 have three edges
+  test::WorkingScene convex(quad(Vec3(1, 1, 0)), test::plane());
+  convex.vertices.corner_valences = {2, 2, 3, 3};  // vertices 0 and 2 have three edges
   EXPECT_FALSE(may_flip(convex.mesh, test::half_edge(convex.halfedges, 0, 2), {}));
-  convex.corner_valences = {2, 3, 2, 3};
+  convex.vertices.corner_valences = {2, 3, 2, 3};
   EXPECT_TRUE(may_flip(convex.mesh, test::half_edge(convex.halfedges, 0, 2), {}));
 
-  test::FlippableScene dented(quad(Vec3(.3, .3, 0)), test::plane());
-  dented.corner_valences = {2, 3, 2, 3};
+  test::WorkingScene dented(quad(Vec3(.3, .3, 0)), test::plane());
+  dented.vertices.corner_valences = {2, 3, 2, 3};
   EXPECT_FALSE(may_flip(dented.mesh, test::half_edge(dented.halfedges, 0, 2), {}));
-  test::FlippableScene sliver(quad(Vec3(.501, .501, 0)), test::plane());
-  sliver.corner_valences = {2, 3, 2, 3};
+  test::WorkingScene sliver(quad(Vec3(.501, .501, 0)), test::plane());
+  sliver.vertices.corner_valences = {2, 3, 2, 3};
   EXPECT_FALSE(may_flip(sliver.mesh, test::half_edge(sliver.halfedges, 0, 2), {}));
   EXPECT_TRUE(may_flip(sliver.mesh, test::half_edge(sliver.halfedges, 0, 2), {.area_share = 1e-4}));
 }
@@ -128,22 +128,24 @@ TEST(EdgeFlips, NoEdgeIsDoubled) {
   t.points.resize(3, 4);
   t.points << 1, -1, -1, 1, 1, -1, 1, -1, 1, 1, -1, -1;
   t.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-  test::FlippableScene s(t, test::unit_sphere());
+  test::WorkingScene s(t, test::unit_sphere());
   for (int h = 0; h < 12; ++h) {
-    s.corner_valences.assign(4,
-                             4);  // valences forbid nothing: the ends may lose an edge, the others gain one
-    for (int end : {s.halfedges.from(h), s.halfedges.to(h)}) s.corner_valences[static_cast<size_t>(end)] = 2;
+    s.vertices.corner_valences.assign(
+        4,
+        4);  // valences forbid nothing: the ends may lose an edge, the others gain one
+    for (int end : {s.halfedges.from(h), s.halfedges.to(h)})
+      s.vertices.corner_valences[static_cast<size_t>(end)] = 2;
     EXPECT_FALSE(may_flip(s.mesh, h, {.area_share = 0, .alignment = -1, .sagitta = 9}));
   }
 }
 
 TEST(EdgeFlips, AVertexKeepsThreeEdges) {
-  test::FlippableScene s(fan_in_square(Vec3(.6, .55, 0)), test::plane());
+  test::WorkingScene s(fan_in_square(Vec3(.6, .55, 0)), test::plane());
   ASSERT_EQ(s.halfedges.valence(4), 4);
   for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // the ends have three
-  s.corner_valences = {2, 2, 2, 2, 0};
+  s.vertices.corner_valences = {2, 2, 2, 2, 0};
   for (int h : s.halfedges.outgoing(4)) EXPECT_FALSE(may_flip(s.mesh, h, {}));  // target valence of corners
-  s.corner_valences = {2, 4, 2, 4, 0};
+  s.vertices.corner_valences = {2, 4, 2, 4, 0};
   EXPECT_TRUE(may_flip(s.mesh, test::half_edge(s.halfedges, 4, 0), {}));
   s.halfedges.flip(test::half_edge(s.halfedges, 4, 0));
   ASSERT_EQ(s.halfedges.valence(4), 3);
@@ -151,8 +153,8 @@ TEST(EdgeFlips, AVertexKeepsThreeEdges) {
 }
 
 TEST(EdgeFlips, AnEdgeDoesNotCutThroughASharpBend) {
-  test::FlippableScene s(quad(Vec3(1, 1, 0)), test::plane());
-  s.corner_valences = {2, 3, 2, 3};
+  test::WorkingScene s(quad(Vec3(1, 1, 0)), test::plane());
+  s.vertices.corner_valences = {2, 3, 2, 3};
   const int h = test::half_edge(s.halfedges, 0, 2);
   ASSERT_TRUE(may_flip(s.mesh, h, {}));
   s.positions.normals.col(1) = Vec3(.8, -.6, .1).normalized();  // the new edge would join 1 and 3

@@ -14,8 +14,8 @@ namespace hooke::edge_splits_test {
 constexpr int cells = 6;
 
 int quadrupled(test::WorkingScene& s) {
-  const int splits = subdivide(s.working, {}, {});
-  compact(s.working);
+  const int splits = subdivide(s.mesh, {}, {});
+  compact(s.mesh);
   return splits;
 }
 
@@ -28,15 +28,15 @@ TEST(Subdivision, EveryFaceBecomesFour) {
 
 TEST(Subdivision, NewVerticesAreRegularAndOldOnesKeepTheirEdges) {
   test::WorkingScene s(test::grid(cells, test::flat, .2), test::plane());
-  for (size_t v = 0; v < s.origins.size(); ++v) s.origins[v] = static_cast<int>(v);
+  for (size_t v = 0; v < s.vertices.origins.size(); ++v) s.vertices.origins[v] = static_cast<int>(v);
   for (int corner : {0, cells, cells * (cells + 1), (cells + 1) * (cells + 1) - 1})
-    s.corner_valences[static_cast<size_t>(corner)] = s.halfedges.valence(corner);
+    s.vertices.corner_valences[static_cast<size_t>(corner)] = s.halfedges.valence(corner);
   std::vector<int> valences;
   for (int v = 0; v < s.adjacency.vertex_count; ++v) valences.push_back(s.halfedges.valence(v));
   quadrupled(s);
   int fresh = 0;
-  for (size_t i = 0; i < s.origins.size(); ++i) {
-    const int v = static_cast<int>(i), origin = s.origins[i];
+  for (size_t i = 0; i < s.vertices.origins.size(); ++i) {
+    const int v = static_cast<int>(i), origin = s.vertices.origins[i];
     if (origin >= 0) {
       EXPECT_EQ(s.halfedges.valence(v), valences[static_cast<size_t>(origin)]);
     } else {
@@ -71,9 +71,9 @@ TEST(Subdivision, CurvesAndCreasesAreSplit) {
   std::vector<Edge> crease;
   for (int v = cells / 2 * (cells + 1); crease.size() < cells; ++v) crease.push_back({v, v + 1});
   test::WorkingScene s(test::grid(cells, test::flat), test::plane(), crease);
-  const std::vector<int> before = s.curve_edges.present;
+  const std::vector<int> before = s.mesh.curve_edges.present;
   quadrupled(s);
-  for (size_t c = 0; c < before.size(); ++c) EXPECT_EQ(s.curve_edges.present[c], 2 * before[c]);
+  for (size_t c = 0; c < before.size(); ++c) EXPECT_EQ(s.mesh.curve_edges.present[c], 2 * before[c]);
   EXPECT_EQ(s.constraints.creases.size(), 2 * crease.size());
   for (const auto& [a, b] : s.constraints.creases) {
     EXPECT_NEAR(s.positions.points(1, a), .5, 1e-12);
@@ -90,13 +90,11 @@ TEST(Subdivision, ABoundaryThatStandsStillStaysWhole) {
       s.constraints.curve[v] = -1;
     }
   s.constraints.curves.clear();
-  const CurveFinder none(s.constraints.curves);
-  WorkingMesh still{s.halfedges,       s.positions, s.retraction, s.constraints, s.vertex_length,
-                    s.corner_valences, s.origins,   none,         s.curve_edges};
+  WorkingMesh still(s.adjacency, s.vertices, s.retraction);
   const int boundary = 4 * cells;
   EXPECT_EQ(subdivide(still, {}, {}), static_cast<int>(s.adjacency.edges.size()) - boundary);
   compact(still);
-  EXPECT_NEAR(total_area(s.positions.points, s.halfedges.faces()), total_area(t.points, t.faces), 1e-12);
+  EXPECT_NEAR(total_area(s.positions.points, still.halfedges.faces()), total_area(t.points, t.faces), 1e-12);
 }
 
 }  // namespace hooke::edge_splits_test

@@ -18,7 +18,7 @@ std::vector<EdgeChange> changes_of(const test::WorkingScene& s) {
   std::vector<EdgeChange> changes;
   for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
     if (s.halfedges.twin(h) > h || s.halfedges.is_feature_edge(h)) continue;
-    const std::vector<EdgeChange> allowed = allowed_changes(s.working, h, {});
+    const std::vector<EdgeChange> allowed = allowed_changes(s.mesh, h, {});
     changes.insert(changes.end(), allowed.begin(), allowed.end());
   }
   return changes;
@@ -27,7 +27,7 @@ std::vector<EdgeChange> changes_of(const test::WorkingScene& s) {
 /// The candidates that are accepted.
 std::vector<EdgeCandidate> kept(const test::WorkingScene& s, const CandidateOptions& options) {
   const EnergyTerms terms;
-  CandidateEvaluator evaluator(s.working, terms, options, {});
+  CandidateEvaluator evaluator(s.mesh, terms, options, {});
   evaluator.set_sliver_angle(sliver_angle);
   std::vector<EdgeCandidate> kept;
   for (const EdgeChange& change : changes_of(s)) {
@@ -41,7 +41,7 @@ std::vector<EdgeCandidate> kept(const test::WorkingScene& s, const CandidateOpti
 
 PatchQuality quality_after(const EdgeCandidate& candidate, const CandidateOptions& o) {
   const GuardOptions guards;
-  return measure_patch(candidate.patch.positions, candidate.adjacency, candidate.targets,
+  return measure_patch(candidate.patch.vertices.positions, candidate.adjacency, candidate.targets,
                        {sliver_angle + o.fair_margin, guards.alignment, guards.fold, o.sagitta, o.longest});
 }
 
@@ -74,7 +74,7 @@ TEST(EdgeCandidate, LosesNoMoreSurfaceThanItMay) {
   EXPECT_LT(covering.size(), all.size());
   EXPECT_FALSE(covering.empty());
   for (const EdgeCandidate& candidate : covering) {
-    const double length = candidate.patch.vertex_length[0];
+    const double length = candidate.patch.vertices.vertex_length[0];
     EXPECT_GE(quality_after(candidate, more).area, candidate.before.area + .1 * length * length - 1e-12);
   }
 }
@@ -93,7 +93,7 @@ int face_at(int column, int row) {
 
 /// Topology of the mesh without deleted elements.
 Topology topology_of(test::WorkingScene& s) {
-  compact(s.working);
+  compact(s.mesh);
   return measure_topology(make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces()));
 }
 
@@ -105,13 +105,13 @@ std::vector<EdgeChange> changes_about(const WorkingMesh& m, int face, const Chan
 }
 
 EdgePatch cut(const test::WorkingScene& s, const EdgeChange& change) {
-  return *cut_patch(s.working.flipping(), change.half_edge, 2, 200);
+  return *cut_patch(s.mesh, change.half_edge, 2, 200);
 }
 
 TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
   const test::Triangles grid = test::grid(cells, test::flat, .3, 5);
   const test::WorkingScene first(grid, test::plane());
-  const std::vector<EdgeChange> changes = changes_about(first.working, face_at(4, 4), {});
+  const std::vector<EdgeChange> changes = changes_about(first.mesh, face_at(4, 4), {});
   std::array<int, 3> kinds = {};
   for (const EdgeChange& change : changes) {
     ++kinds[static_cast<size_t>(change.kind)];
@@ -119,17 +119,17 @@ TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
     const Topology before = measure_topology(s.adjacency);
     EdgePatch patch = cut(s, change);
     const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
-    change_mesh(s.working, change, patch);
+    change_mesh(s.mesh, change, patch);
     for (const Triangle& face : faces) {
       const auto in_mesh = [&](int k) {
-        return patch.vertices[static_cast<size_t>(face[static_cast<size_t>(k)])];
+        return patch.vertex_ids[static_cast<size_t>(face[static_cast<size_t>(k)])];
       };
       const int h = test::half_edge(s.halfedges, in_mesh(0), in_mesh(1));
       ASSERT_GE(h, 0);
       EXPECT_EQ(s.halfedges.opposite_vertex(h), in_mesh(2));
       for (int k : {0, 1, 2})
         EXPECT_EQ(s.positions.points.col(in_mesh(k)),
-                  patch.positions.points.col(face[static_cast<size_t>(k)]));
+                  patch.vertices.positions.points.col(face[static_cast<size_t>(k)]));
     }
     const Topology after = topology_of(s);
     EXPECT_EQ(after.euler, before.euler);
@@ -142,8 +142,8 @@ TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
 
 TEST(EdgeChanges, OnlyThoseThatAreAskedFor) {
   const test::WorkingScene s(test::grid(cells, test::flat, .3, 5), test::plane());
-  const auto all = changes_about(s.working, face_at(4, 4), {});
-  const auto flips = changes_about(s.working, face_at(4, 4), {.splits = false, .collapses = false});
+  const auto all = changes_about(s.mesh, face_at(4, 4), {});
+  const auto flips = changes_about(s.mesh, face_at(4, 4), {.splits = false, .collapses = false});
   EXPECT_FALSE(flips.empty());
   EXPECT_LT(flips.size(), all.size());
   for (const EdgeChange& change : flips) EXPECT_EQ(change.kind, ChangeKind::flip);
@@ -154,7 +154,7 @@ TEST(EdgeChanges, LeaveTheBoundaryAlone) {
   const HalfedgeMesh& t = s.halfedges;
   int collapses = 0;
   for (int row : {0, 1}) {
-    for (const EdgeChange& change : changes_about(s.working, face_at(3, row), {})) {
+    for (const EdgeChange& change : changes_about(s.mesh, face_at(3, row), {})) {
       EXPECT_GE(t.twin(change.half_edge), 0);
       if (change.kind != ChangeKind::collapse) continue;
       ++collapses;
@@ -170,7 +170,7 @@ TEST(EdgeChanges, LeaveCreasesAlone) {
   const test::WorkingScene s(test::grid(cells, test::flat), test::plane(), creases);
   const HalfedgeMesh& t = s.halfedges;
   int beside = 0;
-  for (const EdgeChange& change : changes_about(s.working, face_at(3, 3), {})) {
+  for (const EdgeChange& change : changes_about(s.mesh, face_at(3, 3), {})) {
     EXPECT_FALSE(t.is_crease(change.half_edge));
     if (change.kind != ChangeKind::collapse) continue;
     const int a = t.from(change.half_edge), b = t.to(change.half_edge);
@@ -184,15 +184,15 @@ TEST(EdgeChanges, AFreeBoundaryStaysWhereItIs) {
   test::WorkingScene s(test::grid(cells, test::flat), test::plane());
   for (Freedom& freedom : s.constraints.freedom) freedom = Freedom::surface;
   int collapses = 0;
-  for (const EdgeChange& change : changes_about(s.working, face_at(3, 0), {})) {
+  for (const EdgeChange& change : changes_about(s.mesh, face_at(3, 0), {})) {
     if (change.kind != ChangeKind::collapse) continue;
     EdgePatch patch = cut(s, change);
-    const Mat3X before = patch.positions.points;
+    const Mat3X before = patch.vertices.positions.points;
     change_patch(patch, change, test::plane(), {});
-    for (size_t i = 0; i < patch.vertices.size(); ++i) {
-      if (!s.halfedges.on_boundary(patch.vertices[i])) continue;
+    for (size_t i = 0; i < patch.vertex_ids.size(); ++i) {
+      if (!s.halfedges.on_boundary(patch.vertex_ids[i])) continue;
       collapses += static_cast<int>(i) == change.stays;
-      EXPECT_EQ(patch.positions.points.col(static_cast<Eigen::Index>(i)),
+      EXPECT_EQ(patch.vertices.positions.points.col(static_cast<Eigen::Index>(i)),
                 before.col(static_cast<Eigen::Index>(i)));
     }
   }
@@ -203,14 +203,14 @@ TEST(EdgeChanges, CornersKeepTheirTargetValence) {
   // The tip of a fan has its target valence of four: no edge may be flipped away from it, and no collapse
   // may add edges to it.
   test::WorkingScene s(test::fan(90, 4), test::plane());
-  s.corner_valences[0] = 4;
+  s.vertices.corner_valences[0] = 4;
   int seen = 0;
-  for (const EdgeChange& change : changes_about(s.working, 0, {})) {
+  for (const EdgeChange& change : changes_about(s.mesh, 0, {})) {
     EdgePatch patch = cut(s, change);
     const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
-    const auto tip = std::ranges::find(patch.vertices, 0);
-    if (tip == patch.vertices.end()) continue;
-    const auto id = static_cast<int>(tip - patch.vertices.begin());
+    const auto tip = std::ranges::find(patch.vertex_ids, 0);
+    if (tip == patch.vertex_ids.end()) continue;
+    const auto id = static_cast<int>(tip - patch.vertex_ids.begin());
     const auto at_tip =
         std::ranges::count_if(faces, [&](const Triangle& t) { return std::ranges::count(t, id) > 0; });
     EXPECT_EQ(at_tip, 3);
@@ -221,7 +221,7 @@ TEST(EdgeChanges, CornersKeepTheirTargetValence) {
 
 TEST(EdgeChanges, GiveNoVertexTooManyEdges) {
   const test::WorkingScene s(test::grid(cells, test::flat), test::plane());
-  EXPECT_TRUE(changes_about(s.working, face_at(4, 4), {.valence = 6, .collapses = false}).empty());
+  EXPECT_TRUE(changes_about(s.mesh, face_at(4, 4), {.valence = 6, .collapses = false}).empty());
 }
 
 TEST(EdgeChanges, APatchCutAfterASplitOfACreasedMeshKnowsItsVertices) {
@@ -231,13 +231,13 @@ TEST(EdgeChanges, APatchCutAfterASplitOfACreasedMeshKnowsItsVertices) {
   const EdgeChange split{test::half_edge(s.halfedges, 2 * across + 3, 2 * across + 4), ChangeKind::split};
   EdgePatch patch = cut(s, split);
   change_patch(patch, split, test::plane(), {});
-  change_mesh(s.working, split, patch);
+  change_mesh(s.mesh, split, patch);
   const int beyond = test::half_edge(s.halfedges, 5 * across + 3, 5 * across + 4);
-  const EdgePatch other = *cut_patch(s.working.flipping(), beyond, 2, 200);
-  for (size_t i = 0; i < other.vertices.size(); ++i) {
-    EXPECT_GE(s.halfedges.valence(other.vertices[i]), 0);  // no extra wedge
-    EXPECT_EQ(other.positions.points.col(static_cast<Eigen::Index>(i)),
-              s.positions.points.col(other.vertices[i]));
+  const EdgePatch other = *cut_patch(s.mesh, beyond, 2, 200);
+  for (size_t i = 0; i < other.vertex_ids.size(); ++i) {
+    EXPECT_GE(s.halfedges.valence(other.vertex_ids[i]), 0);  // no extra wedge
+    EXPECT_EQ(other.vertices.positions.points.col(static_cast<Eigen::Index>(i)),
+              s.positions.points.col(other.vertex_ids[i]));
   }
 }
 

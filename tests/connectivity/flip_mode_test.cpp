@@ -11,7 +11,7 @@
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
-#include "support/flippable_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke::flip_mode_test {
 

@@ -10,17 +10,17 @@
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/working_mesh/working_mesh.h"
-#include "support/flippable_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke::lloyd_flow_test {
 
-LloydFlowResult flow_for(FlippableMesh& mesh, int rounds, const Observer& observer = nullptr) {
+LloydFlowResult flow_for(WorkingMesh& mesh, int rounds, const Observer& observer = nullptr) {
   return flow(mesh, {.rounds = rounds}, {}, {}, observer);
 }
 
 TEST(Flow, RegularisesAnUnevenSphere) {
   const test::Triangles t = test::sphere(3, .4, 3);
-  test::FlippableScene s(t, test::unit_sphere());
+  test::WorkingScene s(t, test::unit_sphere());
   const double before = min_angle(t.points, t.faces);
   const LloydFlowResult result = flow_for(s.mesh, 60);
   EXPECT_EQ(result.rounds, 60);
@@ -34,8 +34,8 @@ TEST(Flow, RegularisesAnUnevenSphere) {
 
 TEST(Flow, KeepsTheBoundary) {
   const test::Triangles t = test::grid(8, test::flat, .45, 8);
-  test::FlippableScene s(t, test::plane());
-  s.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  test::WorkingScene s(t, test::plane());
+  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   flow_for(s.mesh, 30);
   const int n = static_cast<int>(t.points.cols());
   const std::vector<Edge> edges = test::boundary_edges(n, s.halfedges.faces());
@@ -53,7 +53,7 @@ TEST(Flow, KeepsTheBoundary) {
 
 TEST(Flow, OneThreadAndTwoGiveTheSameBits) {
   const test::Triangles t = test::sphere(3, .4, 3);
-  test::FlippableScene one(t, test::unit_sphere()), two(t, test::unit_sphere());
+  test::WorkingScene one(t, test::unit_sphere()), two(t, test::unit_sphere());
   {
     ThreadLimit limit(1);
     flow_for(one.mesh, 10);
@@ -67,7 +67,7 @@ TEST(Flow, OneThreadAndTwoGiveTheSameBits) {
 }
 
 TEST(Flow, StopsWhenTheObserverSaysSo) {
-  test::FlippableScene s(test::sphere(2, .3, 1), test::unit_sphere());
+  test::WorkingScene s(test::sphere(2, .3, 1), test::unit_sphere());
   const LloydFlowResult result = flow_for(s.mesh, 60, [](const Progress& p) { return p.step < 4; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.rounds, 4);
@@ -75,9 +75,9 @@ TEST(Flow, StopsWhenTheObserverSaysSo) {
 
 TEST(Flow, MovesNoVertexFartherThanItsCapInARound) {
   const test::Triangles t = test::sphere(3, .4, 3);
-  test::FlippableScene s(t, test::unit_sphere());
+  test::WorkingScene s(t, test::unit_sphere());
   flow_for(s.mesh, 1);
-  const double L = s.vertex_length[0];
+  const double L = s.vertices.vertex_length[0];
   EXPECT_LE((s.positions.points - t.points).colwise().norm().maxCoeff(), .3 * L);
 }
 
@@ -92,7 +92,7 @@ test::Triangles lattice(int n) {
 }
 
 /// Centroid of the polygon of circumcentres about an inner vertex, by the shoelace formula.
-Vec3 centroid_of_voronoi_cell(const test::FlippableScene& s, int v) {
+Vec3 centroid_of_voronoi_cell(const test::WorkingScene& s, int v) {
   std::vector<Vec3> corners;
   for (int h : s.halfedges.outgoing(v)) {
     const Mat3X& X = s.positions.points;
@@ -116,7 +116,7 @@ Vec3 centroid_of_voronoi_cell(const test::FlippableScene& s, int v) {
 }
 
 /// Is the vertex, and all about it, away from the boundary?
-bool deep_inside(const test::FlippableScene& s, int v) {
+bool deep_inside(const test::WorkingScene& s, int v) {
   const std::vector<char> boundary = boundary_vertices(s.adjacency);
   for (int w : s.adjacency.vertex_neighbours[v])
     if (boundary[static_cast<size_t>(w)]) return false;
@@ -125,18 +125,18 @@ bool deep_inside(const test::FlippableScene& s, int v) {
 
 TEST(Lloyd, ARegularLatticeStays) {
   const test::Triangles t = lattice(6);
-  test::FlippableScene s(t, test::plane());
-  const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertex_length, {});
+  test::WorkingScene s(t, test::plane());
+  const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length, {});
   const std::vector<char> boundary = boundary_vertices(s.adjacency);
   for (int v = 0; v < t.points.cols(); ++v)
     EXPECT_TRUE(boundary[static_cast<size_t>(v)] || step.col(v).norm() < 1e-12) << v;
 }
 
 TEST(Lloyd, AStepLeadsToTheCentroidOfTheVoronoiCell) {
-  test::FlippableScene first(test::grid(8, test::flat, .3, 4), test::plane());
+  test::WorkingScene first(test::grid(8, test::flat, .3, 4), test::plane());
   flip_to_delaunay(first.mesh, {});
-  test::FlippableScene s({first.positions.points, first.halfedges.faces()}, test::plane());
-  const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertex_length, {.over_relaxation = 1});
+  test::WorkingScene s({first.positions.points, first.halfedges.faces()}, test::plane());
+  const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length, {.over_relaxation = 1});
   int compared = 0;
   for (int v = 0; v < step.cols(); ++v) {
     if (!deep_inside(s, v)) continue;
@@ -148,11 +148,11 @@ TEST(Lloyd, AStepLeadsToTheCentroidOfTheVoronoiCell) {
 
 TEST(Lloyd, ATurnedMeshTakesTurnedSteps) {
   const test::Triangles t = test::sphere(2, .2, 9);
-  test::FlippableScene s(t, test::unit_sphere());
+  test::WorkingScene s(t, test::unit_sphere());
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  test::FlippableScene turned({turn * t.points, t.faces}, test::unit_sphere());
-  const Mat3X a = lloyd_step(s.positions, s.adjacency, s.vertex_length, {});
-  const Mat3X b = lloyd_step(turned.positions, turned.adjacency, turned.vertex_length, {});
+  test::WorkingScene turned({turn * t.points, t.faces}, test::unit_sphere());
+  const Mat3X a = lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length, {});
+  const Mat3X b = lloyd_step(turned.positions, turned.adjacency, turned.vertices.vertex_length, {});
   EXPECT_LT((turn * a - b).norm(), 1e-10);
   EXPECT_GT(a.norm(), .01);
 }
@@ -160,21 +160,23 @@ TEST(Lloyd, ATurnedMeshTakesTurnedSteps) {
 TEST(Lloyd, ABoundaryVertexHeadsForWhereItsEdgesHaveTheRatioOfTheirTargets) {
   test::Triangles t = test::grid(2, test::flat);
   t.points(0, 1) = .2;  // vertex 1 lies between 0 at x = 0 and 2 at x = 1
-  test::FlippableScene s(t, test::plane());
-  EXPECT_NEAR(lloyd_step(s.positions, s.adjacency, s.vertex_length, {.boundary_relaxation = 1})(0, 1), .3,
-              1e-12);
-  s.vertex_length[1] = 1;
-  s.vertex_length[0] = 2;
-  s.vertex_length[2] = 5;  // 3 : 6
-  EXPECT_NEAR(lloyd_step(s.positions, s.adjacency, s.vertex_length, {.boundary_relaxation = 1})(0, 1),
-              1. / 3 - .2, 1e-12);
+  test::WorkingScene s(t, test::plane());
+  EXPECT_NEAR(
+      lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length, {.boundary_relaxation = 1})(0, 1), .3,
+      1e-12);
+  s.vertices.vertex_length[1] = 1;
+  s.vertices.vertex_length[0] = 2;
+  s.vertices.vertex_length[2] = 5;  // 3 : 6
+  EXPECT_NEAR(
+      lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length, {.boundary_relaxation = 1})(0, 1),
+      1. / 3 - .2, 1e-12);
 }
 
 TEST(Lloyd, VerticesCrowdWhereTheTargetsAreSmall) {
-  test::FlippableScene s(lattice(6), test::plane());
-  for (size_t v = 0; v < s.vertex_length.size(); ++v)
-    s.vertex_length[v] = 1 + .1 * s.positions.points(0, static_cast<Eigen::Index>(v));
-  const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertex_length, {});
+  test::WorkingScene s(lattice(6), test::plane());
+  for (size_t v = 0; v < s.vertices.vertex_length.size(); ++v)
+    s.vertices.vertex_length[v] = 1 + .1 * s.positions.points(0, static_cast<Eigen::Index>(v));
+  const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length, {});
   for (int v = 0; v < step.cols(); ++v) EXPECT_TRUE(!deep_inside(s, v) || step(0, v) < -1e-3) << v;
 }
 

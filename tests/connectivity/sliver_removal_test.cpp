@@ -23,7 +23,7 @@ test::Triangles with_moved_middle(double cells_in_x, double cells_in_y) {
 SliverChanges change(test::WorkingScene& s, const FaceCountLimits& limits = any_count,
                      const SliverOptions& options = {}, const Observer& observer = nullptr,
                      int tested_before = 0) {
-  return change_slivers(s.working, {}, options, {}, limits, tested_before, observer);
+  return change_slivers(s.mesh, {}, options, {}, limits, tested_before, observer);
 }
 
 std::vector<Triangle> faces_of(const test::WorkingScene& s) {
@@ -43,7 +43,7 @@ auto folded_faces_of(const test::WorkingScene& s) {
 }
 
 void expect_a_disk(test::WorkingScene& s) {
-  compact(s.working);
+  compact(s.mesh);
   const Topology t =
       measure_topology(make_adjacency(static_cast<int>(s.positions.points.cols()), s.halfedges.faces()));
   EXPECT_EQ(t.euler, 1);
@@ -136,10 +136,11 @@ TEST(SliverRemoval, AddsNothingBeyondTheLimits) {
       return most;
     };
     const auto length = [&](const Edge& e) {
-      return (s.positions.points.col(e[0]) - s.positions.points.col(e[1])).norm() / s.vertex_length[0];
+      return (s.positions.points.col(e[0]) - s.positions.points.col(e[1])).norm() /
+             s.vertices.vertex_length[0];
     };
     const auto sagitta = [&](const Edge& e) {
-      return edge_sagitta(s.positions.points, s.positions.normals, e) / s.vertex_length[0];
+      return edge_sagitta(s.positions.points, s.positions.normals, e) / s.vertices.vertex_length[0];
     };
     const double longest = std::max(options.longest, worst(length));
     const double deepest = std::max(options.sagitta, worst(sagitta));
@@ -162,7 +163,7 @@ TEST(SliverRemoval, LeavesCreasesWhereTheyAre) {
     all.collapses += changes.collapses;
     for (int i = 0; i <= cells; ++i)
       EXPECT_EQ(s.positions.points.col(middle + i), before.col(middle + i)) << seed;
-    compact(s.working);
+    compact(s.mesh);
     EXPECT_EQ(s.constraints.creases.size(), creases.size()) << seed;
     expect_a_disk(s);
   }
@@ -216,7 +217,7 @@ TEST(SliverRemoval, ThreadsChangeNothing) {
     const ThreadLimit limit(threads);
     test::WorkingScene s(test::grid(cells, test::flat, .45, 3), test::plane());
     EXPECT_GT(change(s).count(), 0);
-    compact(s.working);
+    compact(s.mesh);
     return std::pair(s.halfedges.faces(), s.positions.points);
   };
   EXPECT_EQ(result(1), result(2));

@@ -9,25 +9,25 @@
 #include "hooke/mesh/extent.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
-#include "support/flippable_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke::valence_flips_test {
 
-double spring_energy(const test::FlippableScene& s, const EnergyTerms& terms = {}) {
-  const Adjacency c = make_adjacency(static_cast<int>(s.vertex_length.size()), s.halfedges.faces());
-  const TargetLengths targets = spread_target_lengths(c, s.vertex_length);
+double spring_energy(const test::WorkingScene& s, const EnergyTerms& terms = {}) {
+  const Adjacency c = make_adjacency(static_cast<int>(s.vertices.vertex_length.size()), s.halfedges.faces());
+  const TargetLengths targets = spread_target_lengths(c, s.vertices.vertex_length);
   return Energy(c, targets, terms)(s.positions.points, s.positions.normals, nullptr);
 }
 
 /// A pass over all edges.
-int flip_all(test::FlippableScene& s, const FlipPassOptions& options = {}) {
+int flip_all(test::WorkingScene& s, const FlipPassOptions& options = {}) {
   std::vector<char> near;
   return flip_irregular_edges(s.mesh, {}, options, {}, {}, near, nullptr);
 }
 
 /// Minimum cosine between two neighbouring faces.
-double min_fold(const test::FlippableScene& s) {
-  const Adjacency c = make_adjacency(static_cast<int>(s.vertex_length.size()), s.halfedges.faces());
+double min_fold(const test::WorkingScene& s) {
+  const Adjacency c = make_adjacency(static_cast<int>(s.vertices.vertex_length.size()), s.halfedges.faces());
   double least = 1;
   for (const auto& [f, g] : c.edge_faces)
     if (g >= 0)
@@ -37,7 +37,7 @@ double min_fold(const test::FlippableScene& s) {
 }
 
 TEST(FlipPass, EveryFlipKeptLowersTheEnergyByItsGain) {
-  test::FlippableScene s(test::sphere(3, .4, 5), test::unit_sphere());
+  test::WorkingScene s(test::sphere(3, .4, 5), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
   const double before = spring_energy(s);
   const FlipPassOptions options{.gain = 1e-3};
@@ -52,7 +52,7 @@ TEST(FlipPass, EveryFlipKeptLowersTheEnergyByItsGain) {
 TEST(FlipPass, HopeLosesHardlyAnyGain) {
   for (double altitude : {0., 1., 10.}) {
     const auto gain = [altitude](const FlipPassOptions& options) {
-      test::FlippableScene s(test::sphere(4, .4, 7), test::unit_sphere());
+      test::WorkingScene s(test::sphere(4, .4, 7), test::unit_sphere());
       flip_to_delaunay(s.mesh, {});
       const EnergyTerms terms{.altitude = altitude};
       const double before = spring_energy(s, terms);
@@ -67,20 +67,20 @@ TEST(FlipPass, HopeLosesHardlyAnyGain) {
 }
 
 TEST(FlipPass, LooksOnlyWhereThereIsSomethingNew) {
-  test::FlippableScene s(test::sphere(3, .4, 5), test::unit_sphere());
+  test::WorkingScene s(test::sphere(3, .4, 5), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
   const std::vector<Triangle> faces = s.halfedges.faces();
-  std::vector<char> near(s.vertex_length.size(), 0);
+  std::vector<char> near(s.vertices.vertex_length.size(), 0);
   EXPECT_EQ(flip_irregular_edges(s.mesh, {}, {}, {}, {}, near, nullptr), 0);
   EXPECT_EQ(s.halfedges.faces(), faces);
   near.clear();
   EXPECT_GT(flip_irregular_edges(s.mesh, {}, {.rounds = 1}, {}, {}, near, nullptr), 0);
-  EXPECT_EQ(near.size(), s.vertex_length.size());
+  EXPECT_EQ(near.size(), s.vertices.vertex_length.size());
   EXPECT_GT(std::ranges::count(near, 1), 0);
 }
 
 TEST(FlipPass, NoEdgeIsTriedAmongTooManyVertices) {
-  test::FlippableScene s(test::sphere(3, .4, 5), test::unit_sphere());
+  test::WorkingScene s(test::sphere(3, .4, 5), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
   EXPECT_EQ(flip_all(s, {.max_vertices = 8}), 0);  // two rings have more
 }
@@ -88,7 +88,7 @@ TEST(FlipPass, NoEdgeIsTriedAmongTooManyVertices) {
 TEST(FlipPass, ThreadsChangeNothing) {
   const auto result = [](int threads) {
     const ThreadLimit limit(threads);
-    test::FlippableScene s(test::sphere(4, .4, 3), test::unit_sphere());
+    test::WorkingScene s(test::sphere(4, .4, 3), test::unit_sphere());
     flip_to_delaunay(s.mesh, {});
     EXPECT_GT(flip_all(s), 10);
     return std::pair(s.halfedges.faces(), s.positions.points);
@@ -99,7 +99,7 @@ TEST(FlipPass, ThreadsChangeNothing) {
 }
 
 TEST(FlipPass, StopsWithAValidMeshWhenTheObserverSaysSo) {
-  test::FlippableScene s(test::sphere(4, .4, 3), test::unit_sphere());
+  test::WorkingScene s(test::sphere(4, .4, 3), test::unit_sphere());
   flip_to_delaunay(s.mesh, {});
   const double before = spring_energy(s);
   std::vector<char> near;
@@ -112,14 +112,14 @@ TEST(FlipPass, StopsWithAValidMeshWhenTheObserverSaysSo) {
 }
 
 TEST(FlipPass, ARegularMeshHasNothingToFlip) {
-  test::FlippableScene s(test::grid(6, test::flat), test::plane());
-  for (int v : {0, 6, 42, 48}) s.corner_valences[static_cast<size_t>(v)] = s.halfedges.valence(v);
+  test::WorkingScene s(test::grid(6, test::flat), test::plane());
+  for (int v : {0, 6, 42, 48}) s.vertices.corner_valences[static_cast<size_t>(v)] = s.halfedges.valence(v);
   EXPECT_EQ(flip_all(s), 0);
 }
 
 TEST(FlipPass, KeepsTheBoundary) {
   const test::Triangles t = test::grid(8, test::flat, .4, 3);
-  test::FlippableScene s(t, test::plane());
+  test::WorkingScene s(t, test::plane());
   flip_to_delaunay(s.mesh, {});
   EXPECT_GT(flip_all(s), 0);
   const int n = static_cast<int>(t.points.cols());

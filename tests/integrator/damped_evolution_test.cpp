@@ -248,11 +248,11 @@ struct Bench {
       : work(with_natural_length(t), find_memory_order(test::to_mesh(t)), {}, {.kind = filter}, {}),
         energy(*work.adjacency, work.targets, {}),
         guards(*work.adjacency, work.targets, guard_options),
-        mesh(build_mesh(work.positions.points, *work.adjacency)) {}
+        mesh(build_mesh(work.vertices.positions.points, *work.adjacency)) {}
 
   Relaxation relaxation() {
-    return {*work.adjacency,  work.coloring, work.vertex_length, energy,
-            *work.retraction, guards,        work.positions};
+    return {*work.adjacency,  work.coloring, work.vertices.vertex_length, energy,
+            *work.retraction, guards,        work.vertices.positions};
   }
   IntegrationResult damped(const IntegrationOptions& options = {}, const DampedOptions& constants = {},
                            const Observer& observer = nullptr) {
@@ -264,7 +264,7 @@ struct Bench {
     return as_matrix(mesh, values);
   }
   double deviation() const {
-    return relative_edge_deviation(work.positions.points, work.adjacency->edges, work.targets);
+    return relative_edge_deviation(work.vertices.positions.points, work.adjacency->edges, work.targets);
   }
 };
 
@@ -287,7 +287,7 @@ TEST_P(DampedEquilibrium, IsThatOfTheEnergyWithinFivePercentOfEdgeDeviation) {
   EXPECT_LT(result.steps, 2000);
   EXPECT_LT(damped.deviation(), .7 * start);
   EXPECT_NEAR(damped.deviation() / minimised.deviation(), 1, .05);
-  EXPECT_TRUE(damped.guards.folded_faces(damped.work.positions).empty());
+  EXPECT_TRUE(damped.guards.folded_faces(damped.work.vertices.positions).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, DampedEquilibrium,
@@ -313,7 +313,7 @@ TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
   b.energy.terms.altitude = 0;  // stiff: they would reject the second step
   const DampedOptions constants{.string = 3, .friction = 400};
   const double m = 1. / 81, dt = .5 * std::sqrt(m / 3), tau = 400;
-  const Mat3X X0 = b.work.positions.points;
+  const Mat3X X0 = b.work.vertices.positions.points;
   b.damped({.max_steps = 1}, constants);  // evaluates the forces, without a step
   const Mat3X F0 = b.property(force_property);
   ASSERT_GT(F0.norm(), .1);
@@ -337,13 +337,13 @@ TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
 TEST(DampedRelaxation, LeavesForcesOfTheFinalStateOnTheMesh) {
   Bench b(test::sphere(2, .4));
   b.damped({.max_steps = 40});
-  Mat3X gradient, torque(3, b.work.positions.points.cols());
-  b.energy(b.work.positions.points, b.work.positions.normals, &gradient);
-  torque_forces(b.work.positions.points, *b.work.adjacency, torque);
+  Mat3X gradient, torque(3, b.work.vertices.positions.points.cols());
+  b.energy(b.work.vertices.positions.points, b.work.vertices.positions.normals, &gradient);
+  torque_forces(b.work.vertices.positions.points, *b.work.adjacency, torque);
   Mat3X expected = -2 * gradient + torque;
-  b.work.retraction->constrain(b.work.positions, expected);
+  b.work.retraction->constrain(b.work.vertices.positions, expected);
   EXPECT_TRUE(b.property(force_property).isApprox(expected, 1e-12));
-  EXPECT_EQ(vertex_points(b.mesh), b.work.positions.points);
+  EXPECT_EQ(vertex_points(b.mesh), b.work.vertices.positions.points);
 }
 
 TEST(DampedRelaxation, VelocitiesLieInTheTangentSpace) {
@@ -351,7 +351,7 @@ TEST(DampedRelaxation, VelocitiesLieInTheTangentSpace) {
   b.damped({.max_steps = 20}, {}, [&](const Progress&) {
     const Mat3X velocities = b.property(velocity_property);
     Mat3X tangential = velocities;
-    b.work.retraction->constrain(b.work.positions, tangential);
+    b.work.retraction->constrain(b.work.vertices.positions, tangential);
     EXPECT_GT(velocities.norm(), 0);
     EXPECT_LT((velocities - tangential).norm(), 1e-12 * velocities.norm());
     return true;
@@ -364,15 +364,15 @@ TEST(DampedRelaxation, StartsFromRest) {
   motion.velocities.setConstant(9);
   fresh.damped({.max_steps = 20});
   stale.damped({.max_steps = 20});
-  EXPECT_EQ(fresh.work.positions.points, stale.work.positions.points);
+  EXPECT_EQ(fresh.work.vertices.positions.points, stale.work.vertices.positions.points);
 }
 
 TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
   Bench b(test::sphere(1, .3), {.area_ratio = 1e9});  // no step is short enough
-  const Mat3X before = b.work.positions.points;
+  const Mat3X before = b.work.vertices.positions.points;
   const IntegrationResult result = b.damped({.max_steps = 20});
   EXPECT_GT(result.limited_steps, 0);
-  EXPECT_EQ(b.work.positions.points, before);
+  EXPECT_EQ(b.work.vertices.positions.points, before);
   EXPECT_EQ(b.property(velocity_property), Mat3X::Zero(3, before.cols()));
 }
 
@@ -383,14 +383,14 @@ TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
   const Surface runs_away = [](const Vec3& x, int hint, double) {
     return Projection{.point = 2 * x, .normal = Vec3::UnitZ(), .hint = hint};
   };
-  Retraction retraction(runs_away, b.work.constraints, {});
-  const Mat3X before = b.work.positions.points;
-  Relaxation r{*b.work.adjacency, b.work.coloring, b.work.vertex_length, b.energy,
-               retraction,        b.guards,        b.work.positions};
+  Retraction retraction(runs_away, b.work.vertices.constraints, {});
+  const Mat3X before = b.work.vertices.positions.points;
+  Relaxation r{*b.work.adjacency, b.work.coloring, b.work.vertices.vertex_length, b.energy,
+               retraction,        b.guards,        b.work.vertices.positions};
   const IntegrationResult result = relax_damped(r, b.mesh, {}, {}, nullptr);
   EXPECT_EQ(result.reason, StopReason::jammed);
   EXPECT_EQ(result.steps, 0);
-  EXPECT_EQ(b.work.positions.points, before);
+  EXPECT_EQ(b.work.vertices.positions.points, before);
 }
 
 TEST(DampedRelaxation, RefusesForcesThatAreNotFinite) {

@@ -11,7 +11,7 @@
 #include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
 #include "support/crease_solids.h"
-#include "support/flippable_scene.h"
+#include "support/working_scene.h"
 
 namespace hooke::halfedge_mesh_test {
 

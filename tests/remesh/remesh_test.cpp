@@ -193,7 +193,8 @@ double off_the_field(const test::Triangles& t, const Mat3X& points, const Remesh
   for (Eigen::Index v = 0; v < x.cols(); ++v)
     x.col(v) = (points.col(w.order.old_vertex[static_cast<size_t>(v)]) - w.normalisation.centre) /
                w.normalisation.unit;
-  return largest_move(w.retraction->project_all(x, w.positions.hints, w.positions.segments).points, x);
+  return largest_move(
+      w.retraction->project_all(x, w.vertices.positions.hints, w.vertices.positions.segments).points, x);
 }
 
 double off_the_faces(const test::Triangles& t, const Mat3X& points) {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/flippable_scene.h"
+#include "support/working_scene.h"
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_trial.h"
@@ -22,32 +22,32 @@ std::vector<Triangle> sorted(std::vector<Triangle> faces) {
 
 std::vector<Triangle> in_mesh(const EdgePatch& patch, std::vector<Triangle> faces) {
   for (Triangle& f : faces)
-    for (int& v : f) v = patch.wedges[static_cast<size_t>(v)];
+    for (int& v : f) v = patch.wedge_ids[static_cast<size_t>(v)];
   return sorted(faces);
 }
 
 TEST(EdgePatch, HoldsAllFacesOfItsMovableVertices) {
-  test::FlippableScene s(test::sphere(3, .3, 2), test::unit_sphere());
+  test::WorkingScene s(test::sphere(3, .3, 2), test::unit_sphere());
   const int h = 3 * 100;
   const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
-  EXPECT_EQ(patch.wedges[0], s.halfedges.from(h));
-  EXPECT_EQ(patch.wedges[1], s.halfedges.to(h));
+  EXPECT_EQ(patch.wedge_ids[0], s.halfedges.from(h));
+  EXPECT_EQ(patch.wedge_ids[1], s.halfedges.to(h));
   std::vector<Triangle> faces;
   for (const Triangle& f : s.halfedges.faces())
     if (std::ranges::any_of(f, [&](int v) {
-          const auto at = std::ranges::find(patch.wedges, v) - patch.wedges.begin();
+          const auto at = std::ranges::find(patch.wedge_ids, v) - patch.wedge_ids.begin();
           return at < static_cast<std::ptrdiff_t>(patch.movable);
         }))
       faces.push_back(f);
   EXPECT_EQ(in_mesh(patch, patch.faces), sorted(faces));
-  for (size_t i = 0; i < patch.wedges.size(); ++i)
-    EXPECT_EQ(patch.positions.points.col(static_cast<Eigen::Index>(i)),
-              s.positions.points.col(patch.wedges[i]));
+  for (size_t i = 0; i < patch.wedge_ids.size(); ++i)
+    EXPECT_EQ(patch.vertices.positions.points.col(static_cast<Eigen::Index>(i)),
+              s.positions.points.col(patch.wedge_ids[i]));
 }
 
 TEST(EdgePatch, FlippedFacesAreThoseOfTheFlippedMesh) {
   for (int rings : {-1, 1, 2}) {
-    test::FlippableScene s(test::sphere(2, .3, 2), test::unit_sphere());
+    test::WorkingScene s(test::sphere(2, .3, 2), test::unit_sphere());
     const int h = 3 * 17 + 1, twin = s.halfedges.twin(h);
     const EdgePatch patch = rings < 0 ? cut_pair(s.mesh, h) : *cut_patch(s.mesh, h, rings, 200);
     s.halfedges.flip(h);
@@ -69,14 +69,14 @@ std::vector<Triangle> faces_of(const HalfedgeMesh& t) {
 }
 
 TEST(EdgePatch, SplitFacesAreThoseOfTheSplitMesh) {
-  test::FlippableScene s(test::sphere(2, .3, 2), test::unit_sphere());
+  test::WorkingScene s(test::sphere(2, .3, 2), test::unit_sphere());
   const int h = 3 * 17 + 1;
   EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
   const int middle = append_vertex(patch, 0);
-  EXPECT_EQ(middle, static_cast<int>(patch.wedges.size()) - 1);
-  EXPECT_EQ(patch.positions.points.col(middle), patch.positions.points.col(0));
+  EXPECT_EQ(middle, static_cast<int>(patch.wedge_ids.size()) - 1);
+  EXPECT_EQ(patch.vertices.positions.points.col(middle), patch.vertices.positions.points.col(0));
   const std::vector<Triangle> old = sorted(s.halfedges.faces());
-  patch.wedges.back() = s.halfedges.split(h);
+  patch.wedge_ids.back() = s.halfedges.split(h);
   const std::vector<Triangle> halved = in_mesh(patch, split_faces(patch, middle));
   EXPECT_EQ(halved.size(), patch.faces.size() + 2);
   const std::vector<Triangle> all = faces_of(s.halfedges);
@@ -89,7 +89,7 @@ TEST(EdgePatch, SplitFacesAreThoseOfTheSplitMesh) {
 
 TEST(EdgePatch, MergedFacesAreThoseOfTheCollapsedMesh) {
   for (int stays : {0, 1}) {
-    test::FlippableScene s(test::sphere(2, .3, 2), test::unit_sphere());
+    test::WorkingScene s(test::sphere(2, .3, 2), test::unit_sphere());
     const int h = 3 * 17 + 1;
     const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
     s.halfedges.collapse(h, stays == 0 ? s.halfedges.from(h) : s.halfedges.to(h));
@@ -104,27 +104,27 @@ TEST(EdgePatch, EndsAtCreases) {
   const int n = 6, middle = 3 * (n + 1);
   std::vector<Edge> creases;
   for (int i = 0; i < n; ++i) creases.push_back({middle + i, middle + i + 1});
-  test::FlippableScene s(test::grid(n, test::flat), test::plane(), creases);
+  test::WorkingScene s(test::grid(n, test::flat), test::plane(), creases);
   const int h = test::half_edge(s.halfedges, 2 * (n + 1) + 3, 2 * (n + 1) + 4);
   ASSERT_GE(h, 0);
   const EdgePatch patch = *cut_patch(s.mesh, h, 2, 200);
-  for (size_t i = 0; i < patch.wedges.size(); ++i) {
-    const double y = patch.positions.points(1, static_cast<Eigen::Index>(i));
+  for (size_t i = 0; i < patch.wedge_ids.size(); ++i) {
+    const double y = patch.vertices.positions.points(1, static_cast<Eigen::Index>(i));
     EXPECT_LE(y, .5 + 1e-12);
     if (y > .5 - 1e-12 && i < patch.movable) {
-      EXPECT_EQ(patch.constraints.freedom[i], Freedom::fixed);
+      EXPECT_EQ(patch.vertices.constraints.freedom[i], Freedom::fixed);
     }
   }
 }
 
 TEST(EdgePatch, FoldsAtItsBoundaryAreSeen) {
-  test::FlippableScene s(test::grid(8, test::flat), test::plane());
+  test::WorkingScene s(test::grid(8, test::flat), test::plane());
   const int h = test::half_edge(s.halfedges, 4 * 9 + 3, 4 * 9 + 4);
   EdgePatch patch = *cut_patch(s.mesh, h, 1, 200);
   EXPECT_FALSE(patch.boundary.empty());
   EXPECT_FALSE(folds_at_patch_boundary(patch, flipped_faces(patch), s.mesh, {}));
   for (size_t i = 0; i < patch.movable; ++i)  // turned over, beyond the boundary of the patch
-    patch.positions.points.col(static_cast<Eigen::Index>(i)) += Vec3(2, 0, .1);
+    patch.vertices.positions.points.col(static_cast<Eigen::Index>(i)) += Vec3(2, 0, .1);
   EXPECT_TRUE(folds_at_patch_boundary(patch, flipped_faces(patch), s.mesh, {}));
 }
 
@@ -146,7 +146,7 @@ test::Triangles wheel(int valence) {
 }
 
 TEST(EdgePatch, IsNotCutWhereAVertexThatWouldMoveHasTooManyEdges) {
-  test::FlippableScene s(wheel(60), test::plane());
+  test::WorkingScene s(wheel(60), test::plane());
   const int h = test::half_edge(s.halfedges, 1, 61);  // the hub is a neighbour of its first end
   EXPECT_TRUE(cut_patch(s.mesh, h, 1, 60).has_value());
   EXPECT_FALSE(cut_patch(s.mesh, h, 1, 59).has_value());
@@ -174,7 +174,7 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
       else if (y < .5 - 1e-9)
         t.points(2, v) = noise;
     }
-    test::FlippableScene s(t, rough, creases);
+    test::WorkingScene s(t, rough, creases);
     const GuardOptions guards{.fold = .12};
     for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
       if (s.halfedges.twin(h) < h || s.halfedges.is_crease(h) || !may_flip(s.mesh, h, {})) continue;
@@ -205,7 +205,7 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
 }
 
 TEST(EdgePatch, IsNotCutWhereTooManyVerticesWouldMove) {
-  test::FlippableScene s(test::sphere(3, .3, 2), test::unit_sphere());
+  test::WorkingScene s(test::sphere(3, .3, 2), test::unit_sphere());
   const size_t movable = cut_patch(s.mesh, 0, 2, 200)->movable;
   EXPECT_TRUE(cut_patch(s.mesh, 0, 2, movable).has_value());
   EXPECT_FALSE(cut_patch(s.mesh, 0, 2, movable - 1).has_value());

@@ -36,23 +36,24 @@ Workspace on(const TriMesh& mesh, const FilterOptions& filter = {}) {
 /// Moves the vertices by up to a twentieth of a target length in each direction.
 void shake(Workspace& w) {
   Mat3X u = test::random_vectors(w.start->cols(), .05);
-  w.retraction->constrain(w.positions, u);
+  w.retraction->constrain(w.vertices.positions, u);
   SurfacePositions to;
-  w.retraction->step(w.positions, u, to);
-  w.positions = to;
+  w.retraction->step(w.vertices.positions, u, to);
+  w.vertices.positions = to;
 }
 
 /// Largest distance of the points to the field of the input.
 double off_the_input(const TriMesh& input, const Mat3X& points) {
   const Workspace w = on(input);
-  const SurfacePositions p = w.retraction->project_all(points, w.positions.hints, w.positions.segments);
+  const SurfacePositions p =
+      w.retraction->project_all(points, w.vertices.positions.hints, w.vertices.positions.segments);
   return (p.points - points).colwise().norm().maxCoeff();
 }
 
 TEST(Workspace, IsCentredAndHasAMeanTargetLengthOfOne) {
   const Workspace w = on(with_length(test::moved(wavy(), 40), 5));
   EXPECT_LT((w.start->rowwise().minCoeff() + w.start->rowwise().maxCoeff()).norm(), 1e-12);
-  EXPECT_EQ(w.vertex_length, std::vector<double>(81, 1));
+  EXPECT_EQ(w.vertices.vertex_length, std::vector<double>(81, 1));
   EXPECT_EQ(w.normalisation.unit, 5);
 }
 
@@ -73,7 +74,7 @@ TEST(Workspace, APowerOfTwoChangesNoBit) {
   large.points *= 1024;
   const Workspace a = on(with_length(wavy(), .125)), b = on(with_length(large, 128));
   EXPECT_EQ(*a.start, *b.start);
-  EXPECT_TRUE(test::same(a.positions, b.positions));
+  EXPECT_TRUE(test::same(a.vertices.positions, b.vertices.positions));
 }
 
 TEST(Workspace, TheOrderDoesNotDependOnCoordinates) {
@@ -86,7 +87,7 @@ TEST(Workspace, TheOrderDoesNotDependOnCoordinates) {
 TEST(Workspace, VerticesOfTheInputLieOnItsField) {
   for (const test::Triangles& t : {wavy(), test::sphere(2, .2)}) {
     const Workspace w = on(with_natural_length(t));
-    EXPECT_LT((w.positions.points - *w.start).colwise().norm().maxCoeff(), 1e-6);
+    EXPECT_LT((w.vertices.positions.points - *w.start).colwise().norm().maxCoeff(), 1e-6);
   }
 }
 
@@ -94,8 +95,8 @@ TEST(Workspace, UntouchedVerticesComeBackBitForBit) {
   const test::Triangles t = test::moved(wavy(), 1. / 3);
   TriMesh mesh = with_natural_length(t);
   Workspace w = on(mesh);
-  w.positions.points = *w.start;
-  w.positions.points.col(17) += Vec3(1, 2, 3);
+  w.vertices.positions.points = *w.start;
+  w.vertices.positions.points.col(17) += Vec3(1, 2, 3);
   w.copy_back(mesh);
   const int moved = w.order.old_vertex[17];
   for (int v = 0; v < t.points.cols(); ++v)
@@ -116,10 +117,10 @@ TEST(FinalProjection, EndsOnTheFieldOfTheInput) {
     projection.project();
     projection.refit();
     shake(w);
-    EXPECT_GT(off_the_input(mesh, w.positions.points), 1e-4);  // off the field of the input
+    EXPECT_GT(off_the_input(mesh, w.vertices.positions.points), 1e-4);  // off the field of the input
     const int stay = projection.project();
     EXPECT_EQ(stay, 0);
-    EXPECT_LT(off_the_input(mesh, w.positions.points), 1e-5);
+    EXPECT_LT(off_the_input(mesh, w.vertices.positions.points), 1e-5);
   }
 }
 
@@ -133,19 +134,19 @@ TEST(FinalProjection, TakesUpWhatMovedSince) {
   projection.project();
   w.return_to_input();
   EXPECT_FALSE(w.refitted());
-  const SurfacePositions projected = w.positions;
+  const SurfacePositions projected = w.vertices.positions;
   const std::vector<int> some = {30, 31, 40};  // of the inside
-  w.retraction->step(projected, test::random_vectors(w.start->cols(), .05), some, w.positions);
-  const SurfacePositions moved = w.positions;
+  w.retraction->step(projected, test::random_vectors(w.start->cols(), .05), some, w.vertices.positions);
+  const SurfacePositions moved = w.vertices.positions;
   EXPECT_EQ(projection.project(some), 0);
   for (int v = 0; v < w.adjacency->vertex_count; ++v) {
     const bool is_one = std::ranges::count(some, v) > 0;
-    EXPECT_EQ(w.positions.points.col(v) == projected.points.col(v), !is_one) << v;
-    EXPECT_LT((w.positions.points.col(v) - moved.points.col(v)).norm(), 1e-4);
+    EXPECT_EQ(w.vertices.positions.points.col(v) == projected.points.col(v), !is_one) << v;
+    EXPECT_LT((w.vertices.positions.points.col(v) - moved.points.col(v)).norm(), 1e-4);
   }
-  const Mat3X points = w.positions.points;
+  const Mat3X points = w.vertices.positions.points;
   projection.project();  // is there already
-  EXPECT_LT((w.positions.points - points).colwise().norm().maxCoeff(), 1e-9);
+  EXPECT_LT((w.vertices.positions.points - points).colwise().norm().maxCoeff(), 1e-9);
 }
 
 TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
@@ -154,7 +155,8 @@ TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
   Workspace w = on(with_length(t, .1 * natural), RemeshOptions{}.filter);
   for (const Triangle& f : w.adjacency->faces) {
     const Vec3 centre = (w.start->col(f[0]) + w.start->col(f[1]) + w.start->col(f[2])) / 3;
-    const SurfacePosition place = w.retraction->moved(w.positions, f[0], centre - w.start->col(f[0]));
+    const SurfacePosition place =
+        w.retraction->moved(w.vertices.positions, f[0], centre - w.start->col(f[0]));
     EXPECT_NEAR((w.normalisation.centre + w.normalisation.unit * place.point).norm(), 1, .02);
   }
 }
@@ -162,9 +164,9 @@ TEST(Workspace, ShortTargetsMakeNoPolyhedronOfARoundBody) {
 TEST(Workspace, RefittingMovesNothing) {
   Workspace w = on(with_natural_length(test::sphere(2, .2)));
   shake(w);
-  const Mat3X before = w.positions.points;
+  const Mat3X before = w.vertices.positions.points;
   w.refit();
-  EXPECT_LT((w.positions.points - before).colwise().norm().maxCoeff(), 1e-6);
+  EXPECT_LT((w.vertices.positions.points - before).colwise().norm().maxCoeff(), 1e-6);
 }
 
 TEST(Workspace, ReturnsToTheFieldOfTheInput) {
@@ -173,12 +175,12 @@ TEST(Workspace, ReturnsToTheFieldOfTheInput) {
   shake(w);
   w.refit();
   shake(w);
-  w.positions = w.project_to_input();
+  w.vertices.positions = w.project_to_input();
   const long long calls = w.projection_counts().calls;
   w.return_to_input();
   EXPECT_EQ(w.projection_counts().calls, calls);
   shake(w);
-  EXPECT_LT(off_the_input(mesh, w.positions.points), 1e-5);
+  EXPECT_LT(off_the_input(mesh, w.vertices.positions.points), 1e-5);
 }
 
 TEST(Workspace, CountsTheProjectionsOfAllFields) {
@@ -187,7 +189,7 @@ TEST(Workspace, CountsTheProjectionsOfAllFields) {
   EXPECT_EQ(calls, 81);
   shake(w);
   w.refit();
-  w.positions = w.project_to_input();
+  w.vertices.positions = w.project_to_input();
   EXPECT_EQ(w.projection_counts().calls, calls + 77 + 81 + 81);  // the four corners do not move
 }
 
@@ -216,10 +218,10 @@ TEST(Workspace, VerticesTakeUpTheTargetLengthsOfTheirPlaces) {
 TEST(Workspace, EqualTargetLengthsStayToTheLastBit) {
   TriMesh mesh = with_length(wavy(), .1);
   Workspace w = on(mesh);
-  const std::vector<double> lengths = w.vertex_length;
+  const std::vector<double> lengths = w.vertices.vertex_length;
   shake(w);
   w.resample_lengths();
-  EXPECT_EQ(w.vertex_length, lengths);
+  EXPECT_EQ(w.vertices.vertex_length, lengths);
   w.copy_back(mesh);
   EXPECT_EQ(vertex_values(mesh, target_length_property), std::vector<double>(lengths.size(), .1));
 }

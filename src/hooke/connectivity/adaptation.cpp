@@ -62,7 +62,7 @@ class AdaptationSteps {
   void subdivide();
 
   /// Writes the mesh to the workspace.
-  void finish() { edit_.replace_mesh(); }
+  void finish() { work_.replace_mesh(m_.halfedges.faces(), m_.halfedges.wedges()); }
 
   double face_count() const { return static_cast<double>(m_.halfedges.faces().size()); }
   const StepCounts& counts() const { return counts_; }
@@ -81,8 +81,7 @@ class AdaptationSteps {
   const EnergyTerms& terms_;
   const GuardOptions& guards_;
   const Observer observer_;
-  WorkspaceEdit edit_;
-  WorkingMesh& m_ = edit_.mesh();
+  WorkingMesh m_;
   const bool graded_;
   int level_ = 0;  // the target lengths are multiplied by 2^level_
   StepCounts counts_;
@@ -97,7 +96,7 @@ struct Turn {
 /// Per half-edge; the weight is 0 for one of the two half-edges of each edge.
 std::vector<Turn> turns(const WorkingMesh& m) {
   const HalfedgeMesh& t = m.halfedges;
-  const Mat3X& N = m.positions.normals;
+  const Mat3X& N = m.vertices.positions.normals;
   std::vector<Turn> turns(t.half_edge_count(), Turn{0, 0});
   parallel_for(turns.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
@@ -155,9 +154,9 @@ double relative_sagitta(double turn) {
 }  // namespace
 
 int coarse_levels(const WorkingMesh& m, double target_faces, const CoarseLimits& limits) {
-  if (!m.constraints.creases.empty() || is_regular(m, limits)) return 0;
+  if (!m.vertices.constraints.creases.empty() || is_regular(m, limits)) return 0;
   const double turn = exceeded_by(limits.bent_share, turns(m));
-  const auto still = static_cast<double>(std::ranges::count(m.constraints.freedom, Freedom::fixed));
+  const auto still = static_cast<double>(std::ranges::count(m.vertices.constraints.freedom, Freedom::fixed));
   const std::vector<int>& target = m.curve_edges.target;
   const double on_curves = std::accumulate(target.begin(), target.end(), 0.);
   const auto bears = [&](int level) {
@@ -179,12 +178,14 @@ AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options,
       terms_(terms),
       guards_(guards),
       observer_(std::move(observer)),
-      edit_(work, corner_angle),
-      graded_(work.has_varying_lengths()) {}
+      m_(work),
+      graded_(work.has_varying_lengths()) {
+  work.set_corner_valences(corner_angle);
+}
 
 void AdaptationSteps::release_bends() {
   count_curve_edges(m_, options_.chord_error);
-  Constraints& constraints = work_.constraints;
+  Constraints& constraints = work_.vertices.constraints;
   for (size_t v = 0; v < constraints.freedom.size(); ++v) {
     if (!constraints.at_bend(static_cast<int>(v))) continue;
     const size_t curve = constraints.curve[v];
@@ -197,11 +198,11 @@ void AdaptationSteps::release_bends() {
 
 void AdaptationSteps::coarsen(int levels) {
   level_ += levels;
-  for (double& length : work_.vertex_length) length = std::ldexp(length, levels);
+  for (double& length : work_.vertices.vertex_length) length = std::ldexp(length, levels);
 }
 
 int AdaptationSteps::coarse_levels(double target_faces, const CoarseLimits& limits) const {
-  return hooke::coarse_levels(edit_.mesh(), target_faces, limits);
+  return hooke::coarse_levels(m_, target_faces, limits);
 }
 
 void AdaptationSteps::split_and_collapse() {
@@ -211,8 +212,7 @@ void AdaptationSteps::split_and_collapse() {
   if (const int splits =
           timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, options_.split); })) {
     counts_.splits += splits;
-    FlippableMesh flipping = m_.flipping();
-    counts_.flips += flip_to_delaunay(flipping, flip_guard_);
+    counts_.flips += flip_to_delaunay(m_, flip_guard_);
   }
   {
     const Stage stage(work_.stopwatch, "collapses");
@@ -234,11 +234,10 @@ bool AdaptationSteps::change_count(double target_faces) {
 
 void AdaptationSteps::lloyd_flow(int rounds) {
   const Stage stage(work_.stopwatch, "flow");
-  FlippableMesh flipping = m_.flipping();
-  counts_.flips += flip_to_delaunay(flipping, flip_guard_) + flip_corners_to_valence(flipping, flip_guard_);
+  counts_.flips += flip_to_delaunay(m_, flip_guard_) + flip_corners_to_valence(m_, flip_guard_);
   LloydFlowOptions options;
   options.rounds = rounds;
-  const LloydFlowResult flowed = flow(flipping, options, flip_guard_, guards_, observer_);
+  const LloydFlowResult flowed = flow(m_, options, flip_guard_, guards_, observer_);
   counts_.flips += flowed.flips;
   interrupted_ = flowed.interrupted;
   resample_lengths();
@@ -258,9 +257,8 @@ int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
     interrupted_ = observer_ && !observer_(p);
     return !interrupted_;
   };
-  FlippableMesh flipping = m_.flipping();
   const int flips =
-      flip_irregular_edges(flipping, terms_, options_.irregular, flip_guard_, guards_, lately_changed, watch);
+      flip_irregular_edges(m_, terms_, options_.irregular, flip_guard_, guards_, lately_changed, watch);
   resample_lengths();
   counts_.flips += flips;
   return flips;
@@ -281,13 +279,20 @@ void AdaptationSteps::compact_ids() {
 
 void AdaptationSteps::relax_springs() {
   const Stage stage(work_.stopwatch, "springs");
-  Adjacency c = adjacency_of(m_.halfedges, static_cast<int>(m_.positions.points.cols()));
-  split_wedges(c, m_.constraints.creases);
+  Adjacency c = adjacency_of(m_.halfedges, static_cast<int>(m_.vertices.positions.points.cols()));
+  split_wedges(c, m_.vertices.constraints.creases);
   const VertexColoring coloring = color_vertices(c);
-  const TargetLengths targets = spread_target_lengths(c, m_.vertex_length);
+  const TargetLengths targets = spread_target_lengths(c, m_.vertices.vertex_length);
   Energy energy(c, targets, terms_);
   Guards guards(c, targets, guards_);
-  Relaxation r{c, coloring, m_.vertex_length, energy, m_.retraction, guards, m_.positions, work_.stopwatch};
+  Relaxation r{c,
+               coloring,
+               m_.vertices.vertex_length,
+               energy,
+               m_.retraction,
+               guards,
+               m_.vertices.positions,
+               work_.stopwatch};
   IntegrationOptions integration;
   integration.max_steps = options_.spring_steps;
   LbfgsOptions lbfgs;
@@ -299,7 +304,7 @@ void AdaptationSteps::relax_springs() {
 
 void AdaptationSteps::resample_lengths() {
   if (!graded_) return;
-  work_.vertex_length = work_.input_lengths();
+  work_.vertices.vertex_length = work_.input_lengths();
   coarsen(std::exchange(level_, 0));
 }
 
@@ -319,7 +324,7 @@ class Adaptation {
         observer_(observer),
         steps_(work, options.steps, flip_guard, terms, guards, corner_angle, watch()) {
     result_.target_faces =
-        target_face_count(work.positions.points, work.adjacency->faces, work.vertex_length);
+        target_face_count(work.vertices.positions.points, work.adjacency->faces, work.vertices.vertex_length);
   }
 
   /// `folded`: are there folded faces? Splits and collapses remove them, whereas Lloyd flow would keep them.
@@ -399,8 +404,8 @@ UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOpti
                       const Observer& observer) {
   Energy energy(*work.adjacency, work.targets, terms);
   Guards guards(*work.adjacency, work.targets, guard_options);
-  Relaxation r{*work.adjacency,  work.coloring, work.vertex_length, energy,
-               *work.retraction, guards,        work.positions};
+  Relaxation r{*work.adjacency,  work.coloring, work.vertices.vertex_length, energy,
+               *work.retraction, guards,        work.vertices.positions};
   return untangle(r, UntangleOptions{}, observer);
 }
 

@@ -64,8 +64,8 @@ int collapse_folded_faces(WorkingMesh& m, const CollapseOptions& options) {
   const HalfedgeMesh& t = m.halfedges;
   const auto is_folded = [&](int f) {
     const size_t face = f;
-    return face_alignment(m.positions.points, m.positions.normals, t.faces()[face], t.wedges()[face]) <
-           options.alignment;
+    return face_alignment(m.vertices.positions.points, m.vertices.positions.normals, t.faces()[face],
+                          t.wedges()[face]) < options.alignment;
   };
   const int count = t.half_edge_count() / 3;
   int collapses = 0;

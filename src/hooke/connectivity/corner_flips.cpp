@@ -19,11 +19,11 @@ constexpr int max_pushes = 8;
 /// Matches the valence of one corner to its target.
 class Corner {
  public:
-  Corner(FlippableMesh& mesh, const FlipGuardOptions& options, int vertex, int wedge)
+  Corner(WorkingMesh& mesh, const FlipGuardOptions& options, int vertex, int wedge)
       : m_(mesh), t_(mesh.halfedges), options_(options), vertex_(vertex), wedge_(wedge) {}
 
   int match_valence() {
-    const int target = m_.corner_valences[wedge_];
+    const int target = m_.vertices.corner_valences[wedge_];
     while (valence() < target && flip_best(opposite_edges())) ++flips_;
     while (valence() > target) {
       if (!flip_best(inner_edges()) && !free_inner_neighbour() && !push_inner_neighbour()) break;
@@ -61,7 +61,7 @@ class Corner {
     for (int h : half_edges) {
       if (!may_flip(m_, h, options_)) continue;
       const int a = t_.from(h), b = t_.to(h), c = t_.opposite_vertex(h), d = t_.opposite_vertex(t_.twin(h));
-      const double angle = min_angle(m_.positions.points, {{c, a, d}, {d, b, c}});
+      const double angle = min_angle(m_.vertices.positions.points, {{c, a, d}, {d, b, c}});
       if (angle <= best_angle) continue;
       best = h;
       best_angle = angle;
@@ -101,20 +101,20 @@ class Corner {
   /// Moves the vertex away from the corner, step by step, until an edge at the corner can be flipped; else
   /// moves it back.
   bool push_away(int v) {
-    const SurfacePosition before(m_.positions, v);
+    const SurfacePosition before(m_.vertices.positions, v);
     for (int i = 0; i < max_pushes && push_once(v); ++i)
       if (flip_best(inner_edges())) return true;
-    before.write_to(m_.positions, v);
+    before.write_to(m_.vertices.positions, v);
     return false;
   }
 
   bool push_once(int v) {
-    const Mat3X& X = m_.positions.points;
-    if (m_.constraints.freedom[v] == Freedom::fixed) return true;
+    const Mat3X& X = m_.vertices.positions.points;
+    if (m_.vertices.constraints.freedom[v] == Freedom::fixed) return true;
     const std::vector<double> before = alignments(v);
     const Vec3 away = (X.col(v) - X.col(vertex_)).normalized();
-    const double length = push * m_.vertex_length[v];
-    m_.retraction.moved(m_.positions, v, length * away).write_to(m_.positions, v);
+    const double length = push * m_.vertices.vertex_length[v];
+    m_.retraction.moved(m_.vertices.positions, v, length * away).write_to(m_.vertices.positions, v);
     const std::vector<double> after = alignments(v);
     for (size_t i = 0; i < before.size(); ++i)
       if (after[i] < std::min(options_.alignment, before[i])) return false;
@@ -125,13 +125,13 @@ class Corner {
     std::vector<double> values;
     for (int h : t_.outgoing(v)) {
       const size_t f = h / 3;
-      values.push_back(
-          face_alignment(m_.positions.points, m_.positions.normals, t_.faces()[f], t_.wedges()[f]));
+      values.push_back(face_alignment(m_.vertices.positions.points, m_.vertices.positions.normals,
+                                      t_.faces()[f], t_.wedges()[f]));
     }
     return values;
   }
 
-  FlippableMesh& m_;
+  WorkingMesh& m_;
   HalfedgeMesh& t_;
   const FlipGuardOptions& options_;
   int vertex_;
@@ -141,13 +141,13 @@ class Corner {
 
 }  // namespace
 
-int flip_corners_to_valence(FlippableMesh& m, const FlipGuardOptions& options) {
-  const int vertices = static_cast<int>(m.vertex_length.size());
+int flip_corners_to_valence(WorkingMesh& m, const FlipGuardOptions& options) {
+  const int vertices = static_cast<int>(m.vertices.vertex_length.size());
   int flips = 0;
-  for (size_t wedge = 0; wedge < m.corner_valences.size(); ++wedge) {
+  for (size_t wedge = 0; wedge < m.vertices.corner_valences.size(); ++wedge) {
     const int i = static_cast<int>(wedge);
-    const int v = i < vertices ? i : m.constraints.extra_wedges[i - vertices];
-    if (m.corner_valences[wedge] > 0 && m.halfedges.valence(v) > 0)
+    const int v = i < vertices ? i : m.vertices.constraints.extra_wedges[i - vertices];
+    if (m.vertices.corner_valences[wedge] > 0 && m.halfedges.valence(v) > 0)
       flips += Corner(m, options, v, i).match_valence();
   }
   m.retraction.count();

@@ -24,19 +24,20 @@ Triangle corners_of(size_t face) {
 }
 
 void measure_face(const WorkingMesh& m, size_t face, WorstShape& worst) {
-  const Mat3X& X = m.positions.points;
+  const Mat3X& X = m.vertices.positions.points;
   const Triangle& corners = m.halfedges.faces()[face];
   const Triangle& wedges = m.halfedges.wedges()[face];
   worst.cotangent = std::max(worst.cotangent, max_cotangent(X, corners));
-  worst.alignment = std::min(worst.alignment, face_alignment(X, m.positions.normals, corners, wedges));
+  worst.alignment =
+      std::min(worst.alignment, face_alignment(X, m.vertices.positions.normals, corners, wedges));
 }
 
 /// The sagitta of the edge of h, and its fold unless it is a feature edge.
 void measure_edge(const WorkingMesh& m, int h, WorstShape& worst) {
   const HalfedgeMesh& t = m.halfedges;
-  const Mat3X& X = m.positions.points;
+  const Mat3X& X = m.vertices.positions.points;
   const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
-  const double sagitta = edge_sagitta(X, m.positions.normals, edge, wedges);
+  const double sagitta = edge_sagitta(X, m.vertices.positions.normals, edge, wedges);
   worst.sagitta = std::max(worst.sagitta, sagitta / target_length(m, edge[0], edge[1]));
   if (t.is_feature_edge(h)) return;
   const auto face = static_cast<size_t>(h / 3), across = static_cast<size_t>(t.twin(h) / 3);
@@ -90,7 +91,7 @@ void CollapsedRing::add_face(int outgoing, int wedge) {
             .next = -1};
   if (face.has_neighbour) {
     const size_t across = t_.twin(next) / 3;
-    face.neighbour_area = doubled_area_vector(m_.positions.points, t_.faces()[across]);
+    face.neighbour_area = doubled_area_vector(m_.vertices.positions.points, t_.faces()[across]);
   }
   faces_.push_back(face);
 }
@@ -114,12 +115,12 @@ void CollapsedRing::copy_corners() {
     const int next = HalfedgeMesh::next(faces_[f].outgoing),
               previous = HalfedgeMesh::previous(faces_[f].outgoing);
     const auto [first, second, third] = corners_of(f);
-    points_.col(second) = m_.positions.points.col(t_.from(next));
-    points_.col(third) = m_.positions.points.col(t_.from(previous));
+    points_.col(second) = m_.vertices.positions.points.col(t_.from(next));
+    points_.col(third) = m_.vertices.positions.points.col(t_.from(previous));
     normals_.col(first) =
-        m_.positions.normals.col(faces_[f].wedge);  // set_position() sets at most two wedges
-    normals_.col(second) = m_.positions.normals.col(t_.wedge(next));
-    normals_.col(third) = m_.positions.normals.col(t_.wedge(previous));
+        m_.vertices.positions.normals.col(faces_[f].wedge);  // set_position() sets at most two wedges
+    normals_.col(second) = m_.vertices.positions.normals.col(t_.wedge(next));
+    normals_.col(third) = m_.vertices.positions.normals.col(t_.wedge(previous));
   }
 }
 
@@ -192,15 +193,15 @@ class CollapseTest {
     if (!keeps_valences_and_counts() || !t_.may_collapse(h_)) return std::nullopt;
     const Rings rings = {t_.neighbours(a_), t_.neighbours(b_)};
     const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
-    const SurfacePosition here(m_.positions, stays);
-    const Vec3 displacement = m_.positions.points.col(goes) - here.point;
+    const SurfacePosition here(m_.vertices.positions, stays);
+    const Vec3 displacement = m_.vertices.positions.points.col(goes) - here.point;
     std::optional<CollapsedRing> ring;
     std::optional<WorstShape> looser;
     for (double fraction : candidate_fractions(stays, goes)) {
       if (leaves_long_edges(rings, stays, here.point + fraction * displacement)) continue;
       if (!ring) ring.emplace(m_, h_, stays);
       const SurfacePosition there =
-          fraction > 0 ? m_.retraction.moved(m_.positions, stays, fraction * displacement) : here;
+          fraction > 0 ? m_.retraction.moved(m_.vertices.positions, stays, fraction * displacement) : here;
       const WorstShape after = ring->worst(there), limits = limits_of(options_);
       if (!is_within(after, limits)) {
         if (!looser) looser = loosened(limits);
@@ -216,7 +217,7 @@ class CollapseTest {
     SmallIntList a, b;  // neighbours of the two ends
   };
 
-  Freedom freedom(int v) const { return m_.constraints.freedom[v]; }
+  Freedom freedom(int v) const { return m_.vertices.constraints.freedom[v]; }
 
   bool is_removable(int v) const {
     if (freedom(v) == Freedom::fixed) return false;
@@ -229,7 +230,7 @@ class CollapseTest {
     if (valence_after(m_, h_) > options_.valence) return false;
     for (int half_edge : {h_, t_.twin(h_)}) {
       if (half_edge < 0) continue;
-      const CornerValence opposite = corner_valence(m_.flipping(), HalfedgeMesh::previous(half_edge));
+      const CornerValence opposite = corner_valence(m_, HalfedgeMesh::previous(half_edge));
       if (opposite.present <= opposite.target) return false;
     }
     return may_remove_curve_edge(m_, h_);
@@ -238,7 +239,7 @@ class CollapseTest {
   /// The remaining vertex: the more constrained end, else the older one.
   int staying_end() const {
     const auto rank = [&](int v) {
-      const int origin = m_.origins[v];
+      const int origin = m_.vertices.previous_ids[v];
       return std::tuple(is_removable(v), freedom(v) == Freedom::surface && !t_.on_boundary(v), origin < 0,
                         origin < 0 ? v : origin);
     };
@@ -262,7 +263,9 @@ class CollapseTest {
     return longest;
   }
 
-  double length(const Vec3& point, int v) const { return (m_.positions.points.col(v) - point).norm(); }
+  double length(const Vec3& point, int v) const {
+    return (m_.vertices.positions.points.col(v) - point).norm();
+  }
 
   /// Would an edge become longer than allowed, and longer than every edge at the ends is now?
   bool leaves_long_edges(const Rings& rings, int stays, const Vec3& point) const {
@@ -270,7 +273,7 @@ class CollapseTest {
     if (longest <= options_.longest) return false;
     const auto has_as_long = [&](int end, const SmallIntList& ring) {
       return std::ranges::any_of(ring, [&](int v) {
-        return length(m_.positions.points.col(end), v) / target_length(m_, end, v) >= longest;
+        return length(m_.vertices.positions.points.col(end), v) / target_length(m_, end, v) >= longest;
       });
     };
     return !has_as_long(a_, rings.a) && !has_as_long(b_, rings.b);
@@ -278,8 +281,8 @@ class CollapseTest {
 
   bool keeps_distance(const CollapsedRing& ring) const {
     const double limit = options_.distance * target_length(m_, a_, b_);
-    return ring.distance(m_.positions.points.col(a_)) <= limit &&
-           ring.distance(m_.positions.points.col(b_)) <= limit;
+    return ring.distance(m_.vertices.positions.points.col(a_)) <= limit &&
+           ring.distance(m_.vertices.positions.points.col(b_)) <= limit;
   }
 
   /// The limits relaxed to the present worst values; not for alignment if the options insist on it.
@@ -310,7 +313,7 @@ void make_collapse(WorkingMesh& m, const Collapse& c) {
   const int curve = m.halfedges.is_feature_edge(c.half_edge) ? curve_of(m, c.half_edge).curve : -1;
   if (curve >= 0) --m.curve_edges.present[curve];
   m.halfedges.collapse(c.half_edge, c.stays);
-  c.position.write_to(m.positions, c.stays);
+  c.position.write_to(m.vertices.positions, c.stays);
 }
 
 int collapse_edge(WorkingMesh& m, int half_edge, const CollapseOptions& options) {

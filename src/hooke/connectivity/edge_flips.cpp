@@ -29,12 +29,12 @@ double area(const Mat3X& points, const Triangle& t) {
 }
 
 /// May the vertex from which h starts lose an edge?
-bool may_lose_an_edge(const FlippableMesh& m, int h) {
+bool may_lose_an_edge(const WorkingMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
   return corner.present > (corner.target > 0 ? std::max(2, corner.target) : 3);
 }
 
-bool may_gain_an_edge(const FlippableMesh& m, int h) {
+bool may_gain_an_edge(const WorkingMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
   return corner.target == 0 || corner.present < corner.target;
 }
@@ -74,9 +74,9 @@ std::deque<int> improvable_edges(const HalfedgeMesh& t, const Mat3X& points) {
 
 /// Does the flip of h make a fold at one of the five edges of its faces? Each edge is compared with itself
 /// before the flip, and the new edge with the one it replaces.
-bool folds(const FlippableMesh& m, int h, double limit) {
+bool folds(const WorkingMesh& m, int h, double limit) {
   const HalfedgeMesh& t = m.halfedges;
-  const Mat3X& X = m.positions.points;
+  const Mat3X& X = m.vertices.positions.points;
   const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), g = t.twin(h), d = t.opposite_vertex(g);
   const Triangle left = {c, a, d}, right = {d, b, c};
   const auto breaks = [&](double before, double after) { return after < std::min(limit, before); };
@@ -101,21 +101,21 @@ double opposite_angles(const HalfedgeMesh& t, const Mat3X& points, int h) {
   return angle_at(points, t.opposite_vertex(h), a, b) + angle_at(points, t.opposite_vertex(t.twin(h)), a, b);
 }
 
-CornerValence corner_valence(const FlippableMesh& m, int h) {
+CornerValence corner_valence(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  const int target = m.corner_valences[t.wedge(h)];
+  const int target = m.vertices.corner_valences[t.wedge(h)];
   return {target, target > 0 ? static_cast<int>(t.wedge_halfedges(h).size()) + 1 : t.valence(t.from(h))};
 }
 
-bool may_flip(const FlippableMesh& m, int h, const FlipGuardOptions& o) {
+bool may_flip(const WorkingMesh& m, int h, const FlipGuardOptions& o) {
   const HalfedgeMesh& t = m.halfedges;
   if (t.twin(h) < 0 || t.is_crease(h)) return false;
   const int g = t.twin(h), opposite_h = HalfedgeMesh::previous(h), opposite_g = HalfedgeMesh::previous(g);
   if (!may_lose_an_edge(m, h) || !may_lose_an_edge(m, g)) return false;
   if (!may_gain_an_edge(m, opposite_h) || !may_gain_an_edge(m, opposite_g)) return false;
 
-  const Mat3X& X = m.positions.points;
-  const Mat3X& N = m.positions.normals;
+  const Mat3X& X = m.vertices.positions.points;
+  const Mat3X& N = m.vertices.positions.normals;
   const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), d = t.opposite_vertex(g);
   const int sa = t.wedge(h), sb = t.wedge(g), sc = t.wedge(opposite_h), sd = t.wedge(opposite_g);
   const double pair = area(X, {a, b, c}) + area(X, {b, a, d});
@@ -126,21 +126,22 @@ bool may_flip(const FlippableMesh& m, int h, const FlipGuardOptions& o) {
            face_alignment(X, N, f, wedges) >= std::min(o.alignment, old_alignment);
   };
   if (!is_fair({c, a, d}, {sc, sa, sd}) || !is_fair({d, b, c}, {sd, sb, sc})) return false;
-  const double length = .5 * (m.vertex_length[c] + m.vertex_length[d]);
+  const double length = .5 * (m.vertices.vertex_length[c] + m.vertices.vertex_length[d]);
   const double sagitta = edge_sagitta(X, N, {c, d}, {sc, sd});
   if (sagitta > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}, {sa, sb}))) return false;
   return !t.adjacent(c, d) && !folds(m, h, o.fold);
 }
 
-int flip_to_delaunay(FlippableMesh& m, const FlipGuardOptions& options) {
+int flip_to_delaunay(WorkingMesh& m, const FlipGuardOptions& options) {
   HalfedgeMesh& t = m.halfedges;
-  std::deque<int> queue = improvable_edges(t, m.positions.points);
+  std::deque<int> queue = improvable_edges(t, m.vertices.positions.points);
   const int limit = 10 * t.half_edge_count();  // on a curved surface flips may cycle
   int flips = 0;
   while (!queue.empty() && flips < limit) {
     const int h = queue.front();
     queue.pop_front();
-    if (t.twin(h) < 0 || t.is_crease(h) || !improves(t, m.positions.points, h) || !may_flip(m, h, options))
+    if (t.twin(h) < 0 || t.is_crease(h) || !improves(t, m.vertices.positions.points, h) ||
+        !may_flip(m, h, options))
       continue;
     t.flip(h);
     ++flips;

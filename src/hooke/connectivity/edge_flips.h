@@ -7,7 +7,7 @@
 
 namespace hooke {
 
-struct FlippableMesh;
+struct WorkingMesh;
 class HalfedgeMesh;
 
 struct FlipGuardOptions {
@@ -27,15 +27,15 @@ struct CornerValence {
   int target;
   int present;
 };
-CornerValence corner_valence(const FlippableMesh& mesh, int half_edge);
+CornerValence corner_valence(const WorkingMesh& mesh, int half_edge);
 
 /// May the edge be flipped? Not if it is a feature edge; if the new edge exists already; if a vertex would
 /// have fewer than 3 edges (2 at a corner), or a corner valence move away from its target; or if a new face
 /// would be a sliver or folded, or the new edge too far from the surface (see the options).
-bool may_flip(const FlippableMesh& mesh, int half_edge, const FlipGuardOptions& options);
+bool may_flip(const WorkingMesh& mesh, int half_edge, const FlipGuardOptions& options);
 
 /// Flips edges whose opposite angles sum to more than pi + 1e-9, in the order of a queue, while that lowers
 /// the sum and may_flip() allows it. Returns the number of flips.
-int flip_to_delaunay(FlippableMesh& mesh, const FlipGuardOptions& options);
+int flip_to_delaunay(WorkingMesh& mesh, const FlipGuardOptions& options);
 
 }  // namespace hooke

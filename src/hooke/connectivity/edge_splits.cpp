@@ -18,8 +18,8 @@ namespace {
 /// May vertex v, with this wedge, split the face of h in two?
 bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge, const SplitOptions& o) {
   const HalfedgeMesh& t = m.halfedges;
-  const Mat3X& X = m.positions.points;
-  const Mat3X& N = m.positions.normals;
+  const Mat3X& X = m.vertices.positions.points;
+  const Mat3X& N = m.vertices.positions.normals;
   const Triangle old = {t.from(h), t.to(h), t.opposite_vertex(h)};
   const Triangle wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h)), t.wedge(HalfedgeMesh::previous(h))};
   const double min_area = o.area_share * face_shape(X, old).area;
@@ -37,7 +37,7 @@ bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge, const SplitOp
 /// Is the edge part of a fixed boundary?
 bool is_fixed(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  const auto fixed = [&](int v) { return m.constraints.freedom[v] == Freedom::fixed; };
+  const auto fixed = [&](int v) { return m.vertices.constraints.freedom[v] == Freedom::fixed; };
   return t.is_feature_edge(h) && fixed(t.from(h)) && fixed(t.to(h)) && curve_of(m, h).curve < 0;
 }
 
@@ -45,7 +45,7 @@ bool is_fixed(const WorkingMesh& m, int h) {
 /// longest edge of a flat face may not be split.
 bool shortens(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  const Mat3X& X = m.positions.points;
+  const Mat3X& X = m.vertices.positions.points;
   const Vec3 a = X.col(t.from(h)), b = X.col(t.to(h)), middle = .5 * a + .5 * b;
   const auto shorter = [&](int half_edge) {
     return (middle - X.col(t.opposite_vertex(half_edge))).squaredNorm() < (b - a).squaredNorm();
@@ -64,7 +64,7 @@ int split_edge(WorkingMesh& m, int h, const SplitOptions& options, const Surface
     return -1;
   }
   t.split(h);
-  if (const int curve = m.constraints.curve[v]; curve >= 0) ++m.curve_edges.present[curve];
+  if (const int curve = m.vertices.constraints.curve[v]; curve >= 0) ++m.curve_edges.present[curve];
   return v;
 }
 
@@ -151,12 +151,10 @@ class Subdivision {
   /// Flips these edges, all tested on the faces after the splits. A face that was split three times has only
   /// one of them, so no flip affects another.
   void join_middles() {
-    const FlippableMesh flipping = m_.flipping();
     std::vector<char> joins(t_.half_edge_count(), 0);
     parallel_for(joins.size(), 1024, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
-        if (const int h = static_cast<int>(i); is_between_middles(h))
-          joins[i] = may_flip(flipping, h, guard_);
+        if (const int h = static_cast<int>(i); is_between_middles(h)) joins[i] = may_flip(m_, h, guard_);
     });
     for (size_t h = 0; h < joins.size(); ++h)
       if (joins[h]) t_.flip(static_cast<int>(h));

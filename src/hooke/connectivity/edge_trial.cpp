@@ -73,7 +73,7 @@ namespace {
 class ChangeFinder {
  public:
   ChangeFinder(const WorkingMesh& mesh, const ChangeRules& rules)
-      : m_(mesh), flipping_(mesh.flipping()), t_(mesh.halfedges), rules_(rules) {}
+      : m_(mesh), t_(mesh.halfedges), rules_(rules) {}
 
   std::vector<EdgeChange> changes(int h) const {
     std::vector<EdgeChange> changes;
@@ -85,12 +85,12 @@ class ChangeFinder {
 
  private:
   bool may_gain_an_edge(int corner) const {
-    const CornerValence valence = corner_valence(flipping_, corner);
+    const CornerValence valence = corner_valence(m_, corner);
     return valence.target > 0 ? valence.present < valence.target : valence.present < rules_.valence;
   }
 
   bool may_lose_an_edge(int corner) const {
-    const CornerValence valence = corner_valence(flipping_, corner);
+    const CornerValence valence = corner_valence(m_, corner);
     if (valence.target > 0) return valence.present > valence.target;
     return valence.present > (t_.on_boundary(t_.from(corner)) ? 2 : 3);
   }
@@ -104,7 +104,7 @@ class ChangeFinder {
   bool may_flip(int h) const {
     constexpr double any = std::numeric_limits<double>::infinity();
     return may_split(h) &&
-           hooke::may_flip(flipping_, h, {.area_share = 0, .alignment = -1, .fold = -any, .sagitta = any});
+           hooke::may_flip(m_, h, {.area_share = 0, .alignment = -1, .fold = -any, .sagitta = any});
   }
 
   bool may_split(int h) const {
@@ -112,12 +112,12 @@ class ChangeFinder {
   }
 
   bool is_removable(int v) const {
-    return m_.constraints.freedom[v] == Freedom::surface && !t_.on_boundary(v) && !t_.on_crease(v);
+    return m_.vertices.constraints.freedom[v] == Freedom::surface && !t_.on_boundary(v) && !t_.on_crease(v);
   }
 
   /// Would a remaining corner have no more edges than its target?
   bool may_absorb(int stays, int goes) const {
-    const CornerValence corner = corner_valence(flipping_, stays);
+    const CornerValence corner = corner_valence(m_, stays);
     return corner.target == 0 || corner.present + t_.valence(t_.from(goes)) - 4 <= corner.target;
   }
 
@@ -134,14 +134,13 @@ class ChangeFinder {
   EdgeChange collapse(int h) const {
     const int a = t_.from(h), b = t_.to(h);
     const auto rank = [this](int v) {
-      const int origin = m_.origins[v];
+      const int origin = m_.vertices.previous_ids[v];
       return std::tuple(is_removable(v), origin < 0, origin < 0 ? v : origin);
     };
     return {h, ChangeKind::collapse, rank(a) < rank(b) ? 0 : 1, is_removable(a) && is_removable(b)};
   }
 
   const WorkingMesh& m_;
-  const FlippableMesh flipping_;
   const HalfedgeMesh& t_;
   const ChangeRules& rules_;
 };
@@ -149,9 +148,10 @@ class ChangeFinder {
 /// Moves a vertex at one end of the edge to its midpoint.
 void move_to_midpoint(EdgePatch& patch, int vertex, int to, const Surface& surface,
                       const RetractionOptions& options) {
-  const Vec3 displacement = .5 * (patch.positions.points.col(to) - patch.positions.points.col(vertex));
-  Retraction retraction(surface, patch.constraints, options);
-  retraction.moved(patch.positions, vertex, displacement).write_to(patch.positions, vertex);
+  const Vec3 displacement =
+      .5 * (patch.vertices.positions.points.col(to) - patch.vertices.positions.points.col(vertex));
+  Retraction retraction(surface, patch.vertices.constraints, options);
+  retraction.moved(patch.vertices.positions, vertex, displacement).write_to(patch.vertices.positions, vertex);
 }
 
 /// Appends the vertex at the midpoint of the edge. Returns its id.
@@ -165,7 +165,7 @@ void collapse_ends(EdgePatch& patch, const EdgeChange& collapse, const Surface& 
                    const RetractionOptions& options) {
   const int goes = 1 - collapse.stays;
   if (collapse.to_midpoint) move_to_midpoint(patch, collapse.stays, goes, surface, options);
-  patch.constraints.freedom[goes] = Freedom::fixed;
+  patch.vertices.constraints.freedom[goes] = Freedom::fixed;
 }
 
 }  // namespace
@@ -207,14 +207,14 @@ void change_mesh(WorkingMesh& m, const EdgeChange& change, EdgePatch& patch) {
       t.flip(h);
       break;
     case ChangeKind::split:
-      patch.vertices.back() = add_vertex(m, h);
+      patch.vertex_ids.back() = add_vertex(m, h);
       t.split(h);
       break;
     case ChangeKind::collapse:
       t.collapse(h, change.stays == 0 ? t.from(h) : t.to(h));
       break;
   }
-  move_vertices(patch, m.positions);
+  move_vertices(patch, m.vertices.positions);
 }
 
 namespace {
@@ -237,8 +237,9 @@ void CandidateEvaluator::set_sliver_angle(double sliver_angle) {
 }
 
 PatchQuality CandidateEvaluator::quality_before(const EdgePatch& patch) const {
-  const Adjacency c = make_adjacency(static_cast<int>(patch.wedges.size()), patch.faces);
-  return measure_patch(patch.positions, c, spread_target_lengths(c, patch.vertex_length), limits_);
+  const Adjacency c = make_adjacency(static_cast<int>(patch.wedge_ids.size()), patch.faces);
+  return measure_patch(patch.vertices.positions, c, spread_target_lengths(c, patch.vertices.vertex_length),
+                       limits_);
 }
 
 /// Length errors are scaled to the same number of edges, so that splits and collapses compare fairly.
@@ -252,15 +253,14 @@ double CandidateEvaluator::gain(const PatchQuality& before, const PatchQuality& 
 EdgeCandidate CandidateEvaluator::cut(const EdgeChange& change) const {
   EdgeCandidate candidate;
   candidate.change = change;
-  std::optional<EdgePatch> patch =
-      cut_patch(m_.flipping(), change.half_edge, options_.rings, options_.max_vertices);
+  std::optional<EdgePatch> patch = cut_patch(m_, change.half_edge, options_.rings, options_.max_vertices);
   if (!patch) return candidate;
   candidate.patch = std::move(*patch);
   candidate.before = quality_before(candidate.patch);
   const std::vector<Triangle> faces = change_patch(candidate.patch, change, m_.retraction.surface(),
                                                    m_.retraction.options());  // may append a vertex
-  candidate.adjacency = make_adjacency(static_cast<int>(candidate.patch.wedges.size()), faces);
-  candidate.targets = spread_target_lengths(candidate.adjacency, candidate.patch.vertex_length);
+  candidate.adjacency = make_adjacency(static_cast<int>(candidate.patch.wedge_ids.size()), faces);
+  candidate.targets = spread_target_lengths(candidate.adjacency, candidate.patch.vertices.vertex_length);
   candidate.is_viable = true;
   return candidate;
 }
@@ -270,12 +270,13 @@ template <typename Relax>
 PatchQuality CandidateEvaluator::relax(EdgeCandidate& candidate, const Relax& body) const {
   Energy energy(candidate.adjacency, candidate.targets, terms_);
   Guards guards(candidate.adjacency, candidate.targets, guards_);
-  Retraction retraction(m_.retraction.surface(), candidate.patch.constraints, m_.retraction.options());
+  Retraction retraction(m_.retraction.surface(), candidate.patch.vertices.constraints,
+                        m_.retraction.options());
   const VertexColoring coloring = color_as_one_block(candidate.adjacency);
-  Relaxation r{candidate.adjacency, coloring, candidate.patch.vertex_length, energy,
-               retraction,          guards,   candidate.patch.positions};
+  Relaxation r{candidate.adjacency, coloring, candidate.patch.vertices.vertex_length, energy,
+               retraction,          guards,   candidate.patch.vertices.positions};
   body(r);
-  return measure_patch(candidate.patch.positions, candidate.adjacency, candidate.targets, limits_);
+  return measure_patch(candidate.patch.vertices.positions, candidate.adjacency, candidate.targets, limits_);
 }
 
 EdgeCandidate CandidateEvaluator::begin(const EdgeChange& change) const {
@@ -295,15 +296,16 @@ void CandidateEvaluator::finish(EdgeCandidate& candidate) const {
   candidate.gain = gain(before, after);
   candidate.is_viable =
       candidate.gain >= options_.gain && after.cotangent <= before.cotangent &&
-      before.area - after.area <= options_.area_loss * std::pow(mean_of(candidate.patch.vertex_length), 2) &&
+      before.area - after.area <=
+          options_.area_loss * std::pow(mean_of(candidate.patch.vertices.vertex_length), 2) &&
       is_no_worse(after.violation, before.violation) &&
-      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_.flipping(), guards_);
+      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_, guards_);
 }
 
-bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces,
-                             const FlippableMesh& m, const GuardOptions& guards) {
+bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces, const WorkingMesh& m,
+                             const GuardOptions& guards) {
   const HalfedgeMesh& t = m.halfedges;
-  const Mat3X& X = m.positions.points;
+  const Mat3X& X = m.vertices.positions.points;
   return std::ranges::any_of(patch.boundary, [&](const PatchBoundary& edge) {
     const Triangle& face = t.faces()[edge.half_edge / 3];
     const Triangle& neighbour = t.faces()[t.twin(edge.half_edge) / 3];
@@ -311,9 +313,10 @@ bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>
     const Triangle& changed = face_along(faces, edge.from, edge.to);
     const Vec3 across = edge.twin_ends[0] < 0
                             ? doubled_area_vector(X, neighbour)
-                            : doubled_area_vector(patch.positions.points,
+                            : doubled_area_vector(patch.vertices.positions.points,
                                                   face_along(faces, edge.twin_ends[0], edge.twin_ends[1]));
-    const double after = cosine_between(doubled_area_vector(patch.positions.points, changed), across);
+    const double after =
+        cosine_between(doubled_area_vector(patch.vertices.positions.points, changed), across);
     return t.is_crease(edge.half_edge) ? crease_fold_breaks(guards, before, after)
                                        : fold_breaks(guards, before, after);
   });

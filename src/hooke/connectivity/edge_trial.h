@@ -151,6 +151,6 @@ class CandidateEvaluator {
 /// Would the patch, with these faces and its present positions, violate the fold limits of the guards along
 /// its boundary or along a crease within it?
 bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces,
-                             const FlippableMesh& mesh, const GuardOptions& guards);
+                             const WorkingMesh& mesh, const GuardOptions& guards);
 
 }  // namespace hooke

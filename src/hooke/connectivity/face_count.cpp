@@ -22,7 +22,7 @@ int face_count(const HalfedgeMesh& t) {
 /// valence.
 int valence_excess(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  if (m.corner_valences[t.wedge(h)] > 0) return 0;
+  if (m.vertices.corner_valences[t.wedge(h)] > 0) return 0;
   return t.valence(t.from(h)) - (t.on_boundary(t.from(h)) ? 4 : 6);
 }
 
@@ -68,7 +68,7 @@ double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces
 
 CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
   CountChanges changes;
-  if (m.constraints.curves.empty()) return changes;
+  if (m.vertices.constraints.curves.empty()) return changes;
   const HalfedgeMesh& t = m.halfedges;
   const auto lacking = [&](int h) {  // edges missing on the curve of h
     const int curve = t.is_feature_edge(h) ? curve_of(m, h).curve : -1;

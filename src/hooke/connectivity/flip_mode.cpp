@@ -19,13 +19,9 @@ class FlipMode {
  public:
   FlipMode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms, const GuardOptions& guards,
            double corner_angle, const Observer& observer)
-      : work_(work),
-        options_(options),
-        terms_(terms),
-        guards_(guards),
-        observer_(observer),
-        corner_valences_(
-            corner_valences(work.positions.points, *work.adjacency, work.constraints, corner_angle)) {}
+      : work_(work), options_(options), terms_(terms), guards_(guards), observer_(observer) {
+    work.set_corner_valences(corner_angle);
+  }
 
   FlipResult run() {
     unfold();
@@ -42,24 +38,18 @@ class FlipMode {
   auto relax(const Relax& body) {
     Energy energy(*work_.adjacency, work_.targets, terms_);
     Guards guards(*work_.adjacency, work_.targets, guards_);
-    Relaxation r{*work_.adjacency,  work_.coloring, work_.vertex_length, energy,
-                 *work_.retraction, guards,         work_.positions,     work_.stopwatch};
+    Relaxation r{*work_.adjacency,  work_.coloring, work_.vertices.vertex_length, energy,
+                 *work_.retraction, guards,         work_.vertices.positions,     work_.stopwatch};
     return body(r);
   }
 
   /// Calls body(mesh), which returns its number of flips, and writes changed faces to the workspace.
   template <typename Flips>
   long long flip(const Flips& body) {
-    HalfedgeMesh halfedges(*work_.adjacency);
-    FlippableMesh m{halfedges,
-                    work_.positions,
-                    *work_.retraction,
-                    work_.constraints,
-                    work_.vertex_length,
-                    corner_valences_,
-                    [this] { work_.resample_lengths(); }};
+    WorkingMesh m(work_);
+    m.after_move = [this] { work_.resample_lengths(); };
     const long long flips = body(m);
-    if (flips > 0) work_.replace_faces(halfedges.faces());
+    if (flips > 0) work_.replace_faces(m.halfedges.faces());
     result_.flips += flips;
     return flips;
   }
@@ -80,7 +70,7 @@ class FlipMode {
 
   void flow_vertices() {
     const Stage stage(work_.stopwatch, "flow");
-    flip([&](FlippableMesh& m) {
+    flip([&](WorkingMesh& m) {
       result_.flow = flow(m, options_.flow, options_.guard, guards_, observer_);
       return result_.flow.flips;
     });
@@ -112,7 +102,7 @@ class FlipMode {
     for (int round = 0; round < options_.spring_rounds && !result_.interrupted; ++round) {
       relax_springs();
       ++result_.spring_rounds;
-      if (flip([&](FlippableMesh& m) { return flip_to_delaunay(m, options_.guard); }) <= few_flips()) break;
+      if (flip([&](WorkingMesh& m) { return flip_to_delaunay(m, options_.guard); }) <= few_flips()) break;
     }
   }
 
@@ -129,7 +119,7 @@ class FlipMode {
       result_.interrupted = watched && !watched(p);
       return !result_.interrupted;
     };
-    return flip([&](FlippableMesh& m) {
+    return flip([&](WorkingMesh& m) {
              return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_, lately_changed_,
                                          watching);
            }) > 0;
@@ -140,7 +130,6 @@ class FlipMode {
   const EnergyTerms& terms_;
   const GuardOptions& guards_;
   const Observer& observer_;
-  std::vector<int> corner_valences_;
   std::vector<char> lately_changed_;  // per vertex: flag, by flips of irregular edges
   /// Did guards limit many steps of the flow or the last springs? True before both.
   bool guard_limited_ = true;
@@ -184,7 +173,8 @@ FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const Ener
 void measure_travel(const Workspace& work, FlipResult& result) {
   double sum2 = 0;
   for (Eigen::Index v = 0; v < work.start->cols(); ++v) {
-    const double travel = (work.positions.points.col(v) - work.start->col(v)).norm() / work.vertex_length[v];
+    const double travel =
+        (work.vertices.positions.points.col(v) - work.start->col(v)).norm() / work.vertices.vertex_length[v];
     result.max_travel = std::max(result.max_travel, travel);
     sum2 += travel * travel;
   }

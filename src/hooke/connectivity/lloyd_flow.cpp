@@ -190,28 +190,28 @@ Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
 namespace {
 
 /// One guarded Lloyd step. Returns the number of vertices limited by guards.
-int move_vertices(FlippableMesh& m, const Adjacency& adjacency, const LloydOptions& options,
+int move_vertices(WorkingMesh& m, const Adjacency& adjacency, const LloydOptions& options,
                   const GuardOptions& guard_options) {
-  const TargetLengths targets = spread_target_lengths(adjacency, m.vertex_length);
-  Mat3X step = lloyd_step(m.positions, adjacency, m.vertex_length, options);
-  m.retraction.constrain(m.positions, step);
-  cap_displacement(m.vertex_length, options.max_move, step);
+  const TargetLengths targets = spread_target_lengths(adjacency, m.vertices.vertex_length);
+  Mat3X step = lloyd_step(m.vertices.positions, adjacency, m.vertices.vertex_length, options);
+  m.retraction.constrain(m.vertices.positions, step);
+  cap_displacement(m.vertices.vertex_length, options.max_move, step);
   const Guards guards(adjacency, targets, guard_options);
   SurfacePositions moved;
-  const auto limited_steps = guards.step(m.retraction, m.positions, step, moved).size();
-  m.positions = std::move(moved);
+  const auto limited_steps = guards.step(m.retraction, m.vertices.positions, step, moved).size();
+  m.vertices.positions = std::move(moved);
   return static_cast<int>(limited_steps);
 }
 
 }  // namespace
 
-LloydFlowResult flow(FlippableMesh& m, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
+LloydFlowResult flow(WorkingMesh& m, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
                      const GuardOptions& guards, const Observer& observer) {
   LloydFlowResult result;
   result.interrupted = observer && !observer({.stage = "flow"});
   const auto connect = [&m] {
-    Adjacency c = adjacency_of(m.halfedges, static_cast<int>(m.positions.points.cols()));
-    split_wedges(c, m.constraints.creases);
+    Adjacency c = adjacency_of(m.halfedges, static_cast<int>(m.vertices.positions.points.cols()));
+    split_wedges(c, m.vertices.constraints.creases);
     return c;
   };
   Adjacency adjacency = connect();
@@ -226,8 +226,8 @@ LloydFlowResult flow(FlippableMesh& m, const LloydFlowOptions& options, const Fl
     ++result.rounds;
     result.interrupted = observer && !observer({.stage = "flow", .step = result.rounds});
   }
-  const TargetLengths targets = spread_target_lengths(adjacency, m.vertex_length);
-  project_drifted(Guards(adjacency, targets, guards), m.retraction, m.positions);
+  const TargetLengths targets = spread_target_lengths(adjacency, m.vertices.vertex_length);
+  project_drifted(Guards(adjacency, targets, guards), m.retraction, m.vertices.positions);
   result.flips += flip_to_delaunay(m, flip_guard);
   return result;
 }

@@ -43,7 +43,7 @@ struct LloydFlowResult {
 
 /// Runs the flow and ends with flips, after which the mesh is Delaunay as far as the guards allow. The
 /// observer is called before the first round and after each round.
-LloydFlowResult flow(FlippableMesh& mesh, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
+LloydFlowResult flow(WorkingMesh& mesh, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
                      const GuardOptions& guards, const Observer& observer);
 
 }  // namespace hooke

@@ -68,7 +68,7 @@ class SliverPass {
     return left < limit;
   }
 
-  double cotangent(int f) const { return max_cotangent(m_.positions.points, t_.faces()[f]); }
+  double cotangent(int f) const { return max_cotangent(m_.vertices.positions.points, t_.faces()[f]); }
 
   bool is_sliver(int f) const { return !t_.is_removed(f) && cotangent(f) > sliver_cotangent_; }
 
@@ -134,12 +134,13 @@ class SliverPass {
       for (int end : {t_.from(h), t_.to(h)})
         for (int v : t_.neighbours(end)) vertices.push_back(v);
     unnoticed_.resize(t_.id_count(), 0);
-    for (Eigen::Index i = 0; i < candidate.patch.positions.points.cols(); ++i) {
-      const int v = candidate.patch.vertices[i];
+    for (Eigen::Index i = 0; i < candidate.patch.vertices.positions.points.cols(); ++i) {
+      const int v = candidate.patch.vertex_ids[i];
       if (v < 0) continue;  // the new vertex of a split
       double& moved = unnoticed_[v];
-      moved += (candidate.patch.positions.points.col(i) - m_.positions.points.col(v)).norm();
-      if (moved <= options_.noticeable_move * m_.vertex_length[v]) continue;
+      moved +=
+          (candidate.patch.vertices.positions.points.col(i) - m_.vertices.positions.points.col(v)).norm();
+      if (moved <= options_.noticeable_move * m_.vertices.vertex_length[v]) continue;
       moved = 0;
       vertices.push_back(v);
     }
@@ -155,7 +156,7 @@ class SliverPass {
         break;
       case ChangeKind::split:
         ++changes_.splits;
-        changed.push_back(candidate.patch.vertices.back());
+        changed.push_back(candidate.patch.vertex_ids.back());
         faces_ += 2;
         break;
       case ChangeKind::collapse:
@@ -197,7 +198,7 @@ FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double s
   const auto& faces = work.adjacency->faces;
   const auto count = static_cast<double>(faces.size());
   if (mode == ConnectivityMode::flip) return {count, count};
-  const double target = target_face_count(work.positions.points, faces, work.vertex_length);
+  const double target = target_face_count(work.vertices.positions.points, faces, work.vertices.vertex_length);
   return {(1 - share) * target, (1 + share) * target};
 }
 
@@ -207,17 +208,18 @@ SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const Energ
                              const SliverRemovalOptions& options, const GuardOptions& guards,
                              double corner_angle, int tested_before, const Observer& observer) {
   const std::vector<double>& angles = options.pass.sliver_angles;
-  if (angles.empty() || min_angle(work.positions.points, work.adjacency->faces) >= angles.back()) return {};
-  WorkspaceEdit edit(work, corner_angle);
-  const SliverChanges changes =
-      change_slivers(edit.mesh(), terms, options.pass, guards, limits_of(work, mode, options.count_share),
-                     tested_before, observer);
+  if (angles.empty() || min_angle(work.vertices.positions.points, work.adjacency->faces) >= angles.back())
+    return {};
+  work.set_corner_valences(corner_angle);
+  WorkingMesh mesh(work);
+  const SliverChanges changes = change_slivers(
+      mesh, terms, options.pass, guards, limits_of(work, mode, options.count_share), tested_before, observer);
   if (changes.count() == 0) return changes;
   if (mode == ConnectivityMode::flip) {
-    edit.replace_faces();
+    work.replace_faces(mesh.halfedges.faces());
   } else {
-    compact(edit.mesh());
-    edit.replace_mesh();
+    compact(mesh);
+    work.replace_mesh(mesh.halfedges.faces(), mesh.halfedges.wedges());
   }
   return changes;
 }

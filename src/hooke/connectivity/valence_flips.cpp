@@ -23,14 +23,14 @@ constexpr size_t edges_of_batch = 512;
 constexpr size_t min_batches = 16;
 
 /// Valence excess of the corner from which h starts.
-int irregularity(const FlippableMesh& m, int h) {
+int irregularity(const WorkingMesh& m, int h) {
   const CornerValence corner = corner_valence(m, h);
   if (corner.target > 0) return corner.present - corner.target;
   return corner.present - (m.halfedges.on_boundary(m.halfedges.from(h)) ? 4 : 6);
 }
 
 /// Has the edge two or more irregular vertices among its four, whose irregularity the flip does not increase?
-bool is_worth_testing(const FlippableMesh& m, int h) {
+bool is_worth_testing(const WorkingMesh& m, int h) {
   const int g = m.halfedges.twin(h);
   int irregular = 0, before = 0, after = 0;
   const auto add = [&](int corner, int change) {
@@ -53,13 +53,14 @@ struct Pair {
 };
 
 double energy_of(const EdgePatch& patch, const Adjacency& adjacency, const EnergyTerms& terms) {
-  const TargetLengths targets = spread_target_lengths(adjacency, patch.vertex_length);
-  return Energy(adjacency, targets, terms)(patch.positions.points, patch.positions.normals, nullptr);
+  const TargetLengths targets = spread_target_lengths(adjacency, patch.vertices.vertex_length);
+  return Energy(adjacency, targets, terms)(patch.vertices.positions.points, patch.vertices.positions.normals,
+                                           nullptr);
 }
 
 class FlipPass {
  public:
-  FlipPass(FlippableMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
+  FlipPass(WorkingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
            const FlipGuardOptions& flip_guard, const GuardOptions& guards, std::vector<char>& near)
       : m_(mesh),
         t_(mesh.halfedges),
@@ -69,7 +70,7 @@ class FlipPass {
         guards_(guards),
         unit_(std::max(terms.string, terms.altitude)),
         near_(near),
-        batch_of_(mesh.vertex_length.size(), 0) {}
+        batch_of_(mesh.vertices.vertex_length.size(), 0) {}
 
   int run(const Observer& observer) {
     for (int round = 0; round < options_.rounds; ++round) {
@@ -121,22 +122,26 @@ class FlipPass {
     if (rise > options_.max_energy_rise * unit_) return std::nullopt;
     std::optional<EdgePatch> patch = cut_patch(m_, h, options_.rings, options_.max_vertices);
     if (!patch) return std::nullopt;
-    const Adjacency c = make_adjacency(static_cast<int>(patch->wedges.size()), flipped_faces(*patch));
-    const TargetLengths targets = spread_target_lengths(c, patch->vertex_length);
+    const Adjacency c = make_adjacency(static_cast<int>(patch->wedge_ids.size()), flipped_faces(*patch));
+    const TargetLengths targets = spread_target_lengths(c, patch->vertices.vertex_length);
     Energy energy(c, targets, terms_);
     Guards guards(c, targets, guards_);
-    Retraction retraction(m_.retraction.surface(), patch->constraints, m_.retraction.options());
+    Retraction retraction(m_.retraction.surface(), patch->vertices.constraints, m_.retraction.options());
     const VertexColoring coloring = color_as_one_block(c);
-    Relaxation r{c, coloring, patch->vertex_length, energy, retraction, guards, patch->positions};
+    Relaxation r{c,          coloring, patch->vertices.vertex_length, energy,
+                 retraction, guards,   patch->vertices.positions};
     LocalNewton newton(r);
-    const double before = energy(patch->positions.points, patch->positions.normals, nullptr) - rise;
+    const double before =
+        energy(patch->vertices.positions.points, patch->vertices.positions.normals, nullptr) - rise;
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
-      if (sweep > 0 && energy(patch->positions.points, patch->positions.normals, nullptr) - before >
-                           options_.max_rise_after_relaxation * unit_)
+      if (sweep > 0 &&
+          energy(patch->vertices.positions.points, patch->vertices.positions.normals, nullptr) - before >
+              options_.max_rise_after_relaxation * unit_)
         return std::nullopt;
       for (size_t v = 0; v < patch->movable; ++v) newton.improve(static_cast<int>(v), {});
     }
-    if (before - energy(patch->positions.points, patch->positions.normals, nullptr) < options_.gain)
+    if (before - energy(patch->vertices.positions.points, patch->vertices.positions.normals, nullptr) <
+        options_.gain)
       return std::nullopt;
     return patch;
   }
@@ -169,22 +174,22 @@ class FlipPass {
   }
 
   bool meets_another(const EdgePatch& patch) const {
-    return std::ranges::any_of(patch.vertices, [this](int v) { return batch_of_[v] == batch_; });
+    return std::ranges::any_of(patch.vertex_ids, [this](int v) { return batch_of_[v] == batch_; });
   }
 
   void mark_for_retest(const EdgePatch& patch, size_t vertices) {
-    for (size_t id = 0; id < vertices; ++id) near_[patch.vertices[id]] = 1;
+    for (size_t id = 0; id < vertices; ++id) near_[patch.vertex_ids[id]] = 1;
   }
 
   void keep(int edge, const EdgePatch& patch) {
     t_.flip(edge);
-    move_vertices(patch, m_.positions);
-    for (size_t id = 0; id < patch.movable; ++id) batch_of_[patch.vertices[id]] = batch_;
+    move_vertices(patch, m_.vertices.positions);
+    for (size_t id = 0; id < patch.movable; ++id) batch_of_[patch.vertex_ids[id]] = batch_;
     mark_for_retest(patch, patch.movable);
     ++flips_;
   }
 
-  FlippableMesh& m_;
+  WorkingMesh& m_;
   HalfedgeMesh& t_;
   const EnergyTerms& terms_;
   const FlipPassOptions& options_;
@@ -200,7 +205,7 @@ class FlipPass {
 
 }  // namespace
 
-int flip_irregular_edges(FlippableMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
+int flip_irregular_edges(WorkingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
                          const FlipGuardOptions& flip_guard, const GuardOptions& guards,
                          std::vector<char>& near, const Observer& observer) {
   return FlipPass(m, terms, options, flip_guard, guards, near).run(observer);

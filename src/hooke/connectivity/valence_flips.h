@@ -28,7 +28,7 @@ struct FlipPassOptions {
 /// the four are tested, or all if it is empty. On return it flags the vertices that the last round has
 /// changed. The observer is called at least every few hundred edges. Projections in the tests are not
 /// counted. Returns the number of flips kept.
-int flip_irregular_edges(FlippableMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
+int flip_irregular_edges(WorkingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
                          const FlipGuardOptions& flip_guard, const GuardOptions& guards,
                          std::vector<char>& near, const Observer& observer);
 

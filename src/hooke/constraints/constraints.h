@@ -36,7 +36,7 @@ struct ConstraintOptions {
 struct Constraints {
   std::vector<Freedom> freedom;  // per vertex
   std::vector<int> curve;        // per vertex: index into curves, -1 without one
-  std::vector<int> segment;      // per vertex: segment of its curve on which it starts
+  std::vector<int> segment;      // per vertex: segment of its curve on which it starts; not kept up to date
   std::vector<Curve> curves;
   std::vector<Edge> creases;      // crease edges, by their vertices, which no change of the faces may lose
   std::vector<int> extra_wedges;  // vertex of each extra wedge at creases, see mesh/adjacency.h

@@ -126,15 +126,15 @@ Guards FinalProjection::guards() const {
 }
 
 void FinalProjection::refit() {
-  if (!before_refit_) before_refit_ = {work_.positions, unprojected_};
+  if (!before_refit_) before_refit_ = {work_.vertices.positions, unprojected_};
   work_.refit();
 }
 
 int FinalProjection::project() {
   const Stage stage(work_.stopwatch, "land");
   SurfacePositions projected = work_.project_to_input();
-  unprojected_ = revert_offenders(guards(), work_.positions, projected);
-  work_.positions = std::move(projected);
+  unprojected_ = revert_offenders(guards(), work_.vertices.positions, projected);
+  work_.vertices.positions = std::move(projected);
   reverted_crossings_ = false;
   if (before_refit_) undo_crossings();
   return static_cast<int>(unprojected_.size());
@@ -142,10 +142,10 @@ int FinalProjection::project() {
 
 int FinalProjection::project(const std::vector<int>& vertices) {
   const Stage stage(work_.stopwatch, "land");
-  const SurfacePositions before = work_.positions;
-  work_.to_input().project_drifted(vertices, work_.positions);
+  const SurfacePositions before = work_.vertices.positions;
+  work_.to_input().project_drifted(vertices, work_.vertices.positions);
   std::erase_if(unprojected_, [&](int v) { return std::ranges::binary_search(vertices, v); });
-  const std::vector<int> stay = revert_offenders(guards(), before, vertices, work_.positions);
+  const std::vector<int> stay = revert_offenders(guards(), before, vertices, work_.vertices.positions);
   unprojected_.insert(unprojected_.end(), stay.begin(), stay.end());
   return static_cast<int>(unprojected_.size());
 }
@@ -155,10 +155,10 @@ void FinalProjection::undo_crossings() {
   const Stage stage(work_.stopwatch, "crossings");
   const Projected before = *std::exchange(before_refit_, std::nullopt);
   const std::vector<int> back =
-      revert_crossings(guards(), *work_.adjacency, before.positions, work_.positions);
+      revert_crossings(guards(), *work_.adjacency, before.positions, work_.vertices.positions);
   reverted_crossings_ = !back.empty();
   if (!reverted_crossings_) return;
-  work_.track_on_input(work_.positions.hints);
+  work_.track_on_input(work_.vertices.positions.hints);
   const auto is_back = [&](int v) { return std::ranges::binary_search(back, v); };
   std::erase_if(unprojected_, is_back);
   std::ranges::copy_if(before.unprojected, std::back_inserter(unprojected_), is_back);

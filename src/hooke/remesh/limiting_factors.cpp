@@ -15,8 +15,9 @@ namespace {
 constexpr double bound_tolerance = 1;
 
 unsigned char limit_of_curve(const Workspace& work, size_t vertex) {
-  const int curve = work.constraints.curve[vertex];
-  const int creases = static_cast<int>(work.constraints.curves.size()) - work.constraints.crease_curves;
+  const int curve = work.vertices.constraints.curve[vertex];
+  const int creases =
+      static_cast<int>(work.vertices.constraints.curves.size()) - work.vertices.constraints.crease_curves;
   return curve < 0 ? not_limited : curve < creases ? limited_by_boundary : limited_by_crease;
 }
 
@@ -27,7 +28,7 @@ std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const 
   std::vector<int> fixed_vertices = asked.fixed_vertices;
   std::ranges::sort(fixed_vertices);
   const Adjacency& c = *work.adjacency;
-  std::vector<unsigned char> vertex_limits(work.origins.size());
+  std::vector<unsigned char> vertex_limits(work.vertices.origins.size());
   for (size_t v = 0; v < vertex_limits.size(); ++v) vertex_limits[v] = limit_of_curve(work, v);
   for (size_t e = 0; e < c.edges.size(); ++e)
     for (const int v : c.edges[e]) {
@@ -36,14 +37,15 @@ std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const 
       if (c.is_crease(static_cast<int>(e))) limit |= limited_by_crease;
     }
   for (size_t v = 0; v < vertex_limits.size(); ++v) {
-    if (work.constraints.freedom[v] != Freedom::fixed || work.constraints.at_bend(static_cast<int>(v)))
+    if (work.vertices.constraints.freedom[v] != Freedom::fixed ||
+        work.vertices.constraints.at_bend(static_cast<int>(v)))
       continue;
     const bool requested =
         std::ranges::binary_search(fixed_vertices, work.vertex_of_input(static_cast<int>(v))) ||
         (asked.boundary == BoundaryRule::fixed && (vertex_limits[v] & limited_by_boundary));
     vertex_limits[v] |= requested ? limited_by_request : limited_at_corner;
   }
-  for (const int v : guards.vertices_at_limits(work.positions)) vertex_limits[v] |= limited_by_guard;
+  for (const int v : guards.vertices_at_limits(work.vertices.positions)) vertex_limits[v] |= limited_by_guard;
 
   std::vector<unsigned char> of_result(vertex_limits.size());
   for (size_t v = 0; v < vertex_limits.size(); ++v) of_result[work.order.old_vertex[v]] = vertex_limits[v];

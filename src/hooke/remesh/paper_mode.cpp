@@ -47,8 +47,8 @@ class PaperRun {
     filter();                              // M*_{t+1}
     evolved.energy = energy();
     record(evolved);
-    const double worst =
-        max_length_error(work_.positions.points, *work_.adjacency, work_.targets.edge.values());  // D
+    const double worst = max_length_error(work_.vertices.positions.points, *work_.adjacency,
+                                          work_.targets.edge.values());  // D
     if (worst < options_.evolution.tolerance) return stop(StopReason::converged);
     if (evolved.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (before - evolved.energy > options_.outer_drop * before) return;
@@ -56,7 +56,7 @@ class PaperRun {
   }
 
   double energy() const {
-    return string_energy(work_.positions.points, *work_.adjacency, work_.targets.edge.values());
+    return string_energy(work_.vertices.positions.points, *work_.adjacency, work_.targets.edge.values());
   }
 
   /// No time step was accepted, or they are so short that strong forces no longer move the mesh.
@@ -70,14 +70,14 @@ class PaperRun {
   EvolutionResult optimize() {
     const EvolutionSurface surface{
         .restrain = boundary_rule(),
-        .positions = &work_.positions,
+        .positions = &work_.vertices.positions,
         .filter = options_.filter_every == FilterEvery::step ? work_.retraction.get() : nullptr};
     return evolve_damped(mesh_, *work_.adjacency, work_.targets.edge.values(), options_.evolution, watch(),
                          surface);
   }
 
   void filter() {
-    SurfacePositions& p = work_.positions;
+    SurfacePositions& p = work_.vertices.positions;
     p = work_.retraction->project_all(vertex_points(mesh_), std::move(p.hints), std::move(p.segments));
     vertex_points(mesh_) = p.points;
   }
@@ -85,15 +85,15 @@ class PaperRun {
   /// Restricts the forces on curve and fixed vertices, if the options have any, beyond the paper. All other
   /// vertices move freely in space, as in the paper.
   std::function<void(Mat3X& forces)> boundary_rule() const {
-    const bool all_free =
-        std::ranges::all_of(work_.constraints.freedom, [](Freedom f) { return f == Freedom::surface; });
+    const bool all_free = std::ranges::all_of(work_.vertices.constraints.freedom,
+                                              [](Freedom f) { return f == Freedom::surface; });
     if (all_free) return nullptr;
     return [this](Mat3X& forces) {
       for (Eigen::Index v = 0; v < forces.cols(); ++v) {
-        const Freedom freedom = work_.constraints.freedom[v];
+        const Freedom freedom = work_.vertices.constraints.freedom[v];
         if (freedom == Freedom::surface) continue;
         const Vec3 tangent =
-            work_.retraction->tangent(work_.positions, static_cast<int>(v));  // zero if fixed
+            work_.retraction->tangent(work_.vertices.positions, static_cast<int>(v));  // zero if fixed
         forces.col(v) = (tangent * tangent.dot(forces.col(v))).eval();
       }
     };
@@ -111,15 +111,15 @@ class PaperRun {
   /// Faces of the present points that are folded against the surface of the input; a field fitted to a folded
   /// mesh would not show them.
   std::vector<int> folded_faces() {
-    SurfacePositions seen =
-        to_input_.project_all(work_.positions.points, input_hints(), work_.positions.segments);
-    seen.points = work_.positions.points;
+    SurfacePositions seen = to_input_.project_all(work_.vertices.positions.points, input_hints(),
+                                                  work_.vertices.positions.segments);
+    seen.points = work_.vertices.positions.points;
     const Guards guards(*work_.adjacency, work_.targets, {});
     return faces_of_result(work_, guards.folded_faces(seen));
   }
 
   std::vector<int> input_hints() const {
-    std::vector<int> hints(work_.positions.hints.size());
+    std::vector<int> hints(work_.vertices.positions.hints.size());
     std::iota(hints.begin(), hints.end(), 0);
     return hints;
   }

@@ -56,11 +56,11 @@ bool keep_near_regular(Workspace& work, const NearRegularOptions& options, Guard
   const bool near_regular = min_angle(*work.start, work.adjacency->faces) >= options.angle &&
                             spread_of_edges(work) <= options.deviation;
   if (near_regular || !work.has_varying_lengths())
-    guards.cotangent = cotangent_limit(work.positions.points, work.adjacency->faces);
+    guards.cotangent = cotangent_limit(work.vertices.positions.points, work.adjacency->faces);
   if (near_regular) {
-    work.constraints.rest_position = *work.start;
-    for (double length : work.vertex_length)
-      work.constraints.max_travel.push_back(options.max_travel * length);
+    work.vertices.constraints.rest_position = *work.start;
+    for (double length : work.vertices.vertex_length)
+      work.vertices.constraints.max_travel.push_back(options.max_travel * length);
   }
   return near_regular;
 }
@@ -115,15 +115,16 @@ class OuterIterations {
       project_to_input();
     else
       search();
-    record("mend", {.energy = energy_(work_.positions.points, work_.positions.normals, nullptr)});
+    record("mend",
+           {.energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr)});
     conclude();
     return std::move(result_);
   }
 
  private:
   Relaxation relaxation() {
-    return {*work_.adjacency,  work_.coloring, work_.vertex_length, energy_,
-            *work_.retraction, guards_,        work_.positions,     work_.stopwatch};
+    return {*work_.adjacency,  work_.coloring, work_.vertices.vertex_length, energy_,
+            *work_.retraction, guards_,        work_.vertices.positions,     work_.stopwatch};
   }
 
   Observer watch(const char* stage) const {
@@ -169,7 +170,8 @@ class OuterIterations {
       case IntegratorKind::lbfgs:
         return relax_lbfgs(r, integration(), lbfgs(), watch("relax"));
       case IntegratorKind::damped: {
-        if (moving_.n_vertices() == 0) moving_ = build_mesh(work_.positions.points, *work_.adjacency);
+        if (moving_.n_vertices() == 0)
+          moving_ = build_mesh(work_.vertices.positions.points, *work_.adjacency);
         return relax_damped(r, moving_, integration(), options_.damped, watch("relax"));
       }
     }
@@ -200,14 +202,14 @@ class OuterIterations {
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
     if (refits() && outer_ > 1) projection_.refit();
-    const double energy = energy_(work_.positions.points, work_.positions.normals, nullptr);
+    const double energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr);
     IntegrationResult relaxed = relax();
     guard_limited_ = relaxed.limited_steps > 0;
     free_of_guards_ = is_free_of_guards(relaxed);
     if (!goes_on() || relaxed.reason == StopReason::interrupted) {
       project_to_input();
       if (projection_.reverted_crossings())
-        relaxed.energy = energy_(work_.positions.points, work_.positions.normals, nullptr);
+        relaxed.energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr);
     } else {
       work_.resample_lengths();
     }
@@ -236,15 +238,16 @@ class OuterIterations {
     } else {
       search();
     }
-    record("polish", {.steps = result_.angle_springs.sweeps,
-                      .energy = energy_(work_.positions.points, work_.positions.normals, nullptr)});
+    record("polish",
+           {.steps = result_.angle_springs.sweeps,
+            .energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr)});
   }
 
   /// Searches on the field fitted last, where vertices can move that the final projection would revert, and
   /// again on the field of the input, as the projection may have changed the worst angles.
   void search() {
     if (work_.refitted()) {
-      project_drifted(guards_, *work_.retraction, work_.positions);
+      project_drifted(guards_, *work_.retraction, work_.vertices.positions);
       search_on_current_field();
     }
     project_to_input();
@@ -267,7 +270,7 @@ class OuterIterations {
   }
 
   void conclude() {
-    result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.positions));
+    result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.vertices.positions));
     result_.vertex_limits = vertex_limits_of_result(work_, guards_, options_.constraints);
     result_.creases = count_creases(work_);
     result_.crease_edges = crease_edges(*work_.adjacency);

@@ -13,7 +13,7 @@ namespace hooke {
 IterationRecord iteration_record(const Workspace& work, const char* stage, const IntegrationResult& done) {
   IterationRecord record{
       .stage = stage, .steps = done.steps, .evaluations = done.evaluations, .energy = done.energy};
-  const Mat3X& points = work.positions.points;
+  const Mat3X& points = work.vertices.positions.points;
   const auto& edges = work.adjacency->edges;
   double sum2 = 0;
   for (size_t e = 0; e < edges.size(); ++e) {
@@ -29,7 +29,7 @@ IterationRecord iteration_record(const Workspace& work, const char* stage, const
 }
 
 CreaseCounts count_creases(const Workspace& work) {
-  const Constraints& constraints = work.constraints;
+  const Constraints& constraints = work.vertices.constraints;
   CreaseCounts counts;
   if (constraints.creases.empty()) return counts;
   counts.curves = constraints.crease_curves;

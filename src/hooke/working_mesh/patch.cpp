@@ -11,7 +11,7 @@ namespace {
 
 class PatchCutter {
  public:
-  PatchCutter(const FlippableMesh& mesh, EdgePatch& patch) : m_(mesh), patch_(patch) {}
+  PatchCutter(const WorkingMesh& mesh, EdgePatch& patch) : m_(mesh), patch_(patch) {}
 
   void cut_pair(int half_edge) {
     for (int h : {half_edge, m_.halfedges.twin(half_edge)}) {
@@ -27,13 +27,13 @@ class PatchCutter {
     add(half_edge);
     add(HalfedgeMesh::next(half_edge));
     for (size_t begin = 0; rings > 0; --rings)
-      for (const size_t end = patch_.wedges.size(); begin < end; ++begin) {
-        if (has_more_edges(patch_.vertices[begin], max_vertices)) return false;
+      for (const size_t end = patch_.wedge_ids.size(); begin < end; ++begin) {
+        if (has_more_edges(patch_.vertex_ids[begin], max_vertices)) return false;
         add_neighbours(begin);
-        if (patch_.wedges.size() > max_vertices) return false;
+        if (patch_.wedge_ids.size() > max_vertices) return false;
       }
-    patch_.movable = patch_.wedges.size();
-    if (std::ranges::any_of(patch_.vertices, [&](int v) { return has_more_edges(v, max_vertices); }))
+    patch_.movable = patch_.wedge_ids.size();
+    if (std::ranges::any_of(patch_.vertex_ids, [&](int v) { return has_more_edges(v, max_vertices); }))
       return false;
     const std::vector<int> faces = add_faces();
     copy_vertices();
@@ -49,8 +49,8 @@ class PatchCutter {
   /// Half-edges that leave the vertex within its wedge.
   SmallIntList outgoing(size_t id) const {
     SmallIntList halfedges;
-    for (int h : m_.halfedges.outgoing(patch_.vertices[id]))
-      if (m_.halfedges.wedge(h) == patch_.wedges[id]) halfedges.push_back(h);
+    for (int h : m_.halfedges.outgoing(patch_.vertex_ids[id]))
+      if (m_.halfedges.wedge(h) == patch_.wedge_ids[id]) halfedges.push_back(h);
     return halfedges;
   }
 
@@ -58,11 +58,11 @@ class PatchCutter {
   /// search is fastest.
   int add(int half_edge) {
     const int wedge = m_.halfedges.wedge(half_edge);
-    const auto found = std::ranges::find(patch_.wedges, wedge);
-    const auto id = static_cast<int>(found - patch_.wedges.begin());
-    if (found == patch_.wedges.end()) {
-      patch_.wedges.push_back(wedge);
-      patch_.vertices.push_back(m_.halfedges.from(half_edge));
+    const auto found = std::ranges::find(patch_.wedge_ids, wedge);
+    const auto id = static_cast<int>(found - patch_.wedge_ids.begin());
+    if (found == patch_.wedge_ids.end()) {
+      patch_.wedge_ids.push_back(wedge);
+      patch_.vertex_ids.push_back(m_.halfedges.from(half_edge));
     }
     return id;
   }
@@ -115,34 +115,21 @@ class PatchCutter {
       }
   }
 
+  /// Copies the rows of the vertices, each with the wedge in the patch alone.
   void copy_vertices() {
-    const size_t n = patch_.wedges.size();
-    SurfacePositions& p = patch_.positions;
-    p.points.resize(3, static_cast<Eigen::Index>(n));
-    p.normals.resize(3, static_cast<Eigen::Index>(n));
-    p.hints.resize(n);
-    p.segments.resize(n);
-    p.drift.resize(n);
-    for (size_t i = 0; i < n; ++i) copy_vertex(i);
+    VertexTable& vertices = patch_.vertices;
+    const bool has_no_creases = m_.vertices.constraints.creases.empty();
+    vertices = m_.vertices.rows(patch_.vertex_ids, patch_.wedge_ids);
+    for (size_t id = 0; id < patch_.vertex_ids.size(); ++id) {
+      Freedom& freedom = vertices.constraints.freedom[id];
+      const bool free = id < patch_.movable && freedom == Freedom::surface &&
+                        (has_no_creases || !m_.halfedges.on_crease(patch_.vertex_ids[id]));
+      freedom = free ? Freedom::surface : Freedom::fixed;
+      vertices.constraints.curve[id] = -1;
+    }
   }
 
-  void copy_vertex(size_t id) {
-    const int wedge = patch_.wedges[id], vertex = patch_.vertices[id];
-    const size_t v = vertex;
-    SurfacePosition position(m_.positions, vertex);
-    position.normal = m_.positions.normals.col(wedge);
-    position.hint = m_.positions.hints[wedge];
-    position.other_wedge = -1;
-    position.write_to(patch_.positions, static_cast<int>(id));
-    const bool free = id < patch_.movable && m_.constraints.freedom[v] == Freedom::surface &&
-                      (m_.constraints.creases.empty() || !m_.halfedges.on_crease(vertex));
-    patch_.vertex_length.push_back(m_.vertex_length[v]);
-    patch_.constraints.freedom.push_back(free ? Freedom::surface : Freedom::fixed);
-    patch_.constraints.segment.push_back(0);
-    patch_.constraints.curve.push_back(-1);
-  }
-
-  const FlippableMesh& m_;
+  const WorkingMesh& m_;
   EdgePatch& patch_;
 };
 
@@ -165,13 +152,13 @@ std::array<FaceOfEdge, 2> faces_of_edge(const std::vector<Triangle>& faces) {
 
 }  // namespace
 
-std::optional<EdgePatch> cut_patch(const FlippableMesh& mesh, int half_edge, int rings, size_t max_vertices) {
+std::optional<EdgePatch> cut_patch(const WorkingMesh& mesh, int half_edge, int rings, size_t max_vertices) {
   std::optional<EdgePatch> patch(std::in_place);
   if (!PatchCutter(mesh, *patch).cut(half_edge, rings, max_vertices)) patch.reset();
   return patch;
 }
 
-EdgePatch cut_pair(const FlippableMesh& mesh, int half_edge) {
+EdgePatch cut_pair(const WorkingMesh& mesh, int half_edge) {
   EdgePatch pair;
   PatchCutter(mesh, pair).cut_pair(half_edge);
   return pair;
@@ -212,28 +199,21 @@ std::vector<Triangle> collapsed_faces(const EdgePatch& patch, int stays) {
 }
 
 int append_vertex(EdgePatch& patch, int source) {
-  const int v = static_cast<int>(patch.wedges.size());
-  patch.vertices.push_back(-1);
-  patch.wedges.push_back(-1);
-  patch.vertex_length.push_back(.5 * (patch.vertex_length[0] + patch.vertex_length[1]));
-  patch.constraints.freedom.push_back(Freedom::surface);
-  patch.constraints.segment.push_back(0);
-  patch.constraints.curve.push_back(-1);
-  SurfacePositions& p = patch.positions;
-  const SurfacePosition position(p, source);
-  p.points.conservativeResize(3, v + 1);
-  p.normals.conservativeResize(3, v + 1);
-  p.hints.push_back(0);
-  p.segments.push_back(0);
-  p.drift.push_back(0);
-  position.write_to(p, v);
+  const int v = static_cast<int>(patch.wedge_ids.size());
+  patch.vertex_ids.push_back(-1);
+  patch.wedge_ids.push_back(-1);
+  VertexTable& vertices = patch.vertices;
+  vertices.resize(v + 1);
+  vertices.vertex_length[v] = .5 * (vertices.vertex_length[0] + vertices.vertex_length[1]);
+  vertices.constraints.freedom[v] = Freedom::surface;
+  SurfacePosition(vertices.positions, source).write_to(vertices.positions, v);
   return v;
 }
 
 void move_vertices(const EdgePatch& patch, SurfacePositions& positions) {
-  for (size_t i = 0; i < patch.wedges.size(); ++i)
-    if (patch.constraints.freedom[i] != Freedom::fixed)
-      SurfacePosition(patch.positions, static_cast<int>(i)).write_to(positions, patch.vertices[i]);
+  for (size_t i = 0; i < patch.wedge_ids.size(); ++i)
+    if (patch.vertices.constraints.freedom[i] != Freedom::fixed)
+      SurfacePosition(patch.vertices.positions, static_cast<int>(i)).write_to(positions, patch.vertex_ids[i]);
 }
 
 }  // namespace hooke

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "hooke/filter/retraction.h"
 #include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
@@ -18,21 +17,19 @@ struct PatchBoundary {
 /// The faces, vertices and constraints around an edge, whose ends are the vertices 0 and 1 of the patch.
 struct EdgePatch {
   /// Ids in the whole mesh: the ends of the edge, then the other movable vertices, then those around them.
-  std::vector<int> vertices, wedges;
+  std::vector<int> vertex_ids, wedge_ids;
   size_t movable = 0;           // the first vertices, of which those on feature edges stay fixed
   std::vector<Triangle> faces;  // all faces of the movable vertices, in ids of the patch
   std::vector<PatchBoundary> boundary;
-  SurfacePositions positions;
-  std::vector<double> vertex_length;
-  Constraints constraints;
+  VertexTable vertices;
 };
 
 /// The vertices within `rings` rings around an inner edge, up to creases. Empty if there would be more than
 /// `max_vertices` movable vertices, or if one of them has a valence above `max_vertices`.
-std::optional<EdgePatch> cut_patch(const FlippableMesh& mesh, int half_edge, int rings, size_t max_vertices);
+std::optional<EdgePatch> cut_patch(const WorkingMesh& mesh, int half_edge, int rings, size_t max_vertices);
 
 /// Only the two faces of the edge, without movable vertices.
-EdgePatch cut_pair(const FlippableMesh& mesh, int half_edge);
+EdgePatch cut_pair(const WorkingMesh& mesh, int half_edge);
 
 /// The face with the half-edge `from` -> `to`. Pre-condition: there is one.
 const Triangle& face_along(const std::vector<Triangle>& faces, int from, int to);

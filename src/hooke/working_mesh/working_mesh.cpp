@@ -14,55 +14,40 @@
 namespace hooke {
 namespace {
 
-/// Ensures capacity for `ids` ids. It grows geometrically, because resizing copies the matrices.
-void reserve_ids(WorkingMesh& m, size_t ids) {
-  SurfacePositions& p = m.positions;
-  if (p.drift.size() >= ids) return;
-  const size_t capacity = std::max<size_t>(16, 2 * p.hints.size());
-  for (Mat3X* matrix : {&p.points, &p.normals})
-    matrix->conservativeResize(3, static_cast<Eigen::Index>(capacity));
-  p.hints.resize(capacity, 0);
-  p.segments.resize(capacity, 0);
-  p.drift.resize(capacity, 0);
-  if (!p.other_wedge.empty()) p.other_wedge.resize(capacity, -1);
-  m.retraction.resize(capacity);
-}
-
-/// Resizes the lists to `ids` entries.
-void resize_lists(WorkingMesh& m, int ids) {
-  const size_t n = ids;
-  m.constraints.freedom.resize(n, Freedom::fixed);
-  m.constraints.curve.resize(n, -1);
-  m.constraints.segment.resize(n, 0);
-  m.vertex_length.resize(n, 0);
-  m.corner_valences.resize(n, 0);
-  m.origins.resize(n, -1);
-}
-
-template <typename T>
-void keep_only(std::vector<T>& values, const std::vector<int>& kept) {
-  std::vector<T> left(kept.size());
-  for (size_t i = 0; i < kept.size(); ++i) left[i] = values[kept[i]];
-  values = std::move(left);
+void resize_rows(WorkingMesh& m, int ids) {
+  const Mat3X& points = m.vertices.positions.points;
+  const Eigen::Index columns = points.cols();
+  m.vertices.resize(ids, ids);
+  if (points.cols() > columns) m.retraction.resize(points.cols());
 }
 
 }  // namespace
 
+WorkingMesh::WorkingMesh(const Adjacency& adjacency, VertexTable& v, Retraction& r)
+    : halfedges(adjacency), vertices(v), retraction(r), curve_finder(v.constraints.curves) {
+  vertices.previous_ids.resize(adjacency.vertex_count);
+  std::iota(vertices.previous_ids.begin(), vertices.previous_ids.end(), 0);
+}
+
+WorkingMesh::WorkingMesh(Workspace& work) : WorkingMesh(*work.adjacency, work.vertices, *work.retraction) {}
+
 CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
   const int a = m.halfedges.from(h), b = m.halfedges.to(h);
   for (int v : {a, b})
-    if (const int curve = m.constraints.curve[v]; curve >= 0) return {curve, m.positions.segments[v]};
-  return m.curve_finder.common(m.positions.points.col(a), m.positions.points.col(b));
+    if (const int curve = m.vertices.constraints.curve[v]; curve >= 0)
+      return {curve, m.vertices.positions.segments[v]};
+  return m.curve_finder.common(m.vertices.positions.points.col(a), m.vertices.positions.points.col(b));
 }
 
 double relative_length(const WorkingMesh& m, int h) {
   const int a = m.halfedges.from(h), b = m.halfedges.to(h);
-  return (m.positions.points.col(b) - m.positions.points.col(a)).norm() / target_length(m, a, b);
+  return (m.vertices.positions.points.col(b) - m.vertices.positions.points.col(a)).norm() /
+         target_length(m, a, b);
 }
 
 void count_curve_edges(WorkingMesh& m, double chord_error) {
   const HalfedgeMesh& t = m.halfedges;
-  const size_t curves = m.constraints.curves.size();
+  const size_t curves = m.vertices.constraints.curves.size();
   std::vector<double> lengths(curves, 0);  // sum of the target lengths of the edges, per curve
   m.curve_edges.present.assign(curves, 0);
   m.curve_edges.target.assign(curves, 0);
@@ -75,15 +60,15 @@ void count_curve_edges(WorkingMesh& m, double chord_error) {
   }
   for (size_t c = 0; c < curves; ++c)
     if (m.curve_edges.present[c] > 0)
-      m.curve_edges.target[c] =
-          target_edge_count(m.constraints.curves[c], lengths[c] / m.curve_edges.present[c], chord_error);
+      m.curve_edges.target[c] = target_edge_count(m.vertices.constraints.curves[c],
+                                                  lengths[c] / m.curve_edges.present[c], chord_error);
 }
 
 SurfacePosition project_midpoint(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
   const int a = t.from(h);
-  const Vec3 half_way = .5 * (m.positions.points.col(t.to(h)) - m.positions.points.col(a));
-  return m.retraction.moved_copy(m.positions, a, t.wedge(h), half_way);
+  const Vec3 half_way = .5 * (m.vertices.positions.points.col(t.to(h)) - m.vertices.positions.points.col(a));
+  return m.retraction.moved_copy(m.vertices.positions, a, t.wedge(h), half_way);
 }
 
 int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
@@ -92,15 +77,13 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
   const int other_wedge = t.is_crease(h) ? v + 1 : -1;
   const CurveFinder::Location on = t.is_feature_edge(h) ? curve_of(m, h) : CurveFinder::Location{};
   const int ids = std::max(v, other_wedge) + 1;
-  reserve_ids(m, static_cast<size_t>(ids));
-  resize_lists(m, ids);
+  resize_rows(m, ids);
   const size_t i = v;
-  m.constraints.freedom[i] = on.curve >= 0 ? Freedom::curve : Freedom::surface;
-  m.constraints.curve[i] = on.curve;
-  m.constraints.segment[i] = on.segment;
-  m.vertex_length[i] = target_length(m, a, b);
+  m.vertices.constraints.freedom[i] = on.curve >= 0 ? Freedom::curve : Freedom::surface;
+  m.vertices.constraints.curve[i] = on.curve;
+  m.vertices.vertex_length[i] = target_length(m, a, b);
 
-  SurfacePositions& p = m.positions;
+  SurfacePositions& p = m.vertices.positions;
   if (middle) {
     middle->write_to(p, v);
     return v;
@@ -125,57 +108,25 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
 }
 
 void remove_last_vertex(WorkingMesh& m) {
-  resize_lists(m, m.halfedges.id_count());
+  resize_rows(m, m.halfedges.id_count());
 }
 
 void compact(WorkingMesh& m) {
   HalfedgeMesh& t = m.halfedges;
   const std::vector<int> kept = t.compact();
-  std::vector<int> wedges = kept;
-  m.constraints.creases.clear();
+  std::vector<int> wedges = kept, extra_wedges;
+  m.vertices.constraints.creases.clear();
   for (int h = 0; h < t.half_edge_count(); ++h)
-    if (t.is_crease(h) && t.twin(h) < h) m.constraints.creases.push_back({t.from(h), t.to(h)});
-  if (!m.constraints.creases.empty()) {
+    if (t.is_crease(h) && t.twin(h) < h) m.vertices.constraints.creases.push_back({t.from(h), t.to(h)});
+  if (!m.vertices.constraints.creases.empty()) {
     Adjacency c = make_adjacency(static_cast<int>(kept.size()), t.faces());
-    split_wedges(c, m.constraints.creases);
+    split_wedges(c, m.vertices.constraints.creases);
     wedges = wedges_before(c, t.wedges(), kept);
     t.set_wedges(c);
-    m.constraints.extra_wedges = c.extra_wedges;
+    extra_wedges = std::move(c.extra_wedges);
   }
-  keep_only(m.constraints.freedom, kept);
-  keep_only(m.constraints.curve, kept);
-  keep_only(m.constraints.segment, kept);
-  keep_only(m.vertex_length, kept);
-  keep_only(m.corner_valences, wedges);
-  keep_only(m.origins, kept);
-  SurfacePositions& p = m.positions;
-  p.points = p.points(Eigen::all, kept).eval();
-  p.normals = p.normals(Eigen::all, wedges).eval();
-  keep_only(p.hints, wedges);
-  keep_only(p.segments, kept);
-  keep_only(p.drift, kept);
-  p.other_wedge = other_wedges(kept.size(), m.constraints.extra_wedges);
+  m.vertices.keep(kept, wedges, std::move(extra_wedges));
   m.retraction.resize(kept.size());
-}
-
-WorkspaceEdit::WorkspaceEdit(Workspace& work, double corner_angle)
-    : work_(work),
-      halfedges_(*work.adjacency),
-      corner_valences_(
-          corner_valences(work.positions.points, *work.adjacency, work.constraints, corner_angle)),
-      origins_(work.vertex_length.size()),
-      curve_finder_(work.constraints.curves),
-      mesh_{halfedges_,       work.positions, *work.retraction, work.constraints, work.vertex_length,
-            corner_valences_, origins_,       curve_finder_,    curve_edges_} {
-  std::iota(origins_.begin(), origins_.end(), 0);
-}
-
-void WorkspaceEdit::replace_faces() {
-  work_.replace_faces(halfedges_.faces());
-}
-
-void WorkspaceEdit::replace_mesh() {
-  work_.replace_mesh(halfedges_.faces(), halfedges_.wedges(), origins_);
 }
 
 }  // namespace hooke

@@ -2,44 +2,34 @@
 // (position, constraints, target length), and the edit of a workspace through it.
 #pragma once
 
-#include "hooke/constraints/constraints.h"
+#include <functional>
+
 #include "hooke/constraints/feature_curves.h"
-#include "hooke/filter/retraction.h"
 #include "hooke/mesh/halfedge_mesh.h"
+#include "hooke/working_mesh/vertex_table.h"
 
 namespace hooke {
 
 struct Workspace;
 
-/// A mesh whose edges are flipped and whose vertices move on the surface. All references must outlive it.
-struct FlippableMesh {
-  HalfedgeMesh& halfedges;
-  SurfacePositions& positions;
+/// A mesh whose edges are flipped, split and collapsed and whose vertices move on the surface. The table and
+/// the retraction must outlive it. From a split or collapse until compact() the rows of the table have the
+/// ids of the half-edge mesh.
+struct WorkingMesh {
+  /// Pre-condition: the rows of the table are those of the adjacency. Numbers vertices.previous_ids anew.
+  WorkingMesh(const Adjacency& adjacency, VertexTable& vertices, Retraction& retraction);
+
+  /// Edits the mesh of a workspace, see Workspace::replace_faces() and replace_mesh(). Pre-condition: the
+  /// vertices lie on the field of the input.
+  explicit WorkingMesh(Workspace& work);
+
+  HalfedgeMesh halfedges;
+  VertexTable& vertices;
   Retraction& retraction;
-  const Constraints& constraints;
-  const std::vector<double>& vertex_length;  // target length per vertex
-  /// Per wedge: target valence of a corner, else 0; see corner_valences().
-  const std::vector<int>& corner_valences;
+  CurveFinder curve_finder;
+  CurveEdges curve_edges;
   /// Called after vertices have moved, to update their target lengths to their new positions.
   std::function<void()> after_move = nullptr;
-};
-
-/// A mesh whose edges are flipped, split and collapsed. All references must outlive it. Until compact() the
-/// arrays are indexed by the ids of the half-edge mesh, and may have spare capacity.
-struct WorkingMesh {
-  HalfedgeMesh& halfedges;
-  SurfacePositions& positions;
-  Retraction& retraction;
-  Constraints& constraints;
-  std::vector<double>& vertex_length;
-  std::vector<int>& corner_valences;
-  std::vector<int>& origins;  // id of the vertex before any split or collapse, -1 for a new one
-  const CurveFinder& curve_finder;
-  CurveEdges& curve_edges;
-
-  FlippableMesh flipping() const {
-    return {halfedges, positions, retraction, constraints, vertex_length, corner_valences};
-  }
 };
 
 /// The curve on which a feature edge lies; curve -1 if none is known.
@@ -47,7 +37,7 @@ CurveFinder::Location curve_of(const WorkingMesh& mesh, int half_edge);
 
 /// Target length of an edge between the vertices.
 inline double target_length(const WorkingMesh& m, int v, int w) {
-  return .5 * (m.vertex_length[v] + m.vertex_length[w]);
+  return .5 * (m.vertices.vertex_length[v] + m.vertices.vertex_length[w]);
 }
 
 /// Length of the edge over its target length.
@@ -70,33 +60,5 @@ void remove_last_vertex(WorkingMesh& mesh);
 
 /// Removes unused ids, numbers the wedges as split_wedges() does, and writes the creases to the constraints.
 void compact(WorkingMesh& mesh);
-
-/// Edits the mesh of a workspace as a WorkingMesh. Pre-condition: the vertices lie on the field of the input,
-/// see Workspace::replace_faces().
-class WorkspaceEdit {
- public:
-  /// Keeps a reference to the workspace. `corner_angle`: degrees, see corner_valences().
-  WorkspaceEdit(Workspace& work, double corner_angle);
-  WorkspaceEdit(const WorkspaceEdit&) = delete;
-
-  WorkingMesh& mesh() { return mesh_; }
-  const WorkingMesh& mesh() const { return mesh_; }
-
-  /// Writes the current faces to the workspace. Pre-condition: there were only flips.
-  void replace_faces();
-
-  /// Writes the current mesh to the workspace; this edit must not be used afterwards. Pre-condition:
-  /// compact() was called.
-  void replace_mesh();
-
- private:
-  Workspace& work_;
-  HalfedgeMesh halfedges_;
-  std::vector<int> corner_valences_;
-  std::vector<int> origins_;
-  const CurveFinder curve_finder_;
-  CurveEdges curve_edges_;
-  WorkingMesh mesh_;
-};
 
 }  // namespace hooke

@@ -58,19 +58,21 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
 
   Mat3X points = order.gather(vertex_points(source));
   for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
-  vertex_length = order.gather(length);
-  for (double& l : vertex_length) l /= normalisation.unit;
+  vertices.vertex_length = order.gather(length);
+  for (double& l : vertices.vertex_length) l /= normalisation.unit;
   start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
-  for (int e : detect_creases(*start, *memory_order.adjacency, vertex_length, constraint_options.features))
+  for (int e :
+       detect_creases(*start, *memory_order.adjacency, vertices.vertex_length, constraint_options.features))
     creases.push_back(memory_order.adjacency->edges[e]);
   if (!constraint_options.seams.empty()) {
     sharp_ = creases;
     for (const Edge& seam : order.new_edges(constraint_options.seams)) creases.push_back(seam);
   }
   connect(std::move(memory_order.adjacency), creases);
+  targets = spread_target_lengths(*adjacency, vertices.vertex_length);
   input_surface_ = surface();
-  start_length_ = vertex_length;
+  start_length_ = vertices.vertex_length;
   if (std::vector<double> of_edges = edge_values(source, edge_length_property, order, *adjacency);
       !of_edges.empty()) {
     for (double& l : of_edges) l /= normalisation.unit;
@@ -80,20 +82,21 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   faceted_ = is_faceted(*start, *input_surface_);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  for (int tip : detect_tips(*start, *input_surface_, vertex_length, constraint_options.features))
+  for (int tip : detect_tips(*start, *input_surface_, vertices.vertex_length, constraint_options.features))
     reordered.fixed_vertices.push_back(tip);
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
-  constraints =
+  vertices.constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
-  origins = identity(adjacency->vertex_count);
+  vertices.origins = identity(adjacency->vertex_count);
 
   const Stage stage(stopwatch, "fit");
   const SurfaceField field = fit(start, input_surface_);
   input_hints_ = wedges_of_surface(*adjacency, *input_surface_);
-  to_input_ = std::make_unique<Retraction>(field.surface(), constraints,
+  to_input_ = std::make_unique<Retraction>(field.surface(), vertices.constraints,
                                            RetractionOptions{.tolerance = final_projection_tolerance});
-  retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  positions = retraction->project_all(*start, input_hints_, constraints.segment);
+  retraction = std::make_unique<Retraction>(field.surface(), vertices.constraints, retraction_options_);
+  vertices.positions =
+      retraction->project_all(*start, input_hints_, std::exchange(vertices.constraints.segment, {}));
 }
 
 void Workspace::connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases) {
@@ -104,7 +107,6 @@ void Workspace::connect(std::shared_ptr<const Adjacency> smooth, const std::vect
     adjacency = std::make_shared<const Adjacency>(std::move(with_wedges));
   }
   coloring = color_vertices(*adjacency);
-  targets = spread_target_lengths(*adjacency, vertex_length);
 }
 
 /// The adjacency with wedges where the surface is sharp, that is not at seams.
@@ -126,7 +128,7 @@ SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points,
   if (has_creases) points = std::make_shared<const Mat3X>(wedge_points(*points, *surface));
   std::vector<double> lengths(surface->wedge_count());
   for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
-    lengths[wedge] = vertex_length[surface->vertex_of_wedge(static_cast<int>(wedge))];
+    lengths[wedge] = vertices.vertex_length[surface->vertex_of_wedge(static_cast<int>(wedge))];
   constexpr double rounding = 1e-9;
   if (faceted_ ||
       std::ranges::any_of(lengths, [&](double length) { return length < (1 - rounding) * natural; })) {
@@ -151,16 +153,17 @@ void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;
   const std::shared_ptr<const Adjacency> fitted = surface();
-  const SurfaceField field = fit(std::make_shared<const Mat3X>(positions.points), fitted);
+  const SurfaceField field = fit(std::make_shared<const Mat3X>(vertices.positions.points), fitted);
   past_counts_ += retraction->counts();
-  retraction = std::make_unique<Retraction>(field.surface(), constraints, retraction_options_);
-  positions =
-      retraction->project_all(positions.points, wedges_of_surface(*adjacency, *fitted), positions.segments);
+  retraction = std::make_unique<Retraction>(field.surface(), vertices.constraints, retraction_options_);
+  vertices.positions = retraction->project_all(
+      vertices.positions.points, wedges_of_surface(*adjacency, *fitted), vertices.positions.segments);
 }
 
 SurfacePositions Workspace::project_to_input() {
-  if (!refitted_) input_hints_ = positions.hints;
-  SurfacePositions projected = to_input_->project_all(positions.points, input_hints_, positions.segments);
+  if (!refitted_) input_hints_ = vertices.positions.hints;
+  SurfacePositions projected =
+      to_input_->project_all(vertices.positions.points, input_hints_, vertices.positions.segments);
   input_hints_ = projected.hints;
   return projected;
 }
@@ -169,18 +172,24 @@ void Workspace::return_to_input() {
   if (!refitted_) return;
   refitted_ = false;
   past_counts_ += retraction->counts();
-  retraction = std::make_unique<Retraction>(to_input_->surface(), constraints, retraction_options_);
+  retraction = std::make_unique<Retraction>(to_input_->surface(), vertices.constraints, retraction_options_);
+}
+
+void Workspace::set_corner_valences(double corner_angle) {
+  vertices.corner_valences =
+      corner_valences(vertices.positions.points, *adjacency, vertices.constraints, corner_angle);
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {
   connect(std::make_shared<const Adjacency>(make_adjacency(adjacency->vertex_count, std::move(faces))),
-          constraints.creases);
-  input_hints_ = positions.hints;  // vertices may have moved far
+          vertices.constraints.creases);
+  targets = spread_target_lengths(*adjacency, vertices.vertex_length);
+  input_hints_ = vertices.positions.hints;  // vertices may have moved far
   faces_replaced_ = true;
 }
 
-void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges,
-                             const std::vector<int>& before) {
+void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges) {
+  const std::vector<int>& before = vertices.previous_ids;
   const auto n = before.size();
   std::vector<int> kept_as(order.old_vertex.size(), -1);  // by previous id in the result
   for (size_t v = 0; v < n; ++v)
@@ -204,53 +213,35 @@ void Workspace::replace_mesh(std::vector<Triangle> faces, const std::vector<Tria
     source[v] = by_id[order.old_vertex[v]];
     inverse[source[v]] = static_cast<int>(v);
   }
-  const auto arrange = [&](auto& values) {
-    const auto old = values;
-    for (size_t v = 0; v < n; ++v) values[v] = old[source[v]];
-  };
-  positions.points = positions.points(Eigen::all, source).eval();
-  arrange(positions.segments);
-  arrange(positions.drift);
-  arrange(vertex_length);
-  arrange(constraints.freedom);
-  arrange(constraints.curve);
-  arrange(constraints.segment);
-  for (Edge& crease : constraints.creases)
+  for (Edge& crease : vertices.constraints.creases)
     for (int& v : crease) v = inverse[v];
-  std::vector<int> from(n, -1);
-  for (size_t v = 0; v < n; ++v)
-    if (const int old = before[source[v]]; old >= 0) from[v] = origins[old];
-  origins = std::move(from);
-
-  if (sharp_) sharp_ = constraints.creases;  // seams are no longer told from creases
+  if (sharp_) sharp_ = vertices.constraints.creases;  // seams are no longer told from creases
   connect(std::make_shared<const Adjacency>(make_adjacency(static_cast<int>(n), std::move(order.faces))),
-          constraints.creases);
-  if (!constraints.creases.empty()) {
+          vertices.constraints.creases);
+  std::vector<int> source_wedges = source;
+  if (!vertices.constraints.creases.empty()) {
     std::vector<Triangle> moved;
     for (int f : order.old_face) moved.push_back(wedges[f]);
-    source = wedges_before(*adjacency, moved, source);
-    constraints.extra_wedges = adjacency->extra_wedges;
+    source_wedges = wedges_before(*adjacency, moved, source);
   }
-  positions.normals = positions.normals(Eigen::all, source).eval();
-  std::vector<int> hints;
-  for (int wedge : source) hints.push_back(positions.hints[wedge]);
-  positions.hints = std::move(hints);
-  positions.other_wedge = other_wedges(n, constraints.extra_wedges);
-  input_hints_ = positions.hints;
+  vertices.keep(source, source_wedges, adjacency->extra_wedges);
+  targets = spread_target_lengths(*adjacency, vertices.vertex_length);
+  input_hints_ = vertices.positions.hints;
   retraction->resize(n);
   to_input_->resize(n);
   vertices_replaced_ = true;
 }
 
 SurfacePoint Workspace::locate_on_input(int v) const {
-  const std::vector<int>& hints = refitted_ ? input_hints_ : positions.hints;
-  return locate(*start, *input_surface_, positions.points.col(v), input_surface_->vertex_of_wedge(hints[v]));
+  const std::vector<int>& hints = refitted_ ? input_hints_ : vertices.positions.hints;
+  return locate(*start, *input_surface_, vertices.positions.points.col(v),
+                input_surface_->vertex_of_wedge(hints[v]));
 }
 
 void Workspace::resample_lengths() {
   if (edge_by_edge_ || !has_varying_lengths()) return;
-  vertex_length = input_lengths();
-  targets = spread_target_lengths(*adjacency, vertex_length);
+  vertices.vertex_length = input_lengths();
+  targets = spread_target_lengths(*adjacency, vertices.vertex_length);
 }
 
 bool Workspace::has_varying_lengths() const {
@@ -258,7 +249,7 @@ bool Workspace::has_varying_lengths() const {
 }
 
 std::vector<double> Workspace::input_lengths() const {
-  std::vector<double> lengths = vertex_length;
+  std::vector<double> lengths = vertices.vertex_length;
   parallel_for(lengths.size(), 256, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v) {
       const SurfacePoint point = locate_on_input(static_cast<int>(v));
@@ -273,7 +264,7 @@ std::vector<double> Workspace::input_lengths() const {
 }
 
 int Workspace::vertex_of_input(int vertex) const {
-  const int origin = origins[vertex];
+  const int origin = vertices.origins[vertex];
   return origin < 0 ? -1 : input_order().old_vertex[origin];
 }
 
@@ -292,16 +283,16 @@ std::vector<MapEntry> Workspace::map() const {
 
 Mat3X Workspace::copy_back(TriMesh& target) const {
   Mat3X input = vertex_points(target);
-  Mat3X points(3, positions.points.cols());
-  std::vector<double> lengths(vertex_length.size());
+  Mat3X points(3, vertices.positions.points.cols());
+  std::vector<double> lengths(vertices.vertex_length.size());
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     const size_t id = order.old_vertex[v];
-    const int origin = origins[v];
-    const bool stayed = origin >= 0 && positions.points.col(v) == start->col(origin);
+    const int origin = vertices.origins[v];
+    const bool stayed = origin >= 0 && vertices.positions.points.col(v) == start->col(origin);
     points.col(static_cast<Eigen::Index>(id)) =
         stayed ? Vec3(input.col(input_order().old_vertex[origin]))
-               : Vec3(normalisation.centre + normalisation.unit * positions.points.col(v));
-    lengths[id] = normalisation.unit * vertex_length[v];
+               : Vec3(normalisation.centre + normalisation.unit * vertices.positions.points.col(v));
+    lengths[id] = normalisation.unit * vertices.vertex_length[v];
   }
   if (vertices_replaced_)
     target = build_mesh(points, *adjacency, order.old_ids());

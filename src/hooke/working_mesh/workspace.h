@@ -5,14 +5,13 @@
 #include <memory>
 #include <optional>
 
-#include "hooke/constraints/constraints.h"
 #include "hooke/core/stopwatch.h"
-#include "hooke/filter/retraction.h"
 #include "hooke/filter/surface_field.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/surface_point.h"
 #include "hooke/mesh/vertex_coloring.h"
 #include "hooke/springs/target_lengths.h"
+#include "hooke/working_mesh/vertex_table.h"
 
 namespace hooke {
 
@@ -50,17 +49,18 @@ struct Workspace {
   /// Reverts refit(): the vertices, which must be projected to the input, are tracked on its field again.
   void return_to_input();
 
+  /// Sets the target valences of the corners, see corner_valences(). `corner_angle`: degrees.
+  void set_corner_valences(double corner_angle);
+
   /// Replaces the faces and keeps the vertices; in the result the new faces take the ids of the input's
   /// faces. Pre-condition: the vertices are tracked on the field of the input, that is before the first
   /// refit() or after return_to_input().
   void replace_faces(std::vector<Triangle> faces);
 
-  /// Replaces vertices and faces. The caller has already changed the public members with data per vertex and
-  /// wedge; `faces` and the `wedges` of their corners refer to these, and `origins` gives the previous id of
-  /// each vertex, -1 for a new one. Everything is put into memory order; in the result the kept vertices keep
-  /// their order, and new ones follow. Pre-condition as for replace_faces().
-  void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges,
-                    const std::vector<int>& origins);
+  /// Replaces vertices and faces: `vertices` has changed already, and `faces` and the `wedges` of their
+  /// corners are its rows. Everything is put into memory order; in the result the kept vertices keep their
+  /// order, and new ones follow. Pre-condition as for replace_faces().
+  void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges);
 
   /// Do the target lengths vary?
   bool has_varying_lengths() const;
@@ -100,12 +100,9 @@ struct Workspace {
   Permutation order;  // to the ids of the result, those of the input until replace_mesh(); `faces` is empty
   std::shared_ptr<const Adjacency> adjacency;  // with its creases, seams included
   VertexColoring coloring;
-  std::vector<double> vertex_length;  // normalised target lengths, at the positions sampled last
+  VertexTable vertices;  // on the field fitted last, with the target lengths at the positions sampled last
   TargetLengths targets;
-  Constraints constraints;
-  std::shared_ptr<const Mat3X> start;      // points of the input
-  std::vector<int> origins;                // per vertex: its index in `start`, -1 for a new one
-  SurfacePositions positions;              // on the field fitted last
+  std::shared_ptr<const Mat3X> start;      // points of the input, to which vertices.origins refer
   std::unique_ptr<Retraction> retraction;  // to the field fitted last
 
  private:

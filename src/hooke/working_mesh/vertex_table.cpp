@@ -1,0 +1,86 @@
+#include "hooke/working_mesh/vertex_table.h"
+
+#include <utility>
+
+#include "hooke/mesh/wedges.h"
+
+namespace hooke {
+namespace {
+
+enum class RowOf { vertex, wedge };
+
+/// Calls use(column, row, empty) for each column: `column` takes a table and returns it, and `empty` is the
+/// value of a new row. The only list of the columns.
+void for_each_column(const auto& use) {
+  use(
+      [](auto& t) -> auto& { return t.positions.points; }, RowOf::vertex, 0.);
+  use(
+      [](auto& t) -> auto& { return t.positions.segments; }, RowOf::vertex, 0);
+  use(
+      [](auto& t) -> auto& { return t.positions.drift; }, RowOf::vertex, 0.);
+  use(
+      [](auto& t) -> auto& { return t.positions.normals; }, RowOf::wedge, 0.);
+  use(
+      [](auto& t) -> auto& { return t.positions.hints; }, RowOf::wedge, 0);
+  use(
+      [](auto& t) -> auto& { return t.constraints.freedom; }, RowOf::vertex, Freedom::fixed);
+  use(
+      [](auto& t) -> auto& { return t.constraints.curve; }, RowOf::vertex, -1);
+  use(
+      [](auto& t) -> auto& { return t.vertex_length; }, RowOf::vertex, 0.);
+  use(
+      [](auto& t) -> auto& { return t.origins; }, RowOf::vertex, -1);
+  use(
+      [](auto& t) -> auto& { return t.previous_ids; }, RowOf::vertex, -1);
+  use(
+      [](auto& t) -> auto& { return t.corner_valences; }, RowOf::wedge, 0);
+}
+
+template <typename T>
+void resize_column(std::vector<T>& column, int rows, int, T empty) {
+  column.resize(rows, empty);
+}
+
+void resize_column(Mat3X& column, int rows, int spare, double) {
+  if (column.cols() < rows) column.conservativeResize(3, Eigen::Index{rows} + spare);
+}
+
+template <typename T>
+std::vector<T> rows_of(const std::vector<T>& column, const std::vector<int>& rows) {
+  std::vector<T> selected;
+  if (column.empty()) return selected;  // not in use
+  selected.reserve(rows.size());
+  for (int row : rows) selected.push_back(column[row]);
+  return selected;
+}
+
+Mat3X rows_of(const Mat3X& column, const std::vector<int>& rows) {
+  return column(Eigen::all, rows);
+}
+
+}  // namespace
+
+void VertexTable::resize(int ids, int spare) {
+  for_each_column(
+      [&](const auto& column, RowOf, auto empty) { resize_column(column(*this), ids, spare, empty); });
+  if (!positions.other_wedge.empty()) positions.other_wedge.resize(ids, -1);
+}
+
+VertexTable VertexTable::rows(const std::vector<int>& vertices, const std::vector<int>& wedges) const {
+  VertexTable selected;
+  for_each_column([&](const auto& column, RowOf row, auto) {
+    column(selected) = rows_of(column(*this), row == RowOf::vertex ? vertices : wedges);
+  });
+  return selected;
+}
+
+void VertexTable::keep(const std::vector<int>& vertices, const std::vector<int>& wedges,
+                       std::vector<int> extra_wedges) {
+  for_each_column([&](const auto& column, RowOf row, auto) {
+    column(*this) = rows_of(column(*this), row == RowOf::vertex ? vertices : wedges);
+  });
+  positions.other_wedge = other_wedges(vertices.size(), extra_wedges);
+  constraints.extra_wedges = std::move(extra_wedges);
+}
+
+}  // namespace hooke
