@@ -55,7 +55,9 @@ std::vector<T> rows_of(const std::vector<T>& column, const std::vector<int>& row
 }
 
 Mat3X rows_of(const Mat3X& column, const std::vector<int>& rows) {
-  return column(Eigen::all, rows);
+  Mat3X selected(3, std::ssize(rows));
+  for (size_t i = 0; i < rows.size(); ++i) selected.col(static_cast<Eigen::Index>(i)) = column.col(rows[i]);
+  return selected;
 }
 
 }  // namespace
