@@ -107,7 +107,7 @@ void print_summary(const Settings& s, const RunRecord& run) {
         wrapped(fmt::format("{} edges split, {} collapsed, {} flipped: {} vertices, {} faces ({:.0f} wanted)",
                             a.splits, a.collapses, a.flips + f.flips, run.after->topology.vertices,
                             run.after->topology.faces, a.target_faces)));
-  else if (f.flow.rounds > 0)
+  else if (f.flow_rounds > 0)
     say("{}\n",
         wrapped(fmt::format("{} edges flipped; vertices travelled {:.3g} target lengths at most, {:.3g} rms",
                             f.flips, f.max_travel, f.rms_travel)));

@@ -136,7 +136,7 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
 
 void add_method(CLI::App& app, Settings& s, RawOptions& raw) {
   add_choice(
-      app, "--effort", s.effort, "How long to go on for better triangles",
+      app, "--effort", s.remesh.effort, "How long to go on for better triangles",
       Choices<Effort>{{"fast", Effort::fast}, {"default", Effort::standard}, {"thorough", Effort::thorough}})
       ->default_str("default");
   add_choice(

@@ -59,7 +59,6 @@ struct Settings {
   std::optional<std::vector<EdgeLength>> edge_length_list;  // in place of the file, for a mesh of arrays
   bool check = false;                                       // only measure the input
   bool paper = false;
-  Effort effort = Effort::standard;
   std::filesystem::path map;  // empty for none
   RemeshOptions remesh;
   SeamKinds keep;  // seams that are feature edges where faces are replaced

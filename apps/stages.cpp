@@ -43,8 +43,7 @@ std::string text_of(const SeamKinds& keep) {
 }  // namespace
 
 nlohmann::ordered_json parameters_of(const Settings& s) {
-  nlohmann::ordered_json parameters =
-      s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh, s.effort);
+  nlohmann::ordered_json parameters = s.paper ? parameters_json(s.paper_options) : parameters_json(s.remesh);
   parameters.update({{"repair", s.repair.repair},
                      {"weld", s.weld_text},
                      {"drop_components", s.repair.drop_components},

@@ -242,7 +242,6 @@ void resolve(Settings& s, const RawOptions& raw) {
   reject_unused_options(s, raw);
   require_streams(s);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
-  set_effort(s.remesh, s.effort);
   s.remesh.map = !s.map.empty();
   s.paper_options.evolution.damped = s.remesh.damped;
   if (raw.given("--kernel")) s.paper_options.filter.kernel = s.remesh.filter.kernel;
@@ -258,12 +257,10 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (!s.edge_lengths.empty() && !raw.altitude) s.remesh.altitude = s.paper_options.evolution.altitude = 0;
   if (!s.edge_lengths.empty() && !raw.given("--polish")) s.remesh.polish_angles = false;
   if (raw.refit) s.remesh.refit = s.paper_options.refit = *raw.refit;
-  if (raw.max_outer)
-    s.remesh.max_outer = s.remesh.adaptation.last_outer = s.paper_options.max_outer = *raw.max_outer;
-  if (raw.max_steps) {
-    s.remesh.integration.max_steps = s.paper_options.evolution.max_steps = *raw.max_steps;
-    s.remesh.adaptation.last_steps = *raw.max_steps;
-  }
+  s.remesh.max_outer = raw.max_outer;
+  if (raw.max_outer) s.paper_options.max_outer = *raw.max_outer;
+  s.remesh.max_steps = raw.max_steps;
+  if (raw.max_steps) s.paper_options.evolution.max_steps = *raw.max_steps;
   if (raw.boundary) s.remesh.constraints.boundary = s.paper_options.constraints.boundary = *raw.boundary;
   if (s.threads == 0) s.threads = threads_of_environment();
   s.preserve_given = raw.given("--preserve");

@@ -18,6 +18,7 @@
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
+#include "hooke/remesh/run_options.h"
 #include "hooke/working_mesh/working_mesh.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
@@ -50,27 +51,33 @@ struct Outcome {
 RemeshOptions adaptation_options(Effort effort = Effort::fast) {
   RemeshOptions options;
   options.connectivity = ConnectivityMode::adapt;
-  options.flips = flip_options(effort);
-  options.adaptation = adapt_options(effort);
+  options.effort = effort;
   options.map = true;
   return options;
 }
 
-Outcome adapted(const test::Triangles& t, const RemeshOptions& options, const std::vector<double>& lengths,
+Outcome adapted(const test::Triangles& t, const RunOptions& options, const std::vector<double>& lengths,
                 const Observer& observer = nullptr) {
   TriMesh mesh = test::to_mesh(t);
   auto length = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, target_length_property);
   for (const auto v : mesh.vertices()) length[v] = lengths[static_cast<size_t>(v.idx())];
   Outcome o;
-  o.result = remesh(mesh, options, observer);
+  o.result = run_remesh(mesh, find_memory_order(mesh), options, observer);
   o.points = vertex_points(mesh);
   o.adjacency = make_adjacency(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
   return o;
 }
 
-Outcome adapted(const test::Triangles& t, double length, const RemeshOptions& options = adaptation_options(),
+Outcome adapted(const test::Triangles& t, double length, const RunOptions& options,
                 const Observer& observer = nullptr) {
   return adapted(t, options, std::vector<double>(static_cast<size_t>(t.points.cols()), length), observer);
+}
+Outcome adapted(const test::Triangles& t, double length, const RemeshOptions& options = adaptation_options(),
+                const Observer& observer = nullptr) {
+  return adapted(t, length, RunOptions(options), observer);
+}
+Outcome adapted(const test::Triangles& t, const RemeshOptions& options, const std::vector<double>& lengths) {
+  return adapted(t, RunOptions(options), lengths);
 }
 
 /// The same topology, no face against its neighbours, no crossing.
@@ -119,7 +126,8 @@ double irregular_share(const Adjacency& c) {
 
 TEST(Adaptation, ACoarserMeshFirstLeavesFewIrregularVertices) {
   const test::Triangles t = test::sphere(4, .45, 4);
-  RemeshOptions coarse = adaptation_options(Effort::standard), none = coarse;
+  const RunOptions coarse(adaptation_options(Effort::standard));
+  RunOptions none = coarse;
   none.adaptation.coarse.levels = 0;
   const Outcome with = adapted(t, natural(t), coarse), without = adapted(t, natural(t), none);
   EXPECT_EQ(with.result.adaptation.levels, 1);

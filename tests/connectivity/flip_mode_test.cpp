@@ -25,7 +25,7 @@ TriMesh with_target(const test::Triangles& t) {
 RemeshOptions flipping(Effort effort) {
   RemeshOptions options;
   options.connectivity = ConnectivityMode::flip;
-  options.flips = flip_options(effort);
+  options.effort = effort;
   return options;
 }
 

@@ -12,7 +12,7 @@ int main(int, char** argv) try {
   hooke::set_target_lengths(input.mesh, input.memory_order, hooke::parse_length("auto"));
   hooke::RemeshOptions options;
   options.connectivity = hooke::ConnectivityMode::flip;
-  set_effort(options, hooke::Effort::fast);
+  options.effort = hooke::Effort::fast;
   const hooke::RemeshResult done = preserving_remesh(input.mesh, input.memory_order, options);
   if (!done.measures->preservation.holds()) throw hooke::ResultError("the surface is not kept");
   hooke::prepare_mesh(argv[2], input.mesh, hooke::format_of(argv[2])).file.commit();

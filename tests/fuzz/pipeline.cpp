@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mending.repair = true;
   RemeshOptions options;
   options.connectivity = static_cast<ConnectivityMode>(arrays.choice % 3);
-  set_effort(options, (arrays.choice & 64) != 0 ? Effort::fast : Effort::standard);
+  options.effort = (arrays.choice & 64) != 0 ? Effort::fast : Effort::standard;
   if (options.connectivity == ConnectivityMode::fixed && (arrays.choice & 128) != 0)
     options.integrator = IntegratorKind::damped;
   try {

@@ -418,7 +418,7 @@ TEST(DampedRelaxation, RefusesConstantsThatAreNotPositive) {
 RemeshOptions short_damped_run() {
   RemeshOptions options;
   options.integrator = IntegratorKind::damped;
-  options.integration.max_steps = 40;
+  options.max_steps = 40;
   options.max_outer = 2;
   options.polish_angles = false;
   return options;

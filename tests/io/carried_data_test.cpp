@@ -62,7 +62,7 @@ Seams seams_of(const Textured& t) {
 Textured remeshed(const Textured& t, ConnectivityMode mode, double length) {
   RemeshOptions options;
   options.connectivity = mode;
-  set_effort(options, Effort::fast);
+  options.effort = Effort::fast;
   const Seams seams = seams_of(t);
   options.constraints.seams = seams.ends;
   options.constraints.fixed_vertices = seams.poles;
@@ -179,7 +179,7 @@ TEST(CarriedData, ASeamDoesNotChangeTheSurface) {
   const auto error = [&](bool with_seam) {
     RemeshOptions options;
     options.connectivity = ConnectivityMode::adapt;
-    set_effort(options, Effort::fast);
+    options.effort = Effort::fast;
     const Adjacency c = make_adjacency(static_cast<int>(ball.points.cols()), ball.faces);
     for (size_t e = 0; with_seam && e < c.edges.size(); ++e) {
       const auto side = [&](int f) {

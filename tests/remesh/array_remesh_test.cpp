@@ -37,7 +37,7 @@ TEST(ArrayRemesh, AdaptsToTheLength) {
   const Arrays input = arrays_of(test::sphere(3, .3));
   RemeshOptions options;
   options.connectivity = ConnectivityMode::adapt;
-  set_effort(options, Effort::fast);
+  options.effort = Effort::fast;
   const RemeshedArrays done = preserving_remesh(input.vertices, input.faces, options, parse_length("2x"));
   EXPECT_NEAR(static_cast<double>(done.faces.rows()), static_cast<double>(input.faces.rows()) / 4, 20);
   EXPECT_EQ(done.faces.maxCoeff() + 1, done.vertices.rows());

@@ -16,8 +16,7 @@ using test::natural, test::Outcome, test::remeshed;
 RemeshOptions adaptation_options() {
   RemeshOptions options;
   options.connectivity = ConnectivityMode::adapt;
-  options.flips = flip_options(Effort::fast);
-  options.adaptation = adapt_options(Effort::fast);
+  options.effort = Effort::fast;
   options.map = true;
   return options;
 }

@@ -14,7 +14,7 @@ using test::Outcome, test::remeshed, test::natural, test::volume;
 RemeshOptions in_mode(ConnectivityMode mode) {
   RemeshOptions options;
   options.connectivity = mode;
-  options.flips = flip_options(Effort::fast);
+  if (mode == ConnectivityMode::flip) options.effort = Effort::fast;
   return options;
 }
 
@@ -125,8 +125,9 @@ TEST(CreaseRemesh, EveryFilterKeepsTheSidesFlat) {
 
 TEST(CreaseRemesh, ThoroughFlipsKeepCreases) {
   const test::Triangles t = test::irregular_cube(5);
-  RemeshOptions options = in_mode(ConnectivityMode::flip);
-  options.flips = flip_options(Effort::thorough);
+  RemeshOptions thorough = in_mode(ConnectivityMode::flip);
+  thorough.effort = Effort::thorough;
+  RunOptions options(thorough);
   options.flips.flow.rounds = 20;
   options.flips.passes.passes = 2;
   const Outcome o = remeshed(t, options);

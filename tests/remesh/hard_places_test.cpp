@@ -86,7 +86,7 @@ class HardPlaces : public testing::TestWithParam<std::tuple<Place, ConnectivityM
 TEST_P(HardPlaces, GetBetterAndLoseNothing) {
   RemeshOptions options;
   options.connectivity = mode_;
-  set_effort(options, Effort::standard);
+  options.effort = Effort::standard;
   const test::Outcome o = test::remeshed(input_, options);
   const Quality before = quality_of(test::to_mesh(input_)), after = quality_of(o.mesh);
   EXPECT_GE(after.min_angle.min, before.min_angle.min);
@@ -113,10 +113,11 @@ TEST(HardPlaces, OtherEdgesRemoveTheSliversThatSpringsLeave) {
       const test::Triangles lens = stretched(test::sphere(2, .4, seed), {1, 1, .12});
       RemeshOptions options;
       options.connectivity = mode;
-      set_effort(options, Effort::standard);
+      options.effort = Effort::standard;
+      RunOptions without_removal(options);
+      without_removal.slivers.pass.rounds = 0;
       const Quality improved = quality_of(test::remeshed(lens, options).mesh);
-      options.slivers.pass.rounds = 0;
-      const Quality left = quality_of(test::remeshed(lens, options).mesh);
+      const Quality left = quality_of(test::remeshed(lens, without_removal).mesh);
       EXPECT_GE(improved.min_angle.min, left.min_angle.min - 1e-9) << seed;
       EXPECT_LE(improved.folded_edges, left.folded_edges) << seed;
       EXPECT_EQ(improved.topology.euler, left.topology.euler) << seed;
@@ -134,13 +135,14 @@ TEST(HardPlaces, SliverRemovalIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
   for (const ConnectivityMode mode : {ConnectivityMode::flip, ConnectivityMode::adapt}) {
     RemeshOptions options;
     options.connectivity = mode;
-    set_effort(options, Effort::standard);
-    options.slivers.pass.sliver_angles = {33};
+    options.effort = Effort::standard;
+    RunOptions with_one_angle(options);
+    with_one_angle.slivers.pass.sliver_angles = {33};
     int slivers = 0;
     const auto run = [&](int threads, int stop_at) {
       const ThreadLimit limit(threads);
       slivers = 0;
-      return test::remeshed(lens, test::natural(lens), options, [&](const Progress& p) {
+      return test::remeshed(lens, test::natural(lens), with_one_angle, [&](const Progress& p) {
         slivers += std::string_view(p.stage) == "mend";
         return slivers < stop_at;
       });

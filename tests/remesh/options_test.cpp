@@ -36,7 +36,7 @@ TriMesh graded_sphere() {
 RemeshOptions in_mode(ConnectivityMode mode, Effort effort = Effort::standard) {
   RemeshOptions options;
   options.connectivity = mode;
-  set_effort(options, effort);
+  options.effort = effort;
   return options;
 }
 
@@ -82,7 +82,8 @@ TEST(RemeshToSizing, OneThreadAndTwoFollowThemWithTheSameBits) {
 
 TEST(RemeshRefit, WhereNothingHindersOneFieldAndOneIterationDo) {
   const test::Triangles t = test::sphere(3, .25, 4);
-  RemeshOptions once, stubborn;
+  RemeshOptions once;
+  RunOptions stubborn{RemeshOptions()};
   once.refit = Refit::once;
   stubborn.guard_limited = -1;  // any vertex limited by guards is too many
   const Outcome o = remeshed(t), same = remeshed(t, once), more = remeshed(t, stubborn);

@@ -188,7 +188,8 @@ double largest_move(const Mat3X& a, const Mat3X& b) {
 /// Largest distance of the points to the field that the input stands for, in target lengths.
 double off_the_field(const test::Triangles& t, const Mat3X& points, const RemeshOptions& options) {
   const TriMesh mesh = with_length(t, natural(t));
-  const Workspace w(mesh, find_memory_order(mesh), options.constraints, options.filter, options.retraction);
+  const Workspace w(mesh, find_memory_order(mesh), options.constraints, options.filter,
+                    RunOptions(options).retraction);
   Mat3X x(3, points.cols());
   for (Eigen::Index v = 0; v < x.cols(); ++v)
     x.col(v) = (points.col(w.order.old_vertex[static_cast<size_t>(v)]) - w.normalisation.centre) /
@@ -280,20 +281,22 @@ TEST_P(RemeshLaws, EveryVertexLiesOnTheFieldOfTheInput) {
   for (FilterKind kind : {FilterKind::local, FilterKind::global})
     for (Refit refit : {Refit::each, Refit::once})
       for (double lazy : {0., .05, .3}) {
-        RemeshOptions options;
-        options.filter.kind = kind;
-        options.refit = refit;
+        RemeshOptions chosen;
+        chosen.filter.kind = kind;
+        chosen.refit = refit;
+        RunOptions options(chosen);
         options.retraction.lazy = lazy;
         const Outcome o = remeshed(input_, options);
-        EXPECT_LT(off_the_field(input_, o.points, options), 1e-5);
+        EXPECT_LT(off_the_field(input_, o.points, chosen), 1e-5);
         EXPECT_GT(min_angle(o.points, input_.faces), min_angle(input_.points, input_.faces) + 5);
         if (kind == FilterKind::global) break;  // dense fits take their time
       }
 }
 
 TEST_P(RemeshLaws, TheClosestPointFilterKeepsToTheFaces) {
-  RemeshOptions options;
-  options.filter.kind = FilterKind::closest;
+  RemeshOptions chosen;
+  chosen.filter.kind = FilterKind::closest;
+  RunOptions options(chosen);
   options.retraction.lazy = 0;
   const Outcome o = remeshed(input_, options);
   EXPECT_LT(off_the_faces(input_, o.points), 1e-9 * L_);
@@ -313,7 +316,7 @@ TEST_P(RemeshLaws, WithoutAFilterVerticesStayWhereTheTangentsLead) {
 }
 
 TEST_P(RemeshLaws, StopsWithAValidMeshWheneverTheObserverSaysSo) {
-  RemeshOptions patient;
+  RunOptions patient{RemeshOptions()};
   patient.integration.energy_drop = 1e-5;
   int total = 0;
   remeshed(input_, L_, patient, [&](const Progress&) { return ++total > 0; });

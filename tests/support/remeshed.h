@@ -1,11 +1,13 @@
 // A mesh before and after remeshing.
 #pragma once
 
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
+#include "hooke/remesh/run_options.h"
 #include "support/meshes.h"
 
 namespace hooke::test {
@@ -28,14 +30,21 @@ struct Outcome {
   TriMesh mesh;
 };
 
-inline Outcome remeshed(const Triangles& t, double length, const RemeshOptions& options = {},
+inline Outcome remeshed(const Triangles& t, double length, const RunOptions& options,
                         const Observer& observer = nullptr) {
   Outcome o;
   o.mesh = with_length(t, length);
-  o.result = remesh(o.mesh, options, observer);
+  o.result = run_remesh(o.mesh, find_memory_order(o.mesh), options, observer);
   o.points = vertex_points(o.mesh);
   o.faces = triangles_of(o.mesh);
   return o;
+}
+inline Outcome remeshed(const Triangles& t, const RunOptions& options) {
+  return remeshed(t, natural(t), options);
+}
+inline Outcome remeshed(const Triangles& t, double length, const RemeshOptions& options = {},
+                        const Observer& observer = nullptr) {
+  return remeshed(t, length, RunOptions(options), observer);
 }
 inline Outcome remeshed(const Triangles& t, const RemeshOptions& options = {}) {
   return remeshed(t, natural(t), options);

@@ -461,7 +461,7 @@ AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardO
   else
     result = Adaptation(work, options, flip_guard, guards, terms, corner_angle, observer)
                  .run(!unfolded.folded.empty());
-  result.untangle = unfolded;
+  result.folded_before = unfolded.folded_before;
   return result;
 }
 

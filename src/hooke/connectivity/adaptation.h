@@ -81,16 +81,6 @@ struct AdaptOptions {
 /// The options for an effort level.
 AdaptOptions adapt_options(Effort effort);
 
-struct AdaptResult {
-  UntangleResult untangle;
-  int levels = 0;  // coarser meshes, i.e. number of 1-to-4 subdivisions
-  int rounds = 0;
-  int count_rounds = 0;
-  long long splits = 0, collapses = 0, flips = 0;
-  double target_faces = 0;
-  bool interrupted = false;
-};
-
 /// Replaces the mesh of the workspace. The topology, boundary loops, creases, corners and fixed vertices are
 /// kept. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,

@@ -63,19 +63,22 @@ class FlipMode {
   }
 
   void unfold() {
-    result_.untangle =
+    const UntangleResult unfolded =
         relax([&](Relaxation& r) { return untangle(r, UntangleOptions{}, watch("untangle")); });
-    result_.interrupted = result_.untangle.interrupted;
+    result_.folded_before = unfolded.folded_before;
+    result_.interrupted = unfolded.interrupted;
   }
 
   void flow_vertices() {
     const Stage stage(work_.stopwatch, "flow");
+    LloydFlowResult flowed;
     flip([&](WorkingMesh& m) {
-      result_.flow = flow(m, options_.flow, options_.guard, guards_, observer_);
-      return result_.flow.flips;
+      flowed = flow(m, options_.flow, options_.guard, guards_, observer_);
+      return flowed.flips;
     });
-    result_.interrupted = result_.flow.interrupted;
-    note_limited_steps(result_.flow.limited_steps, result_.flow.rounds);
+    result_.flow_rounds = flowed.rounds;
+    result_.interrupted = flowed.interrupted;
+    note_limited_steps(flowed.limited_steps, flowed.rounds);
   }
 
   void note_limited_steps(long long limited_steps, int steps) {

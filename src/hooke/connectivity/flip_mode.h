@@ -3,6 +3,7 @@
 // %. Vertices keep their ids but travel by one or two edge lengths, and farther on uneven meshes.
 #pragma once
 
+#include "hooke/connectivity/connectivity_mode.h"
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/lloyd_flow.h"
 #include "hooke/connectivity/valence_flips.h"
@@ -13,15 +14,6 @@
 namespace hooke {
 
 struct Workspace;
-
-enum class ConnectivityMode {
-  fixed,  // the faces stay
-  flip,   // edges are flipped
-  adapt,  // edges are also split and collapsed: new vertices and faces
-};
-
-/// How much time to spend on better triangles.
-enum class Effort { fast, standard, thorough };
 
 struct FlipOptions {
   LloydFlowOptions flow;
@@ -41,17 +33,6 @@ struct FlipOptions {
 
 /// The options for an effort level.
 FlipOptions flip_options(Effort effort);
-
-struct FlipResult {
-  UntangleResult untangle;
-  LloydFlowResult flow;
-  int spring_rounds = 0;
-  long long flips = 0;  // total
-  int passes = 0;
-  int evaluations = 0;                    // of the spring energy
-  double max_travel = 0, rms_travel = 0;  // from input to result, in target lengths
-  bool interrupted = false;
-};
 
 /// Moves the vertices of the workspace on the surface of the input, alternating with edge flips. Feature
 /// edges stay. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "hooke/connectivity/connectivity_mode.h"
 #include "hooke/connectivity/edge_trial.h"
-#include "hooke/connectivity/flip_mode.h"
 #include "hooke/integrator/guards.h"
 
 namespace hooke {

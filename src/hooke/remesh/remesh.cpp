@@ -14,6 +14,7 @@
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/remesh/limiting_factors.h"
+#include "hooke/remesh/run_options.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/working_mesh/workspace.h"
@@ -72,11 +73,11 @@ namespace {
 /// the vertices are projected to the field of the input, even if interrupted.
 class OuterIterations {
  public:
-  OuterIterations(Workspace& work, const RemeshOptions& options, const Observer& observer)
+  OuterIterations(Workspace& work, const RunOptions& options, const Observer& observer)
       : options_(options),
         observer_(observer),
         work_(work),
-        energy_(*work_.adjacency, work_.targets, {.altitude = options.altitude}),
+        energy_(*work_.adjacency, work_.targets, {.altitude = options.chosen.altitude}),
         guards_(*work_.adjacency, work_.targets, options.guards),
         projection_(work, options.guards) {}
 
@@ -91,7 +92,7 @@ class OuterIterations {
       ++outer_;
       iterate();
     }
-    if (!interrupted() && options_.polish_angles)
+    if (!interrupted() && options_.chosen.polish_angles)
       raise_angles();
     else if (outer_ == 0)
       project_to_input();  // no iteration has done so
@@ -151,7 +152,7 @@ class OuterIterations {
   /// guards.
   LbfgsOptions lbfgs() const {
     LbfgsOptions lbfgs = options_.lbfgs;
-    const bool flowed = options_.connectivity != ConnectivityMode::fixed;
+    const bool flowed = options_.chosen.connectivity != ConnectivityMode::fixed;
     if (flowed || !guard_limited_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
     lbfgs.projects_at_end = !goes_on();
     return lbfgs;
@@ -159,20 +160,20 @@ class OuterIterations {
 
   IntegrationOptions integration() const {
     IntegrationOptions integration = options_.integration;
-    if (options_.connectivity != ConnectivityMode::fixed)
+    if (options_.chosen.connectivity != ConnectivityMode::fixed)
       integration.energy_drop = options_.flips.energy_drop;
     return integration;
   }
 
   IntegrationResult relax() {
     Relaxation r = relaxation();
-    switch (options_.integrator) {
+    switch (options_.chosen.integrator) {
       case IntegratorKind::lbfgs:
         return relax_lbfgs(r, integration(), lbfgs(), watch("relax"));
       case IntegratorKind::damped: {
         if (moving_.n_vertices() == 0)
           moving_ = build_mesh(work_.vertices.positions.points, *work_.adjacency);
-        return relax_damped(r, moving_, integration(), options_.damped, watch("relax"));
+        return relax_damped(r, moving_, integration(), options_.chosen.damped, watch("relax"));
       }
     }
     throw Error("unknown integrator");
@@ -180,7 +181,7 @@ class OuterIterations {
 
   /// Mode `adapt` keeps the field of the input, as a coarser mesh has less detail.
   bool refits() const {
-    return options_.refit == Refit::each && options_.connectivity != ConnectivityMode::adapt &&
+    return options_.chosen.refit == Refit::each && options_.chosen.connectivity != ConnectivityMode::adapt &&
            !free_of_guards_;
   }
 
@@ -189,14 +190,15 @@ class OuterIterations {
   /// target lengths vary.
   bool is_free_of_guards(const IntegrationResult& relaxed) const {
     const double vertex_steps = static_cast<double>(relaxed.evaluations) * work_.adjacency->vertex_count;
-    return options_.integrator == IntegratorKind::lbfgs && !work_.has_varying_lengths() &&
+    return options_.chosen.integrator == IntegratorKind::lbfgs && !work_.has_varying_lengths() &&
            relaxed.reason == StopReason::stalled &&
            static_cast<double>(relaxed.limited_steps) <= options_.guard_limited * vertex_steps;
   }
 
   /// Does the next iteration or the angle optimisation continue on the same field, without projection?
   bool goes_on() const {
-    return options_.polish_angles && (free_of_guards_ || options_.connectivity == ConnectivityMode::adapt);
+    return options_.chosen.polish_angles &&
+           (free_of_guards_ || options_.chosen.connectivity == ConnectivityMode::adapt);
   }
 
   void iterate() {
@@ -214,7 +216,8 @@ class OuterIterations {
       work_.resample_lengths();
     }
     record("relax", relaxed, outer_);
-    if (result_.iterations.back().max_length_error < options_.tolerance) return stop(StopReason::converged);
+    if (result_.iterations.back().max_length_error < options_.chosen.tolerance)
+      return stop(StopReason::converged);
     if (relaxed.reason == StopReason::interrupted) return stop(StopReason::interrupted);
     if (relaxed.reason == StopReason::jammed && relaxed.steps == 0) return stop(StopReason::jammed);
     if (free_of_guards_ || energy - relaxed.energy <= options_.outer_drop * energy)
@@ -227,7 +230,7 @@ class OuterIterations {
     if (refits()) projection_.refit();
     {
       Relaxation r = relaxation();
-      const AngleSpringOptions& options = options_.connectivity == ConnectivityMode::fixed
+      const AngleSpringOptions& options = options_.chosen.connectivity == ConnectivityMode::fixed
                                               ? options_.angle_springs
                                               : options_.flips.angle_springs;
       result_.angle_springs = hooke::raise_angles(r, work_.targets, options, watch("polish"));
@@ -271,7 +274,7 @@ class OuterIterations {
 
   void conclude() {
     result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.vertices.positions));
-    result_.vertex_limits = vertex_limits_of_result(work_, guards_, options_.constraints);
+    result_.vertex_limits = vertex_limits_of_result(work_, guards_, options_.chosen.constraints);
     result_.creases = count_creases(work_);
     result_.crease_edges = crease_edges(*work_.adjacency);
     for (Edge& e : result_.crease_edges)
@@ -294,7 +297,7 @@ class OuterIterations {
   }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  const RemeshOptions& options_;
+  const RunOptions& options_;
   const Observer& observer_;
   Workspace& work_;
   Energy energy_;
@@ -310,17 +313,17 @@ class OuterIterations {
 };
 
 /// Fewer iterations after a coarser mesh, which leaves the vertices nearly at rest.
-RemeshOptions after_coarse_levels(RemeshOptions options) {
+RunOptions after_coarse_levels(RunOptions options) {
   options.max_outer = std::min(options.max_outer, options.adaptation.last_outer);
   int& steps = options.integration.max_steps;
-  if (options.integrator == IntegratorKind::lbfgs)
+  if (options.chosen.integrator == IntegratorKind::lbfgs)
     steps = std::min(steps, options.adaptation.last_steps.value_or(steps));
   return options;
 }
 
 /// One pass of sliver removal after others that have `tested` so many, which it adds to. Returns whether an
 /// edge was changed.
-bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Observer& observer, int& tested,
+bool remove_slivers_once(Workspace& work, const RunOptions& options, const Observer& observer, int& tested,
                          RemeshResult& result) {
   const auto start = std::chrono::steady_clock::now();
   const Observer watch = [&](Progress p) {
@@ -329,12 +332,13 @@ bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Ob
     return result.reason != StopReason::interrupted;
   };
   const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
-    return remove_slivers(work, options.connectivity, {.altitude = options.altitude}, options.slivers,
-                          options.guards, options.constraints.corner_angle, tested, watch);
+    return remove_slivers(work, options.chosen.connectivity, {.altitude = options.chosen.altitude},
+                          options.slivers, options.guards, options.chosen.constraints.corner_angle, tested,
+                          watch);
   });
   tested += changes.tested;
   if (changes.count() == 0) return false;
-  RemeshOptions rest = options;
+  RunOptions rest = options;
   rest.search.sagitta = options.slivers.pass.change.sagitta;
   const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
@@ -345,9 +349,9 @@ bool remove_slivers_once(Workspace& work, const RemeshOptions& options, const Ob
   return true;
 }
 
-void remove_slivers_in_passes(Workspace& work, const RemeshOptions& options, const Observer& observer,
+void remove_slivers_in_passes(Workspace& work, const RunOptions& options, const Observer& observer,
                               RemeshResult& result) {
-  bool changed = options.polish_angles;
+  bool changed = options.chosen.polish_angles;
   int tested = 0;
   for (int pass = 0; changed && pass < options.slivers.passes; ++pass)
     changed = result.reason != StopReason::interrupted &&
@@ -382,60 +386,66 @@ RemeshResult remesh(TriMesh& mesh, const RemeshOptions& options, const Observer&
 
 RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                     const Observer& observer, Stopwatch* stopwatch) {
-  Workspace work(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction,
-                 stopwatch);
-  if (work.has_edge_lengths() && options.connectivity != ConnectivityMode::fixed)
+  return run_remesh(mesh, std::move(memory_order), RunOptions(options), observer, stopwatch);
+}
+
+RemeshResult run_remesh(TriMesh& mesh, MemoryOrder memory_order, const RunOptions& options,
+                        const Observer& observer, Stopwatch* stopwatch) {
+  Workspace work(mesh, std::move(memory_order), options.chosen.constraints, options.chosen.filter,
+                 options.retraction, stopwatch);
+  if (work.has_edge_lengths() && options.chosen.connectivity != ConnectivityMode::fixed)
     throw Error("target lengths of single edges; expected connectivity fixed, where edges stay");
-  const InputCreases input = input_creases(work, options.constraints.features);
-  const EnergyTerms terms{.altitude = options.altitude};
-  const double corner_angle = options.constraints.corner_angle;
+  const InputCreases input = input_creases(work, options.chosen.constraints.features);
+  const EnergyTerms terms{.altitude = options.chosen.altitude};
+  const double corner_angle = options.chosen.constraints.corner_angle;
   AdaptResult adapted;
   FlipResult flips;
-  if (options.connectivity == ConnectivityMode::adapt)
+  if (options.chosen.connectivity == ConnectivityMode::adapt)
     adapted = timed(stopwatch, "adapt", [&] {
       return adapt(work, options.adaptation, options.flips.guard, terms, options.guards, corner_angle,
                    observer);
     });
   flips.interrupted = adapted.interrupted;
-  if (options.connectivity != ConnectivityMode::fixed && !flips.interrupted)
+  if (options.chosen.connectivity != ConnectivityMode::fixed && !flips.interrupted)
     flips = timed(stopwatch, "flip", [&] {
       const FlipOptions then = flips_after(adapted, options.adaptation, options.flips);
       return run_flip_mode(work, then, terms, options.guards, corner_angle, observer);
     });
-  RemeshOptions then = options;
-  const bool near_regular = options.connectivity == ConnectivityMode::fixed && !work.has_edge_lengths() &&
+  RunOptions then = options;
+  const bool near_regular = options.chosen.connectivity == ConnectivityMode::fixed &&
+                            !work.has_edge_lengths() &&
                             keep_near_regular(work, options.near_regular, then.guards);
-  if (adapted.levels > 0 && options.polish_angles) then = after_coarse_levels(std::move(then));
+  if (adapted.levels > 0 && options.chosen.polish_angles) then = after_coarse_levels(std::move(then));
   OuterIterations iterations(work, then, observer);
   RemeshResult result = iterations.run(flips);
   const Mat3X velocities = iterations.velocities();
   result.near_regular = near_regular;
   result.adaptation = adapted;
-  switch (options.connectivity) {
+  switch (options.chosen.connectivity) {
     case ConnectivityMode::fixed:
       break;
     case ConnectivityMode::flip:
-      result.folded_before = flips.untangle.folded_before;
+      result.folded_before = flips.folded_before;
       remove_slivers_in_passes(work, options, observer, result);
       measure_travel(work, result.flips);
       break;
     case ConnectivityMode::adapt:
-      result.folded_before = adapted.untangle.folded_before;
+      result.folded_before = adapted.folded_before;
       remove_slivers_in_passes(work, options, observer, result);
       break;
   }
   result.input_creases = input.edges;
   result.creases.sharp = input.sharp;
   result.creases.dropped = input.dropped;
-  if (options.map) result.map = work.map();
+  if (options.chosen.map) result.map = work.map();
   result.input_points = work.copy_back(mesh);
   result.memory_order = work.memory_order();
-  const bool has_velocities =
-      velocities.cols() > 0 && options.connectivity != ConnectivityMode::adapt;  // by the same vertices
+  const bool has_velocities = velocities.cols() > 0 &&
+                              options.chosen.connectivity != ConnectivityMode::adapt;  // by the same vertices
   set_vertex_vectors(mesh, velocity_property,
                      has_velocities ? result.memory_order.order.scatter(velocities)
                                     : Mat3X(Mat3X::Zero(3, vertex_points(mesh).cols())));
-  set_residual_forces(mesh, result.memory_order, options.altitude);
+  set_residual_forces(mesh, result.memory_order, options.chosen.altitude);
   return result;
 }
 

@@ -33,9 +33,4 @@ RemeshResult remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions
 /// twice its length is 1. `memory_order`: of the mesh, which has target lengths.
 void set_residual_forces(TriMesh& mesh, const MemoryOrder& memory_order, double altitude);
 
-/// Makes the guards preserve the minimum angle if the mesh is near-regular or has a uniform target length,
-/// and limits the travel of the vertices of a near-regular mesh. Returns whether the mesh is near-regular.
-/// Pre-condition: no vertex has moved.
-bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards);
-
 }  // namespace hooke

@@ -1,8 +1,7 @@
 // The result of a run: a record of each outer iteration, counts, and the relation of the result to the input.
 #pragma once
 
-#include "hooke/connectivity/adaptation.h"
-#include "hooke/connectivity/flip_mode.h"
+#include "hooke/connectivity/connectivity_mode.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/angle_springs.h"
 #include "hooke/integrator/relaxation.h"

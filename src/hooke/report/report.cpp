@@ -11,6 +11,7 @@
 #include "hooke/measure/statistics.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/remesh/run_options.h"
 #include "hooke/report/report_keys.h"
 
 namespace hooke {
@@ -204,7 +205,7 @@ Json creases_json(const RunRecord& run) {
 Json flips_json(const RunRecord& run) {
   if (!run.result || run.connectivity == ConnectivityMode::fixed) return nullptr;
   const FlipResult& f = run.result->flips;
-  Json j = {{"flips", f.flips},   {"flow_rounds", f.flow.rounds}, {"spring_rounds", f.spring_rounds},
+  Json j = {{"flips", f.flips},   {"flow_rounds", f.flow_rounds}, {"spring_rounds", f.spring_rounds},
             {"passes", f.passes}, {"max_travel", f.max_travel},   {"rms_travel", f.rms_travel}};
   if (run.result->adaptation.rounds > 0) j["max_travel"] = j["rms_travel"] = nullptr;
   return j;
@@ -398,10 +399,10 @@ void add_filter(Json& j, const FilterOptions& filter) {
   j["reach"] = where(splines && std::isfinite(filter.max_deviation), filter.max_deviation);
 }
 
-void add_angle_springs(Json& j, const RemeshOptions& o) {
+void add_angle_springs(Json& j, const RunOptions& o) {
   const AngleSpringOptions& springs =
-      o.connectivity == ConnectivityMode::fixed ? o.angle_springs : o.flips.angle_springs;
-  const bool on = o.polish_angles;
+      o.chosen.connectivity == ConnectivityMode::fixed ? o.angle_springs : o.flips.angle_springs;
+  const bool on = o.chosen.polish_angles;
   j["polish"] = on;
   j["polish_from"] = where(on, springs.first_threshold);
   j["polish_margin"] = where(on, springs.margin);
@@ -412,8 +413,8 @@ void add_angle_springs(Json& j, const RemeshOptions& o) {
 }
 
 /// Parameters that preserve near-regular meshes, null unless in mode `fixed`.
-void add_near_regular(Json& j, const RemeshOptions& o) {
-  const bool fixed = o.connectivity == ConnectivityMode::fixed;
+void add_near_regular(Json& j, const RunOptions& o) {
+  const bool fixed = o.chosen.connectivity == ConnectivityMode::fixed;
   j["near_regular_angle"] = where(fixed, o.near_regular.angle);
   j["near_regular_deviation"] = where(fixed, o.near_regular.deviation);
   j["near_regular_reach"] = where(fixed, o.near_regular.max_travel);
@@ -421,49 +422,51 @@ void add_near_regular(Json& j, const RemeshOptions& o) {
 
 }  // namespace
 
-Json parameters_json(const RemeshOptions& o, Effort effort) {
-  const bool adapts = o.connectivity == ConnectivityMode::adapt;
-  const bool damped = o.integrator == IntegratorKind::damped;
-  const bool fixed = o.connectivity == ConnectivityMode::fixed;
+Json parameters_json(const RemeshOptions& options) {
+  const RunOptions o(options);
+  const bool adapts = o.chosen.connectivity == ConnectivityMode::adapt;
+  const bool damped = o.chosen.integrator == IntegratorKind::damped;
+  const bool fixed = o.chosen.connectivity == ConnectivityMode::fixed;
   Json j;
   j["paper"] = false;
-  j["connectivity"] = name_of(o.connectivity);
-  j["effort"] = name_of(effort);
+  j["connectivity"] = name_of(o.chosen.connectivity);
+  j["effort"] = name_of(options.effort);
   j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;
-  j["last_outer"] = where(adapts && o.polish_angles, o.adaptation.last_outer);
-  j["last_steps"] = where(adapts && o.polish_angles && !damped && o.adaptation.last_steps,
+  j["last_outer"] = where(adapts && o.chosen.polish_angles, o.adaptation.last_outer);
+  j["last_steps"] = where(adapts && o.chosen.polish_angles && !damped && o.adaptation.last_steps,
                           o.adaptation.last_steps.value_or(0));
   j["coarse_flow_rounds"] = adapts ? o.adaptation.coarse_flow : 0;  // if there are coarse levels
   j["last_flow_rounds"] = adapts ? o.adaptation.last_flow : 0;
   j["integrator"] = damped ? "damped" : "lbfgs";
   add_angle_springs(j, o);
   add_near_regular(j, o);
-  add_filter(j, o.filter);
-  j["refit"] = where(has_splines(o.filter.kind), o.refit == Refit::each && !adapts ? "each" : "once");
-  j["altitude"] = o.altitude;
-  j["string"] = where(damped, o.damped.string);
-  j["torque"] = where(damped, o.damped.torque);
-  j["friction"] = where(damped, o.damped.friction);
-  j["tolerance"] = o.tolerance;
+  add_filter(j, o.chosen.filter);
+  j["refit"] =
+      where(has_splines(o.chosen.filter.kind), o.chosen.refit == Refit::each && !adapts ? "each" : "once");
+  j["altitude"] = o.chosen.altitude;
+  j["string"] = where(damped, o.chosen.damped.string);
+  j["torque"] = where(damped, o.chosen.damped.torque);
+  j["friction"] = where(damped, o.chosen.damped.friction);
+  j["tolerance"] = o.chosen.tolerance;
   j["max_outer"] = o.max_outer;
   j["outer_drop"] = o.outer_drop;
   j["energy_drop"] = fixed ? o.integration.energy_drop : o.flips.energy_drop;
   j["hindered"] = where(!damped, o.guard_limited);
   j["max_steps"] = o.integration.max_steps;
-  j["boundary"] = name_of(o.constraints.boundary);
-  j["corner_angle"] = o.constraints.corner_angle;
-  j["feature_angle"] = where(o.constraints.features.angle < 180, o.constraints.features.angle);
-  j["feature_noise"] =
-      where(o.constraints.features.angle < 180, o.constraints.features.drops_noise ? "auto" : "off");
-  j["fixed_vertices"] = o.constraints.fixed_vertices.size();
+  j["boundary"] = name_of(o.chosen.constraints.boundary);
+  j["corner_angle"] = o.chosen.constraints.corner_angle;
+  j["feature_angle"] = where(o.chosen.constraints.features.angle < 180, o.chosen.constraints.features.angle);
+  j["feature_noise"] = where(o.chosen.constraints.features.angle < 180,
+                             o.chosen.constraints.features.drops_noise ? "auto" : "off");
+  j["fixed_vertices"] = o.chosen.constraints.fixed_vertices.size();
   j["guard_area_ratio"] = o.guards.area_ratio;
   j["guard_alignment"] = o.guards.alignment;
   j["guard_fold"] = o.guards.fold;
   j["guard_sagitta"] = o.guards.sagitta;
-  j["search_sagitta"] = where(o.polish_angles, o.search.sagitta);
-  const bool removes_slivers = o.polish_angles && !fixed;
+  j["search_sagitta"] = where(o.chosen.polish_angles, o.search.sagitta);
+  const bool removes_slivers = o.chosen.polish_angles && !fixed;
   j["sliver_angles"] = where(removes_slivers, o.slivers.pass.sliver_angles);
   j["sliver_passes"] = where(removes_slivers, o.slivers.passes);
   j["sliver_sagitta"] = where(removes_slivers, o.slivers.pass.change.sagitta);

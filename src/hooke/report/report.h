@@ -108,7 +108,7 @@ std::string report_text(const RunRecord& run);
 
 /// The effective parameters of a run for its report, `null` for those without effect. `effort`: the level for
 /// which the options were set.
-nlohmann::ordered_json parameters_json(const RemeshOptions& options, Effort effort);
+nlohmann::ordered_json parameters_json(const RemeshOptions& options);
 /// The same for paper_remesh().
 nlohmann::ordered_json parameters_json(const PaperOptions& options);
 

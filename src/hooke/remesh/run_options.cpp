@@ -1,4 +1,4 @@
-#include "hooke/remesh/options.h"
+#include "hooke/remesh/run_options.h"
 
 namespace hooke {
 namespace {
@@ -41,25 +41,18 @@ void set_sliver_removal(SliverOptions& slivers, ConnectivityMode mode, Effort ef
   }
 }
 
-}  // namespace
-
-void set_effort(RemeshOptions& options, Effort effort) {
-  options.flips = flip_options(effort);
-  options.adaptation = adapt_options(effort);
-  if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(options.flips, effort);
-  if (options.connectivity != ConnectivityMode::fixed) {
-    set_sliver_removal(options.slivers.pass, options.connectivity, effort);
-    return;
-  }
+/// One outer iteration with angle springs in a single stage, or more of both in smaller stages, after which
+/// edges may be a little less equal.
+void set_outer_iterations(RunOptions& options, Effort effort) {
   switch (effort) {
-    case Effort::fast:  // one outer iteration, and angle springs in a single stage
+    case Effort::fast:
       options.max_outer = 1;
       options.angle_springs.first_threshold = options.angle_springs.last_threshold = 24;
       options.angle_springs.sweeps = 8;
       break;
     case Effort::standard:
       break;
-    case Effort::thorough:  // smaller stages; edges may become a little less equal
+    case Effort::thorough:
       options.max_outer = 12;
       options.integration.energy_drop = 2e-3;
       options.outer_drop = 1e-3;
@@ -71,6 +64,22 @@ void set_effort(RemeshOptions& options, Effort effort) {
       options.angle_springs.edge_error_limit = 1.05;
       options.angle_springs.keep_within = 0;
       break;
+  }
+}
+
+}  // namespace
+
+RunOptions::RunOptions(const RemeshOptions& options)
+    : chosen(options), flips(flip_options(options.effort)), adaptation(adapt_options(options.effort)) {
+  if (options.connectivity == ConnectivityMode::adapt) set_flips_after_adaptation(flips, options.effort);
+  if (options.connectivity == ConnectivityMode::fixed)
+    set_outer_iterations(*this, options.effort);
+  else
+    set_sliver_removal(slivers.pass, options.connectivity, options.effort);
+  if (options.max_outer) max_outer = adaptation.last_outer = *options.max_outer;
+  if (options.max_steps) {
+    integration.max_steps = *options.max_steps;
+    adaptation.last_steps = *options.max_steps;
   }
 }
 

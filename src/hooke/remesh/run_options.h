@@ -1,0 +1,60 @@
+// The options of all steps of a run, as the connectivity mode and the effort set them.
+#pragma once
+
+#include "hooke/connectivity/adaptation.h"
+#include "hooke/connectivity/flip_mode.h"
+#include "hooke/connectivity/sliver_removal.h"
+#include "hooke/core/stopwatch.h"
+#include "hooke/filter/retraction.h"
+#include "hooke/integrator/angle_search.h"
+#include "hooke/integrator/angle_springs.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/integrator/lbfgs.h"
+#include "hooke/integrator/untangle.h"
+#include "hooke/remesh/options.h"
+#include "hooke/remesh/result.h"
+
+namespace hooke {
+
+/// Preserves near-regular meshes: equal edges and large angles are two objectives, and a mesh whose angles
+/// are all good could lose angles for more equal edges. A mesh is near-regular if it is within both `angle`
+/// and `deviation`.
+struct NearRegularOptions {
+  double angle = 35;        // degrees; minimum angle of a near-regular mesh
+  double deviation = .25;   // maximum standard deviation of l / L_e, over its mean
+  double max_travel = .19;  // maximum travel of a vertex of a near-regular mesh, in its target lengths
+};
+
+struct RunOptions {
+  /// Those of the effort and the mode that are chosen.
+  explicit RunOptions(const RemeshOptions& options);
+
+  RemeshOptions chosen;
+  FlipOptions flips;                                    // in the modes `flip` and `adapt`
+  AdaptOptions adaptation;                              // in mode `adapt`
+  IntegrationOptions integration{.energy_drop = 4e-3};  // energy_drop: in mode `fixed`
+  LbfgsOptions lbfgs;
+  GuardOptions guards;
+  NearRegularOptions near_regular;  // in mode `fixed`
+  UntangleOptions untangle;
+  AngleSpringOptions angle_springs;
+  AngleSearchOptions search;     // after the angle springs
+  SliverRemovalOptions slivers;  // after the search, in the modes `flip` and `adapt`
+  RetractionOptions retraction{.tolerance = 1e-5, .lazy = 2};
+  int max_outer = 6;         // maximum number of outer iterations
+  double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this share
+  /// Also stalled when an iteration comes to rest and guards limited no more than this share of all evaluated
+  /// vertex steps.
+  double guard_limited = 2.5e-4;
+};
+
+/// Makes the guards preserve the minimum angle if the mesh is near-regular or has a uniform target length,
+/// and limits the travel of the vertices of a near-regular mesh. Returns whether the mesh is near-regular.
+/// Pre-condition: no vertex has moved.
+bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards);
+
+/// remesh() with options for each step, see remesh.h.
+RemeshResult run_remesh(TriMesh& mesh, MemoryOrder memory_order, const RunOptions& options,
+                        const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
+
+}  // namespace hooke
