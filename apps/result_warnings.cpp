@@ -204,7 +204,13 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
 
 void warn_of_dropped_creases(RunRecord& run) {
   const CreaseCounts& c = run.result->creases;
-  if (c.dropped > 0)
+  if (run.result->steps_smoothed)
+    run.warnings.push_back(
+        {"steps_smoothed",
+         fmt::format(
+             "{}: the surface of a binary mask, whose steps were smoothed: {}--feature-noise off keeps them",
+             run.input.path, c.sharp > 0 ? fmt::format("{} sharp edges; ", c.sharp) : std::string())});
+  else if (c.dropped > 0)
     run.warnings.push_back(
         {"sharp_edges_dropped",
          fmt::format("{}: {} of {} sharp edges were taken for noise; --feature-noise off keeps them",

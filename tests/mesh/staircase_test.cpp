@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 
+#include "hooke/mesh/extent.h"
+#include "support/masks.h"
 #include "support/solids.h"
 
 namespace hooke::staircase_test {
@@ -72,6 +74,38 @@ TEST(Staircase, IsNoBoxAndNoScan) {
   EXPECT_FALSE(is_staircase_at(3, box));
   EXPECT_FALSE(is_staircase_at(3, test::shaken(mask_of_ball(), .05)));
   EXPECT_FALSE(is_staircase_at(10, test::sphere(3)));
+}
+
+test::Triangles marched_ball() {
+  return test::marched_mask(10, [](const Vec3& x) { return (x - Vec3(.3, .2, .1)).norm() < 8; });
+}
+
+TEST(MarchedStaircase, IsTheSurfaceOfAMaskOfAnySlices) {
+  test::Triangles t = marched_ball();
+  EXPECT_TRUE(is_staircase_at(1, t));
+  EXPECT_TRUE(is_staircase_at(1, test::moved(t)));
+  t.points.row(2) *= 2.5;
+  EXPECT_TRUE(is_staircase_at(1, test::moved(t)));
+  EXPECT_FALSE(is_staircase_at(.1, t)) << "the length resolves the steps";
+}
+
+TEST(MarchedStaircase, IsNoScanAndNoBox) {
+  EXPECT_FALSE(is_staircase_at(1, test::shaken(marched_ball(), .05)));
+  EXPECT_FALSE(
+      is_staircase_at(1, test::marched_mask(9, [](const Vec3& x) { return x.cwiseAbs().maxCoeff() < 8; })));
+}
+
+TEST(MarchedStaircase, LosesItsStepsButKeepsItsVolumeAndWhatIsHeld) {
+  const test::Triangles t = marched_ball();
+  const Adjacency c = test::connect(t);
+  std::vector<char> is_held(static_cast<size_t>(c.vertex_count), 0);
+  is_held[0] = 1;
+  const Mat3X smooth = without_steps(t.points, c, is_held);
+  EXPECT_EQ(smooth.col(0), t.points.col(0));
+  EXPECT_LT((smooth - t.points).colwise().norm().maxCoeff(), .5);
+  EXPECT_LT(measure_extent(smooth, c).area, .95 * measure_extent(t.points, c).area);
+  EXPECT_NEAR(measure_extent(smooth, c).volume.value(), measure_extent(t.points, c).volume.value(),
+              .003 * measure_extent(t.points, c).volume.value());
 }
 
 }  // namespace hooke::staircase_test

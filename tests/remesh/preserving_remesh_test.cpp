@@ -9,6 +9,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/remesh/options.h"
 #include "support/crease_solids.h"
+#include "support/masks.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
 
@@ -49,6 +50,26 @@ TEST(PreservingRemesh, LeavesAGoodResultAsItIs) {
     EXPECT_TRUE(kept.result.measures->preservation.holds());
     EXPECT_EQ(kept.points, once.points);
     EXPECT_EQ(kept.faces, once.faces);
+  }
+}
+
+TEST(PreservingRemesh, TheStepsOfAMaskAreNoEdges) {
+  test::Triangles t =
+      test::marched_mask(7, [](const Vec3& x) { return (x - Vec3(.3, .2, .1)).norm() < 5.5; });
+  t.points.row(2) *= 1.5;
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    RemeshOptions options = options_for(mode);
+    const test::Outcome o = preserved(test::moved(t), options);
+    const ResultMeasures& m = *o.result.measures;
+    EXPECT_TRUE(o.result.steps_smoothed);
+    EXPECT_TRUE(m.preservation.holds());
+    EXPECT_GT(m.quality.min_angle.min, mode == ConnectivityMode::fixed ? 22 : 35);
+    EXPECT_GT(m.quality.min_angle.min, 1.3 * m.input_quality.min_angle.min);
+    EXPECT_LT(std::max(m.deviation.to_reference.max, m.deviation.from_reference.max), 1) << "cell";
+    EXPECT_NEAR(m.deviation.volume_change.value(), 0, .01);
+    options.constraints.features.drops_noise = false;
+    EXPECT_FALSE(preserved(t, options).result.steps_smoothed);
   }
 }
 

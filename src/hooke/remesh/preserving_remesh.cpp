@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "hooke/core/stopwatch.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
 #include "hooke/mesh/staircase.h"
 #include "hooke/remesh/limiting_factors.h"
@@ -68,6 +70,7 @@ class PreservingRemesh {
                    const PreservationOptions& preservation, const KnownInput& known, const Observer& observer,
                    Stopwatch* stopwatch)
       : mesh_(mesh),
+        start_(mesh),
         memory_order_(memory_order),
         options_(options),
         observer_(observer),
@@ -77,16 +80,16 @@ class PreservingRemesh {
         preservation_(preservation),
         input_quality_(known.quality ? *known.quality
                                      : measure(input_, mesh, memory_order.order, stopwatch)) {
-    const bool is_noise =
-        options.constraints.features.drops_noise &&
-        is_staircase(input_.points, input_.adjacency,
-                     memory_order.order.gather(vertex_values(mesh, target_length_property)));
-    if (is_noise) preservation_.feature_angle = 180;
+    is_mask_ = options.constraints.features.drops_noise && is_staircase_at_lengths();
+    if (is_mask_) {
+      preservation_.feature_angle = 180;
+      smooth_steps();
+    }
     constexpr double rounding = 1e-9;
     const bool must_unfold = input_quality_.folded_edges > 0;
     if (!must_unfold && !target_lengths_of(mesh, memory_order.order, input_.adjacency).edge.is_varying())
       least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
-    preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
+    preservation_.faceted = !is_mask_ && is_faceted(input_.points, input_.adjacency);
     preservation_.keeps_facets = preservation_.faceted && options.connectivity != ConnectivityMode::adapt;
   }
 
@@ -293,6 +296,8 @@ class PreservingRemesh {
     std::vector<int> all(input_.adjacency.vertex_count);
     std::iota(all.begin(), all.end(), 0);
     move_back(best, all, 1);
+    best.result.steps_smoothed = false;
+    if (is_mask_) best.result.creases.dropped = 0;
   }
 
   /// The vertices, in memory order, of faces that are turned over, intersect or fold as those of the input do
@@ -361,10 +366,41 @@ class PreservingRemesh {
     judge(run);
   }
 
+  /// Is the input the surface of a binary mask? Without creases no length resolves its steps.
+  bool is_staircase_at_lengths() const {
+    std::vector<double> lengths = memory_order_.order.gather(vertex_values(mesh_, target_length_property));
+    if (options_.constraints.features.angle >= 180)
+      std::ranges::fill(lengths, std::numeric_limits<double>::infinity());
+    return is_staircase(input_.points, input_.adjacency, lengths);
+  }
+
+  /// Lets attempts start from the input with its steps smoothed and no creases; boundaries, seams and fixed
+  /// vertices stay.
+  void smooth_steps() {
+    const Adjacency& c = input_.adjacency;
+    std::vector<char> is_held(c.vertex_count, 0);
+    const auto hold_edge = [&](const Edge& e) {
+      for (int v : e) is_held[v] = 1;
+    };
+    for (std::size_t e = 0; e < c.edges.size(); ++e)
+      if (c.is_boundary_edge(static_cast<int>(e))) hold_edge(c.edges[e]);
+    std::ranges::for_each(memory_order_.order.new_edges(options_.constraints.seams), hold_edge);
+    for (int v : memory_order_.order.new_vertices(options_.constraints.fixed_vertices)) is_held[v] = 1;
+    vertex_points(start_) = memory_order_.order.scatter(without_steps(input_.points, c, is_held));
+    double& angle = options_.constraints.features.angle;
+    if (angle < 180) steps_ = static_cast<int>(sharp_edges(input_.points, c, angle).size());
+    angle = 180;
+  }
+
   Run make() const {
     Run a;
-    a.mesh = mesh_;
+    a.mesh = start_;
     a.result = remesh(a.mesh, memory_order_, options_, observer_, stopwatch_);
+    if (is_mask_) {
+      a.result.steps_smoothed = true;
+      a.result.creases.sharp = a.result.creases.dropped = steps_;
+      a.result.input_points = vertex_points(mesh_);
+    }
     return a;
   }
 
@@ -404,6 +440,9 @@ class PreservingRemesh {
   }
 
   const TriMesh& mesh_;
+  TriMesh start_;  // of the attempts
+  bool is_mask_ = false;
+  int steps_ = 0;  // sharp edges of a mask
   const MemoryOrder& memory_order_;
   RemeshOptions options_;
   const Observer& observer_;

@@ -20,6 +20,8 @@ struct KnownInput {
 /// to where they were at last. Keeps the result with the fewest flaws, of these the one with the largest
 /// minimum angle; in mode `adapt` it may still not keep all: see RemeshResult::measures. An interrupted run
 /// but the first is discarded.
+/// The surface of a binary mask, see is_staircase(), is smoothed first, so that its steps are no creases,
+/// unless creases are kept whatever the noise; the measures are of the input as it was.
 RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                                const PreservationOptions& preservation = {}, const KnownInput& known = {},
                                const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);

@@ -68,9 +68,10 @@ struct ResultMeasures {
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
-  Mat3X input_points;         // of the input mesh, as reference for measures
-  MemoryOrder memory_order;   // of the resulting mesh
-  bool near_regular = false;  // in mode `fixed`, see keep_near_regular()
+  Mat3X input_points;           // of the input mesh, as reference for measures
+  MemoryOrder memory_order;     // of the resulting mesh
+  bool steps_smoothed = false;  // of a binary mask, see preserving_remesh()
+  bool near_regular = false;    // in mode `fixed`, see keep_near_regular()
   int folded_before = 0;
   std::vector<int> folded_faces;  // folded against the surface, ids of the result
   CreaseCounts creases;

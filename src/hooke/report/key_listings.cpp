@@ -177,8 +177,8 @@ dict. Angles are in degrees, lengths in file units, ids count from 0, and number
 `<n>` is an index of a list, from 0, and `<name>` a name that depends on the run. Any number can stand in
 `--require 'after.min_angle.min >= 20'`, with the keys joined by dots; yes and no count as 1 and 0. The column *better*
 says which way a figure gets better; `--compare` calls the other way worse. With `--check` there is no result: `output`,
-`promises`, `after`, `geometry`, `projection`, `held_back`, `near_regular`, `features`, `flips`, `adaptation` and
-`paper.after` are null, and `iterations` is empty.
+`promises`, `after`, `geometry`, `projection`, `held_back`, `near_regular`, `steps_smoothed`, `features`, `flips`,
+`adaptation` and `paper.after` are null, and `iterations` is empty.
 
 `report.schema.json` beside this page is the JSON Schema of a report. The tool makes both from the table that also makes
 `--list-metrics`, and a test keeps them so:
@@ -208,7 +208,7 @@ and of intersections.
   add("Gates, comparison, warnings and repairs",
       table_of(keys_of({"gates", "comparison", "warnings", "repairs"}, all_of_them)));
   add("The course of the run", table_of(keys_of({"iterations", "projection", "held_back", "near_regular",
-                                                 "features", "flips", "adaptation"},
+                                                 "steps_smoothed", "features", "flips", "adaptation"},
                                                 all_of_them)));
   add("`parameters`", table_of(keys_of({"parameters"}, all_of_them)));
   add("`paper`", table_of(keys_of({"paper"}, all_of_them)));

@@ -293,13 +293,14 @@ Json report_json(const RunRecord& run) {
   j["after"] = run.after ? to_json(*run.after) : Json();
   j["geometry"] = run.deviation ? geometry_json(run) : Json();
   j["iterations"] = Json::array();
-  j["projection"] = j["held_back"] = j["near_regular"] = nullptr;
+  j["projection"] = j["held_back"] = j["near_regular"] = j["steps_smoothed"] = nullptr;
   if (run.result) {
     for (const IterationRecord& r : run.result->iterations) j["iterations"].push_back(iteration_json(r));
     j["projection"] = projection_json(run.result->projection);
     j["projection"]["not_landed"] = run.result->unprojected;
     j["held_back"] = run.result->limited_steps;
     j["near_regular"] = run.result->near_regular;
+    j["steps_smoothed"] = run.result->steps_smoothed;
   }
   j["features"] = creases_json(run);
   j["flips"] = flips_json(run);

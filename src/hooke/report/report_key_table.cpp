@@ -364,6 +364,8 @@ constexpr Row course[] = {
     {"held_back", or_null(integer), none, neither, "steps of vertices that guards shortened"},
     {"near_regular", or_null(boolean), none, neither,
      "the input was well shaped already: its angles are kept, and no vertex moves by a fifth of L"},
+    {"steps_smoothed", or_null(boolean), none, neither,
+     "the input is the surface of a binary mask, whose steps were taken for noise and smoothed"},
     {"features", or_null(object), none, neither, "creases; null if there are none"},
     {"features.chains", integer, none, neither, "creases, from corner to corner or closed"},
     {"features.crease_edges", integer, none, neither, "edges on them"},
@@ -509,19 +511,13 @@ void add_quality(std::vector<ReportKey>& keys, const std::string& block) {
 
 /// Keys of a run's result, which --check has none of, and all that is in them.
 bool is_of_result(const std::string& path) {
-  constexpr std::string_view blocks[] = {"output",
-                                         "promises",
-                                         "after",
-                                         "geometry",
-                                         "iterations",
-                                         "projection",
-                                         "held_back",
-                                         "near_regular",
-                                         "features",
-                                         "flips",
-                                         "adaptation",
-                                         "paper.after",
-                                         "paper.greatest_displacement",
+  constexpr std::string_view blocks[] = {"output",         "promises",
+                                         "after",          "geometry",
+                                         "iterations",     "projection",
+                                         "held_back",      "near_regular",
+                                         "steps_smoothed", "features",
+                                         "flips",          "adaptation",
+                                         "paper.after",    "paper.greatest_displacement",
                                          "paper.evolution"};
   return std::ranges::any_of(blocks, [&](std::string_view block) {
     return path == block || (path.starts_with(block) && path[block.size()] == '.');
