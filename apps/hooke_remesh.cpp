@@ -53,7 +53,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
     points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   }
   if (!s.fields.empty()) files.add(PendingFile(s.fields, fields_text(loaded, points, original, record)));
-  if (!s.map.empty()) files.add(PendingFile(s.map, map_text(map_to_old(record.result->map, loaded.origin))));
+  if (!s.map.empty()) files.add(PendingFile(s.map, map_text(map_of_output(loaded, record))));
   add_result_warnings(s, record);
 }
 
@@ -114,6 +114,7 @@ int run(Settings s) {
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, record, files, progress, stopwatch);
+  join_ids(loaded, record);
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
   judge(s, base, record);

@@ -17,6 +17,7 @@
 #include "hooke/io/rewrite.h"
 #include "hooke/io/stl.h"
 #include "hooke/measure/fields.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/springs/sizing.h"
@@ -163,6 +164,27 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
   return prepare_mesh(s.output, loaded.mesh, *s.format, encoding, data, &stopwatch);
 }
 
+std::vector<MapEntry> map_of_output(const LoadedMesh& loaded, const RunRecord& record) {
+  std::vector<MapEntry> map = map_to_old(record.result->map, loaded.origin);
+  const std::optional<JoinedMesh> joined = join_sheets(loaded.mesh);
+  if (!joined) return map;
+  std::vector<MapEntry> left;
+  for (const int v : joined->vertices) left.push_back(map[v]);
+  return left;
+}
+
+void join_ids(const LoadedMesh& loaded, RunRecord& record) {
+  const auto renumber = [](Quality& quality, const std::vector<int>& id) {
+    for (WorstFace& face : quality.worst_faces) {
+      for (int& v : face.vertices) v = id[v];
+      for (int& v : face.bound.vertices) v = id[v];
+    }
+  };
+  if (loaded.origin.joined.empty()) return;
+  renumber(record.before, loaded.origin.joined);
+  if (record.after) renumber(*record.after, join_sheets(loaded.mesh)->id);
+}
+
 std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Original& original,
                         const RunRecord& record) {
   const TriMesh& mesh = loaded.mesh;
@@ -180,6 +202,9 @@ std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Ori
     channel.values.resize(in_memory.size());
     for (size_t f = 0; f < in_memory.size(); ++f) channel.values[order.old_face[f]] = in_memory[f];
   }
+  if (const std::optional<JoinedMesh> joined = join_sheets(mesh))
+    return write_ply(joined->gather(vertex_points(mesh)), joined->triangles,
+                     PlyEncoding::binary_little_endian, joined->gather(fields.vertices), fields.faces);
   return write_ply(vertex_points(mesh), triangles_of(mesh), PlyEncoding::binary_little_endian,
                    fields.vertices, fields.faces);
 }

@@ -24,6 +24,12 @@ PlyEncoding encoding_of_output(const Settings& settings, const LoadedMesh& loade
 PendingMesh prepare_output(const Settings& settings, const LoadedMesh& loaded, const Original& original,
                            const Mat3X& points, RunRecord& record, Stopwatch& stopwatch);
 
+/// The map of the result's vertices as they are written, to the input as it was read.
+std::vector<MapEntry> map_of_output(const LoadedMesh& loaded, const RunRecord& record);
+
+/// Makes ids of vertices in the record those of the files, where sheets are joined.
+void join_ids(const LoadedMesh& loaded, RunRecord& record);
+
 /// The values at the vertices and faces of the result as a PLY file, in the order of the output's; see
 /// measure_fields().
 std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Original& original,

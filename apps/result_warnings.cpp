@@ -12,6 +12,7 @@
 #include "hooke/mesh/vertex_welding.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/springs/sizing.h"
+#include "stages.h"
 
 namespace hooke::app {
 namespace {
@@ -272,6 +273,19 @@ void warn_of_near_boundary(const Mat3X& points, const Adjacency& adjacency, RunR
            "{}: {} boundary vertices nearly lie on another, within {:.0e} of the edges there: a seam whose "
            "sides will part; --repair welds them",
            run.input.path, count, welding_share)});
+}
+
+void warn_of_junctions(const Settings& s, bool has_copies, RunRecord& run) {
+  if (!has_copies || s.check) return;
+  const int edges = run.before.topology.junction_edges;
+  run.warnings.push_back(
+      {"junctions_held",
+       fmt::format(
+           "{}: {} edges with three faces or more stay as they are, and so do their vertices and those "
+           "where sheets only touch; {}",
+           run.input.path, edges,
+           keeps_faces(s) ? "all other vertices move"
+                          : "lengths differ from the target there where theirs do")});
 }
 
 void warn_of_inside_out(RunRecord& run) {

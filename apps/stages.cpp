@@ -13,6 +13,7 @@
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/vertex_lists.h"
 #include "hooke/io/write_mesh.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/paper_mode.h"
@@ -32,11 +33,12 @@ bool keeps_faces(const Settings& s) {
 namespace {
 
 /// As --keep takes it.
-std::string text_of(const SeamKinds& keep) {
+std::string text_of(const Settings& s) {
   std::vector<const char*> words;
-  if (keep.texture) words.push_back("seams");
-  if (keep.materials) words.push_back("materials");
-  if (keep.groups) words.push_back("groups");
+  if (!keeps_faces(s) && s.keep.texture) words.push_back("seams");
+  if (!keeps_faces(s) && s.keep.materials) words.push_back("materials");
+  if (!keeps_faces(s) && s.keep.groups) words.push_back("groups");
+  if (s.repair.keep_junctions) words.push_back("non-manifold");
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
 }
 
@@ -49,7 +51,7 @@ nlohmann::ordered_json parameters_of(const Settings& s) {
                      {"drop_components", s.repair.drop_components},
                      {"fill_holes", s.repair.fill_holes},
                      {"keep", nullptr}});
-  if (!keeps_faces(s)) parameters["keep"] = text_of(s.keep);
+  if (!keeps_faces(s) || s.repair.keep_junctions) parameters["keep"] = text_of(s);
   if (s.time_limit > 0) parameters["time_limit"] = s.time_limit;
   if (s.paper) return parameters;
   parameters["accept_invalid"] = s.accept_invalid;
@@ -61,11 +63,12 @@ nlohmann::ordered_json parameters_of(const Settings& s) {
 
 namespace {
 
-MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, Stopwatch& stopwatch,
-                           const std::vector<int>& tree_order = {}) {
+/// `joined`: in memory order, see mesh/junctions.h.
+MeasuredSurface surface_of(Mat3X points, const MemoryOrder& memory_order, std::vector<int> joined,
+                           Stopwatch& stopwatch, const std::vector<int>& tree_order = {}) {
   return timed(&stopwatch, "tree", [&] {
     return MeasuredSurface(std::move(points), *memory_order.adjacency, memory_order.order.old_ids(),
-                           tree_order);
+                           tree_order, std::move(joined));
   });
 }
 
@@ -90,7 +93,7 @@ auto in_the_name_of(const std::string& name, const Work& work) {
 void measure_deviation_from_input(const Original& original, const MeasuredSurface& result, RunRecord& record,
                                   Stopwatch& stopwatch) {
   const MeasuredSurface reference =
-      surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
+      surface_of(original.points, original.memory_order, original.joined, stopwatch, original.tree_order);
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
 }
@@ -132,20 +135,33 @@ void set_fixed_vertices(Settings& s, const MeshOrigin& origin, int vertices) {
   s.paper_options.constraints.fixed_vertices = fixed;
 }
 
+namespace {
+
+/// The boundary vertices that share their place with another, those of junctions left out.
+std::size_t count_coincident(const Mat3X& points, const Adjacency& c, const std::vector<int>& joined) {
+  const std::vector<int> coincident = coincident_boundary_vertices(points, c);
+  const std::vector<int> known = find_junctions(c, joined).vertices;
+  return std::ranges::count_if(coincident, [&](int v) { return !std::ranges::binary_search(known, v); });
+}
+
+}  // namespace
+
 void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, const MeshOrigin& origin,
                    Original& original, RunRecord& record, Stopwatch& stopwatch) {
   Mat3X points = memory_order.order.gather(vertex_points(mesh));
+  original.joined = joined_vertices(mesh, memory_order.order);
   if (!s.check)
-    warn_of_coincident_boundary(s, coincident_boundary_vertices(points, *memory_order.adjacency).size(),
+    warn_of_coincident_boundary(s, count_coincident(points, *memory_order.adjacency, original.joined),
                                 record);
   timed(&stopwatch, "boundary", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, origin, points, record); });
   const UniformVector targets = edge_targets(mesh, memory_order);
   record.paper_before = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
-  const MeasuredSurface surface = surface_of(std::move(points), memory_order, stopwatch);
+  const MeasuredSurface surface = surface_of(std::move(points), memory_order, original.joined, stopwatch);
   record.before =
       timed(&stopwatch, "before", [&] { return measure_quality(surface, targets, {}, &stopwatch); });
   warn_of_inside_out(record);
+  warn_of_junctions(s, !original.joined.empty(), record);
   original.tree_order = surface.tree.order();
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_allowed(s);
   if (!s.check) require_memory(s, mesh.n_vertices(), record);
@@ -190,7 +206,8 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
     record.deviation = std::move(done.measures->deviation);
   } else {
     const MeasuredSurface result =
-        surface_of(std::move(points), memory_order, stopwatch, original.tree_order);
+        surface_of(std::move(points), memory_order, joined_vertices(mesh, memory_order.order), stopwatch,
+                   original.tree_order);
     record.after =
         timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
     measure_deviation_from_input(original, result, record, stopwatch);
@@ -206,11 +223,12 @@ void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, con
   Mat3X points = memory_order.order.gather(rounded);
   const UniformVector targets = edge_targets(mesh, memory_order);
   record.paper_after = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
-  const MeasuredSurface result = surface_of(std::move(points), memory_order, stopwatch,
-                                            keeps_faces(s) ? original.tree_order : std::vector<int>());
+  const MeasuredSurface result =
+      surface_of(std::move(points), memory_order, joined_vertices(mesh, memory_order.order), stopwatch,
+                 keeps_faces(s) ? original.tree_order : std::vector<int>());
   record.after = timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
   const MeasuredSurface reference =
-      surface_of(original.points, original.memory_order, stopwatch, original.tree_order);
+      surface_of(original.points, original.memory_order, original.joined, stopwatch, original.tree_order);
   record.deviation =
       timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
   if (record.result->measures) {

@@ -11,6 +11,7 @@ namespace hooke::app {
 struct Original {
   Mat3X points;  // in memory order
   MemoryOrder memory_order;
+  std::vector<int> joined;      // likewise, of the input, see mesh/junctions.h
   std::vector<int> tree_order;  // order of the faces in its bounding volume tree
 };
 

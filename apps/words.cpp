@@ -97,10 +97,14 @@ double parse_feature_angle(const std::string& text) {
   return value;
 }
 
-/// Parses "none" or words with commas between them.
-SeamKinds parse_keep(const std::string& text) {
-  SeamKinds keep{false, false, false};
-  if (text == "none") return keep;
+/// Parses "none" or words with commas between them. `non-manifold` alone leaves the default as it is.
+void parse_keep(const std::string& text, SeamKinds& keep, bool& junctions) {
+  if (text == "non-manifold") {
+    junctions = true;
+    return;
+  }
+  keep = {false, false, false};
+  if (text == "none") return;
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(',', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
@@ -110,12 +114,14 @@ SeamKinds parse_keep(const std::string& text) {
       keep.materials = true;
     else if (word == "groups")
       keep.groups = true;
+    else if (word == "non-manifold")
+      junctions = true;
     else
       throw Error(fmt::format(
-          "--keep {}; expected seams, materials, groups with commas between them, or none", in_quotes(text)));
+          "--keep {}; expected seams, materials, groups, non-manifold with commas between them, or none",
+          in_quotes(text)));
     begin = end + 1;
   }
-  return keep;
 }
 
 /// Returns parse(text). Puts the name of the option in front of the message of an Error.
@@ -178,8 +184,9 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
          "is of --connectivity fixed, where edges stay");
   refuse(s.repair.repair || s.weld_text != "off", {"--edge-lengths"},
          "names edges that --repair and --weld may change");
-  refuse(s.paper || s.remesh.connectivity == ConnectivityMode::fixed, {"--keep"},
-         "is of --connectivity flip and adapt; with fixed all is kept");
+  refuse(s.repair.keep_junctions, {"--edge-lengths"}, "is not of meshes with --keep non-manifold");
+  refuse(!s.repair.keep_junctions && (s.paper || s.remesh.connectivity == ConnectivityMode::fixed),
+         {"--keep"}, "is of --connectivity flip and adapt; with fixed all is kept");
   refuse(!s.paper && s.remesh.connectivity == ConnectivityMode::adapt, {"--refit"},
          "is of --connectivity fixed and flip; adapt keeps the field of the input");
   refuse(s.compare.empty(), {"--rtol"}, "is of --compare only");
@@ -239,6 +246,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   reject_unused_batch_options(s, raw);
   s.length = parsed("--length", parse_length, s.length_text);
   resolve_sizing(s, raw);
+  if (raw.keep) parse_keep(*raw.keep, s.keep, s.repair.keep_junctions);
   reject_unused_options(s, raw);
   require_streams(s);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
@@ -249,7 +257,6 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.preservation.feature_angle = s.remesh.constraints.features.angle;
   if (s.weld_text != "off") set_weld(s.weld_text, s.repair);
   if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);
-  if (raw.keep) s.keep = parse_keep(*raw.keep);
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;

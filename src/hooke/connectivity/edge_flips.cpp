@@ -129,7 +129,7 @@ bool may_flip(const WorkingMesh& m, int h, const FlipGuardOptions& o) {
   const double length = .5 * (m.vertices.vertex_length[c] + m.vertices.vertex_length[d]);
   const double sagitta = edge_sagitta(X, N, {c, d}, {sc, sd});
   if (sagitta > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}, {sa, sb}))) return false;
-  return !t.adjacent(c, d) && !folds(m, h, o.fold);
+  return t.may_connect(c, d) && !folds(m, h, o.fold);
 }
 
 int flip_to_delaunay(WorkingMesh& m, const FlipGuardOptions& options) {

@@ -57,7 +57,7 @@ bool shortens(const WorkingMesh& m, int h) {
 
 int split_edge(WorkingMesh& m, int h, const SplitOptions& options, const SurfacePosition* middle) {
   HalfedgeMesh& t = m.halfedges;
-  if (is_fixed(m, h)) return -1;
+  if (is_fixed(m, h) || is_junction_edge(m, h)) return -1;
   const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_crease(h) ? v + 1 : v;
   if (!may_split_edge(m, h, v, v, options) || (twin >= 0 && !may_split_edge(m, twin, v, right, options))) {
     remove_last_vertex(m);

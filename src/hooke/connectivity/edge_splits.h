@@ -15,7 +15,7 @@ struct SplitOptions {
 };
 
 /// Splits one edge at its midpoint and returns the new vertex; -1 if a limit of the options forbids it or the
-/// edge belongs to a fixed boundary. `middle`: see add_vertex().
+/// edge belongs to a fixed boundary or a junction. `middle`: see add_vertex().
 int split_edge(WorkingMesh& mesh, int half_edge, const SplitOptions& options,
                const SurfacePosition* middle = nullptr);
 

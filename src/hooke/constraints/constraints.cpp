@@ -73,9 +73,10 @@ void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool close
   result.curves.push_back(std::move(curve));
 }
 
-/// Adds a loop of vertices, cut into curves at its corners and at `breaks`.
+/// Adds a loop of vertices, cut into curves at its corners and at `breaks`. Curves of one of the `junctions`
+/// are left out.
 void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corner,
-              const std::vector<char>& breaks, Constraints& result) {
+              const std::vector<char>& breaks, const std::vector<Edge>& junctions, Constraints& result) {
   const size_t n = loop.size();
   std::vector<size_t> corners;
   for (size_t i = 0; i < n; ++i)
@@ -88,7 +89,9 @@ void add_loop(const Mat3X& points, const std::vector<int>& loop, double cos_corn
     const size_t length = (corners[(p + 1) % corners.size()] + n - begin - 1) % n + 2;
     std::vector<int> piece;
     for (size_t i = 0; i < length; ++i) piece.push_back(loop[(begin + i) % n]);
-    add_curve(points, piece, false, result);
+    const auto [low, high] = std::minmax(piece.front(), piece.back());
+    if (piece.size() > 2 || !std::ranges::binary_search(junctions, Edge{low, high}))
+      add_curve(points, piece, false, result);
   }
 }
 
@@ -183,10 +186,12 @@ class CreaseTracer {
   std::vector<char> traced_;
 };
 
-void add_boundary(const Mat3X& points, const Adjacency& c, BoundaryRule rule, double cos_corner,
-                  Constraints& result) {
+void add_boundary(const Mat3X& points, const Adjacency& c, const ConstraintOptions& options,
+                  double cos_corner, Constraints& result) {
   const std::vector<int> next = boundary_successors(c);
-  const std::vector<char> breaks = CreaseTracer::crease_breaks(points, c, cos_corner);
+  std::vector<char> breaks = CreaseTracer::crease_breaks(points, c, cos_corner);
+  for (const Edge& edge : options.junction_edges)
+    for (int v : edge) breaks[v] = 1;
   std::vector<bool> seen(next.size(), false);
   for (size_t start = 0; start < next.size(); ++start) {
     if (next[start] < 0 || seen[start]) continue;
@@ -195,10 +200,10 @@ void add_boundary(const Mat3X& points, const Adjacency& c, BoundaryRule rule, do
       seen[v] = true;
       loop.push_back(v);
     }
-    if (rule == BoundaryRule::fixed)
+    if (options.boundary == BoundaryRule::fixed)
       for (int v : loop) result.freedom[v] = Freedom::fixed;
     else
-      add_loop(points, loop, cos_corner, breaks, result);
+      add_loop(points, loop, cos_corner, breaks, options.junction_edges, result);
   }
 }
 
@@ -217,7 +222,7 @@ Constraints find_constraints(const Mat3X& points, const Adjacency& c, const Cons
   for (int v : coincident_boundary_vertices(points, c)) result.freedom[v] = Freedom::fixed;
 
   const double cos_corner = std::cos(options.corner_angle * std::numbers::pi / 180);
-  if (options.boundary != BoundaryRule::free) add_boundary(points, c, options.boundary, cos_corner, result);
+  if (options.boundary != BoundaryRule::free) add_boundary(points, c, options, cos_corner, result);
   if (!c.creases.empty()) CreaseTracer(points, c, cos_corner, options, result).run();
   result.creases = crease_edges(c);
   result.extra_wedges = c.extra_wedges;

@@ -24,6 +24,9 @@ struct ConstraintOptions {
   std::vector<int> fixed_vertices = {};  // ids of vertices that stand still
   /// Edges to be kept as creases are, though the surface is smooth across them: pairs of vertex ids.
   std::vector<Edge> seams = {};
+  /// Boundary edges on no curve, as nothing is to slide along or split them: pairs of vertex ids, sorted,
+  /// smaller one first. Their ends must be among `fixed_vertices`.
+  std::vector<Edge> junction_edges = {};
   double corner_angle = 35;  // degrees; a curve that turns by more in space has a fixed corner
   // Maximum ratio of the longest to the shortest edge of a crease whose vertices stand still at bends; below
   // 1: none.

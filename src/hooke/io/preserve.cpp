@@ -11,6 +11,7 @@
 #include "hooke/io/files.h"
 #include "hooke/io/rewrite.h"
 #include "hooke/io/sha256.h"
+#include "hooke/mesh/junctions.h"
 
 namespace hooke {
 namespace {
@@ -30,13 +31,17 @@ FileBytes read_unchanged(const SourceFile& source) {
 PreservedMesh prepare_preserved_mesh(const std::filesystem::path& path, const TriMesh& mesh,
                                      const SourceFile& source, bool texture_follows, Stopwatch* stopwatch) {
   RewrittenMesh rewritten;
+  const std::optional<JoinedMesh> joined = join_sheets(mesh);
+  const Mat3X joined_points = joined ? joined->gather(vertex_points(mesh)) : Mat3X();
   {
     const FileBytes file = timed(stopwatch, "read again", [&] { return read_unchanged(source); });
     rewritten = timed(stopwatch, "rewrite", [&] {
-      return rewrite_mesh(file.text(), printable(source.path.native()), source.format, vertex_points(mesh),
-                          texture_follows);
+      const std::string name = printable(source.path.native());
+      return joined ? rewrite_mesh(file.text(), name, source.format, joined_points, texture_follows)
+                    : rewrite_mesh(file.text(), name, source.format, vertex_points(mesh), texture_follows);
     });
   }
+  if (joined && rewritten.rounded.size() > 0) rewritten.rounded = joined->scatter(rewritten.rounded);
   PreservedMesh result{{}, std::move(rewritten.obstacle), std::move(rewritten.warnings)};
   if (result.obstacle.empty() && rewritten.rounded.size() > 0)
     if (const auto turned = count_turned_faces(vertex_points(mesh), rewritten.rounded, triangles_of(mesh));

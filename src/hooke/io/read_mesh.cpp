@@ -12,6 +12,7 @@
 #include "hooke/io/polygon_triangulation.h"
 #include "hooke/io/sha256.h"
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/validation.h"
 
 namespace hooke {
@@ -20,8 +21,11 @@ namespace {
 /// The memory order and adjacency of a mesh, after validation. The mesh is checked in memory order, which is
 /// faster; errors and warnings are then generated in file order.
 MemoryOrder valid_layout(const Mat3X& points, const std::vector<Triangle>& triangles, Permutation order,
-                         const MeshSource& source, Warnings& warnings, Stopwatch* stopwatch) {
-  const auto explain = [&] { append(warnings, require_valid(points, triangles, source)); };
+                         const MeshOrigin& origin, const MeshSource& source, Warnings& warnings,
+                         Stopwatch* stopwatch) {
+  const auto explain = [&] {
+    append(warnings, require_valid_sheets(points, triangles, origin.joined, source));
+  };
   MemoryOrder memory_order{std::move(order), nullptr};
   VertexFans fans;
   timed(stopwatch, "validate", [&] {
@@ -134,6 +138,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
       origin = std::move(repaired.origin);
       follow(origin, file.vertex_data, face_data, corner_data, source);
       source.repaired = options.repair.repair;
+      source.keeps_junctions = options.repair.keep_junctions;
     });
   const std::vector<Triangle>& triangles = triangulation.triangles;
 
@@ -144,37 +149,42 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   };
   const auto take_hashes = [&] {
     hash = sha256(content.text());
-    faces_hash = connectivity_sha256(triangles);
+    faces_hash = origin.joined.empty() ? connectivity_sha256(triangles)
+                                       : connectivity_sha256(join_faces(triangles, origin.joined));
   };
   timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
   content = {};  // frees memory for the mesh
 
   MemoryOrder memory_order = after_repairs(repairs, [&] {
-    return valid_layout(file.points, triangles, std::move(order), source, warnings, stopwatch);
+    return valid_layout(file.points, triangles, std::move(order), origin, source, warnings, stopwatch);
   });
   require_workable_size(file.points, file.name);
   const int polygons_cut = triangulation.polygons_cut;
   triangulation = {};
   // Constructed in place, because OpenMesh meshes can only be copied, not moved.
-  return {
-      timed(stopwatch, "build",
-            [&] { return build_mesh(file.points, *memory_order.adjacency, memory_order.order.old_ids()); }),
-      std::move(memory_order),
-      file.format,
-      file.encoding,
-      std::move(hash),
-      std::move(faces_hash),
-      polygons_cut > 0 ? std::move(file.polygons) : IntLists(),
-      std::move(file.vertex_data),
-      std::move(face_data),
-      std::move(corner_data),
-      std::move(file.material_libraries),
-      std::move(origin),
-      std::move(file.notes),
-      std::move(repairs),
-      std::move(file.content),
-      std::move(file.misread),
-      std::move(warnings)};
+  return {timed(stopwatch, "build",
+                [&] {
+                  TriMesh mesh =
+                      build_mesh(file.points, *memory_order.adjacency, memory_order.order.old_ids());
+                  if (!origin.joined.empty()) set_joined_vertices(mesh, origin.joined);
+                  return mesh;
+                }),
+          std::move(memory_order),
+          file.format,
+          file.encoding,
+          std::move(hash),
+          std::move(faces_hash),
+          polygons_cut > 0 ? std::move(file.polygons) : IntLists(),
+          std::move(file.vertex_data),
+          std::move(face_data),
+          std::move(corner_data),
+          std::move(file.material_libraries),
+          std::move(origin),
+          std::move(file.notes),
+          std::move(repairs),
+          std::move(file.content),
+          std::move(file.misread),
+          std::move(warnings)};
 }
 
 }  // namespace hooke

@@ -15,14 +15,14 @@
 #include "hooke/io/ply.h"
 #include "hooke/io/sha256.h"
 #include "hooke/io/stl.h"
+#include "hooke/mesh/junctions.h"
 
 namespace hooke {
 
 namespace {
 
-std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles, MeshFormat format,
-                     PlyEncoding encoding, const MeshData& data) {
-  const auto points = vertex_points(mesh);
+std::string bytes_of(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
+                     MeshFormat format, PlyEncoding encoding, const MeshData& data) {
   switch (format) {
     case MeshFormat::obj:
       return write_obj(points, triangles,
@@ -43,6 +43,12 @@ std::string bytes_of(const TriMesh& mesh, const std::vector<Triangle>& triangles
   return "";
 }
 
+std::string joined_bytes(const TriMesh& mesh, const JoinedMesh& joined, MeshFormat format,
+                         PlyEncoding encoding, MeshData data) {
+  data.vertices = joined.gather(data.vertices);
+  return bytes_of(joined.gather(vertex_points(mesh)), joined.triangles, format, encoding, data);
+}
+
 }  // namespace
 
 std::string name_of_output(const std::filesystem::path& path) {
@@ -50,16 +56,19 @@ std::string name_of_output(const std::filesystem::path& path) {
 }
 
 std::string mesh_bytes(const TriMesh& mesh, MeshFormat format, PlyEncoding encoding, const MeshData& data) {
-  return bytes_of(mesh, triangles_of(mesh), format, encoding, data);
+  if (const auto joined = join_sheets(mesh)) return joined_bytes(mesh, *joined, format, encoding, data);
+  return bytes_of(vertex_points(mesh), triangles_of(mesh), format, encoding, data);
 }
 
 PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh, MeshFormat format,
                          PlyEncoding encoding, const MeshData& data, Stopwatch* stopwatch) {
   std::vector<Triangle> triangles;
   std::string bytes = timed(stopwatch, "format", [&] {
-    triangles = triangles_of(mesh);
+    const std::optional<JoinedMesh> joined = join_sheets(mesh);
+    triangles = joined ? joined->triangles : triangles_of(mesh);
     try {
-      return bytes_of(mesh, triangles, format, encoding, data);
+      if (joined) return joined_bytes(mesh, *joined, format, encoding, data);
+      return bytes_of(vertex_points(mesh), triangles, format, encoding, data);
     } catch (const OutputError& e) {
       throw OutputError(fmt::format("{}: {}", name_of_output(path), e.what()));
     }

@@ -26,7 +26,7 @@ struct MeshData {
 /// The bytes of a mesh file; `encoding` applies to PLY and STL only. Coordinates
 /// read back exactly, but for binary STL; vertices and faces keep their order. Of the data, what
 /// the format can hold is written (see data_for_format() and face_data_for_format()). Pre-condition: the
-/// format is not VTP.
+/// format is not VTP. Sheets are joined, see mesh/junctions.h.
 std::string mesh_bytes(const TriMesh& mesh, MeshFormat format,
                        PlyEncoding encoding = PlyEncoding::binary_little_endian, const MeshData& data = {});
 

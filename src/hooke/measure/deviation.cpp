@@ -204,13 +204,18 @@ double angle_between(const Vec3& n, const Vec3& m) {
   return std::atan2(n.cross(m).norm(), n.dot(m)) * (180 / std::numbers::pi);
 }
 
+/// The vertices of a face in its own sheet, which the tree has joined to those of others.
+const Triangle& corners_in_sheet(const MeasuredSurface& surface, const Face& face) {
+  return surface.adjacency.faces[face.id];
+}
+
 /// Does a face with this area vector oppose one of the reference's folded faces at the closest point? On an
 /// edge or a vertex this is the closest point of several faces.
 bool opposes_at_fold(const MeasuredSurface& reference, const ClosestFacePoint& at, const Vec3& n) {
   constexpr double on_side = 1e-9;  // of a barycentric weight
   constexpr double fold = -.1;      // cosine; a right-angled crease is no fold
   const Face& face = face_at(reference, at);
-  const Triangle& t = face.vertices;
+  const Triangle& t = corners_in_sheet(reference, face);
   const Vec3 weights = weights_at(face, at);
   const auto touches = [&](const Triangle& other) {
     for (size_t k = 0; k < 3; ++k)
@@ -275,7 +280,8 @@ bool faces_no_like(const MeasuredSurface& reference, const std::vector<int>& bod
   });
   if (like.face < 0) return true;
   double limit = as_close * (centre - at.point).norm() + touching * reference.extent.diagonal;
-  if (body[reference.adjacency.faces[like.face][0]] != body[face_at(reference, at).vertices[0]])
+  if (body[reference.adjacency.faces[like.face][0]] !=
+      body[corners_in_sheet(reference, face_at(reference, at))[0]])
     for (size_t k = 0; k < 3; ++k)
       limit = std::max(limit, across_bodies * (face.corners[(k + 1) % 3] - face.corners[k]).norm());
   return like.squared_distance > limit * limit;
@@ -296,8 +302,9 @@ Mat3X vertex_normals(const MeasuredSurface& surface) {
 }
 
 /// The reference's vertex normals, interpolated at a point of its surface.
-Vec3 normal_at(const Mat3X& normals, const Face& face, const ClosestFacePoint& at) {
-  const Triangle& t = face.vertices;
+Vec3 normal_at(const MeasuredSurface& reference, const Mat3X& normals, const Face& face,
+               const ClosestFacePoint& at) {
+  const Triangle& t = corners_in_sheet(reference, face);
   const Vec3 weights = weights_at(face, at);
   return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
 }
@@ -315,7 +322,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       const size_t f = faces[k].id;
       const Vec3 n = area_vector(faces[k]);
       const Face& there = face_at(reference, closest[k]);
-      flipped[f] = n.dot(normal_at(normals, there, closest[k])) < 0 &&
+      flipped[f] = n.dot(normal_at(reference, normals, there, closest[k])) < 0 &&
                    faces_no_like(reference, body, faces[k], n, closest[k]);
       opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
     }

@@ -5,11 +5,13 @@
 namespace hooke {
 
 MeasuredSurface::MeasuredSurface(Mat3X own_points, const Adjacency& its_adjacency, const MeshIds& mesh_ids,
-                                 const std::vector<int>& tree_order)
+                                 const std::vector<int>& tree_order, std::vector<int> joined_vertices)
     : points(std::move(own_points)),
       adjacency(its_adjacency),
       ids(mesh_ids),
+      joined(std::move(joined_vertices)),
       extent(measure_extent(points, adjacency)),
-      tree(points, adjacency.faces, tree_order) {}
+      tree(joined.empty() ? AabbTree(points, adjacency.faces, tree_order)
+                          : AabbTree(points, join_faces(adjacency.faces, joined), tree_order)) {}
 
 }  // namespace hooke

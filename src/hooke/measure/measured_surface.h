@@ -4,6 +4,7 @@
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/memory_order.h"
 
 namespace hooke {
@@ -13,14 +14,16 @@ namespace hooke {
 struct MeasuredSurface {
   /// `ids` are those that the measures report for vertices and faces. `tree_order`, the tree.order() of a
   /// surface with the same connectivity and similar geometry, saves the time of building one.
+  /// `joined`: of sheets that are measured as one mesh, by the vertices of the adjacency, see junctions.h.
   MeasuredSurface(Mat3X points, const Adjacency& adjacency, const MeshIds& ids = {},
-                  const std::vector<int>& tree_order = {});
+                  const std::vector<int>& tree_order = {}, std::vector<int> joined = {});
 
   Mat3X points;
   const Adjacency& adjacency;
   MeshIds ids;
+  std::vector<int> joined;
   Extent extent;
-  AabbTree tree;  // over the faces
+  AabbTree tree;  // over the faces, with their vertices joined
 };
 
 }  // namespace hooke

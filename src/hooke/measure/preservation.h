@@ -45,7 +45,7 @@ struct Preservation {
   std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
   std::size_t new_crossings = 0;         // new_crossings(), likewise
   std::size_t new_degenerate_faces = 0;  // likewise
-  bool topology_kept = true;             // components, boundary loops and Euler number
+  bool topology_kept = true;             // components, boundary loops, Euler number and junctions
   double crease_loss = 0;    // greatest distance of the reference's creases from those of the result
   bool creases_kept = true;  // within half an edge
 

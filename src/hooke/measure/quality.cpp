@@ -137,8 +137,18 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const Fa
   return worst;
 }
 
-void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, const UniformVector& targets,
-                  Quality& q) {
+/// Removes the values of edges of sheets that are an earlier edge of the joined mesh.
+void keep_each_once(const MeasuredSurface& surface, std::vector<double>& of_edges) {
+  if (surface.joined.empty() || of_edges.empty()) return;
+  const std::vector<char> is_first = first_of_joined(surface.adjacency, surface.joined);
+  size_t kept = 0;
+  for (size_t e = 0; e < of_edges.size(); ++e)
+    if (is_first[e]) of_edges[kept++] = of_edges[e];
+  of_edges.resize(kept);
+}
+
+void describe_all(const MeasuredSurface& surface, const FaceShapes& shapes,
+                  const std::vector<double>& lengths, const UniformVector& targets, Quality& q) {
   const auto column = [&](double TriangleShape::*measure) {
     std::vector<double> values(shapes.size());
     for (size_t f = 0; f < shapes.size(); ++f) values[f] = shapes[f].*measure;
@@ -147,7 +157,11 @@ void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, 
   // Fixed bins where the range is known, so that histograms can be compared. The order balances two threads:
   // there are more edges than faces.
   const std::function<void()> parts[] = {
-      [&] { q.edge_length = describe(lengths); },
+      [&] {
+        std::vector<double> values = lengths;
+        keep_each_once(surface, values);
+        q.edge_length = describe(std::move(values));
+      },
       [&] {
         q.min_angle = describe(column(&TriangleShape::min_angle), {0, 60});
       },
@@ -160,6 +174,7 @@ void describe_all(const FaceShapes& shapes, const std::vector<double>& lengths, 
       [&] {
         std::vector<double> errors(targets.size());
         for (size_t e = 0; e < targets.size(); ++e) errors[e] = (lengths[e] - targets[e]) / targets[e];
+        keep_each_once(surface, errors);
         q.length_error = describe(std::move(errors));
       },
       [&] { q.radius_ratio = describe(column(&TriangleShape::radius_ratio)); },
@@ -186,8 +201,9 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
   Quality q;
   q.extent = surface.extent;
   timed(stopwatch, "topology", [&] {
-    q.topology = measure_topology(adjacency);
-    q.valence = count_valences(adjacency);
+    q.topology = measure_topology(adjacency, surface.joined);
+    q.valence = count_valences(adjacency, surface.joined);
+    q.junctions = count_junctions(adjacency, surface.joined);
   });
   timed(stopwatch, "angles", [&] {
     const FaceShapes shapes = measure_faces(points, adjacency.faces);
@@ -197,7 +213,7 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
     };
     q.faces_below_20 = count_below(20);
     q.faces_below_30 = count_below(30);
-    describe_all(shapes, measure_edges(points, adjacency.edges), edge_target_length, q);
+    describe_all(surface, shapes, measure_edges(points, adjacency.edges), edge_target_length, q);
     q.worst_faces = find_worst_faces(surface, shapes, options.worst_faces);
   });
   timed(stopwatch, "folds", [&] {

@@ -10,6 +10,7 @@
 #include "hooke/measure/angle_bound.h"
 #include "hooke/measure/measured_surface.h"
 #include "hooke/measure/statistics.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/topology.h"
 
 namespace hooke {
@@ -60,6 +61,7 @@ struct Quality {
   std::vector<WorstFace> worst_faces;
 
   Topology topology;
+  JunctionCounts junctions;
   Extent extent;
 };
 

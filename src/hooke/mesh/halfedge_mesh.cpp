@@ -177,7 +177,16 @@ bool HalfedgeMesh::may_collapse(int h) const {
   const SmallIntList ring = neighbours(a);
   int common = 0;
   for (int v : neighbours(b)) common += std::ranges::count(ring, v) > 0;
-  return common == (t < 0 ? 1 : 2);
+  return common == (t < 0 ? 1 : 2) && !connects_junctions(h);
+}
+
+/// Would the collapse of h make an edge between two vertices at junctions?
+bool HalfedgeMesh::connects_junctions(int h) const {
+  const int a = from(h), b = to(h);
+  if (at_junction(a) == at_junction(b)) return at_junction(a);
+  const int stays = at_junction(a) ? a : b, goes = at_junction(a) ? b : a;
+  return std::ranges::any_of(neighbours(goes),
+                             [&](int v) { return v != stays && at_junction(v) && !adjacent(stays, v); });
 }
 
 /// Removes the face of h and links the faces across its other two edges.
@@ -295,6 +304,10 @@ std::vector<int> HalfedgeMesh::compact() {
     valences_[i] = old.valences_[v];
     on_boundary_[i] = old.on_boundary_[v];
   });
+  if (!old.at_junction_.empty()) {
+    at_junction_.resize(kept.size());
+    for (size_t i = 0; i < kept.size(); ++i) at_junction_[i] = old.at_junction(kept[i]);
+  }
   return kept;
 }
 

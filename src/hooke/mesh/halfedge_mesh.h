@@ -15,6 +15,14 @@ class HalfedgeMesh {
  public:
   explicit HalfedgeMesh(const Adjacency& adjacency);
 
+  /// Marks the vertices of junctions (see junctions.h), per vertex. No new edge may join two of them, since
+  /// another sheet may have the same.
+  void mark_junctions(std::vector<char> marks) { at_junction_ = std::move(marks); }
+  bool at_junction(int vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return v < at_junction_.size() && at_junction_[v] != 0;
+  }
+
   const std::vector<Triangle>& faces() const { return faces_; }
   const std::vector<int>& twins() const { return twins_; }             // per half-edge, see twin()
   int id_count() const { return static_cast<int>(valences_.size()); }  // including removed vertices
@@ -55,6 +63,9 @@ class HalfedgeMesh {
   /// Whether an edge joins a and b.
   bool adjacent(int a, int b) const;
 
+  /// Whether a new edge may join a and b: no edge does, and not both are at junctions.
+  bool may_connect(int a, int b) const { return !(at_junction(a) && at_junction(b)) && !adjacent(a, b); }
+
   /// Whether the edge of h is a crease edge.
   bool is_crease(int h) const { return constrained_[h] != 0; }
   /// Whether the edge of h is a crease edge or a boundary edge.
@@ -75,6 +86,7 @@ class HalfedgeMesh {
   /// Whether the edge of h can be collapsed without a change of the topology, including that of the creases.
   /// The link condition: H. Edelsbrunner, "Geometry and topology for mesh generation", 2001. Holes,
   /// components and the pieces between creases keep at least one triangle.
+  /// Makes no edge between vertices at junctions.
   bool may_collapse(int h) const;
 
   /// The wedge of `stays`, an end of h, that the outgoing half-edge `out` of either end belongs to after
@@ -98,6 +110,7 @@ class HalfedgeMesh {
   void link(int h, int twin);
   void split(int h, int vertex, int wedge);
   void close(int h);
+  bool connects_junctions(int h) const;
 
   std::vector<Triangle> faces_;
   std::vector<Triangle> wedges_;  // empty without creases: the wedges are then the vertices
@@ -106,6 +119,7 @@ class HalfedgeMesh {
   std::vector<int> valences_;           // per id: -1 for removed vertices and extra wedges
   std::vector<char> on_boundary_;       // per id
   std::vector<char> constrained_;       // per half-edge
+  std::vector<char> at_junction_;       // per id, false for ids beyond its end
 };
 
 /// The adjacency of a half-edge mesh, without creases; faster than from the faces alone. Pre-condition: no

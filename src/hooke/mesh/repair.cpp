@@ -89,6 +89,7 @@ class Repair {
       turn_outward();
     }
     drop_unused_vertices();
+    if (options_.keep_junctions) cut_at_junctions();
     return std::move(r_);
   }
 
@@ -96,6 +97,7 @@ class Repair {
   // Telling. Places are old ids.
 
   static constexpr size_t places_told = 5;
+  static constexpr char turned_over[] = "faces turned over to be oriented like their neighbours";
 
   void tell(const char* code, size_t count, const std::string& what, std::string places) {
     if (count == 0) return;
@@ -256,7 +258,36 @@ class Repair {
 
   // Cutting and orienting.
 
+  void orient() {
+    const Sheets sheets = make_sheets(r_.points, r_.triangles, ManyFaces::apart);
+    tell("faces_flipped", sheets.flipped_faces.size(), turned_over, face_places(sheets.flipped_faces));
+    for (const int f : sheets.flipped_faces) {
+      r_.origin.flipped[f] ^= 1;
+      std::swap(r_.triangles[f][1], r_.triangles[f][2]);
+    }
+  }
+
+  /// Is the mesh an oriented manifold but for what can be kept?
+  bool has_junctions() const {
+    bool found = false;
+    for (const Problem& problem : find_problems(r_.points, r_.triangles)) {
+      if (is_acceptable(problem.kind)) continue;
+      const bool is_one_sided = problem.kind == ProblemKind::inconsistent_orientation && options_.repair;
+      if (!is_junction(problem.kind) && !is_one_sided) return false;
+      found = true;
+    }
+    return found;
+  }
+
+  void cut_at_junctions() {
+    if (!has_junctions()) return;
+    Sheets sheets = make_sheets(r_.points, r_.triangles, ManyFaces::apart);
+    replace_by(sheets);
+    r_.origin.joined = std::move(sheets.source);
+  }
+
   void make_manifold() {
+    if (options_.keep_junctions) return orient();
     Sheets sheets = make_sheets(r_.points, r_.triangles);
     tell("edges_cut", sheets.cut_edges.size(), "edges with three or more faces cut into sheets",
          edge_places(sheets.cut_edges));
@@ -264,9 +295,12 @@ class Repair {
          "edges cut open, as the surface there has only one side", edge_places(sheets.opened_edges));
     tell("vertices_split", sheets.split_vertices.size(),
          "vertices split in which separate parts only touched", vertex_places(sheets.split_vertices));
-    tell("faces_flipped", sheets.flipped_faces.size(),
-         "faces turned over to be oriented like their neighbours", face_places(sheets.flipped_faces));
+    tell("faces_flipped", sheets.flipped_faces.size(), turned_over, face_places(sheets.flipped_faces));
     for (const int f : sheets.flipped_faces) r_.origin.flipped[f] ^= 1;
+    replace_by(sheets);
+  }
+
+  void replace_by(Sheets& sheets) {
     Mat3X points(3, static_cast<Eigen::Index>(sheets.source.size()));
     std::vector<int> origin;
     for (const int v : sheets.source) {
@@ -306,9 +340,22 @@ class Repair {
     return b;
   }
 
+  /// Marks the vertices where sheets meet that are kept; empty if none are.
+  std::vector<char> at_junctions() const {
+    if (!options_.keep_junctions) return {};
+    const Sheets sheets = make_sheets(r_.points, r_.triangles, ManyFaces::apart);
+    std::vector<char> marks(r_.origin.vertex.size(), 0);
+    for (size_t v = marks.size(); v < sheets.source.size(); ++v) marks[sheets.source[v]] = 1;
+    for (const Edge& edge : sheets.cut_edges)
+      for (const int v : edge) marks[v] = 1;
+    return marks;
+  }
+
+  /// Holes that end at junctions are left, as it is not known which boundary goes on there.
   void fill_holes() {
     if (options_.fill_holes <= 0) return;
     Boundary boundary = find_boundary();
+    const std::vector<char> junction = at_junctions();
     std::vector<char> seen(boundary.next.size(), 0);
     std::vector<int> filled, left;  // a vertex of each hole
     size_t faces = 0;
@@ -320,7 +367,9 @@ class Repair {
         loop.push_back(v);
       }
       if (std::ssize(loop) > options_.fill_holes) continue;
-      const size_t added = fill(loop, boundary);
+      const bool is_open =
+          !junction.empty() && std::ranges::any_of(loop, [&](int v) { return junction[v] != 0; });
+      const size_t added = is_open ? 0 : fill(loop, boundary);
       (added > 0 ? filled : left).push_back(start);
       faces += added;
     }
@@ -360,6 +409,7 @@ class Repair {
   std::vector<Component> closed_components() const {
     const std::vector<int> component = components_of(r_.triangles, r_.origin.vertex.size());
     const Boundary boundary = find_boundary();
+    const std::vector<char> junction = at_junctions();
     std::vector<int> number(component.size(), -1);
     std::vector<Component> found;
     for (int f = 0; f < static_cast<int>(component.size()); ++f) {
@@ -378,7 +428,7 @@ class Repair {
                   6;
       for (const int v : t) {
         c.box.extend(Vec3(r_.points.col(v)));
-        c.closed &= boundary.next[v] < 0;
+        c.closed &= boundary.next[v] < 0 && (junction.empty() || !junction[v]);
       }
     }
     std::erase_if(found, [](const Component& c) { return !c.closed; });

@@ -12,13 +12,14 @@
 namespace hooke {
 
 struct RepairOptions {
-  bool repair = false;         // make an oriented manifold
-  double weld = -1;            // merge vertices closer than this, in file units; negative: off
-  double weld_share = -1;      // the same in diagonals of the box
-  double drop_components = 0;  // with `repair`: drop components of less than this share of the area
-  int fill_holes = 0;          // with `repair`: fill holes of at most so many edges
+  bool repair = false;          // make an oriented manifold
+  double weld = -1;             // merge vertices closer than this, in file units; negative: off
+  double weld_share = -1;       // the same in diagonals of the box
+  double drop_components = 0;   // with `repair`: drop components of less than this share of the area
+  int fill_holes = 0;           // with `repair`: fill holes of at most so many edges
+  bool keep_junctions = false;  // sheets that meet in edges and vertices are known to be one, see junctions.h
 
-  bool any() const { return repair || weld >= 0 || weld_share >= 0; }
+  bool any() const { return repair || weld >= 0 || weld_share >= 0 || keep_junctions; }
 };
 
 /// Where the vertices and faces of a repaired mesh come from. Empty: they are the old ones.
@@ -27,7 +28,8 @@ struct MeshOrigin {
   std::vector<int> merged;    // for each old vertex, the one it was merged with, or itself
   std::vector<int> face;      // for each face the old one; for one over a hole a neighbour's
   std::vector<char> flipped;  // for each face, whether its second and third corner are swapped
-  size_t filled = 0;          // the last faces are over holes
+  std::vector<int> joined;  // for each vertex, the first of its copies; empty: none has any, see junctions.h
+  size_t filled = 0;        // the last faces are over holes
 };
 
 struct Repaired {
@@ -46,6 +48,10 @@ struct Repaired {
 /// - components that are too small are dropped, holes that are small enough are filled;
 /// - closed components that are inside out and in no other are turned outward;
 /// - vertices in no face are dropped.
+/// With `keep_junctions` edges of three faces and more and vertices in which parts only touch stay: they are
+/// cut last, after all else, if nothing but them keeps the mesh from being an oriented manifold; with
+/// `repair` also the edges at which a surface with one side cannot be oriented. Small components are then
+/// those of the joined mesh, and components with junctions are not turned.
 /// The vertices that stay keep their order; copies of split ones come last. Pre-condition: corners are
 /// vertices. The result may still be invalid, for instance without faces.
 Repaired repair(const Mat3X& points, std::vector<Triangle> triangles, const RepairOptions& options,

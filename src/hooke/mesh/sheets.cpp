@@ -111,9 +111,10 @@ class TurnedSets {
 
 class SheetMaker {
  public:
-  SheetMaker(const Mat3X& points, const std::vector<Triangle>& triangles)
+  SheetMaker(const Mat3X& points, const std::vector<Triangle>& triangles, ManyFaces many_faces)
       : points_(points),
         old_(triangles),
+        many_faces_(many_faces),
         sets_(triangles.size()),
         partner_(3 * triangles.size(), -1),
         flips_(triangles.size(), 0) {}
@@ -159,7 +160,7 @@ class SheetMaker {
   void pair_many(std::vector<Side> sides) {
     result_.cut_edges.push_back(edge_of(sides.front()));
     constexpr size_t most_faces = 200;  // beyond that all are cut apart: pairs are found in quadratic time
-    if (sides.size() > most_faces) return;
+    if (many_faces_ == ManyFaces::apart || sides.size() > most_faces) return;
     std::vector<std::pair<double, Side>> around;
     for (const Side side : sides) around.emplace_back(angle_at_edge(side), side);
     std::ranges::sort(around);
@@ -300,6 +301,7 @@ class SheetMaker {
 
   const Mat3X& points_;
   const std::vector<Triangle>& old_;
+  const ManyFaces many_faces_;
   TurnedSets sets_;
   std::vector<Side> partner_;  // the neighbour's side at each side; -1 at boundaries
   std::vector<char> flips_;    // of each face
@@ -308,8 +310,8 @@ class SheetMaker {
 
 }  // namespace
 
-Sheets make_sheets(const Mat3X& points, const std::vector<Triangle>& triangles) {
-  return SheetMaker(points, triangles).make();
+Sheets make_sheets(const Mat3X& points, const std::vector<Triangle>& triangles, ManyFaces many_faces) {
+  return SheetMaker(points, triangles, many_faces).make();
 }
 
 }  // namespace hooke

@@ -20,10 +20,17 @@ struct Sheets {
   std::vector<int> flipped_faces;   // ascending
 };
 
+/// What becomes of the faces at edges of three faces or more.
+enum class ManyFaces {
+  paired,  // those that belong together are neighbours
+  apart,   // all are cut apart
+};
+
 /// At edges of two faces these are neighbours. At others the faces around a solid are, if faces alternate in
 /// their direction along the edge; else those that continue each other best, in pairs. Of the faces that hang
 /// together the fewer are flipped. Each vertex is split so that the faces around it are one fan of
 /// neighbours. Pre-condition: the corners of a triangle differ, and no two have the same three.
-Sheets make_sheets(const Mat3X& points, const std::vector<Triangle>& triangles);
+Sheets make_sheets(const Mat3X& points, const std::vector<Triangle>& triangles,
+                   ManyFaces many_faces = ManyFaces::paired);
 
 }  // namespace hooke

@@ -15,7 +15,8 @@ struct Topology {
   int components = 0;
   int boundary_edges = 0;
   int boundary_loops = 0;
-  int euler = 0;  // vertices - edges + faces
+  int euler = 0;           // vertices - edges + faces
+  int junction_edges = 0;  // of a joined mesh, see junctions.h
 
   bool closed() const { return faces > 0 && boundary_edges == 0; }
 };

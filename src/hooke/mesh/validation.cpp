@@ -309,12 +309,17 @@ bool is_acceptable(ProblemKind kind) {
   return kind >= ProblemKind::zero_area_faces;
 }
 
+bool is_junction(ProblemKind kind) {
+  return kind == ProblemKind::non_manifold_edge || kind == ProblemKind::non_manifold_vertex;
+}
+
 Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangles,
                        const MeshSource& source) {
   std::string errors, help;
-  bool repairable = true;
+  bool repairable = true, keepable = true;
   Warnings warnings;
   for (const Problem& problem : find_problems(points, triangles)) {
+    if (source.keeps_junctions && is_junction(problem.kind)) continue;
     const std::string text = problem_text(problem, source);
     if (is_acceptable(problem.kind)) {
       const char* help_by_repair = source.repaired ? "" : explain(problem.kind).help;
@@ -323,11 +328,16 @@ Warnings require_valid(const Mat3X& points, const std::vector<Triangle>& triangl
       errors += (errors.empty() ? "" : "; ") + text;
       help += (help.empty() ? "" : ", ") + std::string(explain(problem.kind).help);
       repairable &= explain(problem.kind).repairable;
+      keepable &= is_junction(problem.kind);
     }
   }
   if (!errors.empty())
     throw MeshError(fmt::format("{}: {}; expected an oriented manifold surface with area; {}{}", source.name,
-                                errors, help, repairable && !source.repaired ? ", or use --repair" : ""));
+                                errors, help,
+                                source.repaired || !repairable ? ""
+                                : keepable ? ", or use --repair, which cuts the sheets apart, or "
+                                             "--keep non-manifold, which keeps them joined"
+                                           : ", or use --repair"));
   return warnings;
 }
 

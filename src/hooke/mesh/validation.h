@@ -51,12 +51,16 @@ std::string name_of(ProblemKind kind);
 /// Whether a mesh with this problem can be processed; the problem is then a warning.
 bool is_acceptable(ProblemKind kind);
 
+/// Whether the problem is a junction, which can be kept, see junctions.h.
+bool is_junction(ProblemKind kind);
+
 /// The origin of the triangles, for messages.
 struct MeshSource {
-  std::string name;       // of the file, printable
-  std::vector<int> face;  // per triangle: face of the file; empty: the same ids
-  std::vector<int> line;  // per face of the file; empty: unknown
-  bool repaired = false;  // messages then do not name the option that repairs a mesh
+  std::string name;              // of the file, printable
+  std::vector<int> face;         // per triangle: face of the file; empty: the same ids
+  std::vector<int> line;         // per face of the file; empty: unknown
+  bool repaired = false;         // messages then do not name the option that repairs a mesh
+  bool keeps_junctions = false;  // is_junction() then is no problem
 };
 
 /// The face of the file and its line, for messages: "4 (line 9)".

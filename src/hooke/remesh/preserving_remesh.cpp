@@ -76,7 +76,7 @@ class PreservingRemesh {
         observer_(observer),
         stopwatch_(stopwatch),
         input_(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency,
-               memory_order.order.old_ids(), known.tree_order),
+               memory_order.order.old_ids(), known.tree_order, joined_vertices(mesh, memory_order.order)),
         preservation_(preservation),
         input_quality_(known.quality ? *known.quality
                                      : measure(input_, mesh, memory_order.order, stopwatch)) {
@@ -409,7 +409,8 @@ class PreservingRemesh {
     const bool same_faces = memory_order.adjacency->faces.size() == input_.adjacency.faces.size() &&
                             options_.connectivity == ConnectivityMode::fixed;
     return {memory_order.order.gather(vertex_points(a.mesh)), *memory_order.adjacency,
-            memory_order.order.old_ids(), same_faces ? input_.tree.order() : std::vector<int>()};
+            memory_order.order.old_ids(), same_faces ? input_.tree.order() : std::vector<int>(),
+            joined_vertices(a.mesh, memory_order.order)};
   }
 
   void judge(Run& a) const {

@@ -124,6 +124,7 @@ Json to_json(const Topology& t, const Extent& e) {
   json["boundary_loops"] = t.boundary_loops;
   json["euler"] = t.euler;
   json["isolated_vertices"] = t.isolated_vertices;
+  json["junction_edges"] = t.junction_edges;
   json["bbox"] = {{"min", vector(e.lower)}, {"max", vector(e.upper)}};
   json["bbox_diagonal"] = number(e.diagonal);
   json["area"] = number(e.area);

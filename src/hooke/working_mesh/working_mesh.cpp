@@ -29,7 +29,10 @@ WorkingMesh::WorkingMesh(const Adjacency& adjacency, VertexTable& v, Retraction&
   std::iota(vertices.previous_ids.begin(), vertices.previous_ids.end(), 0);
 }
 
-WorkingMesh::WorkingMesh(Workspace& work) : WorkingMesh(*work.adjacency, work.vertices, *work.retraction) {}
+WorkingMesh::WorkingMesh(Workspace& work) : WorkingMesh(*work.adjacency, work.vertices, *work.retraction) {
+  halfedges.mark_junctions(work.junction_marks());
+  junction_edges = work.junction_edges();
+}
 
 CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
   const int a = m.halfedges.from(h), b = m.halfedges.to(h);
@@ -37,6 +40,13 @@ CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
     if (const int curve = m.vertices.constraints.curve[v]; curve >= 0)
       return {curve, m.vertices.positions.segments[v]};
   return m.curve_finder.common(m.vertices.positions.points.col(a), m.vertices.positions.points.col(b));
+}
+
+bool is_junction_edge(const WorkingMesh& m, int h) {
+  if (m.junction_edges.empty() || !m.halfedges.is_feature_edge(h)) return false;
+  const auto [low, high] =
+      std::minmax(m.vertices.previous_ids[m.halfedges.from(h)], m.vertices.previous_ids[m.halfedges.to(h)]);
+  return low >= 0 && std::ranges::binary_search(m.junction_edges, Edge{low, high});
 }
 
 double relative_length(const WorkingMesh& m, int h) {

@@ -28,12 +28,16 @@ struct WorkingMesh {
   Retraction& retraction;
   CurveFinder curve_finder;
   CurveEdges curve_edges;
+  std::vector<Edge> junction_edges;  // by the previous ids of their ends, sorted, smaller one first
   /// Called after vertices have moved, to update their target lengths to their new positions.
   std::function<void()> after_move = nullptr;
 };
 
 /// The curve on which a feature edge lies; curve -1 if none is known.
 CurveFinder::Location curve_of(const WorkingMesh& mesh, int half_edge);
+
+/// Whether the edge is one of a junction, which no change may lose or split.
+bool is_junction_edge(const WorkingMesh& mesh, int half_edge);
 
 /// Target length of an edge between the vertices.
 inline double target_length(const WorkingMesh& m, int v, int w) {

@@ -43,6 +43,13 @@ std::vector<int> wedges_of_surface(const Adjacency& c, const Adjacency& surface)
   return wedges;
 }
 
+/// Appends those of the edges that are not on the boundary.
+void append_inner(const std::vector<Edge>& edges, const Adjacency& c, std::vector<Edge>& inner) {
+  for (const auto& [a, b] : edges)
+    for (const int e : c.vertex_edges[a])
+      if (c.other_end(e, a) == b && !c.is_boundary_edge(e)) inner.push_back({a, b});
+}
+
 }  // namespace
 
 Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
@@ -65,9 +72,13 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   for (int e :
        detect_creases(*start, *memory_order.adjacency, vertices.vertex_length, constraint_options.features))
     creases.push_back(memory_order.adjacency->edges[e]);
-  if (!constraint_options.seams.empty()) {
+  joined_ = joined_vertices(source, order);
+  junctions_ = find_junctions(*memory_order.adjacency, joined_);
+  std::vector<Edge> seams = order.new_edges(constraint_options.seams);
+  append_inner(junctions_.edges, *memory_order.adjacency, seams);
+  if (!seams.empty()) {
     sharp_ = creases;
-    for (const Edge& seam : order.new_edges(constraint_options.seams)) creases.push_back(seam);
+    creases.insert(creases.end(), seams.begin(), seams.end());
   }
   connect(std::move(memory_order.adjacency), creases);
   targets = spread_target_lengths(*adjacency, vertices.vertex_length);
@@ -82,6 +93,9 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   faceted_ = is_faceted(*start, *input_surface_);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
+  reordered.fixed_vertices.insert(reordered.fixed_vertices.end(), junctions_.vertices.begin(),
+                                  junctions_.vertices.end());
+  reordered.junction_edges = junctions_.edges;
   for (int tip : detect_tips(*start, *input_surface_, vertices.vertex_length, constraint_options.features))
     reordered.fixed_vertices.push_back(tip);
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
@@ -299,6 +313,7 @@ Mat3X Workspace::copy_back(TriMesh& target) const {
   else if (faces_replaced_)
     hooke::replace_faces(target, *adjacency, order.old_ids());
   vertex_points(target) = points;
+  if (vertices_replaced_ && !joined_.empty()) set_joined_vertices(target, joined_in_result());
   if (has_varying_lengths() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
   return input;
 }
@@ -306,6 +321,42 @@ Mat3X Workspace::copy_back(TriMesh& target) const {
 MemoryOrder Workspace::memory_order() const {
   if (adjacency->creases.empty()) return {order, adjacency};
   return {order, std::make_shared<const Adjacency>(without_creases(*adjacency))};
+}
+
+std::vector<int> Workspace::joined_in_result() const {
+  std::vector<int> origin_of_id(order.old_vertex.size()), joined(origin_of_id.size()),
+      first(joined_.size(), -1);
+  for (std::size_t v = 0; v < origin_of_id.size(); ++v)
+    origin_of_id[order.old_vertex[v]] = vertices.origins[v];
+  for (std::size_t id = 0; id < joined.size(); ++id) {
+    joined[id] = static_cast<int>(id);
+    if (origin_of_id[id] < 0) continue;
+    int& known = first[joined_[origin_of_id[id]]];
+    if (known < 0) known = static_cast<int>(id);
+    joined[id] = known;
+  }
+  return joined;
+}
+
+std::vector<Edge> Workspace::junction_edges() const {
+  if (junctions_.edges.empty()) return {};
+  std::vector<int> now(joined_.size(), -1);
+  for (std::size_t v = 0; v < vertices.origins.size(); ++v)
+    if (vertices.origins[v] >= 0) now[vertices.origins[v]] = static_cast<int>(v);
+  std::vector<Edge> edges;
+  for (const auto& [a, b] : junctions_.edges)
+    edges.push_back({std::min(now[a], now[b]), std::max(now[a], now[b])});
+  std::ranges::sort(edges);
+  return edges;
+}
+
+std::vector<char> Workspace::junction_marks() const {
+  if (junctions_.vertices.empty()) return {};
+  std::vector<char> marks(vertices.origins.size(), 0);
+  for (std::size_t v = 0; v < marks.size(); ++v)
+    marks[v] =
+        vertices.origins[v] >= 0 && std::ranges::binary_search(junctions_.vertices, vertices.origins[v]);
+  return marks;
 }
 
 ProjectionCounts Workspace::projection_counts() const {

@@ -7,6 +7,7 @@
 
 #include "hooke/core/stopwatch.h"
 #include "hooke/filter/surface_field.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/surface_point.h"
 #include "hooke/mesh/vertex_coloring.h"
@@ -92,6 +93,11 @@ struct Workspace {
 
   ProjectionCounts projection_counts() const;
 
+  /// The junctions of the mesh that the workspace was made from (see junctions.h), whose vertices stand
+  /// still: their edges, sorted, smaller end first, and a mark for each vertex, all by the present vertices.
+  std::vector<Edge> junction_edges() const;
+  std::vector<char> junction_marks() const;
+
   /// Number of smooth charts: the connected components of the mesh cut open along its creases.
   int chart_count() const;
 
@@ -107,6 +113,7 @@ struct Workspace {
 
  private:
   SurfacePoint locate_on_input(int vertex) const;
+  std::vector<int> joined_in_result() const;
   const Permutation& input_order() const { return input_order_ ? *input_order_ : order; }
   void connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases);
   std::shared_ptr<const Adjacency> surface() const;
@@ -124,6 +131,8 @@ struct Workspace {
   bool refitted_ = false;                           // false: both fields are the same
   bool edge_by_edge_ = false;                       // see has_edge_lengths()
   bool faceted_ = false;                            // are the facets of the input meant?
+  std::vector<int> joined_;                         // of the input, as indices of `start`
+  Junctions junctions_;                             // likewise
   std::vector<int> input_hints_;                    // per wedge: hint on the field of the input
   std::unique_ptr<Retraction> to_input_;            // to the field of the input
   ProjectionCounts past_counts_;                    // of retractions that no longer exist
