@@ -133,6 +133,16 @@ void warn_of_concave_polygons(const Settings& s, const LoadedMesh& loaded, const
 
 }  // namespace
 
+namespace {
+
+Warnings losses_of_output(const TriMesh& mesh, PlyEncoding encoding, const std::string& name) {
+  if (const std::optional<JoinedMesh> joined = join_sheets(mesh))
+    return losses_in_stl(joined->gather(vertex_points(mesh)), joined->triangles, encoding, name);
+  return losses_in_stl(vertex_points(mesh), triangles_of(mesh), encoding, name);
+}
+
+}  // namespace
+
 PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Original& original,
                            const Mat3X& points, RunRecord& record, Stopwatch& stopwatch) {
   record.output.emplace();
@@ -159,8 +169,7 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
   const PlyEncoding encoding = encoding_of_output(s, loaded);
   const MeshData data = data_of_result(s, loaded, original, points, encoding, record);
   if (s.format == MeshFormat::stl)
-    append(record.warnings, losses_in_stl(vertex_points(loaded.mesh), triangles_of(loaded.mesh), encoding,
-                                          name_of_output(s.output)));
+    append(record.warnings, losses_of_output(loaded.mesh, encoding, name_of_output(s.output)));
   return prepare_mesh(s.output, loaded.mesh, *s.format, encoding, data, &stopwatch);
 }
 

@@ -278,14 +278,17 @@ void warn_of_near_boundary(const Mat3X& points, const Adjacency& adjacency, RunR
 void warn_of_junctions(const Settings& s, bool has_copies, RunRecord& run) {
   if (!has_copies || s.check) return;
   const int edges = run.before.topology.junction_edges;
+  const bool splits = s.remesh.connectivity == ConnectivityMode::adapt && !s.paper && edges > 0;
   run.warnings.push_back(
       {"junctions_held",
        fmt::format(
-           "{}: {} edges with three faces or more stay as they are, and so do their vertices and those "
-           "where sheets only touch; {}",
-           run.input.path, edges,
-           keeps_faces(s) ? "all other vertices move"
-                          : "lengths differ from the target there where theirs do")});
+           "{}: {} stay where they are{}", run.input.path,
+           edges > 0 ? fmt::format("{} edges with three faces or more, their vertices and those where "
+                                   "sheets only touch",
+                                   edges)
+                     : "vertices where sheets only touch",
+           splits ? "; these edges are split where they are too long, but not joined where they are short"
+                  : "")});
 }
 
 void warn_of_inside_out(RunRecord& run) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <random>
 
 #include "hooke/core/error.h"
 #include "hooke/mesh/halfedge_mesh.h"
@@ -159,6 +160,40 @@ TEST(Junctions, AOneSidedSurfaceIsCutWhereItCannotBeOriented) {
   EXPECT_EQ(measure_topology(c, r.origin.joined).vertices, 2 * n);
   EXPECT_EQ(measure_topology(c, r.origin.joined).boundary_loops, 1);
   EXPECT_EQ(measure_topology(c, r.origin.joined).euler, 0);
+}
+
+TEST(Junctions, AnyTrianglesBecomeManifoldSheetsThatJoinToThem) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 300; ++round) {
+    const int vertices = 4 + round % 9, faces = 1 + round % 40;
+    test::Triangles t{Mat3X::Random(3, vertices), {}};
+    std::uniform_int_distribution<int> vertex(0, vertices - 1);
+    for (int f = 0; f < faces; ++f) t.faces.push_back({vertex(random), vertex(random), vertex(random)});
+    const Repaired r = repair(t.points, t.faces, {.repair = true, .keep_junctions = true}, {"m", {}, {}});
+    for (const Problem& problem : find_problems(r.points, r.triangles))
+      EXPECT_TRUE(is_acceptable(problem.kind) || problem.kind == ProblemKind::no_faces)
+          << round << ' ' << name_of(problem.kind);
+    const std::vector<Triangle> joined = join_faces(r.triangles, r.origin.joined);
+    for (std::size_t f = 0; f < joined.size(); ++f) {
+      Triangle now = joined[f], before = t.faces[r.origin.face[f]];
+      for (int& v : now) v = r.origin.vertex[v];
+      std::ranges::sort(now);
+      std::ranges::sort(before);
+      EXPECT_EQ(now, before);
+    }
+  }
+}
+
+TEST(Junctions, TheirNetworkMayHaveOtherEdges) {
+  const JunctionCounts one{.edges = 3, .curves = 1, .nodes = 2, .faces = {0, 0, 0, 3}};
+  JunctionCounts split = one;
+  split.edges = split.faces[3] = 6;
+  EXPECT_TRUE(one.same_network(split));
+  split.faces = {0, 0, 0, 5, 1};
+  EXPECT_FALSE(one.same_network(split));
+  split = one;
+  split.curves = 2;
+  EXPECT_FALSE(one.same_network(split));
 }
 
 TEST(Junctions, NoNewEdgeJoinsTwoOfTheirVertices) {

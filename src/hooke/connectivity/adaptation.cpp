@@ -40,6 +40,9 @@ class AdaptationSteps {
   /// Lets vertices at bends move and collapse on curves whose number of edges is to change.
   void release_bends();
 
+  /// Splits the edges of junctions that are too long.
+  void split_junctions();
+
   /// Multiplies the target lengths by 2^levels.
   void coarsen(int levels);
 
@@ -196,6 +199,14 @@ void AdaptationSteps::release_bends() {
   }
 }
 
+void AdaptationSteps::split_junctions() {
+  const int splits = hooke::split_junctions(m_, options_.split.longest);
+  if (splits == 0) return;
+  counts_.splits += splits;
+  counts_.flips += flip_to_delaunay(m_, flip_guard_);
+  compact_ids();
+}
+
 void AdaptationSteps::coarsen(int levels) {
   level_ += levels;
   for (double& length : work_.vertices.vertex_length) length = std::ldexp(length, levels);
@@ -330,6 +341,7 @@ class Adaptation {
   /// `folded`: are there folded faces? Splits and collapses remove them, whereas Lloyd flow would keep them.
   AdaptResult run(bool folded) {
     steps_.release_bends();
+    steps_.split_junctions();
     result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
     if (result_.levels > 0)
       refine_coarse_mesh();

@@ -1,6 +1,9 @@
 #include "hooke/connectivity/edge_splits.h"
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_queue.h"
@@ -91,6 +94,38 @@ int half_edge_between(const HalfedgeMesh& t, int from, int to) {
   return -1;
 }
 
+/// An edge of a junction, as the numbers of its ends, and in each sheet as a half-edge from vertex to vertex.
+using JunctionSides = std::map<Edge, std::vector<Edge>>;
+
+JunctionSides sides_of_junctions(const WorkingMesh& m) {
+  const HalfedgeMesh& t = m.halfedges;
+  JunctionSides sides;
+  for (int h = 0; h < t.half_edge_count(); ++h) {
+    if (t.is_removed(h / 3) || t.twin(h) > h || !is_junction_edge(m, h)) continue;
+    const auto [low, high] =
+        std::minmax(m.vertices.constraints.junction[t.from(h)], m.vertices.constraints.junction[t.to(h)]);
+    sides[{low, high}].push_back({t.from(h), t.to(h)});
+  }
+  return sides;
+}
+
+/// Splits the edge in all its sheets. Returns the number of the new vertices.
+int split_sides(WorkingMesh& m, const std::vector<Edge>& sides) {
+  const int number = m.vertices.constraints.junction_numbers++;
+  for (const auto& [from, to] : sides) {
+    const int h = half_edge_between(m.halfedges, from, to), v = add_vertex(m, h);
+    const Vec3 middle = .5 * m.vertices.positions.points.col(from) + .5 * m.vertices.positions.points.col(to);
+    m.vertices.positions.points.col(v) = middle;
+    m.vertices.positions.segments[v] = 0;
+    m.vertices.constraints.freedom[v] = Freedom::fixed;
+    m.vertices.constraints.curve[v] = -1;
+    m.vertices.constraints.junction[v] = number;
+    m.halfedges.split(h);
+    m.halfedges.mark_junction(v);
+  }
+  return number;
+}
+
 struct EdgeToSplit {
   Edge ends;                              // in the orientation of a face
   std::optional<SurfacePosition> middle;  // midpoint; none for a feature edge
@@ -168,6 +203,32 @@ class Subdivision {
 };
 
 }  // namespace
+
+int split_junctions(WorkingMesh& m, double longest) {
+  std::vector<Edge>& edges = m.vertices.constraints.junction_edges;
+  int splits = 0;
+  for (int last = -1; last != splits;) {
+    last = splits;
+    std::vector<Edge> next;
+    for (const auto& [ends, sides] : sides_of_junctions(m)) {
+      const bool is_long = std::ranges::any_of(sides, [&](const Edge& side) {
+        return relative_length(m, half_edge_between(m.halfedges, side[0], side[1])) > longest;
+      });
+      if (!is_long) {
+        next.push_back(ends);
+        continue;
+      }
+      const int middle = split_sides(m, sides);
+      next.push_back({ends[0], middle});
+      next.push_back({ends[1], middle});
+      ++splits;
+    }
+    std::ranges::sort(next);
+    edges = std::move(next);
+  }
+  m.retraction.count();
+  return splits;
+}
 
 int subdivide(WorkingMesh& m, const SplitOptions& options, const FlipGuardOptions& flip_guard) {
   return Subdivision(m, options, flip_guard).run();

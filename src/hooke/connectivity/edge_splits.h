@@ -19,6 +19,11 @@ struct SplitOptions {
 int split_edge(WorkingMesh& mesh, int half_edge, const SplitOptions& options,
                const SurfacePosition* middle = nullptr);
 
+/// Splits the edges of junctions (see mesh/junctions.h) that are too long in one of their sheets, in all
+/// sheets at once and exactly in the middle, until none is. The new vertices stand still. Returns the number
+/// of splits. No other function splits these edges.
+int split_junctions(WorkingMesh& mesh, double longest);
+
 /// Splits edges, the longest first, until none that may be split is too long. Returns the number of splits.
 int split_long_edges(WorkingMesh& mesh, const SplitOptions& options);
 

@@ -45,6 +45,11 @@ struct Constraints {
   std::vector<int> extra_wedges;  // vertex of each extra wedge at creases, see mesh/adjacency.h
   int crease_curves = 0;          // number of curves that are creases; they are the last ones
 
+  // Junctions, see mesh/junctions.h. A number stands for all copies of a vertex, which are `fixed`.
+  std::vector<int> junction;         // per vertex its number, -1 off junctions; empty without any
+  std::vector<Edge> junction_edges;  // as pairs of numbers, smaller one first, sorted
+  int junction_numbers = 0;          // all are below
+
   // Rest position and maximal travel from it of each vertex; both are empty if there is no limit.
   Mat3X rest_position;
   std::vector<double> max_travel;

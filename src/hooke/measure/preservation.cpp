@@ -320,7 +320,8 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   if (wrong && p.excess <= 1) p.place = centre_of(result.surface, *wrong);
   const Topology &before = reference.quality.topology, &after = result.quality.topology;
   p.topology_kept = before.components == after.components && before.boundary_loops == after.boundary_loops &&
-                    before.euler == after.euler && reference.quality.junctions == result.quality.junctions;
+                    before.euler == after.euler &&
+                    reference.quality.junctions.same_network(result.quality.junctions);
   if (options.keeps_facets)
     measure_sharp_edges(reference.surface, result.surface, options.feature_angle, p);
   else

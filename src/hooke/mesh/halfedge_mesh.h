@@ -18,6 +18,11 @@ class HalfedgeMesh {
   /// Marks the vertices of junctions (see junctions.h), per vertex. No new edge may join two of them, since
   /// another sheet may have the same.
   void mark_junctions(std::vector<char> marks) { at_junction_ = std::move(marks); }
+  void mark_junction(int vertex) {
+    const auto v = static_cast<std::size_t>(vertex);
+    if (at_junction_.size() <= v) at_junction_.resize(v + 1, 0);
+    at_junction_[v] = 1;
+  }
   bool at_junction(int vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return v < at_junction_.size() && at_junction_[v] != 0;

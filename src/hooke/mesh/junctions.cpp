@@ -175,6 +175,15 @@ Valence count_valences(const Adjacency& c, const std::vector<int>& joined) {
   return valence;
 }
 
+bool JunctionCounts::same_network(const JunctionCounts& other) const {
+  const auto occurs = [](const JunctionCounts& counts, std::size_t k) {
+    return k < counts.faces.size() && counts.faces[k] > 0;
+  };
+  for (std::size_t k = 0; k < std::max(faces.size(), other.faces.size()); ++k)
+    if (occurs(*this, k) != occurs(other, k)) return false;
+  return curves == other.curves && nodes == other.nodes;
+}
+
 JunctionCounts count_junctions(const Adjacency& c, const std::vector<int>& joined) {
   JunctionCounts counts;
   if (joined.empty()) return counts;

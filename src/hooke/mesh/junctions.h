@@ -59,6 +59,9 @@ struct JunctionCounts {
   int nodes = 0;   // vertices where other than two junction edges meet, or the number of faces changes
   std::vector<int> faces;  // entry k: the number of junction edges with k faces
   bool operator==(const JunctionCounts&) const = default;
+
+  /// Are they the same curves, with as many faces, though their edges may be others?
+  bool same_network(const JunctionCounts& other) const;
 };
 
 JunctionCounts count_junctions(const Adjacency& sheets, const std::vector<int>& joined);

@@ -27,6 +27,8 @@ void for_each_column(const auto& use) {
   use(
       [](auto& t) -> auto& { return t.constraints.curve; }, RowOf::vertex, -1);
   use(
+      [](auto& t) -> auto& { return t.constraints.junction; }, RowOf::vertex, -1);
+  use(
       [](auto& t) -> auto& { return t.vertex_length; }, RowOf::vertex, 0.);
   use(
       [](auto& t) -> auto& { return t.origins; }, RowOf::vertex, -1);
@@ -36,9 +38,10 @@ void for_each_column(const auto& use) {
       [](auto& t) -> auto& { return t.corner_valences; }, RowOf::wedge, 0);
 }
 
+/// An empty column is not in use.
 template <typename T>
 void resize_column(std::vector<T>& column, int rows, int, T empty) {
-  column.resize(rows, empty);
+  if (!column.empty()) column.resize(rows, empty);
 }
 
 void resize_column(Mat3X& column, int rows, int spare, double) {

@@ -10,7 +10,7 @@ namespace hooke {
 
 /// The columns of the vertices and wedges. Between changes of the connectivity the wedges of a vertex follow
 /// those of all vertices (see mesh/adjacency.h); while a HalfedgeMesh is edited, both share its ids, every
-/// column has a row for each id, and the matrices have spare columns.
+/// column but an empty one has a row for each id, and the matrices have spare columns.
 struct VertexTable {
   SurfacePositions positions;
   Constraints constraints;            // with `freedom` and `curve` per vertex

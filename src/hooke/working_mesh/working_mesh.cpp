@@ -31,7 +31,6 @@ WorkingMesh::WorkingMesh(const Adjacency& adjacency, VertexTable& v, Retraction&
 
 WorkingMesh::WorkingMesh(Workspace& work) : WorkingMesh(*work.adjacency, work.vertices, *work.retraction) {
   halfedges.mark_junctions(work.junction_marks());
-  junction_edges = work.junction_edges();
 }
 
 CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
@@ -43,10 +42,10 @@ CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
 }
 
 bool is_junction_edge(const WorkingMesh& m, int h) {
-  if (m.junction_edges.empty() || !m.halfedges.is_feature_edge(h)) return false;
-  const auto [low, high] =
-      std::minmax(m.vertices.previous_ids[m.halfedges.from(h)], m.vertices.previous_ids[m.halfedges.to(h)]);
-  return low >= 0 && std::ranges::binary_search(m.junction_edges, Edge{low, high});
+  const std::vector<int>& number = m.vertices.constraints.junction;
+  if (number.empty() || !m.halfedges.is_feature_edge(h)) return false;
+  const auto [low, high] = std::minmax(number[m.halfedges.from(h)], number[m.halfedges.to(h)]);
+  return low >= 0 && std::ranges::binary_search(m.vertices.constraints.junction_edges, Edge{low, high});
 }
 
 double relative_length(const WorkingMesh& m, int h) {
@@ -138,5 +137,4 @@ void compact(WorkingMesh& m) {
   m.vertices.keep(kept, wedges, std::move(extra_wedges));
   m.retraction.resize(kept.size());
 }
-
 }  // namespace hooke

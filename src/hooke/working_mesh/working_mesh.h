@@ -28,7 +28,6 @@ struct WorkingMesh {
   Retraction& retraction;
   CurveFinder curve_finder;
   CurveEdges curve_edges;
-  std::vector<Edge> junction_edges;  // by the previous ids of their ends, sorted, smaller one first
   /// Called after vertices have moved, to update their target lengths to their new positions.
   std::function<void()> after_move = nullptr;
 };

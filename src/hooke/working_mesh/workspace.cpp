@@ -43,6 +43,18 @@ std::vector<int> wedges_of_surface(const Adjacency& c, const Adjacency& surface)
   return wedges;
 }
 
+void number_junctions(const Junctions& junctions, const std::vector<int>& joined, Constraints& constraints) {
+  if (junctions.vertices.empty()) return;
+  constraints.junction.assign(joined.size(), -1);
+  for (const int v : junctions.vertices) constraints.junction[v] = joined[v];
+  constraints.junction_numbers = static_cast<int>(joined.size());
+  for (const auto& [a, b] : junctions.edges)
+    constraints.junction_edges.push_back({std::min(joined[a], joined[b]), std::max(joined[a], joined[b])});
+  std::vector<Edge>& edges = constraints.junction_edges;
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+}
+
 /// Appends those of the edges that are not on the boundary.
 void append_inner(const std::vector<Edge>& edges, const Adjacency& c, std::vector<Edge>& inner) {
   for (const auto& [a, b] : edges)
@@ -72,10 +84,10 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   for (int e :
        detect_creases(*start, *memory_order.adjacency, vertices.vertex_length, constraint_options.features))
     creases.push_back(memory_order.adjacency->edges[e]);
-  joined_ = joined_vertices(source, order);
-  junctions_ = find_junctions(*memory_order.adjacency, joined_);
+  const std::vector<int> joined = joined_vertices(source, order);
+  const Junctions junctions = find_junctions(*memory_order.adjacency, joined);
   std::vector<Edge> seams = order.new_edges(constraint_options.seams);
-  append_inner(junctions_.edges, *memory_order.adjacency, seams);
+  append_inner(junctions.edges, *memory_order.adjacency, seams);
   if (!seams.empty()) {
     sharp_ = creases;
     creases.insert(creases.end(), seams.begin(), seams.end());
@@ -93,14 +105,15 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   faceted_ = is_faceted(*start, *input_surface_);
   ConstraintOptions reordered = constraint_options;
   reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  reordered.fixed_vertices.insert(reordered.fixed_vertices.end(), junctions_.vertices.begin(),
-                                  junctions_.vertices.end());
-  reordered.junction_edges = junctions_.edges;
+  reordered.fixed_vertices.insert(reordered.fixed_vertices.end(), junctions.vertices.begin(),
+                                  junctions.vertices.end());
+  reordered.junction_edges = junctions.edges;
   for (int tip : detect_tips(*start, *input_surface_, vertices.vertex_length, constraint_options.features))
     reordered.fixed_vertices.push_back(tip);
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
   vertices.constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
+  number_junctions(junctions, joined, vertices.constraints);
   vertices.origins = identity(adjacency->vertex_count);
 
   const Stage stage(stopwatch, "fit");
@@ -313,7 +326,8 @@ Mat3X Workspace::copy_back(TriMesh& target) const {
   else if (faces_replaced_)
     hooke::replace_faces(target, *adjacency, order.old_ids());
   vertex_points(target) = points;
-  if (vertices_replaced_ && !joined_.empty()) set_joined_vertices(target, joined_in_result());
+  if (vertices_replaced_ && !vertices.constraints.junction.empty())
+    set_joined_vertices(target, joined_in_result());
   if (has_varying_lengths() || vertices_replaced_) set_vertex_values(target, target_length_property, lengths);
   return input;
 }
@@ -324,38 +338,22 @@ MemoryOrder Workspace::memory_order() const {
 }
 
 std::vector<int> Workspace::joined_in_result() const {
-  std::vector<int> origin_of_id(order.old_vertex.size()), joined(origin_of_id.size()),
-      first(joined_.size(), -1);
-  for (std::size_t v = 0; v < origin_of_id.size(); ++v)
-    origin_of_id[order.old_vertex[v]] = vertices.origins[v];
+  std::vector<int> number(order.old_vertex.size()), joined = identity(static_cast<int>(number.size())),
+                                                    first(vertices.constraints.junction_numbers, -1);
+  for (std::size_t v = 0; v < number.size(); ++v)
+    number[order.old_vertex[v]] = vertices.constraints.junction[v];
   for (std::size_t id = 0; id < joined.size(); ++id) {
-    joined[id] = static_cast<int>(id);
-    if (origin_of_id[id] < 0) continue;
-    int& known = first[joined_[origin_of_id[id]]];
+    if (number[id] < 0) continue;
+    int& known = first[number[id]];
     if (known < 0) known = static_cast<int>(id);
     joined[id] = known;
   }
   return joined;
 }
 
-std::vector<Edge> Workspace::junction_edges() const {
-  if (junctions_.edges.empty()) return {};
-  std::vector<int> now(joined_.size(), -1);
-  for (std::size_t v = 0; v < vertices.origins.size(); ++v)
-    if (vertices.origins[v] >= 0) now[vertices.origins[v]] = static_cast<int>(v);
-  std::vector<Edge> edges;
-  for (const auto& [a, b] : junctions_.edges)
-    edges.push_back({std::min(now[a], now[b]), std::max(now[a], now[b])});
-  std::ranges::sort(edges);
-  return edges;
-}
-
 std::vector<char> Workspace::junction_marks() const {
-  if (junctions_.vertices.empty()) return {};
-  std::vector<char> marks(vertices.origins.size(), 0);
-  for (std::size_t v = 0; v < marks.size(); ++v)
-    marks[v] =
-        vertices.origins[v] >= 0 && std::ranges::binary_search(junctions_.vertices, vertices.origins[v]);
+  std::vector<char> marks;
+  for (const int number : vertices.constraints.junction) marks.push_back(number >= 0);
   return marks;
 }
 

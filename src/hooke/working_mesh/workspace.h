@@ -93,9 +93,7 @@ struct Workspace {
 
   ProjectionCounts projection_counts() const;
 
-  /// The junctions of the mesh that the workspace was made from (see junctions.h), whose vertices stand
-  /// still: their edges, sorted, smaller end first, and a mark for each vertex, all by the present vertices.
-  std::vector<Edge> junction_edges() const;
+  /// A mark for each vertex at a junction; empty without any.
   std::vector<char> junction_marks() const;
 
   /// Number of smooth charts: the connected components of the mesh cut open along its creases.
@@ -131,8 +129,6 @@ struct Workspace {
   bool refitted_ = false;                           // false: both fields are the same
   bool edge_by_edge_ = false;                       // see has_edge_lengths()
   bool faceted_ = false;                            // are the facets of the input meant?
-  std::vector<int> joined_;                         // of the input, as indices of `start`
-  Junctions junctions_;                             // likewise
   std::vector<int> input_hints_;                    // per wedge: hint on the field of the input
   std::unique_ptr<Retraction> to_input_;            // to the field of the input
   ProjectionCounts past_counts_;                    // of retractions that no longer exist
