@@ -12,6 +12,7 @@
 #include "hooke/constraints/seams.h"
 #include "hooke/io/carried_data.h"
 #include "hooke/mesh/chart_places.h"
+#include "hooke/mesh/hard_edges.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
@@ -38,18 +39,26 @@ void drop_unkept(const SeamKinds& keep, LoadedMesh& loaded, RunRecord& record) {
     record.warnings.push_back({"attributes_not_kept",
                                fmt::format("{}: face data not kept: {}: new faces have none with this --keep",
                                            record.input.path, fmt::join(names, ", "))});
-  if (!keep.texture) {
-    if (!loaded.corner_data.empty()) append(loaded.content.anew, std::exchange(loaded.content.no_obj, {}));
-    loaded.corner_data = {};
+  CornerData& corners = loaded.corner_data;
+  if (!keep.texture && !keep.hard_edges) {
+    if (!corners.empty()) append(loaded.content.anew, std::exchange(loaded.content.no_obj, {}));
+    corners = {};
+  } else if (!keep.texture && !corners.texture.empty()) {
+    record.warnings.push_back(
+        {"attributes_not_kept",
+         fmt::format("{}: texture coordinates not kept: new faces have none with this --keep",
+                     record.input.path)});
+    corners.texture = {};
   }
   if (!keep.materials) loaded.material_libraries.clear();
 }
 
 /// The words of --keep without those of the most frequent kind of seams.
 std::string without_most(const Seams& seams, const SeamKinds& keep) {
-  const std::size_t most = std::max({seams.texture, seams.materials, seams.groups});
+  const std::size_t most = std::max({seams.texture, seams.hard_edges, seams.materials, seams.groups});
   std::vector<const char*> words;
   if (keep.texture && seams.texture < most) words.push_back("seams");
+  if (keep.hard_edges && seams.hard_edges < most) words.push_back("hard-edges");
   if (keep.materials && seams.materials < most) words.push_back("materials");
   if (keep.groups && seams.groups < most) words.push_back("groups");
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ","));
@@ -68,10 +77,11 @@ void warn_of_many_seams(const Seams& seams, const Settings& s, const LoadedMesh&
   if (flat.size() <= limit) return;
   record.warnings.push_back(
       {"many_seams",
-       fmt::format("{}: {} of {} edges are seams, which stay where they are, so that little can change "
-                   "(texture: {}, materials and labels: {}, groups: {}); --keep {} gives them up",
-                   record.input.path, seams.edges.size(), m.adjacency->edges.size(), seams.texture,
-                   seams.materials, seams.groups, without_most(seams, s.keep))});
+       fmt::format(
+           "{}: {} of {} edges are seams, which stay where they are, so that little can change "
+           "(texture: {}, hard edges: {}, materials and labels: {}, groups: {}); --keep {} gives them up",
+           record.input.path, seams.edges.size(), m.adjacency->edges.size(), seams.texture, seams.hard_edges,
+           seams.materials, seams.groups, without_most(seams, s.keep))});
 }
 
 /// The face of the input where each vertex of the result lies, in memory order; -1 for none.
@@ -127,6 +137,8 @@ void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord
 }  // namespace
 
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
+  if (keeps_faces(s) || s.keep.hard_edges)
+    s.remesh.constraints.hard_edges = find_hard_edges(loaded.memory_order, loaded.corner_data.normals).ends;
   if (keeps_faces(s)) return;
   drop_unkept(s.keep, loaded, record);
   if (s.format != MeshFormat::obj) loaded.corner_data = {};

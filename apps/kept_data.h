@@ -11,7 +11,8 @@ namespace hooke::app {
 
 /// Makes the seams of the input that are to be kept, of data that the output can hold, feature edges
 /// (RemeshOptions::constraints), and warns if they are so many that hardly anything can change. Drops the
-/// data that are not to be kept, of which it warns. Does nothing where faces stay.
+/// data that are not to be kept, of which it warns. Where faces stay it only tells of hard edges
+/// (ConstraintOptions::hard_edges).
 void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
 
 /// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal

@@ -229,15 +229,16 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option(
          "--keep", raw.keep,
          "What is kept along its borders with flip and adapt, one or more, with commas: seams = texture "
-         "coordinates and normals of an OBJ, materials = its materials and the face labels of other formats "
+         "coordinates of an OBJ, hard-edges = edges at which its normals differ (normals go along with "
+         "either), materials = its materials and the face labels of other formats "
          "(groups of MSH, integer properties of PLY), groups = groups, objects and smoothing groups of OBJ, "
          "solids of STL. Borders become creases along which vertices slide; none: such data are dropped. In "
          "all modes non-manifold, alone with the default others: edges with three faces and more, as where "
          "bodies share walls, and vertices where sheets touch, which stay exactly where they are; adapt "
          "splits "
          "such edges where they are too long")
-      ->type_name("seams,materials,groups,non-manifold|none")
-      ->default_str("seams,materials,groups");
+      ->type_name("seams,hard-edges,materials,groups,non-manifold|none")
+      ->default_str("seams,hard-edges,materials,groups");
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
 }
 

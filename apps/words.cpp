@@ -103,13 +103,15 @@ void parse_keep(const std::string& text, SeamKinds& keep, bool& junctions) {
     junctions = true;
     return;
   }
-  keep = {false, false, false};
+  keep = {false, false, false, false};
   if (text == "none") return;
   for (size_t begin = 0; begin <= text.size();) {
     const size_t end = std::min(text.find(',', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
     if (word == "seams")
       keep.texture = true;
+    else if (word == "hard-edges")
+      keep.hard_edges = true;
     else if (word == "materials")
       keep.materials = true;
     else if (word == "groups")
@@ -117,9 +119,10 @@ void parse_keep(const std::string& text, SeamKinds& keep, bool& junctions) {
     else if (word == "non-manifold")
       junctions = true;
     else
-      throw Error(fmt::format(
-          "--keep {}; expected seams, materials, groups, non-manifold with commas between them, or none",
-          in_quotes(text)));
+      throw Error(
+          fmt::format("--keep {}; expected seams, hard-edges, materials, groups, non-manifold with commas "
+                      "between them, or none",
+                      in_quotes(text)));
     begin = end + 1;
   }
 }

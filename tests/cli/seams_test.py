@@ -6,7 +6,7 @@ import math
 import random
 import unittest
 
-from command import CommandTest
+from command import CommandTest, irregular_torus
 
 TURNS = 2 * math.pi
 
@@ -86,6 +86,131 @@ def borders(mesh):
     return jumps, pairs
 
 
+def edges_of(faces):
+    """The faces at each edge, a pair of vertices in ascending order."""
+    edges = collections.defaultdict(list)
+    for f, face in enumerate(faces):
+        for a, b in zip(face, face[1:] + face[:1]):
+            edges[min(a, b), max(a, b)].append(f)
+    return edges
+
+
+def unit_normal(vertices, face):
+    p, q, r = (vertices[v] for v in face)
+    u, v = [b - a for a, b in zip(p, q)], [b - a for a, b in zip(p, r)]
+    n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+    return [x / math.hypot(*n) for x in n]
+
+
+def degrees(a, b):
+    return math.degrees(math.atan2(math.dist(a, b), math.dist(a, [-x for x in b])) * 2)
+
+
+def shaded(vertices, faces, is_hard):
+    """An OBJ with a normal for each fan of faces around a vertex between edges that are hard, as modelling programs write
+    it."""
+    fan = {(f, v): (f, v) for f, face in enumerate(faces) for v in face}
+
+    def find(corner):
+        while fan[corner] != corner:
+            corner = fan[corner]
+        return corner
+
+    for edge, (f, g) in edges_of(faces).items():
+        if not is_hard(edge, f, g):
+            for v in edge:
+                fan[find((f, v))] = find((g, v))
+    sums = collections.defaultdict(lambda: [0, 0, 0])
+    for f, v in fan:
+        sums[find((f, v))] = [a + b for a, b in zip(sums[find((f, v))], unit_normal(vertices, faces[f][:3]))]
+    numbers = {corner: i + 1 for i, corner in enumerate(sums)}
+    lines = ["v %r %r %r" % tuple(v) for v in vertices]
+    lines += ["vn %.4f %.4f %.4f" % tuple(x / math.hypot(*n) for x in n) for n in sums.values()]
+    lines += ["f " + " ".join("%d//%d" % (v + 1, numbers[find((f, v))]) for v in face) for f, face in enumerate(faces)]
+    return "\n".join(lines) + "\n"
+
+
+def hard_length(text):
+    """Length of the edges at which normals are more than a degree apart, and of all edges."""
+    words = [line.split() for line in text.splitlines()]
+    vertices, normals = ([tuple(map(float, w[1:])) for w in words if w[0] == key] for key in ("v", "vn"))
+    faces = [{int(c.split("/")[0]) - 1: normals[int(c.split("/")[2]) - 1] for c in w[1:]} for w in words if w[0] == "f"]
+    hard = every = 0
+    for (a, b), (f, g) in edges_of([list(face) for face in faces]).items():
+        length = math.dist(vertices[a], vertices[b])
+        every += length
+        hard += length * any(degrees(faces[f][v], faces[g][v]) > 1 for v in (a, b))
+    return hard, every
+
+
+class HardEdges(CommandTest):
+    AROUND, ACROSS = 36, 16
+
+    def ring(self, edge, f, g):
+        """Edges of two rings around the tube of the torus."""
+        return all(v // self.ACROSS == edge[0] // self.ACROSS and v // self.ACROSS in (0, self.AROUND // 2) for v in edge)
+
+    def optimized(self, *options):
+        report = self.report("in.obj", "-o", "out.obj", "-q", *options)
+        return report, *hard_length((self.folder / "out.obj").read_text())
+
+    def test_stay_where_they_are_and_others_stay_smooth(self):
+        self.write("in.obj", shaded(*irregular_torus(self.AROUND, self.ACROSS), self.ring))
+        before, _ = hard_length((self.folder / "in.obj").read_text())
+        for mode in ("flip", "adapt"):
+            report, after, _ = self.optimized("--connectivity", mode)
+            self.assertEqual(report["features"]["seam_edges"], 2 * self.ACROSS)
+            self.assertAlmostEqual(after / before, 1, delta=.02, msg=mode)
+            self.assertGreater(report["after"]["min_angle"]["min"], 25)
+            for words in ("seams", "seams,materials,groups"):
+                report, after, _ = self.optimized("--connectivity", mode, "--keep", words)
+                self.assertLess(after / before, .1, "only where they are creases")
+
+    def test_of_a_mesh_where_each_face_has_a_normal_say_nothing(self):
+        vertices, faces = irregular_torus(self.AROUND, self.ACROSS)
+        quads = [[i * self.ACROSS + j, (i + 1) % self.AROUND * self.ACROSS + j, (i + 1) % self.AROUND * self.ACROSS + (j + 1) % self.ACROSS,
+                  i * self.ACROSS + (j + 1) % self.ACROSS] for i in range(self.AROUND) for j in range(self.ACROSS)]
+        for polygons in (faces, quads):
+            self.write("in.obj", shaded(vertices, polygons, lambda *_: True))
+            report, hard, every = self.optimized("--connectivity", "adapt")
+            self.assertIsNone(report["features"])
+            self.assertGreater(hard / every, .9, "and it looks as before")
+            self.write("in.obj", shaded(vertices, polygons, lambda *_: False))
+            report, hard, _ = self.optimized("--connectivity", "adapt")
+            self.assertIsNone(report["features"])
+            self.assertEqual(hard, 0)
+
+    def test_that_are_sharp_are_never_noise(self):
+        vertices, faces = irregular_torus(20, 9)
+        draw = random.Random(5)
+        vertices = [tuple(x * (1 + .25 * draw.random()) for x in v) for v in vertices]
+        normals = [unit_normal(vertices, face) for face in faces]
+        is_sharp = lambda edge, f, g: degrees(normals[f], normals[g]) > 40
+        sharp = sum(is_sharp(e, *both) for e, both in edges_of(faces).items())
+        self.write("in.obj", shaded(vertices, faces, lambda *_: False))
+        self.assertEqual(self.optimized()[0]["warnings"][-1]["code"], "sharp_edges_dropped")
+        self.write("in.obj", shaded(vertices, faces, is_sharp))
+        for mode in ("fixed", "flip", "adapt"):
+            report, *_ = self.optimized("--connectivity", mode)
+            self.assertEqual(report["features"]["sharp_edges"], sharp)
+            self.assertLess(report["features"]["sharp_edges_dropped"], .03 * sharp, "those that end where nothing else is hard")
+            self.run_command("in.obj", "-o", "out.ply", "-q", "--connectivity", mode, "--report", "report.json")
+            self.assertLess(json.loads((self.folder / "report.json").read_text())["features"]["sharp_edges_dropped"], .03 * sharp)
+
+    def test_are_none_along_a_seam_of_the_texture(self):
+        self.write("in.obj", shaded(*irregular_torus(self.AROUND, self.ACROSS), lambda *_: False))
+        text = (self.folder / "in.obj").read_text()
+        faces = [line for line in text.splitlines() if line[0] == "f"]
+        columns = "".join("vt %r %r\n" % (x, y) for x in (0, 1) for y in (0, 1))
+        is_left = lambda line: all(int(c.split("/")[0]) <= self.ACROSS * 18 for c in line.split()[1:])
+        textured = [line.replace("//", "/1/" if is_left(line) else "/4/") for line in faces]
+        self.write("in.obj", text[:text.index("f ")] + columns + "\n".join(textured))
+        for mode in ("flip", "adapt"):
+            report, hard, _ = self.optimized("--connectivity", mode)
+            self.assertGreaterEqual(report["features"]["seam_edges"], 2 * self.ACROSS)
+            self.assertEqual(hard, 0)
+
+
 class Seams(CommandTest):
     def test_an_artists_file_keeps_all_it_has(self):
         self.write("can.obj", can())
@@ -95,7 +220,7 @@ class Seams(CommandTest):
                 report = self.report("can.obj", "-o", "out.obj", "-q", "--connectivity", *options)
                 self.assertEqual([w["code"] for w in report["warnings"] if "polygons" not in w["code"] and "facets" not in w["code"]], [])
                 self.assertEqual(report["features"]["seam_edges"], 20 + 20 + 10)
-                self.assertEqual(report["parameters"]["keep"], "seams,materials,groups")
+                self.assertEqual(report["parameters"]["keep"], "seams,hard-edges,materials,groups")
                 text = (self.folder / "out.obj").read_text()
                 self.assertTrue(text.startswith("mtllib can.mtl other.mtl\n"))
                 self.assertEqual(text.count("usemtl"), 2, "faces of one label stand together")
@@ -121,13 +246,13 @@ class Seams(CommandTest):
     def test_keep_says_what(self):
         self.write("can.obj", can())
         for words, has, count in (("none", [], 0), ("seams", ["vt"], 50), ("materials", ["usemtl", "mtllib"], 40),
-                                  ("groups,seams", ["vt", "g", "o", "s"], 50)):
+                                  ("groups,seams", ["vt", "g", "o", "s"], 50), ("hard-edges", [], 0)):
             out, err = self.run_command("can.obj", "-o", "out.obj", "-q", "--connectivity", "adapt", "--keep", words, "--report", "-")
             self.assertEqual(((json.loads(out)["features"] or {}).get("seam_edges", 0)), count)
             first = {line.split()[0] for line in (self.folder / "out.obj").read_text().splitlines()}
             self.assertEqual(first, {"v", "f", *has})
             self.assertIn("not kept", err)
-        self.refused(2, "can.obj", "-o", "o.obj", "--connectivity", "flip", "--keep", "seams,x", says="expected seams, materials, groups")
+        self.refused(2, "can.obj", "-o", "o.obj", "--connectivity", "flip", "--keep", "seams,x", says="expected seams, hard-edges, materials, groups")
         self.refused(2, "can.obj", "-o", "o.obj", "--keep", "none", says="--keep")
 
     def test_seams_of_what_the_output_cannot_hold_are_none(self):
@@ -150,7 +275,7 @@ class Seams(CommandTest):
         self.write("each.obj", "\n".join(lines))
         report = self.report("each.obj", "-o", "out.obj", "-q", "--connectivity", "adapt")
         warning = next(w["message"] for w in report["warnings"] if w["code"] == "many_seams")
-        self.assertIn("--keep seams,materials gives them up", warning)
+        self.assertIn("--keep seams,hard-edges,materials gives them up", warning)
         self.assertEqual(self.report("each.obj", "-o", "out.obj", "-q", "--connectivity", "adapt", "--keep", "seams,materials")["features"], None)
 
     def test_labels_of_ply_faces_go_along(self):

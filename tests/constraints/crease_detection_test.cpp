@@ -10,11 +10,13 @@
 
 namespace hooke::crease_detection_test {
 
-std::vector<Edge> features_of(const test::Triangles& t, const CreaseOptions& options = {}) {
+std::vector<Edge> features_of(const test::Triangles& t, const CreaseOptions& options = {},
+                              const std::vector<Edge>& hard_edges = {}) {
   const Adjacency c = test::connect(t);
   const std::vector<double> length(static_cast<size_t>(c.vertex_count), 1);
   std::vector<Edge> edges;
-  for (int e : detect_creases(t.points, c, length, options)) edges.push_back(c.edges[static_cast<size_t>(e)]);
+  for (int e : detect_creases(t.points, c, length, options, hard_edges))
+    edges.push_back(c.edges[static_cast<size_t>(e)]);
   return edges;
 }
 
@@ -42,6 +44,16 @@ TEST(Features, AnOpenBoxHasTheEdgesBetweenItsSidesToo) {
     });
     EXPECT_EQ(features_of(box).size(), static_cast<size_t>(4 * 10 + 4 * depth));
   }
+}
+
+TEST(Features, HardEdgesAreNoNoiseWhereTheyBend) {
+  const test::Triangles round = test::sphere(1);  // its edges bend by 20 degrees and more, all alike
+  const Adjacency c = test::connect(round);
+  const std::vector<Edge> hard = {c.edges[0], c.edges[7]};
+  EXPECT_TRUE(features_of(round, {.angle = 30}).empty());
+  EXPECT_EQ(features_of(round, {.angle = 30}, hard), hard);
+  EXPECT_TRUE(features_of(round, {.angle = 60}, hard).empty()) << "they bend less than continues a crease";
+  EXPECT_TRUE(features_of(round, {.angle = 180}, hard).empty());
 }
 
 TEST(Features, OffMeansNone) {

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "hooke/mesh/corner_differences.h"
+#include "hooke/mesh/hard_edges.h"
 #include "support/meshes.h"
 
 namespace hooke::seams_test {
@@ -71,6 +74,66 @@ TEST(Seams, FacesWithoutTextureHaveASeamToThoseWithOne) {
   EXPECT_DOUBLE_EQ(length_of(seams_of(data, {})), 1);
 }
 
+/// Normals of the square: to the right of `border` turned by `degrees` about the y axis.
+CornerValues normals_of(double border, double degrees) {
+  CornerValues normals = texture_of(square(), border, 0).texture;
+  const double angle = degrees * std::numbers::pi / 180;
+  const Eigen::Index n = square().points.cols();
+  normals.width = 3;
+  normals.values.leftCols(n).colwise() = Vec3(0, 0, 1);
+  normals.values.rightCols(n).colwise() = Vec3(std::sin(angle), 0, std::cos(angle));
+  return normals;
+}
+
+TEST(Seams, AreWhereNormalsDiffer) {
+  const Seams seams = seams_of({{}, normals_of(.5, 3)}, {});
+  EXPECT_EQ(seams.hard_edges, 8u);
+  EXPECT_EQ(seams.edges.size(), 8u);
+  EXPECT_DOUBLE_EQ(length_of(seams), 1);
+  EXPECT_TRUE(seams_of({{}, normals_of(.5, .7)}, {}).edges.empty()) << "by more than digits make";
+  EXPECT_TRUE(seams_of({{}, normals_of(2, 90)}, {}).edges.empty());
+  EXPECT_TRUE(seams_of({{}, normals_of(.5, 3)}, {}, {.hard_edges = false}).edges.empty());
+}
+
+TEST(Seams, AHardEdgeMayEndInTheSurface) {
+  CornerValues normals = normals_of(.5, 20);
+  const Eigen::Index n = square().points.cols();
+  const auto half_way = [&](int v) { return square().points(1, v) >= .5; };
+  for (Eigen::Index v = 0; v < n; ++v)
+    if (half_way(static_cast<int>(v))) normals.values.col(n + v) = normals.values.col(v);
+  EXPECT_DOUBLE_EQ(length_of(seams_of({{}, normals}, {})), .5);
+}
+
+TEST(Seams, FacesWithoutNormalsHaveNoHardEdges) {
+  CornerValues normals = normals_of(.5, 20);
+  for (Triangle& corners : normals.corners)
+    if (corners[0] >= square().points.cols()) corners = {-1, -1, -1};
+  EXPECT_TRUE(seams_of({{}, normals}, {}).edges.empty());
+}
+
+/// Each pair of triangles, or each triangle, has a normal of its own; the surface is flat.
+CornerValues normals_of_facets(std::size_t faces_each) {
+  CornerValues normals;
+  const std::size_t faces = square().faces.size();
+  normals.values.resize(3, std::ssize(square().faces));
+  for (std::size_t f = 0; f < faces; ++f) {
+    const int id = static_cast<int>(f / faces_each);
+    normals.corners.push_back({id, id, id});
+    normals.values.col(id) = Vec3(std::sin(id), std::cos(id), 3).normalized();
+  }
+  return normals;
+}
+
+TEST(Seams, NormalsOfFacetsSayNothing) {
+  for (const std::size_t faces_each : {1, 2}) {
+    EXPECT_TRUE(seams_of({{}, normals_of_facets(faces_each)}, {}).edges.empty());
+    EXPECT_TRUE(find_hard_edges(find_memory_order(test::to_mesh(square())), normals_of_facets(faces_each))
+                    .is_flat_shaded);
+  }
+  EXPECT_FALSE(
+      find_hard_edges(find_memory_order(test::to_mesh(square())), normals_of(.5, 90)).is_flat_shaded);
+}
+
 TEST(Seams, AreOfTheKindsAskedFor) {
   const CornerData corners = texture_of(square(), .5, 3);
   for (const LabelKind kind : {LabelKind::material, LabelKind::group, LabelKind::other}) {
@@ -79,8 +142,8 @@ TEST(Seams, AreOfTheKindsAskedFor) {
     EXPECT_EQ(all.materials, kind == LabelKind::material ? 8u : 0u);
     EXPECT_EQ(all.groups, kind == LabelKind::group ? 8u : 0u);
     EXPECT_DOUBLE_EQ(length_of(all), kind == LabelKind::other ? 1 : 2);
-    EXPECT_DOUBLE_EQ(length_of(seams_of(corners, faces, {true, false, false})), 1);
-    EXPECT_TRUE(seams_of(corners, faces, {false, false, false}).edges.empty());
+    EXPECT_DOUBLE_EQ(length_of(seams_of(corners, faces, {true, false, false, false})), 1);
+    EXPECT_TRUE(seams_of(corners, faces, {false, false, false, false}).edges.empty());
   }
 }
 

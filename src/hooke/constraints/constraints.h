@@ -27,6 +27,9 @@ struct ConstraintOptions {
   /// Boundary edges on no curve, as nothing is to slide along or split them: pairs of vertex ids, sorted,
   /// smaller one first. Their ends must be among `fixed_vertices`.
   std::vector<Edge> junction_edges = {};
+  /// Edges at which the input says that its surface is sharp: pairs of vertex ids. Where it bends enough to
+  /// continue a crease (CreaseOptions::hysteresis) they are creases, and never noise.
+  std::vector<Edge> hard_edges = {};
   double corner_angle = 35;  // degrees; a curve that turns by more in space has a fixed corner
   // Maximum ratio of the longest to the shortest edge of a crease whose vertices stand still at bends; below
   // 1: none.

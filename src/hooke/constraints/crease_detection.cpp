@@ -44,14 +44,12 @@ class FeatureSearch {
         kept_(c.edges.size(), 0),
         cos_turn_(std::cos(o.max_turn * std::numbers::pi / 180)) {}
 
-  std::vector<int> run() {
-    if (!o_.drops_noise) {
-      for (size_t e = 0; e < kept_.size(); ++e) kept_[e] = angle_[e] > o_.angle;
-    } else if (grow() > 0) {
-      drop_loose_chains();
-      drop_noise();
-    }
-    add_resolved();
+  /// The hard edges that bend enough to be creases, and all that the search finds unless `hard_only`.
+  std::vector<int> run(const std::vector<Edge>& hard_edges, bool hard_only) {
+    if (!hard_only) search();
+    for (const auto& [a, b] : hard_edges)
+      for (const int e : c_.vertex_edges[a])
+        if (c_.other_end(e, a) == b && angle_[e] > o_.hysteresis * o_.angle) kept_[e] = 1;
     std::vector<int> edges;
     for (size_t e = 0; e < kept_.size(); ++e)
       if (kept_[e]) edges.push_back(static_cast<int>(e));
@@ -59,6 +57,16 @@ class FeatureSearch {
   }
 
  private:
+  void search() {
+    if (!o_.drops_noise) {
+      for (size_t e = 0; e < kept_.size(); ++e) kept_[e] = angle_[e] > o_.angle;
+    } else if (grow() > 0) {
+      drop_loose_chains();
+      drop_noise();
+    }
+    add_resolved();
+  }
+
   /// Bend ratio of the edge, see CreaseOptions. Boundary edges count as flat or, with `goes_on`, where the
   /// surface evidently continues, are left out.
   double bend_ratio(int edge, bool goes_on = false) const {
@@ -505,10 +513,12 @@ std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
 }
 
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
-                                const std::vector<double>& vertex_length, const CreaseOptions& options) {
-  if (options.angle >= 180 || (options.drops_noise && is_staircase(points, adjacency, vertex_length)))
-    return {};
-  return FeatureSearch(points, adjacency, vertex_length, options).run();
+                                const std::vector<double>& vertex_length, const CreaseOptions& options,
+                                const std::vector<Edge>& hard_edges) {
+  if (options.angle >= 180) return {};
+  const bool is_noise = options.drops_noise && is_staircase(points, adjacency, vertex_length);
+  if (is_noise && hard_edges.empty()) return {};
+  return FeatureSearch(points, adjacency, vertex_length, options).run(hard_edges, is_noise);
 }
 
 }  // namespace hooke

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hooke/mesh/corner_differences.h"
+#include "hooke/mesh/hard_edges.h"
 
 namespace hooke {
 Seams find_seams(const MemoryOrder& memory_order, const CornerData& corners, const FaceData& faces,
@@ -26,16 +27,20 @@ Seams find_seams(const MemoryOrder& memory_order, const CornerData& corners, con
   };
   Seams seams;
   for (const int v : poles) seams.poles.push_back(memory_order.order.old_vertex[v]);
-  if (corners.texture.empty() && faces.empty()) return seams;
+  if (corners.empty() && faces.empty()) return seams;
+  const std::vector<int> hard_edges =
+      kinds.hard_edges ? find_hard_edges(memory_order, corners.normals).edges : std::vector<int>();
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
     if (c.is_boundary_edge(static_cast<int>(e))) continue;
     const bool by_texture = texture_differs(static_cast<int>(e)),
+               by_normals = std::ranges::binary_search(hard_edges, static_cast<int>(e)),
                by_material = kinds.materials && labels_differ(e, LabelKind::material),
                by_group = kinds.groups && labels_differ(e, LabelKind::group);
     seams.texture += by_texture;
+    seams.hard_edges += by_normals;
     seams.materials += by_material;
     seams.groups += by_group;
-    if (!by_texture && !by_material && !by_group) continue;
+    if (!by_texture && !by_normals && !by_material && !by_group) continue;
     const auto& [a, b] = c.edges[e];
     seams.edges.push_back(static_cast<int>(e));
     seams.ends.push_back({memory_order.order.old_vertex[a], memory_order.order.old_vertex[b]});

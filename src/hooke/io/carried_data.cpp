@@ -8,6 +8,7 @@
 
 #include "hooke/io/renewed_normals.h"
 #include "hooke/mesh/corner_differences.h"
+#include "hooke/mesh/hard_edges.h"
 
 namespace hooke {
 namespace {
@@ -156,41 +157,20 @@ bool are_parallel(const Vec3& a, const Vec3& b, double degrees) {
   return a.dot(b) >= std::cos(degrees * std::numbers::pi / 180) * a.norm() * b.norm();
 }
 
-/// Whether the normals of nearly all edges of the input differ on both sides.
-bool is_hard_everywhere(const CornerValues& normals, const MemoryOrder& order) {
-  constexpr double nearly_all = .9, half_a_degree = .5;
-  const Adjacency& c = *order.adjacency;
-  const CornerDifferences differences(order, normals);
-  std::size_t inner = 0, hard = 0;
-  const auto normal_at = [&](int face, int vertex) -> Vec3 {
-    const int value = differences.value_in(face, vertex);
-    return value < 0 ? Vec3(Vec3::Zero()) : Vec3(normals.values.col(value));
-  };
-  for (std::size_t e = 0; e < c.edges.size(); ++e) {
-    const auto& [left, right] = c.edge_faces[e];
-    if (right < 0) continue;
-    ++inner;
-    hard += std::ranges::any_of(c.edges[e], [&, l = left, r = right](int v) {
-      return !are_parallel(normal_at(l, v), normal_at(r, v), half_a_degree);
-    });
-  }
-  return static_cast<double>(hard) >= nearly_all * static_cast<double>(inner);
-}
-
 /// The ids of the vertices of the result's faces, by face id.
 std::vector<Triangle> faces_by_id(const Remeshed& meshes) {
   return meshes.result_order.scatter(meshes.result.adjacency.faces);
 }
 
 CornerValues carry_normals(const CornerValues& normals, const ChartPlaces& places, const Remeshed& meshes) {
-  constexpr double smooth = 5;  // degrees
+  constexpr double smooth = 1;  // degrees
   CornerValues result = interpolate(normals, places, meshes,
                                     [](const Vec3& a, const Vec3& b) { return are_parallel(a, b, smooth); });
   const std::vector<Triangle> faces = faces_by_id(meshes);
   const IntLists polygons = as_polygons(faces);
   const Mat3X points = meshes.result_order.scatter(meshes.result.points),
               nowhere = Mat3X::Constant(3, points.cols(), std::numeric_limits<double>::quiet_NaN());
-  if (is_hard_everywhere(normals, meshes.input_order)) {
+  if (find_hard_edges(meshes.input_order, normals).is_flat_shaded) {
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (result.corners[f][0] >= 0) result.corners[f].fill(static_cast<int>(f));
     result.values = renew_polygon_normals({polygons, nowhere, points}).values;

@@ -24,7 +24,7 @@ FaceData carry_face_data(const FaceData& data, const ChartPlaces& places, const 
 /// faces of the input, on the same side of each feature edge, and continuous across all other edges; at a
 /// vertex of the input they are its own, and at a pole (see CornerDifferences) each face has those of the
 /// face of the input there. Normals are computed from the new faces, with hard edges where those of the input
-/// are feature edges. If nearly all edges of the input are hard, all are.
+/// are feature edges; flat if those of the input are, see find_hard_edges().
 CornerData carry_corner_data(const CornerData& data, const ChartPlaces& places, const Remeshed& meshes);
 
 /// The normals of moved triangles, see renew_corner_normals().

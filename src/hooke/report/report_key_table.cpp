@@ -374,7 +374,7 @@ constexpr Row course[] = {
     {"features.crease_edges", integer, none, neither, "edges on them"},
     {"features.crease_edges_kept", integer, none, neither, "of these, creases of the result"},
     {"features.seam_edges", integer, none, neither,
-     "edges of the input across which texture coordinates, materials, groups or labels change"},
+     "edges of the input across which texture coordinates, normals, materials, groups or labels change"},
     {"features.sharp_edges", integer, none, neither, "edges of the input sharper than the feature angle"},
     {"features.sharp_edges_dropped", integer, none, neither, "of these, taken for noise"},
     {"features.corners", integer, none, neither, "vertices where creases end or meet, which stay"},

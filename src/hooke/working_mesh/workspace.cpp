@@ -81,8 +81,8 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   for (double& l : vertices.vertex_length) l /= normalisation.unit;
   start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
-  for (int e :
-       detect_creases(*start, *memory_order.adjacency, vertices.vertex_length, constraint_options.features))
+  for (int e : detect_creases(*start, *memory_order.adjacency, vertices.vertex_length,
+                              constraint_options.features, order.new_edges(constraint_options.hard_edges)))
     creases.push_back(memory_order.adjacency->edges[e]);
   const std::vector<int> joined = joined_vertices(source, order);
   const Junctions junctions = find_junctions(*memory_order.adjacency, joined);
