@@ -17,6 +17,7 @@
 #include "hooke/report/report.h"
 #include "judging.h"
 #include "kept_data.h"
+#include "mesh_memory.h"
 #include "messages.h"
 #include "options.h"
 #include "output_files.h"
@@ -83,6 +84,7 @@ int run(Settings s) {
   const std::optional<ReportFigures> base = read_base(s);
   RunProgress progress(s);
   progress.enter("read");
+  require_memory_for_file(s);
   Stopwatch stopwatch;
   LoadedMesh loaded = timed(&stopwatch, "read", [&] {
     return read_mesh(s.input, &stopwatch, {s.input_format, s.repair});
@@ -107,6 +109,7 @@ int run(Settings s) {
   if (s.reproject_uv && (s.format != MeshFormat::obj || !obstacle.empty()))
     throw Error("--reproject-uv is of OBJ files that are preserved; " +
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
+  require_memory(s, loaded.mesh.n_vertices(), record);
   if (!s.check) timed(&stopwatch, "seams", [&] { keep_seams(s, loaded, record); });
   Original original;
   progress.enter("measure");

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "hooke/core/error.h"
+#include "hooke/io/files.h"
 #include "hooke/io/mesh_format.h"
 #include "hooke/io/read_mesh.h"
 #include "memory_limit.h"
@@ -24,6 +25,23 @@ std::size_t whole_bytes(double bytes) {
 
 double equilateral_faces(double area, double edge) {
   return 4 * area / (std::numbers::sqrt3 * edge * edge);
+}
+
+// Of the peaks measured with 10000 to 400000 vertices, in each mode. Reading takes 500 a vertex.
+constexpr double program_bytes = 12 * megabyte, bytes_per_new_vertex = 1200;
+
+double bytes_per_vertex(const Settings& s) {
+  return s.check ? 900 : 2200;
+}
+
+std::string without_a_mesh() {
+  return fmt::format("at least that; the program takes {:.0f} MB without a mesh", program_bytes / megabyte);
+}
+
+/// Bytes of a file for each vertex and its two faces, at most: text, with normals and other values.
+double max_file_bytes_per_vertex(const Settings& s) {
+  const MeshFormat format = s.input_format ? *s.input_format : input_format_of(s.input);
+  return format == MeshFormat::stl ? 600 : 250;
 }
 
 /// Bytes of a file for each vertex and its two faces, at least: binary for formats that can be.
@@ -48,24 +66,38 @@ std::size_t memory_allowed(const Settings& s) {
   return s.memory_limit > 0 ? whole_bytes(s.memory_limit * megabyte) : memory_limit();
 }
 
-/// The estimate is of the peaks measured with 10000 to 400000 vertices, in each mode.
+void require_memory_for_file(const Settings& s) {
+  if (s.memory_limit <= 0 || is_standard_input(s.input)) return;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(s.input, error);
+  if (error) return;  // a pipe, or a file that reading it will complain about
+  const double bytes = static_cast<double>(size), allowed = s.memory_limit * megabyte;
+  const double needed = program_bytes + bytes + bytes_per_vertex(s) * bytes / max_file_bytes_per_vertex(s);
+  if (needed <= allowed) return;
+  const double fits = (allowed - program_bytes) / (needed - program_bytes) * bytes;
+  throw LimitError(fmt::format(
+      "{}: a file of {:.3g} MB needs at least about {:.0f} MB, --memory-limit allows {:g}; expected {}",
+      name_of_input(s.input), bytes / megabyte, std::ceil(needed / megabyte), s.memory_limit,
+      fits > 0 ? fmt::format("a file of at most about {:.3g} MB, or a higher limit", fits / megabyte)
+               : without_a_mesh()));
+}
+
 void require_memory(const Settings& s, std::size_t vertices, const RunRecord& record) {
-  constexpr double program = 12 * megabyte, per_vertex = 1000, per_vertex_of_result = 1200;
   if (s.memory_limit <= 0) return;
   const double count = static_cast<double>(vertices);
-  double result = count;
-  if (!s.paper && s.remesh.connectivity == ConnectivityMode::adapt)
-    result = std::max(count, equilateral_faces(record.before.extent.area, record.target.mean) / 2);
-  const double needed = program + per_vertex * count + per_vertex_of_result * result;
+  double added = 0;
+  if (!s.check && !s.paper && s.remesh.connectivity == ConnectivityMode::adapt && record.target.mean > 0)
+    added = std::max(0., equilateral_faces(record.before.extent.area, record.target.mean) / 2 - count);
+  const double needed = program_bytes + bytes_per_vertex(s) * count + bytes_per_new_vertex * added;
   if (needed <= s.memory_limit * megabyte) return;
-  const double fits = std::floor((s.memory_limit * megabyte - program) / (needed - program) * count);
-  throw LimitError(fmt::format(
-      "{}: needs about {:.0f} MB for {} vertices{}, --memory-limit allows {:g}; expected {}",
-      name_of_input(s.input), std::ceil(needed / megabyte), vertices,
-      result > count ? fmt::format(" and {:.0f} new ones", result) : "", s.memory_limit,
-      fits >= 1
-          ? fmt::format("a mesh of at most about {:.0f} vertices, or a higher limit", fits)
-          : fmt::format("at least that; the program takes {:.0f} MB without a mesh", program / megabyte)));
+  const double fits =
+      std::floor((s.memory_limit * megabyte - program_bytes) / (needed - program_bytes) * count);
+  throw LimitError(
+      fmt::format("{}: needs about {:.0f} MB for {} vertices{}, --memory-limit allows {:g}; expected {}",
+                  name_of_input(s.input), std::ceil(needed / megabyte), vertices,
+                  added > 0 ? fmt::format(" and {:.0f} in the result", count + added) : "", s.memory_limit,
+                  fits >= 1 ? fmt::format("a mesh of at most about {:.0f} vertices, or a higher limit", fits)
+                            : without_a_mesh()));
 }
 
 std::size_t memory_for(const std::filesystem::path& mesh, const Settings& s) {

@@ -12,8 +12,12 @@ namespace hooke::app {
 /// Bytes that a run may take: --memory-limit, else memory_limit().
 std::size_t memory_allowed(const Settings& settings);
 
-/// Throws LimitError, with the figures, if a run on a mesh of so many vertices would take more than
-/// --memory-limit. Pre-condition: the mesh is measured and its target lengths are known.
+/// Throws LimitError, with the figures, if the size and format of the input file tell that the run would take
+/// more than --memory-limit. Throws InputError for a format that is unknown.
+void require_memory_for_file(const Settings& settings);
+
+/// The same by the number of vertices; with `adapt` also by those of the result, once the record has the area
+/// of the mesh and its target length.
 void require_memory(const Settings& settings, std::size_t vertices, const RunRecord& record);
 
 /// An upper estimate of the peak in bytes, by the size of the file, its format, and the finer mesh that

@@ -165,7 +165,7 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
   warn_of_junctions(s, !original.joined.empty(), record);
   original.tree_order = surface.tree.order();
   s.remesh.filter.memory_limit_bytes = s.paper_options.filter.memory_limit_bytes = memory_allowed(s);
-  if (!s.check) require_memory(s, mesh.n_vertices(), record);
+  require_memory(s, mesh.n_vertices(), record);
   if (s.max_distance_share > 0)
     record.parameters["max_distance"] =
         s.preservation.max_distance.emplace(s.max_distance_share * record.before.extent.diagonal);

@@ -1,6 +1,7 @@
 """--time-limit and --memory-limit: what is reached is valid, and what cannot be is said before the work."""
 
 import json
+import re
 import unittest
 
 from command import CommandTest, irregular_torus, read_mesh, write_off
@@ -44,14 +45,26 @@ class Limits(CommandTest):
         self.assertEqual(report["status"], "time_limit")
 
     def test_a_mesh_beyond_the_memory_is_refused_with_what_would_fit(self):
-        err = self.refused(8, "torus.off", "-o", "out.off", "--memory-limit", "20", names="torus.off", says="20000 vertices")
-        self.assertIn("--memory-limit allows 20", err)
+        err = self.refused(8, "torus.off", "-o", "out.off", "--memory-limit", "40", names="torus.off", says="20000 vertices")
+        self.assertIn("--memory-limit allows 40", err)
         err = self.refused(8, "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".2x", "--memory-limit", "200",
-                           names="torus.off", says="new ones")
+                           names="torus.off", says="in the result")
         self.run_command("torus.off", "-o", "out.off", "-q", "--memory-limit", "100")
 
+    def test_a_file_too_large_is_refused_before_it_is_read(self):
+        (self.folder / "broken.off").write_bytes(b"OFF no mesh" + bytes(2**20))
+        for command in (["-o", "out.off"], ["--check"], ["-o", "out.off", "--connectivity", "adapt"]):
+            self.refused(3, "broken.off", *command, "--memory-limit", "1000", names="broken.off:1")
+            for file in ("broken.off", "torus.off"):
+                err = self.refused(8, file, *command, "--memory-limit", "14", names=file, says="a file of ")
+                fits = float(re.search(r"expected a file of at most about (\S+) MB, or a higher limit", err)[1])
+                self.assertLess(fits * 2**20, (self.folder / file).stat().st_size)
+                self.assertGreater(fits, .1)
+        self.refused(8, "torus.off", "--check", "--memory-limit", "25", says="20000 vertices")
+        self.run_command("torus.off", "--check", "-q", "--memory-limit", "35")
+
     def test_a_limit_that_no_mesh_fits_in_says_so(self):
-        self.refused(8, "torus.off", "-o", "out.off", "--memory-limit", "1", says="expected at least that; the program takes 12 MB")
+        self.refused(8, "good.obj", "-o", "out.off", "--memory-limit", "1", says="expected at least that; the program takes 12 MB")
 
     def test_a_limit_beyond_all_machines_is_none(self):
         self.run_command("good.obj", "-o", "out.obj", "-q", "--filter", "global", "--memory-limit", "1e14")
