@@ -196,6 +196,19 @@ class Vtp(CommandTest):
         self.run_command("in.vtp", "-o", "out.ply", "-q", "--effort", "fast")
         self.assertEqual(read_mesh(self.folder / "out.ply")[1], faces)
 
+    def test_labels_of_cells_go_along(self):
+        vertices, faces = read_mesh(BLOB)
+        labels = [3 if sum(vertices[v][2] for v in face) > 0 else 8 for face in faces]
+        cells = '<CellData><DataArray type="Int64" Name="tissue" format="ascii">%s</DataArray></CellData></Piece>' % " ".join(map(str, labels))
+        (self.folder / "in.vtp").write_bytes(vtp_bytes(vertices, faces, "ascii").replace(b"</Piece>", cells.encode()))
+        report = self.report("in.vtp", "-o", "out.ply", "-q", "--connectivity", "adapt")
+        self.assertEqual(report["warnings"], [])
+        self.assertGreater(report["features"]["seam_edges"], 10)
+        header = (self.folder / "out.ply").read_bytes().split(b"end_header")[0]
+        self.assertIn(b"property int tissue", header)
+        _, err = self.run_command("in.vtp", "-o", "out.off", "-q", "--effort", "fast")
+        self.assertIn("tissue", err)
+
     def test_it_is_not_written(self):
         self.refused(2, "good.obj", "-o", "out.vtp", names="out.vtp", says="can only be read")
         self.refused(2, "good.obj", "-o", "out.obj", "--format", "vtp", says="--format")

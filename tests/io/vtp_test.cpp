@@ -43,12 +43,12 @@ TEST(Vtp, OtherContentIsNamedOnce) {
   sample.piece += " NumberOfLines=\"3\"";
   sample.more =
       "<PointData><Array type=\"String\" Name=\"names\" format=\"ascii\">1 2 3 4 5</Array></PointData>"
-      "<CellData><DataArray type=\"Int32\" Name=\"label\" format=\"ascii\">1 2</DataArray></CellData>"
+      "<CellData><DataArray type=\"Float32\" Name=\"heat\" format=\"ascii\">1 2 3 4 5</DataArray></CellData>"
       "<Lines><DataArray Name=\"connectivity\">0 1</DataArray></Lines>";
   const MeshFile file = read_vtp(sample.text(), "m");
   ASSERT_EQ(file.content.anew.size(), 1u);
   EXPECT_EQ(file.content.anew[0].message,
-            "m: not kept in the output: 3 lines, cell data 'label', point data 'names'");
+            "m: not kept in the output: 3 lines, point data 'names', cell data 'heat'");
   EXPECT_EQ(file.polygons.items.size(), 7u);
 }
 
@@ -71,13 +71,64 @@ TEST(Vtp, PointDataAreValuesOfTheVertices) {
   EXPECT_ERROR(InputError, "m:12: 2 numbers; expected 1 of each of 5 points", read_vtp(sample.text(), "m"));
 }
 
+std::string cell_data(const std::string& attributes, const std::string& numbers) {
+  return "<CellData><DataArray Name=\"part id\" format=\"ascii\" " + attributes + ">" + numbers +
+         "</DataArray></CellData>";
+}
+
+TEST(Vtp, IntegersOfCellsAreLabelsOfTheFaces) {
+  Sample sample;
+  for (const auto& [type, kept] : {std::pair{"UInt8", NumberType::uint8},
+                                   {"Int64", NumberType::int32},
+                                   {"UInt32", NumberType::uint32}}) {
+    sample.more = cell_data("type=\"" + std::string(type) + "\"", "7 7");
+    const MeshFile file = read_vtp(sample.text(), "m");
+    EXPECT_TRUE(file.content.anew.empty());
+    const FaceChannel* labels = find_channel(file.face_data, "part_id");
+    ASSERT_TRUE(labels);
+    EXPECT_EQ(labels->values, (std::vector<int>{7, 7}));
+    EXPECT_EQ(labels->type, kept);
+    EXPECT_EQ(labels->kind, LabelKind::material);
+  }
+}
+
+TEST(Vtp, CellsBeforeThePolygonsHaveData) {
+  Sample sample;
+  sample.piece += " NumberOfVerts=\"1\" NumberOfLines=\"2\" NumberOfStrips=\"1\"";
+  sample.more = cell_data("type=\"Int32\"", "1 2 3 4 -5 6");
+  const MeshFile file = read_vtp(sample.text(), "m");
+  EXPECT_EQ(find_channel(file.face_data, "part_id")->values, (std::vector<int>{4, -5}));
+  EXPECT_EQ(find_channel(file.face_data, "part_id")->kind, LabelKind::other)
+      << "numbers that differ in all are ids";
+}
+
+TEST(Vtp, CellDataThatAreNoLabelsAreNamed) {
+  Sample sample;
+  for (const std::string& data :
+       {cell_data("type=\"Float64\"", "1 2"), cell_data("type=\"Int32\" NumberOfComponents=\"2\"", "1 2 3 4"),
+        cell_data("type=\"Int64\"", "1 3000000000")}) {
+    sample.more = data;
+    const MeshFile file = read_vtp(sample.text(), "m");
+    EXPECT_TRUE(file.face_data.empty());
+    ASSERT_EQ(file.content.anew.size(), 1u);
+    EXPECT_TRUE(has(file.content.anew[0].message, "not kept in the output: cell data 'part id'"));
+  }
+  sample.more = cell_data("type=\"Int32\"", "1");
+  EXPECT_ERROR(InputError, "m:12: 1 numbers; expected one of each of 2 cells", read_vtp(sample.text(), "m"));
+  sample.piece += " NumberOfLines=\"9223372036854775807\" NumberOfVerts=\"9223372036854775807\"";
+  EXPECT_ERROR(InputError, "m:12: 1 numbers; expected one of each of", read_vtp(sample.text(), "m"));
+}
+
 TEST(Vtp, PiecesArePutTogether) {
-  std::string text = Sample{}.text();
+  Sample sample;
+  sample.more = cell_data("type=\"Int32\"", "1 2");
+  std::string text = sample.text();
   const size_t begin = text.find("<Piece"), end = text.find("</PolyData>");
   text.insert(end, text.substr(begin, end - begin));
   const MeshFile file = read_vtp(text, "m");
   EXPECT_EQ(file.points.cols(), 10);
   EXPECT_EQ(file.polygons[3][0], 5);
+  EXPECT_EQ(find_channel(file.face_data, "part_id")->values, (std::vector<int>{1, 2, 1, 2}));
 }
 
 TEST(Vtp, ErrorsNameTheLine) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <map>
@@ -36,11 +37,14 @@ struct Array {
   int line = 1;      // of the element
 };
 
+using Arrays = std::map<std::string, std::optional<Array>>;  // by name
+
 struct Piece {
   long long points = 0, polygons = 0;
+  long long cells_before = 0, cells_after = 0;  // the polygons in the data of cells
   int line = 1;
   std::optional<Array> coordinates, connectivity, offsets;
-  std::map<std::string, std::optional<Array>> point_data;  // by name
+  Arrays point_data, cell_data;
 };
 
 // What a file holds.
@@ -162,8 +166,13 @@ class DocumentReader {
 
   void start_piece(const Attributes& attributes) {
     open_ = nullptr;  // it points into the pieces
-    document_.pieces.push_back(
-        {count(attributes, "NumberOfPoints"), count(attributes, "NumberOfPolys"), line(), {}, {}, {}, {}});
+    Piece& piece = document_.pieces.emplace_back();
+    piece.points = count(attributes, "NumberOfPoints");
+    piece.polygons = count(attributes, "NumberOfPolys");
+    const auto others = [&](const char* name) { return std::min(count(attributes, name), 1LL << 60); };
+    piece.cells_before = others("NumberOfVerts") + others("NumberOfLines");
+    piece.cells_after = others("NumberOfStrips");
+    piece.line = line();
     for (const auto& [attribute, kind] : {std::pair{"NumberOfVerts", "vertex cells"},
                                           {"NumberOfLines", "lines"},
                                           {"NumberOfStrips", "strips of triangles"}})
@@ -184,7 +193,7 @@ class DocumentReader {
     if (parent() == "Polys" && array_name == "connectivity") return &piece.connectivity;
     if (parent() == "Polys" && array_name == "offsets") return &piece.offsets;
     if (parent() == "PointData") return &piece.point_data[array_name];
-    if (parent() == "CellData") note("cell data " + in_quotes(array_name));
+    if (parent() == "CellData") return &piece.cell_data[array_name];
     return nullptr;
   }
 
@@ -364,6 +373,22 @@ std::optional<NumberType> number_type(const std::string& name) {
   return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
+// A type of cell data that are labels, with its range; numbers of 64 bits are where they fit in 32.
+struct LabelType {
+  NumberType type;
+  long long least, greatest;
+};
+
+const std::map<std::string, LabelType>& label_types() {
+  constexpr long long least = std::numeric_limits<int>::min(), greatest = std::numeric_limits<int>::max();
+  static const std::map<std::string, LabelType> types = {
+      {"Int8", {NumberType::int8, -128, 127}},         {"UInt8", {NumberType::uint8, 0, 255}},
+      {"Int16", {NumberType::int16, -32768, 32767}},   {"UInt16", {NumberType::uint16, 0, 65535}},
+      {"Int32", {NumberType::int32, least, greatest}}, {"UInt32", {NumberType::uint32, 0, 4294967295}},
+      {"Int64", {NumberType::int32, least, greatest}}, {"UInt64", {NumberType::int32, 0, greatest}}};
+  return types;
+}
+
 // The names of the values of a vertex: those of PLY files for normals and texture coordinates, else that of
 // the array with a number for each of several.
 std::vector<std::string> channel_names(std::string array, size_t width) {
@@ -419,6 +444,53 @@ bool add_point_data(const std::vector<Piece>& pieces, const std::string& array_n
   return true;
 }
 
+// Adds the array of cell data that all pieces with polygons have, with an integer of one type for each cell.
+// Numbers that differ in all polygons are ids, no labels. Returns whether that is so.
+bool add_cell_data(const std::vector<Piece>& pieces, const std::string& array_name, const ArrayReader& reader,
+                   MeshFile& file) {
+  std::string type;
+  FaceChannel channel{channel_names(array_name, 1).front()};
+  for (const Piece& piece : pieces) {
+    if (piece.points == 0 || piece.polygons == 0) continue;
+    const auto found = piece.cell_data.find(array_name);
+    if (found == piece.cell_data.end() || !found->second) return false;
+    const Array& array = *found->second;
+    const std::string own = value_of(array.attributes, "type");
+    if (channel.values.empty()) type = own;
+    const auto label = label_types().find(own);
+    if (own != type || label == label_types().end() ||
+        value_of(array.attributes, "NumberOfComponents", "1") != "1")
+      return false;
+    channel.type = label->second.type;
+    const std::vector<long long> numbers = reader.integers(array);
+    const long long cells = piece.cells_before + piece.polygons + piece.cells_after;
+    if (static_cast<long long>(numbers.size()) != cells)
+      fail_at(file.name, array.line,
+              fmt::format("{} numbers; expected one of each of {} cells; is the file truncated?",
+                          numbers.size(), cells));
+    for (long long f = 0; f < piece.polygons; ++f) {
+      const long long number = numbers[piece.cells_before + f];
+      if (number < label->second.least || number > label->second.greatest) return false;
+      channel.values.push_back(static_cast<int>(static_cast<std::uint32_t>(number)));
+    }
+  }
+  if (channel.values.empty() || find_channel(file.face_data, channel.name)) return false;
+  const std::set<int> different(channel.values.begin(), channel.values.end());
+  if (channel.values.size() > 1 && different.size() == channel.values.size()) channel.kind = LabelKind::other;
+  file.face_data.push_back(std::move(channel));
+  return true;
+}
+
+// Adds the arrays of one kind to the file; those that cannot be added are not kept.
+template <typename Add>
+void add_arrays(Document& document, Arrays Piece::*kind, const char* what, const Add& add) {
+  std::set<std::string> names;
+  for (const Piece& piece : document.pieces)
+    for (const auto& [name, array] : piece.*kind) names.insert(name);
+  for (const std::string& name : names)
+    if (!add(name)) document.not_kept.push_back(what + in_quotes(name));
+}
+
 }  // namespace
 
 MeshFile read_vtp(std::string_view bytes, const std::string& name) {
@@ -438,12 +510,10 @@ MeshFile read_vtp(std::string_view bytes, const std::string& name) {
   }
   file.points =
       Eigen::Map<const Mat3X>(coordinates.data(), 3, static_cast<Eigen::Index>(coordinates.size() / 3));
-  std::set<std::string> arrays;
-  for (const Piece& piece : document.pieces)
-    for (const auto& [array, content] : piece.point_data) arrays.insert(array);
-  for (const std::string& array : arrays)
-    if (!add_point_data(document.pieces, array, reader, file))
-      document.not_kept.push_back("point data " + in_quotes(array));
+  add_arrays(document, &Piece::point_data, "point data ",
+             [&](const std::string& array) { return add_point_data(document.pieces, array, reader, file); });
+  add_arrays(document, &Piece::cell_data, "cell data ",
+             [&](const std::string& array) { return add_cell_data(document.pieces, array, reader, file); });
   warn_not_kept(file, document.not_kept);
   return file;
 }
