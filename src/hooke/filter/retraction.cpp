@@ -105,7 +105,7 @@ SurfacePosition Retraction::on_curve(SurfacePosition position, int vertex) const
 }
 
 Projection Retraction::projection(const Vec3& point, int hint, int vertex) {
-  const Projection projection = surface_(point, hint, options_.tolerance);
+  Projection projection = surface_(point, hint, options_.tolerance);
   long long* const counters =
       &uncounted_[static_cast<size_t>(vertex) / vertices_per_counter_set * counter_set_size];
   add(1, counters[static_cast<size_t>(projection.status)]);
@@ -181,7 +181,7 @@ SurfacePosition Retraction::drifted(SurfacePosition position, const Vec3& displa
   return position;
 }
 
-SurfacePosition Retraction::projected(SurfacePosition position, int vertex) {
+SurfacePosition Retraction::projected(const SurfacePosition& position, int vertex) {
   const Freedom freedom = constraints_.freedom[vertex];
   return on_surface(freedom == Freedom::curve ? on_curve(position, vertex) : position, vertex, freedom);
 }

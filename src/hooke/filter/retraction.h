@@ -113,7 +113,7 @@ class Retraction {
   CurveProjection project_to_curve_of(const Vec3& point, int segment, int vertex) const;
   SurfacePosition on_curve(SurfacePosition position, int vertex) const;
   SurfacePosition on_surface(SurfacePosition position, int vertex, Freedom freedom);
-  SurfacePosition projected(SurfacePosition position, int vertex);
+  SurfacePosition projected(const SurfacePosition& position, int vertex);
   SurfacePosition drifted(SurfacePosition position, const Vec3& displacement,
                           const ShapeOperator& shape_operator, Freedom freedom) const;
   Projection projection(const Vec3& point, int hint, int vertex);

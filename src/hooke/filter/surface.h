@@ -53,9 +53,9 @@ class Surface {
   using ShapeOperatorAt = std::function<ShapeOperator(int hint)>;
 
   template <typename F>
-  requires std::convertible_to<F, Project> &&(!std::same_as<std::remove_cvref_t<F>, Surface>)Surface(
-      F&& project, ShapeOperatorAt shape_operator_at = [](int) { return ShapeOperator{}; })
-      : project_(std::forward<F>(project)), shape_operator_(std::move(shape_operator_at)) {}
+  requires(!std::same_as<F, Surface> && std::convertible_to<F, Project>) Surface(
+      F project, ShapeOperatorAt shape_operator_at = [](int) { return ShapeOperator{}; })
+      : project_(std::move(project)), shape_operator_(std::move(shape_operator_at)) {}
 
   Projection operator()(const Vec3& point, int hint, double tolerance) const {
     return project_(point, hint, tolerance);
