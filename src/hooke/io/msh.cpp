@@ -515,7 +515,7 @@ void append_titles(std::string& text, const Surfaces& surfaces) {
   text += "$EndPhysicalNames\n";
 }
 
-void append_entities(std::string& text, Eigen::Ref<const Mat3X> points,
+void append_entities(std::string& text, const Eigen::Ref<const Mat3X>& points,
                      const std::vector<Triangle>& triangles, const Surfaces& surfaces) {
   std::map<int, Eigen::AlignedBox3d> boxes;
   for (size_t f = 0; f < triangles.size(); ++f)
@@ -541,7 +541,7 @@ void append_row(std::string& text, size_t number, const Triangle& triangle) {
   text += '\n';
 }
 
-std::string write_new(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_new(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const Surfaces& surfaces) {
   std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   append_titles(text, surfaces);
@@ -565,7 +565,7 @@ std::string write_new(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
   return text + "$EndElements\n";
 }
 
-std::string write_old(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_old(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const Surfaces& surfaces) {
   std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   append_titles(text, surfaces);
@@ -587,7 +587,7 @@ std::string write_old(Eigen::Ref<const Mat3X> points, const std::vector<Triangle
 
 }  // namespace
 
-std::string write_msh(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_msh(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       MeshFormat version, const FaceData& data) {
   const Surfaces surfaces(triangles.size(), data);
   return version == MeshFormat::msh2 ? write_old(points, triangles, surfaces)

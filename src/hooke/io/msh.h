@@ -18,7 +18,7 @@ MeshFile read_msh(std::string_view bytes, const std::string& name);
 
 /// The text of a file of version 4.1, or 2.2 for MeshFormat::msh2, with the groups and entities in the data.
 /// Nodes and elements are numbered from 1, in their order. All numbers read back exactly.
-std::string write_msh(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_msh(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       MeshFormat version = MeshFormat::msh, const FaceData& data = {});
 
 }  // namespace hooke

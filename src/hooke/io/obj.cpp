@@ -318,6 +318,7 @@ ObjContent read_content(std::string_view text, const std::string& name) {
     throw InputError(name + ": no vertices; expected v lines; is this an OBJ file?");
   content.file.points = std::move(content.numbers->points);
   std::vector<MeshFile> parts;
+  parts.reserve(readers.size());
   for (ObjReader& reader : readers) parts.push_back(std::move(reader.part));
   append_faces(content.file, parts);
   return content;
@@ -362,7 +363,7 @@ ObjCorners read_obj_corners(std::string_view text, const std::string& name) {
           corners(content.numbers->normals, &ObjReader::normals)};
 }
 
-std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_obj(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const VertexData& data) {
   const ChannelList texture = channels_named(data, texture_names);
   const ChannelList normals = channels_named(data, normal_names);
@@ -463,7 +464,7 @@ void append_values(std::string& text, const char* keyword, const CornerValues& v
 
 }  // namespace
 
-std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_obj(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const ObjData& data) {
   const bool has_labels = std::ranges::any_of(
       obj_labels, [&](const ObjLabel& label) { return find_channel(data.faces, label.channel); });

@@ -43,12 +43,12 @@ struct ObjData {
 
 /// The text of an OBJ file with `v`, `vt`, `vn` and `f` lines. Numbers read back exactly. Of the data it
 /// holds colours, texture coordinates and normals.
-std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_obj(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const VertexData& data = {});
 
 /// The same with data of faces and corners: `mtllib` lines, and where they change from face to face `o`, `g`,
 /// `usemtl` and `s` lines. A label without a name gets one from its number.
-std::string write_obj(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_obj(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const ObjData& data);
 
 }  // namespace hooke

@@ -166,7 +166,7 @@ MeshFile read_off(std::string_view text, const std::string& name) {
   return file;
 }
 
-std::string write_off(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_off(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const VertexData& data) {
   const ChannelList normals = channels_named(data, normal_names);
   const ChannelList colours = channels_named(data, colour_names);

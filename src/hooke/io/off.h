@@ -19,7 +19,7 @@ MeshFile read_off(std::string_view text, const std::string& name);
 
 /// The text of an OFF file with the normals, colours and texture coordinates in the data. All numbers read
 /// back exactly.
-std::string write_off(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_off(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       const VertexData& data = {});
 
 }  // namespace hooke

@@ -280,8 +280,9 @@ size_t row_size(const VertexData& data) {
   return size;
 }
 
-void append_binary(std::string& bytes, Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
-                   const VertexData& data, const VertexData& face_data, bool swap) {
+void append_binary(std::string& bytes, const Eigen::Ref<const Mat3X>& points,
+                   const std::vector<Triangle>& triangles, const VertexData& data,
+                   const VertexData& face_data, bool swap) {
   const size_t vertex_size = 3 * sizeof(double) + row_size(data),
                face_size = 1 + 3 * sizeof(int) + row_size(face_data);
   const size_t header = bytes.size();
@@ -316,7 +317,7 @@ VertexData ply_face_data(const FaceData& data) {
   return result;
 }
 
-std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_ply(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       PlyEncoding encoding, const VertexData& data, const VertexData& face_data) {
   const bool ascii = encoding == PlyEncoding::ascii;
   std::string bytes = header_text(points.cols(), triangles.size(), encoding, data, face_data);

@@ -21,7 +21,7 @@ MeshFile read_ply(std::string_view bytes, const std::string& name);
 /// The bytes of a PLY file with coordinates as double, corners as int, and the channels of the data, one
 /// value per vertex, and of the faces' data, one per triangle, in their own types. Numbers read back exactly
 /// in every encoding.
-std::string write_ply(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_ply(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       PlyEncoding encoding = PlyEncoding::binary_little_endian, const VertexData& data = {},
                       const VertexData& face_data = {});
 

@@ -256,7 +256,7 @@ MeshFile read_stl(std::string_view bytes, const std::string& name) {
 
 namespace {
 
-Vec3 normal_of(Eigen::Ref<const Mat3X> points, const Triangle& t) {
+Vec3 normal_of(const Eigen::Ref<const Mat3X>& points, const Triangle& t) {
   const Vec3 a = points.col(t[0]), u = points.col(t[1]) - a, v = points.col(t[2]) - a;
   const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
   if (!(longest > 0)) return Vec3::Zero();
@@ -283,7 +283,7 @@ struct Groups {
   }
 };
 
-std::string write_text(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_text(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                        const Groups& groups) {
   std::string text;
   const auto begin = [&](size_t face) { text += "solid" + groups.title(groups.of(face)) + '\n'; };
@@ -326,7 +326,7 @@ std::string write_binary(const Mat3X& points, const std::vector<Triangle>& trian
   return bytes;
 }
 
-void require_floats(Eigen::Ref<const Mat3X> points) {
+void require_floats(const Eigen::Ref<const Mat3X>& points) {
   const double largest = points.size() > 0 ? points.cwiseAbs().maxCoeff() : 0;
   if (largest > static_cast<double>(std::numeric_limits<float>::max()))
     throw OutputError(fmt::format(
@@ -337,14 +337,14 @@ void require_floats(Eigen::Ref<const Mat3X> points) {
 
 }  // namespace
 
-std::string write_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       PlyEncoding encoding, const FaceData& data) {
   if (encoding == PlyEncoding::ascii) return write_text(points, triangles, Groups(data));
   require_floats(points);
   return write_binary(points.cast<float>().cast<double>(), triangles, find_channel(data, attribute_channel));
 }
 
-Warnings losses_in_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+Warnings losses_in_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                        PlyEncoding encoding, const std::string& name) {
   std::vector<char> used(points.cols(), 0);
   for (const Triangle& triangle : triangles)

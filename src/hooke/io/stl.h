@@ -24,14 +24,14 @@ MeshFile read_stl(std::string_view bytes, const std::string& name);
 /// The bytes of an STL file, with the normals of its facets, zero for those without area. Text reads back
 /// exactly, with a solid for each run of faces of one `group`. Binary files hold coordinates rounded to
 /// 32-bit floats and the `attribute`. Throws OutputError if a coordinate is beyond the range of floats.
-std::string write_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+std::string write_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       PlyEncoding encoding, const FaceData& data = {});
 
 /// What the mesh loses in an STL file: the warning `vertices_coincide` if different vertices of its faces
 /// have the same coordinates there, so that a reader joins them; `faces_turned_by_rounding` if its numbers
 /// of 32 bits turn faces over or take their area; `attributes_not_kept` if there are vertices
 /// in no face. `name` is that of the output.
-Warnings losses_in_stl(Eigen::Ref<const Mat3X> points, const std::vector<Triangle>& triangles,
+Warnings losses_in_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                        PlyEncoding encoding, const std::string& name);
 
 }  // namespace hooke

@@ -43,7 +43,7 @@ void append_values(std::string& row, const ChannelList& channels, size_t vertex)
 
 }  // namespace
 
-void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix,
+void append_vertex_rows(std::string& text, const Eigen::Ref<const Mat3X>& points, const char* prefix,
                         const ChannelList& channels) {
   append_rows(text, static_cast<size_t>(points.cols()), [&](std::string& row, size_t v) {
     row += prefix;

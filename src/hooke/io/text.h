@@ -33,7 +33,7 @@ void append_three(std::string& text, const Numbers& three, char separator = ' ')
 }
 
 /// Appends a row per vertex: `prefix`, x, y, z and the values of the channels. Numbers read back exactly.
-void append_vertex_rows(std::string& text, Eigen::Ref<const Mat3X> points, const char* prefix,
+void append_vertex_rows(std::string& text, const Eigen::Ref<const Mat3X>& points, const char* prefix,
                         const ChannelList& channels = {});
 
 /// Appends a row per vertex: `prefix`, then each value of the channels after a blank. Without channels it
