@@ -195,7 +195,7 @@ class Batch(CommandTest):
         inputs = ["big.off", "torus.off", "patch.obj"]
         for number in (signal.SIGINT, signal.SIGTERM):
             process = self.start(*inputs, "-o", "out/", "--jobs", 1, "--table", "table.csv", "-v", "--integrator", "damped")
-            time.sleep(.7)
+            time.sleep(10 if SANITIZED else .7)
             process.send_signal(number)
             process.communicate()
             self.assertEqual(process.returncode, 128 + number)

@@ -106,8 +106,7 @@ nlohmann::ordered_json report_json(const RunRecord& run);
 /// The report as indented text. Bytes that are not UTF-8 are replaced.
 std::string report_text(const RunRecord& run);
 
-/// The effective parameters of a run for its report, `null` for those without effect. `effort`: the level for
-/// which the options were set.
+/// The effective parameters of a run for its report, `null` for those without effect.
 nlohmann::ordered_json parameters_json(const RemeshOptions& options);
 /// The same for paper_remesh().
 nlohmann::ordered_json parameters_json(const PaperOptions& options);
