@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <system_error>
 
@@ -38,9 +39,11 @@ std::string without_a_mesh() {
   return fmt::format("at least that; the program takes {:.0f} MB without a mesh", program_bytes / megabyte);
 }
 
-/// Bytes of a file for each vertex and its two faces, at most: text, with normals and other values.
+/// Bytes of a file for each vertex and its two faces, at most: text, with normals and other values. Without
+/// bound where the file may be filled with volume elements or data.
 double max_file_bytes_per_vertex(const Settings& s) {
   const MeshFormat format = s.input_format ? *s.input_format : input_format_of(s.input);
+  if (format == MeshFormat::msh || format == MeshFormat::vtp) return std::numeric_limits<double>::infinity();
   return format == MeshFormat::stl ? 600 : 250;
 }
 

@@ -160,7 +160,7 @@ void warn_of_rescue(RunRecord& run) {
             count > 0
                 ? fmt::format(
                       "{} of {} vertices were put back to where they were, with the faces of the input,",
-                      count, run.after->topology.vertices)
+                      count, run.result->vertex_limits.size())
                 : "it has the faces of the input";
         return what +
                " to keep its surface and angles; --connectivity adapt, which makes new vertices, can do more";

@@ -106,7 +106,8 @@ TEST(Vtp, CellDataThatAreNoLabelsAreNamed) {
   Sample sample;
   for (const std::string& data :
        {cell_data("type=\"Float64\"", "1 2"), cell_data("type=\"Int32\" NumberOfComponents=\"2\"", "1 2 3 4"),
-        cell_data("type=\"Int64\"", "1 3000000000")}) {
+        cell_data("type=\"Int64\"", "1 3000000000"),
+        cell_data("type=\"UInt64\"", "1 18446744073709551615")}) {
     sample.more = data;
     const MeshFile file = read_vtp(sample.text(), "m");
     EXPECT_TRUE(file.face_data.empty());

@@ -95,6 +95,34 @@ TEST(MarchedStaircase, IsNoScanAndNoBox) {
       is_staircase_at(1, test::marched_mask(9, [](const Vec3& x) { return x.cwiseAbs().maxCoeff() < 8; })));
 }
 
+/// The bodies of both, as one mesh.
+test::Triangles together(test::Triangles a, const test::Triangles& b) {
+  const auto n = static_cast<int>(a.points.cols());
+  a.points.conservativeResize(3, n + b.points.cols());
+  a.points.rightCols(b.points.cols()) = b.points;
+  for (const Triangle& f : b.faces) a.faces.push_back({f[0] + n, f[1] + n, f[2] + n});
+  return a;
+}
+
+TEST(MarchedStaircase, IsNoFileWithAnotherBody) {
+  test::Triangles box = test::cube();
+  box.points.array() *= 30;
+  EXPECT_FALSE(is_staircase_at(1, together(marched_ball(), box)));
+}
+
+TEST(MarchedStaircase, IsNoHeightField) {
+  const test::Triangles hills = test::grid(
+      30, [](double x, double y) { return std::round(4 * std::sin(7 * x) * std::cos(5 * y)) / 30; });
+  EXPECT_FALSE(is_staircase_at(1. / 30, hills));
+}
+
+TEST(MarchedStaircase, BodiesThatWouldShrinkStayAsTheyAre) {
+  const test::Triangles speck = test::marched_mask(3, [](const Vec3& x) { return x.norm() < 1; });
+  const Adjacency c = test::connect(speck);
+  EXPECT_EQ(without_steps(speck.points, c, std::vector<char>(static_cast<size_t>(c.vertex_count), 0)),
+            speck.points);
+}
+
 TEST(MarchedStaircase, LosesItsStepsButKeepsItsVolumeAndWhatIsHeld) {
   const test::Triangles t = marched_ball();
   const Adjacency c = test::connect(t);

@@ -396,7 +396,8 @@ std::vector<std::string> channel_names(std::string array, size_t width) {
   if (array == "TCoords" && width == 2) return {texture_names[0], texture_names[1]};
   std::ranges::replace_if(
       array, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
-  if (array == "x" || array == "y" || array == "z") array = "point_" + array;
+  static const std::set<std::string> taken = {"x", "y", "z", "vertex_indices", "vertex_index"};  // by PLY
+  if (taken.contains(array)) array = "point_" + array;
   if (width == 1) return {array};
   std::vector<std::string> names;
   for (size_t k = 0; k < width; ++k) names.push_back(array + "_" + std::to_string(k));
@@ -407,6 +408,7 @@ std::vector<std::string> channel_names(std::string array, size_t width) {
 // that is so.
 bool add_point_data(const std::vector<Piece>& pieces, const std::string& array_name,
                     const ArrayReader& reader, MeshFile& file) {
+  if (array_name.empty()) return false;
   std::string type, width_text;
   std::vector<double> all;
   for (const Piece& piece : pieces) {
@@ -448,6 +450,7 @@ bool add_point_data(const std::vector<Piece>& pieces, const std::string& array_n
 // Numbers that differ in all polygons are ids, no labels. Returns whether that is so.
 bool add_cell_data(const std::vector<Piece>& pieces, const std::string& array_name, const ArrayReader& reader,
                    MeshFile& file) {
+  if (array_name.empty()) return false;
   std::string type;
   FaceChannel channel{channel_names(array_name, 1).front()};
   for (const Piece& piece : pieces) {
@@ -462,16 +465,18 @@ bool add_cell_data(const std::vector<Piece>& pieces, const std::string& array_na
         value_of(array.attributes, "NumberOfComponents", "1") != "1")
       return false;
     channel.type = label->second.type;
-    const std::vector<long long> numbers = reader.integers(array);
+    const std::vector<double> numbers = reader.reals(array);  // those of 64 bits may not fit in long long
     const long long cells = piece.cells_before + piece.polygons + piece.cells_after;
     if (static_cast<long long>(numbers.size()) != cells)
       fail_at(file.name, array.line,
               fmt::format("{} numbers; expected one of each of {} cells; is the file truncated?",
                           numbers.size(), cells));
     for (long long f = 0; f < piece.polygons; ++f) {
-      const long long number = numbers[piece.cells_before + f];
-      if (number < label->second.least || number > label->second.greatest) return false;
-      channel.values.push_back(static_cast<int>(static_cast<std::uint32_t>(number)));
+      const double number = numbers[piece.cells_before + f];
+      const auto least = static_cast<double>(label->second.least),
+                 greatest = static_cast<double>(label->second.greatest);
+      if (!(number >= least && number <= greatest) || std::trunc(number) != number) return false;
+      channel.values.push_back(static_cast<int>(static_cast<std::uint32_t>(static_cast<long long>(number))));
     }
   }
   if (channel.values.empty() || find_channel(file.face_data, channel.name)) return false;

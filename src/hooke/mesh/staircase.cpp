@@ -6,12 +6,14 @@
 #include <numeric>
 #include <optional>
 
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
+#include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {
 
-constexpr double tolerance = 1e-2;  // of the length of a step
+constexpr double cell_tolerance = 1e-3, tolerance = 1e-2;  // of the length of a step
 constexpr std::size_t min_edges = 100;
 constexpr double corner_share = 1. / 3;
 constexpr double lattice_share = .99;  // of the edges
@@ -19,11 +21,11 @@ constexpr double lattice_share = .99;  // of the edges
 /// Vectors up to their sign, at most a given number of them.
 class Steps {
  public:
-  explicit Steps(std::size_t max) : max_(max) {}
+  Steps(std::size_t max, double tolerance) : max_(max), tolerance_(tolerance) {}
 
   /// The index of the step, the maximum if there are as many others.
   std::size_t index_of(const Vec3& step) {
-    const double limit = tolerance * tolerance * step.squaredNorm();
+    const double limit = tolerance_ * tolerance_ * step.squaredNorm();
     const auto is_same = [&](const Vec3& other) {
       return (step - other).squaredNorm() <= limit || (step + other).squaredNorm() <= limit;
     };
@@ -37,6 +39,7 @@ class Steps {
 
  private:
   std::size_t max_;
+  double tolerance_;
   std::vector<Vec3> steps_;
 };
 
@@ -66,7 +69,7 @@ bool is_made_of_cells(const Mat3X& points, const Adjacency& c, const std::vector
   constexpr double resolved_step = .75;  // target lengths
   constexpr double sharp_angle = 45;
   constexpr std::size_t directions = 3;
-  Steps steps(directions);
+  Steps steps(directions, cell_tolerance);
   std::vector<int> of_edges(c.edges.size(), -1);
   for (int e : sharp_edges(points, c, sharp_angle)) {
     const auto& [a, b] = c.edges[e];
@@ -97,9 +100,10 @@ std::optional<Eigen::Matrix3d> basis_of(std::vector<Vec3> steps) {
   return std::nullopt;
 }
 
-/// Do nearly all edges, of which `counts` are along each of the steps, lead from a point of a lattice to one
+/// Do nearly all edges of each component, `of_edges` along these steps, lead from a point of a lattice to one
 /// close by?
-bool is_on_lattice(const std::vector<Vec3>& steps, const std::vector<std::size_t>& counts) {
+bool is_on_lattice(const Adjacency& c, const std::vector<Vec3>& steps, const std::vector<int>& of_edges,
+                   const std::vector<std::size_t>& counts) {
   constexpr double min_share = .002;  // of the edges along a step of the lattice, one of the shortest
   constexpr double reach = 3;
   const auto total = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t(0)));
@@ -109,24 +113,46 @@ bool is_on_lattice(const std::vector<Vec3>& steps, const std::vector<std::size_t
   const std::optional<Eigen::Matrix3d> basis = basis_of(std::move(frequent));
   if (!basis) return false;
   const Eigen::Matrix3d inverse = basis->inverse();
-  std::size_t on_lattice = 0;
+  std::vector<char> is_short(counts.size(), 0);  // the last one stands for all other steps
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Vec3 multiples = inverse * steps[i];
     const Vec3 off = multiples - multiples.array().round().matrix();
-    if (multiples.cwiseAbs().maxCoeff() <= reach + tolerance && off.cwiseAbs().maxCoeff() <= 3 * tolerance)
-      on_lattice += counts[i];
+    is_short[i] =
+        multiples.cwiseAbs().maxCoeff() <= reach + tolerance && off.cwiseAbs().maxCoeff() <= 3 * tolerance;
   }
-  return static_cast<double>(on_lattice) >= lattice_share * total;
+  const std::vector<int> components = label_components(c);
+  std::vector<std::array<std::size_t, 2>> edges(c.vertex_count,
+                                                {0, 0});  // per component: all, and short ones
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    auto& [all, on_lattice] = edges[components[c.edges[e][0]]];
+    ++all;
+    on_lattice += is_short[of_edges[e]];
+  }
+  return std::ranges::all_of(edges, [](const auto& count) {
+    return static_cast<double>(count[1]) >= lattice_share * static_cast<double>(count[0]);
+  });
 }
 
-/// Are all edges those of the few kinds of faces that marching cubes and tetrahedra make of the cells of a
-/// binary image, whose length is not resolved?
-bool is_made_of_marched_cells(const Mat3X& points, const Adjacency& c,
-                              const std::vector<double>& vertex_length) {
+/// Do the faces look all ways, as around a body, and not up, as those of a height field?
+bool looks_all_ways(const Mat3X& points, const Adjacency& c) {
+  constexpr double max_share = .5;  // of the area, in the mean of its vectors
+  Vec3 sum = Vec3::Zero();
+  double area = 0;
+  for (const Triangle& t : c.faces) {
+    const Vec3 n = doubled_area_vector(points, t);
+    sum += n;
+    area += n.norm();
+  }
+  return sum.norm() < max_share * area;
+}
+
+}  // namespace
+
+bool is_marched_mask(const Mat3X& points, const Adjacency& c, const std::vector<double>& vertex_length) {
   constexpr std::size_t max_steps = 64, max_orientations_of_blocks = 8;
   constexpr double resolved_step = 1.5;  // target lengths
   constexpr double sharp_angle = 40;
-  Steps steps(max_steps), orientations(max_orientations_of_blocks);
+  Steps steps(max_steps, tolerance), orientations(max_orientations_of_blocks, tolerance);
   std::vector<int> of_edges(c.edges.size(), -1);
   std::vector<std::size_t> counts(max_steps + 1, 0);
   double length = 0, target = 0;
@@ -150,16 +176,34 @@ bool is_made_of_marched_cells(const Mat3X& points, const Adjacency& c,
   if (!has_many_orientations) return false;
   std::vector<int> of_sharp_edges(c.edges.size(), -1);
   for (int e : sharp_edges(points, c, sharp_angle)) of_sharp_edges[e] = of_edges[e];
-  return is_on_lattice(steps.all(), counts) && has_many_corners(c, of_sharp_edges);
+  return is_on_lattice(c, steps.all(), of_edges, counts) && looks_all_ways(points, c) &&
+         has_many_corners(c, of_sharp_edges);
+}
+
+bool is_staircase(const Mat3X& points, const Adjacency& c, const std::vector<double>& vertex_length) {
+  return is_made_of_cells(points, c, vertex_length) || is_marched_mask(points, c, vertex_length);
+}
+
+namespace {
+
+/// Six times the volume below the faces of each component, seen from the first of its vertices.
+std::vector<double> volumes(const Mat3X& points, const Adjacency& c, const std::vector<int>& components) {
+  std::vector<double> sums(c.vertex_count, 0);
+  std::vector<int> origins(c.vertex_count, -1);
+  for (const Triangle& t : c.faces) {
+    int& origin = origins[components[t[0]]];
+    if (origin < 0) origin = t[0];
+    const Vec3 x = points.col(origin);
+    sums[components[t[0]]] += (points.col(t[0]) - x).dot((points.col(t[1]) - x).cross(points.col(t[2]) - x));
+  }
+  return sums;
 }
 
 }  // namespace
 
-bool is_staircase(const Mat3X& points, const Adjacency& c, const std::vector<double>& vertex_length) {
-  return is_made_of_cells(points, c, vertex_length) || is_made_of_marched_cells(points, c, vertex_length);
-}
-
 Mat3X without_steps(Mat3X points, const Adjacency& c, const std::vector<char>& is_held) {
+  constexpr double max_loss = .05;  // of the volume
+  const Mat3X input = points;
   constexpr int rounds = 3;
   constexpr double shrinking = .5, growing = -.53;
   for (int round = 0; round < rounds; ++round)
@@ -173,6 +217,12 @@ Mat3X without_steps(Mat3X points, const Adjacency& c, const std::vector<char>& i
         points.col(v) += factor * (sum / static_cast<double>(neighbours.size()) - before.col(v));
       }
     }
+  const std::vector<int> components = label_components(c);
+  const std::vector<double> before = volumes(input, c, components), after = volumes(points, c, components);
+  for (int v = 0; v < c.vertex_count; ++v) {
+    const int i = components[v];
+    if (std::abs(after[i] - before[i]) > max_loss * std::abs(before[i])) points.col(v) = input.col(v);
+  }
   return points;
 }
 

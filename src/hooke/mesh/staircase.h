@@ -8,15 +8,22 @@
 
 namespace hooke {
 
-/// Is the mesh the surface of a binary mask whose steps the target length does not resolve? Either the sharp
-/// edges, those above 45 degrees, are of three directions with a length each below .75 target lengths, as
-/// around blocks; or the mesh is made by marching cubes or tetrahedra: nearly all edges, below 1.5 target
-/// lengths on the average, lead from a point of a lattice to one close by, in a few ways, and the faces have
-/// more orientations than those of blocks. A third of the vertices on sharp edges are corners, so that it is
-/// not merely a regular mesh of a box. `vertex_length`: target length at each vertex.
+/// Is the mesh made of a binary mask by marching cubes or tetrahedra, and does the target length not resolve
+/// its steps? Nearly all edges of each component, below 1.5 target lengths on the average, lead from a point
+/// of a lattice to one close by, in a few ways, the faces have more orientations than those of blocks and
+/// look all ways, as around a body, and a third of the vertices on sharp edges are corners. `vertex_length`:
+/// target length at each vertex.
+bool is_marched_mask(const Mat3X& points, const Adjacency& adjacency,
+                     const std::vector<double>& vertex_length);
+
+/// Is the mesh the surface of a binary mask whose steps the target length does not resolve? Either
+/// is_marched_mask(), or the sharp edges, those above 45 degrees, are of three directions with a length each
+/// below .75 target lengths, as around blocks, and a third of their vertices are corners, so that it is not
+/// merely a regular mesh of a box.
 bool is_staircase(const Mat3X& points, const Adjacency& adjacency, const std::vector<double>& vertex_length);
 
-/// The points with the steps smoothed, except for those that are held; the volume is about kept.
+/// The points with the steps smoothed, except for those that are held; the volume is about kept, and
+/// components so small that it would not be stay as they are.
 /// G. Taubin, "A signal processing approach to fair surface design", 1995.
 Mat3X without_steps(Mat3X points, const Adjacency& adjacency, const std::vector<char>& is_held);
 

@@ -11,6 +11,7 @@
 
 #include "hooke/core/stopwatch.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
@@ -68,7 +69,7 @@ class PreservingRemesh {
  public:
   PreservingRemesh(const TriMesh& mesh, const MemoryOrder& memory_order, const RemeshOptions& options,
                    const PreservationOptions& preservation, const KnownInput& known, const Observer& observer,
-                   Stopwatch* stopwatch)
+                   Stopwatch* stopwatch, bool smooths_steps)
       : mesh_(mesh),
         start_(mesh),
         memory_order_(memory_order),
@@ -80,7 +81,8 @@ class PreservingRemesh {
         preservation_(preservation),
         input_quality_(known.quality ? *known.quality
                                      : measure(input_, mesh, memory_order.order, stopwatch)) {
-    is_mask_ = options.constraints.features.drops_noise && is_staircase_at_lengths();
+    is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
+               options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
     if (is_mask_) {
       preservation_.feature_angle = 180;
       smooth_steps();
@@ -98,6 +100,8 @@ class PreservingRemesh {
     if (!best.result.measures) return best;  // not finite
     if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
     if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
+    if (options_.connectivity != ConnectivityMode::adapt && vertex_points(best.mesh) == vertex_points(mesh_))
+      best.result.steps_smoothed = false;
     return best;
   }
 
@@ -296,7 +300,6 @@ class PreservingRemesh {
     std::vector<int> all(input_.adjacency.vertex_count);
     std::iota(all.begin(), all.end(), 0);
     move_back(best, all, 1);
-    best.result.steps_smoothed = false;
     if (is_mask_) best.result.creases.dropped = 0;
   }
 
@@ -366,16 +369,16 @@ class PreservingRemesh {
     judge(run);
   }
 
-  /// Is the input the surface of a binary mask? Without creases no length resolves its steps.
-  bool is_staircase_at_lengths() const {
+  /// Is the input made of a binary mask? Without creases no length resolves its steps.
+  bool is_marched_mask_at_lengths() const {
     std::vector<double> lengths = memory_order_.order.gather(vertex_values(mesh_, target_length_property));
     if (options_.constraints.features.angle >= 180)
       std::ranges::fill(lengths, std::numeric_limits<double>::infinity());
-    return is_staircase(input_.points, input_.adjacency, lengths);
+    return is_marched_mask(input_.points, input_.adjacency, lengths);
   }
 
-  /// Lets attempts start from the input with its steps smoothed and no creases; boundaries, seams and fixed
-  /// vertices stay.
+  /// Lets attempts start from the input with its steps smoothed and no creases; boundaries, seams, junctions
+  /// and fixed vertices stay.
   void smooth_steps() {
     const Adjacency& c = input_.adjacency;
     std::vector<char> is_held(c.vertex_count, 0);
@@ -386,6 +389,7 @@ class PreservingRemesh {
       if (c.is_boundary_edge(static_cast<int>(e))) hold_edge(c.edges[e]);
     std::ranges::for_each(memory_order_.order.new_edges(options_.constraints.seams), hold_edge);
     for (int v : memory_order_.order.new_vertices(options_.constraints.fixed_vertices)) is_held[v] = 1;
+    for (int v : find_junctions(c, input_.joined).vertices) is_held[v] = 1;
     vertex_points(start_) = memory_order_.order.scatter(without_steps(input_.points, c, is_held));
     double& angle = options_.constraints.features.angle;
     if (angle < 180) steps_ = static_cast<int>(sharp_edges(input_.points, c, angle).size());
@@ -397,7 +401,7 @@ class PreservingRemesh {
     a.mesh = start_;
     a.result = remesh(a.mesh, memory_order_, options_, observer_, stopwatch_);
     if (is_mask_) {
-      a.result.steps_smoothed = true;
+      a.result.steps_smoothed = vertex_points(start_) != vertex_points(mesh_);
       a.result.creases.sharp = a.result.creases.dropped = steps_;
       a.result.input_points = vertex_points(mesh_);
     }
@@ -459,7 +463,14 @@ class PreservingRemesh {
 RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                                const PreservationOptions& preservation, const KnownInput& known,
                                const Observer& observer, Stopwatch* stopwatch) {
-  Run best = PreservingRemesh(mesh, memory_order, options, preservation, known, observer, stopwatch).best();
+  const auto best_run = [&](bool smooths_steps) {
+    return PreservingRemesh(mesh, memory_order, options, preservation, known, observer, stopwatch,
+                            smooths_steps)
+        .best();
+  };
+  Run best = best_run(true);
+  if (best.result.steps_smoothed && best.result.measures && !best.is_interrupted() && !best.keeps_promises())
+    best = best_run(false);
   mesh = std::move(best.mesh);
   if (vertex_points(mesh).allFinite())  // vertices may have been put back since
     set_residual_forces(mesh, best.result.memory_order, options.altitude);
