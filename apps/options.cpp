@@ -235,8 +235,7 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
          "solids of STL. Borders become creases along which vertices slide; none: such data are dropped. In "
          "all modes non-manifold, alone with the default others: edges with three faces and more, as where "
          "bodies share walls, and vertices where sheets touch, which stay exactly where they are; adapt "
-         "splits "
-         "such edges where they are too long")
+         "splits such edges where they are too long")
       ->type_name("seams,hard-edges,materials,groups,non-manifold|none")
       ->default_str("seams,hard-edges,materials,groups");
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");
@@ -339,10 +338,9 @@ void add_run(CLI::App& app, Settings& s) {
       ->type_name("S");
   add_number(app, "--memory-limit", s.memory_limit,
              "Megabytes that the run may take; a mesh that would take more, by the size of its file or by "
-             "its vertices, "
-             "is refused before the work, with exit code 8 (default: none is; dense splines and several "
-             "inputs together take at most 80 % of what is "
-             "free)",
+             "its vertices, is refused before the work, with exit code 8 (default: none is; dense splines "
+             "and several "
+             "inputs together take at most 80 % of what is free)",
              positive)
       ->type_name("MB");
   app.add_flag("-q,--quiet", s.quiet, "Print warnings and errors only");

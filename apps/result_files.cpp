@@ -131,10 +131,6 @@ void warn_of_concave_polygons(const Settings& s, const LoadedMesh& loaded, const
                      name_of_output(s.output), after, before)});
 }
 
-}  // namespace
-
-namespace {
-
 Warnings losses_of_output(const TriMesh& mesh, PlyEncoding encoding, const std::string& name) {
   if (const std::optional<JoinedMesh> joined = join_sheets(mesh))
     return losses_in_stl(joined->gather(vertex_points(mesh)), joined->triangles, encoding, name);

@@ -21,7 +21,7 @@ constexpr double lattice_share = .99;  // of the edges
 /// Vectors up to their sign, at most a given number of them.
 class Steps {
  public:
-  Steps(std::size_t max, double tolerance) : max_(max), tolerance_(tolerance) {}
+  Steps(std::size_t max, double share_of_length) : max_(max), tolerance_(share_of_length) {}
 
   /// The index of the step, the maximum if there are as many others.
   std::size_t index_of(const Vec3& step) {

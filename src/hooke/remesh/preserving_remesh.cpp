@@ -83,15 +83,15 @@ class PreservingRemesh {
                                      : measure(input_, mesh, memory_order.order, stopwatch)) {
     is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
                options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
-    if (is_mask_) {
-      preservation_.feature_angle = 180;
-      smooth_steps();
-    }
+    const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&
+                                       is_staircase(input_.points, input_.adjacency, target_lengths()));
+    if (is_noise) preservation_.feature_angle = 180;
+    if (is_mask_) smooth_steps();
     constexpr double rounding = 1e-9;
     const bool must_unfold = input_quality_.folded_edges > 0;
     if (!must_unfold && !target_lengths_of(mesh, memory_order.order, input_.adjacency).edge.is_varying())
       least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
-    preservation_.faceted = !is_mask_ && is_faceted(input_.points, input_.adjacency);
+    preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
     preservation_.keeps_facets = preservation_.faceted && options.connectivity != ConnectivityMode::adapt;
   }
 
@@ -369,9 +369,13 @@ class PreservingRemesh {
     judge(run);
   }
 
+  std::vector<double> target_lengths() const {
+    return memory_order_.order.gather(vertex_values(mesh_, target_length_property));
+  }
+
   /// Is the input made of a binary mask? Without creases no length resolves its steps.
   bool is_marched_mask_at_lengths() const {
-    std::vector<double> lengths = memory_order_.order.gather(vertex_values(mesh_, target_length_property));
+    std::vector<double> lengths = target_lengths();
     if (options_.constraints.features.angle >= 180)
       std::ranges::fill(lengths, std::numeric_limits<double>::infinity());
     return is_marched_mask(input_.points, input_.adjacency, lengths);

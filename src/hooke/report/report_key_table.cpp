@@ -134,8 +134,7 @@ constexpr Row head[] = {
     {"tool.version", text, none, neither, "its version"},
     {"status", text, none, neither,
      "how the run ended: converged; stalled = at rest, as near to the target as the connectivity allows; "
-     "jammed "
-     "= no step gets anywhere; iteration_limit; interrupted; time_limit; checked"},
+     "jammed = no step gets anywhere; iteration_limit; interrupted; time_limit; checked"},
 };
 
 constexpr Row parameters[] = {
