@@ -402,6 +402,7 @@ class FeatureSearch {
 
   double median_bend_ratio(const std::vector<int>& edges, bool goes_on = false) const {
     std::vector<double> ratios;
+    ratios.reserve(edges.size());
     for (int e : edges) ratios.push_back(bend_ratio(e, goes_on));
     const auto middle = ratios.begin() + std::ssize(ratios) / 2;
     std::nth_element(ratios.begin(), middle, ratios.end());

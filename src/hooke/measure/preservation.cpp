@@ -143,6 +143,7 @@ void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& 
 
 std::vector<Triangle> as_segments(const std::vector<Edge>& edges) {
   std::vector<Triangle> segments;
+  segments.reserve(edges.size());
   for (const auto& [a, b] : edges) segments.push_back({a, b, b});
   return segments;
 }

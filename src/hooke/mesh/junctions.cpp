@@ -112,7 +112,7 @@ Junctions find_junctions(const Adjacency& c, const std::vector<int>& joined) {
 
 Warnings require_valid_sheets(const Mat3X& points, const std::vector<Triangle>& sheets,
                               const std::vector<int>& joined, MeshSource source) {
-  const Warnings warnings = require_valid(points, join_faces(sheets, joined), source);
+  Warnings warnings = require_valid(points, join_faces(sheets, joined), source);
   source.keeps_junctions = false;
   if (!joined.empty()) require_valid(points, sheets, source);
   return warnings;

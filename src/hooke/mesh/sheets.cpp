@@ -162,6 +162,7 @@ class SheetMaker {
     constexpr size_t most_faces = 200;  // beyond that all are cut apart: pairs are found in quadratic time
     if (many_faces_ == ManyFaces::apart || sides.size() > most_faces) return;
     std::vector<std::pair<double, Side>> around;
+    around.reserve(sides.size());
     for (const Side side : sides) around.emplace_back(angle_at_edge(side), side);
     std::ranges::sort(around);
     if (alternates(around))

@@ -486,7 +486,7 @@ std::vector<std::string> alternatives(const std::string& path) {
     std::vector<std::string> longer;
     for (const std::string& begun : paths)
       for (const std::string& key : split(part, '|'))
-        longer.push_back(begun.empty() ? key : begun + "." + key);
+        longer.push_back(begun.empty() ? key : fmt::format("{}.{}", begun, key));
     paths = std::move(longer);
   }
   return paths;
