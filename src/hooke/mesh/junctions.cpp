@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "hooke/core/error.h"
+#include "hooke/mesh/disjoint_sets.h"
 
 namespace hooke {
 
@@ -72,21 +72,6 @@ int face_count(const Adjacency& c, auto begin, auto end) {
   return faces;
 }
 
-class DisjointVertices {
- public:
-  explicit DisjointVertices(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(const Edge& e) { parent_[root(e[0])] = root(e[1]); }
-
- private:
-  std::vector<int> parent_;
-};
-
 }  // namespace
 
 Junctions find_junctions(const Adjacency& c, const std::vector<int>& joined) {
@@ -129,7 +114,7 @@ Topology measure_topology(const Adjacency& c, const std::vector<int>& joined) {
   if (joined.empty()) return measure_topology(c);
   Topology t;
   t.faces = static_cast<int>(c.faces.size());
-  DisjointVertices components(joined.size()), boundaries(joined.size());
+  DisjointSets components(joined.size()), boundaries(joined.size());
   std::vector<char> is_used(joined.size(), 0), on_boundary(joined.size(), 0);
   for_each_joined(joined_edges(c, joined), [&](const Edge& ends, auto begin, auto end) {
     ++t.edges;
@@ -209,7 +194,7 @@ JunctionCounts count_junctions(const Adjacency& c, const std::vector<int>& joine
   });
   counts.edges = static_cast<int>(edges.size());
   const auto is_node = [&](int v) { return ends_at[v].degree != 2 || ends_at[v].changes; };
-  DisjointVertices loops(joined.size());
+  DisjointSets loops(joined.size());
   int ends_of_curves = 0;
   for (const auto& [ends, faces] : edges) {
     for (const int v : ends) ends_of_curves += is_node(v);

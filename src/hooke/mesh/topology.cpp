@@ -1,32 +1,8 @@
 #include "hooke/mesh/topology.h"
 
-#include <numeric>
+#include "hooke/mesh/disjoint_sets.h"
 
 namespace hooke {
-namespace {
-
-/// Disjoint sets of the ids [0, n), joined by edges.
-class DisjointSets {
- public:
-  explicit DisjointSets(int n) : parent_(static_cast<size_t>(n)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  int root(int i) {
-    while (parent_[i] != i) {
-      int& parent = parent_[i];
-      parent = parent_[parent];
-      i = parent;
-    }
-    return i;
-  }
-  void join(const Edge& e) { parent_[root(e[0])] = root(e[1]); }
-
- private:
-  std::vector<int> parent_;
-};
-
-}  // namespace
 
 std::vector<char> boundary_vertices(const Adjacency& adjacency) {
   std::vector<char> on_boundary(adjacency.vertex_count, 0);
@@ -42,8 +18,8 @@ Topology measure_topology(const Adjacency& adjacency) {
   t.edges = static_cast<int>(adjacency.edges.size());
   t.faces = static_cast<int>(adjacency.faces.size());
 
-  DisjointSets components(t.vertices);
-  DisjointSets boundary_loops(t.vertices);
+  DisjointSets components(adjacency.vertex_count);
+  DisjointSets boundary_loops(adjacency.vertex_count);
   for (size_t e = 0; e < adjacency.edges.size(); ++e) {
     components.join(adjacency.edges[e]);
     if (!adjacency.is_boundary_edge(static_cast<int>(e))) continue;
