@@ -71,7 +71,6 @@ class PreservingRemesh {
                    const PreservationOptions& preservation, const KnownInput& known, const Observer& observer,
                    Stopwatch* stopwatch, bool smooths_steps)
       : mesh_(mesh),
-        start_(mesh),
         memory_order_(memory_order),
         options_(options),
         observer_(observer),
@@ -394,7 +393,7 @@ class PreservingRemesh {
     std::ranges::for_each(memory_order_.order.new_edges(options_.constraints.seams), hold_edge);
     for (int v : memory_order_.order.new_vertices(options_.constraints.fixed_vertices)) is_held[v] = 1;
     for (int v : find_junctions(c, input_.joined).vertices) is_held[v] = 1;
-    vertex_points(start_) = memory_order_.order.scatter(without_steps(input_.points, c, is_held));
+    smoothed_ = memory_order_.order.scatter(without_steps(input_.points, c, is_held));
     double& angle = options_.constraints.features.angle;
     if (angle < 180) steps_ = static_cast<int>(sharp_edges(input_.points, c, angle).size());
     angle = 180;
@@ -402,10 +401,11 @@ class PreservingRemesh {
 
   Run make() const {
     Run a;
-    a.mesh = start_;
+    a.mesh = mesh_;
+    if (is_mask_) vertex_points(a.mesh) = smoothed_;
     a.result = remesh(a.mesh, memory_order_, options_, observer_, stopwatch_);
     if (is_mask_) {
-      a.result.steps_smoothed = vertex_points(start_) != vertex_points(mesh_);
+      a.result.steps_smoothed = smoothed_ != vertex_points(mesh_);
       a.result.creases.sharp = a.result.creases.dropped = steps_;
       a.result.input_points = vertex_points(mesh_);
     }
@@ -449,9 +449,9 @@ class PreservingRemesh {
   }
 
   const TriMesh& mesh_;
-  TriMesh start_;  // of the attempts
   bool is_mask_ = false;
-  int steps_ = 0;  // sharp edges of a mask
+  Mat3X smoothed_;  // of a mask: the points that attempts start from, by vertex id
+  int steps_ = 0;   // sharp edges of a mask
   const MemoryOrder& memory_order_;
   RemeshOptions options_;
   const Observer& observer_;
