@@ -9,33 +9,21 @@ namespace {
 
 enum class RowOf { vertex, wedge };
 
-/// Calls use(column, row, empty) for each column: `column` takes a table and returns it, and `empty` is the
+/// Calls use(row, empty, column) for each column: `column` tells where it is in a table, and `empty` is the
 /// value of a new row. The only list of the columns.
 void for_each_column(const auto& use) {
-  use(
-      [](auto& t) -> auto& { return t.positions.points; }, RowOf::vertex, 0.);
-  use(
-      [](auto& t) -> auto& { return t.positions.segments; }, RowOf::vertex, 0);
-  use(
-      [](auto& t) -> auto& { return t.positions.drift; }, RowOf::vertex, 0.);
-  use(
-      [](auto& t) -> auto& { return t.positions.normals; }, RowOf::wedge, 0.);
-  use(
-      [](auto& t) -> auto& { return t.positions.hints; }, RowOf::wedge, 0);
-  use(
-      [](auto& t) -> auto& { return t.constraints.freedom; }, RowOf::vertex, Freedom::fixed);
-  use(
-      [](auto& t) -> auto& { return t.constraints.curve; }, RowOf::vertex, -1);
-  use(
-      [](auto& t) -> auto& { return t.constraints.junction; }, RowOf::vertex, -1);
-  use(
-      [](auto& t) -> auto& { return t.vertex_length; }, RowOf::vertex, 0.);
-  use(
-      [](auto& t) -> auto& { return t.origins; }, RowOf::vertex, -1);
-  use(
-      [](auto& t) -> auto& { return t.previous_ids; }, RowOf::vertex, -1);
-  use(
-      [](auto& t) -> auto& { return t.corner_valences; }, RowOf::wedge, 0);
+  use(RowOf::vertex, 0., [](auto& t) { return &t.positions.points; });
+  use(RowOf::vertex, 0, [](auto& t) { return &t.positions.segments; });
+  use(RowOf::vertex, 0., [](auto& t) { return &t.positions.drift; });
+  use(RowOf::wedge, 0., [](auto& t) { return &t.positions.normals; });
+  use(RowOf::wedge, 0, [](auto& t) { return &t.positions.hints; });
+  use(RowOf::vertex, Freedom::fixed, [](auto& t) { return &t.constraints.freedom; });
+  use(RowOf::vertex, -1, [](auto& t) { return &t.constraints.curve; });
+  use(RowOf::vertex, -1, [](auto& t) { return &t.constraints.junction; });
+  use(RowOf::vertex, 0., [](auto& t) { return &t.vertex_length; });
+  use(RowOf::vertex, -1, [](auto& t) { return &t.origins; });
+  use(RowOf::vertex, -1, [](auto& t) { return &t.previous_ids; });
+  use(RowOf::wedge, 0, [](auto& t) { return &t.corner_valences; });
 }
 
 /// An empty column is not in use.
@@ -67,22 +55,22 @@ Mat3X rows_of(const Mat3X& column, const std::vector<int>& rows) {
 
 void VertexTable::resize(int ids, int spare) {
   for_each_column(
-      [&](const auto& column, RowOf, auto empty) { resize_column(column(*this), ids, spare, empty); });
+      [&](RowOf, auto empty, const auto& column) { resize_column(*column(*this), ids, spare, empty); });
   if (!positions.other_wedge.empty()) positions.other_wedge.resize(ids, -1);
 }
 
 VertexTable VertexTable::rows(const std::vector<int>& vertices, const std::vector<int>& wedges) const {
   VertexTable selected;
-  for_each_column([&](const auto& column, RowOf row, auto) {
-    column(selected) = rows_of(column(*this), row == RowOf::vertex ? vertices : wedges);
+  for_each_column([&](RowOf row, auto, const auto& column) {
+    *column(selected) = rows_of(*column(*this), row == RowOf::vertex ? vertices : wedges);
   });
   return selected;
 }
 
 void VertexTable::keep(const std::vector<int>& vertices, const std::vector<int>& wedges,
                        std::vector<int> extra_wedges) {
-  for_each_column([&](const auto& column, RowOf row, auto) {
-    column(*this) = rows_of(column(*this), row == RowOf::vertex ? vertices : wedges);
+  for_each_column([&](RowOf row, auto, const auto& column) {
+    *column(*this) = rows_of(*column(*this), row == RowOf::vertex ? vertices : wedges);
   });
   positions.other_wedge = other_wedges(vertices.size(), extra_wedges);
   constraints.extra_wedges = std::move(extra_wedges);

@@ -1,5 +1,5 @@
-// The working mesh of the algorithms that change connectivity: a half-edge mesh with the data of each vertex
-// (position, constraints, target length), and the edit of a workspace through it.
+// The working mesh of the algorithms that change connectivity: a half-edge mesh with the data of its vertices
+// (position, constraints, target length).
 #pragma once
 
 #include <functional>
