@@ -17,6 +17,7 @@
 #include "hooke/springs/forces.h"
 #include "hooke/springs/hooke_law.h"
 #include "hooke/springs/target_lengths.h"
+#include "hooke/working_mesh/vertex_table.h"
 #include "support/solids.h"
 
 namespace hooke {
@@ -27,27 +28,32 @@ struct Sphere {
   explicit Sphere(int levels)
       : start(test::sphere(levels, .35, 7)),
         adjacency(std::make_shared<const Adjacency>(
-            make_adjacency(static_cast<int>(start.points.cols()), start.faces))),
-        length(start.points.cols(),
-               natural_length(total_area(start.points, start.faces), start.faces.size())) {
+            make_adjacency(static_cast<int>(start.points.cols()), start.faces))) {
+    length.assign(start.points.cols(),
+                  natural_length(total_area(start.points, start.faces), start.faces.size()));
+    targets = spread_target_lengths(*adjacency, length);
+    constraints = find_constraints(start.points, *adjacency, {});
     std::vector<int> hints(length.size());
     std::iota(hints.begin(), hints.end(), 0);
     positions = retraction.project_all(start.points, hints, constraints.segment);
   }
 
-  Relaxation relaxation() { return {*adjacency, coloring, length, energy, retraction, guards, positions}; }
+  Relaxation relaxation() {
+    return {*adjacency, coloring, targets, vertices, retraction, energy.terms, guards.limits()};
+  }
 
   test::Triangles start;
   std::shared_ptr<const Adjacency> adjacency;
-  std::vector<double> length;
+  VertexTable vertices;
+  std::vector<double>& length = vertices.vertex_length;
+  SurfacePositions& positions = vertices.positions;
+  Constraints& constraints = vertices.constraints;
   VertexColoring coloring = color_vertices(*adjacency);
-  TargetLengths targets = spread_target_lengths(*adjacency, length);
-  Constraints constraints = find_constraints(start.points, *adjacency, {});
+  TargetLengths targets;
   SurfaceField field{std::make_shared<const Mat3X>(start.points), adjacency};
   Retraction retraction{field.surface(), constraints, {}};
   Energy energy{*adjacency, targets, {}};
   Guards guards{*adjacency, targets, {}};
-  SurfacePositions positions;
 };
 
 void per_item(benchmark::State& state, size_t items) {

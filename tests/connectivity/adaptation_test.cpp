@@ -370,11 +370,11 @@ TEST(WorkingMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
     for (double& length : s.vertices.vertex_length) length *= factor;
     for (int round = 0; round < 4; ++round) {
       count_curve_edges(s.mesh, .1);
-      split_long_edges(s.mesh, {});
+      split_long_edges(s.mesh);
       WorkingMesh flipping = s.mesh;
-      flip_to_delaunay(flipping, {});
-      collapse_short_edges(s.mesh, {});
-      match_curve_edges(s.mesh, {});
+      flip_to_delaunay(flipping);
+      collapse_short_edges(s.mesh);
+      match_curve_edges(s.mesh);
       compact(s.mesh);
     }
     const double wanted = std::lround(1 / s.vertices.vertex_length[0]);

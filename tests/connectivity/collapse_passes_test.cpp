@@ -80,22 +80,19 @@ TEST(CollapseTrial, LeavesNoLongEdgesButWhereThereWereLongerOnes) {
 }
 
 /// The worst shape of the faces at the vertex, its edges, and the dihedral angles of its faces.
-WorstShape worst_at(const WorkingMesh& m, int v) {
+LocalShape worst_at(const WorkingMesh& m, int v) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X &X = m.vertices.positions.points, &N = m.vertices.positions.normals;
-  WorstShape worst;
+  LocalShape worst;
   for (int outgoing : t.outgoing(v)) {
     const auto f = static_cast<size_t>(outgoing / 3);
-    worst.cotangent = std::max(worst.cotangent, max_cotangent(X, t.faces()[f]));
-    worst.alignment = std::min(worst.alignment, face_alignment(X, N, t.faces()[f], t.wedges()[f]));
+    worst.add_face(X, N, t.faces()[f], t.wedges()[f]);
     for (int h : {outgoing, HalfedgeMesh::next(outgoing), HalfedgeMesh::previous(outgoing)}) {
       const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
       if (edge[0] == v || edge[1] == v)
-        worst.sagitta =
-            std::max(worst.sagitta, edge_sagitta(X, N, edge, wedges) / target_length(m, edge[0], edge[1]));
+        worst.add_edge(X, N, edge, wedges, target_length(m, edge[0], edge[1]));
       if (!t.is_feature_edge(h))
-        worst.fold = std::min(worst.fold,
-                              cosine_between(X, t.faces()[f], t.faces()[static_cast<size_t>(t.twin(h) / 3)]));
+        worst.add_fold(cosine_between(X, t.faces()[f], t.faces()[static_cast<size_t>(t.twin(h) / 3)]));
     }
   }
   return worst;
@@ -110,9 +107,9 @@ void expect_rings_to_predict(const MakeScene& make_scene, int every) {
     const auto s = make_scene();
     const std::optional<Collapse> collapse = find_collapse(s->mesh, h, {.longest = 3});
     if (!collapse) continue;
-    const WorstShape predicted = CollapsedRing(s->mesh, h, collapse->stays).worst(collapse->position);
+    const LocalShape predicted = CollapsedRing(s->mesh, h, collapse->stays).worst(collapse->position);
     ASSERT_EQ(collapse_edge(s->mesh, h, {.longest = 3}), collapse->stays);
-    const WorstShape measured = worst_at(s->mesh, collapse->stays);
+    const LocalShape measured = worst_at(s->mesh, collapse->stays);
     EXPECT_NEAR(predicted.cotangent, measured.cotangent, 1e-12);
     EXPECT_NEAR(predicted.alignment, measured.alignment, 1e-12);
     EXPECT_NEAR(predicted.fold, measured.fold, 1e-12);
@@ -147,7 +144,7 @@ TEST(EdgeCollapses, DoNotDependOnThreads) {
     test::WorkingScene s(rough(), test::plane());
     for (double& length : s.vertices.vertex_length) length *= 1.5;
     count_curve_edges(s.mesh, .1);
-    EXPECT_GT(collapse_short_edges(s.mesh, {}), cells);
+    EXPECT_GT(collapse_short_edges(s.mesh), cells);
     compact(s.mesh);
     points.push_back(s.positions.points);
     faces.push_back(s.halfedges.faces());
@@ -211,7 +208,7 @@ void expect_a_disk(test::WorkingScene& s) {
 TEST(FaceCollapses, TakeOutFoldedFaces) {
   test::WorkingScene s(with_moved_middle(1.4, 0), test::plane());
   ASSERT_LT(summarize(s.mesh).min_alignment, 0);
-  EXPECT_GE(collapse_folded_faces(s.mesh, folded_face_options()), 1);
+  EXPECT_GE(collapse_folded_faces(s.mesh), 1);
   const FaceSummary after = summarize(s.mesh);
   EXPECT_GT(after.min_alignment, .99);
   EXPECT_GE(after.faces, 2 * fold_cells * fold_cells - 4);
@@ -220,7 +217,7 @@ TEST(FaceCollapses, TakeOutFoldedFaces) {
 
 TEST(FaceCollapses, LeaveGoodFacesAlone) {
   test::WorkingScene s(test::grid(fold_cells, test::flat), test::plane());
-  EXPECT_EQ(collapse_folded_faces(s.mesh, folded_face_options()), 0);
+  EXPECT_EQ(collapse_folded_faces(s.mesh), 0);
   EXPECT_EQ(summarize(s.mesh).faces, 2 * fold_cells * fold_cells);
 }
 

@@ -48,10 +48,10 @@ TEST_P(CornerIsForced, ToItsTargetValenceAndStaysThere) {
   test::WorkingScene s(t, test::plane());
   s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   const Vec3 tip = s.positions.points.col(0);
-  EXPECT_GT(flip_corners_to_valence(s.mesh, {}), 0);
+  EXPECT_GT(flip_corners_to_valence(s.mesh), 0);
   EXPECT_EQ(s.halfedges.valence(0), s.vertices.corner_valences[0]);
   EXPECT_EQ(Vec3(s.positions.points.col(0)), tip);
-  flip_to_delaunay(s.mesh, {});
+  flip_to_delaunay(s.mesh);
   EXPECT_EQ(s.halfedges.valence(0), s.vertices.corner_valences[0]);
   for (const Triangle& f : s.halfedges.faces())
     EXPECT_GE(face_alignment(s.positions.points, s.positions.normals, f), .3);
@@ -66,7 +66,7 @@ TEST(CornerFlips, ACornerCutOffByOneFaceIsOpened) {
   test::WorkingScene s(t, test::plane());
   s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
   for (int corner : {4, 20}) ASSERT_EQ(s.halfedges.valence(corner), 2);
-  EXPECT_EQ(flip_corners_to_valence(s.mesh, {}), 2);
+  EXPECT_EQ(flip_corners_to_valence(s.mesh), 2);
   for (int corner : {0, 4, 20, 24}) EXPECT_EQ(s.halfedges.valence(corner), 3);
   EXPECT_EQ(s.positions.points, t.points);
 }
@@ -76,8 +76,8 @@ TEST(CornerFlips, AnInnerNeighbourDeepInTheEarIsMovedOutOfIt) {
   t.points.col(2) *= .6;  // behind the line between its neighbours: the edge to it cannot be flipped directly
   test::WorkingScene s(t, test::plane());
   s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
-  ASSERT_FALSE(may_flip(s.mesh, test::half_edge(s.halfedges, 0, 2), {}));
-  flip_corners_to_valence(s.mesh, {});
+  ASSERT_FALSE(may_flip(s.mesh, test::half_edge(s.halfedges, 0, 2)));
+  flip_corners_to_valence(s.mesh);
   EXPECT_EQ(s.halfedges.valence(0), 2);
 }
 
@@ -88,7 +88,7 @@ TEST(CornerFlips, WhatBringsNothingIsUndone) {
   test::WorkingScene s(t, test::plane());
   s.constraints.freedom.assign(4, Freedom::fixed);
   s.vertices.corner_valences = {2, 2, 3, 2};
-  EXPECT_EQ(flip_corners_to_valence(s.mesh, {}), 0);
+  EXPECT_EQ(flip_corners_to_valence(s.mesh), 0);
   EXPECT_EQ(s.positions.points, t.points);
   EXPECT_EQ(s.halfedges.faces(), t.faces);
 }

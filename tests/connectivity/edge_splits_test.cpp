@@ -14,7 +14,7 @@ namespace hooke::edge_splits_test {
 constexpr int cells = 6;
 
 int quadrupled(test::WorkingScene& s) {
-  const int splits = subdivide(s.mesh, {}, {});
+  const int splits = subdivide(s.mesh);
   compact(s.mesh);
   return splits;
 }
@@ -92,7 +92,7 @@ TEST(Subdivision, ABoundaryThatStandsStillStaysWhole) {
   s.constraints.curves.clear();
   WorkingMesh still(s.adjacency, s.vertices, s.retraction);
   const int boundary = 4 * cells;
-  EXPECT_EQ(subdivide(still, {}, {}), static_cast<int>(s.adjacency.edges.size()) - boundary);
+  EXPECT_EQ(subdivide(still), static_cast<int>(s.adjacency.edges.size()) - boundary);
   compact(still);
   EXPECT_NEAR(total_area(s.positions.points, still.halfedges.faces()), total_area(t.points, t.faces), 1e-12);
 }

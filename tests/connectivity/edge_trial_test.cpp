@@ -40,7 +40,7 @@ std::vector<EdgeCandidate> kept(const test::WorkingScene& s, const CandidateOpti
 }
 
 PatchQuality quality_after(const EdgeCandidate& candidate, const CandidateOptions& o) {
-  const GuardOptions guards;
+  const ShapeLimits guards;
   return measure_patch(candidate.patch.vertices.positions, candidate.adjacency, candidate.targets,
                        {sliver_angle + o.fair_margin, guards.alignment, guards.fold, o.sagitta, o.longest});
 }

@@ -15,7 +15,7 @@
 namespace hooke::lloyd_flow_test {
 
 LloydFlowResult flow_for(WorkingMesh& mesh, int rounds, const Observer& observer = nullptr) {
-  return flow(mesh, {.rounds = rounds}, {}, {}, observer);
+  return flow(mesh, {.rounds = rounds}, {}, observer);
 }
 
 TEST(Flow, RegularisesAnUnevenSphere) {
@@ -134,7 +134,7 @@ TEST(Lloyd, ARegularLatticeStays) {
 
 TEST(Lloyd, AStepLeadsToTheCentroidOfTheVoronoiCell) {
   test::WorkingScene first(test::grid(8, test::flat, .3, 4), test::plane());
-  flip_to_delaunay(first.mesh, {});
+  flip_to_delaunay(first.mesh);
   test::WorkingScene s({first.positions.points, first.halfedges.faces()}, test::plane());
   const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length, {.over_relaxation = 1});
   int compared = 0;

@@ -22,7 +22,7 @@ double spring_energy(const test::WorkingScene& s, const EnergyTerms& terms = {})
 /// A pass over all edges.
 int flip_all(test::WorkingScene& s, const FlipPassOptions& options = {}) {
   std::vector<char> near;
-  return flip_irregular_edges(s.mesh, {}, options, {}, {}, near, nullptr);
+  return flip_irregular_edges(s.mesh, {}, options, {}, near, nullptr);
 }
 
 /// Minimum cosine between two neighbouring faces.
@@ -38,7 +38,7 @@ double min_fold(const test::WorkingScene& s) {
 
 TEST(FlipPass, EveryFlipKeptLowersTheEnergyByItsGain) {
   test::WorkingScene s(test::sphere(3, .4, 5), test::unit_sphere());
-  flip_to_delaunay(s.mesh, {});
+  flip_to_delaunay(s.mesh);
   const double before = spring_energy(s);
   const FlipPassOptions options{.gain = 1e-3};
   const int flips = flip_all(s, options);
@@ -53,11 +53,11 @@ TEST(FlipPass, HopeLosesHardlyAnyGain) {
   for (double altitude : {0., 1., 10.}) {
     const auto gain = [altitude](const FlipPassOptions& options) {
       test::WorkingScene s(test::sphere(4, .4, 7), test::unit_sphere());
-      flip_to_delaunay(s.mesh, {});
+      flip_to_delaunay(s.mesh);
       const EnergyTerms terms{.altitude = altitude};
       const double before = spring_energy(s, terms);
       std::vector<char> near;
-      flip_irregular_edges(s.mesh, terms, options, {}, {}, near, nullptr);
+      flip_irregular_edges(s.mesh, terms, options, {}, near, nullptr);
       return before - spring_energy(s, terms);
     };
     const double all = gain({.rounds = 1, .max_energy_rise = 1e9, .max_rise_after_relaxation = 1e9});
@@ -68,20 +68,20 @@ TEST(FlipPass, HopeLosesHardlyAnyGain) {
 
 TEST(FlipPass, LooksOnlyWhereThereIsSomethingNew) {
   test::WorkingScene s(test::sphere(3, .4, 5), test::unit_sphere());
-  flip_to_delaunay(s.mesh, {});
+  flip_to_delaunay(s.mesh);
   const std::vector<Triangle> faces = s.halfedges.faces();
   std::vector<char> near(s.vertices.vertex_length.size(), 0);
-  EXPECT_EQ(flip_irregular_edges(s.mesh, {}, {}, {}, {}, near, nullptr), 0);
+  EXPECT_EQ(flip_irregular_edges(s.mesh, {}, {}, {}, near, nullptr), 0);
   EXPECT_EQ(s.halfedges.faces(), faces);
   near.clear();
-  EXPECT_GT(flip_irregular_edges(s.mesh, {}, {.rounds = 1}, {}, {}, near, nullptr), 0);
+  EXPECT_GT(flip_irregular_edges(s.mesh, {}, {.rounds = 1}, {}, near, nullptr), 0);
   EXPECT_EQ(near.size(), s.vertices.vertex_length.size());
   EXPECT_GT(std::ranges::count(near, 1), 0);
 }
 
 TEST(FlipPass, NoEdgeIsTriedAmongTooManyVertices) {
   test::WorkingScene s(test::sphere(3, .4, 5), test::unit_sphere());
-  flip_to_delaunay(s.mesh, {});
+  flip_to_delaunay(s.mesh);
   EXPECT_EQ(flip_all(s, {.max_vertices = 8}), 0);  // two rings have more
 }
 
@@ -89,7 +89,7 @@ TEST(FlipPass, ThreadsChangeNothing) {
   const auto result = [](int threads) {
     const ThreadLimit limit(threads);
     test::WorkingScene s(test::sphere(4, .4, 3), test::unit_sphere());
-    flip_to_delaunay(s.mesh, {});
+    flip_to_delaunay(s.mesh);
     EXPECT_GT(flip_all(s), 10);
     return std::pair(s.halfedges.faces(), s.positions.points);
   };
@@ -100,12 +100,12 @@ TEST(FlipPass, ThreadsChangeNothing) {
 
 TEST(FlipPass, StopsWithAValidMeshWhenTheObserverSaysSo) {
   test::WorkingScene s(test::sphere(4, .4, 3), test::unit_sphere());
-  flip_to_delaunay(s.mesh, {});
+  flip_to_delaunay(s.mesh);
   const double before = spring_energy(s);
   std::vector<char> near;
   int calls = 0;
   const int flips =
-      flip_irregular_edges(s.mesh, {}, {}, {}, {}, near, [&](const Progress&) { return ++calls < 3; });
+      flip_irregular_edges(s.mesh, {}, {}, {}, near, [&](const Progress&) { return ++calls < 3; });
   EXPECT_EQ(calls, 3);
   EXPECT_GT(flips, 0);
   EXPECT_LT(spring_energy(s), before);
@@ -120,7 +120,7 @@ TEST(FlipPass, ARegularMeshHasNothingToFlip) {
 TEST(FlipPass, KeepsTheBoundary) {
   const test::Triangles t = test::grid(8, test::flat, .4, 3);
   test::WorkingScene s(t, test::plane());
-  flip_to_delaunay(s.mesh, {});
+  flip_to_delaunay(s.mesh);
   EXPECT_GT(flip_all(s), 0);
   const int n = static_cast<int>(t.points.cols());
   EXPECT_EQ(test::boundary_edges(n, s.halfedges.faces()), test::boundary_edges(n, t.faces));

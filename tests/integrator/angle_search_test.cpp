@@ -163,7 +163,7 @@ TEST(AngleSearch, FacesSetAsideLoseLittle) {
 TEST(AngleSearch, FacesSetAsideAreTakenBackForLargerSagittas) {
   for (const unsigned seed : {7, 21}) {
     test::SceneOptions tight;
-    tight.guards.sagitta = .02;
+    tight.limits.sagitta = .02;
     test::Scene s(test::sphere(2, .3, seed), test::to_unit_sphere, tight);
     Relaxation r = s.relaxation();
     search_angles(r, {.springs = {.range = 0}, .edge_error_limit = 1.1, .sagitta = .15});
@@ -176,7 +176,7 @@ TEST(AngleSearch, SagittasMayGrowWhereThatIsWorthIt) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const auto with = [&](double sagitta) {
       test::SceneOptions tight;
-      tight.guards.sagitta = .05;
+      tight.limits.sagitta = .05;
       test::Scene s(test::sphere(2, .4, seed), test::to_unit_sphere, tight);
       const auto max_sagitta = [&] {
         double greatest = 0;

@@ -239,21 +239,17 @@ TriMesh with_natural_length(const Triangles& t) {
 /// All that a relaxation refers to.
 struct Bench {
   Workspace work;
-  Energy energy;
-  Guards guards;
+  EnergyTerms terms;
+  ShapeLimits limits;
   TriMesh mesh;
 
-  explicit Bench(const Triangles& t, const GuardOptions& guard_options = {},
+  explicit Bench(const Triangles& t, const ShapeLimits& shape_limits = {},
                  FilterKind filter = FilterKind::local)
       : work(with_natural_length(t), find_memory_order(test::to_mesh(t)), {}, {.kind = filter}, {}),
-        energy(*work.adjacency, work.targets, {}),
-        guards(*work.adjacency, work.targets, guard_options),
+        limits(shape_limits),
         mesh(build_mesh(work.vertices.positions.points, *work.adjacency)) {}
 
-  Relaxation relaxation() {
-    return {*work.adjacency,  work.coloring, work.vertices.vertex_length, energy,
-            *work.retraction, guards,        work.vertices.positions};
-  }
+  Relaxation relaxation() { return {work, terms, limits}; }
   IntegrationResult damped(const IntegrationOptions& options = {}, const DampedOptions& constants = {},
                            const Observer& observer = nullptr) {
     Relaxation r = relaxation();
@@ -287,7 +283,7 @@ TEST_P(DampedEquilibrium, IsThatOfTheEnergyWithinFivePercentOfEdgeDeviation) {
   EXPECT_LT(result.steps, 2000);
   EXPECT_LT(damped.deviation(), .7 * start);
   EXPECT_NEAR(damped.deviation() / minimised.deviation(), 1, .05);
-  EXPECT_TRUE(damped.guards.folded_faces(damped.work.vertices.positions).empty());
+  EXPECT_TRUE(damped.relaxation().guards.folded_faces(damped.work.vertices.positions).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, DampedEquilibrium,
@@ -310,7 +306,7 @@ TEST(DampedRelaxation, MovesAsTheEquationOfMotionSays) {
   // In the plane the displacements are not curved, and this jitter is too small for the cap and the guards.
   // The first step starts from rest at epsilon = 1/2, the second goes on at 1.1 times that.
   Bench b(test::grid(8, test::flat, .1), {}, FilterKind::none);
-  b.energy.terms.altitude = 0;  // stiff: they would reject the second step
+  b.terms.altitude = 0;  // stiff: they would reject the second step
   const DampedOptions constants{.string = 3, .friction = 400};
   const double m = 1. / 81, dt = .5 * std::sqrt(m / 3), tau = 400;
   const Mat3X X0 = b.work.vertices.positions.points;
@@ -368,7 +364,7 @@ TEST(DampedRelaxation, StartsFromRest) {
 }
 
 TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
-  Bench b(test::sphere(1, .3), {.area_ratio = 1e9});  // no step is short enough
+  Bench b(test::sphere(1, .3), {.area = 1e9});  // no step is short enough
   const Mat3X before = b.work.vertices.positions.points;
   const IntegrationResult result = b.damped({.max_steps = 20});
   EXPECT_GT(result.limited_steps, 0);
@@ -377,16 +373,15 @@ TEST(DampedRelaxation, VerticesThatTheGuardsHoldHaveNoVelocity) {
 }
 
 TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
-  const GuardOptions none{
-      .area_ratio = 0, .alignment = -2, .fold = -2, .sagitta = 1e9};  // guards would limit the steps
+  const ShapeLimits none{
+      .area = 0, .alignment = -2, .fold = -2, .sagitta = 1e9};  // guards would limit the steps
   Bench b(test::grid(4, test::flat, .2), none, FilterKind::none);
   const Surface runs_away = [](const Vec3& x, int hint, double) {
     return Projection{.point = 2 * x, .normal = Vec3::UnitZ(), .hint = hint};
   };
   Retraction retraction(runs_away, b.work.vertices.constraints, {});
   const Mat3X before = b.work.vertices.positions.points;
-  Relaxation r{*b.work.adjacency, b.work.coloring, b.work.vertices.vertex_length, b.energy,
-               retraction,        b.guards,        b.work.vertices.positions};
+  Relaxation r(*b.work.adjacency, b.work.coloring, b.work.targets, b.work.vertices, retraction, {}, none);
   const IntegrationResult result = relax_damped(r, b.mesh, {}, {}, nullptr);
   EXPECT_EQ(result.reason, StopReason::jammed);
   EXPECT_EQ(result.steps, 0);
@@ -395,7 +390,7 @@ TEST(DampedRelaxation, JamsWhereEveryStepRaisesTheEnergy) {
 
 TEST(DampedRelaxation, RefusesForcesThatAreNotFinite) {
   Bench b(test::grid(4, test::flat, .2));
-  b.energy.terms.string = std::numeric_limits<double>::quiet_NaN();
+  b.terms.string = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(b.damped(), NumericalError);
 }
 

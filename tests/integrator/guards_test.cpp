@@ -12,7 +12,7 @@
 
 namespace hooke::guards_test {
 
-const GuardOptions defaults;
+const ShapeLimits defaults;
 
 TEST(GuardRules, ACreaseKeepsItsSideOfEachLimit) {
   for (const double limit : {defaults.fold, -defaults.fold}) {
@@ -54,7 +54,7 @@ TEST(GuardRules, ASagittaAboveItsLimitMayOnlyShrink) {
 }
 
 TEST(GuardRules, OnlyFacesOnTheSurfaceKeepTheirAngles) {
-  GuardOptions o;
+  ShapeLimits o;
   o.cotangent = 2;
   EXPECT_TRUE(angle_breaks(o, .9, 1, 2.1));
   EXPECT_FALSE(angle_breaks(o, .9, 1, 1.9));
@@ -72,7 +72,7 @@ test::Triangles folded_grid(double pull) {
 
 /// The rules, written down once more from measures taken here. Returns what breaks.
 std::string broken_rule(const test::Scene& s, const SurfacePositions& from, const SurfacePositions& to,
-                        const GuardOptions& o = {}) {
+                        const ShapeLimits& o = {}) {
   for (const Triangle& t : s.adjacency.faces) {
     const auto alignment = [&](const SurfacePositions& p) {
       const Vec3 n = test::area_vector(p.points, t);
@@ -81,7 +81,7 @@ std::string broken_rule(const test::Scene& s, const SurfacePositions& from, cons
     };
     const double ratio = test::area_vector(to.points, t).norm() / test::area_vector(from.points, t).norm();
     const bool was_folded = alignment(from) < o.alignment;
-    if (!was_folded && ratio < o.area_ratio * (1 - 1e-9)) return "area";
+    if (!was_folded && ratio < o.area * (1 - 1e-9)) return "area";
     if (!was_folded && alignment(to) < o.alignment - 1e-12) return "alignment";
     const double cotangent = max_cotangent(to.points, t);
     if (!was_folded && cotangent > std::max(max_cotangent(from.points, t), o.cotangent) * (1 + 1e-12))
@@ -172,11 +172,11 @@ TEST(Guards, WhatIsKnownToHaveMovedIsPutBackLikeAll) {
 }
 
 TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
-  const GuardOptions tight{.area_ratio = .8, .alignment = .9, .sagitta = .04, .cotangent = 1.5};
-  for (const GuardOptions& guards : {GuardOptions{}, tight})
+  const ShapeLimits tight{.area = .8, .alignment = .9, .sagitta = .04, .cotangent = 1.5};
+  for (const ShapeLimits& limits : {ShapeLimits{}, tight})
     for (unsigned seed = 1; seed <= 5; ++seed) {
       test::SceneOptions options;
-      options.guards = guards;
+      options.limits = limits;
       test::Scene sphere = test::sphere_scene(.4, options), ground = test::ground_scene(.4, options);
       for (test::Scene* s : {&sphere, &ground}) {
         Mat3X u = test::random_vectors(s->positions.points.cols(), .8 * s->L(), seed);
@@ -184,7 +184,7 @@ TEST(Guards, AnAcceptedStepSatisfiesEveryGuard) {
         const Mat3X wanted = u;
         SurfacePositions to;
         EXPECT_FALSE(s->guards.step(s->retraction, s->positions, u, to).empty());
-        EXPECT_EQ(broken_rule(*s, s->positions, to, guards), "");
+        EXPECT_EQ(broken_rule(*s, s->positions, to, limits), "");
         EXPECT_GT((to.points - s->positions.points).norm(), 0);
         for (Eigen::Index v = 0; v < u.cols(); ++v) {
           double part = 1;
@@ -280,7 +280,7 @@ int limited_moves(test::Scene& s) {
     SurfacePositions to;
     s.retraction.step(s.positions, u, to);
     ring.shape(to.points.col(v), to.normals.col(v), after);
-    const bool obeys = ring.obeys(before, after, s.guards.options());
+    const bool obeys = ring.obeys(before, after, s.guards.limits());
     EXPECT_EQ(s.guards.step(s.retraction, s.positions, u, to).empty(), obeys) << v;
     limited += !obeys;
   }
@@ -289,7 +289,7 @@ int limited_moves(test::Scene& s) {
 
 TEST(Guards, OneVertexAloneIsJudgedLikeAStepOfAll) {
   test::SceneOptions tight;
-  tight.guards = {.area_ratio = .8, .alignment = .9, .fold = .9, .sagitta = .04};
+  tight.limits = {.area = .8, .alignment = .9, .fold = .9, .sagitta = .04};
   test::Scene scenes[] = {test::sphere_scene(.4), test::ground_scene(.4), test::sphere_scene(.4, tight),
                           test::Scene(folded_grid(1.5), test::to_ground)};
   for (test::Scene& s : scenes) {

@@ -73,8 +73,8 @@ TEST(Untangle, PutsTheEnergyBackAsItWas) {
   s.energy.terms.altitude = .7;
   Relaxation r = s.relaxation();
   untangle(r, {}, nullptr);
-  EXPECT_EQ(s.energy.terms.altitude, .7);
-  EXPECT_EQ(s.energy.terms.unfold, 0);
+  EXPECT_EQ(r.energy.terms.altitude, .7);
+  EXPECT_EQ(r.energy.terms.unfold, 0);
 }
 
 TEST(Untangle, StopsWhenAskedTo) {
@@ -84,7 +84,7 @@ TEST(Untangle, StopsWhenAskedTo) {
   const UntangleResult result = untangle(r, {}, [&](const Progress&) { return ++calls < 1; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(calls, 1);
-  EXPECT_EQ(s.energy.terms.unfold, 0);
+  EXPECT_EQ(r.energy.terms.unfold, 0);
 }
 
 TEST(Untangle, NamesWhatItCannotUnfold) {

@@ -13,6 +13,7 @@
 #include "hooke/mesh/vertex_coloring.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
+#include "hooke/working_mesh/vertex_table.h"
 #include "support/solids.h"
 
 namespace hooke::test {
@@ -29,31 +30,30 @@ struct SceneOptions {
   EnergyTerms terms;
   ConstraintOptions constraints;
   RetractionOptions retraction;
-  GuardOptions guards;
+  ShapeLimits limits;
 };
 
 /// The target length of every vertex is the natural length of the mesh.
 struct Scene {
   Adjacency adjacency;
   VertexColoring coloring;
-  std::vector<double> length;
+  VertexTable vertices;
+  std::vector<double>& length = vertices.vertex_length;
+  Constraints& constraints = vertices.constraints;
+  SurfacePositions& positions = vertices.positions;
   TargetLengths targets;
-  Constraints constraints;
   Energy energy;
   Retraction retraction;
   Guards guards;
-  SurfacePositions positions;
 
   Scene(const Triangles& t, Surface surface, const SceneOptions& o = {})
       : adjacency(connect(t)),
         coloring(color_vertices(adjacency)),
-        length(static_cast<size_t>(adjacency.vertex_count),
-               natural_length(total_area(t.points, t.faces), t.faces.size())),
+        vertices(columns(t, adjacency, o.constraints)),
         targets(spread_target_lengths(adjacency, length)),
-        constraints(find_constraints(t.points, adjacency, o.constraints)),
         energy(adjacency, targets, o.terms),
         retraction(std::move(surface), constraints, o.retraction),
-        guards(adjacency, targets, o.guards) {
+        guards(adjacency, targets, o.limits) {
     std::vector<int> hints(length.size());
     for (size_t v = 0; v < hints.size(); ++v) hints[v] = static_cast<int>(v);
     positions = retraction.project_all(t.points, std::move(hints), constraints.segment);
@@ -62,7 +62,17 @@ struct Scene {
 
   double L() const { return length[0]; }
 
-  Relaxation relaxation() { return {adjacency, coloring, length, energy, retraction, guards, positions}; }
+  Relaxation relaxation() {
+    return {adjacency, coloring, targets, vertices, retraction, energy.terms, guards.limits()};
+  }
+
+  static VertexTable columns(const Triangles& t, const Adjacency& adjacency, const ConstraintOptions& o) {
+    VertexTable vertices;
+    vertices.vertex_length.assign(adjacency.vertex_count,
+                                  natural_length(total_area(t.points, t.faces), t.faces.size()));
+    vertices.constraints = find_constraints(t.points, adjacency, o);
+    return vertices;
+  }
 
   /// Gradient of the energy in the directions that the vertices may move in.
   Mat3X tangent_gradient() {

@@ -175,9 +175,9 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
         t.points(2, v) = noise;
     }
     test::WorkingScene s(t, rough, creases);
-    const GuardOptions guards{.fold = .12};
+    const ShapeLimits guards{.fold = .12};
     for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
-      if (s.halfedges.twin(h) < h || s.halfedges.is_crease(h) || !may_flip(s.mesh, h, {})) continue;
+      if (s.halfedges.twin(h) < h || s.halfedges.is_crease(h) || !may_flip(s.mesh, h)) continue;
       const auto patch = cut_patch(s.mesh, h, 1, 200);
       bool broken = false;
       const auto folds = [&] {

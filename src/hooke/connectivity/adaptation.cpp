@@ -6,14 +6,15 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/connectivity/collapse_passes.h"
 #include "hooke/connectivity/corner_flips.h"
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_splits.h"
+#include "hooke/connectivity/face_count.h"
 #include "hooke/connectivity/lloyd_flow.h"
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/stopwatch.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/integrator/lbfgs.h"
 #include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/adjacency.h"
@@ -33,9 +34,8 @@ namespace {
 class AdaptationSteps {
  public:
   /// `corner_angle`: degrees, see corner_valences().
-  AdaptationSteps(Workspace& work, const StepOptions& options, const FlipGuardOptions& flip_guard,
-                  const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
-                  Observer observer);
+  AdaptationSteps(Workspace& work, const StepOptions& options, const EnergyTerms& terms,
+                  const ShapeLimits& limits, double corner_angle, Observer observer);
 
   /// Lets vertices at bends move and collapse on curves whose number of edges is to change.
   void release_bends();
@@ -80,9 +80,8 @@ class AdaptationSteps {
 
   Workspace& work_;
   const StepOptions& options_;
-  const FlipGuardOptions& flip_guard_;
   const EnergyTerms& terms_;
-  const GuardOptions& guards_;
+  const ShapeLimits& limits_;
   const Observer observer_;
   WorkingMesh m_;
   const bool graded_;
@@ -172,14 +171,12 @@ int coarse_levels(const WorkingMesh& m, double target_faces, const CoarseLimits&
   return level;
 }
 
-AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options,
-                                 const FlipGuardOptions& flip_guard, const EnergyTerms& terms,
-                                 const GuardOptions& guards, double corner_angle, Observer observer)
+AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options, const EnergyTerms& terms,
+                                 const ShapeLimits& limits, double corner_angle, Observer observer)
     : work_(work),
       options_(options),
-      flip_guard_(flip_guard),
       terms_(terms),
-      guards_(guards),
+      limits_(limits),
       observer_(std::move(observer)),
       m_(work),
       graded_(work.has_varying_lengths()) {
@@ -200,10 +197,10 @@ void AdaptationSteps::release_bends() {
 }
 
 void AdaptationSteps::split_junctions() {
-  const int splits = hooke::split_junctions(m_, options_.split.longest);
+  const int splits = hooke::split_junctions(m_);
   if (splits == 0) return;
   counts_.splits += splits;
-  counts_.flips += flip_to_delaunay(m_, flip_guard_);
+  counts_.flips += flip_to_delaunay(m_);
   compact_ids();
 }
 
@@ -220,24 +217,23 @@ void AdaptationSteps::split_and_collapse() {
   count_curve_edges(m_, options_.chord_error);
   // Splits leave flat faces, which prevent collapses, so flips come first. Without splits, flips before the
   // collapses gain nothing: most of the flipped edges collapse.
-  if (const int splits =
-          timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, options_.split); })) {
+  if (const int splits = timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_); })) {
     counts_.splits += splits;
-    counts_.flips += flip_to_delaunay(m_, flip_guard_);
+    counts_.flips += flip_to_delaunay(m_);
   }
   {
     const Stage stage(work_.stopwatch, "collapses");
-    counts_.collapses += collapse_short_edges(m_, options_.collapse);
-    counts_.collapses += collapse_folded_faces(m_, options_.folded);
+    counts_.collapses += collapse_short_edges(m_);
+    counts_.collapses += collapse_folded_faces(m_);
   }
-  add(match_curve_edges(m_, options_.count));
+  add(match_curve_edges(m_));
   compact_ids();
 }
 
 bool AdaptationSteps::change_count(double target_faces) {
   count_curve_edges(m_, options_.chord_error);
-  add(match_curve_edges(m_, options_.count));
-  const CountChanges inner = approach_face_count(m_, target_faces, options_.count);
+  add(match_curve_edges(m_));
+  const CountChanges inner = approach_face_count(m_, target_faces);
   compact_ids();
   add(inner);
   return inner.splits + inner.collapses > 0;
@@ -245,10 +241,10 @@ bool AdaptationSteps::change_count(double target_faces) {
 
 void AdaptationSteps::lloyd_flow(int rounds) {
   const Stage stage(work_.stopwatch, "flow");
-  counts_.flips += flip_to_delaunay(m_, flip_guard_) + flip_corners_to_valence(m_, flip_guard_);
+  counts_.flips += flip_to_delaunay(m_) + flip_corners_to_valence(m_);
   LloydFlowOptions options;
   options.rounds = rounds;
-  const LloydFlowResult flowed = flow(m_, options, flip_guard_, guards_, observer_);
+  const LloydFlowResult flowed = flow(m_, options, limits_, observer_);
   counts_.flips += flowed.flips;
   interrupted_ = flowed.interrupted;
   resample_lengths();
@@ -268,8 +264,7 @@ int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
     interrupted_ = observer_ && !observer_(p);
     return !interrupted_;
   };
-  const int flips =
-      flip_irregular_edges(m_, terms_, options_.irregular, flip_guard_, guards_, lately_changed, watch);
+  const int flips = flip_irregular_edges(m_, terms_, options_.irregular, limits_, lately_changed, watch);
   resample_lengths();
   counts_.flips += flips;
   return flips;
@@ -278,7 +273,7 @@ int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
 void AdaptationSteps::subdivide() {
   const Stage stage(work_.stopwatch, "quadruple");
   count_curve_edges(m_, options_.chord_error);
-  counts_.splits += hooke::subdivide(m_, options_.split, flip_guard_);
+  counts_.splits += hooke::subdivide(m_);
   compact_ids();
   coarsen(-1);
 }
@@ -294,16 +289,7 @@ void AdaptationSteps::relax_springs() {
   split_wedges(c, m_.vertices.constraints.creases);
   const VertexColoring coloring = color_vertices(c);
   const TargetLengths targets = spread_target_lengths(c, m_.vertices.vertex_length);
-  Energy energy(c, targets, terms_);
-  Guards guards(c, targets, guards_);
-  Relaxation r{c,
-               coloring,
-               m_.vertices.vertex_length,
-               energy,
-               m_.retraction,
-               guards,
-               m_.vertices.positions,
-               work_.stopwatch};
+  Relaxation r(c, coloring, targets, m_.vertices, m_.retraction, terms_, limits_, work_.stopwatch);
   IntegrationOptions integration;
   integration.max_steps = options_.spring_steps;
   LbfgsOptions lbfgs;
@@ -328,12 +314,11 @@ namespace {
 
 class Adaptation {
  public:
-  Adaptation(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
-             const GuardOptions& guards, const EnergyTerms& terms, double corner_angle,
-             const Observer& observer)
+  Adaptation(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
+             const ShapeLimits& limits, double corner_angle, const Observer& observer)
       : options_(options),
         observer_(observer),
-        steps_(work, options.steps, flip_guard, terms, guards, corner_angle, watch()) {
+        steps_(work, options.steps, terms, limits, corner_angle, watch()) {
     result_.target_faces =
         target_face_count(work.vertices.positions.points, work.adjacency->faces, work.vertices.vertex_length);
   }
@@ -412,15 +397,6 @@ class Adaptation {
   AdaptResult result_;
 };
 
-UntangleResult unfold(Workspace& work, const EnergyTerms& terms, const GuardOptions& guard_options,
-                      const Observer& observer) {
-  Energy energy(*work.adjacency, work.targets, terms);
-  Guards guards(*work.adjacency, work.targets, guard_options);
-  Relaxation r{*work.adjacency,  work.coloring, work.vertices.vertex_length, energy,
-               *work.retraction, guards,        work.vertices.positions};
-  return untangle(r, UntangleOptions{}, observer);
-}
-
 }  // namespace
 
 AdaptOptions adapt_options(Effort effort) {
@@ -463,16 +439,15 @@ FlipOptions flips_after(const AdaptResult& adapted, const AdaptOptions& options,
   return flips;
 }
 
-AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
-                  const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
-                  const Observer& observer) {
-  const UntangleResult unfolded = unfold(work, terms, guards, observer);
+AdaptResult adapt(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
+                  const ShapeLimits& limits, double corner_angle, const Observer& observer) {
+  Relaxation relaxation(work, terms, limits);
+  const UntangleResult unfolded = untangle(relaxation, {}, observer);
   AdaptResult result;
   if (unfolded.interrupted)
     result.interrupted = true;
   else
-    result = Adaptation(work, options, flip_guard, guards, terms, corner_angle, observer)
-                 .run(!unfolded.folded.empty());
+    result = Adaptation(work, options, terms, limits, corner_angle, observer).run(!unfolded.folded.empty());
   result.folded_before = unfolded.folded_before;
   return result;
 }

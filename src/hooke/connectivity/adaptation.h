@@ -6,8 +6,6 @@
 
 #include <optional>
 
-#include "hooke/connectivity/collapse_passes.h"
-#include "hooke/connectivity/face_count.h"
 #include "hooke/connectivity/flip_mode.h"
 #include "hooke/connectivity/valence_flips.h"
 
@@ -43,10 +41,6 @@ struct StepOptions {
   static constexpr double resolve_bends =
       1.5;                // ratio of these from which on it keeps them too, and is split between them
   int spring_steps = 15;  // evaluations of the spring energy before flips of irregular edges
-  SplitOptions split;
-  CollapseOptions collapse;
-  CollapseOptions folded = folded_face_options();
-  CountOptions count;
   FlipPassOptions irregular{
       .passes = 3, .rings = 3, .sweeps = 4, .max_energy_rise = .5, .max_rise_after_relaxation = .15};
 };
@@ -83,9 +77,8 @@ AdaptOptions adapt_options(Effort effort);
 
 /// Replaces the mesh of the workspace. The topology, boundary loops, creases, corners and fixed vertices are
 /// kept. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.
-AdaptResult adapt(Workspace& work, const AdaptOptions& options, const FlipGuardOptions& flip_guard,
-                  const EnergyTerms& terms, const GuardOptions& guards, double corner_angle,
-                  const Observer& observer);
+AdaptResult adapt(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
+                  const ShapeLimits& limits, double corner_angle, const Observer& observer);
 
 /// The options of mode `flip` after that: less is done if a coarser mesh came first, as most vertices are
 /// then regular.

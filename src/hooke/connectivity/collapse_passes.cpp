@@ -5,7 +5,6 @@
 #include "hooke/connectivity/edge_queue.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
@@ -47,6 +46,14 @@ int collapse_short_edges(WorkingMesh& m, const CollapseOptions& options) {
 
 namespace {
 
+/// Where the usual limits allow no collapse.
+CollapseOptions looser_options() {
+  return {.longest = 2,
+          .valence = 12,
+          .limits = {.sagitta = .5, .cotangent = cotangent_of(2)},
+          .insist_on_alignment = true};
+}
+
 /// Collapses the first edge for which it is allowed, of the face or at its corners.
 bool collapse_about(WorkingMesh& m, int face, const CollapseOptions& options) {
   const HalfedgeMesh& t = m.halfedges;
@@ -60,12 +67,13 @@ bool collapse_about(WorkingMesh& m, int face, const CollapseOptions& options) {
 
 }  // namespace
 
-int collapse_folded_faces(WorkingMesh& m, const CollapseOptions& options) {
+int collapse_folded_faces(WorkingMesh& m) {
+  const CollapseOptions options = looser_options();
   const HalfedgeMesh& t = m.halfedges;
   const auto is_folded = [&](int f) {
     const size_t face = f;
     return face_alignment(m.vertices.positions.points, m.vertices.positions.normals, t.faces()[face],
-                          t.wedges()[face]) < options.alignment;
+                          t.wedges()[face]) < options.limits.alignment;
   };
   const int count = t.half_edge_count() / 3;
   int collapses = 0;

@@ -9,16 +9,11 @@ namespace hooke {
 /// without a common neighbour, the shortest first, except for edges that become shorter during a batch. That
 /// spreads the collapses: strictly the shortest first, spheres of 222 vertices end with edges that vary by 7
 /// % instead of 6 % in mode `adapt`. Returns the number of collapses.
-int collapse_short_edges(WorkingMesh& mesh, const CollapseOptions& options);
-
-/// Looser limits for edges at a folded face, where the usual limits allow no collapse.
-inline CollapseOptions folded_face_options() {
-  return {.longest = 2, .valence = 12, .angle = 2, .sagitta = .5, .insist_on_alignment = true};
-}
+int collapse_short_edges(WorkingMesh& mesh, const CollapseOptions& options = {});
 
 /// Removes folded faces (alignment with the surface below the limit), which vertex motion cannot unfold: for
-/// each, collapses the first of its edges or of the edges at its corners that the options allow. Returns the
-/// number of collapses.
-int collapse_folded_faces(WorkingMesh& mesh, const CollapseOptions& options);
+/// each, collapses the first of its edges or of the edges at its corners that looser limits allow. Returns
+/// the number of collapses.
+int collapse_folded_faces(WorkingMesh& mesh);
 
 }  // namespace hooke

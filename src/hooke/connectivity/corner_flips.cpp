@@ -6,7 +6,6 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
@@ -19,8 +18,8 @@ constexpr int max_pushes = 8;
 /// Matches the valence of one corner to its target.
 class Corner {
  public:
-  Corner(WorkingMesh& mesh, const FlipGuardOptions& options, int vertex, int wedge)
-      : m_(mesh), t_(mesh.halfedges), options_(options), vertex_(vertex), wedge_(wedge) {}
+  Corner(WorkingMesh& mesh, int vertex, int wedge)
+      : m_(mesh), t_(mesh.halfedges), vertex_(vertex), wedge_(wedge) {}
 
   int match_valence() {
     const int target = m_.vertices.corner_valences[wedge_];
@@ -59,7 +58,7 @@ class Corner {
     int best = -1;
     double best_angle = -1;
     for (int h : half_edges) {
-      if (!may_flip(m_, h, options_)) continue;
+      if (!may_flip(m_, h)) continue;
       const int a = t_.from(h), b = t_.to(h), c = t_.opposite_vertex(h), d = t_.opposite_vertex(t_.twin(h));
       const double angle = min_angle(m_.vertices.positions.points, {{c, a, d}, {d, b, c}});
       if (angle <= best_angle) continue;
@@ -78,7 +77,7 @@ class Corner {
       for (int outgoing : t_.outgoing(w)) {
         const int across = HalfedgeMesh::next(outgoing);
         if (t_.from(across) == vertex_ || t_.to(across) == vertex_) continue;
-        if (!may_flip(m_, across, options_)) continue;
+        if (!may_flip(m_, across)) continue;
         t_.flip(across);
         ++flips_;
         if (flip_best(inner_edges())) return true;
@@ -133,7 +132,6 @@ class Corner {
 
   WorkingMesh& m_;
   HalfedgeMesh& t_;
-  const FlipGuardOptions& options_;
   int vertex_;
   int wedge_;
   int flips_ = 0;
@@ -141,14 +139,14 @@ class Corner {
 
 }  // namespace
 
-int flip_corners_to_valence(WorkingMesh& m, const FlipGuardOptions& options) {
+int flip_corners_to_valence(WorkingMesh& m) {
   const int vertices = static_cast<int>(m.vertices.vertex_length.size());
   int flips = 0;
   for (size_t wedge = 0; wedge < m.vertices.corner_valences.size(); ++wedge) {
     const int i = static_cast<int>(wedge);
     const int v = i < vertices ? i : m.vertices.constraints.extra_wedges[i - vertices];
     if (m.vertices.corner_valences[wedge] > 0 && m.halfedges.valence(v) > 0)
-      flips += Corner(m, options, v, i).match_valence();
+      flips += Corner(m, v, i).match_valence();
   }
   m.retraction.count();
   return flips;

@@ -10,6 +10,6 @@ namespace hooke {
 /// allowed it first gives an inner neighbour of valence three a fourth edge, else moves the neighbour away
 /// from the corner; a move that enables no flip is reverted. Without these two, 13 and 4 of 56 graphs over a
 /// square end in mode `flip` at 22-26 degrees instead of 42-47. Returns the number of flips.
-int flip_corners_to_valence(WorkingMesh& mesh, const FlipGuardOptions& options);
+int flip_corners_to_valence(WorkingMesh& mesh);
 
 }  // namespace hooke

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <tuple>
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/constraints/constraints.h"
-#include "hooke/geometry/triangle.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
@@ -23,47 +20,24 @@ Triangle corners_of(size_t face) {
   return {first, first + 1, first + 2};
 }
 
-void measure_face(const WorkingMesh& m, size_t face, WorstShape& worst) {
-  const Mat3X& X = m.vertices.positions.points;
-  const Triangle& corners = m.halfedges.faces()[face];
-  const Triangle& wedges = m.halfedges.wedges()[face];
-  worst.cotangent = std::max(worst.cotangent, max_cotangent(X, corners));
-  worst.alignment =
-      std::min(worst.alignment, face_alignment(X, m.vertices.positions.normals, corners, wedges));
-}
-
-/// The sagitta of the edge of h, and its fold unless it is a feature edge.
-void measure_edge(const WorkingMesh& m, int h, WorstShape& worst) {
-  const HalfedgeMesh& t = m.halfedges;
-  const Mat3X& X = m.vertices.positions.points;
-  const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
-  const double sagitta = edge_sagitta(X, m.vertices.positions.normals, edge, wedges);
-  worst.sagitta = std::max(worst.sagitta, sagitta / target_length(m, edge[0], edge[1]));
-  if (t.is_feature_edge(h)) return;
-  const auto face = static_cast<size_t>(h / 3), across = static_cast<size_t>(t.twin(h) / 3);
-  worst.fold = std::min(worst.fold, cosine_between(X, t.faces()[face], t.faces()[across]));
-}
-
 }  // namespace
 
-WorstShape worse_of(const WorstShape& a, const WorstShape& b) {
-  return {std::max(a.cotangent, b.cotangent), std::min(a.alignment, b.alignment), std::min(a.fold, b.fold),
-          std::max(a.sagitta, b.sagitta)};
-}
-
-bool is_within(const WorstShape& w, const WorstShape& limits) {
-  return w.cotangent <= limits.cotangent && w.alignment >= limits.alignment && w.fold >= limits.fold &&
-         w.sagitta <= limits.sagitta;
-}
-
-WorstShape worst_about(const WorkingMesh& m, int half_edge) {
+LocalShape worst_about(const WorkingMesh& m, int half_edge) {
   const HalfedgeMesh& t = m.halfedges;
-  WorstShape worst;
+  const Mat3X& X = m.vertices.positions.points;
+  const Mat3X& N = m.vertices.positions.normals;
+  LocalShape worst;
   for (int end : {t.from(half_edge), t.to(half_edge)})
     for (int outgoing : t.outgoing(end)) {
-      measure_face(m, static_cast<size_t>(outgoing / 3), worst);
-      for (int h : {outgoing, HalfedgeMesh::next(outgoing), HalfedgeMesh::previous(outgoing)})
-        measure_edge(m, h, worst);
+      const int face = outgoing / 3;
+      worst.add_face(X, N, t.faces()[face], t.wedges()[face]);
+      for (int h : {outgoing, HalfedgeMesh::next(outgoing), HalfedgeMesh::previous(outgoing)}) {
+        const int from = t.from(h), to = t.to(h);
+        worst.add_edge(X, N, {from, to}, {t.wedge(h), t.wedge(HalfedgeMesh::next(h))},
+                       target_length(m, from, to));
+        if (!t.is_feature_edge(h))
+          worst.add_fold(cosine_between(X, t.faces()[face], t.faces()[t.twin(h) / 3]));
+      }
     }
   return worst;
 }
@@ -134,16 +108,18 @@ void CollapsedRing::set_position(const SurfacePosition& position) {
   }
 }
 
-WorstShape CollapsedRing::worst(const SurfacePosition& position) {
+LocalShape CollapsedRing::worst(const SurfacePosition& position) {
   set_position(position);
-  WorstShape worst;
+  LocalShape worst;
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
-    measure_face(f, worst);
-    measure_edge(f, 1, face.first_target, worst);
-    measure_edge(f, 2, face.last_target, worst);
-    if (face.has_neighbour) worst.fold = std::min(worst.fold, cosine_between(areas_[f], face.neighbour_area));
-    if (face.next >= 0) worst.fold = std::min(worst.fold, cosine_between(areas_[f], areas_[face.next]));
+    const Triangle corners = corners_of(f);
+    const Edge first = {corners[0], corners[1]}, last = {corners[0], corners[2]};
+    worst.add_face(points_, normals_, corners, corners);
+    worst.add_edge(points_, normals_, first, first, face.first_target);
+    worst.add_edge(points_, normals_, last, last, face.last_target);
+    if (face.has_neighbour) worst.add_fold(cosine_between(areas_[f], face.neighbour_area));
+    if (face.next >= 0) worst.add_fold(cosine_between(areas_[f], areas_[face.next]));
   }
   return worst;
 }
@@ -159,24 +135,7 @@ double CollapsedRing::distance(const Vec3& x) const {
   return std::sqrt(smallest);
 }
 
-void CollapsedRing::measure_face(size_t face, WorstShape& worst) const {
-  const Triangle corners = corners_of(face);
-  worst.cotangent = std::max(worst.cotangent, max_cotangent(points_, corners));
-  worst.alignment = std::min(worst.alignment, face_alignment(points_, normals_, corners));
-}
-
-/// The edge from the first corner to the given one.
-void CollapsedRing::measure_edge(size_t face, int corner, double target, WorstShape& worst) const {
-  const int first = corners_of(face)[0];
-  const double sagitta = edge_sagitta(points_, normals_, {first, first + corner});
-  worst.sagitta = std::max(worst.sagitta, sagitta / target);
-}
-
 namespace {
-
-WorstShape limits_of(const CollapseOptions& o) {
-  return {1 / std::tan(o.angle * std::numbers::pi / 180), o.alignment, o.fold, o.sagitta};
-}
 
 class CollapseTest {
  public:
@@ -196,15 +155,15 @@ class CollapseTest {
     const SurfacePosition here(m_.vertices.positions, stays);
     const Vec3 displacement = m_.vertices.positions.points.col(goes) - here.point;
     std::optional<CollapsedRing> ring;
-    std::optional<WorstShape> looser;
+    std::optional<ShapeLimits> looser;
     for (double fraction : candidate_fractions(stays, goes)) {
       if (leaves_long_edges(rings, stays, here.point + fraction * displacement)) continue;
       if (!ring) ring.emplace(m_, h_, stays);
       const SurfacePosition there =
           fraction > 0 ? m_.retraction.moved(m_.vertices.positions, stays, fraction * displacement) : here;
-      const WorstShape after = ring->worst(there), limits = limits_of(options_);
-      if (!is_within(after, limits)) {
-        if (!looser) looser = loosened(limits);
+      const LocalShape after = ring->worst(there);
+      if (!is_within(after, options_.limits)) {
+        if (!looser) looser = looser_limits();
         if (!is_within(after, *looser)) continue;
       }
       if (keeps_distance(*ring)) return Collapse{h_, stays, there};
@@ -285,11 +244,11 @@ class CollapseTest {
            ring.distance(m_.vertices.positions.points.col(b_)) <= limit;
   }
 
-  /// The limits relaxed to the present worst values; not for alignment if the options insist on it.
-  WorstShape loosened(const WorstShape& limits) const {
-    WorstShape loose = worse_of(limits, worst_about(m_, h_));
-    if (options_.insist_on_alignment) loose.alignment = limits.alignment;
-    return loose;
+  /// The limits loosened to the present worst values; not that of alignment if the options insist on it.
+  ShapeLimits looser_limits() const {
+    ShapeLimits looser = loosened(options_.limits, worst_about(m_, h_));
+    if (options_.insist_on_alignment) looser.alignment = options_.limits.alignment;
+    return looser;
   }
 
   const WorkingMesh& m_;

@@ -7,27 +7,15 @@
 #include <optional>
 
 #include "hooke/filter/retraction.h"
+#include "hooke/geometry/local_shape.h"
 
 namespace hooke {
 
 struct WorkingMesh;
 class HalfedgeMesh;
 
-/// The worst values, over some faces and edges, of the measures that the guards limit.
-struct WorstShape {
-  double cotangent = 0;  // of the minimum angle of a face
-  double alignment = 1;  // minimum cosine between the normals of a face and of the surface
-  double fold = 1;       // minimum cosine between neighbouring faces not separated by a crease
-  double sagitta = 0;    // maximum of an edge, over its target length
-};
-
-/// The componentwise worse shape.
-WorstShape worse_of(const WorstShape& a, const WorstShape& b);
-/// Does the shape satisfy all limits?
-bool is_within(const WorstShape& worst, const WorstShape& limits);
-
 /// The worst shape of the faces around both ends of the edge, including folds with the faces next to them.
-WorstShape worst_about(const WorkingMesh& mesh, int half_edge);
+LocalShape worst_about(const WorkingMesh& mesh, int half_edge);
 
 /// The one-ring of the remaining vertex after the collapse of an edge. Each face has its own three columns of
 /// corner positions, that vertex first. Keeps a reference to the mesh.
@@ -37,7 +25,7 @@ class CollapsedRing {
 
   /// The worst shape of these faces, their edges at the vertex and the folds with the faces next to them, if
   /// the vertex is at this position.
-  WorstShape worst(const SurfacePosition& position);
+  LocalShape worst(const SurfacePosition& position);
 
   /// Distance of x to these faces, with the vertex at the last position.
   double distance(const Vec3& x) const;
@@ -56,8 +44,6 @@ class CollapsedRing {
   void copy_corners();
   void set_position(const SurfacePosition& position);
   int face_after(const Face& face) const;
-  void measure_face(size_t face, WorstShape& worst) const;
-  void measure_edge(size_t face, int corner, double target, WorstShape& worst) const;
 
   const WorkingMesh& m_;
   const HalfedgeMesh& t_;
@@ -72,12 +58,9 @@ struct CollapseOptions {
   /// Maximum edge length over target length after a collapse, unless an edge at its ends was as long already;
   /// measured before the remaining vertex is projected to the surface.
   double longest = 4. / 3;
-  // Limits on the one-ring of the remaining vertex. All but the valence also admit the worst value before.
-  int valence = 9;        // maximum valence of the remaining vertex
-  double angle = 10;      // degrees; minimum angle of a face
-  double alignment = .3;  // minimum cosine between a face and the surface
-  double fold = .1;       // minimum cosine between neighbouring faces
-  double sagitta = .2;    // maximum sagitta of an edge, over its target length
+  int valence = 9;  // maximum valence of the remaining vertex
+  /// On the one-ring of the remaining vertex; worse is admitted where it was as bad before.
+  ShapeLimits limits{.cotangent = cotangent_of(10)};
   /// Maximum distance of the two vertices from the faces after the collapse, in target lengths: keeps tips.
   double distance = .3;
   bool insist_on_alignment = false;  // apply the alignment limit even where it was violated before

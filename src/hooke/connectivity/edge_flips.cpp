@@ -6,8 +6,8 @@
 
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/triangle.h"
-#include "hooke/integrator/guards.h"
+#include "hooke/geometry/local_shape.h"
+
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
@@ -16,6 +16,9 @@ namespace {
 
 /// Radians; the tolerance keeps rounding from flipping a square back and forth.
 constexpr double delaunay = std::numbers::pi + 1e-9;
+
+/// Minimum share of the area of the two faces in each new face.
+constexpr double min_area_share = .02;
 
 /// Angle at p between the directions of a and b, radians.
 double angle_at(const Mat3X& points, int p, int a, int b) {
@@ -94,6 +97,29 @@ bool folds(const WorkingMesh& m, int h, double limit) {
          breaks_across(HalfedgeMesh::previous(g), of_g, right);
 }
 
+/// Are the two new faces after a flip of h large enough, and their shape within the limits or no worse than
+/// that of the two before?
+bool keeps_shape(const WorkingMesh& m, int h) {
+  const HalfedgeMesh& t = m.halfedges;
+  const Mat3X& X = m.vertices.positions.points;
+  const Mat3X& N = m.vertices.positions.normals;
+  const int g = t.twin(h), opposite_h = HalfedgeMesh::previous(h), opposite_g = HalfedgeMesh::previous(g);
+  const int a = t.from(h), b = t.to(h), c = t.from(opposite_h), d = t.from(opposite_g);
+  const int sa = t.wedge(h), sb = t.wedge(g), sc = t.wedge(opposite_h), sd = t.wedge(opposite_g);
+  const double min_area = min_area_share * (area(X, {a, b, c}) + area(X, {b, a, d}));
+  if (area(X, {c, a, d}) < min_area || area(X, {d, b, c}) < min_area) return false;
+  const double target = target_length(m, c, d);  // also of the old edge, so that sagittas compare
+  LocalShape before, after;
+  before.add_face(X, N, {a, b, c}, {sa, sb, sc});
+  before.add_face(X, N, {b, a, d}, {sb, sa, sd});
+  before.add_edge(X, N, {a, b}, {sa, sb}, target);
+  after.add_face(X, N, {c, a, d}, {sc, sa, sd});
+  after.add_face(X, N, {d, b, c}, {sd, sb, sc});
+  after.add_edge(X, N, {c, d}, {sc, sd}, target);
+  const ShapeLimits limits;
+  return is_within(after, loosened(limits, before)) && !folds(m, h, limits.fold);
+}
+
 }  // namespace
 
 double opposite_angles(const HalfedgeMesh& t, const Mat3X& points, int h) {
@@ -107,32 +133,19 @@ CornerValence corner_valence(const WorkingMesh& m, int h) {
   return {target, target > 0 ? static_cast<int>(t.wedge_halfedges(h).size()) + 1 : t.valence(t.from(h))};
 }
 
-bool may_flip(const WorkingMesh& m, int h, const FlipGuardOptions& o) {
+bool flip_keeps_topology(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
   if (t.twin(h) < 0 || t.is_crease(h)) return false;
   const int g = t.twin(h), opposite_h = HalfedgeMesh::previous(h), opposite_g = HalfedgeMesh::previous(g);
-  if (!may_lose_an_edge(m, h) || !may_lose_an_edge(m, g)) return false;
-  if (!may_gain_an_edge(m, opposite_h) || !may_gain_an_edge(m, opposite_g)) return false;
-
-  const Mat3X& X = m.vertices.positions.points;
-  const Mat3X& N = m.vertices.positions.normals;
-  const int a = t.from(h), b = t.to(h), c = t.opposite_vertex(h), d = t.opposite_vertex(g);
-  const int sa = t.wedge(h), sb = t.wedge(g), sc = t.wedge(opposite_h), sd = t.wedge(opposite_g);
-  const double pair = area(X, {a, b, c}) + area(X, {b, a, d});
-  const double old_alignment =
-      std::min(face_alignment(X, N, {a, b, c}, {sa, sb, sc}), face_alignment(X, N, {b, a, d}, {sb, sa, sd}));
-  const auto is_fair = [&](const Triangle& f, const Triangle& wedges) {
-    return area(X, f) >= o.area_share * pair &&
-           face_alignment(X, N, f, wedges) >= std::min(o.alignment, old_alignment);
-  };
-  if (!is_fair({c, a, d}, {sc, sa, sd}) || !is_fair({d, b, c}, {sd, sb, sc})) return false;
-  const double length = .5 * (m.vertices.vertex_length[c] + m.vertices.vertex_length[d]);
-  const double sagitta = edge_sagitta(X, N, {c, d}, {sc, sd});
-  if (sagitta > std::max(o.sagitta * length, edge_sagitta(X, N, {a, b}, {sa, sb}))) return false;
-  return t.may_connect(c, d) && !folds(m, h, o.fold);
+  return may_lose_an_edge(m, h) && may_lose_an_edge(m, g) && may_gain_an_edge(m, opposite_h) &&
+         may_gain_an_edge(m, opposite_g) && t.may_connect(t.from(opposite_h), t.from(opposite_g));
 }
 
-int flip_to_delaunay(WorkingMesh& m, const FlipGuardOptions& options) {
+bool may_flip(const WorkingMesh& m, int h) {
+  return flip_keeps_topology(m, h) && keeps_shape(m, h);
+}
+
+int flip_to_delaunay(WorkingMesh& m) {
   HalfedgeMesh& t = m.halfedges;
   std::deque<int> queue = improvable_edges(t, m.vertices.positions.points);
   const int limit = 10 * t.half_edge_count();  // on a curved surface flips may cycle
@@ -140,8 +153,7 @@ int flip_to_delaunay(WorkingMesh& m, const FlipGuardOptions& options) {
   while (!queue.empty() && flips < limit) {
     const int h = queue.front();
     queue.pop_front();
-    if (t.twin(h) < 0 || t.is_crease(h) || !improves(t, m.vertices.positions.points, h) ||
-        !may_flip(m, h, options))
+    if (t.twin(h) < 0 || t.is_crease(h) || !improves(t, m.vertices.positions.points, h) || !may_flip(m, h))
       continue;
     t.flip(h);
     ++flips;

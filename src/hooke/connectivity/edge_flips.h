@@ -10,14 +10,6 @@ namespace hooke {
 struct WorkingMesh;
 class HalfedgeMesh;
 
-struct FlipGuardOptions {
-  double area_share = .02;  // minimum share of the area of the two faces in each new face
-  // Limits that also admit the value before the flip:
-  double alignment = .3;  // minimum cosine between a new face and the surface
-  double fold = .1;       // minimum cosine between a new face and its neighbours
-  double sagitta = .2;    // maximum sagitta of the new edge over its target length
-};
-
 /// Sum of the two angles opposite an inner edge, radians. The edge is Delaunay if it is at most pi.
 double opposite_angles(const HalfedgeMesh& halfedges, const Mat3X& points, int half_edge);
 
@@ -29,13 +21,17 @@ struct CornerValence {
 };
 CornerValence corner_valence(const WorkingMesh& mesh, int half_edge);
 
-/// May the edge be flipped? Not if it is a feature edge; if the new edge exists already; if a vertex would
-/// have fewer than 3 edges (2 at a corner), or a corner valence move away from its target; or if a new face
-/// would be a sliver or folded, or the new edge too far from the surface (see the options).
-bool may_flip(const WorkingMesh& mesh, int half_edge, const FlipGuardOptions& options);
+/// Does a flip of the edge keep topology and valences? Not if it is a feature edge; if the new edge exists
+/// already; or if a vertex would have fewer than 3 edges (2 at a corner), or a corner valence move away from
+/// its target.
+bool flip_keeps_topology(const WorkingMesh& mesh, int half_edge);
+
+/// May the edge be flipped: does that keep the topology, is no new face a sliver, and are the limits of the
+/// local shape kept, or is the new shape no worse than that before?
+bool may_flip(const WorkingMesh& mesh, int half_edge);
 
 /// Flips edges whose opposite angles sum to more than pi + 1e-9, in the order of a queue, while that lowers
 /// the sum and may_flip() allows it. Returns the number of flips.
-int flip_to_delaunay(WorkingMesh& mesh, const FlipGuardOptions& options);
+int flip_to_delaunay(WorkingMesh& mesh);
 
 }  // namespace hooke

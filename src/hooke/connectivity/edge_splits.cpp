@@ -10,23 +10,25 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
-#include "hooke/geometry/triangle.h"
-#include "hooke/integrator/guards.h"
+#include "hooke/geometry/local_shape.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
 namespace {
 
+/// Minimum share of a split face's area in each half.
+constexpr double min_area_share = .1;
+
 /// May vertex v, with this wedge, split the face of h in two?
-bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge, const SplitOptions& o) {
+bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.vertices.positions.points;
   const Mat3X& N = m.vertices.positions.normals;
   const Triangle old = {t.from(h), t.to(h), t.opposite_vertex(h)};
   const Triangle wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h)), t.wedge(HalfedgeMesh::previous(h))};
-  const double min_area = o.area_share * face_shape(X, old).area;
-  const double min_alignment = std::min(o.alignment, face_alignment(X, N, old, wedges));
+  const double min_area = min_area_share * face_shape(X, old).area;
+  const double min_alignment = std::min(ShapeLimits().alignment, face_alignment(X, N, old, wedges));
   for (size_t k : {0, 1}) {  // the corner that v replaces
     Triangle half = old, half_wedges = wedges;
     half[k] = v;
@@ -58,11 +60,11 @@ bool shortens(const WorkingMesh& m, int h) {
 
 }  // namespace
 
-int split_edge(WorkingMesh& m, int h, const SplitOptions& options, const SurfacePosition* middle) {
+int split_edge(WorkingMesh& m, int h, const SurfacePosition* middle) {
   HalfedgeMesh& t = m.halfedges;
   if (is_fixed(m, h) || is_junction_edge(m, h)) return -1;
   const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_crease(h) ? v + 1 : v;
-  if (!may_split_edge(m, h, v, v, options) || (twin >= 0 && !may_split_edge(m, twin, v, right, options))) {
+  if (!may_split_edge(m, h, v, v) || (twin >= 0 && !may_split_edge(m, twin, v, right))) {
     remove_last_vertex(m);
     return -1;
   }
@@ -71,12 +73,12 @@ int split_edge(WorkingMesh& m, int h, const SplitOptions& options, const Surface
   return v;
 }
 
-int split_long_edges(WorkingMesh& m, const SplitOptions& options) {
-  EdgeQueue queue(m.halfedges, [&](int h) { return relative_length(m, h) - options.longest; });
+int split_long_edges(WorkingMesh& m) {
+  EdgeQueue queue(m.halfedges, [&](int h) { return relative_length(m, h) - longest_edge; });
   int splits = 0;
   for (int h = queue.pop(); h >= 0; h = queue.pop()) {
     if (!shortens(m, h)) continue;
-    const int v = split_edge(m, h, options);
+    const int v = split_edge(m, h);
     if (v < 0) continue;
     queue.push_around(v);
     ++splits;
@@ -150,14 +152,13 @@ std::vector<EdgeToSplit> all_edges(const WorkingMesh& m) {
 
 class Subdivision {
  public:
-  Subdivision(WorkingMesh& mesh, const SplitOptions& options, const FlipGuardOptions& flip_guard)
-      : m_(mesh), t_(mesh.halfedges), options_(options), guard_(flip_guard), ends_(ids(), Edge{-1, -1}) {}
+  explicit Subdivision(WorkingMesh& mesh) : m_(mesh), t_(mesh.halfedges), ends_(ids(), Edge{-1, -1}) {}
 
   int run() {
     int splits = 0;
     for (const auto& [edge, middle] : all_edges(m_)) {
       const int h = half_edge_between(t_, edge[0], edge[1]);
-      const int v = split_edge(m_, h, options_, middle ? &*middle : nullptr);
+      const int v = split_edge(m_, h, middle ? &*middle : nullptr);
       if (v < 0) continue;
       ends_.resize(ids(), Edge{-1, -1});
       ends_[v] = edge;
@@ -189,7 +190,7 @@ class Subdivision {
     std::vector<char> joins(t_.half_edge_count(), 0);
     parallel_for(joins.size(), 1024, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i)
-        if (const int h = static_cast<int>(i); is_between_middles(h)) joins[i] = may_flip(m_, h, guard_);
+        if (const int h = static_cast<int>(i); is_between_middles(h)) joins[i] = may_flip(m_, h);
     });
     for (size_t h = 0; h < joins.size(); ++h)
       if (joins[h]) t_.flip(static_cast<int>(h));
@@ -197,14 +198,12 @@ class Subdivision {
 
   WorkingMesh& m_;
   HalfedgeMesh& t_;
-  const SplitOptions& options_;
-  const FlipGuardOptions& guard_;
   std::vector<Edge> ends_;  // per id: ends of the edge whose midpoint the vertex is; -1 for others
 };
 
 }  // namespace
 
-int split_junctions(WorkingMesh& m, double longest) {
+int split_junctions(WorkingMesh& m) {
   std::vector<Edge>& edges = m.vertices.constraints.junction_edges;
   int splits = 0;
   for (int last = -1; last != splits;) {
@@ -212,7 +211,7 @@ int split_junctions(WorkingMesh& m, double longest) {
     std::vector<Edge> next;
     for (const auto& [ends, sides] : sides_of_junctions(m)) {
       const bool is_long = std::ranges::any_of(sides, [&](const Edge& side) {
-        return relative_length(m, half_edge_between(m.halfedges, side[0], side[1])) > longest;
+        return relative_length(m, half_edge_between(m.halfedges, side[0], side[1])) > longest_edge;
       });
       if (!is_long) {
         next.push_back(ends);
@@ -230,8 +229,8 @@ int split_junctions(WorkingMesh& m, double longest) {
   return splits;
 }
 
-int subdivide(WorkingMesh& m, const SplitOptions& options, const FlipGuardOptions& flip_guard) {
-  return Subdivision(m, options, flip_guard).run();
+int subdivide(WorkingMesh& m) {
+  return Subdivision(m).run();
 }
 
 }  // namespace hooke

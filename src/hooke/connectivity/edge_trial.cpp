@@ -10,7 +10,6 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/gauss_seidel.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/halfedge_mesh.h"
@@ -25,7 +24,7 @@ void add_face(const SurfacePositions& p, const Triangle& t, const PatchLimits& l
   const double cotangent = max_cotangent(p.points, t);
   const double lacks = std::max(0., limits.fair_angle - angle_with_cotangent(cotangent));
   const double alignment = face_alignment(p.points, p.normals, t);
-  const double misses = limits.alignment - alignment;
+  const double misses = limits.limits.alignment - alignment;
   quality.cotangent = std::max(quality.cotangent, cotangent);
   quality.area += .5 * doubled_area_vector(p.points, t).norm() * alignment;
   quality.angle_cost += lacks * lacks;
@@ -39,12 +38,12 @@ void add_edge(const SurfacePositions& p, const Edge& edge, double target, const 
   const double sagitta = edge_sagitta(p.points, p.normals, edge) / target;
   quality.length_errors += (length - 1) * (length - 1);
   quality.violation.length = std::max(quality.violation.length, length - limits.longest);
-  quality.violation.sagitta += std::max(0., sagitta - limits.sagitta);
+  quality.violation.sagitta += std::max(0., sagitta - limits.limits.sagitta);
 }
 
 void add_fold(const SurfacePositions& p, const Triangle& face, const Triangle& other,
               const PatchLimits& limits, PatchQuality& quality) {
-  const double misses = limits.fold - cosine_between(p.points, face, other);
+  const double misses = limits.limits.fold - cosine_between(p.points, face, other);
   quality.violation.fold += std::max(0., misses);
   quality.violation.folds += misses > 0;
 }
@@ -101,11 +100,7 @@ class ChangeFinder {
   }
 
   /// A flip adds an edge to the opposite vertices, as a split does.
-  bool may_flip(int h) const {
-    constexpr double any = std::numeric_limits<double>::infinity();
-    return may_split(h) &&
-           hooke::may_flip(m_, h, {.area_share = 0, .alignment = -1, .fold = -any, .sagitta = any});
-  }
+  bool may_flip(int h) const { return may_split(h) && flip_keeps_topology(m_, h); }
 
   bool may_split(int h) const {
     return at_both_opposite_vertices(h, [this](int corner) { return may_gain_an_edge(corner); });
@@ -226,14 +221,13 @@ double mean_of(const std::vector<double>& values) {
 }  // namespace
 
 CandidateEvaluator::CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms,
-                                       const CandidateOptions& options, const GuardOptions& guards)
-    : m_(mesh), terms_(terms), options_(options), guards_(guards) {
-  guards_.sagitta = options.sagitta;
+                                       const CandidateOptions& options, const ShapeLimits& limits)
+    : m_(mesh), terms_(terms), options_(options), limits_{0, limits, options.longest} {
+  limits_.limits.sagitta = options.sagitta;
 }
 
 void CandidateEvaluator::set_sliver_angle(double sliver_angle) {
-  limits_ = {sliver_angle + options_.fair_margin, guards_.alignment, guards_.fold, options_.sagitta,
-             options_.longest};
+  limits_.fair_angle = sliver_angle + options_.fair_margin;
 }
 
 PatchQuality CandidateEvaluator::quality_before(const EdgePatch& patch) const {
@@ -268,13 +262,11 @@ EdgeCandidate CandidateEvaluator::cut(const EdgeChange& change) const {
 /// Calls body(relaxation) and measures the patch afterwards.
 template <typename Relax>
 PatchQuality CandidateEvaluator::relax(EdgeCandidate& candidate, const Relax& body) const {
-  Energy energy(candidate.adjacency, candidate.targets, terms_);
-  Guards guards(candidate.adjacency, candidate.targets, guards_);
   Retraction retraction(m_.retraction.surface(), candidate.patch.vertices.constraints,
                         m_.retraction.options());
   const VertexColoring coloring = color_as_one_block(candidate.adjacency);
-  Relaxation r{candidate.adjacency, coloring, candidate.patch.vertices.vertex_length, energy,
-               retraction,          guards,   candidate.patch.vertices.positions};
+  Relaxation r(candidate.adjacency, coloring, candidate.targets, candidate.patch.vertices, retraction, terms_,
+               limits_.limits);
   body(r);
   return measure_patch(candidate.patch.vertices.positions, candidate.adjacency, candidate.targets, limits_);
 }
@@ -299,11 +291,11 @@ void CandidateEvaluator::finish(EdgeCandidate& candidate) const {
       before.area - after.area <=
           options_.area_loss * std::pow(mean_of(candidate.patch.vertices.vertex_length), 2) &&
       is_no_worse(after.violation, before.violation) &&
-      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_, guards_);
+      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_, limits_.limits);
 }
 
 bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces, const WorkingMesh& m,
-                             const GuardOptions& guards) {
+                             const ShapeLimits& limits) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.vertices.positions.points;
   return std::ranges::any_of(patch.boundary, [&](const PatchBoundary& edge) {
@@ -317,8 +309,8 @@ bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>
                                                   face_along(faces, edge.twin_ends[0], edge.twin_ends[1]));
     const double after =
         cosine_between(doubled_area_vector(patch.vertices.positions.points, changed), across);
-    return t.is_crease(edge.half_edge) ? crease_fold_breaks(guards, before, after)
-                                       : fold_breaks(guards, before, after);
+    return t.is_crease(edge.half_edge) ? crease_fold_breaks(limits, before, after)
+                                       : fold_breaks(limits, before, after);
   });
 }
 

@@ -2,8 +2,8 @@
 // to a patch around the edge and to the whole mesh, and whether the relaxed patch is better afterwards.
 #pragma once
 
+#include "hooke/geometry/local_shape.h"
 #include "hooke/integrator/angle_search.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/patch.h"
@@ -15,11 +15,9 @@ struct WorkingMesh;
 // Quality of a patch.
 
 struct PatchLimits {
-  double fair_angle;  // degrees; a face with a smaller minimum angle costs the squared difference
-  double alignment;   // minimum cosine between a face and the surface
-  double fold;        // minimum cosine between two neighbouring faces
-  double sagitta;     // maximum of an edge, over its target length
-  double longest;     // maximum length of an edge, over its target length
+  double fair_angle;   // degrees; a face with a smaller minimum angle costs the squared difference
+  ShapeLimits limits;  // of alignment, fold and sagitta
+  double longest;      // maximum length of an edge, over its target length
 };
 
 /// How far a patch exceeds the limits.
@@ -93,7 +91,7 @@ struct CandidateOptions {
   int rings = 2;               // around the edge, within which vertices are relaxed
   size_t max_vertices = 100;   // maximum number of relaxed vertices; edges with more are not tested
   int sweeps = 3;              // of Newton's method vertex by vertex, to relax the patch
-  // Limits after a change, unless exceeded before; those of alignment and fold are the guards'.
+  // Limits after a change, unless exceeded before; those of alignment and fold are those of all steps.
   double sagitta = .5;   // maximum of an edge, over its target length
   double longest = 1.7;  // maximum edge length over target length
   /// Maximum loss of covered surface, over the squared mean target length; keeps the margins of thin sheets.
@@ -122,7 +120,7 @@ struct EdgeCandidate {
 class CandidateEvaluator {
  public:
   CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms, const CandidateOptions& options,
-                     const GuardOptions& guards);
+                     const ShapeLimits& limits);
 
   /// Sets the sliver angle, degrees: faces with a smaller angle are slivers from now on.
   void set_sliver_angle(double sliver_angle);
@@ -144,13 +142,12 @@ class CandidateEvaluator {
   const WorkingMesh& m_;
   const EnergyTerms& terms_;
   const CandidateOptions& options_;
-  GuardOptions guards_;
   PatchLimits limits_{};
 };
 
-/// Would the patch, with these faces and its present positions, violate the fold limits of the guards along
+/// Would the patch, with these faces and its present positions, violate the fold limits along
 /// its boundary or along a crease within it?
 bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces,
-                             const WorkingMesh& mesh, const GuardOptions& guards);
+                             const WorkingMesh& mesh, const ShapeLimits& limits);
 
 }  // namespace hooke

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/connectivity/edge_collapses.h"
 #include "hooke/connectivity/edge_queue.h"
+#include "hooke/connectivity/edge_splits.h"
 #include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/halfedge_mesh.h"
@@ -11,6 +13,13 @@
 
 namespace hooke {
 namespace {
+
+constexpr double largest_part = .02;   // maximum share of the edges changed in one call
+constexpr double valence_weight = .1;  // of the valence excess against l / L when edges are chosen
+
+CollapseOptions collapse_options() {
+  return {.longest = 1.6, .valence = 8};
+}
 
 int face_count(const HalfedgeMesh& t) {
   int count = 0;
@@ -66,7 +75,7 @@ double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces
   return count;
 }
 
-CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
+CountChanges match_curve_edges(WorkingMesh& m) {
   CountChanges changes;
   if (m.vertices.constraints.curves.empty()) return changes;
   const HalfedgeMesh& t = m.halfedges;
@@ -80,7 +89,7 @@ CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
   EdgeQueue longest(t, feature_edge_length);
   for (int h = longest.pop(); h >= 0; h = longest.pop()) {
     if (lacking(h) <= 0) continue;
-    const int v = split_edge(m, h, options.split);
+    const int v = split_edge(m, h);
     if (v < 0) continue;
     longest.push_around(v);
     ++changes.splits;
@@ -88,7 +97,7 @@ CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
   EdgeQueue shortest(t, [&](int h) { return t.is_feature_edge(h) ? 1 / (1e-9 + relative_length(m, h)) : 0; });
   for (int h = shortest.pop(); h >= 0; h = shortest.pop()) {
     if (lacking(h) >= 0) continue;
-    const int v = collapse_edge(m, h, options.collapse);
+    const int v = collapse_edge(m, h, collapse_options());
     if (v < 0) continue;
     shortest.push_around(v);
     ++changes.collapses;
@@ -97,24 +106,23 @@ CountChanges match_curve_edges(WorkingMesh& m, const CountOptions& options) {
   return changes;
 }
 
-CountChanges approach_face_count(WorkingMesh& m, double target, const CountOptions& options) {
+CountChanges approach_face_count(WorkingMesh& m, double target) {
   CountChanges changes;
   HalfedgeMesh& t = m.halfedges;
   const int faces = face_count(t);
   const double missing = (target - faces) / 2;  // a split adds two faces, a collapse removes two
   const bool split = missing > 0;
-  const int max_changes = std::max(1, static_cast<int>(options.largest_part * 1.5 * faces));
+  const int max_changes = std::max(1, static_cast<int>(largest_part * 1.5 * faces));
   const int count = std::min(max_changes, static_cast<int>(std::lround(std::abs(missing))));
   std::vector<char> touched(t.id_count() + count, 0);
   int done = 0;
-  for (const Candidate& c :
-       candidates(m, split, 8 * static_cast<size_t>(count) + 64, options.valence_weight)) {
+  for (const Candidate& c : candidates(m, split, 8 * static_cast<size_t>(count) + 64, valence_weight)) {
     if (done == count) break;
     const int h = c.half_edge;
     if (t.is_removed(h / 3) || t.twin(h) < 0) continue;
     const auto near = [&](int v) { return touched[v] != 0; };
     if (near(t.from(h)) || near(t.to(h))) continue;
-    const int v = split ? split_edge(m, h, options.split) : collapse_edge(m, h, options.collapse);
+    const int v = split ? split_edge(m, h) : collapse_edge(m, h, collapse_options());
     if (v < 0) continue;
     touched[v] = 1;
     for (int w : t.neighbours(v)) touched[w] = 1;

@@ -2,22 +2,16 @@
 // mesh the number of faces that follows from the target lengths.
 #pragma once
 
-#include "hooke/connectivity/collapse_passes.h"
-#include "hooke/connectivity/edge_splits.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
-
-struct CountOptions {
-  static constexpr double largest_part = .02;   // maximum share of the edges changed in one call
-  static constexpr double valence_weight = .1;  // of the valence excess against l / L when edges are chosen
-  SplitOptions split{.longest = 0};
-  CollapseOptions collapse{.longest = 1.6, .valence = 8};
-};
 
 /// The number of equilateral triangles of the target length that cover the surface: the sum over the faces of
 /// 4 A / (sqrt 3 L^2).
 double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
                          const std::vector<double>& vertex_length);
+
+struct WorkingMesh;
 
 struct CountChanges {
   int splits = 0;
@@ -26,10 +20,10 @@ struct CountChanges {
 
 /// Splits the longest or collapses the shortest edges of each feature curve until it has its target number.
 /// Pre-condition: count_curve_edges().
-CountChanges match_curve_edges(WorkingMesh& mesh, const CountOptions& options);
+CountChanges match_curve_edges(WorkingMesh& mesh);
 
 /// Brings the number of faces closer to `target` by splits or collapses of inner edges without a common
 /// neighbour, preferring the longest or shortest edges and those whose change leaves the best valences.
-CountChanges approach_face_count(WorkingMesh& mesh, double target, const CountOptions& options);
+CountChanges approach_face_count(WorkingMesh& mesh, double target);
 
 }  // namespace hooke

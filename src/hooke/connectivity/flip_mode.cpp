@@ -5,7 +5,6 @@
 
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/stopwatch.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/springs/energy.h"
@@ -17,9 +16,9 @@ namespace {
 
 class FlipMode {
  public:
-  FlipMode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms, const GuardOptions& guards,
+  FlipMode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms, const ShapeLimits& limits,
            double corner_angle, const Observer& observer)
-      : work_(work), options_(options), terms_(terms), guards_(guards), observer_(observer) {
+      : work_(work), options_(options), terms_(terms), limits_(limits), observer_(observer) {
     work.set_corner_valences(corner_angle);
   }
 
@@ -36,10 +35,7 @@ class FlipMode {
   /// Calls body(relaxation) with a relaxation for the present faces.
   template <typename Relax>
   auto relax(const Relax& body) {
-    Energy energy(*work_.adjacency, work_.targets, terms_);
-    Guards guards(*work_.adjacency, work_.targets, guards_);
-    Relaxation r{*work_.adjacency,  work_.coloring, work_.vertices.vertex_length, energy,
-                 *work_.retraction, guards,         work_.vertices.positions,     work_.stopwatch};
+    Relaxation r(work_, terms_, limits_);
     return body(r);
   }
 
@@ -73,7 +69,7 @@ class FlipMode {
     const Stage stage(work_.stopwatch, "flow");
     LloydFlowResult flowed;
     flip([&](WorkingMesh& m) {
-      flowed = flow(m, options_.flow, options_.guard, guards_, observer_);
+      flowed = flow(m, options_.flow, limits_, observer_);
       return flowed.flips;
     });
     result_.flow_rounds = flowed.rounds;
@@ -105,7 +101,7 @@ class FlipMode {
     for (int round = 0; round < options_.spring_rounds && !result_.interrupted; ++round) {
       relax_springs();
       ++result_.spring_rounds;
-      if (flip([&](WorkingMesh& m) { return flip_to_delaunay(m, options_.guard); }) <= few_flips()) break;
+      if (flip([&](WorkingMesh& m) { return flip_to_delaunay(m); }) <= few_flips()) break;
     }
   }
 
@@ -123,15 +119,14 @@ class FlipMode {
       return !result_.interrupted;
     };
     return flip([&](WorkingMesh& m) {
-             return flip_irregular_edges(m, terms_, options_.passes, options_.guard, guards_, lately_changed_,
-                                         watching);
+             return flip_irregular_edges(m, terms_, options_.passes, limits_, lately_changed_, watching);
            }) > 0;
   }
 
   Workspace& work_;
   const FlipOptions& options_;
   const EnergyTerms& terms_;
-  const GuardOptions& guards_;
+  const ShapeLimits& limits_;
   const Observer& observer_;
   std::vector<char> lately_changed_;  // per vertex: flag, by flips of irregular edges
   /// Did guards limit many steps of the flow or the last springs? True before both.
@@ -169,8 +164,8 @@ FlipOptions flip_options(Effort effort) {
 }
 
 FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
-                         const GuardOptions& guards, double corner_angle, const Observer& observer) {
-  return FlipMode(work, options, terms, guards, corner_angle, observer).run();
+                         const ShapeLimits& limits, double corner_angle, const Observer& observer) {
+  return FlipMode(work, options, terms, limits, corner_angle, observer).run();
 }
 
 void measure_travel(const Workspace& work, FlipResult& result) {

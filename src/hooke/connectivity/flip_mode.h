@@ -4,7 +4,6 @@
 #pragma once
 
 #include "hooke/connectivity/connectivity_mode.h"
-#include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/lloyd_flow.h"
 #include "hooke/connectivity/valence_flips.h"
 #include "hooke/integrator/angle_springs.h"
@@ -24,7 +23,6 @@ struct FlipOptions {
   double guard_limited = 2e-3;
   FlipPassOptions passes;
   double energy_drop = 2e-3;  // see IntegrationOptions; of the relaxation that follows
-  FlipGuardOptions guard;
   /// Angle springs start at the present minimum angle and go on as long as they raise it; edge lengths may
   /// become a little less uniform for it.
   AngleSpringOptions angle_springs{
@@ -37,7 +35,7 @@ FlipOptions flip_options(Effort effort);
 /// Moves the vertices of the workspace on the surface of the input, alternating with edge flips. Feature
 /// edges stay. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.
 FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
-                         const GuardOptions& guards, double corner_angle, const Observer& observer);
+                         const ShapeLimits& limits, double corner_angle, const Observer& observer);
 
 /// Sets max_travel and rms_travel: the distances of the vertices from their input positions, in target
 /// lengths. Pre-condition: the vertices are those of the input.

@@ -191,12 +191,12 @@ namespace {
 
 /// One guarded Lloyd step. Returns the number of vertices limited by guards.
 int move_vertices(WorkingMesh& m, const Adjacency& adjacency, const LloydOptions& options,
-                  const GuardOptions& guard_options) {
+                  const ShapeLimits& limits) {
   const TargetLengths targets = spread_target_lengths(adjacency, m.vertices.vertex_length);
   Mat3X step = lloyd_step(m.vertices.positions, adjacency, m.vertices.vertex_length, options);
   m.retraction.constrain(m.vertices.positions, step);
   cap_displacement(m.vertices.vertex_length, options.max_move, step);
-  const Guards guards(adjacency, targets, guard_options);
+  const Guards guards(adjacency, targets, limits);
   SurfacePositions moved;
   const auto limited_steps = guards.step(m.retraction, m.vertices.positions, step, moved).size();
   m.vertices.positions = std::move(moved);
@@ -205,8 +205,8 @@ int move_vertices(WorkingMesh& m, const Adjacency& adjacency, const LloydOptions
 
 }  // namespace
 
-LloydFlowResult flow(WorkingMesh& m, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
-                     const GuardOptions& guards, const Observer& observer) {
+LloydFlowResult flow(WorkingMesh& m, const LloydFlowOptions& options, const ShapeLimits& limits,
+                     const Observer& observer) {
   LloydFlowResult result;
   result.interrupted = observer && !observer({.stage = "flow"});
   const auto connect = [&m] {
@@ -216,19 +216,19 @@ LloydFlowResult flow(WorkingMesh& m, const LloydFlowOptions& options, const Flip
   };
   Adjacency adjacency = connect();
   while (result.rounds < options.rounds && !result.interrupted) {
-    int flips = flip_to_delaunay(m, flip_guard);
+    int flips = flip_to_delaunay(m);
     if (result.rounds >= options.rounds / 4 && result.rounds % options.corner_every == 0)
-      flips += flip_corners_to_valence(m, flip_guard);
+      flips += flip_corners_to_valence(m);
     if (flips > 0) adjacency = connect();
-    result.limited_steps += move_vertices(m, adjacency, options.lloyd, guards);
+    result.limited_steps += move_vertices(m, adjacency, options.lloyd, limits);
     if (m.after_move) m.after_move();
     result.flips += flips;
     ++result.rounds;
     result.interrupted = observer && !observer({.stage = "flow", .step = result.rounds});
   }
   const TargetLengths targets = spread_target_lengths(adjacency, m.vertices.vertex_length);
-  project_drifted(Guards(adjacency, targets, guards), m.retraction, m.vertices.positions);
-  result.flips += flip_to_delaunay(m, flip_guard);
+  project_drifted(Guards(adjacency, targets, limits), m.retraction, m.vertices.positions);
+  result.flips += flip_to_delaunay(m);
   return result;
 }
 

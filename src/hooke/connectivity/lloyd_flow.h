@@ -10,7 +10,7 @@
 namespace hooke {
 
 struct Adjacency;
-struct GuardOptions;
+struct ShapeLimits;
 
 struct LloydOptions {
   double over_relaxation = 1.3;      // factor on the displacement to the centroid
@@ -41,9 +41,9 @@ struct LloydFlowResult {
   bool interrupted = false;
 };
 
-/// Runs the flow and ends with flips, after which the mesh is Delaunay as far as the guards allow. The
+/// Runs the flow and ends with flips, after which the mesh is Delaunay as far as the limits allow. The
 /// observer is called before the first round and after each round.
-LloydFlowResult flow(WorkingMesh& mesh, const LloydFlowOptions& options, const FlipGuardOptions& flip_guard,
-                     const GuardOptions& guards, const Observer& observer);
+LloydFlowResult flow(WorkingMesh& mesh, const LloydFlowOptions& options, const ShapeLimits& limits,
+                     const Observer& observer);
 
 }  // namespace hooke

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "hooke/connectivity/face_count.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/springs/energy.h"
 #include "hooke/working_mesh/working_mesh.h"
@@ -20,12 +18,12 @@ namespace {
 class SliverPass {
  public:
   SliverPass(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
-             const GuardOptions& guards, const FaceCountLimits& limits, int tested_before)
+             const ShapeLimits& limits, const FaceCountLimits& faces, int tested_before)
       : m_(mesh),
         t_(mesh.halfedges),
         options_(options),
-        evaluator_(mesh, terms, options.change, guards),
-        limits_(limits),
+        evaluator_(mesh, terms, options.change, limits),
+        allowed_faces_(faces),
         faces_(static_cast<double>(t_.faces().size())),
         max_tested_(std::max(
             0,
@@ -43,7 +41,7 @@ class SliverPass {
 
  private:
   void begin_stage(double sliver_angle) {
-    sliver_cotangent_ = 1 / std::tan(sliver_angle * std::numbers::pi / 180);
+    sliver_cotangent_ = cotangent_of(sliver_angle);
     evaluator_.set_sliver_angle(sliver_angle);
     tested_at_.clear();
   }
@@ -95,8 +93,8 @@ class SliverPass {
 
   std::vector<EdgeChange> changes_of(const std::vector<int>& edges) {
     const ChangeRules rules{.valence = options_.valence,
-                            .splits = faces_ + 2 <= limits_.max,
-                            .collapses = faces_ - 2 >= limits_.min};
+                            .splits = faces_ + 2 <= allowed_faces_.max,
+                            .collapses = faces_ - 2 >= allowed_faces_.min};
     std::vector<EdgeChange> changes;
     for (int h : edges) {
       const std::vector<EdgeChange> allowed = allowed_changes(m_, h, rules);
@@ -172,7 +170,7 @@ class SliverPass {
   HalfedgeMesh& t_;
   const SliverOptions& options_;
   CandidateEvaluator evaluator_;
-  FaceCountLimits limits_;
+  FaceCountLimits allowed_faces_;
   double faces_;
   const int max_tested_;
   double sliver_cotangent_ = 0;
@@ -186,9 +184,9 @@ class SliverPass {
 }  // namespace
 
 SliverChanges change_slivers(WorkingMesh& m, const EnergyTerms& terms, const SliverOptions& options,
-                             const GuardOptions& guards, const FaceCountLimits& limits, int tested_before,
+                             const ShapeLimits& limits, const FaceCountLimits& faces, int tested_before,
                              const Observer& observer) {
-  return SliverPass(m, terms, options, guards, limits, tested_before).run(observer);
+  return SliverPass(m, terms, options, limits, faces, tested_before).run(observer);
 }
 
 namespace {
@@ -205,7 +203,7 @@ FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double s
 }  // namespace
 
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
-                             const SliverRemovalOptions& options, const GuardOptions& guards,
+                             const SliverRemovalOptions& options, const ShapeLimits& limits,
                              double corner_angle, int tested_before, const Observer& observer) {
   const std::vector<double>& angles = options.pass.sliver_angles;
   if (angles.empty() || min_angle(work.vertices.positions.points, work.adjacency->faces) >= angles.back())
@@ -213,7 +211,7 @@ SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const Energ
   work.set_corner_valences(corner_angle);
   WorkingMesh mesh(work);
   const SliverChanges changes = change_slivers(
-      mesh, terms, options.pass, guards, limits_of(work, mode, options.count_share), tested_before, observer);
+      mesh, terms, options.pass, limits, limits_of(work, mode, options.count_share), tested_before, observer);
   if (changes.count() == 0) return changes;
   if (mode == ConnectivityMode::flip) {
     work.replace_faces(mesh.halfedges.faces());

@@ -6,7 +6,6 @@
 
 #include "hooke/connectivity/connectivity_mode.h"
 #include "hooke/connectivity/edge_trial.h"
-#include "hooke/integrator/guards.h"
 
 namespace hooke {
 
@@ -45,7 +44,7 @@ struct SliverChanges {
 /// each sliver that is tested. Projections in the tests are not counted. The mesh is not compact afterwards.
 /// `tested_before`: number of slivers that earlier passes have tested.
 SliverChanges change_slivers(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
-                             const GuardOptions& guards, const FaceCountLimits& limits, int tested_before,
+                             const ShapeLimits& limits, const FaceCountLimits& faces, int tested_before,
                              const Observer& observer);
 
 struct SliverRemovalOptions {
@@ -60,7 +59,7 @@ struct SliverRemovalOptions {
 /// slivers that earlier passes have tested. Pre-condition: the vertices lie on the field of the input, see
 /// Workspace::return_to_input().
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
-                             const SliverRemovalOptions& options, const GuardOptions& guards,
+                             const SliverRemovalOptions& options, const ShapeLimits& limits,
                              double corner_angle, int tested_before, const Observer& observer);
 
 }  // namespace hooke

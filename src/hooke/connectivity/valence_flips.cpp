@@ -6,7 +6,6 @@
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/gauss_seidel.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/vertex_coloring.h"
@@ -61,13 +60,12 @@ double energy_of(const EdgePatch& patch, const Adjacency& adjacency, const Energ
 class FlipPass {
  public:
   FlipPass(WorkingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
-           const FlipGuardOptions& flip_guard, const GuardOptions& guards, std::vector<char>& near)
+           const ShapeLimits& limits, std::vector<char>& near)
       : m_(mesh),
         t_(mesh.halfedges),
         terms_(terms),
         options_(options),
-        flip_guard_(flip_guard),
-        guards_(guards),
+        limits_(limits),
         unit_(std::max(terms.string, terms.altitude)),
         near_(near),
         batch_of_(mesh.vertices.vertex_length.size(), 0) {}
@@ -91,7 +89,7 @@ class FlipPass {
 
  private:
   bool is_candidate(int h) const {
-    return t_.twin(h) >= 0 && !t_.is_crease(h) && is_worth_testing(m_, h) && may_flip(m_, h, flip_guard_);
+    return t_.twin(h) >= 0 && !t_.is_crease(h) && is_worth_testing(m_, h) && may_flip(m_, h);
   }
 
   bool is_near(int h) const {
@@ -124,25 +122,17 @@ class FlipPass {
     if (!patch) return std::nullopt;
     const Adjacency c = make_adjacency(static_cast<int>(patch->wedge_ids.size()), flipped_faces(*patch));
     const TargetLengths targets = spread_target_lengths(c, patch->vertices.vertex_length);
-    Energy energy(c, targets, terms_);
-    Guards guards(c, targets, guards_);
     Retraction retraction(m_.retraction.surface(), patch->vertices.constraints, m_.retraction.options());
     const VertexColoring coloring = color_as_one_block(c);
-    Relaxation r{c,          coloring, patch->vertices.vertex_length, energy,
-                 retraction, guards,   patch->vertices.positions};
+    Relaxation r(c, coloring, targets, patch->vertices, retraction, terms_, limits_);
     LocalNewton newton(r);
-    const double before =
-        energy(patch->vertices.positions.points, patch->vertices.positions.normals, nullptr) - rise;
+    const double before = r.present_energy() - rise;
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
-      if (sweep > 0 &&
-          energy(patch->vertices.positions.points, patch->vertices.positions.normals, nullptr) - before >
-              options_.max_rise_after_relaxation * unit_)
+      if (sweep > 0 && r.present_energy() - before > options_.max_rise_after_relaxation * unit_)
         return std::nullopt;
       for (size_t v = 0; v < patch->movable; ++v) newton.improve(static_cast<int>(v), {});
     }
-    if (before - energy(patch->vertices.positions.points, patch->vertices.positions.normals, nullptr) <
-        options_.gain)
-      return std::nullopt;
+    if (before - r.present_energy() < options_.gain) return std::nullopt;
     return patch;
   }
 
@@ -168,7 +158,7 @@ class FlipPass {
       const EdgePatch& patch = *results[i];
       if (meets_another(patch))
         mark_for_retest(patch, 2);  // at the two ends of the edge
-      else if (!folds_at_patch_boundary(patch, flipped_faces(patch), m_, guards_))
+      else if (!folds_at_patch_boundary(patch, flipped_faces(patch), m_, limits_))
         keep(edges[i], patch);
     }
   }
@@ -193,8 +183,7 @@ class FlipPass {
   HalfedgeMesh& t_;
   const EnergyTerms& terms_;
   const FlipPassOptions& options_;
-  const FlipGuardOptions& flip_guard_;
-  const GuardOptions& guards_;
+  const ShapeLimits& limits_;
   const Pair pair_;
   double unit_;                // of the maximum energy rises
   std::vector<char>& near_;    // per vertex: flag that edges there are to be tested; all if empty
@@ -206,9 +195,8 @@ class FlipPass {
 }  // namespace
 
 int flip_irregular_edges(WorkingMesh& m, const EnergyTerms& terms, const FlipPassOptions& options,
-                         const FlipGuardOptions& flip_guard, const GuardOptions& guards,
-                         std::vector<char>& near, const Observer& observer) {
-  return FlipPass(m, terms, options, flip_guard, guards, near).run(observer);
+                         const ShapeLimits& limits, std::vector<char>& near, const Observer& observer) {
+  return FlipPass(m, terms, options, limits, near).run(observer);
 }
 
 }  // namespace hooke

@@ -8,8 +8,6 @@
 
 namespace hooke {
 
-struct GuardOptions;
-
 struct FlipPassOptions {
   int passes = 2;             // maximum number; they end when a pass flips nothing
   int rounds = 4;             // maximum number per pass; after the first, only changed regions are tested
@@ -29,7 +27,6 @@ struct FlipPassOptions {
 /// changed. The observer is called at least every few hundred edges. Projections in the tests are not
 /// counted. Returns the number of flips kept.
 int flip_irregular_edges(WorkingMesh& mesh, const EnergyTerms& terms, const FlipPassOptions& options,
-                         const FlipGuardOptions& flip_guard, const GuardOptions& guards,
-                         std::vector<char>& near, const Observer& observer);
+                         const ShapeLimits& limits, std::vector<char>& near, const Observer& observer);
 
 }  // namespace hooke

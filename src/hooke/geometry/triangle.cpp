@@ -110,6 +110,10 @@ double angle_with_cotangent(double cotangent) {
   return std::atan2(1, cotangent) * 180 / std::numbers::pi;
 }
 
+double cotangent_of(double angle) {
+  return 1 / std::tan(angle * std::numbers::pi / 180);
+}
+
 double max_cotangent(const Mat3X& points, const std::vector<Triangle>& faces) {
   constexpr size_t faces_per_task = 4096;
   std::vector<double> largest((faces.size() + faces_per_task - 1) / faces_per_task);

@@ -45,6 +45,9 @@ double max_cotangent(const Mat3X& points, const std::vector<Triangle>& faces);
 /// The angle with this cotangent, degrees.
 double angle_with_cotangent(double cotangent);
 
+/// Cotangent of an angle in degrees.
+double cotangent_of(double angle);
+
 /// How many faces turn over or lose their area when the points go elsewhere; those without area do not count.
 std::ptrdiff_t count_turned_faces(const Eigen::Ref<const Mat3X>& points, const Eigen::Ref<const Mat3X>& moved,
                                   const std::vector<Triangle>& faces);

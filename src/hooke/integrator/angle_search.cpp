@@ -21,7 +21,7 @@ namespace {
 /// Searches for one vertex at a time; reused for many vertices to save allocations. Keeps references.
 class VertexSearch {
  public:
-  VertexSearch(Relaxation& relaxation, const VertexSearchOptions& options, const GuardOptions& guards);
+  VertexSearch(Relaxation& relaxation, const VertexSearchOptions& options, const ShapeLimits& limits);
 
   /// Moves the vertex, within the guards, until no cotangent around it exceeds the goal or no candidate is
   /// better. Returns whether it moved.
@@ -40,7 +40,7 @@ class VertexSearch {
 
   Relaxation& r_;
   const VertexSearchOptions& o_;
-  const GuardOptions& guards_;
+  const ShapeLimits& limits_;
   std::vector<Eigen::Vector2d> directions_;
   std::array<Wedge, 2> wedges_;
   int count_ = 1;     // number of wedges
@@ -52,10 +52,10 @@ constexpr double projection_allowance = 1.1;
 
 }  // namespace
 
-VertexSearch::VertexSearch(Relaxation& r, const VertexSearchOptions& options, const GuardOptions& guards)
+VertexSearch::VertexSearch(Relaxation& r, const VertexSearchOptions& options, const ShapeLimits& limits)
     : r_(r),
       o_(options),
-      guards_(guards),
+      limits_(limits),
       wedges_{Wedge{VertexRing(r.coloring.rings, r.energy.targets()), {}, {}},
               Wedge{VertexRing(r.coloring.rings, r.energy.targets()), {}, {}}} {
   for (int k = 0; k < o_.directions; ++k) {
@@ -108,7 +108,7 @@ double VertexSearch::max_cotangent_at(const SurfacePosition& position) {
 /// Do the guards allow the position evaluated last by max_cotangent_at()?
 bool VertexSearch::guards_allow() const {
   return std::all_of(wedges_.begin(), wedges_.begin() + count_,
-                     [&](const Wedge& s) { return s.ring.obeys(s.before, s.after, guards_); });
+                     [&](const Wedge& s) { return s.ring.obeys(s.before, s.after, limits_); });
 }
 
 /// Moves the vertex to the best candidate at this distance if it is better than the current position.
@@ -151,10 +151,6 @@ namespace {
 constexpr size_t angle_search_block = 4096;
 
 constexpr double ideal_min_angle = 60;  // degrees, of an equilateral triangle
-
-double cotangent_of(double degrees) {
-  return 1 / std::tan(degrees * std::numbers::pi / 180);
-}
 
 /// The sum and the sum of squares of l / L_e - 1.
 struct EdgeErrors {
@@ -348,12 +344,12 @@ std::vector<std::vector<size_t>> neighbours_among(const Adjacency& c, const std:
   return neighbours;
 }
 
-/// Rounds of the search within some guards.
+/// Rounds of the search within some limits.
 class Search {
  public:
-  Search(Relaxation& r, const AngleSearchOptions& o, const GuardOptions& guards, Measures& measures,
+  Search(Relaxation& r, const AngleSearchOptions& o, const ShapeLimits& limits, Measures& measures,
          AngleSearchResult& result)
-      : r_(r), o_(o), guards_(guards), measures_(measures), result_(result), pattern_(o.vertex) {}
+      : r_(r), o_(o), limits_(limits), measures_(measures), result_(result), pattern_(o.vertex) {}
 
   /// Alternates rounds of angle springs (unless `with_springs` is false) and of pattern searches: each goes
   /// on while it raises the minimum angle. Faces that neither can raise are set aside. Ends where even a
@@ -461,7 +457,7 @@ class Search {
     for (int sweep = 0, last = 1; sweep < o_.sweeps && last > 0; ++sweep, moves += last) {
       std::vector<char> moved(vertices.size(), 0);
       for_each_of(
-          r_, vertices, [&] { return VertexSearch(r_, pattern_, guards_); },
+          r_, vertices, [&] { return VertexSearch(r_, pattern_, limits_); },
           [&](VertexSearch& vertex, size_t i) {
             moved[i] = vertex.improve(vertices[i], cotangent_of(goal));
           });
@@ -472,7 +468,7 @@ class Search {
 
   Relaxation& r_;
   const AngleSearchOptions& o_;
-  const GuardOptions& guards_;
+  const ShapeLimits& limits_;
   Measures& measures_;
   AngleSearchResult& result_;
   VertexSearchOptions pattern_;
@@ -485,12 +481,12 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
   AngleSearchResult result;
   if (r.adjacency.faces.empty()) return result;
   Measures measures(r);
-  GuardOptions guards = r.guards.options();
-  Search(r, o, guards, measures, result).run(o.springs.range > 0);
-  if (o.sagitta > guards.sagitta) {
-    guards.sagitta = o.sagitta;
+  ShapeLimits limits = r.guards.limits();
+  Search(r, o, limits, measures, result).run(o.springs.range > 0);
+  if (o.sagitta > limits.sagitta) {
+    limits.sagitta = o.sagitta;
     measures.take_back();
-    Search(r, o, guards, measures, result).run(false);
+    Search(r, o, limits, measures, result).run(false);
   }
   r.retraction.count();
   std::ranges::sort(result.vertices);

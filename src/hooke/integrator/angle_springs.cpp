@@ -38,7 +38,7 @@ namespace {
 
 /// The corners of all faces with an angle below the threshold (degrees), and `rings` rings around them.
 std::vector<int> around_bad_faces(const Mat3X& points, const Adjacency& c, double threshold, int rings) {
-  const double limit = 1 / std::tan(threshold * std::numbers::pi / 180);
+  const double limit = cotangent_of(threshold);
   std::vector<char> bad(c.faces.size());
   parallel_for(c.faces.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) bad[f] = max_cotangent(points, c.faces[f]) > limit;

@@ -173,7 +173,7 @@ struct Forces {
   Mat3X torque;  // mu * torque
 };
 
-void compute(const Relaxation& r, const SurfacePositions& at, const DampedOptions& damped, Forces& forces) {
+void compute(Relaxation& r, const SurfacePositions& at, const DampedOptions& damped, Forces& forces) {
   forces.energy = r.energy(at.points, at.normals, &forces.total);
   forces.total *= -damped.string;
   forces.torque.resize(3, at.points.cols());

@@ -113,16 +113,16 @@ double cotangent_limit(const Mat3X& points, const std::vector<Triangle>& faces) 
   return max_cotangent(points, faces) / (1 + cotangent_reserve);
 }
 
-FinalProjection::FinalProjection(Workspace& work, const GuardOptions& guards)
-    : work_(work), step_guards_(guards) {}
+FinalProjection::FinalProjection(Workspace& work, const ShapeLimits& limits)
+    : work_(work), step_limits_(limits) {}
 
 Guards FinalProjection::guards() const {
-  GuardOptions options = step_guards_;
-  options.slack = slack;
-  options.area_ratio = area_ratio;
-  options.sagitta = std::numeric_limits<double>::infinity();
-  options.cotangent *= 1 + cotangent_reserve;
-  return {*work_.adjacency, work_.targets, options};
+  ShapeLimits limits = step_limits_;
+  limits.slack = slack;
+  limits.area = area_ratio;
+  limits.sagitta = std::numeric_limits<double>::infinity();
+  limits.cotangent *= 1 + cotangent_reserve;
+  return {*work_.adjacency, work_.targets, limits};
 }
 
 void FinalProjection::refit() {

@@ -41,7 +41,7 @@ double cotangent_limit(const Mat3X& points, const std::vector<Triangle>& faces);
 class FinalProjection {
  public:
   /// `guards` are those of the steps.
-  FinalProjection(Workspace& work, const GuardOptions& guards);
+  FinalProjection(Workspace& work, const ShapeLimits& limits);
 
   /// Fits a new field to the current vertices, see Workspace::refit(). Repeated fits may let thin sheets
   /// drift through each other; the next project() reverts that.
@@ -63,7 +63,7 @@ class FinalProjection {
   void undo_crossings();
 
   Workspace& work_;
-  GuardOptions step_guards_;
+  ShapeLimits step_limits_;
   std::vector<int> unprojected_;  // vertices that the guards kept from being projected
   struct Projected {
     SurfacePositions positions;

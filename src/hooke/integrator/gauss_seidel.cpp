@@ -96,7 +96,7 @@ bool LocalNewton::may_move(const SurfacePosition& candidate) {
   const EnergyTerms& terms = r_.energy.terms;
   const auto obeys = [&](Wedge& s, const Vec3& normal) {
     s.ring.shape(candidate.point, normal, s.after);
-    if (!s.ring.obeys(s.before, s.after, r_.guards.options())) return false;
+    if (!s.ring.obeys(s.before, s.after, r_.guards.limits())) return false;
     energy += s.ring.energy(s.after, terms);
     if (terms.unfold > 0)
       unfolded += s.ring.folded_faces(s.before, terms.unfold_below) -

@@ -14,6 +14,8 @@ namespace {
 
 constexpr size_t guards_block = 2048;
 
+constexpr int max_halvings = 8;  // of a vertex's displacement, before the vertex stays for this step
+
 void sort_unique(std::vector<int>& ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -51,25 +53,25 @@ bool cosine_exceeds(double limit, double product, double square, double other_sq
 }
 
 /// `n` is the doubled area vector of the face.
-bool area_and_alignment_within_limit(const GuardOptions& o, const Vec3& n_before, const Vec3& n,
+bool area_and_alignment_within_limit(const ShapeLimits& limits, const Vec3& n_before, const Vec3& n,
                                      const Vec3& normals) {
   const double square = n.squaredNorm();
-  return square > o.area_ratio * o.area_ratio * (1 + rounding) * n_before.squaredNorm() &&
-         cosine_exceeds(o.alignment, n.dot(normals), square, normals.squaredNorm());
+  return square > limits.area * limits.area * (1 + rounding) * n_before.squaredNorm() &&
+         cosine_exceeds(limits.alignment, n.dot(normals), square, normals.squaredNorm());
 }
 
-bool angles_within_limit(const GuardOptions& o, const Mat3X& points, const Triangle& t, const Vec3& n) {
+bool angles_within_limit(const ShapeLimits& limits, const Mat3X& points, const Triangle& t, const Vec3& n) {
   const Vec3 p = points.col(t[0]), q = points.col(t[1]), r = points.col(t[2]);
   const double a2 = (r - q).squaredNorm(), b2 = (p - r).squaredNorm(), c2 = (q - p).squaredNorm();
   const double cosine =
       .5 *
       (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // of the smallest angle, times the lengths of its edges
-  return cosine * cosine < o.cotangent * o.cotangent * (1 - rounding) * n.squaredNorm();
+  return cosine * cosine < limits.cotangent * limits.cotangent * (1 - rounding) * n.squaredNorm();
 }
 
 /// Uses (l / 2) tan(theta / 4) <= (l / 2) sin(theta / 2).
-bool sagitta_within_limit(const GuardOptions& o, double target, const Vec3& edge, double cosine) {
-  const double limit = o.sagitta * (1 - rounding) * target;
+bool sagitta_within_limit(const ShapeLimits& limits, double target, const Vec3& edge, double cosine) {
+  const double limit = limits.sagitta * (1 - rounding) * target;
   return .125 * edge.squaredNorm() * (1 - cosine) < limit * limit;
 }
 
@@ -93,14 +95,14 @@ bool Guards::face_breaks(const SurfacePositions& from, const SurfacePositions& t
   const Triangle& t = adjacency_.faces[f];
   const Vec3 n = doubled_area_vector(to.points, t), n_before = doubled_area_vector(from.points, t);
   const Vec3 normals = sum_of_normals(to.normals, adjacency_.wedges_of_faces()[f]);
-  const bool angles_are_free = !std::isfinite(options_.cotangent);
-  if (area_and_alignment_within_limit(options_, n_before, n, normals) &&
-      (angles_are_free || angles_within_limit(options_, to.points, t, n)))
+  const bool angles_are_free = !std::isfinite(limits_.cotangent);
+  if (area_and_alignment_within_limit(limits_, n_before, n, normals) &&
+      (angles_are_free || angles_within_limit(limits_, to.points, t, n)))
     return false;
   const double before = alignment(from, f);
-  return hooke::face_breaks(options_, .5 * n_before.norm(), .5 * n.norm(), before, cosine(n, normals, 0)) ||
+  return hooke::face_breaks(limits_, .5 * n_before.norm(), .5 * n.norm(), before, cosine(n, normals, 0)) ||
          (!angles_are_free &&
-          angle_breaks(options_, before, max_cotangent(from.points, t), max_cotangent(to.points, t)));
+          angle_breaks(limits_, before, max_cotangent(from.points, t), max_cotangent(to.points, t)));
 }
 
 bool Guards::fold_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t e) const {
@@ -108,19 +110,19 @@ bool Guards::fold_breaks(const SurfacePositions& from, const SurfacePositions& t
   if (right < 0) return false;
   const Vec3 n = doubled_area_vector(to.points, adjacency_.faces[left]);
   const Vec3 m = doubled_area_vector(to.points, adjacency_.faces[right]);
-  if (cosine_exceeds(options_.fold, n.dot(m), n.squaredNorm(), m.squaredNorm())) return false;
+  if (cosine_exceeds(limits_.fold, n.dot(m), n.squaredNorm(), m.squaredNorm())) return false;
   const double before = fold(from, e), after = cosine(n, m, 1);
-  return adjacency_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(options_, before, after)
-                                                   : hooke::fold_breaks(options_, before, after);
+  return adjacency_.is_crease(static_cast<int>(e)) ? crease_fold_breaks(limits_, before, after)
+                                                   : hooke::fold_breaks(limits_, before, after);
 }
 
 bool Guards::edge_breaks(const SurfacePositions& from, const SurfacePositions& to, size_t e) const {
   const auto& [a, b] = adjacency_.edges[e];
   const auto& [wedge, other_wedge] = adjacency_.wedges_of_edges()[e];
   const double target = targets_.edge[e];
-  return (!sagitta_within_limit(options_, target, to.points.col(b) - to.points.col(a),
+  return (!sagitta_within_limit(limits_, target, to.points.col(b) - to.points.col(a),
                                 to.normals.col(wedge).dot(to.normals.col(other_wedge))) &&
-          sagitta_breaks(options_, target, sagitta(from, e), sagitta(to, e))) ||
+          sagitta_breaks(limits_, target, sagitta(from, e), sagitta(to, e))) ||
          fold_breaks(from, to, e);
 }
 
@@ -179,7 +181,7 @@ std::vector<int> Guards::step(Retraction& retraction, const SurfacePositions& fr
       if (u.isZero(0)) continue;
       auto& count = halvings[v];
       if (++count == 1) limited.push_back(v);
-      if (count > options_.max_halvings)
+      if (count > max_halvings)
         u.setZero();
       else
         u *= .5;
@@ -194,12 +196,12 @@ std::vector<int> Guards::step(Retraction& retraction, const SurfacePositions& fr
 
 std::vector<int> Guards::vertices_at_limits(const SurfacePositions& p) const {
   constexpr double cosine_margin = .02, sagitta_part = .95;
-  const auto is_misaligned = [&](size_t f) { return alignment(p, f) < options_.alignment + cosine_margin; };
+  const auto is_misaligned = [&](size_t f) { return alignment(p, f) < limits_.alignment + cosine_margin; };
   const auto folds = [&](size_t e) {
-    return !adjacency_.is_crease(static_cast<int>(e)) && fold(p, e) < options_.fold + cosine_margin;
+    return !adjacency_.is_crease(static_cast<int>(e)) && fold(p, e) < limits_.fold + cosine_margin;
   };
   const auto is_at_limit = [&](size_t e) {
-    return folds(e) || !(sagitta(p, e) < sagitta_part * options_.sagitta * targets_.edge[e]);
+    return folds(e) || !(sagitta(p, e) < sagitta_part * limits_.sagitta * targets_.edge[e]);
   };
   std::vector<int> vertices;
   for (int f : indices_where(adjacency_.faces.size(), is_misaligned)) add_corners(f, vertices);
@@ -211,7 +213,7 @@ std::vector<int> Guards::vertices_at_limits(const SurfacePositions& p) const {
 
 std::vector<int> Guards::folded_faces(const SurfacePositions& p) const {
   return indices_where(adjacency_.faces.size(),
-                       [&](size_t f) { return alignment(p, f) < options_.alignment; });
+                       [&](size_t f) { return alignment(p, f) < limits_.alignment; });
 }
 
 }  // namespace hooke

@@ -207,7 +207,7 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
   }
   if (options.max_steps <= 1) {
-    result.energy = r.energy(r.positions.points, r.positions.normals, nullptr);
+    result.energy = r.present_energy();
     result.evaluations = 1;
     result.reason = StopReason::step_limit;
     return result;
@@ -305,7 +305,7 @@ IntegrationResult relax_lbfgs(Relaxation& r, const IntegrationOptions& options, 
   if (!lbfgs.projects_at_end) return result;
   project_drifted(r.guards, r.retraction, r.positions, candidate);
   std::swap(r.positions, candidate);
-  result.energy = r.energy(r.positions.points, r.positions.normals, nullptr);
+  result.energy = r.present_energy();
   return result;
 }
 

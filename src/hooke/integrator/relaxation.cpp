@@ -1,8 +1,30 @@
 #include "hooke/integrator/relaxation.h"
 
 #include "hooke/core/parallel.h"
+#include "hooke/filter/retraction.h"
+#include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
+
+Relaxation::Relaxation(const Adjacency& c, const VertexColoring& colors, const TargetLengths& targets,
+                       VertexTable& vertices, Retraction& field, const EnergyTerms& terms,
+                       const ShapeLimits& limits, Stopwatch* watch)
+    : adjacency(c),
+      coloring(colors),
+      vertex_length(vertices.vertex_length),
+      energy(c, targets, terms),
+      retraction(field),
+      guards(c, targets, limits),
+      positions(vertices.positions),
+      stopwatch(watch) {}
+
+Relaxation::Relaxation(Workspace& work, const EnergyTerms& terms, const ShapeLimits& limits)
+    : Relaxation(*work.adjacency, work.coloring, work.targets, work.vertices, *work.retraction, terms, limits,
+                 work.stopwatch) {}
+
+double Relaxation::present_energy() {
+  return energy(positions.points, positions.normals, nullptr);
+}
 
 void cap_displacement(const std::vector<double>& vertex_length, double max_move, Mat3X& displacement) {
   parallel_for(vertex_length.size(), 4096, [&](size_t begin, size_t end) {

@@ -2,17 +2,14 @@
 // toward the rest lengths of their springs.
 #pragma once
 
-#include "hooke/core/types.h"
+#include "hooke/integrator/guards.h"
+#include "hooke/springs/energy.h"
 
 namespace hooke {
 
-struct Adjacency;
-class Energy;
-class Guards;
-struct SurfacePositions;
-class Retraction;
-class Stopwatch;
 struct VertexColoring;
+struct VertexTable;
+struct Workspace;
 
 enum class StopReason {
   converged,    // every edge within the tolerance of its target length
@@ -34,16 +31,26 @@ struct Progress {
 /// Called after every step; returns false to stop and keep what has been reached.
 using Observer = std::function<bool(const Progress&)>;
 
-/// The objects that a relaxation works on. All references must outlive it.
+/// A mesh with all that a relaxation works on, for its present faces. The arguments must outlive it.
 struct Relaxation {
+  Relaxation(const Adjacency& adjacency, const VertexColoring& coloring, const TargetLengths& targets,
+             VertexTable& vertices, Retraction& retraction, const EnergyTerms& terms,
+             const ShapeLimits& limits, Stopwatch* stopwatch = nullptr);
+
+  /// Of the mesh of a workspace.
+  Relaxation(Workspace& work, const EnergyTerms& terms, const ShapeLimits& limits);
+
   const Adjacency& adjacency;
   const VertexColoring& coloring;
   const std::vector<double>& vertex_length;  // target length per vertex
-  Energy& energy;
+  Energy energy;
   Retraction& retraction;
-  Guards& guards;
+  Guards guards;
   SurfacePositions& positions;
-  Stopwatch* stopwatch = nullptr;
+  Stopwatch* stopwatch;
+
+  /// At the present positions.
+  double present_energy();
 };
 
 struct IntegrationOptions {

@@ -12,13 +12,13 @@ namespace {
 
 /// True if no absolute limit is broken and no face shrinks too far, so that the exact rules need no
 /// evaluation. The two views differ in the vertex position only.
-bool within_limits(const RingView& before, const RingView& after, const GuardOptions& options);
+bool within_limits(const RingView& before, const RingView& after, const ShapeLimits& options);
 
 using namespace ring;
 
 constexpr double rounding = 1e-9;  // margin of the tests, so that they never contradict the exact rules
 
-HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, const GuardOptions& o) {
+HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, const ShapeLimits& o) {
   const std::size_t stride = after.stride;
   LaneMask broken = {};
   for (std::size_t i = 0; i < stride; i += lane_count) {
@@ -42,7 +42,7 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     dot(m, m, size);
     const double min_square_cosine = o.alignment * o.alignment * (1 + rounding);
     const LaneMask aligned = (along > 0.) & (along * along >= min_square_cosine * (area * area) * size);
-    const LaneMask shrinks = area < o.area_ratio * (1 + rounding) * old_area;
+    const LaneMask shrinks = area < o.area * (1 + rounding) * old_area;
     broken |= (face > 0.) & (~aligned | shrinks);
 
     LaneVec e, f;
@@ -263,7 +263,7 @@ int VertexRing::folded_faces(const RingShape& shape, double limit) const {
       std::ranges::count_if(measures(shape).alignment, [limit](double a) { return a < limit; }));
 }
 
-bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMeasures& b,
+bool VertexRing::fold_breaks(const ShapeLimits& o, std::size_t i, const RingMeasures& b,
                              const RingMeasures& a) const {
   const auto breaks = [&](bool crease, double before, double after) {
     return crease ? crease_fold_breaks(o, before, after) : hooke::fold_breaks(o, before, after);
@@ -274,7 +274,7 @@ bool VertexRing::fold_breaks(const GuardOptions& o, std::size_t i, const RingMea
          breaks(far_crease, b.far_fold[i], a.far_fold[i]);
 }
 
-bool VertexRing::obeys(const RingShape& before, const RingShape& after, const GuardOptions& o) const {
+bool VertexRing::obeys(const RingShape& before, const RingShape& after, const ShapeLimits& o) const {
   if (within_limits(view(before), view(after), o)) return true;
   const RingMeasures b = measures(before), a = measures(after);
   for (std::size_t i = 0; i < entries().size(); ++i)

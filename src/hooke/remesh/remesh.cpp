@@ -53,11 +53,11 @@ void set_residual_forces(TriMesh& mesh, const MemoryOrder& memory_order, double 
   set_vertex_vectors(mesh, force_property, order.scatter(-gradient));
 }
 
-bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards) {
+bool keep_near_regular(Workspace& work, const NearRegularOptions& options, ShapeLimits& limits) {
   const bool near_regular = min_angle(*work.start, work.adjacency->faces) >= options.angle &&
                             spread_of_edges(work) <= options.deviation;
   if (near_regular || !work.has_varying_lengths())
-    guards.cotangent = cotangent_limit(work.vertices.positions.points, work.adjacency->faces);
+    limits.cotangent = cotangent_limit(work.vertices.positions.points, work.adjacency->faces);
   if (near_regular) {
     work.vertices.constraints.rest_position = *work.start;
     for (double length : work.vertices.vertex_length)
@@ -77,9 +77,8 @@ class OuterIterations {
       : options_(options),
         observer_(observer),
         work_(work),
-        energy_(*work_.adjacency, work_.targets, {.altitude = options.chosen.altitude}),
-        guards_(*work_.adjacency, work_.targets, options.guards),
-        projection_(work, options.guards) {}
+        guards_(*work_.adjacency, work_.targets, options.limits),
+        projection_(work, options.limits) {}
 
   /// `flips`: the result of the connectivity mode; if it was interrupted, vertices are only projected.
   RemeshResult run(const FlipResult& flips) {
@@ -116,17 +115,16 @@ class OuterIterations {
       project_to_input();
     else
       search();
-    record("mend",
-           {.energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr)});
+    record("mend", {.energy = present_energy()});
     conclude();
     return std::move(result_);
   }
 
  private:
-  Relaxation relaxation() {
-    return {*work_.adjacency,  work_.coloring, work_.vertices.vertex_length, energy_,
-            *work_.retraction, guards_,        work_.vertices.positions,     work_.stopwatch};
-  }
+  /// On the field fitted last.
+  Relaxation relaxation() { return {work_, {.altitude = options_.chosen.altitude}, options_.limits}; }
+
+  double present_energy() { return relaxation().present_energy(); }
 
   Observer watch(const char* stage) const {
     if (!observer_) return nullptr;
@@ -204,14 +202,13 @@ class OuterIterations {
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");
     if (refits() && outer_ > 1) projection_.refit();
-    const double energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr);
+    const double energy = present_energy();
     IntegrationResult relaxed = relax();
     guard_limited_ = relaxed.limited_steps > 0;
     free_of_guards_ = is_free_of_guards(relaxed);
     if (!goes_on() || relaxed.reason == StopReason::interrupted) {
       project_to_input();
-      if (projection_.reverted_crossings())
-        relaxed.energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr);
+      if (projection_.reverted_crossings()) relaxed.energy = present_energy();
     } else {
       work_.resample_lengths();
     }
@@ -241,9 +238,7 @@ class OuterIterations {
     } else {
       search();
     }
-    record("polish",
-           {.steps = result_.angle_springs.sweeps,
-            .energy = energy_(work_.vertices.positions.points, work_.vertices.positions.normals, nullptr)});
+    record("polish", {.steps = result_.angle_springs.sweeps, .energy = present_energy()});
   }
 
   /// Searches on the field fitted last, where vertices can move that the final projection would revert, and
@@ -300,7 +295,6 @@ class OuterIterations {
   const RunOptions& options_;
   const Observer& observer_;
   Workspace& work_;
-  Energy energy_;
   Guards guards_;
   FinalProjection projection_;
   RemeshResult result_;
@@ -333,7 +327,7 @@ bool remove_slivers_once(Workspace& work, const RunOptions& options, const Obser
   };
   const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
     return remove_slivers(work, options.chosen.connectivity, {.altitude = options.chosen.altitude},
-                          options.slivers, options.guards, options.chosen.constraints.corner_angle, tested,
+                          options.slivers, options.limits, options.chosen.constraints.corner_angle, tested,
                           watch);
   });
   tested += changes.tested;
@@ -402,19 +396,18 @@ RemeshResult run_remesh(TriMesh& mesh, MemoryOrder memory_order, const RunOption
   FlipResult flips;
   if (options.chosen.connectivity == ConnectivityMode::adapt)
     adapted = timed(stopwatch, "adapt", [&] {
-      return adapt(work, options.adaptation, options.flips.guard, terms, options.guards, corner_angle,
-                   observer);
+      return adapt(work, options.adaptation, terms, options.limits, corner_angle, observer);
     });
   flips.interrupted = adapted.interrupted;
   if (options.chosen.connectivity != ConnectivityMode::fixed && !flips.interrupted)
     flips = timed(stopwatch, "flip", [&] {
       const FlipOptions then = flips_after(adapted, options.adaptation, options.flips);
-      return run_flip_mode(work, then, terms, options.guards, corner_angle, observer);
+      return run_flip_mode(work, then, terms, options.limits, corner_angle, observer);
     });
   RunOptions then = options;
   const bool near_regular = options.chosen.connectivity == ConnectivityMode::fixed &&
                             !work.has_edge_lengths() &&
-                            keep_near_regular(work, options.near_regular, then.guards);
+                            keep_near_regular(work, options.near_regular, then.limits);
   if (adapted.levels > 0 && options.chosen.polish_angles) then = after_coarse_levels(std::move(then));
   OuterIterations iterations(work, then, observer);
   RemeshResult result = iterations.run(flips);

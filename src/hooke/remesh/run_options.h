@@ -6,9 +6,9 @@
 #include "hooke/connectivity/sliver_removal.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/filter/retraction.h"
+#include "hooke/geometry/local_shape.h"
 #include "hooke/integrator/angle_search.h"
 #include "hooke/integrator/angle_springs.h"
-#include "hooke/integrator/guards.h"
 #include "hooke/integrator/lbfgs.h"
 #include "hooke/integrator/untangle.h"
 #include "hooke/remesh/options.h"
@@ -34,7 +34,7 @@ struct RunOptions {
   AdaptOptions adaptation;                              // in mode `adapt`
   IntegrationOptions integration{.energy_drop = 4e-3};  // energy_drop: in mode `fixed`
   LbfgsOptions lbfgs;
-  GuardOptions guards;
+  ShapeLimits limits;
   NearRegularOptions near_regular;  // in mode `fixed`
   UntangleOptions untangle;
   AngleSpringOptions angle_springs;
@@ -48,10 +48,10 @@ struct RunOptions {
   double guard_limited = 2.5e-4;
 };
 
-/// Makes the guards preserve the minimum angle if the mesh is near-regular or has a uniform target length,
+/// Makes the limits preserve the minimum angle if the mesh is near-regular or has a uniform target length,
 /// and limits the travel of the vertices of a near-regular mesh. Returns whether the mesh is near-regular.
 /// Pre-condition: no vertex has moved.
-bool keep_near_regular(Workspace& work, const NearRegularOptions& options, GuardOptions& guards);
+bool keep_near_regular(Workspace& work, const NearRegularOptions& options, ShapeLimits& limits);
 
 /// remesh() with options for each step, see remesh.h.
 RemeshResult run_remesh(TriMesh& mesh, MemoryOrder memory_order, const RunOptions& options,

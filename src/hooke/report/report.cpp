@@ -463,10 +463,10 @@ Json parameters_json(const RemeshOptions& options) {
   j["feature_noise"] = where(o.chosen.constraints.features.angle < 180,
                              o.chosen.constraints.features.drops_noise ? "auto" : "off");
   j["fixed_vertices"] = o.chosen.constraints.fixed_vertices.size();
-  j["guard_area_ratio"] = o.guards.area_ratio;
-  j["guard_alignment"] = o.guards.alignment;
-  j["guard_fold"] = o.guards.fold;
-  j["guard_sagitta"] = o.guards.sagitta;
+  j["guard_area_ratio"] = o.limits.area;
+  j["guard_alignment"] = o.limits.alignment;
+  j["guard_fold"] = o.limits.fold;
+  j["guard_sagitta"] = o.limits.sagitta;
   j["search_sagitta"] = where(o.chosen.polish_angles, o.search.sagitta);
   const bool removes_slivers = o.chosen.polish_angles && !fixed;
   j["sliver_angles"] = where(removes_slivers, o.slivers.pass.sliver_angles);
