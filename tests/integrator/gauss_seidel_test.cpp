@@ -16,7 +16,7 @@ double energy_around(test::Scene& s, int vertex) {
   RingShape shape;
   ring.gather(s.positions, vertex);
   ring.shape(s.positions.points.col(vertex), s.positions.normals.col(vertex), shape);
-  return ring.energy(shape, s.energy.terms);
+  return ring.energy(shape, s.terms);
 }
 
 std::vector<char> only(const test::Scene& s, int vertex) {

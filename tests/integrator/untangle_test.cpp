@@ -70,11 +70,11 @@ TEST(Untangle, AMeshWithoutFoldsIsLeftAlone) {
 
 TEST(Untangle, PutsTheEnergyBackAsItWas) {
   test::Scene s(folded_grid(), test::to_ground);
-  s.energy.terms.altitude = .7;
   Relaxation r = s.relaxation();
+  r.terms.altitude = .7;
   untangle(r, {}, nullptr);
-  EXPECT_EQ(r.energy.terms.altitude, .7);
-  EXPECT_EQ(r.energy.terms.unfold, 0);
+  EXPECT_EQ(r.terms.altitude, .7);
+  EXPECT_EQ(r.terms.unfold, 0);
 }
 
 TEST(Untangle, StopsWhenAskedTo) {
@@ -84,7 +84,7 @@ TEST(Untangle, StopsWhenAskedTo) {
   const UntangleResult result = untangle(r, {}, [&](const Progress&) { return ++calls < 1; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(calls, 1);
-  EXPECT_EQ(r.energy.terms.unfold, 0);
+  EXPECT_EQ(r.terms.unfold, 0);
 }
 
 TEST(Untangle, NamesWhatItCannotUnfold) {

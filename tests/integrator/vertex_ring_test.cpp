@@ -48,7 +48,7 @@ class RingLaws : public testing::TestWithParam<test::NamedTerms> {
                          const Vec3& b) {
     RingShape shape;
     ring.shape(x, s.positions.normals.col(v), shape);
-    return ring.model(shape, s.energy.terms, a, b);
+    return ring.model(shape, s.terms, a, b);
   }
 };
 
@@ -59,32 +59,58 @@ TEST_P(RingLaws, TheEnergyChangesAsThatOfTheWholeMesh) {
     const Vec3 y = x + .05 * s.L() * n.unitOrthogonal();
     ring.shape(x, n, here);
     ring.shape(y, n, there);
-    const double before = s.energy(s.positions.points, s.positions.normals, nullptr);
+    const auto of_mesh = [&s] {
+      return test::energy_by_definition(s.positions.points, s.positions.normals, s.adjacency, s.targets,
+                                        s.terms);
+    };
+    const double before = of_mesh();
     s.positions.points.col(v) = y;
-    const double after = s.energy(s.positions.points, s.positions.normals, nullptr);
+    const double after = of_mesh();
     s.positions.points.col(v) = x;
-    EXPECT_NEAR(ring.energy(there, s.energy.terms) - ring.energy(here, s.energy.terms), after - before,
-                1e-10 * before);
+    EXPECT_NEAR(ring.energy(there, s.terms) - ring.energy(here, s.terms), after - before, 1e-10 * before);
   });
 }
 
 TEST_P(RingLaws, TheModelHasTheEnergyAndItsGradient) {
   for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
-    Mat3X gradient;
-    s.energy(s.positions.points, s.positions.normals, &gradient);
+    const Vec3 x = s.positions.points.col(v), n = s.positions.normals.col(v);
+    const Vec3 a = n.unitOrthogonal(), b = n.cross(a);
+    const double h = 1e-6 * s.L();
+    const auto energy = [&](const Vec3& at) {
+      RingShape shape;
+      ring.shape(at, n, shape);
+      return ring.energy(shape, s.terms);
+    };
+    const RingModel m = model(s, ring, v, x, a, b);
+    EXPECT_NEAR(m.energy, energy(x), 1e-13 * m.energy);
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 step = h * (k == 0 ? a : b);
+      EXPECT_NEAR(m.gradient[k], (energy(x + step) - energy(x - step)) / (2 * h),
+                  1e-5 * (1 + m.gradient.norm() + m.energy / s.L()));
+    }
+  });
+}
+
+/// The two evaluations of the common terms, over the whole mesh and about one vertex, agree.
+TEST(RingEnergy, HasTheGradientOfTheWholeMesh) {
+  test::Scene s(test::sphere(2, .45, 7), test::to_unit_sphere);
+  VertexRing ring(s.coloring.rings, s.targets);
+  Mat3X gradient;
+  s.energy(s.positions.points, s.positions.normals, &gradient);
+  for (int v = 0; v < s.adjacency.vertex_count; ++v) {
     const Vec3 n = s.positions.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
     RingShape here;
+    ring.gather(s.positions, v);
     ring.shape(s.positions.points.col(v), n, here);
-    const RingModel m = ring.model(here, s.energy.terms, a, b);
-    EXPECT_NEAR(m.energy, ring.energy(here, s.energy.terms), 1e-13 * m.energy);
+    const RingModel m = ring.model(here, s.terms, a, b);
     EXPECT_NEAR(m.gradient[0], gradient.col(v).dot(a), 1e-10 * (1 + gradient.col(v).norm()));
     EXPECT_NEAR(m.gradient[1], gradient.col(v).dot(b), 1e-10 * (1 + gradient.col(v).norm()));
-  });
+  }
 }
 
 TEST_P(RingLaws, TheHessianEqualsDifferencesOfTheGradient) {
   for_each_ring([](test::Scene& s, const VertexRing& ring, int v) {
-    const double t = s.energy.terms.angle > 0 ? s.energy.terms.angle_threshold : 0;
+    const double t = s.terms.angle > 0 ? s.terms.angle_threshold : 0;
     if (std::ranges::any_of(angles_about(s, v), [t](double a) { return a >= t && a <= angle_fade_out * t; }))
       return;
     const Vec3 x = s.positions.points.col(v);
@@ -106,13 +132,13 @@ TEST_P(RingLaws, TheHessianEqualsDifferencesOfTheGradient) {
 }
 
 TEST_P(RingLaws, TheHessianDoesNotLeapWhereAnglesReachTheirThreshold) {
-  const EnergyTerms terms = GetParam().terms;
+  const RingTerms terms = GetParam().terms;
   for_each_ring([&terms](test::Scene& s, const VertexRing& ring, int v) {
     const Vec3 n = s.positions.normals.col(v), a = n.unitOrthogonal(), b = n.cross(a);
     RingShape here;
     ring.shape(s.positions.points.col(v), n, here);
     const auto hessian = [&](double threshold) {
-      EnergyTerms moved = terms;
+      RingTerms moved = terms;
       moved.angle_threshold = threshold;
       return ring.model(here, moved, a, b).hessian;
     };
@@ -123,23 +149,23 @@ TEST_P(RingLaws, TheHessianDoesNotLeapWhereAnglesReachTheirThreshold) {
   });
 }
 
-EnergyTerms all() {
-  EnergyTerms t;
+RingTerms all() {
+  RingTerms t;
   t.string = .7;
   t.altitude = 1.3;
   t.angle = 2;
   t.angle_threshold = 1.2;
   return t;
 }
-EnergyTerms unfolding() {
-  EnergyTerms t;
+RingTerms unfolding() {
+  RingTerms t;
   t.unfold = 1;
   t.unfold_below = .95;
   return t;
 }
 INSTANTIATE_TEST_SUITE_P(All, RingLaws,
                          testing::Values(test::NamedTerms{"strings", test::only_strings()},
-                                         test::NamedTerms{"altitudes", EnergyTerms{}},
+                                         test::NamedTerms{"altitudes", RingTerms{}},
                                          test::NamedTerms{"angles", test::only_angles()},
                                          test::NamedTerms{"all", all()},
                                          test::NamedTerms{"unfold", unfolding()}),
@@ -153,7 +179,7 @@ TEST(VertexRing, AFaceWithoutAreaHasAFiniteModel) {
   RingShape shape;
   ring.gather(s.positions, 2);
   ring.shape(s.positions.points.col(2), Vec3::UnitZ(), shape);
-  const RingModel m = ring.model(shape, s.energy.terms, Vec3::UnitX(), Vec3::UnitY());
+  const RingModel m = ring.model(shape, s.terms, Vec3::UnitX(), Vec3::UnitY());
   EXPECT_TRUE(std::isfinite(m.energy) && m.gradient.allFinite() && m.hessian.allFinite());
   EXPECT_LT(m.gradient[1], 0);  // pushed open
 }

@@ -12,6 +12,7 @@
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/vertex_coloring.h"
 #include "hooke/springs/energy.h"
+#include "hooke/springs/ring_energy.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/vertex_table.h"
 #include "support/solids.h"
@@ -27,7 +28,7 @@ inline Projection to_ground(const Vec3& x, int hint, double) {
 }
 
 struct SceneOptions {
-  EnergyTerms terms;
+  RingTerms terms;
   ConstraintOptions constraints;
   RetractionOptions retraction;
   ShapeLimits limits;
@@ -37,6 +38,7 @@ struct SceneOptions {
 struct Scene {
   Adjacency adjacency;
   VertexColoring coloring;
+  RingTerms terms;
   VertexTable vertices;
   std::vector<double>& length = vertices.vertex_length;
   Constraints& constraints = vertices.constraints;
@@ -49,6 +51,7 @@ struct Scene {
   Scene(const Triangles& t, Surface surface, const SceneOptions& o = {})
       : adjacency(connect(t)),
         coloring(color_vertices(adjacency)),
+        terms(o.terms),
         vertices(columns(t, adjacency, o.constraints)),
         targets(spread_target_lengths(adjacency, length)),
         energy(adjacency, targets, o.terms),
@@ -63,7 +66,7 @@ struct Scene {
   double L() const { return length[0]; }
 
   Relaxation relaxation() {
-    return {adjacency, coloring, targets, vertices, retraction, energy.terms, guards.limits()};
+    return {adjacency, coloring, targets, vertices, retraction, energy.terms(), guards.limits()};
   }
 
   static VertexTable columns(const Triangles& t, const Adjacency& adjacency, const ConstraintOptions& o) {

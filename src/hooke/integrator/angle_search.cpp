@@ -322,28 +322,6 @@ class Measures {
   double start_deviation_ = 0;
 };
 
-/// Calls body(worker, i) with the index of each of the vertices (ascending) in turn; `make` makes a worker
-/// for a block.
-template <typename Make, typename Body>
-void for_each_of(const Relaxation& r, const std::vector<int>& vertices, const Make& make, const Body& body) {
-  for_each_block(r.coloring, [&](int begin, int end) {
-    auto v = std::ranges::lower_bound(vertices, begin);
-    if (v == vertices.end() || *v >= end) return;
-    auto worker = make();
-    for (; v != vertices.end() && *v < end; ++v) body(worker, static_cast<size_t>(v - vertices.begin()));
-  });
-}
-
-/// The indices of each vertex's neighbours among these vertices (ascending).
-std::vector<std::vector<size_t>> neighbours_among(const Adjacency& c, const std::vector<int>& vertices) {
-  std::vector<std::vector<size_t>> neighbours(vertices.size());
-  for (size_t i = 0; i < vertices.size(); ++i)
-    for (int n : c.vertex_neighbours[vertices[i]])
-      if (const auto at = std::ranges::lower_bound(vertices, n); at != vertices.end() && *at == n)
-        neighbours[i].push_back(static_cast<size_t>(at - vertices.begin()));
-  return neighbours;
-}
-
 /// Rounds of the search within some limits.
 class Search {
  public:
@@ -426,29 +404,11 @@ class Search {
 
   /// Sweeps of Newton's method with angle springs below `goal`; returns the number of moves.
   int relax(const std::vector<int>& vertices, double goal) {
-    const EnergyTerms terms = r_.energy.terms;
-    r_.energy.terms.altitude = 0;
-    r_.energy.terms.angle = o_.springs.weight;
-    r_.energy.terms.angle_threshold = goal * std::numbers::pi / 180;
-    const auto neighbours = neighbours_among(r_.adjacency, vertices);
-    std::vector<char> is_active(vertices.size(), 1), moved(vertices.size());
-    int moves = 0;
-    for (int sweep = 0; sweep < o_.springs.sweeps && std::ranges::find(is_active, 1) != is_active.end();
-         ++sweep) {
-      std::ranges::fill(moved, 0);
-      for_each_of(
-          r_, vertices, [&] { return LocalNewton(r_); },
-          [&](LocalNewton& newton, size_t i) {
-            if (is_active[i])
-              moved[i] = newton.improve(vertices[i], {.rest = .3 * o_.springs.rest}) > o_.springs.rest;
-          });
-      for (size_t i = 0; i < vertices.size(); ++i)
-        is_active[i] =
-            moved[i] || std::ranges::any_of(neighbours[i], [&](size_t n) { return moved[n] != 0; });
-      moves += static_cast<int>(std::ranges::count(moved, 1));
-    }
-    r_.energy.terms = terms;
-    return moves;
+    const TermsScope scope(r_);
+    r_.terms.altitude = 0;
+    r_.terms.angle = o_.springs.weight;
+    r_.terms.angle_threshold = goal * std::numbers::pi / 180;
+    return relax_locally(r_, vertices, {.sweeps = o_.springs.sweeps, .rest = o_.springs.rest}, nullptr).moves;
   }
 
   /// Sweeps of pattern searches with the same goal; returns the number of moves.
@@ -457,7 +417,7 @@ class Search {
     for (int sweep = 0, last = 1; sweep < o_.sweeps && last > 0; ++sweep, moves += last) {
       std::vector<char> moved(vertices.size(), 0);
       for_each_of(
-          r_, vertices, [&] { return VertexSearch(r_, pattern_, limits_); },
+          r_.coloring, vertices, [&] { return VertexSearch(r_, pattern_, limits_); },
           [&](VertexSearch& vertex, size_t i) {
             moved[i] = vertex.improve(vertices[i], cotangent_of(goal));
           });

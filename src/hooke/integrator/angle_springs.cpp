@@ -78,16 +78,16 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
   double threshold = std::max(o.first_threshold, best + o.margin);
   double too_high = o.last_threshold + 1e-9;  // the lowest threshold known to cost too much
   if (threshold >= too_high) return result;
-  const EnergyTerms terms = r.energy.terms;
-  r.energy.terms.altitude = 0;
+  const TermsScope scope(r);
+  r.terms.altitude = 0;
   SurfacePositions kept = r.positions;
   int kept_stages = 0;
   double last_error = result.edge_error_before, last_threshold = best;  // of the last state kept
   double step = o.threshold_step;
   double reached = best;  // the highest threshold known not to cost too much
   while (threshold < too_high && !result.interrupted) {
-    r.energy.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
-    r.energy.terms.angle_threshold = threshold * std::numbers::pi / 180;
+    r.terms.angle = result.stages == 0 ? o.first_weight : o.weight;
+    r.terms.angle_threshold = threshold * std::numbers::pi / 180;
     raise(r, threshold, o, observer, result);
     ++result.stages;
 
@@ -123,7 +123,6 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
     threshold += step;
   }
   r.positions = std::move(kept);
-  r.energy.terms = terms;
   return result;
 }
 

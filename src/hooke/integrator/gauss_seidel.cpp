@@ -75,7 +75,7 @@ bool LocalNewton::gather(int vertex) {
   const auto model = [&](Wedge& s, int wedge) {
     s.ring.gather(at, wedge);
     s.ring.shape(at.points.col(vertex), at.normals.col(wedge), s.before);
-    return s.ring.model(s.before, r_.energy.terms, basis_.col(0), basis_.col(1));
+    return s.ring.model(s.before, r_.terms, basis_.col(0), basis_.col(1));
   };
   model_ = model(wedge_, vertex);
   const int other = at.other_wedge_of(vertex);
@@ -93,7 +93,7 @@ bool LocalNewton::gather(int vertex) {
 bool LocalNewton::may_move(const SurfacePosition& candidate) {
   double energy = 0;
   int unfolded = 0;
-  const EnergyTerms& terms = r_.energy.terms;
+  const RingTerms& terms = r_.terms;
   const auto obeys = [&](Wedge& s, const Vec3& normal) {
     s.ring.shape(candidate.point, normal, s.after);
     if (!s.ring.obeys(s.before, s.after, r_.guards.limits())) return false;
@@ -147,33 +147,40 @@ namespace {
 
 constexpr double min_step_factor = .3;  // of `rest`: a vertex with a shorter step is not moved at all
 
-/// Marks as active the vertices that moved farther than `rest` and their neighbours. Returns whether there
-/// are any.
-bool mark_active(const Adjacency& c, const std::vector<int>& vertices, const std::vector<double>& moves,
-                 double rest, std::vector<char>& active) {
-  const auto moved = [&](int v) { return moves[v] > rest; };
+/// Marks as active the vertices that moved and their neighbours.
+void mark_active(const Adjacency& c, const std::vector<int>& vertices, const std::vector<char>& moved,
+                 std::vector<char>& active) {
+  const auto has_moved = [&](int v) { return moved[v] != 0; };
   parallel_for(vertices.size(), 1024, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i)
-      active[vertices[i]] =
-          moved(vertices[i]) || std::ranges::any_of(c.vertex_neighbours[vertices[i]], moved);
+    for (size_t i = begin; i < end; ++i) {
+      const int v = vertices[i];
+      active[v] = has_moved(v) || std::ranges::any_of(c.vertex_neighbours[v], has_moved);
+    }
   });
-  return std::ranges::any_of(vertices, [&](int v) { return active[v] != 0; });
 }
 
 }  // namespace
 
 /// By default the steps are not over-relaxed: where guards limit vertices and springs end, longer steps
 /// magnify rounding, and a translated or rotated mesh would get another result.
-LocalRelaxationResult relax_locally(Relaxation& r, const std::vector<int>& vertices,
-                                    const LocalRelaxationOptions& o, const Observer& observer) {
+LocalRelaxationResult relax_locally(Relaxation& r, std::vector<int> vertices, const LocalRelaxationOptions& o,
+                                    const Observer& observer) {
+  const LocalNewtonOptions newton{.over_relaxation = o.over_relaxation, .rest = min_step_factor * o.rest};
   LocalRelaxationResult result;
-  std::vector<char> active(r.adjacency.vertex_count, 0);
-  for (int v : vertices) active[v] = 1;
-  bool any_active = !vertices.empty();
-  while (any_active && result.sweeps < o.sweeps && !result.interrupted) {
-    const std::vector<double> moves = local_newton_sweep(
-        r, active, {.over_relaxation = o.over_relaxation, .rest = min_step_factor * o.rest});
-    any_active = mark_active(r.adjacency, vertices, moves, o.rest, active);
+  std::ranges::sort(vertices);
+  std::vector<char> active(r.adjacency.vertex_count, 1), moved(r.adjacency.vertex_count, 0);
+  auto moves = std::ssize(vertices);  // an active vertex is one that moved or has such a neighbour
+  while (moves > 0 && result.sweeps < o.sweeps && !result.interrupted) {
+    for_each_of(
+        r.coloring, vertices, [&] { return LocalNewton(r); },
+        [&](LocalNewton& local, size_t i) {
+          const int v = vertices[i];
+          moved[v] = active[v] && local.improve(v, newton) > o.rest;
+        });
+    r.retraction.count();
+    mark_active(r.adjacency, vertices, moved, active);
+    moves = std::ranges::count_if(vertices, [&](int v) { return moved[v] != 0; });
+    result.moves += static_cast<int>(moves);
     result.interrupted = observer && !observer({.step = result.sweeps});
     ++result.sweeps;
   }

@@ -68,11 +68,12 @@ struct LocalRelaxationOptions {
 
 struct LocalRelaxationResult {
   int sweeps = 0;
+  int moves = 0;  // by more than `rest`
   bool interrupted = false;
 };
 
 /// Sweeps over `vertices` until all are at rest or the sweeps are used up. No other vertex moves.
-LocalRelaxationResult relax_locally(Relaxation& relaxation, const std::vector<int>& vertices,
+LocalRelaxationResult relax_locally(Relaxation& relaxation, std::vector<int> vertices,
                                     const LocalRelaxationOptions& options, const Observer& observer);
 
 }  // namespace hooke

@@ -7,20 +7,21 @@
 namespace hooke {
 
 Relaxation::Relaxation(const Adjacency& c, const VertexColoring& colors, const TargetLengths& targets,
-                       VertexTable& vertices, Retraction& field, const EnergyTerms& terms,
+                       VertexTable& vertices, Retraction& field, const EnergyTerms& weights,
                        const ShapeLimits& limits, Stopwatch* watch)
     : adjacency(c),
       coloring(colors),
       vertex_length(vertices.vertex_length),
-      energy(c, targets, terms),
+      energy(c, targets, weights),
+      terms{weights},
       retraction(field),
       guards(c, targets, limits),
       positions(vertices.positions),
       stopwatch(watch) {}
 
-Relaxation::Relaxation(Workspace& work, const EnergyTerms& terms, const ShapeLimits& limits)
-    : Relaxation(*work.adjacency, work.coloring, work.targets, work.vertices, *work.retraction, terms, limits,
-                 work.stopwatch) {}
+Relaxation::Relaxation(Workspace& work, const EnergyTerms& weights, const ShapeLimits& limits)
+    : Relaxation(*work.adjacency, work.coloring, work.targets, work.vertices, *work.retraction, weights,
+                 limits, work.stopwatch) {}
 
 double Relaxation::present_energy() {
   return energy(positions.points, positions.normals, nullptr);

@@ -4,6 +4,7 @@
 
 #include "hooke/integrator/guards.h"
 #include "hooke/springs/energy.h"
+#include "hooke/springs/ring_energy.h"
 
 namespace hooke {
 
@@ -44,6 +45,7 @@ struct Relaxation {
   const VertexColoring& coloring;
   const std::vector<double>& vertex_length;  // target length per vertex
   Energy energy;
+  RingTerms terms;  // of what works vertex by vertex; differs from the energy within a TermsScope
   Retraction& retraction;
   Guards guards;
   SurfacePositions& positions;
@@ -51,6 +53,19 @@ struct Relaxation {
 
   /// At the present positions.
   double present_energy();
+};
+
+/// Puts the terms of a relaxation back at the end of the scope.
+class TermsScope {
+ public:
+  explicit TermsScope(Relaxation& relaxation) : terms_(relaxation.terms), kept_(relaxation.terms) {}
+  ~TermsScope() { terms_ = kept_; }
+  TermsScope(const TermsScope&) = delete;
+  TermsScope& operator=(const TermsScope&) = delete;
+
+ private:
+  RingTerms& terms_;
+  const RingTerms kept_;
 };
 
 struct IntegrationOptions {

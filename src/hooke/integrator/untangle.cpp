@@ -24,8 +24,8 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
   result.folded_before = static_cast<int>(result.folded.size());
   if (result.folded.empty()) return result;
 
-  const EnergyTerms terms = r.energy.terms;
-  r.energy.terms.unfold = 1;
+  const TermsScope scope(r);
+  r.terms.unfold = 1;
   size_t fewest = result.folded.size();
   for (int round = 0, rounds_without_gain = 0;
        round < o.rounds && rounds_without_gain < o.patience && !result.folded.empty() && !result.interrupted;
@@ -40,7 +40,6 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
     rounds_without_gain = result.folded.size() < fewest ? 0 : rounds_without_gain + 1;
     fewest = std::min(fewest, result.folded.size());
   }
-  r.energy.terms = terms;
   return result;
 }
 

@@ -178,14 +178,14 @@ void VertexRing::shape(const Vec3& point, const Vec3& normal, RingShape& shape) 
   data[previous_area * S] = beyond_crease.norm();
 }
 
-double VertexRing::energy(const RingShape& shape, const EnergyTerms& terms) const {
+double VertexRing::energy(const RingShape& shape, const RingTerms& terms) const {
   std::vector<double> face_mask;
   const double folded =
       terms.unfold > 0 ? unfold(shape, terms, Vec3::Zero(), Vec3::Zero(), face_mask).energy : 0;
   return folded + ring_energy(view(shape), face_mask.empty() ? nullptr : face_mask.data(), terms);
 }
 
-RingModel VertexRing::model(const RingShape& shape, const EnergyTerms& terms, const Vec3& u,
+RingModel VertexRing::model(const RingShape& shape, const RingTerms& terms, const Vec3& u,
                             const Vec3& v) const {
   RingModel model;
   std::vector<double> face_mask;
@@ -196,7 +196,7 @@ RingModel VertexRing::model(const RingShape& shape, const EnergyTerms& terms, co
 
 /// 3/2 ((d - s) / d)^2 of the folded faces, s = (2 A n) . r / (.866 L^2); `face_mask` marks the faces to
 /// which the other terms apply.
-RingModel VertexRing::unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
+RingModel VertexRing::unfold(const RingShape& shape, const RingTerms& terms, const Vec3& u, const Vec3& v,
                              std::vector<double>& face_mask) const {
   const std::size_t S = stride_;
   RingModel model;

@@ -40,11 +40,11 @@ class VertexRing {
   void shape(const Vec3& point, const Vec3& normal, RingShape& shape) const;
 
   /// The part of the energy that depends on the vertex, up to a constant.
-  double energy(const RingShape& shape, const EnergyTerms& terms) const;
+  double energy(const RingShape& shape, const RingTerms& terms) const;
 
   /// The same with its derivatives along two directions, of which v may be zero. The surface normals count as
   /// constant.
-  RingModel model(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v) const;
+  RingModel model(const RingShape& shape, const RingTerms& terms, const Vec3& u, const Vec3& v) const;
 
   /// Do the guards allow the displacement of the vertex from `before` to `after`?
   bool obeys(const RingShape& before, const RingShape& after, const ShapeLimits& options) const;
@@ -60,7 +60,7 @@ class VertexRing {
  private:
   std::span<const RingEntry> entries() const { return rings_[wedge_]; }
   RingView view(const RingShape& s) const { return {columns_.data(), s.columns.data(), stride_, s.normal}; }
-  RingModel unfold(const RingShape& shape, const EnergyTerms& terms, const Vec3& u, const Vec3& v,
+  RingModel unfold(const RingShape& shape, const RingTerms& terms, const Vec3& u, const Vec3& v,
                    std::vector<double>& face_mask) const;
 
   const VertexRings& rings_;

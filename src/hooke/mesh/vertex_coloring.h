@@ -2,6 +2,8 @@
 // processed in parallel.
 #pragma once
 
+#include <algorithm>
+
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
@@ -49,5 +51,18 @@ VertexColoring color_as_one_block(const Adjacency& adjacency);
 
 /// Calls body(begin, end) on each block of vertices, colour by colour, in parallel within a colour.
 void for_each_block(const VertexColoring& coloring, const std::function<void(int begin, int end)>& body);
+
+/// Calls body(worker, i) for the index of each of these vertices, which are ascending, in the order of
+/// for_each_block(); make() makes a worker for the vertices of a block.
+template <typename Make, typename Body>
+void for_each_of(const VertexColoring& coloring, const std::vector<int>& vertices, const Make& make,
+                 const Body& body) {
+  for_each_block(coloring, [&](int begin, int end) {
+    auto v = std::ranges::lower_bound(vertices, begin);
+    if (v == vertices.end() || *v >= end) return;
+    auto worker = make();
+    for (; v != vertices.end() && *v < end; ++v) body(worker, static_cast<std::size_t>(v - vertices.begin()));
+  });
+}
 
 }  // namespace hooke

@@ -1,6 +1,6 @@
-// The energy that relaxation minimises: springs on edges, altitudes and corner angles, all under the modified
-// Hooke's law [4] and relative to their rest lengths. Its negative gradient is the force. Strings and
-// altitude springs, the bulk of the work, are evaluated for four faces at a time.
+// The energy that relaxation minimises: springs on edges and altitudes, under the modified Hooke's law [4]
+// and relative to their rest lengths. Its negative gradient is the force. For one vertex to second order, and
+// with springs on angles, see springs/ring_energy.h.
 #pragma once
 
 #include "hooke/core/simd.h"
@@ -11,37 +11,29 @@ namespace hooke {
 
 /// The springs of four faces, one per lane. All arrays are columns with one value per lane.
 struct FaceSprings {
-  /// Minimum length relative to the face's target: a zero edge has a force instead of NaN.
-  static constexpr double min_length = 1e-9;
-
   // Input:
   double corners[9 * lane_count];      // x, y, z of each corner
   double edge_target[3 * lane_count];  // of the edge opposite each corner
   double has_edge[3 * lane_count];     // 1 where that edge belongs to this face, else 0
   double face_target[lane_count];
   double has_face[lane_count];  // 1, or 0 in an unused lane, which must repeat another face
+  /// Unit surface normal, which faces without area use; read only if `has_normals`.
+  double surface_normal[3 * lane_count];
+  bool has_normals = false;
 
   // Output:
   double energy;                    // weighted sum over all four faces
   double gradient[9 * lane_count];  // with respect to each corner
-  bool flat;                        // true if a face has almost no area; energy and gradient are then invalid
+  bool flat;  // true if a face has no area and there are no normals; energy and gradient are then invalid
 };
-
-/// `string` and `altitude` weight U(l; L_e) / L_e^2 and U(h; h0) / h0^2, h0 = (sqrt 3 / 2) L_f. [2]-[4]
-void evaluate_face_springs(double string, double altitude, FaceSprings& faces);
-
-struct FaceSprings;
 
 /// Weights of the terms; a term with weight 0 costs nothing.
 struct EnergyTerms {
-  double string = 1;           // lambda: U(l; L_e) / L_e^2 per edge [2]-[4]
-  double altitude = 1;         // beta: U(h; h0) / h0^2 per altitude h < h0 = (sqrt 3 / 2) L_f
-  double angle = 0;            // w: U(theta; t) / t^2 per corner angle theta < t
-  double angle_threshold = 0;  // t, radians, below pi / 2
-  double unfold = 0;           // of 3/2 ((d - s) / d)^2 with the signed area s, for faces with alignment < d;
-                               // replaces the altitude and angle terms of such a face
-  double unfold_below = .3;    // d
+  double string = 1;    // lambda: U(l; L_e) / L_e^2 per edge [2]-[4]
+  double altitude = 1;  // beta: U(h; h0) / h0^2 per altitude h < h0 = (sqrt 3 / 2) L_f
 };
+
+void evaluate_face_springs(const EnergyTerms& terms, FaceSprings& faces);
 
 /// The energy of a whole mesh. Evaluations use parallel sums in a fixed order.
 class Energy {
@@ -54,8 +46,7 @@ class Energy {
   double operator()(const Mat3X& points, const Mat3X& normals, Mat3X* gradient);
 
   const TargetLengths& targets() const { return targets_; }
-
-  EnergyTerms terms;
+  const EnergyTerms& terms() const { return terms_; }
 
  private:
   struct Points {
@@ -64,7 +55,7 @@ class Energy {
   };
   double energy_of_four(const Points& at, size_t face, double* corner_gradients) const;
   void gather_faces(const Points& at, size_t face, size_t count, FaceSprings& four) const;
-  double face_energy(const Points& at, size_t face, double* corner_gradients) const;
+  void gather_normals(const Mat3X& normals, size_t face, size_t count, FaceSprings& four) const;
 
   /// Faces whose gradients are summed together, and the range of the vertices at their corners.
   struct Part {
@@ -75,6 +66,7 @@ class Energy {
 
   const Adjacency& adjacency_;
   const TargetLengths& targets_;
+  const EnergyTerms terms_;
   std::vector<Part> parts_;
   std::vector<double> corner_gradients_;  // 9 per face of a part: gradients with respect to its corners
 };

@@ -3,8 +3,14 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 namespace hooke {
+
+inline constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
+
+/// Minimum length over the target: springs of no length have a force instead of NaN.
+inline constexpr double min_relative_length = 1e-9;
 
 /// A potential and its derivative by the quantity that it depends on.
 struct Potential {

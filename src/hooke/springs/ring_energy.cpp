@@ -55,8 +55,6 @@ using namespace ring;
 
 namespace {
 
-constexpr double min_length = 1e-9;  // relative to the target: keeps a zero edge from giving NaN
-
 /// The quantities of four faces of the ring that several terms share.
 struct FaceLanes {
   LaneVec e, f, n;   // to the neighbours a and b; unit normal
@@ -80,7 +78,7 @@ HOOKE_INLINE void load_face(const RingView& r, std::size_t i, FaceLanes& q) {
   load(fixed + has_face * stride, q.face);
   load(fixed + has_edge * stride, q.edge);
   load(fixed + face_target * stride, target);
-  const Lanes floor = min_length * target;
+  const Lanes floor = min_relative_length * target;
   q.la = q.la > floor ? q.la : floor;
   q.lb = q.lb > floor ? q.lb : floor;
   q.c = {q.f.x - q.e.x, q.f.y - q.e.y, q.f.z - q.e.z};
@@ -265,7 +263,7 @@ HOOKE_INLINE void add_angles(const FaceLanes& q, const Threshold& threshold, dou
 }
 
 template <bool second_order>
-HOOKE_INLINE void sum_ring(const RingView& r, const double* face_mask, const EnergyTerms& terms,
+HOOKE_INLINE void sum_ring(const RingView& r, const double* face_mask, const RingTerms& terms,
                            const Directions& d, RingSums& s) {
   const Threshold t(terms.angle_threshold, second_order ? angle_fade_out : 1);
   for (std::size_t i = 0; i < r.stride; i += lane_count) {
@@ -290,13 +288,13 @@ HOOKE_INLINE void sum_ring(const RingView& r, const double* face_mask, const Ene
 
 }  // namespace
 
-HOOKE_SIMD double ring_energy(const RingView& ring, const double* face_mask, const EnergyTerms& terms) {
+HOOKE_SIMD double ring_energy(const RingView& ring, const double* face_mask, const RingTerms& terms) {
   RingSums s;
   sum_ring<false>(ring, face_mask, terms, {Vec3::Zero(), Vec3::Zero()}, s);
   return sum_of(s.energy);
 }
 
-HOOKE_SIMD void add_ring_model(const RingView& ring, const double* face_mask, const EnergyTerms& terms,
+HOOKE_SIMD void add_ring_model(const RingView& ring, const double* face_mask, const RingTerms& terms,
                                const Vec3& u, const Vec3& v, RingModel& model) {
   RingSums s;
   sum_ring<true>(ring, face_mask, terms, {u, v}, s);

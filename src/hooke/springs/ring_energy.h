@@ -6,6 +6,7 @@
 #include "hooke/core/simd.h"
 #include "hooke/core/types.h"
 #include "hooke/springs/energy.h"
+#include "hooke/springs/hooke_law.h"
 
 namespace hooke {
 
@@ -60,10 +61,17 @@ inline Vec3 get(const double* columns, std::size_t stride) {
   return {columns[0], columns[stride], columns[2 * stride]};
 }
 
-constexpr double altitude_ratio = std::numbers::sqrt3 / 2;  // of an equilateral triangle
-
 /// Up to this multiple of the threshold the curvature of angle springs fades out.
 constexpr double angle_fade_out = 1.06;
+
+/// Weights of the terms about one vertex: those of the whole mesh, and two that act for a while.
+struct RingTerms : EnergyTerms {
+  double angle = 0;            // w: U(theta; t) / t^2 per corner angle theta < t
+  double angle_threshold = 0;  // t, radians, below pi / 2
+  double unfold = 0;           // of 3/2 ((d - s) / d)^2 with the signed area s, for faces with alignment < d;
+                               // replaces the altitude and angle terms of such a face
+  double unfold_below = .3;    // d
+};
 
 /// The energy around a vertex to second order in two directions u and v.
 struct RingModel {
@@ -74,10 +82,10 @@ struct RingModel {
 
 /// All terms of the energy except `unfold`. `face_mask` (null: all ones) has 1 for each face to which the
 /// face terms apply, else 0.
-double ring_energy(const RingView& ring, const double* face_mask, const EnergyTerms& terms);
+double ring_energy(const RingView& ring, const double* face_mask, const RingTerms& terms);
 
 /// The same with its derivatives along u and v, of which v may be zero; adds to the model.
-void add_ring_model(const RingView& ring, const double* face_mask, const EnergyTerms& terms, const Vec3& u,
+void add_ring_model(const RingView& ring, const double* face_mask, const RingTerms& terms, const Vec3& u,
                     const Vec3& v, RingModel& model);
 
 }  // namespace hooke
