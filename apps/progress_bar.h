@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/integration.h"
 #include "options.h"
 
 namespace hooke::app {

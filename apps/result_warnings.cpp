@@ -11,6 +11,7 @@
 
 #include "hooke/mesh/vertex_welding.h"
 #include "hooke/remesh/limiting_factors.h"
+#include "hooke/remesh/preserving_remesh.h"
 #include "hooke/springs/sizing.h"
 #include "stages.h"
 

@@ -6,6 +6,9 @@
 #include <set>
 #include <string_view>
 
+#include "hooke/connectivity/collapse_passes.h"
+#include "hooke/connectivity/edge_splits.h"
+#include "hooke/connectivity/face_count.h"
 #include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/core/parallel.h"

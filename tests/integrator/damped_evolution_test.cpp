@@ -334,7 +334,7 @@ TEST(DampedRelaxation, LeavesForcesOfTheFinalStateOnTheMesh) {
   Bench b(test::sphere(2, .4));
   b.damped({.max_steps = 40});
   Mat3X gradient, torque(3, b.work.vertices.positions.points.cols());
-  b.energy(b.work.vertices.positions.points, b.work.vertices.positions.normals, &gradient);
+  b.relaxation().energy(b.work.vertices.positions.points, b.work.vertices.positions.normals, &gradient);
   torque_forces(b.work.vertices.positions.points, *b.work.adjacency, torque);
   Mat3X expected = -2 * gradient + torque;
   b.work.retraction->constrain(b.work.vertices.positions, expected);

@@ -245,7 +245,7 @@ TEST(Guards, AFoldedFaceMayOnlyTurnTheRightWay) {
     };
     test::SceneOptions options;
     options.constraints.boundary = BoundaryRule::free;
-    options.guards.sagitta = 10;
+    options.limits.sagitta = 10;
     test::Scene s(t, leaning, options);
     ASSERT_EQ(folded_faces_of(s), std::vector<int>{0});
     Mat3X u = Mat3X::Zero(3, 3);

@@ -5,7 +5,7 @@
 
 #include "hooke/constraints/constraints.h"
 #include "hooke/filter/retraction.h"
-#include "hooke/geometry/triangle.h"
+#include "hooke/geometry/local_shape.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
@@ -116,7 +116,7 @@ class Corner {
     m_.retraction.moved(m_.vertices.positions, v, length * away).write_to(m_.vertices.positions, v);
     const std::vector<double> after = alignments(v);
     for (size_t i = 0; i < before.size(); ++i)
-      if (after[i] < std::min(options_.alignment, before[i])) return false;
+      if (after[i] < std::min(ShapeLimits().alignment, before[i])) return false;
     return true;
   }
 

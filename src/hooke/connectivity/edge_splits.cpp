@@ -18,7 +18,7 @@ namespace hooke {
 namespace {
 
 /// Minimum share of a split face's area in each half.
-constexpr double min_area_share = .1;
+constexpr double min_half_area = .1;
 
 /// May vertex v, with this wedge, split the face of h in two?
 bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge) {
@@ -27,7 +27,7 @@ bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge) {
   const Mat3X& N = m.vertices.positions.normals;
   const Triangle old = {t.from(h), t.to(h), t.opposite_vertex(h)};
   const Triangle wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h)), t.wedge(HalfedgeMesh::previous(h))};
-  const double min_area = min_area_share * face_shape(X, old).area;
+  const double min_area = min_half_area * face_shape(X, old).area;
   const double min_alignment = std::min(ShapeLimits().alignment, face_alignment(X, N, old, wedges));
   for (size_t k : {0, 1}) {  // the corner that v replaces
     Triangle half = old, half_wedges = wedges;

@@ -9,6 +9,7 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/target_lengths.h"

@@ -5,11 +5,12 @@
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
-#include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/integration.h"
 
 namespace hooke {
 
 struct Adjacency;
+struct SurfacePositions;
 struct ShapeLimits;
 
 struct LloydOptions {

@@ -6,6 +6,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/gauss_seidel.h"
+#include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/vertex_coloring.h"

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "hooke/connectivity/edge_flips.h"
-#include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/integration.h"
 #include "hooke/springs/energy.h"
 
 namespace hooke {
+
+struct ShapeLimits;
 
 struct FlipPassOptions {
   int passes = 2;             // maximum number; they end when a pass flips nothing

@@ -43,13 +43,6 @@ void add(int count, long long& counter) {
 
 }  // namespace
 
-ProjectionCounts& ProjectionCounts::operator+=(const ProjectionCounts& other) {
-  calls += other.calls;
-  evaluations += other.evaluations;
-  for (size_t s = 0; s < by_status.size(); ++s) by_status[s] += other.by_status[s];
-  return *this;
-}
-
 Retraction::Retraction(Surface surface, const Constraints& constraints, const RetractionOptions& options)
     : surface_(std::move(surface)),
       constraints_(constraints),

@@ -37,15 +37,6 @@ struct SurfacePosition {
   void write_to(SurfacePositions& positions, int vertex) const;
 };
 
-/// Number of projections, in total and by status, and of field evaluations.
-struct ProjectionCounts {
-  long long calls = 0;
-  long long evaluations = 0;
-  std::array<long long, 5> by_status{};  // indexed by ProjectionStatus
-
-  ProjectionCounts& operator+=(const ProjectionCounts& other);
-};
-
 struct RetractionOptions {
   double tolerance = 1e-6;  // of a projection, in mean target lengths
   /// A vertex that moved less than this since its last projection is not projected. It follows the shape

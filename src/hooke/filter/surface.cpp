@@ -77,4 +77,11 @@ std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& nor
   return shape_operators;
 }
 
+ProjectionCounts& ProjectionCounts::operator+=(const ProjectionCounts& other) {
+  calls += other.calls;
+  evaluations += other.evaluations;
+  for (size_t s = 0; s < by_status.size(); ++s) by_status[s] += other.by_status[s];
+  return *this;
+}
+
 }  // namespace hooke

@@ -2,6 +2,7 @@
 // search and an analytic surface can all serve as one.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <utility>
 
@@ -32,6 +33,15 @@ enum class ProjectionStatus : unsigned char {
   flat_gradient,  // |grad psi| too small for a Newton step
   too_far,        // Newton's method left the neighbourhood of its start
   step_limit,     // Newton's method did not converge
+};
+
+/// Number of projections, in total and by status, and of field evaluations.
+struct ProjectionCounts {
+  long long calls = 0;
+  long long evaluations = 0;
+  std::array<long long, 5> by_status{};  // indexed by ProjectionStatus
+
+  ProjectionCounts& operator+=(const ProjectionCounts& other);
 };
 
 /// A point projected to the surface.

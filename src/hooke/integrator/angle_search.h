@@ -5,9 +5,12 @@
 
 #include <array>
 
-#include "hooke/integrator/relaxation.h"
+#include "hooke/core/types.h"
+#include "hooke/integrator/integration.h"
 
 namespace hooke {
+
+struct Relaxation;
 
 /// Pattern search for the position of one vertex that maximises the smallest angle around it.
 struct VertexSearchOptions {

@@ -2,10 +2,12 @@
 // modified Hooke's law acts on corner angles below a threshold that rises in stages.
 #pragma once
 
-#include "hooke/integrator/relaxation.h"
+#include "hooke/core/types.h"
+#include "hooke/integrator/integration.h"
 
 namespace hooke {
 
+struct Relaxation;
 struct TargetLengths;
 
 struct AngleSpringOptions {

@@ -11,6 +11,7 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/final_projection.h"
+#include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/forces.h"

@@ -8,11 +8,15 @@
 #include <span>
 #include <vector>
 
-#include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/integration.h"
 #include "hooke/integrator/time_step.h"
 #include "hooke/mesh/mesh.h"
 
 namespace hooke {
+
+class Retraction;
+struct Relaxation;
+struct SurfacePositions;
 
 /// The constants of [17], section 4.6. They assume target lengths of about 1: a string force is a length, a
 /// torque force has no unit.

@@ -1,8 +1,9 @@
-// Inputs and results common to all integrators. A relaxation moves the vertices of a mesh on its surface
-// toward the rest lengths of their springs.
+// What a relaxation works on: it moves the vertices of a mesh on its surface toward the rest lengths of their
+// springs.
 #pragma once
 
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/integration.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/ring_energy.h"
 
@@ -11,26 +12,6 @@ namespace hooke {
 struct VertexColoring;
 struct VertexTable;
 struct Workspace;
-
-enum class StopReason {
-  converged,    // every edge within the tolerance of its target length
-  stalled,      // at rest: the energy no longer falls
-  step_limit,   // the allowed number of steps or evaluations is used up
-  jammed,       // no step is accepted any more, or none that gets anywhere
-  interrupted,  // the observer asked to stop
-};
-
-/// Progress of the optimization as reported to the observer. The stage is one of "untangle", "adapt", "flow",
-/// "springs", "flips", "relax", "polish", "mend" and "paper".
-struct Progress {
-  const char* stage = "";
-  int outer = 0;
-  int step = 0;
-  double energy = 0;
-};
-
-/// Called after every step; returns false to stop and keep what has been reached.
-using Observer = std::function<bool(const Progress&)>;
 
 /// A mesh with all that a relaxation works on, for its present faces. The arguments must outlive it.
 struct Relaxation {
@@ -66,21 +47,6 @@ class TermsScope {
  private:
   RingTerms& terms_;
   const RingTerms kept_;
-};
-
-struct IntegrationOptions {
-  int max_steps = 2000;       // evaluations of the energy (lbfgs) or time steps (damped)
-  double energy_drop = 2e-3;  // relative fall of the energy over the window, below which it is at rest
-  int window = 3;             // steps
-  double max_move = 2;        // of a vertex in one step, in its target lengths
-};
-
-struct IntegrationResult {
-  int steps = 0;
-  int evaluations = 0;          // of the energy or the forces
-  double energy = 0;            // at the end
-  long long limited_steps = 0;  // vertex displacements shortened by the guards
-  StopReason reason = StopReason::stalled;
 };
 
 /// Shortens the displacement of every vertex to at most max_move of its target length.

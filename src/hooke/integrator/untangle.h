@@ -2,9 +2,12 @@
 // would push such faces the wrong way, so a spring on their signed area unfolds them first.
 #pragma once
 
-#include "hooke/integrator/relaxation.h"
+#include "hooke/core/types.h"
+#include "hooke/integrator/integration.h"
 
 namespace hooke {
+
+struct Relaxation;
 
 struct UntangleOptions {
   int rounds = 12;  // maximal number; each covers more rings than the one before

@@ -445,7 +445,7 @@ class PreservingRemesh {
     a.lost_angle =
         (options_.connectivity == ConnectivityMode::fixed && a.angle < least_angle_) ||
         (options_.connectivity == ConnectivityMode::flip && a.angle < std::min(least_angle_, small_angle));
-    a.result.measures = std::move(m);
+    a.result.measures = std::make_shared<ResultMeasures>(std::move(m));
   }
 
   const TriMesh& mesh_;

@@ -2,10 +2,20 @@
 // it must, mends it or remeshes anew.
 #pragma once
 
+#include "hooke/measure/preservation.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/result.h"
 
 namespace hooke {
+
+/// The measures of a result and of its relation to the input, see apply_creases().
+struct ResultMeasures {
+  Quality input_quality;
+  Quality quality;
+  Deviation deviation;
+  Preservation preservation;
+  PreservationOptions judged_by;  // the options of that, completed by what the input is
+};
 
 /// What is known of the input, so that it is not measured again.
 struct KnownInput {

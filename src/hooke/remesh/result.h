@@ -2,16 +2,16 @@
 #pragma once
 
 #include "hooke/connectivity/connectivity_mode.h"
-#include "hooke/filter/retraction.h"
+#include "hooke/filter/surface.h"
 #include "hooke/integrator/angle_springs.h"
-#include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/integration.h"
 #include "hooke/integrator/time_step.h"
-#include "hooke/measure/preservation.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/surface_point.h"
 
 namespace hooke {
 
+struct ResultMeasures;
 struct Workspace;
 
 /// One outer iteration. If angle optimisation continues on the same field, the figures are those before the
@@ -56,15 +56,6 @@ enum class Rescue {
   put_back,  // vertices were put back to where they were
 };
 
-/// The measures of a result and of its relation to the input, see apply_creases().
-struct ResultMeasures {
-  Quality input_quality;
-  Quality quality;
-  Deviation deviation;
-  Preservation preservation;
-  PreservationOptions judged_by;  // the options of that, completed by what the input is
-};
-
 struct RemeshResult {
   StopReason reason = StopReason::stalled;
   std::vector<IterationRecord> iterations;
@@ -85,8 +76,8 @@ struct RemeshResult {
   int unprojected = 0;
   AngleSpringResult angle_springs;
   ProjectionCounts projection;
-  long long limited_steps = 0;             // vertex steps shortened by the guards
-  std::optional<ResultMeasures> measures;  // of preserving_remesh()
+  long long limited_steps = 0;               // vertex steps shortened by the guards
+  std::shared_ptr<ResultMeasures> measures;  // of preserving_remesh(), null if not measured
   Rescue rescue = Rescue::none;
   BoundCounts bound;  // time steps by the test that set them (paper_remesh() only)
   FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)

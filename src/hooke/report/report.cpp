@@ -11,6 +11,7 @@
 #include "hooke/measure/statistics.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/paper_mode.h"
+#include "hooke/remesh/preserving_remesh.h"
 #include "hooke/remesh/run_options.h"
 #include "hooke/report/report_keys.h"
 
