@@ -21,13 +21,21 @@
 namespace hooke::app {
 namespace {
 
-/// Throws Error for `--option=`, for which CLI11 would take the next argument as the value.
-void require_values(const std::vector<std::string>& arguments) {
+/// Throws Error for `--option=`, for which CLI11 would take the next argument as the value, and for
+/// `-o=value`, whose value it would begin with the `=`.
+void require_values(const CLI::App& app, const std::vector<std::string>& arguments) {
   for (const std::string& word : arguments) {
     if (word == "--") return;
-    if (word.starts_with("--") && word.find('=') == word.size() - 1)
-      throw Error(word.substr(0, word.size() - 1) +
-                  ": ''; expected a value after the =; give one, or leave the option out");
+    const std::string name = word.substr(0, word.find('='));
+    if (name.size() == word.size()) continue;
+    if (name.starts_with("--") && name.size() + 1 == word.size())
+      throw Error(name + ": ''; expected a value after the =; give one, or leave the option out");
+    const auto is_short = [&](char letter) {
+      return app.get_option_no_throw(std::string("-") + letter) != nullptr;
+    };
+    if (name.size() > 1 && name[0] == '-' && std::all_of(name.begin() + 1, name.end(), is_short))
+      throw Error(fmt::format("{}: a short option has no = before its value; expected a blank; write {} {}",
+                              word, name, word.substr(name.size() + 1)));
   }
 }
 
@@ -48,7 +56,7 @@ struct Parser {
 
   /// Throws Error and CLI::ParseError.
   void parse(std::vector<std::string> arguments) {
-    require_values(arguments);
+    require_values(app, arguments);
     std::ranges::reverse(arguments);  // CLI11 takes them from the back
     app.parse(std::move(arguments));
   }

@@ -14,7 +14,7 @@ namespace hooke::app {
 
 std::optional<ReportFigures> read_base(const Settings& s) {
   if (s.compare.empty()) return std::nullopt;
-  const FileBytes file = read_regular_file(s.compare);
+  const FileBytes file = read_regular_file(s.compare, "a report that --report wrote");
   const std::string name = printable(s.compare.native());
   try {
     return figures_of(nlohmann::ordered_json::parse(file.text()));

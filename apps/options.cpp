@@ -70,28 +70,41 @@ CLI::Option* add_number(CLI::App& app, const char* name, double& value, const ch
   return add_number<double, double>(app, name, value, help, range)->default_str(fmt::format("{}", value));
 }
 
-/// Accepts any text but the empty one and the next option, which stands in its place where a variable of a
-/// script is not set.
-CLI::Validator no_option(const char* expected) {
-  const auto check = [expected](const std::string& text) -> std::string {
-    if (text.empty()) return fmt::format("''; expected {}", expected);
-    return text.starts_with("--") ? fmt::format("{}; expected {}, not an option", in_quotes(text), expected)
-                                  : "";
-  };
-  return {check, ""};
+/// Whether the text is, or could be, the next option, which stands in the place of a value where a variable
+/// of a script is not set: "--repair", "-q".
+bool looks_like_option(const std::string& text) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return text.starts_with("--") || (text.size() > 1 && text[0] == '-' && is_letter(text[1]));
+}
+
+/// Why the text is not the name of a file; empty if it may be.
+std::string problem_with_name(const std::string& text, const char* expected) {
+  if (text.empty()) return fmt::format("''; expected {}", expected);
+  if (!looks_like_option(text)) return "";
+  return fmt::format("{}; expected {}, not an option; a file of that name is {}", in_quotes(text), expected,
+                     in_quotes("./" + text));
 }
 
 /// Accepts the name of a file; not `-`, which does not stand for a stream here.
 CLI::Validator file_name() {
   const auto check = [](const std::string& text) -> std::string {
-    return text == "-" ? "'-'; expected the name of a file" : no_option("the name of a file")(text);
+    return text == "-" ? "'-'; expected the name of a file" : problem_with_name(text, "the name of a file");
   };
   return {check, ""};
 }
 
 /// Accepts the name of a file, or `-` for a standard stream.
 CLI::Validator file_or_stream() {
-  return no_option("the name of a file, or -");
+  return {[](const std::string& text) { return problem_with_name(text, "the name of a file, or -"); }, ""};
+}
+
+/// Accepts any text but the empty one and a long option.
+CLI::Validator plain_text() {
+  const auto check = [](const std::string& text) -> std::string {
+    if (text.empty()) return "''; expected text";
+    return text.starts_with("--") ? in_quotes(text) + "; expected text, not an option" : "";
+  };
+  return {check, ""};
 }
 
 CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file, const char* help) {
@@ -304,15 +317,14 @@ void add_repair(CLI::App& app, Settings& s, RawOptions& raw) {
       "faces, split vertices in which parts only touch; each change is counted");
   app.add_option("--weld", s.weld_text,
                  "Merge vertices of the input closer than this, in file units or % of the box's diagonal")
-      ->type_name("X|X%")
+      ->type_name("X|X%|off")
       ->default_str("off");
   app.add_option("--drop-components", raw.drop_components,
                  "With --repair, drop components with less than this share of the area")
-      ->type_name("X%")
+      ->type_name("X%|off")
       ->default_str("off");
-  add_number<int>(app, "--fill-holes", s.repair.fill_holes,
-                  "With --repair, fill holes of at most so many edges",
-                  {"a whole number from 3 to 1000", [](double x) { return x >= 3 && x <= 1000; }})
+  app.add_option("--fill-holes", raw.fill_holes, "With --repair, fill holes of at most so many edges")
+      ->type_name("N|off")
       ->default_str("off");
 }
 
@@ -357,7 +369,7 @@ void add_batch(CLI::App& app, Settings& s) {
   app.add_option("--suffix", s.batch.suffix,
                  "Text between name and extension of the files written to FOLDER/: part.obj becomes "
                  "partTEXT.obj")
-      ->check(no_option("text"))
+      ->check(plain_text())
       ->type_name("TEXT");
   add_file(app, "--table", s.batch.table,
            "A row for each mesh: file, status, exit code, seconds, numbers before and after; FILE.csv, or "

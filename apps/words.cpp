@@ -79,12 +79,26 @@ void set_weld(const std::string& text, RepairOptions& repair) {
     repair.weld = value;
 }
 
-/// Parses a share of the area such as "1%".
+/// Parses a share of the area such as "1%", or "off" (0).
 double parse_share(const std::string& text) {
+  if (text == "off") return 0;
   const auto [value, unit] = split(text);
   if (unit != "%" || !(value > 0) || !(value <= 100))
-    throw Error(fmt::format("--drop-components {}; expected X% of the area, from 0 to 100", in_quotes(text)));
+    throw Error(
+        fmt::format("--drop-components {}; expected X% of the area, from 0 to 100, or off", in_quotes(text)));
   return value / 100;
+}
+
+/// Parses the greatest number of edges of a hole to fill, or "off" (0).
+int parse_hole_edges(const std::string& text) {
+  if (text == "off") return 0;
+  int edges = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, edges);
+  if (error != std::errc() || rest != end || edges < 3 || edges > 1000)
+    throw Error(
+        fmt::format("--fill-holes {}; expected a whole number from 3 to 1000, or off", in_quotes(text)));
+  return edges;
 }
 
 /// Parses an angle in degrees such as "40", or "off" (180).
@@ -190,10 +204,17 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   refuse(s.repair.keep_junctions, {"--edge-lengths"}, "is not of meshes with --keep non-manifold");
   refuse(!s.repair.keep_junctions && (s.paper || s.remesh.connectivity == ConnectivityMode::fixed),
          {"--keep"}, "is of --connectivity flip and adapt; with fixed all is kept");
+  if (s.repair.keep_junctions && *raw.keep != "non-manifold" &&
+      (s.paper || s.remesh.connectivity == ConnectivityMode::fixed))
+    throw Error(
+        fmt::format("--keep {}: all words but non-manifold are of --connectivity flip and adapt, with "
+                    "fixed all is kept; write --keep non-manifold",
+                    in_quotes(*raw.keep)));
   refuse(!s.paper && s.remesh.connectivity == ConnectivityMode::adapt, {"--refit"},
          "is of --connectivity fixed and flip; adapt keeps the field of the input");
   refuse(s.compare.empty(), {"--rtol"}, "is of --compare only");
-  refuse(!s.repair.repair, {"--drop-components", "--fill-holes"}, "is of --repair only");
+  refuse(!s.repair.repair && s.repair.drop_components > 0, {"--drop-components"}, "is of --repair only");
+  refuse(!s.repair.repair && s.repair.fill_holes > 0, {"--fill-holes"}, "is of --repair only");
   refuse(s.check, {"--map", "--output", "--fields", "--trace-steps"}, "is not written by --check");
   refuse(s.check, {"--preserve", "--reproject-uv", "--format"},
          "is of the output, which --check has none of");
@@ -250,6 +271,8 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.length = parsed("--length", parse_length, s.length_text);
   resolve_sizing(s, raw);
   if (raw.keep) parse_keep(*raw.keep, s.keep, s.repair.keep_junctions);
+  if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);
+  if (raw.fill_holes) s.repair.fill_holes = parse_hole_edges(*raw.fill_holes);
   reject_unused_options(s, raw);
   require_streams(s);
   s.remesh.tolerance = s.paper_options.evolution.tolerance = parse_tolerance(raw.tolerance);
@@ -259,7 +282,6 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
   s.preservation.feature_angle = s.remesh.constraints.features.angle;
   if (s.weld_text != "off") set_weld(s.weld_text, s.repair);
-  if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;

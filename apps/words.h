@@ -19,7 +19,7 @@ struct RawOptions {
   std::string listing;  // form of --list-metrics
   std::optional<std::string> feature_angle;
   std::optional<std::string> keep;
-  std::optional<std::string> max_distance, drop_components;
+  std::optional<std::string> max_distance, drop_components, fill_holes;
   std::optional<double> rho, altitude;
   std::optional<OffsetUnit> rho_unit;
   std::optional<Refit> refit;

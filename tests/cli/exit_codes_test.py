@@ -72,8 +72,21 @@ class UsageErrors(CommandTest):
                     self.refused(2, "good.obj", *output, *value, "--repair", says=option + ": '")
         self.write("other.obj", TETRAHEDRON)
         self.refused(2, "good.obj", "-o", "out.obj", "--report=", "other.obj", says="--report: ''; expected a value")
-        self.run_command("good.obj", "-o", "out.obj", "-q", "--report", "./--repair")
-        self.assertIn("--repair", self.files())
+        for name in ("--repair", "-q"):
+            self.refused(2, "good.obj", "-o", "out.obj", "--report", name, says="a file of that name is './%s'" % name)
+            self.run_command("good.obj", "-o", "out.obj", "-q", "--report", "./" + name)
+            self.assertIn(name, self.files())
+        self.refused(2, "good.obj", "-o", "-q", says="--output: '-q'; expected the name of a file, or -, not an option")
+        self.refused(2, "good.obj", "-o", "out.obj", "--fix", "-V", says="--fix: '-V'")
+        self.run_command("good.obj", "-o", "out/", "--suffix", "-better", "-q")
+        self.assertTrue((self.folder / "out" / "good-better.obj").is_file())
+
+    def test_a_short_option_has_no_equals_sign(self):
+        for word, instead in (("-o=x.obj", "-o x.obj"), ("-L=2x", "-L 2x"), ("-j=", "-j "), ("-qo=x.obj", "-qo x.obj")):
+            with self.subTest(word=word):
+                self.refused(2, "good.obj", "--output=out.obj", word, names=word + ": a short option", says="write " + instead)
+        self.refused(2, "good.obj", "-x=y", names="-x=y")  # which is no option
+        self.run_command("-o", "out.obj", "-q", "./good.obj")
 
     def test_a_flag_that_is_off_is_as_good_as_none(self):
         self.write("lengths", "0 1 1\n")
@@ -82,6 +95,16 @@ class UsageErrors(CommandTest):
             with self.subTest(options=options):
                 self.run_command("good.obj", "-o", "out.obj", "-q", *options)
         self.refused(2, "good.obj", "-o", "out.obj", "--edge-lengths", "lengths", "--repair=on", names="--edge-lengths")
+
+    def test_defaults_can_be_given(self):
+        for options in (["--drop-components", "off"], ["--fill-holes", "off"], ["--weld", "off"], ["--sizing", "off"]):
+            for repair in ([], ["--repair"]):
+                with self.subTest(options=options, repair=repair):
+                    self.run_command("good.obj", "-o", "out.obj", "-q", *options, *repair)
+        report = self.report("good.obj", "-o", "out.obj", "--repair", "--drop-components=off", "--fill-holes=off")
+        self.assertEqual((report["parameters"]["drop_components"], report["parameters"]["fill_holes"]), (0, 0))
+        self.write("run.toml", "repair = true\nfill-holes = 'off'\ndrop-components = 'off'\n")
+        self.run_command("good.obj", "-o", "out.obj", "--config", "run.toml")
 
     def test_options_that_would_do_nothing(self):
         for option in (["--effort", "fast"], ["--map", "map"], ["--integrator", "damped"], ["--polish", "on"],
@@ -172,6 +195,15 @@ class InputErrors(CommandTest):
         self.refused(3, "good.obj", "-o", "out.obj", "--fix", "ids", names="ids:2")
         self.write("ids", "4\n")
         self.refused(3, "good.obj", "-o", "out.obj", "--fix", "ids", names="ids:1")
+
+    def test_empty_files(self):
+        self.write("empty", "")
+        for option, expected in (("--edge-lengths", "two vertex ids and a length a line"), ("--fix", "one vertex id a line"),
+                                 ("--sizing", "one length a line, for each vertex"), ("--compare", "a report that --report wrote")):
+            with self.subTest(option=option):
+                self.refused(3, "good.obj", "-o", "out.obj", option, "empty", says="empty: the file is empty; expected " + expected)
+        (self.folder / "empty.obj").touch()
+        self.refused(3, "empty.obj", "-o", "out.obj", says="empty.obj: the file is empty; expected a mesh")
 
     def test_not_acceptable(self):
         corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"

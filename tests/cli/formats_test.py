@@ -194,6 +194,9 @@ class Vtp(CommandTest):
                             expected = expected or found
                             self.assertEqual(found, expected)
         self.run_command("in.vtp", "-o", "out.ply", "-q", "--effort", "fast")
+        self.refused(2, "in.vtp", "-o", "out/", names="out/in.vtp: VTP can only be read", says="or give --format")
+        self.run_command("in.vtp", "-o", "out/", "--format", "ply", "-q", "--effort", "fast")
+        self.assertTrue((self.folder / "out" / "in.ply").is_file())
         self.assertEqual(read_mesh(self.folder / "out.ply")[1], faces)
 
     def test_labels_of_cells_go_along(self):

@@ -354,6 +354,11 @@ class Junctions(CommandTest):
         _, err = self.run_command("touching.obj", "-o", "out.obj", "-q", *KEEP, *MODES[0])
         self.assertIn("touching.obj: vertices where sheets only touch stay where they are\n", err)
 
+    def test_words_that_would_do_nothing(self):
+        for mode in ([], ["--paper"]):
+            self.refused(2, "boxes.obj", "-o", "out.obj", "--keep", "non-manifold,materials", *mode,
+                         names="--keep 'non-manifold,materials'", says="write --keep non-manifold")
+
     def test_options_that_do_not_go_with_it(self):
         self.write("lengths.txt", "0 1 1\n")
         self.refused(2, "boxes.obj", "-o", "out.obj", *KEEP, "--edge-lengths", "lengths.txt", says="--edge-lengths")

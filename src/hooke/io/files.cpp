@@ -290,8 +290,9 @@ FileBytes read_to_end(int descriptor, size_t expected_size, const std::string& n
 
 }  // namespace
 
-FileBytes read_regular_file(const std::filesystem::path& path) {
-  if (path.empty()) throw InputError("'': the input has no name; expected a mesh file; name one");
+FileBytes read_regular_file(const std::filesystem::path& path, std::string_view content) {
+  if (path.empty())
+    throw InputError(fmt::format("'': the input has no name; expected a file with {}; name one", content));
   const std::string name = printable(path.native());
   // O_NONBLOCK: otherwise opening a pipe without a writer would block.
   FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -304,13 +305,14 @@ FileBytes read_regular_file(const std::filesystem::path& path) {
     throw InputError(
         fmt::format("{}: cannot be examined: {}; expected a regular file; check it", name, reason(errno)));
   if (!S_ISREG(status.st_mode))
-    throw InputError(
-        fmt::format("{}: is {}; expected a regular file; name a mesh file", name, kind_of(status.st_mode)));
+    throw InputError(fmt::format("{}: is {}; expected a regular file with {}; name one", name,
+                                 kind_of(status.st_mode), content));
   try {
-    FileBytes content = read_to_end(file.get(), static_cast<size_t>(status.st_size), name);
-    if (content.bytes.empty())
-      throw InputError(name + ": the file is empty; expected a mesh; check how it was made");
-    return content;
+    FileBytes read = read_to_end(file.get(), static_cast<size_t>(status.st_size), name);
+    if (read.bytes.empty())
+      throw InputError(
+          fmt::format("{}: the file is empty; expected {}; check how it was made", name, content));
+    return read;
   } catch (const std::bad_alloc&) {
     throw LimitError(
         fmt::format("{}: {} bytes do not fit in memory; use a machine with more", name, status.st_size));

@@ -63,9 +63,10 @@ struct FileBytes {
   std::string_view text() const&& = delete;  // the view would outlive the bytes
 };
 
-/// Reads a whole regular file. Throws InputError if it is missing, not a regular file (such as a folder
-/// or a pipe), empty or unreadable, and LimitError if it does not fit in memory. Does not block on a pipe.
-FileBytes read_regular_file(const std::filesystem::path& path);
+/// Reads a whole regular file, which should hold `content`, as messages say. Throws InputError if it is
+/// missing, not a regular file (such as a folder or a pipe), empty or unreadable, and LimitError if it does
+/// not fit in memory. Does not block on a pipe.
+FileBytes read_regular_file(const std::filesystem::path& path, std::string_view content = "a mesh");
 
 /// Whether the path stands for a standard stream of the process: "-", also "/dev/stdin" for the input.
 bool is_standard_input(const std::filesystem::path& path);

@@ -92,7 +92,8 @@ MeshFormat format_of(const std::filesystem::path& path) {
   const auto format = known_format(path);
   if (format == MeshFormat::vtp)
     throw Error(name_of_file(path) +
-                ": VTP can only be read; expected .obj .ply .off .stl .msh; choose one of them");
+                ": VTP can only be read; expected .obj .ply .off .stl .msh; choose one of them, or give "
+                "--format");
   if (format) return *format;
   throw Error(name_of_file(path) +
               ": unknown format; expected .obj .ply .off .stl .msh; choose one of them, or give --format");

@@ -28,7 +28,7 @@ int vertex_id(Scanner& scanner, int count) {
 }  // namespace
 
 std::vector<double> read_length_list(const std::filesystem::path& path, int count) {
-  const FileBytes file = read_regular_file(path);
+  const FileBytes file = read_regular_file(path, "one length a line, for each vertex");
   const std::string name = printable(path.string());
   Scanner scanner(file.text(), name, {.comments = true});
   std::vector<double> lengths;
@@ -48,7 +48,7 @@ std::vector<double> read_length_list(const std::filesystem::path& path, int coun
 }
 
 std::vector<int> read_id_list(const std::filesystem::path& path, int count) {
-  const FileBytes file = read_regular_file(path);
+  const FileBytes file = read_regular_file(path, "one vertex id a line");
   Scanner scanner(file.text(), printable(path.string()), {.comments = true});
   std::vector<int> ids;
   while (scanner.next_line()) {
@@ -60,7 +60,7 @@ std::vector<int> read_id_list(const std::filesystem::path& path, int count) {
 }
 
 std::vector<EdgeLength> read_edge_lengths(const std::filesystem::path& path, int vertex_count) {
-  const FileBytes file = read_regular_file(path);
+  const FileBytes file = read_regular_file(path, "two vertex ids and a length a line");
   Scanner scanner(file.text(), printable(path.string()), {.comments = true});
   std::vector<EdgeLength> lengths;
   while (scanner.next_line()) {
