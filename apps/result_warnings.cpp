@@ -113,6 +113,19 @@ void warn_of_sizing(const Settings& s, RunRecord& run) {
            run.output->path, 100 * rms, 100 * max_rms, advice)});
 }
 
+/// In what the topology of the result is not that of the input.
+std::string topology_change(const Topology& before, const Topology& after) {
+  std::vector<std::string> changes;
+  const auto compare = [&](const char* what, int was, int is) {
+    if (is != was) changes.push_back(fmt::format("{} {}, not {}", what, is, was));
+  };
+  compare("components", before.components, after.components);
+  compare("boundary loops", before.boundary_loops, after.boundary_loops);
+  compare("Euler number", before.euler, after.euler);
+  if (changes.empty()) return "the lines in which sheets meet would be others";
+  return fmt::format("its topology would be another: {}", fmt::join(changes, ", "));
+}
+
 /// What the result does not keep of the input; empty if it keeps all, or was not measured.
 std::string what_is_broken(const RunRecord& run) {
   if (!run.result->measures || run.result->measures->preservation.holds()) return "";
@@ -120,12 +133,13 @@ std::string what_is_broken(const RunRecord& run) {
   std::vector<std::string> broken;
   const std::string place = fmt::format("{:.6g} {:.6g} {:.6g}", p.place[0], p.place[1], p.place[2]);
   const std::string at = p.excess > 1 ? "" : ", one at " + place;
-  if (!p.topology_kept) broken.push_back("components, boundary loops or holes are not those of the input");
+  if (!p.topology_kept) broken.push_back(topology_change(run.before.topology, run.after->topology));
   if (!p.far_vertices.empty() || !p.lost_vertices.empty() || !p.within_max_distance)
     broken.push_back(fmt::format("the surface would be {} from that of {} at {}{}",
                                  with_share(p.distance, run), run.input.path, place, volume_change(run)));
   if (!p.creases_kept)
-    broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away", p.crease_loss));
+    broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away{}", p.crease_loss,
+                                 p.flipped_faces + p.new_crossings == 0 ? at : ""));
   if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over{}", p.flipped_faces, at));
   if (p.new_folds > 0) broken.push_back(fmt::format("{} new folds", p.new_folds));
   if (p.new_crossings > 0)

@@ -88,6 +88,8 @@ auto in_the_name_of(const std::string& name, const Work& work) {
     throw LimitError(name + ": " + e.what());
   } catch (const NumericalError& e) {
     throw NumericalError(name + ": " + e.what());
+  } catch (const ResultError& e) {
+    throw ResultError(name + ": " + e.what());
   }
 }
 
@@ -108,7 +110,9 @@ void require_promises(const Settings& s, const RunRecord& record, BrokenBy cause
   if (is_out_of_time && cause == BrokenBy::method && !broken.empty())
     throw LimitError(fmt::format("{}: no valid mesh within --time-limit {:g}: {}", name_of_input(s.input),
                                  s.time_limit, broken));
-  if (!broken.empty()) throw ResultError(name_of_output(s.output) + ": not written: " + broken);
+  if (!broken.empty())
+    throw ResultError(fmt::format("{}: its result would break a promise, {} was not written: {}",
+                                  name_of_input(s.input), name_of_output(s.output), broken));
 }
 
 /// Names what holds down the angles of the worst faces of the result.
@@ -184,9 +188,12 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
   };
   record.result = timed(&stopwatch, "remesh", [&] {
     return in_the_name_of(name, [&] {
-      return s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, limited)
-                     : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation,
-                                         {&record.before, original.tree_order}, limited, &stopwatch);
+      RemeshResult result =
+          s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, limited)
+                  : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation,
+                                      {&record.before, original.tree_order}, limited, &stopwatch);
+      join_sheets(mesh);  // throws if they have come apart
+      return result;
     });
   });
   return_free_memory();

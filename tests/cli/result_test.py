@@ -33,7 +33,9 @@ class Result(CommandTest):
     def test_what_breaks_a_promise_is_not_written(self):
         run = (DATA / "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", "4x", "--effort", "fast",
                "--max-distance", "0.001%")
-        self.refused(9, *run, names="out.off", says="not written")
+        err = self.refused(9, *run, names="torus.off: its result would break a promise, out.off was not written: ",
+                           says="; try a smaller --length, --connectivity flip, or --accept-invalid to write it nevertheless")
+        self.assertRegex(err, r"the surface would be \S+ \(\S+ % of the size\) from that of \S+ at \S+ \S+ \S+, volume")
         report = self.report(*run, "--accept-invalid")
         self.assertIn("promise_broken", [w["code"] for w in report["warnings"]])
         self.assertFalse(report["promises"]["kept"])

@@ -205,22 +205,35 @@ EdgeDistances edge_distances(const Mat3X& points, const std::vector<Edge>& edges
   return d;
 }
 
+/// Notes how far the farthest of these edges is from the others, and where it is if creases are lost.
+void note_crease_loss(const Mat3X& points, const std::vector<Edge>& edges,
+                      const std::vector<double>& distances, Preservation& p) {
+  const auto farthest = std::ranges::max_element(distances);
+  if (*farthest <= p.crease_loss) return;
+  p.crease_loss = *farthest;
+  if (p.creases_kept || p.excess > 1 || p.flipped_faces + p.new_crossings > 0) return;
+  const auto& [a, b] = edges[index_of(static_cast<int>(farthest - distances.begin()))];
+  p.place = (points.col(a) + points.col(b)) / 2;
+}
+
 /// Compares the creases that were found with those of the result.
 void measure_creases(const CreasedSurface& reference, const CreasedSurface& result, double least,
                      Preservation& p) {
   if (reference.creases.empty()) return;
+  const Mat3X& from = reference.surface.points;
   if (result.creases.empty()) {
-    p.crease_loss = reference.surface.extent.diagonal;
     p.creases_kept = false;
+    note_crease_loss(from, reference.creases,
+                     std::vector<double>(reference.creases.size(), reference.surface.extent.diagonal), p);
     return;
   }
   const Mat3X& X = result.surface.points;
-  const EdgeDistances d = edge_distances(reference.surface.points, reference.creases, X, result.creases);
-  p.crease_loss = *std::ranges::max_element(d.distance);
+  const EdgeDistances d = edge_distances(from, reference.creases, X, result.creases);
   for (std::size_t e = 0; e < d.distance.size(); ++e) {
     const auto& [a, b] = result.creases[d.closest[e]];
     p.creases_kept &= d.distance[e] <= std::max(least, max_crease_loss * (X.col(a) - X.col(b)).norm());
   }
+  note_crease_loss(from, reference.creases, d.distance, p);
 }
 
 /// Compares all sharp edges, both ways, where the facets are meant: each lies on one of the other mesh that
@@ -236,7 +249,6 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
     EdgeDistances d{std::vector<double>(edges.size(), reference.extent.diagonal),
                     std::vector<std::size_t>(edges.size(), 0)};
     if (!others.empty()) d = edge_distances(from.points, edges, to.points, others);
-    p.crease_loss = std::max(p.crease_loss, *std::ranges::max_element(d.distance));
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const double sagitta = others.empty() ? 0 : sagittas[is_reference ? e : d.closest[e]];
       const double limit = std::max(exact * reference.extent.diagonal, 2 * sagitta);
@@ -244,6 +256,7 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
       p.creases_kept = false;
       for (int v : edges[e]) far.push_back({v, d.distance[e], limit});
     }
+    note_crease_loss(from.points, edges, d.distance, p);
   };
   compare(reference, angle, result, true, p.lost_vertices);
   compare(result, certain * angle, reference, false, p.far_vertices);

@@ -40,7 +40,7 @@ struct Preservation {
   double excess = 0;                     // the greatest distance of these vertices over its limit
   double distance = 0;                   // the distance there
   /// The vertex there; if no distance is beyond its limit, the centre of a face that is turned over or
-  /// crosses another, if there is one.
+  /// crosses another, if there is one, else the middle of the crease edge that is lost by most.
   Vec3 place = Vec3::Zero();
   std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
   std::size_t new_crossings = 0;         // new_crossings(), likewise

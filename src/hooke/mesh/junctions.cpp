@@ -264,7 +264,11 @@ std::optional<JoinedMesh> join_sheets(const TriMesh& sheets) {
       mesh.id[i] = static_cast<int>(mesh.vertices.size());
       mesh.vertices.push_back(v);
     } else if (points.col(v) != points.col(joined[i])) {
-      throw ResultError(fmt::format("the sheets at vertex {} have come apart", mesh.id[joined[i]]));
+      throw ResultError(fmt::format(
+          "the sheets that meet in vertex {} have come apart, at {:.6g} {:.6g} {:.6g}; expected its "
+          "copies in one place; try another --connectivity, or --repair without --keep "
+          "non-manifold, which cuts the sheets apart",
+          mesh.id[joined[i]], points(0, v), points(1, v), points(2, v)));
     }
   }
   for (std::size_t i = 0; i < joined.size(); ++i) mesh.id[i] = mesh.id[joined[i]];

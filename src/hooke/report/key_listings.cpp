@@ -169,10 +169,10 @@ std::string keys_as_page() {
   const auto other = [&](const ReportKey& key) { return in_quality(key) && !is_quantity(key); };
   std::string page = R"(# The report
 
-`--report FILE.json` (`-` for standard output) writes one JSON object with every key below; the Python package has it as a
-dict. Angles are in degrees, lengths in file units, ids count from 0, and numbers have the digits that read back exactly.
-`null` stands for what does not exist. What varies from run to run stands only under `resources` and in keys that end in
-`_s`.
+`--report FILE.json` (`-` for standard output) writes one JSON object with every key below; the Python package has it
+as a dict. Angles are in degrees, lengths in file units, ids count from 0, and numbers have the digits that read back
+exactly. `null` stands for what does not exist. What varies from run to run stands only under `resources` and in keys
+that end in `_s`.
 
 `<n>` is an index of a list, from 0, and `<name>` a name that depends on the run. Any number can stand in
 `--require 'after.min_angle.min >= 20'`, with the keys joined by dots; yes and no count as 1 and 0. The column *better*
@@ -192,8 +192,8 @@ says which way a figure gets better; `--compare` calls the other way worse. With
   add("The run", table_of(keys_of({"schema", "tool", "status"}, all_of_them)));
   add("The files: `input` and `output`", table_of(keys_of({"input", "output"}, all_of_them)));
   add("Quality: `before` and `after`",
-      R"(`before` is the input after repair, `after` what is in the output file: where its coordinates have single precision (STL,
-some PLY), they are rounded first. Both have the same keys; the tables name those of `before`.
+      R"(`before` is the input after repair, `after` what is in the output file: where its coordinates have single precision
+(STL, some PLY), they are rounded first. Both have the same keys; the tables name those of `before`.
 
 These quantities are told by the figures below, as in `after.min_angle.p05`:
 

@@ -258,7 +258,7 @@ constexpr Row promises[] = {
     {"promises.distance_over_limit", or_null(number), ratio, lower,
      "the greatest distance of these over what is allowed there; 0 if none"},
     {"promises.place", list, length, neither,
-     "where that is, or else a face that is turned over or crosses another: x, y and z"},
+     "where that is, or else a face that is turned over or crosses another, or a lost crease: x, y and z"},
     {"promises.place.<n>", or_null(number), length, neither, "coordinate of the place"},
     {"promises.rescue", text, none, neither,
      "how the result came to keep it: none; tips = made again with lost vertices held; closest = on the "
