@@ -54,7 +54,8 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
     points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   }
   if (!s.fields.empty()) files.add(PendingFile(s.fields, fields_text(loaded, points, original, record)));
-  if (!s.map.empty()) files.add(PendingFile(s.map, map_text(map_of_output(loaded, record))));
+  if (!s.map.empty())
+    files.add(PendingFile(s.map, map_text(map_of_output(loaded.mesh, loaded.origin, record))));
   add_result_warnings(s, record);
 }
 
@@ -117,7 +118,7 @@ int run(Settings s) {
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, record, files, progress, stopwatch);
-  join_ids(loaded, record);
+  join_ids(loaded.mesh, loaded.origin, record);
   record.stages = stopwatch.stages();
   record.resources = resources_used(std::chrono::duration<double>(Clock::now() - start).count());
   judge(s, base, record);
@@ -138,7 +139,7 @@ int main(int argc, char** argv) {
   const Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.settings) return parsed.exit_code;
   try {
-    return is_batch(*parsed.settings) ? run_batch(*parsed.settings) : run(*parsed.settings);
+    return batch ? run_batch(*parsed.settings) : run(*parsed.settings);
   } catch (const InputError& e) {
     print_error(e.what());
     return malformed_input;

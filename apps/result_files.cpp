@@ -169,25 +169,26 @@ PendingMesh prepare_output(const Settings& s, const LoadedMesh& loaded, const Or
   return prepare_mesh(s.output, loaded.mesh, *s.format, encoding, data, &stopwatch);
 }
 
-std::vector<MapEntry> map_of_output(const LoadedMesh& loaded, const RunRecord& record) {
-  std::vector<MapEntry> map = map_to_old(record.result->map, loaded.origin);
-  const std::optional<JoinedMesh> joined = join_sheets(loaded.mesh);
+std::vector<MapEntry> map_of_output(const TriMesh& result, const MeshOrigin& origin,
+                                    const RunRecord& record) {
+  std::vector<MapEntry> map = map_to_old(record.result->map, origin);
+  const std::optional<JoinedMesh> joined = join_sheets(result);
   if (!joined) return map;
   std::vector<MapEntry> left;
   for (const int v : joined->vertices) left.push_back(map[v]);
   return left;
 }
 
-void join_ids(const LoadedMesh& loaded, RunRecord& record) {
+void join_ids(const TriMesh& result, const MeshOrigin& origin, RunRecord& record) {
   const auto renumber = [](Quality& quality, const std::vector<int>& id) {
     for (WorstFace& face : quality.worst_faces) {
       for (int& v : face.vertices) v = id[v];
       for (int& v : face.bound.vertices) v = id[v];
     }
   };
-  if (loaded.origin.joined.empty()) return;
-  renumber(record.before, loaded.origin.joined);
-  if (record.after) renumber(*record.after, join_sheets(loaded.mesh)->id);
+  if (origin.joined.empty()) return;
+  renumber(record.before, origin.joined);
+  if (record.after) renumber(*record.after, join_sheets(result)->id);
 }
 
 std::string fields_text(const LoadedMesh& loaded, const Mat3X& points, const Original& original,

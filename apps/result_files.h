@@ -24,11 +24,11 @@ PlyEncoding encoding_of_output(const Settings& settings, const LoadedMesh& loade
 PendingMesh prepare_output(const Settings& settings, const LoadedMesh& loaded, const Original& original,
                            const Mat3X& points, RunRecord& record, Stopwatch& stopwatch);
 
-/// The map of the result's vertices as they are written, to the input as it was read.
-std::vector<MapEntry> map_of_output(const LoadedMesh& loaded, const RunRecord& record);
+/// The map of the result's vertices as they are written, to the input as it was read; `origin`: of the input.
+std::vector<MapEntry> map_of_output(const TriMesh& result, const MeshOrigin& origin, const RunRecord& record);
 
 /// Makes ids of vertices in the record those of the files, where sheets are joined.
-void join_ids(const LoadedMesh& loaded, RunRecord& record);
+void join_ids(const TriMesh& result, const MeshOrigin& origin, RunRecord& record);
 
 /// The values at the vertices and faces of the result as a PLY file, in the order of the output's; see
 /// measure_fields().

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hooke/core/error.h"
+#include "hooke/mesh/junctions.h"
 
 namespace py = pybind11;
 
@@ -42,14 +43,18 @@ std::vector<Triangle> triangles_of(const FaceArray& faces) {
 }
 
 PointArray vertex_array(const TriMesh& mesh) {
-  const auto points = vertex_points(mesh);
-  PointArray array({static_cast<py::ssize_t>(points.cols()), py::ssize_t{3}});
-  Eigen::Map<Mat3X>(array.mutable_data(), 3, points.cols()) = points;
-  return array;
+  const auto array_of = [](const Eigen::Ref<const Mat3X>& points) {
+    PointArray array({static_cast<py::ssize_t>(points.cols()), py::ssize_t{3}});
+    Eigen::Map<Mat3X>(array.mutable_data(), 3, points.cols()) = points;
+    return array;
+  };
+  if (const auto joined = join_sheets(mesh)) return array_of(joined->gather(vertex_points(mesh)));
+  return array_of(vertex_points(mesh));
 }
 
 FaceArray face_array(const TriMesh& mesh) {
-  const std::vector<Triangle> triangles = hooke::triangles_of(mesh);
+  const std::optional<JoinedMesh> joined = join_sheets(mesh);
+  const std::vector<Triangle> triangles = joined ? joined->triangles : hooke::triangles_of(mesh);
   FaceArray array({std::ssize(triangles), py::ssize_t{3}});
   if (!triangles.empty())
     std::memcpy(array.mutable_data(), triangles.data(), triangles.size() * sizeof(Triangle));

@@ -19,7 +19,7 @@ using FaceArray = pybind11::array_t<std::int32_t, pybind11::array::c_style>;
 Mat3X points_of(const PointArray& vertices);
 std::vector<Triangle> triangles_of(const FaceArray& faces);
 
-/// Arrays of a mesh, in the order of its ids.
+/// Arrays of a mesh, in the order of its ids; sheets are joined, see mesh/junctions.h.
 PointArray vertex_array(const TriMesh& mesh);
 FaceArray face_array(const TriMesh& mesh);
 

@@ -12,7 +12,9 @@
 #include "hooke/core/error.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"
+#include "hooke/mesh/junctions.h"
 #include "python_observer.h"
+#include "result_files.h"
 #include "run_in_memory.h"
 
 namespace py = pybind11;
@@ -30,8 +32,12 @@ auto unlocked(const Work& work) {
 /// (old vertices, old faces, whether corners 1 and 2 of the face were swapped) of a repaired mesh; None else.
 py::object origin_arrays(const MeshOrigin& origin) {
   if (origin.vertex.empty()) return py::none();
+  std::vector<int> vertices;  // without the copies of those of junctions
+  for (std::size_t v = 0; v < origin.vertex.size(); ++v)
+    if (origin.joined.empty() || origin.joined[v] == static_cast<int>(v))
+      vertices.push_back(origin.vertex[v]);
   return py::make_tuple(
-      py::array_t<int>(std::ssize(origin.vertex), origin.vertex.data()),
+      py::array_t<int>(std::ssize(vertices), vertices.data()),
       py::array_t<int>(std::ssize(origin.face), origin.face.data()),
       py::array_t<char>(std::ssize(origin.flipped), origin.flipped.data()).attr("astype")("bool"));
 }
@@ -67,14 +73,17 @@ py::tuple run_arrays(const PointArray& vertices, const FaceArray& faces,
   });
   if (check) return py::make_tuple(py::none(), py::none(), py::none(), report, py::none(), py::none());
   py::object places = py::none();
-  if (!record.result->map.empty()) places = map_arrays(map_to_old(record.result->map, mesh->origin));
+  if (!record.result->map.empty()) places = map_arrays(app::map_of_output(mesh->mesh, mesh->origin, record));
   return py::make_tuple(vertex_array(mesh->mesh), face_array(mesh->mesh), places, report,
                         origin_arrays(mesh->origin), observer.exception());
 }
 
 /// (vertices, faces, attributes, format, [(code, message)])
-py::tuple read_file(const std::filesystem::path& path) {
-  const LoadedMesh loaded = unlocked([&] { return read_mesh(path); });
+py::tuple read_file(const std::filesystem::path& path, bool keep_junctions) {
+  const LoadedMesh loaded = unlocked([&] {
+    return read_mesh(path, nullptr, {std::nullopt, {.keep_junctions = keep_junctions}});
+  });
+  const std::optional<JoinedMesh> joined = join_sheets(loaded.mesh);
   py::list warnings;
   for (const Warnings& of_kind : {loaded.content.anew, loaded.content.no_obj, loaded.warnings})
     for (const Warning& w : of_kind) warnings.append(py::make_tuple(w.code, w.message));
@@ -82,20 +91,30 @@ py::tuple read_file(const std::filesystem::path& path) {
     warnings.append(
         py::make_tuple("attributes_not_kept", path.string() + ": not kept: face data " + channel.name));
   return py::make_tuple(vertex_array(loaded.mesh), face_array(loaded.mesh),
-                        attribute_arrays(loaded.vertex_data), name_of(loaded.format), warnings);
+                        attribute_arrays(joined ? joined->gather(loaded.vertex_data) : loaded.vertex_data),
+                        name_of(loaded.format), warnings);
 }
 
 /// Returns the names of attributes that the format cannot hold.
 std::vector<std::string> write_file(const std::filesystem::path& path, const PointArray& vertices,
                                     const FaceArray& faces, const py::dict& attributes,
-                                    const std::optional<std::string>& format, bool ascii) {
+                                    const std::optional<std::string>& format, bool ascii,
+                                    bool keep_junctions) {
   const Mat3X points = points_of(vertices);
   const std::vector<Triangle> triangles = triangles_of(faces);
   const MeshFormat target = format_of(format ? std::filesystem::path("mesh." + *format) : path);
   FormatData data = data_for_format(vertex_data_of(attributes, static_cast<std::size_t>(points.cols())),
                                     MeshFormat::ply, target);
   unlocked([&] {
-    const ValidMesh mesh = make_valid_mesh(points, triangles, path.string());
+    const ValidMesh mesh =
+        make_valid_mesh(points, triangles, path.string(), {.keep_junctions = keep_junctions});
+    if (!mesh.origin.joined.empty())
+      for (VertexChannel& channel : data.data) {
+        std::vector<double> of_sheets;
+        of_sheets.reserve(mesh.origin.vertex.size());
+        for (const int v : mesh.origin.vertex) of_sheets.push_back(channel.values[v]);
+        channel.values = std::move(of_sheets);
+      }
     prepare_mesh(path, mesh.mesh, target, ascii ? PlyEncoding::ascii : PlyEncoding::binary_little_endian,
                  {.vertices = data.data})
         .file.commit();

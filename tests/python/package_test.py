@@ -18,6 +18,7 @@ except ImportError:
 
 import hooke_remesh
 from command import DATA, CommandTest, irregular_torus
+from junctions_test import obj, two_boxes
 from schema_test import SCHEMA, faults
 from hooke_remesh import InputError, Interrupted, MeshError, MeshWarning, ResultError, UsageError, measure, read, remesh, write
 
@@ -172,6 +173,51 @@ class TheCommandsResults(CommandTest):
         remesh(vertices, faces, repair=True, fix=[1, 2])
 
 
+class Walls(CommandTest):
+    """Meshes of several bodies, whose walls stay joined."""
+
+    def setUp(self):
+        super().setUp()
+        vertices, faces, labels = two_boxes()
+        self.write("boxes.obj", obj(vertices, faces, [(0, 1)] * len(faces)))
+        self.vertices, self.faces = np.array(vertices), np.array(faces)
+
+    def test_results_are_those_of_the_command(self):
+        for mode in ("fixed", "flip", "adapt"):
+            self.run_command("boxes.obj", "-o", "command.ply", "--keep", "non-manifold", "--connectivity", mode,
+                             "--effort", "fast", "--map", "map", "--report", "report.json", "-q")
+            done = remesh(self.vertices, self.faces, connectivity=mode, effort="fast", keep="non-manifold",
+                          attributes={"place": self.vertices})
+            write(self.folder / "python.ply", done.vertices, done.faces, keep="non-manifold")
+            again = [read(self.folder / name, keep="non-manifold") for name in ("command.ply", "python.ply")]
+            np.testing.assert_array_equal(again[0].vertices, again[1].vertices)
+            np.testing.assert_array_equal(again[0].faces, again[1].faces)
+            report = json.loads((self.folder / "report.json").read_text())
+            self.assertEqual(without_times(done.report), without_times(report))
+            self.assertEqual(done.report["parameters"]["keep"], "non-manifold")
+            ids = np.loadtxt(self.folder / "map", dtype=int, usecols=(0, 1))
+            np.testing.assert_array_equal(np.stack([done.map.vertices, done.map.faces], axis=1), ids)
+            np.testing.assert_allclose(done.attributes["place"], self.vertices if mode == "fixed" else done.vertices, atol=1e-9)
+
+    def test_attributes_of_their_vertices_are_kept_in_files(self):
+        heat = self.vertices @ [1., 2, 3]
+        write(self.folder / "walls.ply", self.vertices, self.faces, {"heat": heat}, keep="non-manifold")
+        mesh = read(self.folder / "walls.ply", keep="non-manifold")
+        np.testing.assert_array_equal(mesh.vertices, self.vertices)
+        np.testing.assert_array_equal(mesh.faces, self.faces)
+        np.testing.assert_array_equal(mesh.attributes["heat"], heat)
+
+    def test_without_it_they_are_refused(self):
+        for call in (lambda **keep: remesh(self.vertices, self.faces, **keep), lambda **keep: measure(self.vertices, self.faces, **keep),
+                     lambda **keep: write(self.folder / "out.ply", self.vertices, self.faces, **keep),
+                     lambda **keep: read(self.folder / "boxes.obj", **keep)):
+            with self.assertRaisesRegex(MeshError, "--keep non-manifold"):
+                call()
+            with self.assertRaisesRegex(UsageError, "keep: 'seams'; expected 'non-manifold'"):
+                call(keep="seams")
+        self.assertEqual(measure(self.vertices, self.faces, keep="non-manifold")["input"]["vertices"], len(self.vertices))
+
+
 # A tetrahedron with a face turned over, one listed twice, and a vertex in no face before the others.
 TORN = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 4 3\nf 2 3 5\nf 3 4 5\nf 4 5 2\nf 4 5 2\n"
 
@@ -288,7 +334,7 @@ class Refusals(unittest.TestCase):
     def test_what_is_of_the_command_only(self):
         vertices, faces = torus()
         for option in ("output", "config", "print_config", "print-config", "help-all", "completion", "man_page", "suffix",
-                       "table", "skip_existing", "jobs", "keep"):
+                       "table", "skip_existing", "jobs"):
             for run in (remesh, measure):
                 with self.assertRaisesRegex(UsageError, option + ": is for files and the terminal"):
                     run(vertices, faces, **{option: "x"})

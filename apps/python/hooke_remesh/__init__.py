@@ -36,8 +36,7 @@ Progress = Callable[[str, int, int, float], Any]
 # What the command does with its files, the data in them, and its terminal.
 _OF_THE_COMMAND = {"output", "format", "map", "report", "fields", "trace", "trace_steps", "check", "quiet", "verbose",
                    "progress", "help", "help_all", "version", "config", "print_config", "completion", "man_page", "suffix",
-                   "table", "skip_existing", "jobs", "input_format", "preserve", "reproject_uv", "keep",
-                   "list_metrics"}
+                   "table", "skip_existing", "jobs", "input_format", "preserve", "reproject_uv", "list_metrics"}
 
 
 @dataclass(frozen=True)
@@ -103,7 +102,9 @@ def remesh(vertices: ArrayLike, faces: ArrayLike, length: Option = None,
                   -: effort="fast", feature_angle=30, max_distance="0.1%", polish=False, threads=2, paper=True;
                   None leaves it out; repair=True, weld="0.01%" and fill_holes=8 mend the mesh first, and what was done
                   is in report["repairs"]; require=["after.min_angle.min >= 20"] judges the report, with the outcomes in
-                  report["gates"], and compare="base.json" compares it with an older one, in report["comparison"]
+                  report["gates"], and compare="base.json" compares it with an older one, in report["comparison"];
+                  keep="non-manifold" takes a mesh with edges of three faces and more, as where bodies share walls:
+                  the walls stay joined
 
     Other Python threads run meanwhile. Ctrl-C raises Interrupted, a KeyboardInterrupt with the best mesh so far as its
     `result`. Each of report["warnings"] is also emitted as a MeshWarning.
@@ -156,15 +157,16 @@ def measure(vertices: ArrayLike, faces: ArrayLike, length: Option = None, *, siz
     return _warned(json.loads(_core.run(points, triangles, arguments + ["--check"], *lists, False, None)[3]))
 
 
-def read(path: str | os.PathLike[str]) -> Mesh:
+def read(path: str | os.PathLike[str], *, keep: Literal["non-manifold"] | None = None) -> Mesh:
     """Reads an OBJ, PLY or OFF file, with the values of its vertices. Raises InputError for a file that is missing or
-    malformed, MeshError for one whose mesh is no oriented manifold."""
-    return Mesh(*_core.read(path))
+    malformed, MeshError for one whose mesh is no oriented manifold; with keep="non-manifold" edges of three faces and
+    more are none of its faults."""
+    return Mesh(*_core.read(path, _keeps_junctions(keep)))
 
 
 def write(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike,
           attributes: Mapping[str, ArrayLike] | None = None, *, format: Literal["obj", "ply", "off"] | None = None,
-          ascii: bool = False) -> None:
+          ascii: bool = False, keep: Literal["non-manifold"] | None = None) -> None:
     """Writes a mesh file, completely or not at all, so that coordinates read back exactly.
 
     vertices      n x 3 coordinates
@@ -173,12 +175,13 @@ def write(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike,
                   takes any other name too, for other formats a warning tells what was left out
     format        default: by the extension of the path
     ascii         writes PLY as text
+    keep          "non-manifold" writes a mesh with edges of three faces and more too
 
     Raises MeshError for a mesh that is no oriented manifold, OutputError if it cannot be written, UsageError for another
     format or attributes of other shapes.
     """
     values = {name: np.asarray(value) for name, value in (attributes or {}).items()}
-    left_out = _core.write(path, *_arrays(vertices, faces), values, format, ascii)
+    left_out = _core.write(path, *_arrays(vertices, faces), values, format, ascii, _keeps_junctions(keep))
     if left_out:
         _warnings.warn(f"{os.fspath(path)}: its format cannot hold {', '.join(left_out)}; use PLY", MeshWarning,
                        stacklevel=2)
@@ -188,6 +191,7 @@ def _prepared(count: int, sizing: Any, edge_lengths: Any, fix: Any, options: Map
         list[str], Sequence[float] | None, Sequence[int], Sequence[tuple[int, int, float]] | None]:
     """The options as the command takes them, and the lengths, fixed vertices and lengths of edges that come as arrays.
     `count`: of vertices."""
+    _keeps_junctions(options.get("keep"))
     lengths = edges = None
     ids: Sequence[int] = []
     files = {"sizing": sizing, "edge_lengths": edge_lengths, "fix": fix}
@@ -200,6 +204,12 @@ def _prepared(count: int, sizing: Any, edge_lengths: Any, fix: Any, options: Map
     if _is_array(fix):
         files["fix"], ids = None, _ids(fix, count)
     return _arguments({**options, **files}), lengths, ids, edges
+
+
+def _keeps_junctions(keep: Any) -> bool:
+    if keep not in (None, "non-manifold"):
+        raise UsageError(f"keep: {keep!r}; expected 'non-manifold': arrays have no seams, materials and groups to keep")
+    return keep is not None
 
 
 def _is_array(value: Any) -> bool:
