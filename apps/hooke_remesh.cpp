@@ -138,6 +138,9 @@ int main(int argc, char** argv) {
   catch_signals();
   const Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.settings) return parsed.exit_code;
+  const bool batch = is_batch(*parsed.settings);
+  const bool answered_by_another = batch && parsed.settings->inputs.size() == 1;
+  if (!parsed.settings->quiet && !answered_by_another) answer_signals();
   try {
     return batch ? run_batch(*parsed.settings) : run(*parsed.settings);
   } catch (const InputError& e) {
