@@ -93,12 +93,28 @@ auto in_the_name_of(const std::string& name, const Work& work) {
   }
 }
 
-void measure_deviation_from_input(const Original& original, const MeasuredSurface& result, RunRecord& record,
-                                  Stopwatch& stopwatch) {
-  const MeasuredSurface reference =
+/// Measures the result and its deviation from the input; anew what it keeps of that, where that was measured.
+void measure_result(const Settings& s, const TriMesh& mesh, const MemoryOrder& memory_order,
+                    const Original& original, RunRecord& record, Stopwatch& stopwatch) {
+  const MeasuredSurface result = surface_of(memory_order.order.gather(vertex_points(mesh)), memory_order,
+                                            joined_vertices(mesh, memory_order.order), stopwatch,
+                                            keeps_faces(s) ? original.tree_order : std::vector<int>());
+  const MeasuredSurface input =
       surface_of(original.points, original.memory_order, original.joined, stopwatch, original.tree_order);
+  record.after = timed(&stopwatch, "after", [&] {
+    return measure_quality(result, edge_targets(mesh, memory_order), {}, &stopwatch);
+  });
   record.deviation =
-      timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
+      timed(&stopwatch, "deviation", [&] { return measure_deviation(input, result, &stopwatch); });
+  if (!record.result->measures) return;
+  ResultMeasures& measures = *record.result->measures;
+  const std::vector<Edge> before = original.memory_order.order.new_edges(record.result->input_creases),
+                          after = memory_order.order.new_edges(record.result->crease_edges);
+  apply_creases(*record.after, result, after);
+  measures.preservation = timed(&stopwatch, "preservation", [&] {
+    return measure_preservation({input, record.before, before}, {result, *record.after, after},
+                                *record.deviation, measures.judged_by);
+  });
 }
 
 /// Throws ResultError, or LimitError at the end of the time, if the result does not keep what it must keep
@@ -115,8 +131,15 @@ void require_promises(const Settings& s, const RunRecord& record, BrokenBy cause
                                   name_of_input(s.input), name_of_output(s.output), broken));
 }
 
-/// Names what holds down the angles of the worst faces of the result.
-void name_limits(RunRecord& record) {
+/// After either measurement of the result: the figures of the paper, the promises, and what limits angles.
+void judge_result(const Settings& s, const TriMesh& mesh, const MemoryOrder& memory_order, BrokenBy cause,
+                  RunRecord& record) {
+  record.paper_after =
+      measure_paper_figures(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency,
+                            edge_targets(mesh, memory_order), s.paper);
+  if (record.result->adaptation.rounds > 0)
+    record.deviation->displacement.reset();  // vertices do not correspond
+  require_promises(s, record, cause);
   if (record.result->vertex_limits.empty()) return;
   for (WorstFace& face : record.after->worst_faces)
     face.reasons = limiting_factors(face, record.result->vertex_limits);
@@ -205,53 +228,21 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
     throw NumericalError(fmt::format("{}: the result is not finite; nothing was written", name));
   is_out_of_time &= done.reason == StopReason::interrupted;
   record.status = is_out_of_time ? "time_limit" : status_of(done.reason);
-  Mat3X points = memory_order.order.gather(vertex_points(mesh));
-  const UniformVector targets = edge_targets(mesh, memory_order);
-  record.paper_after = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
   if (done.measures) {
     record.before = std::move(done.measures->input_quality);
     record.after = std::move(done.measures->quality);
     record.deviation = std::move(done.measures->deviation);
   } else {
-    const MeasuredSurface result =
-        surface_of(std::move(points), memory_order, joined_vertices(mesh, memory_order.order), stopwatch,
-                   original.tree_order);
-    record.after =
-        timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
-    measure_deviation_from_input(original, result, record, stopwatch);
+    measure_result(s, mesh, memory_order, original, record, stopwatch);
   }
-  if (done.adaptation.rounds > 0) record.deviation->displacement.reset();  // vertices do not correspond
-  require_promises(s, record, BrokenBy::method);
-  name_limits(record);
+  judge_result(s, mesh, memory_order, BrokenBy::method, record);
 }
 
 void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, const MemoryOrder& memory_order,
                      const Original& original, RunRecord& record, Stopwatch& stopwatch) {
   vertex_points(mesh) = rounded;
-  Mat3X points = memory_order.order.gather(rounded);
-  const UniformVector targets = edge_targets(mesh, memory_order);
-  record.paper_after = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
-  const MeasuredSurface result =
-      surface_of(std::move(points), memory_order, joined_vertices(mesh, memory_order.order), stopwatch,
-                 keeps_faces(s) ? original.tree_order : std::vector<int>());
-  record.after = timed(&stopwatch, "after", [&] { return measure_quality(result, targets, {}, &stopwatch); });
-  const MeasuredSurface reference =
-      surface_of(original.points, original.memory_order, original.joined, stopwatch, original.tree_order);
-  record.deviation =
-      timed(&stopwatch, "deviation", [&] { return measure_deviation(reference, result, &stopwatch); });
-  if (record.result->measures) {
-    const std::vector<Edge> before = original.memory_order.order.new_edges(record.result->input_creases),
-                            after = memory_order.order.new_edges(record.result->crease_edges);
-    apply_creases(*record.after, result, after);
-    ResultMeasures& measures = *record.result->measures;
-    measures.preservation = timed(&stopwatch, "preservation", [&] {
-      return measure_preservation({reference, record.before, before}, {result, *record.after, after},
-                                  *record.deviation, measures.judged_by);
-    });
-  }
-  if (record.result->adaptation.rounds > 0) record.deviation->displacement.reset();
-  require_promises(s, record, BrokenBy::rounding);
-  name_limits(record);
+  measure_result(s, mesh, memory_order, original, record, stopwatch);
+  judge_result(s, mesh, memory_order, BrokenBy::rounding, record);
 }
 
 }  // namespace hooke::app
