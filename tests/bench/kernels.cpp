@@ -39,7 +39,7 @@ struct Sphere {
   }
 
   Relaxation relaxation() {
-    return {*adjacency, coloring, targets, vertices, retraction, energy.terms(), guards.limits()};
+    return {*adjacency, coloring, targets, vertices, retraction, {}, guards.limits()};
   }
 
   test::Triangles start;

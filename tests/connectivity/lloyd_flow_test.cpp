@@ -15,7 +15,7 @@
 namespace hooke::lloyd_flow_test {
 
 LloydFlowResult flow_for(WorkingMesh& mesh, int rounds, const Observer& observer = nullptr) {
-  return flow(mesh, {.rounds = rounds}, {}, observer);
+  return flow(mesh, rounds, {}, observer);
 }
 
 TEST(Flow, RegularisesAnUnevenSphere) {

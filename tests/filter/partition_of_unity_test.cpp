@@ -19,7 +19,7 @@ struct Covered {
   Eigen::VectorXd edge_lengths = mean_edge_lengths(mesh.points, adjacency);
   std::vector<char> unfolded = std::vector<char>(static_cast<size_t>(adjacency.vertex_count), 1);
 
-  PatchCover cover() const { return PatchCover(mesh.points, adjacency, normals, edge_lengths, unfolded, {}); }
+  PatchCover cover() const { return PatchCover(mesh.points, adjacency, normals, edge_lengths, unfolded); }
 };
 
 TEST(PatchCover, EveryVertexIsWellInsideAPatch) {
@@ -31,7 +31,7 @@ TEST(PatchCover, EveryVertexIsWellInsideAPatch) {
       const double d = (s.mesh.points.col(v) - s.mesh.points.col(all.centres[p])).norm() / all.radii[p];
       nearest[static_cast<size_t>(v)] = std::min(nearest[static_cast<size_t>(v)], d);
     }
-  for (double d : nearest) EXPECT_LE(d, PatchCoverOptions{}.coverage);
+  for (double d : nearest) EXPECT_LE(d, patch_coverage);
 }
 
 TEST(PatchCover, IsTheSameInPieces) {

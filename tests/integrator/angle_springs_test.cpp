@@ -136,11 +136,15 @@ TEST(AngleSprings, MoveOnlyWhatLiesAroundBadFaces) {
   EXPECT_GT(angle_of(s), 20);
 }
 
-TEST(AngleSprings, RestoreTheEnergyAndStopWhenAskedTo) {
+TEST(AngleSprings, RestoreTheTermsAndStopWhenAskedTo) {
   test::Scene s(irregular(), test::to_ground);
   relax(s);
   const double angle = angle_of(s), deviation = deviation_of(s);
-  const AngleSpringResult result = angle_optimised(s, {}, [](const Progress& p) { return p.step < 3; });
+  Relaxation r = s.relaxation();
+  const AngleSpringResult result =
+      raise_angles(r, s.targets, {}, [](const Progress& p) { return p.step < 3; });
+  EXPECT_EQ(r.terms.angle, 0);
+  EXPECT_EQ(r.terms.altitude, 1);
   EXPECT_TRUE(result.interrupted);
   EXPECT_LE(result.sweeps, 5);
   EXPECT_GE(angle_of(s), angle);

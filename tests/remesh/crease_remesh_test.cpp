@@ -128,7 +128,7 @@ TEST(CreaseRemesh, ThoroughFlipsKeepCreases) {
   RemeshOptions thorough = in_mode(ConnectivityMode::flip);
   thorough.effort = Effort::thorough;
   RunOptions options(thorough);
-  options.flips.flow.rounds = 20;
+  options.flips.flow_rounds = 20;
   options.flips.passes.passes = 2;
   const Outcome o = remeshed(t, options);
   expect_flat_faces(t, o, 1e-9);

@@ -179,7 +179,7 @@ TEST(FaceSprings, EnergyIsThatOfTheSprings) {
     f.has_face[seed % lane_count] = 0;
     for (std::size_t k = 0; k < 3; ++k) f.has_edge[k * lane_count + seed % lane_count] = 0;
     evaluate_face_springs({.7, .4}, f);
-    ASSERT_FALSE(f.flat);
+    ASSERT_FALSE(f.needs_normals);
     double expected = 0;
     for (std::size_t lane = 0; lane < lane_count; ++lane) expected += expected_energy(f, lane, .7, .4);
     EXPECT_NEAR(f.energy, expected, 1e-12 * expected);
@@ -201,13 +201,47 @@ TEST(FaceSprings, GradientEqualsDifferences) {
   }
 }
 
-TEST(FaceSprings, FacesWithoutAreaAreTold) {
-  FaceSprings f = four_faces(5);
+/// The third corner of the face in lane 2 lies on the edge between the others.
+FaceSprings with_a_flat_face(unsigned seed) {
+  FaceSprings f = four_faces(seed);
   for (std::size_t d = 0; d < 3; ++d)
     f.corners[(6 + d) * lane_count + 2] =
         .5 * (corner(f, 0, 2) + corner(f, 1, 2))[static_cast<Eigen::Index>(d)];
+  return f;
+}
+
+TEST(FaceSprings, AFaceWithoutAreaOpensAcrossItsNormalAndLeavesTheOthersAlone) {
+  FaceSprings f = with_a_flat_face(5);
   evaluate_face_springs({}, f);
-  EXPECT_TRUE(f.flat);
+  ASSERT_TRUE(f.needs_normals);
+  const Vec3 along = corner(f, 1, 2) - corner(f, 0, 2), up = along.unitOrthogonal();
+  for (std::size_t d = 0; d < 3; ++d) f.surface_normal[d * lane_count + 2] = up[static_cast<Eigen::Index>(d)];
+  for (std::size_t lane : {0, 1, 3}) f.surface_normal[lane] = 1;
+  f.has_normals = true;
+  evaluate_face_springs({}, f);
+  ASSERT_FALSE(f.needs_normals);
+  EXPECT_TRUE(std::isfinite(f.energy));
+  const auto gradient = [](const FaceSprings& of, std::size_t k, std::size_t lane) {
+    const double* g = of.gradient + 3 * k * lane_count + lane;
+    return Vec3(g[0], g[lane_count], g[2 * lane_count]);
+  };
+  const Vec3 force = -gradient(f, 2, 2);
+  EXPECT_GT(force.dot(up.cross(along)), 0);
+  EXPECT_NEAR(force.dot(up), 0, 1e-9 * force.norm());
+  FaceSprings good = four_faces(5);
+  evaluate_face_springs({}, good);
+  for (std::size_t lane : {0, 1, 3})
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(gradient(f, k, lane), gradient(good, k, lane));
+}
+
+TEST(FaceSprings, APointThatIsNoNumberHasNoFiniteEnergy) {
+  for (std::size_t i = 0; i < std::size(FaceSprings{}.corners); ++i) {
+    FaceSprings f = four_faces(7);
+    std::ranges::fill(f.has_edge, 1);
+    f.corners[i] = std::numeric_limits<double>::quiet_NaN();
+    evaluate_face_springs({}, f);
+    EXPECT_FALSE(std::isfinite(f.energy)) << i;
+  }
 }
 
 }  // namespace hooke::energy_test

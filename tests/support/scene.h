@@ -66,7 +66,9 @@ struct Scene {
   double L() const { return length[0]; }
 
   Relaxation relaxation() {
-    return {adjacency, coloring, targets, vertices, retraction, energy.terms(), guards.limits()};
+    Relaxation r(adjacency, coloring, targets, vertices, retraction, terms, guards.limits());
+    r.terms = terms;
+    return r;
   }
 
   static VertexTable columns(const Triangles& t, const Adjacency& adjacency, const ConstraintOptions& o) {

@@ -175,7 +175,7 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
         t.points(2, v) = noise;
     }
     test::WorkingScene s(t, rough, creases);
-    const ShapeLimits guards{.fold = .12};
+    const ShapeLimits limits{.fold = .12};
     for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
       if (s.halfedges.twin(h) < h || s.halfedges.is_crease(h) || !may_flip(s.mesh, h)) continue;
       const auto patch = cut_patch(s.mesh, h, 1, 200);
@@ -190,13 +190,13 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
         }
         return cosines;
       };
-      const bool seen = folds_at_patch_boundary(*patch, flipped_faces(*patch), s.mesh, guards);
+      const bool seen = folds_at_patch_boundary(*patch, flipped_faces(*patch), s.mesh, limits);
       HalfedgeMesh before = s.halfedges;
       const std::vector<double> old = folds();
       s.halfedges.flip(h);
       const std::vector<double> now = folds();
       s.halfedges = before;
-      for (size_t i = 0; i < now.size(); ++i) broken |= crease_fold_breaks(guards, old[i], now[i]);
+      for (size_t i = 0; i < now.size(); ++i) broken |= crease_fold_breaks(limits, old[i], now[i]);
       breaks += broken;
       EXPECT_EQ(seen, broken);
     }

@@ -242,9 +242,7 @@ bool AdaptationSteps::change_count(double target_faces) {
 void AdaptationSteps::lloyd_flow(int rounds) {
   const Stage stage(work_.stopwatch, "flow");
   counts_.flips += flip_to_delaunay(m_) + flip_corners_to_valence(m_);
-  LloydFlowOptions options;
-  options.rounds = rounds;
-  const LloydFlowResult flowed = flow(m_, options, limits_, observer_);
+  const LloydFlowResult flowed = flow(m_, rounds, limits_, observer_);
   counts_.flips += flowed.flips;
   interrupted_ = flowed.interrupted;
   resample_lengths();
@@ -434,15 +432,17 @@ AdaptOptions adapt_options(Effort effort) {
 
 FlipOptions flips_after(const AdaptResult& adapted, const AdaptOptions& options, FlipOptions flips) {
   if (adapted.levels == 0) return flips;
-  flips.flow.rounds = std::min(flips.flow.rounds, options.last_flow);
+  flips.flow_rounds = std::min(flips.flow_rounds, options.last_flow);
   flips.passes.passes = std::min(flips.passes.passes, options.last_passes);
   return flips;
 }
 
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
                   const ShapeLimits& limits, double corner_angle, const Observer& observer) {
-  Relaxation relaxation(work, terms, limits);
-  const UntangleResult unfolded = untangle(relaxation, {}, observer);
+  const UntangleResult unfolded = [&] {
+    Relaxation relaxation(work, terms, limits);
+    return untangle(relaxation, {}, observer);
+  }();
   AdaptResult result;
   if (unfolded.interrupted)
     result.interrupted = true;

@@ -7,7 +7,6 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/local_shape.h"
-
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
@@ -107,7 +106,7 @@ bool keeps_shape(const WorkingMesh& m, int h) {
   const int a = t.from(h), b = t.to(h), c = t.from(opposite_h), d = t.from(opposite_g);
   const int sa = t.wedge(h), sb = t.wedge(g), sc = t.wedge(opposite_h), sd = t.wedge(opposite_g);
   const double min_area = min_area_share * (area(X, {a, b, c}) + area(X, {b, a, d}));
-  if (area(X, {c, a, d}) < min_area || area(X, {d, b, c}) < min_area) return false;
+  if (!(area(X, {c, a, d}) >= min_area && area(X, {d, b, c}) >= min_area)) return false;
   const double target = target_length(m, c, d);  // also of the old edge, so that sagittas compare
   LocalShape before, after;
   before.add_face(X, N, {a, b, c}, {sa, sb, sc});

@@ -74,7 +74,7 @@ int split_edge(WorkingMesh& m, int h, const SurfacePosition* middle) {
 }
 
 int split_long_edges(WorkingMesh& m) {
-  EdgeQueue queue(m.halfedges, [&](int h) { return relative_length(m, h) - longest_edge; });
+  EdgeQueue queue(m.halfedges, [&](int h) { return relative_length(m, h) - max_relative_length; });
   int splits = 0;
   for (int h = queue.pop(); h >= 0; h = queue.pop()) {
     if (!shortens(m, h)) continue;
@@ -211,7 +211,7 @@ int split_junctions(WorkingMesh& m) {
     std::vector<Edge> next;
     for (const auto& [ends, sides] : sides_of_junctions(m)) {
       const bool is_long = std::ranges::any_of(sides, [&](const Edge& side) {
-        return relative_length(m, half_edge_between(m.halfedges, side[0], side[1])) > longest_edge;
+        return relative_length(m, half_edge_between(m.halfedges, side[0], side[1])) > max_relative_length;
       });
       if (!is_long) {
         next.push_back(ends);

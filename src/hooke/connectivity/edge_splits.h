@@ -9,7 +9,7 @@ struct WorkingMesh;
 struct SurfacePosition;
 
 /// Maximum length of an edge over its target length; longer edges are split.
-inline constexpr double longest_edge = 4. / 3;
+inline constexpr double max_relative_length = 4. / 3;
 
 /// Splits one edge at its midpoint, with the new vertex on the surface, and returns that; -1 if a new face
 /// would be a sliver or less aligned than the limits of the local shape and the old face, or if the edge

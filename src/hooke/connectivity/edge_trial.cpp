@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "hooke/connectivity/edge_flips.h"
@@ -24,7 +23,7 @@ void add_face(const SurfacePositions& p, const Triangle& t, const PatchLimits& l
   const double cotangent = max_cotangent(p.points, t);
   const double lacks = std::max(0., limits.fair_angle - angle_with_cotangent(cotangent));
   const double alignment = face_alignment(p.points, p.normals, t);
-  const double misses = limits.limits.alignment - alignment;
+  const double misses = limits.shape.alignment - alignment;
   quality.cotangent = std::max(quality.cotangent, cotangent);
   quality.area += .5 * doubled_area_vector(p.points, t).norm() * alignment;
   quality.angle_cost += lacks * lacks;
@@ -38,12 +37,12 @@ void add_edge(const SurfacePositions& p, const Edge& edge, double target, const 
   const double sagitta = edge_sagitta(p.points, p.normals, edge) / target;
   quality.length_errors += (length - 1) * (length - 1);
   quality.violation.length = std::max(quality.violation.length, length - limits.longest);
-  quality.violation.sagitta += std::max(0., sagitta - limits.limits.sagitta);
+  quality.violation.sagitta += std::max(0., sagitta - limits.shape.sagitta);
 }
 
 void add_fold(const SurfacePositions& p, const Triangle& face, const Triangle& other,
               const PatchLimits& limits, PatchQuality& quality) {
-  const double misses = limits.limits.fold - cosine_between(p.points, face, other);
+  const double misses = limits.shape.fold - cosine_between(p.points, face, other);
   quality.violation.fold += std::max(0., misses);
   quality.violation.folds += misses > 0;
 }
@@ -223,7 +222,7 @@ double mean_of(const std::vector<double>& values) {
 CandidateEvaluator::CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms,
                                        const CandidateOptions& options, const ShapeLimits& limits)
     : m_(mesh), terms_(terms), options_(options), limits_{0, limits, options.longest} {
-  limits_.limits.sagitta = options.sagitta;
+  limits_.shape.sagitta = options.sagitta;
 }
 
 void CandidateEvaluator::set_sliver_angle(double sliver_angle) {
@@ -266,7 +265,7 @@ PatchQuality CandidateEvaluator::relax(EdgeCandidate& candidate, const Relax& bo
                         m_.retraction.options());
   const VertexColoring coloring = color_as_one_block(candidate.adjacency);
   Relaxation r(candidate.adjacency, coloring, candidate.targets, candidate.patch.vertices, retraction, terms_,
-               limits_.limits);
+               limits_.shape);
   body(r);
   return measure_patch(candidate.patch.vertices.positions, candidate.adjacency, candidate.targets, limits_);
 }
@@ -291,7 +290,7 @@ void CandidateEvaluator::finish(EdgeCandidate& candidate) const {
       before.area - after.area <=
           options_.area_loss * std::pow(mean_of(candidate.patch.vertices.vertex_length), 2) &&
       is_no_worse(after.violation, before.violation) &&
-      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_, limits_.limits);
+      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_, limits_.shape);
 }
 
 bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces, const WorkingMesh& m,

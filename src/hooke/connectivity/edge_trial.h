@@ -15,9 +15,9 @@ struct WorkingMesh;
 // Quality of a patch.
 
 struct PatchLimits {
-  double fair_angle;   // degrees; a face with a smaller minimum angle costs the squared difference
-  ShapeLimits limits;  // of alignment, fold and sagitta
-  double longest;      // maximum length of an edge, over its target length
+  double fair_angle;  // degrees; a face with a smaller minimum angle costs the squared difference
+  ShapeLimits shape;  // of alignment, fold and sagitta
+  double longest;     // maximum length of an edge, over its target length
 };
 
 /// How far a patch exceeds the limits.

@@ -86,6 +86,7 @@ CountChanges match_curve_edges(WorkingMesh& m) {
   };
   const auto feature_edge_length = [&](int h) { return t.is_feature_edge(h) ? relative_length(m, h) : 0; };
 
+  const CollapseOptions collapse = collapse_options();
   EdgeQueue longest(t, feature_edge_length);
   for (int h = longest.pop(); h >= 0; h = longest.pop()) {
     if (lacking(h) <= 0) continue;
@@ -97,7 +98,7 @@ CountChanges match_curve_edges(WorkingMesh& m) {
   EdgeQueue shortest(t, [&](int h) { return t.is_feature_edge(h) ? 1 / (1e-9 + relative_length(m, h)) : 0; });
   for (int h = shortest.pop(); h >= 0; h = shortest.pop()) {
     if (lacking(h) >= 0) continue;
-    const int v = collapse_edge(m, h, collapse_options());
+    const int v = collapse_edge(m, h, collapse);
     if (v < 0) continue;
     shortest.push_around(v);
     ++changes.collapses;
@@ -112,6 +113,7 @@ CountChanges approach_face_count(WorkingMesh& m, double target) {
   const int faces = face_count(t);
   const double missing = (target - faces) / 2;  // a split adds two faces, a collapse removes two
   const bool split = missing > 0;
+  const CollapseOptions collapse = collapse_options();
   const int max_changes = std::max(1, static_cast<int>(largest_part * 1.5 * faces));
   const int count = std::min(max_changes, static_cast<int>(std::lround(std::abs(missing))));
   std::vector<char> touched(t.id_count() + count, 0);
@@ -122,7 +124,7 @@ CountChanges approach_face_count(WorkingMesh& m, double target) {
     if (t.is_removed(h / 3) || t.twin(h) < 0) continue;
     const auto near = [&](int v) { return touched[v] != 0; };
     if (near(t.from(h)) || near(t.to(h))) continue;
-    const int v = split ? split_edge(m, h) : collapse_edge(m, h, collapse_options());
+    const int v = split ? split_edge(m, h) : collapse_edge(m, h, collapse);
     if (v < 0) continue;
     touched[v] = 1;
     for (int w : t.neighbours(v)) touched[w] = 1;

@@ -6,12 +6,12 @@
 
 namespace hooke {
 
+struct WorkingMesh;
+
 /// The number of equilateral triangles of the target length that cover the surface: the sum over the faces of
 /// 4 A / (sqrt 3 L^2).
 double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
                          const std::vector<double>& vertex_length);
-
-struct WorkingMesh;
 
 struct CountChanges {
   int splits = 0;

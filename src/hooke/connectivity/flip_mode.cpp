@@ -24,7 +24,7 @@ class FlipMode {
 
   FlipResult run() {
     unfold();
-    if (!result_.interrupted && options_.flow.rounds > 0) flow_vertices();
+    if (!result_.interrupted && options_.flow_rounds > 0) flow_vertices();
     flip_and_relax();
     for (int pass = 0; pass < options_.passes.passes && !result_.interrupted; ++pass)
       if (!improve_flips()) break;
@@ -69,7 +69,7 @@ class FlipMode {
     const Stage stage(work_.stopwatch, "flow");
     LloydFlowResult flowed;
     flip([&](WorkingMesh& m) {
-      flowed = flow(m, options_.flow, limits_, observer_);
+      flowed = flow(m, options_.flow_rounds, limits_, observer_);
       return flowed.flips;
     });
     result_.flow_rounds = flowed.rounds;
@@ -140,7 +140,7 @@ FlipOptions flip_options(Effort effort) {
   FlipOptions options;
   switch (effort) {
     case Effort::fast:
-      options.flow.rounds = 9;
+      options.flow_rounds = 9;
       options.spring_rounds = 1;
       options.spring_steps = 8;
       options.passes.passes = 0;
@@ -151,7 +151,7 @@ FlipOptions flip_options(Effort effort) {
     case Effort::standard:
       break;
     case Effort::thorough:
-      options.flow.rounds = 200;
+      options.flow_rounds = 200;
       options.few_flips = 0;
       options.passes.passes = 8;
       options.passes.rings = 3;

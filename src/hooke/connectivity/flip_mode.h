@@ -15,7 +15,7 @@ namespace hooke {
 struct Workspace;
 
 struct FlipOptions {
-  LloydFlowOptions flow;
+  int flow_rounds = 32;     // of Lloyd flow, before springs and flips
   int spring_rounds = 8;    // maximum rounds of springs and Delaunay flips after the flow
   double few_flips = 1e-3;  // share of the edges; the rounds end when no more than this are flipped
   int spring_steps = 15;    // evaluations of the spring energy per round

@@ -190,9 +190,12 @@ Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
 
 namespace {
 
+/// Rounds between flips of corners, after the first quarter of the rounds.
+constexpr int corner_every = 5;
+
 /// One guarded Lloyd step. Returns the number of vertices limited by guards.
-int move_vertices(WorkingMesh& m, const Adjacency& adjacency, const LloydOptions& options,
-                  const ShapeLimits& limits) {
+int move_vertices(WorkingMesh& m, const Adjacency& adjacency, const ShapeLimits& limits) {
+  const LloydOptions options;
   const TargetLengths targets = spread_target_lengths(adjacency, m.vertices.vertex_length);
   Mat3X step = lloyd_step(m.vertices.positions, adjacency, m.vertices.vertex_length, options);
   m.retraction.constrain(m.vertices.positions, step);
@@ -206,8 +209,7 @@ int move_vertices(WorkingMesh& m, const Adjacency& adjacency, const LloydOptions
 
 }  // namespace
 
-LloydFlowResult flow(WorkingMesh& m, const LloydFlowOptions& options, const ShapeLimits& limits,
-                     const Observer& observer) {
+LloydFlowResult flow(WorkingMesh& m, int rounds, const ShapeLimits& limits, const Observer& observer) {
   LloydFlowResult result;
   result.interrupted = observer && !observer({.stage = "flow"});
   const auto connect = [&m] {
@@ -216,12 +218,11 @@ LloydFlowResult flow(WorkingMesh& m, const LloydFlowOptions& options, const Shap
     return c;
   };
   Adjacency adjacency = connect();
-  while (result.rounds < options.rounds && !result.interrupted) {
+  while (result.rounds < rounds && !result.interrupted) {
     int flips = flip_to_delaunay(m);
-    if (result.rounds >= options.rounds / 4 && result.rounds % options.corner_every == 0)
-      flips += flip_corners_to_valence(m);
+    if (result.rounds >= rounds / 4 && result.rounds % corner_every == 0) flips += flip_corners_to_valence(m);
     if (flips > 0) adjacency = connect();
-    result.limited_steps += move_vertices(m, adjacency, options.lloyd, limits);
+    result.limited_steps += move_vertices(m, adjacency, limits);
     if (m.after_move) m.after_move();
     result.flips += flips;
     ++result.rounds;

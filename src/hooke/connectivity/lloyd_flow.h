@@ -28,13 +28,6 @@ struct LloydOptions {
 Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
                  const std::vector<double>& vertex_length, const LloydOptions& options);
 
-struct LloydFlowOptions {
-  int rounds = 32;  // of flips and one Lloyd step
-  static constexpr int corner_every =
-      5;  // rounds between flips of corners, after the first quarter of the rounds
-  LloydOptions lloyd{};
-};
-
 struct LloydFlowResult {
   int rounds = 0;
   long long flips = 0;
@@ -42,9 +35,8 @@ struct LloydFlowResult {
   bool interrupted = false;
 };
 
-/// Runs the flow and ends with flips, after which the mesh is Delaunay as far as the limits allow. The
-/// observer is called before the first round and after each round.
-LloydFlowResult flow(WorkingMesh& mesh, const LloydFlowOptions& options, const ShapeLimits& limits,
-                     const Observer& observer);
+/// Runs so many rounds of flips and one Lloyd step, and ends with flips, after which the mesh is Delaunay as
+/// far as the limits allow. The observer is called before the first round and after each round.
+LloydFlowResult flow(WorkingMesh& mesh, int rounds, const ShapeLimits& limits, const Observer& observer);
 
 }  // namespace hooke

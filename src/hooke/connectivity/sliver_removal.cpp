@@ -1,7 +1,6 @@
 #include "hooke/connectivity/sliver_removal.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "hooke/connectivity/face_count.h"
@@ -18,12 +17,12 @@ namespace {
 class SliverPass {
  public:
   SliverPass(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
-             const ShapeLimits& limits, const FaceCountLimits& faces, int tested_before)
+             const ShapeLimits& limits, const FaceCountLimits& allowed_faces, int tested_before)
       : m_(mesh),
         t_(mesh.halfedges),
         options_(options),
         evaluator_(mesh, terms, options.change, limits),
-        allowed_faces_(faces),
+        allowed_faces_(allowed_faces),
         faces_(static_cast<double>(t_.faces().size())),
         max_tested_(std::max(
             0,
@@ -184,9 +183,9 @@ class SliverPass {
 }  // namespace
 
 SliverChanges change_slivers(WorkingMesh& m, const EnergyTerms& terms, const SliverOptions& options,
-                             const ShapeLimits& limits, const FaceCountLimits& faces, int tested_before,
-                             const Observer& observer) {
-  return SliverPass(m, terms, options, limits, faces, tested_before).run(observer);
+                             const ShapeLimits& limits, const FaceCountLimits& allowed_faces,
+                             int tested_before, const Observer& observer) {
+  return SliverPass(m, terms, options, limits, allowed_faces, tested_before).run(observer);
 }
 
 namespace {

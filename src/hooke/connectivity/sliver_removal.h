@@ -44,8 +44,8 @@ struct SliverChanges {
 /// each sliver that is tested. Projections in the tests are not counted. The mesh is not compact afterwards.
 /// `tested_before`: number of slivers that earlier passes have tested.
 SliverChanges change_slivers(WorkingMesh& mesh, const EnergyTerms& terms, const SliverOptions& options,
-                             const ShapeLimits& limits, const FaceCountLimits& faces, int tested_before,
-                             const Observer& observer);
+                             const ShapeLimits& limits, const FaceCountLimits& allowed_faces,
+                             int tested_before, const Observer& observer);
 
 struct SliverRemovalOptions {
   int passes = 3;  // each ends with a projection to the input surface, which may create new slivers

@@ -8,6 +8,8 @@
 namespace hooke {
 namespace {
 
+constexpr int patch_size = 30;  // vertices
+
 constexpr double min_normal_agreement = -.2;  // minimum cosine with the axis: excludes the opposite sheet
 constexpr double tie = 1 + 1e-6;              // for distances: rounding must not choose between equal ones
 
@@ -83,11 +85,10 @@ constexpr double patch_radius_ratio = .9;  // radius of a patch over the distanc
 
 PatchCover::PatchCover(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency,
                        const Mat3X& normals, const Eigen::VectorXd& edge_lengths,
-                       const std::vector<char>& unfolded, const PatchCoverOptions& options)
+                       const std::vector<char>& unfolded)
     : adjacency_(adjacency),
       edge_lengths_(edge_lengths),
       unfolded_(unfolded),
-      options_(options),
       grower_(points, adjacency, normals, unfolded),
       covered_(static_cast<size_t>(adjacency.vertex_count), 0) {}
 
@@ -113,12 +114,12 @@ bool PatchCover::is_centre(int vertex) const {
 }
 
 void PatchCover::add_patch(int centre, PatchList& patches) {
-  grower_.grow(centre, options_.patch_size);
+  grower_.grow(centre, patch_size);
   const std::vector<int>& members = grower_.members();
   const double radius =
       grower_.farthest() > 0 ? patch_radius_ratio * grower_.farthest() : 2 * edge_lengths_[centre];
   for (size_t i = 0; i < members.size(); ++i)
-    if (i == 0 || (grower_.distances()[i] <= options_.coverage * radius && grower_.is_inside(members[i])))
+    if (i == 0 || (grower_.distances()[i] <= patch_coverage * radius && grower_.is_inside(members[i])))
       covered_[members[i]] = 1;
   patches.centres.push_back(centre);
   patches.radii.push_back(radius);
@@ -195,7 +196,7 @@ PartitionOfUnity::PartitionOfUnity(const Eigen::Ref<const Mat3X>& points, const 
     : kernel_(options.kernel) {
   const std::vector<char> unfolded = unfolded_vertices(points, adjacency, normals);
   const Samples samples{points, normals, edge_lengths, unfolded, options.offset};
-  PatchCover cover(points, adjacency, normals, edge_lengths, unfolded, options.cover);
+  PatchCover cover(points, adjacency, normals, edge_lengths, unfolded);
   std::deque<Batch> batches;
   const auto next_batch = [&]() -> Batch* {
     PatchList list = cover.next(patches_of_batch(adjacency.vertex_count));

@@ -62,21 +62,17 @@ struct PatchList {
   size_t size() const { return centres.size(); }
 };
 
-struct PatchCoverOptions {
-  static constexpr int patch_size = 30;  // vertices per patch
-  static constexpr double coverage =
-      .75;  // every vertex is within this fraction of a patch's radius from its centre
-};
+/// Every vertex is within this fraction of a patch's radius from its centre.
+inline constexpr double patch_coverage = .75;
 
 /// Covers a mesh with overlapping patches, created one by one at the first vertex that is not yet well inside
 /// one.
 class PatchCover {
  public:
   /// `normals` and `edge_lengths` are those of the vertices (see mesh/normals.h), `unfolded` as for
-  /// PatchGrower. All arguments but the options must outlive the cover.
+  /// PatchGrower. All arguments must outlive the cover.
   PatchCover(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency, const Mat3X& normals,
-             const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded,
-             const PatchCoverOptions& options);
+             const Eigen::VectorXd& edge_lengths, const std::vector<char>& unfolded);
 
   /// The next `count` patches, fewer at the end, none when the mesh is covered. A vertex without faces gets
   /// no patch.
@@ -89,7 +85,6 @@ class PatchCover {
   const Adjacency& adjacency_;
   const Eigen::VectorXd& edge_lengths_;
   const std::vector<char>& unfolded_;
-  PatchCoverOptions options_;
   PatchGrower grower_;
   std::vector<char> covered_;
   bool folded_ = false;  // second pass: folded vertices as centres, only where nothing else covers them
@@ -98,7 +93,6 @@ class PatchCover {
 
 struct PartitionOptions {
   Kernel kernel = Kernel::r3;
-  PatchCoverOptions cover = {};
   double offset = .3;  // rho of [13], in mean edge lengths at the vertex
 };
 

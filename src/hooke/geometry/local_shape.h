@@ -1,6 +1,5 @@
-// The local shape of a mesh on a surface, and its limits: one set of rules for all that moves vertices or
-// changes edges. Steps of many vertices are tested against the same rules by integrator/guards.h, those of a
-// single one by integrator/vertex_ring.h.
+// The local shape of a mesh on a surface, and its limits, for all that moves vertices or changes edges. Steps
+// of many vertices are tested by integrator/guards.h, those of a single one by integrator/vertex_ring.h.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +9,10 @@
 
 namespace hooke {
 
-/// What is beyond a limit already may stay so, but not become worse.
+/// The defaults hold for all changes but collapses, which have some of their own. What is beyond a limit
+/// already may stay so, but not become worse.
 struct ShapeLimits {
-  double area = .2;       // minimum area of a face after a change, over the area before
+  double area = .2;       // minimum area of a face after a step of its vertices, over the area before
   double alignment = .3;  // minimum cosine between face and surface normal
   double fold = .1;       // minimum cosine between the normals of adjacent faces
   double sagitta = .2;    // maximum sagitta of an edge over its target length

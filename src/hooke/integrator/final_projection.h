@@ -40,7 +40,7 @@ double cotangent_limit(const Mat3X& points, const std::vector<Triangle>& faces);
 /// steps. Keeps a reference to the workspace.
 class FinalProjection {
  public:
-  /// `guards` are those of the steps.
+  /// `limits` are those of the steps.
   FinalProjection(Workspace& work, const ShapeLimits& limits);
 
   /// Fits a new field to the current vertices, see Workspace::refit(). Repeated fits may let thin sheets

@@ -169,8 +169,8 @@ LocalRelaxationResult relax_locally(Relaxation& r, std::vector<int> vertices, co
   LocalRelaxationResult result;
   std::ranges::sort(vertices);
   std::vector<char> active(r.adjacency.vertex_count, 1), moved(r.adjacency.vertex_count, 0);
-  auto moves = std::ssize(vertices);  // an active vertex is one that moved or has such a neighbour
-  while (moves > 0 && result.sweeps < o.sweeps && !result.interrupted) {
+  bool any_moved = !vertices.empty();
+  while (any_moved && result.sweeps < o.sweeps && !result.interrupted) {
     for_each_of(
         r.coloring, vertices, [&] { return LocalNewton(r); },
         [&](LocalNewton& local, size_t i) {
@@ -179,8 +179,9 @@ LocalRelaxationResult relax_locally(Relaxation& r, std::vector<int> vertices, co
         });
     r.retraction.count();
     mark_active(r.adjacency, vertices, moved, active);
-    moves = std::ranges::count_if(vertices, [&](int v) { return moved[v] != 0; });
+    const auto moves = std::ranges::count_if(vertices, [&](int v) { return moved[v] != 0; });
     result.moves += static_cast<int>(moves);
+    any_moved = moves > 0;
     result.interrupted = observer && !observer({.step = result.sweeps});
     ++result.sweeps;
   }

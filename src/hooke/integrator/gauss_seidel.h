@@ -72,7 +72,8 @@ struct LocalRelaxationResult {
   bool interrupted = false;
 };
 
-/// Sweeps over `vertices` until all are at rest or the sweeps are used up. No other vertex moves.
+/// Sweeps over `vertices`, each named once, until all are at rest or the sweeps are used up. No other vertex
+/// moves.
 LocalRelaxationResult relax_locally(Relaxation& relaxation, std::vector<int> vertices,
                                     const LocalRelaxationOptions& options, const Observer& observer);
 

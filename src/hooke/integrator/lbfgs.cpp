@@ -1,6 +1,7 @@
 #include "hooke/integrator/lbfgs.h"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
 #include "hooke/core/parallel.h"
@@ -9,16 +10,30 @@
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/gauss_seidel.h"
+#include "hooke/integrator/preconditioner.h"
 #include "hooke/integrator/relaxation.h"
 
 namespace hooke {
 namespace {
 
+constexpr size_t max_pairs = 3;    // of steps and gradient changes that are stored
+constexpr double first_step = .5;  // factor of the preconditioned gradient while no pair is stored
+constexpr int scaled_pairs = 3;    // number of first pairs that rescale the preconditioner
+
+constexpr double sweep_factor = 1.5;  // over-relaxation of all sweeps but the first
+constexpr int curvature_every = 8;    // steps between updates of the preconditioner's local curvatures
+constexpr double armijo = 1e-4;       // minimum decrease of the energy, over the predicted one
+constexpr int max_backtracks = 12;    // shortened candidates per step before it is given up
+constexpr double min_cap = .25;       // lower bound of the cap, in target lengths
+
+// Local relaxation around vertices limited by guards.
+constexpr double locally_relaxable = .01;  // largest part of the vertices that is relaxed
+constexpr int relaxed_rings = 1;           // around the limited vertices, within which vertices move
+constexpr int local_sweeps = 3;
+
 /// The limited memory of L-BFGS: the last steps with their gradient changes, and their product with a vector.
 class LbfgsMemory {
  public:
-  explicit LbfgsMemory(const LbfgsMemoryOptions& options) : options_(options), scale_(options.first_step) {}
-
   bool empty() const { return pairs_.empty(); }
   void clear();
 
@@ -35,9 +50,8 @@ class LbfgsMemory {
     Kept s, y;
     double rho = 0;  // 1 / s.y
   };
-  LbfgsMemoryOptions options_;
   std::deque<Pair> pairs_;
-  double scale_;
+  double scale_ = first_step;
   int pushed_ = 0;
 };
 
@@ -103,20 +117,19 @@ inline void subtract(const Mat3X& a, const Mat3X& b, Mat3X& difference) {
 void LbfgsMemory::clear() {
   pairs_.clear();
   pushed_ = 0;
-  scale_ = options_.first_step;
+  scale_ = first_step;
 }
 
 void LbfgsMemory::push(const Relaxation& r, const Preconditioner& h0, const Mat3X& s, const Mat3X& y) {
   const double sy = dot(s, y);
   if (!(sy > 1e-12 * dot(y, y))) return;  // no curvature along this step: it would spoil the inverse Hessian
-  if (pushed_++ < options_.scaled_pairs) {
+  if (pushed_++ < scaled_pairs) {
     Mat3X preconditioned = y;
     h0.apply(r, preconditioned);
     scale_ = sy / dot(y, preconditioned);
   }
-  if (options_.pairs == 0) return;
   Pair pair;
-  if (pairs_.size() == static_cast<size_t>(options_.pairs)) {  // reuses the memory of the oldest pair
+  if (pairs_.size() == max_pairs) {  // reuses the memory of the oldest pair
     pair = std::move(pairs_.front());
     pairs_.pop_front();
   }
@@ -188,11 +201,9 @@ class LooseRetraction {
 
 /// Relaxes the candidate locally around vertices limited by guards, which no longer match their
 /// neighbourhood.
-void relax_around(Relaxation& r, const std::vector<int>& limited, const LbfgsOptions& lbfgs,
-                  SurfacePositions& candidate) {
+void relax_around(Relaxation& r, const std::vector<int>& limited, SurfacePositions& candidate) {
   std::swap(r.positions, candidate);
-  relax_locally(r, with_rings(r.adjacency, limited, lbfgs.relaxed_rings), {.sweeps = lbfgs.local_sweeps},
-                nullptr);
+  relax_locally(r, with_rings(r.adjacency, limited, relaxed_rings), {.sweeps = local_sweeps}, nullptr);
   std::swap(r.positions, candidate);
 }
 
@@ -204,7 +215,7 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
   IntegrationResult result;
   for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep) {
     const Stage stage(r.stopwatch, "sweeps");
-    local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : lbfgs.sweep_factor});
+    local_newton_sweep(r, {}, {.over_relaxation = sweep == 0 ? 1 : sweep_factor});
   }
   if (options.max_steps <= 1) {
     result.energy = r.present_energy();
@@ -212,8 +223,8 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
     result.reason = StopReason::step_limit;
     return result;
   }
-  LbfgsMemory memory(lbfgs.memory);
-  Preconditioner h0(r, lbfgs.preconditioner);
+  LbfgsMemory memory;
+  Preconditioner h0(r);
   RestDetector rest(options);
   Mat3X gradient, step;
   Mat3X candidate_gradient;  // first holds the step, which the guards shorten, then the gradient
@@ -228,18 +239,17 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
   result.reason = StopReason::step_limit;
 
   while (result.evaluations < options.max_steps) {
-    if (result.steps % lbfgs.curvature_every == 0)
-      timed(r.stopwatch, "preconditioner", [&] { h0.refresh(r); });
+    if (result.steps % curvature_every == 0) timed(r.stopwatch, "preconditioner", [&] { h0.refresh(r); });
     const auto find_step = [&] { find_descent(r, max_move, gradient, blocked, h0, memory, step); };
     timed(r.stopwatch, "direction", find_step);
     bool accepted = false;
     bool relaxed_locally = false;
     double candidate_energy = 0;
-    for (int tries = 0; tries <= lbfgs.max_backtracks && !accepted; ++tries) {
+    for (int tries = 0; tries <= max_backtracks && !accepted; ++tries) {
       if (tries > 0 && (limited.empty() || relaxed_locally)) {
         assign_scaled(.5, step, step);
       } else if (tries > 0) {  // limited vertices spoil the step of the others
-        if (max_move > lbfgs.min_cap && capped_fraction(r, max_move, step) > lbfgs.max_capped_fraction) {
+        if (max_move > min_cap && capped_fraction(r, max_move, step) > lbfgs.max_capped_fraction) {
           max_move /= 2;
           // The long cap is what limited them.
           result.limited_steps -= static_cast<long long>(limited.size());
@@ -253,15 +263,15 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
         return r.guards.step(r.retraction, r.positions, candidate_gradient, candidate, r.stopwatch);
       });
       result.limited_steps += static_cast<long long>(limited.size());
-      relaxed_locally = !limited.empty() && static_cast<double>(limited.size()) <=
-                                                lbfgs.locally_relaxable * r.adjacency.vertex_count;
-      if (relaxed_locally) timed(r.stopwatch, "mending", [&] { relax_around(r, limited, lbfgs, candidate); });
+      relaxed_locally = !limited.empty() &&
+                        static_cast<double>(limited.size()) <= locally_relaxable * r.adjacency.vertex_count;
+      if (relaxed_locally) timed(r.stopwatch, "mending", [&] { relax_around(r, limited, candidate); });
       candidate_energy = timed(r.stopwatch, "energy", [&] {
         return r.energy(candidate.points, candidate.normals, &candidate_gradient);
       });
       ++result.evaluations;
       const double slope = dot_with_difference(gradient, candidate.points, r.positions.points);
-      accepted = candidate_energy <= result.energy + lbfgs.armijo * std::min(0., slope);
+      accepted = candidate_energy <= result.energy + armijo * std::min(0., slope);
     }
     if (!accepted) {
       if (!memory.empty()) {

@@ -209,6 +209,15 @@ void GridHierarchy::add(const Correction& correction, double weight, Mat3X& vect
   });
 }
 
+namespace {
+
+constexpr double grid_cell = 4;     // width of the finest grid's cells, in mean target lengths
+constexpr double grid_weight = .3;  // weight of each grid, over the median curvature
+
+}  // namespace
+
+Preconditioner::Preconditioner(const Relaxation& r) : grids_(r.positions.points, grid_cell) {}
+
 void Preconditioner::refresh(Relaxation& r) {
   const size_t n = r.adjacency.vertex_count;
   inverse_.resize(n);
@@ -223,7 +232,7 @@ void Preconditioner::refresh(Relaxation& r) {
   });
   const auto middle = mean.begin() + static_cast<std::ptrdiff_t>(n / 2);
   std::nth_element(mean.begin(), middle, mean.end());
-  grid_weight_ = *middle > 0 ? options_.grid_weight / *middle : 0;
+  grid_weight_ = *middle > 0 ? grid_weight / *middle : 0;
 }
 
 void Preconditioner::apply(const Relaxation& r, Mat3X& vectors) const {

@@ -65,16 +65,10 @@ class GridHierarchy {
   std::vector<Level> levels_;
 };
 
-struct PreconditionerOptions {
-  static constexpr double grid_cell = 4;     // width of the finest grid's cells, in mean target lengths
-  static constexpr double grid_weight = .3;  // weight of each grid, over the median curvature
-};
-
 /// H0 = D^-1 + weight * sum over grids of P P^T, with D the absolute local Hessians (see gauss_seidel.h).
 class Preconditioner {
  public:
-  Preconditioner(const Relaxation& r, const PreconditionerOptions& options)
-      : options_(options), grids_(r.positions.points, options.grid_cell) {}
+  explicit Preconditioner(const Relaxation& r);
 
   /// Updates the local curvatures. Must be called before apply().
   void refresh(Relaxation& r);
@@ -83,7 +77,6 @@ class Preconditioner {
   void apply(const Relaxation& r, Mat3X& vectors) const;
 
  private:
-  PreconditionerOptions options_;
   GridHierarchy grids_;
   std::vector<SymmetricMatrix> inverse_;
   double grid_weight_ = 0;

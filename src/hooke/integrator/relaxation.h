@@ -13,7 +13,8 @@ struct VertexColoring;
 struct VertexTable;
 struct Workspace;
 
-/// A mesh with all that a relaxation works on, for its present faces. The arguments must outlive it.
+/// A mesh with all that a relaxation works on, for its present faces and field. All arguments but the terms
+/// and the limits must outlive it.
 struct Relaxation {
   Relaxation(const Adjacency& adjacency, const VertexColoring& coloring, const TargetLengths& targets,
              VertexTable& vertices, Retraction& retraction, const EnergyTerms& terms,

@@ -12,13 +12,13 @@ namespace {
 
 /// True if no absolute limit is broken and no face shrinks too far, so that the exact rules need no
 /// evaluation. The two views differ in the vertex position only.
-bool within_limits(const RingView& before, const RingView& after, const ShapeLimits& options);
+bool within_limits(const RingView& before, const RingView& after, const ShapeLimits& limits);
 
 using namespace ring;
 
 constexpr double rounding = 1e-9;  // margin of the tests, so that they never contradict the exact rules
 
-HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, const ShapeLimits& o) {
+HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, const ShapeLimits& limits) {
   const std::size_t stride = after.stride;
   LaneMask broken = {};
   for (std::size_t i = 0; i < stride; i += lane_count) {
@@ -40,9 +40,9 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     Lanes along, size;
     dot(n, m, along);
     dot(m, m, size);
-    const double min_square_cosine = o.alignment * o.alignment * (1 + rounding);
+    const double min_square_cosine = limits.alignment * limits.alignment * (1 + rounding);
     const LaneMask aligned = (along > 0.) & (along * along >= min_square_cosine * (area * area) * size);
-    const LaneMask shrinks = area < o.area * (1 + rounding) * old_area;
+    const LaneMask shrinks = area < limits.area * (1 + rounding) * old_area;
     broken |= (face > 0.) & (~aligned | shrinks);
 
     LaneVec e, f;
@@ -55,7 +55,7 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     Lanes min_edge = a < b ? a : b;
     min_edge = min_edge < opposite ? min_edge : opposite;
     const Lanes cosine_at_min_angle = .5 * (a + b + opposite) - min_edge;  // times the lengths of its edges
-    broken |= (face > 0.) & (cosine_at_min_angle > o.cotangent * (1 - rounding) * area);
+    broken |= (face > 0.) & (cosine_at_min_angle > limits.cotangent * (1 - rounding) * area);
 
     load(fixed + edge_normal * stride, stride, m);
     Lanes c = m.x * after.normal[0] + m.y * after.normal[1] + m.z * after.normal[2];
@@ -64,18 +64,18 @@ HOOKE_SIMD bool within_limits(const RingView& before, const RingView& after, con
     Lanes s = .5 * (1. - c), t = .5 * (1. + c);  // sin^2 and cos^2 of half the angle
     take_sqrt(s);
     take_sqrt(t);
-    broken |= (edge > 0.) & (.5 * length * s > o.sagitta * (1 - rounding) * target * (1. + t));
+    broken |= (edge > 0.) & (.5 * length * s > limits.sagitta * (1 - rounding) * target * (1. + t));
 
     LaneVec other;
     Lanes cosine, other_area;
     load(moving + previous_vector * stride, stride, other);
     dot(n, other, cosine);
-    broken |= (face > 0.) & (cosine < o.fold * (1 + rounding) * area * area_of_previous);
+    broken |= (face > 0.) & (cosine < limits.fold * (1 + rounding) * area * area_of_previous);
     load(fixed + beyond * stride, stride, other);
     dot(n, other, cosine);
     dot(other, other, other_area);
     take_sqrt(other_area);
-    broken |= (face > 0.) & (cosine < o.fold * (1 + rounding) * area * other_area);
+    broken |= (face > 0.) & (cosine < limits.fold * (1 + rounding) * area * other_area);
   }
   return !any(broken);
 }
@@ -263,10 +263,10 @@ int VertexRing::folded_faces(const RingShape& shape, double limit) const {
       std::ranges::count_if(measures(shape).alignment, [limit](double a) { return a < limit; }));
 }
 
-bool VertexRing::fold_breaks(const ShapeLimits& o, std::size_t i, const RingMeasures& b,
+bool VertexRing::fold_breaks(const ShapeLimits& limits, std::size_t i, const RingMeasures& b,
                              const RingMeasures& a) const {
   const auto breaks = [&](bool crease, double before, double after) {
-    return crease ? crease_fold_breaks(o, before, after) : hooke::fold_breaks(o, before, after);
+    return crease ? crease_fold_breaks(limits, before, after) : hooke::fold_breaks(limits, before, after);
   };
   const auto item = static_cast<std::size_t>(rings_.first[wedge_]) + i;
   const bool far_crease = !rings_.far_crease.empty() && rings_.far_crease[item];
@@ -274,14 +274,14 @@ bool VertexRing::fold_breaks(const ShapeLimits& o, std::size_t i, const RingMeas
          breaks(far_crease, b.far_fold[i], a.far_fold[i]);
 }
 
-bool VertexRing::obeys(const RingShape& before, const RingShape& after, const ShapeLimits& o) const {
-  if (within_limits(view(before), view(after), o)) return true;
+bool VertexRing::obeys(const RingShape& before, const RingShape& after, const ShapeLimits& limits) const {
+  if (within_limits(view(before), view(after), limits)) return true;
   const RingMeasures b = measures(before), a = measures(after);
   for (std::size_t i = 0; i < entries().size(); ++i)
-    if (face_breaks(o, b.area[i], a.area[i], b.alignment[i], a.alignment[i]) ||
-        angle_breaks(o, b.alignment[i], b.cotangent[i], a.cotangent[i]) ||
-        sagitta_breaks(o, columns_[edge_target * stride_ + i], b.sagitta[i], a.sagitta[i]) ||
-        fold_breaks(o, i, b, a))
+    if (face_breaks(limits, b.area[i], a.area[i], b.alignment[i], a.alignment[i]) ||
+        angle_breaks(limits, b.alignment[i], b.cotangent[i], a.cotangent[i]) ||
+        sagitta_breaks(limits, columns_[edge_target * stride_ + i], b.sagitta[i], a.sagitta[i]) ||
+        fold_breaks(limits, i, b, a))
       return false;
   return true;
 }

@@ -47,7 +47,7 @@ class VertexRing {
   RingModel model(const RingShape& shape, const RingTerms& terms, const Vec3& u, const Vec3& v) const;
 
   /// Do the guards allow the displacement of the vertex from `before` to `after`?
-  bool obeys(const RingShape& before, const RingShape& after, const ShapeLimits& options) const;
+  bool obeys(const RingShape& before, const RingShape& after, const ShapeLimits& limits) const;
 
   RingMeasures measures(const RingShape& shape) const;
 
@@ -65,7 +65,7 @@ class VertexRing {
 
   const VertexRings& rings_;
   const TargetLengths& targets_;
-  bool fold_breaks(const ShapeLimits& options, std::size_t entry, const RingMeasures& before,
+  bool fold_breaks(const ShapeLimits& limits, std::size_t entry, const RingMeasures& before,
                    const RingMeasures& after) const;
   bool begins_at_crease() const {
     return !rings_.crease_opposite.empty() && rings_.crease_opposite[wedge_] >= 0;

@@ -1,6 +1,8 @@
 // The result of a run: a record of each outer iteration, counts, and the relation of the result to the input.
 #pragma once
 
+#include <memory>
+
 #include "hooke/connectivity/connectivity_mode.h"
 #include "hooke/filter/surface.h"
 #include "hooke/integrator/angle_springs.h"
@@ -76,8 +78,9 @@ struct RemeshResult {
   int unprojected = 0;
   AngleSpringResult angle_springs;
   ProjectionCounts projection;
-  long long limited_steps = 0;               // vertex steps shortened by the guards
-  std::shared_ptr<ResultMeasures> measures;  // of preserving_remesh(), null if not measured
+  long long limited_steps = 0;  // vertex steps shortened by the guards
+  /// Of preserving_remesh(), null if not measured; copies of the result share them.
+  std::shared_ptr<ResultMeasures> measures;
   Rescue rescue = Rescue::none;
   BoundCounts bound;  // time steps by the test that set them (paper_remesh() only)
   FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)

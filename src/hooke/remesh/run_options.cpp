@@ -7,7 +7,7 @@ namespace {
 void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
   switch (effort) {
     case Effort::fast:
-      flips.flow.rounds = 12;
+      flips.flow_rounds = 12;
       flips.spring_rounds = 0;  // those before the pass suffice
       flips.passes.passes = 1;
       flips.passes.rounds = 3;
@@ -16,7 +16,7 @@ void set_flips_after_adaptation(FlipOptions& flips, Effort effort) {
       flips.passes.max_rise_after_relaxation = .04;
       break;
     case Effort::standard:
-      flips.flow.rounds = 20;
+      flips.flow_rounds = 20;
       break;
     case Effort::thorough:
       break;

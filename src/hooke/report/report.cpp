@@ -434,7 +434,7 @@ Json parameters_json(const RemeshOptions& options) {
   j["paper"] = false;
   j["connectivity"] = name_of(o.chosen.connectivity);
   j["effort"] = name_of(options.effort);
-  j["flow_rounds"] = fixed ? 0 : o.flips.flow.rounds;
+  j["flow_rounds"] = fixed ? 0 : o.flips.flow_rounds;
   j["adapt_rounds"] = adapts ? o.adaptation.rounds : 0;
   j["coarse_levels"] = adapts ? o.adaptation.coarse.levels : 0;
   j["last_outer"] = where(adapts && o.chosen.polish_angles, o.adaptation.last_outer);

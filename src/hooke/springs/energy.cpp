@@ -1,12 +1,10 @@
 #include "hooke/springs/energy.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "hooke/core/parallel.h"
 #include "hooke/core/simd.h"
-#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/springs/hooke_law.h"
 
@@ -31,7 +29,7 @@ HOOKE_INLINE void load_edges(const FaceSprings& f, EdgeLanes (&edges)[3]) {
     e.vector = {b.x - a.x, b.y - a.y, b.z - a.z};
     dot(e.vector, e.vector, e.length);
     take_sqrt(e.length);
-    e.length = e.length > floor ? e.length : floor;
+    e.length = e.length < floor ? floor : e.length;  // NaN stays
   }
 }
 
@@ -97,9 +95,9 @@ HOOKE_SIMD void evaluate_face_springs(const EnergyTerms& terms, FaceSprings& f) 
   take_sqrt(area);
   load(f.face_target, target);
   const Lanes floor = min_relative_length * target * target;
-  const LaneMask is_flat = ~(area > floor);
-  f.flat = any(is_flat) && !f.has_normals;
-  if (f.flat) return;
+  const LaneMask is_flat = area <= floor;
+  f.needs_normals = any(is_flat) && !f.has_normals;
+  if (f.needs_normals) return;
   if (f.has_normals) {
     LaneVec up;
     load(f.surface_normal, lane_count, up);
@@ -156,7 +154,7 @@ double Energy::energy_of_four(const Points& at, size_t face, double* corner_grad
   FaceSprings four;
   gather_faces(at, face, count, four);
   evaluate_face_springs(terms_, four);
-  if (four.flat) {
+  if (four.needs_normals) {
     gather_normals(at.normals, face, count, four);
     evaluate_face_springs(terms_, four);
   }

@@ -1,6 +1,6 @@
 // The energy that relaxation minimises: springs on edges and altitudes, under the modified Hooke's law [4]
-// and relative to their rest lengths. Its negative gradient is the force. For one vertex to second order, and
-// with springs on angles, see springs/ring_energy.h.
+// and relative to their rest lengths, for four faces at a time. Its negative gradient is the force. For one
+// vertex to second order, and with springs on angles, see springs/ring_energy.h.
 #pragma once
 
 #include "hooke/core/simd.h"
@@ -24,7 +24,7 @@ struct FaceSprings {
   // Output:
   double energy;                    // weighted sum over all four faces
   double gradient[9 * lane_count];  // with respect to each corner
-  bool flat;  // true if a face has no area and there are no normals; energy and gradient are then invalid
+  bool needs_normals;  // a face has no area, and no normals are given: energy and gradient are invalid
 };
 
 /// Weights of the terms; a term with weight 0 costs nothing.
@@ -33,6 +33,7 @@ struct EnergyTerms {
   double altitude = 1;  // beta: U(h; h0) / h0^2 per altitude h < h0 = (sqrt 3 / 2) L_f
 };
 
+/// The energy of four faces and its gradient, weighted by the terms.
 void evaluate_face_springs(const EnergyTerms& terms, FaceSprings& faces);
 
 /// The energy of a whole mesh. Evaluations use parallel sums in a fixed order.
@@ -46,7 +47,6 @@ class Energy {
   double operator()(const Mat3X& points, const Mat3X& normals, Mat3X* gradient);
 
   const TargetLengths& targets() const { return targets_; }
-  const EnergyTerms& terms() const { return terms_; }
 
  private:
   struct Points {
