@@ -247,8 +247,8 @@ void add_constraints(CLI::App& app, Settings& s, RawOptions& raw) {
          "(groups of MSH, integer properties of PLY), groups = groups, objects and smoothing groups of OBJ, "
          "solids of STL. Borders become creases along which vertices slide; none: such data are dropped. In "
          "all modes non-manifold, alone with the default others: edges with three faces and more, as where "
-         "bodies share walls, and vertices where sheets touch, which stay exactly where they are; adapt "
-         "splits such edges where they are too long")
+         "bodies share walls; their vertices slide along the lines that these edges form, in all sheets at "
+         "once, and adapt splits and joins them")
       ->type_name("seams,hard-edges,materials,groups,non-manifold|none")
       ->default_str("seams,hard-edges,materials,groups");
   add_file(app, "--fix", s.fix, "File of vertex ids (0-based, one a line) that stay where they are");

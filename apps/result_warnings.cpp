@@ -164,6 +164,10 @@ void warn_of_rescue(RunRecord& run) {
         return "";
       case Rescue::tips:
         return "vertices at tips of the surface stand still; without that it would lose them";
+      case Rescue::junctions:
+        return "the vertices of edges with three faces or more stand still; if they slid it would not keep "
+               "the "
+               "input";
       case Rescue::closest:
         return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input, "
                "or "
@@ -291,19 +295,16 @@ void warn_of_near_boundary(const Mat3X& points, const Adjacency& adjacency, RunR
 }
 
 void warn_of_junctions(const Settings& s, bool has_copies, RunRecord& run) {
-  if (!has_copies || s.check) return;
   const int edges = run.before.topology.junction_edges;
-  const bool splits = s.remesh.connectivity == ConnectivityMode::adapt && !s.paper && edges > 0;
+  if (!has_copies || s.check || (edges > 0 && !s.paper)) return;
   run.warnings.push_back(
       {"junctions_held",
-       fmt::format(
-           "{}: {} stay where they are{}", run.input.path,
-           edges > 0 ? fmt::format("{} edges with three faces or more, their vertices and those where "
-                                   "sheets only touch",
-                                   edges)
-                     : "vertices where sheets only touch",
-           splits ? "; these edges are split where they are too long, but not joined where they are short"
-                  : "")});
+       fmt::format("{}: {} stay where they are", run.input.path,
+                   edges > 0
+                       ? fmt::format("{} edges with three faces or more, their vertices and those where "
+                                     "sheets only touch",
+                                     edges)
+                       : "vertices where sheets only touch")});
 }
 
 void warn_of_inside_out(RunRecord& run) {

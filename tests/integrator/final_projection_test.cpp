@@ -60,7 +60,8 @@ TEST(FinalProjection, WhatCrossesGoesBackAndNothingFarFromIt) {
   ASSERT_EQ(s.crossings(from), 0u);
   ASSERT_GT(s.crossings(s.to), 0u);
 
-  const std::vector<int> back = revert_crossings(s.scene.guards, s.scene.adjacency, from, s.to);
+  const std::vector<int> back =
+      revert_crossings(s.scene.guards, s.scene.adjacency, s.scene.constraints, from, s.to);
   EXPECT_EQ(s.crossings(s.to), 0u);
   EXPECT_NE(std::ranges::find(back, v), back.end());
   EXPECT_LT(back.size(), s.inner.size() / 2);
@@ -81,7 +82,9 @@ TEST(FinalProjection, WhatCrossedBeforeMayGoOnToAndSlide) {
   const SurfacePositions moved = s.to;
   ASSERT_GT(s.crossings(s.to), 0u);
   ASSERT_NE(s.pairs(s.to), s.pairs(s.scene.positions));
-  EXPECT_TRUE(revert_crossings(s.scene.guards, s.scene.adjacency, s.scene.positions, s.to).empty());
+  EXPECT_TRUE(
+      revert_crossings(s.scene.guards, s.scene.adjacency, s.scene.constraints, s.scene.positions, s.to)
+          .empty());
   EXPECT_TRUE(test::same(s.to, moved));
 }
 
@@ -89,7 +92,9 @@ TEST(FinalProjection, WhereNothingCrossesNothingGoesBack) {
   Sheets s;
   for (int v : s.inner) s.to.points.col(v) += Vec3(.01, .01, 0);
   const SurfacePositions moved = s.to;
-  EXPECT_TRUE(revert_crossings(s.scene.guards, s.scene.adjacency, s.scene.positions, s.to).empty());
+  EXPECT_TRUE(
+      revert_crossings(s.scene.guards, s.scene.adjacency, s.scene.constraints, s.scene.positions, s.to)
+          .empty());
   EXPECT_TRUE(test::same(s.to, moved));
 }
 

@@ -11,6 +11,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/wedges.h"
 #include "support/remeshed.h"
+#include "support/solids.h"
 
 namespace hooke::carried_data_test {
 namespace {

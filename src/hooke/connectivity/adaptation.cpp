@@ -11,6 +11,7 @@
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_splits.h"
 #include "hooke/connectivity/face_count.h"
+#include "hooke/connectivity/junction_edges.h"
 #include "hooke/connectivity/lloyd_flow.h"
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/parallel.h"
@@ -40,8 +41,8 @@ class AdaptationSteps {
   /// Lets vertices at bends move and collapse on curves whose number of edges is to change.
   void release_bends();
 
-  /// Splits the edges of junctions that are too long.
-  void split_junctions();
+  /// Splits and collapses edges of junctions, see match_junction_edges().
+  void match_junctions();
 
   /// Multiplies the target lengths by 2^levels.
   void coarsen(int levels);
@@ -185,21 +186,24 @@ AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options, co
 
 void AdaptationSteps::release_bends() {
   count_curve_edges(m_, options_.chord_error);
-  Constraints& constraints = work_.vertices.constraints;
-  for (size_t v = 0; v < constraints.freedom.size(); ++v) {
-    if (!constraints.at_bend(static_cast<int>(v))) continue;
-    const size_t curve = constraints.curve[v];
-    const double target = m_.curve_edges.target[curve], ratio = target / m_.curve_edges.present[curve];
+  const auto is_to_change = [&](const CurveEdges& edges, int curve) {
+    const double target = edges.target[curve], ratio = target / edges.present[curve];
     const bool is_resolved = ratio >= options_.resolve_bends;
-    if (!is_resolved && std::max(ratio, 1 / ratio) > options_.keep_bends)
+    return !is_resolved && std::max(ratio, 1 / ratio) > options_.keep_bends;
+  };
+  Constraints& constraints = work_.vertices.constraints;
+  for (size_t v = 0; v < constraints.freedom.size(); ++v)
+    if (constraints.at_bend(static_cast<int>(v)) && is_to_change(m_.curve_edges, constraints.curve[v]))
       constraints.freedom[v] = Freedom::curve;
-  }
+  const CurveEdges of_junctions = count_junction_edges(m_, options_.chord_error);
+  for (JunctionVertex& v : constraints.junction_vertices)
+    if (v.curve >= 0 && !v.slides) v.slides = is_to_change(of_junctions, v.curve);
 }
 
-void AdaptationSteps::split_junctions() {
-  const int splits = hooke::split_junctions(m_);
-  if (splits == 0) return;
-  counts_.splits += splits;
+void AdaptationSteps::match_junctions() {
+  const CountChanges changes = match_junction_edges(m_, options_.chord_error);
+  if (changes.splits + changes.collapses == 0) return;
+  add(changes);
   counts_.flips += flip_to_delaunay(m_);
   compact_ids();
 }
@@ -228,6 +232,7 @@ void AdaptationSteps::split_and_collapse() {
   }
   add(match_curve_edges(m_));
   compact_ids();
+  if (level_ == 0) match_junctions();
 }
 
 bool AdaptationSteps::change_count(double target_faces) {
@@ -324,7 +329,7 @@ class Adaptation {
   /// `folded`: are there folded faces? Splits and collapses remove them, whereas Lloyd flow would keep them.
   AdaptResult run(bool folded) {
     steps_.release_bends();
-    steps_.split_junctions();
+    steps_.match_junctions();
     result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
     if (result_.levels > 0)
       refine_coarse_mesh();

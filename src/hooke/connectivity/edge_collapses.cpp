@@ -149,7 +149,7 @@ class CollapseTest {
 
   std::optional<Collapse> run() const {
     if (!is_removable(a_) && !is_removable(b_)) return std::nullopt;
-    if (!keeps_valences_and_counts() || !t_.may_collapse(h_)) return std::nullopt;
+    if (!keeps_valences() || !may_remove_curve_edge(m_, h_) || !t_.may_collapse(h_)) return std::nullopt;
     const Rings rings = {t_.neighbours(a_), t_.neighbours(b_)};
     const int stays = staying_end(), goes = stays == a_ ? b_ : a_;
     const SurfacePosition here(m_.vertices.positions, stays);
@@ -161,14 +161,17 @@ class CollapseTest {
       if (!ring) ring.emplace(m_, h_, stays);
       const SurfacePosition there =
           fraction > 0 ? m_.retraction.moved(m_.vertices.positions, stays, fraction * displacement) : here;
-      const LocalShape after = ring->worst(there);
-      if (!is_within(after, options_.limits)) {
-        if (!looser) looser = looser_limits();
-        if (!is_within(after, *looser)) continue;
-      }
-      if (keeps_distance(*ring)) return Collapse{h_, stays, there};
+      if (is_fair(*ring, there, looser)) return Collapse{h_, stays, there};
     }
     return std::nullopt;
+  }
+
+  bool allows(int stays, const SurfacePosition& there) const {
+    if (!keeps_valences() || !t_.keeps_topology(h_)) return false;
+    if (leaves_long_edges({t_.neighbours(a_), t_.neighbours(b_)}, stays, there.point)) return false;
+    CollapsedRing ring(m_, h_, stays);
+    std::optional<ShapeLimits> looser;
+    return is_fair(ring, there, looser);
   }
 
  private:
@@ -184,15 +187,25 @@ class CollapseTest {
     return t_.is_feature_edge(h_);
   }
 
-  /// Is the valence within its limit, and do the curve and the opposite corners keep their target counts?
-  bool keeps_valences_and_counts() const {
+  /// Is the valence within its limit, and do the opposite corners keep their target counts?
+  bool keeps_valences() const {
     if (valence_after(m_, h_) > options_.valence) return false;
     for (int half_edge : {h_, t_.twin(h_)}) {
       if (half_edge < 0) continue;
       const CornerValence opposite = corner_valence(m_, HalfedgeMesh::previous(half_edge));
       if (opposite.present <= opposite.target) return false;
     }
-    return may_remove_curve_edge(m_, h_);
+    return true;
+  }
+
+  /// `looser`: the loosened limits, once they are known.
+  bool is_fair(CollapsedRing& ring, const SurfacePosition& there, std::optional<ShapeLimits>& looser) const {
+    const LocalShape after = ring.worst(there);
+    if (!is_within(after, options_.limits)) {
+      if (!looser) looser = looser_limits();
+      if (!is_within(after, *looser)) return false;
+    }
+    return keeps_distance(ring);
   }
 
   /// The remaining vertex: the more constrained end, else the older one.
@@ -266,6 +279,11 @@ int valence_after(const WorkingMesh& m, int half_edge) {
 
 std::optional<Collapse> find_collapse(const WorkingMesh& m, int half_edge, const CollapseOptions& options) {
   return CollapseTest(m, half_edge, options).run();
+}
+
+bool may_collapse_to(const WorkingMesh& m, int half_edge, int stays, const SurfacePosition& position,
+                     const CollapseOptions& options) {
+  return CollapseTest(m, half_edge, options).allows(stays, position);
 }
 
 void make_collapse(WorkingMesh& m, const Collapse& c) {

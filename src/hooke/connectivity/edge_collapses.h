@@ -84,6 +84,11 @@ int valence_after(const WorkingMesh& mesh, int half_edge);
 /// Projections are not counted. Pre-condition: count_curve_edges().
 std::optional<Collapse> find_collapse(const WorkingMesh& mesh, int half_edge, const CollapseOptions& options);
 
+/// Do the limits allow the collapse of the edge into this end at this position? Looks neither at constraints
+/// nor at curves, and at the topology only of the sheet in which the edge is.
+bool may_collapse_to(const WorkingMesh& mesh, int half_edge, int stays, const SurfacePosition& position,
+                     const CollapseOptions& options);
+
 /// Makes a collapse that find_collapse() returned.
 void make_collapse(WorkingMesh& mesh, const Collapse& collapse);
 

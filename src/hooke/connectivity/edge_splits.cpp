@@ -1,7 +1,6 @@
 #include "hooke/connectivity/edge_splits.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -15,13 +14,11 @@
 #include "hooke/working_mesh/working_mesh.h"
 
 namespace hooke {
-namespace {
 
 /// Minimum share of a split face's area in each half.
 constexpr double min_half_area = .1;
 
-/// May vertex v, with this wedge, split the face of h in two?
-bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge) {
+bool may_split_face(const WorkingMesh& m, int h, int v, int wedge) {
   const HalfedgeMesh& t = m.halfedges;
   const Mat3X& X = m.vertices.positions.points;
   const Mat3X& N = m.vertices.positions.normals;
@@ -38,6 +35,8 @@ bool may_split_edge(const WorkingMesh& m, int h, int v, int wedge) {
   }
   return true;
 }
+
+namespace {
 
 /// Is the edge part of a fixed boundary?
 bool is_fixed(const WorkingMesh& m, int h) {
@@ -64,7 +63,7 @@ int split_edge(WorkingMesh& m, int h, const SurfacePosition* middle) {
   HalfedgeMesh& t = m.halfedges;
   if (is_fixed(m, h) || is_junction_edge(m, h)) return -1;
   const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_crease(h) ? v + 1 : v;
-  if (!may_split_edge(m, h, v, v) || (twin >= 0 && !may_split_edge(m, twin, v, right))) {
+  if (!may_split_face(m, h, v, v) || (twin >= 0 && !may_split_face(m, twin, v, right))) {
     remove_last_vertex(m);
     return -1;
   }
@@ -88,45 +87,6 @@ int split_long_edges(WorkingMesh& m) {
 }
 
 namespace {
-
-/// The half-edge from one vertex to the other, -1 if there is none.
-int half_edge_between(const HalfedgeMesh& t, int from, int to) {
-  for (int h : t.outgoing(from))
-    if (t.to(h) == to) return h;
-  return -1;
-}
-
-/// An edge of a junction, as the numbers of its ends, and in each sheet as a half-edge from vertex to vertex.
-using JunctionSides = std::map<Edge, std::vector<Edge>>;
-
-JunctionSides sides_of_junctions(const WorkingMesh& m) {
-  const HalfedgeMesh& t = m.halfedges;
-  JunctionSides sides;
-  for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.is_removed(h / 3) || t.twin(h) > h || !is_junction_edge(m, h)) continue;
-    const auto [low, high] =
-        std::minmax(m.vertices.constraints.junction[t.from(h)], m.vertices.constraints.junction[t.to(h)]);
-    sides[{low, high}].push_back({t.from(h), t.to(h)});
-  }
-  return sides;
-}
-
-/// Splits the edge in all its sheets. Returns the number of the new vertices.
-int split_sides(WorkingMesh& m, const std::vector<Edge>& sides) {
-  const int number = m.vertices.constraints.junction_numbers++;
-  for (const auto& [from, to] : sides) {
-    const int h = half_edge_between(m.halfedges, from, to), v = add_vertex(m, h);
-    const Vec3 middle = .5 * m.vertices.positions.points.col(from) + .5 * m.vertices.positions.points.col(to);
-    m.vertices.positions.points.col(v) = middle;
-    m.vertices.positions.segments[v] = 0;
-    m.vertices.constraints.freedom[v] = Freedom::fixed;
-    m.vertices.constraints.curve[v] = -1;
-    m.vertices.constraints.junction[v] = number;
-    m.halfedges.split(h);
-    m.halfedges.mark_junction(v);
-  }
-  return number;
-}
 
 struct EdgeToSplit {
   Edge ends;                              // in the orientation of a face
@@ -157,7 +117,7 @@ class Subdivision {
   int run() {
     int splits = 0;
     for (const auto& [edge, middle] : all_edges(m_)) {
-      const int h = half_edge_between(t_, edge[0], edge[1]);
+      const int h = t_.half_edge(edge[0], edge[1]);
       const int v = split_edge(m_, h, middle ? &*middle : nullptr);
       if (v < 0) continue;
       ends_.resize(ids(), Edge{-1, -1});
@@ -202,32 +162,6 @@ class Subdivision {
 };
 
 }  // namespace
-
-int split_junctions(WorkingMesh& m) {
-  std::vector<Edge>& edges = m.vertices.constraints.junction_edges;
-  int splits = 0;
-  for (int last = -1; last != splits;) {
-    last = splits;
-    std::vector<Edge> next;
-    for (const auto& [ends, sides] : sides_of_junctions(m)) {
-      const bool is_long = std::ranges::any_of(sides, [&](const Edge& side) {
-        return relative_length(m, half_edge_between(m.halfedges, side[0], side[1])) > max_relative_length;
-      });
-      if (!is_long) {
-        next.push_back(ends);
-        continue;
-      }
-      const int middle = split_sides(m, sides);
-      next.push_back({ends[0], middle});
-      next.push_back({ends[1], middle});
-      ++splits;
-    }
-    std::ranges::sort(next);
-    edges = std::move(next);
-  }
-  m.retraction.count();
-  return splits;
-}
 
 int subdivide(WorkingMesh& m) {
   return Subdivision(m).run();

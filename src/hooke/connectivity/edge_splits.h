@@ -11,15 +11,14 @@ struct SurfacePosition;
 /// Maximum length of an edge over its target length; longer edges are split.
 inline constexpr double max_relative_length = 4. / 3;
 
-/// Splits one edge at its midpoint, with the new vertex on the surface, and returns that; -1 if a new face
-/// would be a sliver or less aligned than the limits of the local shape and the old face, or if the edge
-/// belongs to a fixed boundary or a junction. `middle`: see add_vertex().
+/// Splits one edge at its midpoint, with the new vertex on the surface, and returns that; -1 if
+/// may_split_face() forbids it or the edge belongs to a fixed boundary or a junction (see junction_edges.h).
+/// `middle`: see add_vertex().
 int split_edge(WorkingMesh& mesh, int half_edge, const SurfacePosition* middle = nullptr);
 
-/// Splits the edges of junctions (see mesh/junctions.h) that are too long in one of their sheets, in all
-/// sheets at once and exactly in the middle, until none is. The new vertices stand still. Returns the number
-/// of splits. No other function splits these edges.
-int split_junctions(WorkingMesh& mesh);
+/// May the last vertex added, with this wedge, split the face of the half-edge in two? Not if a half would be
+/// a sliver, or less aligned with the surface than the limits of the local shape and the old face.
+bool may_split_face(const WorkingMesh& mesh, int half_edge, int vertex, int wedge);
 
 /// Splits edges, the longest first, until none that may be split is too long. Returns the number of splits.
 int split_long_edges(WorkingMesh& mesh);

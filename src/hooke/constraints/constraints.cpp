@@ -30,18 +30,6 @@ std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Adjacen
 
 namespace {
 
-void set_tangents(Curve& curve) {
-  const int n = static_cast<int>(curve.points.cols());
-  curve.tangents = Mat3X::Zero(3, n);
-  for (int s = 0; s < curve.segment_count(); ++s) {
-    const int next = (s + 1) % n;
-    const Vec3 direction = (curve.points.col(next) - curve.points.col(s)).stableNormalized();
-    curve.tangents.col(s) += direction;
-    curve.tangents.col(next) += direction;
-  }
-  for (int i = 0; i < n; ++i) curve.tangents.col(i).stableNormalize();
-}
-
 /// The vertex after each boundary vertex along its loop, -1 elsewhere.
 std::vector<int> boundary_successors(const Adjacency& c) {
   std::vector<int> next(c.vertex_count, -1);
@@ -51,26 +39,19 @@ std::vector<int> boundary_successors(const Adjacency& c) {
 }
 
 bool is_corner(const Mat3X& points, int before, int at, int after, double cos_corner) {
-  const Vec3 in = points.col(at) - points.col(before);
-  const Vec3 out = points.col(after) - points.col(at);
-  return in.dot(out) < cos_corner * in.norm() * out.norm();
+  return turns(points.col(before), points.col(at), points.col(after), cos_corner);
 }
 
 /// Adds a curve through the vertices, along which those that are not fixed slide.
 void add_curve(const Mat3X& points, const std::vector<int>& vertices, bool closed, Constraints& result) {
-  Curve curve;
-  curve.closed = closed;
-  curve.points.resize(3, std::ssize(vertices));
   for (size_t i = 0; i < vertices.size(); ++i) {
     const size_t v = vertices[i];
-    curve.points.col(static_cast<Eigen::Index>(i)) = points.col(static_cast<Eigen::Index>(v));
     if (result.freedom[v] == Freedom::fixed) continue;
     result.freedom[v] = Freedom::curve;
     result.curve[v] = static_cast<int>(result.curves.size());
     result.segment[v] = static_cast<int>(i);
   }
-  set_tangents(curve);
-  result.curves.push_back(std::move(curve));
+  result.curves.push_back(make_curve(points(Eigen::all, vertices), closed));
 }
 
 /// Adds a loop of vertices, cut into curves at its corners and at `breaks`. Curves of one of the `junctions`
@@ -105,7 +86,12 @@ class CreaseTracer {
         options_(options),
         result_(result),
         breaks_(crease_breaks(points, c, cos_corner)),
-        traced_(c.edges.size(), 0) {}
+        traced_(c.edges.size(), 0) {
+    for (size_t e = 0; e < traced_.size() && !options.junction_edges.empty(); ++e) {
+      const auto [low, high] = std::minmax(c.edges[e][0], c.edges[e][1]);
+      traced_[e] = std::ranges::binary_search(options.junction_edges, Edge{low, high});
+    }
+  }
 
   void run() {
     for (size_t v = 0; v < breaks_.size(); ++v)
@@ -151,25 +137,9 @@ class CreaseTracer {
   void add_crease(const std::vector<int>& vertices, bool closed) {
     add_curve(points_, vertices, closed, result_);
     ++result_.crease_curves;
-    fix_bends(vertices, closed);
-  }
-
-  /// Fixes the vertices at the bends of an even crease: sliding past a bend cuts it off and gains nothing.
-  void fix_bends(const std::vector<int>& vertices, bool closed) {
-    const size_t n = vertices.size(), segments = closed ? n : n - 1;
-    const auto point = [&](size_t i) { return points_.col(vertices[i % n]); };
-    double sum = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
-    for (size_t i = 0; i < segments; ++i) {
-      const double length = (point(i + 1) - point(i)).norm();
-      sum += length;
-      shortest = std::min(shortest, length);
-      longest = std::max(longest, length);
-    }
-    if (longest > options_.even_crease * shortest) return;
-    const double limit = options_.crease_bend * sum / static_cast<double>(segments);
-    for (size_t i = closed ? n : 1; i < segments + (closed ? n : 0); ++i)
-      if (distance_to_segment(point(i), point(i - 1), point(i + 1)) > limit)
-        result_.freedom[vertices[i % n]] = Freedom::fixed;
+    // Sliding past a bend of an even crease cuts it off and gains nothing.
+    for (const int i : bends_of_even_curve(result_.curves.back(), options_.even_crease, options_.crease_bend))
+      result_.freedom[vertices[i]] = Freedom::fixed;
   }
 
   int next_at(int v) const {
@@ -236,7 +206,8 @@ std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const 
     if (c.is_feature_edge(static_cast<int>(e)))
       for (int v : c.edges[e]) ++feature_edge_count[v];
   const auto is_corner = [&](int v) {
-    return feature_edge_count[v] >= 2 && constraints.freedom[v] == Freedom::fixed;
+    return feature_edge_count[v] >= 2 && constraints.freedom[v] == Freedom::fixed &&
+           !constraints.slides_with_copies(v);
   };
   std::vector<double> angles(c.wedge_count(), 0);  // degrees
   for (size_t f = 0; f < c.faces.size(); ++f) {

@@ -24,7 +24,7 @@ struct ConstraintOptions {
   std::vector<int> fixed_vertices = {};  // ids of vertices that stand still
   /// Edges to be kept as creases are, though the surface is smooth across them: pairs of vertex ids.
   std::vector<Edge> seams = {};
-  /// Boundary edges on no curve, as nothing is to slide along or split them: pairs of vertex ids, sorted,
+  /// Boundary edges and creases of junctions, which have curves of their own: pairs of vertex ids, sorted,
   /// smaller one first. Their ends must be among `fixed_vertices`.
   std::vector<Edge> junction_edges = {};
   /// Edges at which the input says that its surface is sharp: pairs of vertex ids. Where it bends enough to
@@ -39,6 +39,17 @@ struct ConstraintOptions {
   CreaseOptions features = {};
 };
 
+/// A vertex of a junction, with all its copies.
+struct JunctionVertex {
+  int curve = -1;       // index into junction_curves; -1 where curves end and off them
+  bool slides = false;  // along that curve; else it stands still
+};
+
+struct JunctionEdge {
+  Edge ends;  // numbers of vertices, smaller one first
+  int curve;  // index into junction_curves
+};
+
 struct Constraints {
   std::vector<Freedom> freedom;  // per vertex
   std::vector<int> curve;        // per vertex: index into curves, -1 without one
@@ -48,10 +59,12 @@ struct Constraints {
   std::vector<int> extra_wedges;  // vertex of each extra wedge at creases, see mesh/adjacency.h
   int crease_curves = 0;          // number of curves that are creases; they are the last ones
 
-  // Junctions, see mesh/junctions.h. A number stands for all copies of a vertex, which are `fixed`.
-  std::vector<int> junction;         // per vertex its number, -1 off junctions; empty without any
-  std::vector<Edge> junction_edges;  // as pairs of numbers, smaller one first, sorted
-  int junction_numbers = 0;          // all are below
+  // Junctions, see mesh/junctions.h and junction_curves.h. A number stands for all copies of a vertex, which
+  // are `fixed` for all that moves a vertex by itself.
+  std::vector<int> junction;  // per vertex its number, -1 off junctions; empty without any
+  std::vector<JunctionVertex> junction_vertices;  // by number
+  std::vector<JunctionEdge> junction_edges;       // sorted by their ends
+  std::vector<Curve> junction_curves;
 
   // Rest position and maximal travel from it of each vertex; both are empty if there is no limit.
   Mat3X rest_position;
@@ -61,6 +74,18 @@ struct Constraints {
   bool at_bend(int vertex) const {
     const size_t v = vertex;
     return freedom[v] == Freedom::fixed && curve[v] >= 0;
+  }
+
+  /// What the vertex shares with its copies; null off junctions.
+  const JunctionVertex* junction_vertex(int vertex) const {
+    const size_t v = vertex;
+    return v < junction.size() && junction[v] >= 0 ? &junction_vertices[junction[v]] : nullptr;
+  }
+
+  /// Whether the vertex slides along a curve of a junction, together with its copies.
+  bool slides_with_copies(int vertex) const {
+    const JunctionVertex* const at = junction_vertex(vertex);
+    return at && at->slides;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hooke/geometry/triangle.h"
 
@@ -56,6 +57,44 @@ double chord_error_of(const Curve& curve, const std::vector<double>& arcs, int c
 }
 
 }  // namespace
+
+Curve make_curve(Mat3X points, bool closed) {
+  Curve curve{.points = std::move(points), .tangents = {}, .closed = closed};
+  const int n = static_cast<int>(curve.points.cols());
+  curve.tangents = Mat3X::Zero(3, n);
+  for (int s = 0; s < curve.segment_count(); ++s) {
+    const int next = (s + 1) % n;
+    const Vec3 direction = (curve.points.col(next) - curve.points.col(s)).stableNormalized();
+    curve.tangents.col(s) += direction;
+    curve.tangents.col(next) += direction;
+  }
+  for (int i = 0; i < n; ++i) curve.tangents.col(i).stableNormalize();
+  return curve;
+}
+
+bool turns(const Vec3& before, const Vec3& at, const Vec3& after, double cosine) {
+  const Vec3 in = at - before, out = after - at;
+  return in.dot(out) < cosine * in.norm() * out.norm();
+}
+
+std::vector<int> bends_of_even_curve(const Curve& curve, double even, double bend) {
+  const int n = static_cast<int>(curve.points.cols()), segments = curve.segment_count();
+  const auto point = [&](int i) { return curve.points.col(i % n); };
+  double sum = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (int i = 0; i < segments; ++i) {
+    const double length = (point(i + 1) - point(i)).norm();
+    sum += length;
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  std::vector<int> bends;
+  if (longest > even * shortest) return bends;
+  const double limit = bend * sum / segments;
+  const int first = curve.closed ? n : 1;
+  for (int i = first; i < segments + (curve.closed ? n : 0); ++i)
+    if (distance_to_segment(point(i), point(i - 1), point(i + 1)) > limit) bends.push_back(i % n);
+  return bends;
+}
 
 CurveProjection project_to_curve(const Curve& curve, const Vec3& x, int segment) {
   const int n = curve.segment_count();

@@ -18,6 +18,15 @@ struct Curve {
   int segment_count() const { return static_cast<int>(points.cols()) - (closed ? 0 : 1); }
 };
 
+Curve make_curve(Mat3X points, bool closed);
+
+/// Does a polyline through these points turn by more than the angle with this cosine?
+bool turns(const Vec3& before, const Vec3& at, const Vec3& after, double cosine);
+
+/// Indices of the points at the bends of an even curve: farther than `bend` mean edge lengths from the chord
+/// between their neighbours. None if the longest edge is more than `even` times the shortest.
+std::vector<int> bends_of_even_curve(const Curve& curve, double even, double bend);
+
 /// A point projected to a curve.
 struct CurveProjection {
   Vec3 point;

@@ -7,6 +7,7 @@
 
 #include "hooke/constraints/constraints.h"
 #include "hooke/constraints/feature_curves.h"
+#include "hooke/constraints/junction_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/mesh/wedges.h"
 
@@ -79,19 +80,21 @@ Vec3 Retraction::within_max_travel(const Vec3& point, int vertex) const {
   return length > max_travel ? Vec3(rest + displacement * (max_travel / length)) : point;
 }
 
-CurveProjection Retraction::project_to_curve_of(const Vec3& point, int segment, int vertex) const {
-  const size_t curve = constraints_.curve[vertex];
-  return project_to_curve(constraints_.curves[curve], point, segment);
+/// The curve along which the vertex slides, by itself or with its copies; null if it does not.
+const Curve* Retraction::curve_of(int vertex) const {
+  if (constraints_.freedom[vertex] == Freedom::curve) return &constraints_.curves[constraints_.curve[vertex]];
+  if (!constraints_.slides_with_copies(vertex)) return nullptr;
+  return &constraints_.junction_curves[constraints_.junction_vertex(vertex)->curve];
 }
 
 Vec3 Retraction::tangent(const SurfacePositions& at, int vertex) const {
-  const size_t v = vertex;
-  if (constraints_.freedom[v] != Freedom::curve) return Vec3::Zero();
-  return project_to_curve_of(at.points.col(vertex), at.segments[v], vertex).tangent;
+  const Curve* const curve = curve_of(vertex);
+  if (!curve) return Vec3::Zero();
+  return project_to_curve(*curve, at.points.col(vertex), at.segments[vertex]).tangent;
 }
 
 SurfacePosition Retraction::on_curve(SurfacePosition position, int vertex) const {
-  const CurveProjection projection = project_to_curve_of(position.point, position.segment, vertex);
+  const CurveProjection projection = project_to_curve(*curve_of(vertex), position.point, position.segment);
   position.point = projection.point;
   position.segment = projection.segment;
   return position;
@@ -123,6 +126,11 @@ SurfacePosition Retraction::on_surface(SurfacePosition position, int vertex, Fre
 
 bool Retraction::stands_still(int vertex) const {
   return constraints_.freedom[vertex] == Freedom::fixed;
+}
+
+SurfacePosition Retraction::slid(const SurfacePositions& from, int copy, int first,
+                                 const Vec3& displacement) {
+  return moved(SurfacePosition(from, copy), first, Freedom::curve, displacement);
 }
 
 SurfacePosition Retraction::moved(const SurfacePositions& from, int vertex, const Vec3& displacement) {
@@ -207,11 +215,20 @@ SurfacePositions Retraction::project_all(const Mat3X& points, std::vector<int> h
   return p;
 }
 
+/// `first`: see first_sliding_copies().
+SurfacePosition Retraction::stepped(const SurfacePositions& from, const Mat3X& displacement, int vertex,
+                                    const std::vector<int>& first) {
+  if (first.empty() || !constraints_.slides_with_copies(vertex))
+    return moved(from, vertex, displacement.col(vertex));
+  return slid(from, vertex, first[vertex], displacement.col(first[vertex]));
+}
+
 void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, std::span<const int> vertices,
                       SurfacePositions& to) {
+  const std::vector<int> first = first_sliding_copies(constraints_);
   parallel_for(vertices.size(), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      moved(from, vertices[i], displacement.col(vertices[i])).write_to(to, vertices[i]);
+      stepped(from, displacement, vertices[i], first).write_to(to, vertices[i]);
   });
   count();
 }
@@ -221,10 +238,11 @@ void Retraction::step(const SurfacePositions& from, const Mat3X& displacement, S
   copy_extra_wedges(from, to);
   to.segments.resize(from.segments.size());
   to.drift.resize(from.drift.size());
+  const std::vector<int> first = first_sliding_copies(constraints_);
   parallel_for(from.points.cols(), retraction_block, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const int v = static_cast<int>(i);
-      moved(from, v, displacement.col(v)).write_to(to, v);
+      stepped(from, displacement, v, first).write_to(to, v);
     }
   });
   count();
@@ -258,16 +276,24 @@ void Retraction::constrain(const SurfacePositions& at, Mat3X& vectors) const {
         case Freedom::surface:
           u -= at.normals.col(v) * at.normals.col(v).dot(u);
           break;
+        case Freedom::fixed:
+          if (!constraints_.slides_with_copies(static_cast<int>(i))) {
+            u.setZero();
+            break;
+          }
+          [[fallthrough]];
         case Freedom::curve: {
           const Vec3 along = tangent(at, static_cast<int>(i));
           u = (along * along.dot(u)).eval();
           break;
         }
-        case Freedom::fixed:
-          u.setZero();
-          break;
       }
     }
+  });
+  for_each_sliding(constraints_, [&](std::span<const int> copies) {
+    Vec3 sum = Vec3::Zero();
+    for (const int v : copies) sum += vectors.col(v);
+    for (const int v : copies) vectors.col(v) = sum / static_cast<double>(copies.size());
   });
 }
 

@@ -55,12 +55,18 @@ class Retraction {
   /// Projects every point to the surface or its curve. `hints` are per wedge, `segments` per vertex.
   SurfacePositions project_all(const Mat3X& points, std::vector<int> hints, std::vector<int> segments);
 
-  /// to = retract(from + displacement) for the given vertices; all other entries of `to` are unchanged.
+  /// to = retract(from + displacement) for the given vertices; all other entries of `to` are unchanged. The
+  /// copies of a junction vertex that slides all follow the displacement of the first, and must be given
+  /// together.
   void step(const SurfacePositions& from, const Mat3X& displacement, std::span<const int> vertices,
             SurfacePositions& to);
 
   /// The same for all vertices; `to` is resized.
   void step(const SurfacePositions& from, const Mat3X& displacement, SurfacePositions& to);
+
+  /// The position of a copy of a junction vertex after a displacement of all copies along their curve. With
+  /// the same one of them as `first` all get the same point, bit by bit. Thread-safe like moved().
+  SurfacePosition slid(const SurfacePositions& from, int copy, int first, const Vec3& displacement);
 
   /// The position of one vertex after a displacement. Thread-safe for different vertices; call count() after
   /// a batch.
@@ -78,11 +84,12 @@ class Retraction {
   /// Projects these vertices. Pre-condition: each is listed once.
   void project_drifted(std::span<const int> vertices, SurfacePositions& positions);
 
-  /// Unit tangent of the curve along which the vertex slides; zero for all other vertices.
+  /// Unit tangent of the curve along which the vertex slides, by itself or with its copies; zero for all
+  /// other vertices.
   Vec3 tangent(const SurfacePositions& at, int vertex) const;
 
   /// Removes what the constraints forbid: the normal part for a vertex on the surface, all but the tangential
-  /// part on a curve, everything for a fixed vertex.
+  /// part on a curve, everything for a fixed vertex. Copies that slide together get the mean of theirs.
   void constrain(const SurfacePositions& at, Mat3X& vectors) const;
 
   /// Adapts to another number of vertices in the constraints. To be called when it has changed, or beforehand
@@ -96,12 +103,15 @@ class Retraction {
   double set_lazy_error(double error) { return std::exchange(options_.lazy_error, error); }
 
   const Surface& surface() const { return surface_; }
+  const Constraints& constraints() const { return constraints_; }
   const RetractionOptions& options() const { return options_; }
 
  private:
   SurfacePosition moved(SurfacePosition position, int vertex, Freedom freedom, const Vec3& displacement);
+  SurfacePosition stepped(const SurfacePositions& from, const Mat3X& displacement, int vertex,
+                          const std::vector<int>& first);
   Vec3 within_max_travel(const Vec3& point, int vertex) const;
-  CurveProjection project_to_curve_of(const Vec3& point, int segment, int vertex) const;
+  const Curve* curve_of(int vertex) const;
   SurfacePosition on_curve(SurfacePosition position, int vertex) const;
   SurfacePosition on_surface(SurfacePosition position, int vertex, Freedom freedom);
   SurfacePosition projected(const SurfacePosition& position, int vertex);

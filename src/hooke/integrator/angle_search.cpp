@@ -408,7 +408,11 @@ class Search {
     r_.terms.altitude = 0;
     r_.terms.angle = o_.springs.weight;
     r_.terms.angle_threshold = goal * std::numbers::pi / 180;
-    return relax_locally(r_, vertices, {.sweeps = o_.springs.sweeps, .rest = o_.springs.rest}, nullptr).moves;
+    // Copies outside `vertices` could not be put back.
+    return relax_locally(r_, vertices,
+                         {.sweeps = o_.springs.sweeps, .rest = o_.springs.rest, .slides_copies = false},
+                         nullptr)
+        .moves;
   }
 
   /// Sweeps of pattern searches with the same goal; returns the number of moves.

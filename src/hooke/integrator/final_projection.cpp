@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "hooke/constraints/junction_curves.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/self_intersection.h"
@@ -24,11 +26,14 @@ constexpr double area_ratio = .01;
 /// angle.
 constexpr double cotangent_reserve = 3e-3;
 
-std::vector<int> revert(const Guards& guards, const SurfacePositions& from, std::vector<int> offending,
-                        SurfacePositions& to) {
+/// `add_copies` adds the vertices that must be reverted together with some.
+std::vector<int> revert(
+    const Guards& guards, const SurfacePositions& from, std::vector<int> offending, SurfacePositions& to,
+    const std::function<void(std::vector<int>&)>& add_copies = [](std::vector<int>&) {}) {
   std::vector<char> is_back(from.drift.size(), 0);
   std::vector<int> all;
   while (!offending.empty()) {
+    add_copies(offending);
     std::erase_if(offending, [&](int v) { return std::exchange(is_back[v], 1); });
     for (int v : offending) {
       to.points.col(v) = from.points.col(v);
@@ -70,10 +75,15 @@ std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& 
 }
 
 std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacency,
-                                  const SurfacePositions& from, SurfacePositions& to) {
+                                  const Constraints& constraints, const SurfacePositions& from,
+                                  SurfacePositions& to) {
   constexpr int max_rounds = 8;
   constexpr int rings_along = 2;  // rings around an intersection of `from` within which it may go on
   std::vector<int> all;
+  const IntLists copies = copies_of_junctions(constraints);
+  const auto add_copies = [&](std::vector<int>& vertices) {
+    add_sliding_copies(constraints, copies, vertices);
+  };
   std::optional<std::vector<char>> crossed;
   for (int round = 0; round < max_rounds; ++round) {
     FacePairs crossings = find_self_intersections(to.points, adjacency.faces);
@@ -86,7 +96,7 @@ std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacen
     std::vector<int> vertices = with_rings(adjacency, corners_of(crossings, adjacency.faces), round);
     std::erase_if(vertices, [&](int v) { return to.points.col(v) == from.points.col(v); });
     if (vertices.empty()) break;
-    for (int v : revert(guards, from, std::move(vertices), to)) {
+    for (int v : revert(guards, from, std::move(vertices), to, add_copies)) {
       SurfacePosition(from, v).write_to(to, v);
       all.push_back(v);
     }
@@ -154,8 +164,8 @@ int FinalProjection::project(const std::vector<int>& vertices) {
 void FinalProjection::undo_crossings() {
   const Stage stage(work_.stopwatch, "crossings");
   const Projected before = *std::exchange(before_refit_, std::nullopt);
-  const std::vector<int> back =
-      revert_crossings(guards(), *work_.adjacency, before.positions, work_.vertices.positions);
+  const std::vector<int> back = revert_crossings(guards(), *work_.adjacency, work_.vertices.constraints,
+                                                 before.positions, work_.vertices.positions);
   reverted_crossings_ = !back.empty();
   if (!reverted_crossings_) return;
   work_.track_on_input(work_.vertices.positions.hints);

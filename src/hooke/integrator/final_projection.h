@@ -21,9 +21,10 @@ std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& 
 /// Reverts the vertices of faces that intersect in `to` but did not in `from`, and the vertices that the
 /// guards then require; each of a few rounds takes in one more ring around the remaining intersections.
 /// Intersections next to one that `from` already has are not reverted. Returns the reverted vertices,
-/// ascending.
+/// ascending. Copies that slide together are reverted together.
 std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacency,
-                                  const SurfacePositions& from, SurfacePositions& to);
+                                  const Constraints& constraints, const SurfacePositions& from,
+                                  SurfacePositions& to);
 
 /// to = from with drifted vertices projected; a vertex whose projection would break a guard stays drifted.
 void project_drifted(const Guards& guards, Retraction& retraction, const SurfacePositions& from,

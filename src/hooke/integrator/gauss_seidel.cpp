@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/constraints/junction_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/mesh/adjacency.h"
@@ -55,8 +56,7 @@ LocalCurvature curvature_of(const RingModel& model, const Mat32& basis) {
 
 LocalNewton::LocalNewton(Relaxation& relaxation)
     : r_(relaxation),
-      wedge_{VertexRing(relaxation.coloring.rings, relaxation.energy.targets()), {}, {}},
-      other_wedge_(wedge_) {}
+      wedges_(2, {VertexRing(relaxation.coloring.rings, relaxation.energy.targets()), {}, {}}) {}
 
 Mat32 LocalNewton::directions(int vertex) const {
   const SurfacePositions& at = r_.positions;
@@ -67,35 +67,45 @@ Mat32 LocalNewton::directions(int vertex) const {
   return tangent_basis(at.normals.col(vertex), at.points.col(neighbour) - at.points.col(vertex));
 }
 
-/// Gathers the ring of a vertex and the model of its energy; false for a vertex that cannot move.
-bool LocalNewton::gather(int vertex) {
+bool LocalNewton::stays(int vertex) const {
+  return r_.coloring.rings[vertex].empty() || r_.retraction.stands_still(vertex);
+}
+
+/// Gathers the rings of a vertex, or of copies of one, and the model of their energy.
+void LocalNewton::gather(std::span<const int> copies) {
   const SurfacePositions& at = r_.positions;
-  if (r_.coloring.rings[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
-  basis_ = directions(vertex);
-  const auto model = [&](Wedge& s, int wedge) {
+  basis_ = directions(copies.front());
+  count_ = 0;
+  const auto add = [&](int vertex, int wedge) {
+    if (count_ == wedges_.size()) wedges_.push_back(wedges_.front());
+    Wedge& s = wedges_[count_++];
     s.ring.gather(at, wedge);
     s.ring.shape(at.points.col(vertex), at.normals.col(wedge), s.before);
-    return s.ring.model(s.before, r_.terms, basis_.col(0), basis_.col(1));
+    const RingModel model = s.ring.model(s.before, r_.terms, basis_.col(0), basis_.col(1));
+    if (count_ == 1) {
+      model_ = model;
+      return;
+    }
+    model_.energy += model.energy;
+    model_.gradient += model.gradient;
+    model_.hessian += model.hessian;
   };
-  model_ = model(wedge_, vertex);
-  const int other = at.other_wedge_of(vertex);
-  two_wedges_ = other >= 0;
-  if (!two_wedges_) return true;
-  const RingModel more = model(other_wedge_, other);
-  model_.energy += more.energy;
-  model_.gradient += more.gradient;
-  model_.hessian += more.hessian;
-  return true;
+  for (const int v : copies) {
+    add(v, v);
+    if (const int other = at.other_wedge_of(v); other >= 0) add(v, other);
+  }
 }
 
 /// An unfolded face is subject to the springs of all others, which cost more than unfolding gains: a step
 /// that unfolds a face need not lower the energy.
-bool LocalNewton::may_move(const SurfacePosition& candidate) {
+bool LocalNewton::may_move(std::span<const SurfacePosition> candidates) {
   double energy = 0;
   int unfolded = 0;
   const RingTerms& terms = r_.terms;
-  const auto obeys = [&](Wedge& s, const Vec3& normal) {
-    s.ring.shape(candidate.point, normal, s.after);
+  std::size_t next = 0;
+  const auto obeys = [&](const Vec3& point, const Vec3& normal) {
+    Wedge& s = wedges_[next++];
+    s.ring.shape(point, normal, s.after);
     if (!s.ring.obeys(s.before, s.after, r_.guards.limits())) return false;
     energy += s.ring.energy(s.after, terms);
     if (terms.unfold > 0)
@@ -103,33 +113,70 @@ bool LocalNewton::may_move(const SurfacePosition& candidate) {
                   s.ring.folded_faces(s.after, terms.unfold_below);
     return true;
   };
-  return obeys(wedge_, candidate.normal) && (!two_wedges_ || obeys(other_wedge_, candidate.other_normal)) &&
-         (unfolded > 0 || energy <= model_.energy);
+  for (const SurfacePosition& c : candidates)
+    if (!obeys(c.point, c.normal) || (c.other_wedge >= 0 && !obeys(c.point, c.other_normal))) return false;
+  return unfolded > 0 || energy <= model_.energy;
 }
 
 LocalCurvature LocalNewton::curvature(int vertex) {
-  return gather(vertex) ? curvature_of(model_, basis_) : LocalCurvature{};
+  if (stays(vertex)) return {};
+  gather({&vertex, 1});
+  return curvature_of(model_, basis_);
+}
+
+LocalCurvature LocalNewton::curvature(std::span<const int> copies) {
+  gather(copies);
+  LocalCurvature c = curvature_of(model_, basis_);
+  const auto count = static_cast<double>(copies.size());
+  c.inverse *= count;
+  c.mean /= count;
+  return c;
 }
 
 double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
-  if (!gather(vertex)) return 0;
+  return stays(vertex) ? 0 : improve({&vertex, 1}, options);
+}
+
+double LocalNewton::improve(std::span<const int> copies, const LocalNewtonOptions& options) {
+  gather(copies);
+  const int first = copies.front();
+  const bool slides = r_.retraction.stands_still(first);  // by itself
   SurfacePositions& at = r_.positions;
-  const double length = r_.vertex_length[vertex];
+  const double length = r_.vertex_length[first];
   Vec3 step = -options.over_relaxation * (curvature_of(model_, basis_).inverse * (basis_ * model_.gradient));
   const double size = step.norm(), cap = options.max_move * length;
   if (!(size > options.rest * length)) return 0;
   if (size > cap) step *= cap / size;
 
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
-    const SurfacePosition candidate = r_.retraction.moved(at, vertex, step);
-    if (may_move(candidate)) {
-      const double distance = (candidate.point - at.points.col(vertex)).norm();
-      candidate.write_to(at, vertex);
-      return distance / length;
-    }
+    candidates_.clear();
+    for (const int v : copies)
+      candidates_.push_back(slides ? r_.retraction.slid(at, v, first, step)
+                                   : r_.retraction.moved(at, v, step));
+    if (!may_move(candidates_)) continue;
+    const double distance = (candidates_.front().point - at.points.col(first)).norm();
+    for (std::size_t i = 0; i < copies.size(); ++i) candidates_[i].write_to(at, copies[i]);
+    return distance / length;
   }
   return 0;
 }
+
+namespace {
+
+/// Moves the vertices of junctions that slide with their copies, if one of these is active (empty: all are),
+/// and calls moved(v, distance) for each copy. Serial, as copies of a vertex may be anywhere.
+void slide_junctions(Relaxation& r, const std::vector<char>& active, const LocalNewtonOptions& options,
+                     const auto& moved) {
+  LocalNewton newton(r);
+  for_each_sliding(r.retraction.constraints(), [&](std::span<const int> copies) {
+    const bool is_active =
+        active.empty() || std::ranges::any_of(copies, [&](int v) { return active[v] != 0; });
+    const double distance = is_active ? newton.improve(copies, options) : 0;
+    for (const int v : copies) moved(v, distance);
+  });
+}
+
+}  // namespace
 
 std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& active,
                                        const LocalNewtonOptions& options) {
@@ -139,6 +186,7 @@ std::vector<double> local_newton_sweep(Relaxation& r, const std::vector<char>& a
     for (int v = begin; v < end; ++v)
       if (active.empty() || active[v]) moves[v] = newton.improve(v, options);
   });
+  slide_junctions(r, active, options, [&](int v, double distance) { moves[v] = distance; });
   r.retraction.count();
   return moves;
 }
@@ -168,7 +216,8 @@ LocalRelaxationResult relax_locally(Relaxation& r, std::vector<int> vertices, co
   const LocalNewtonOptions newton{.over_relaxation = o.over_relaxation, .rest = min_step_factor * o.rest};
   LocalRelaxationResult result;
   std::ranges::sort(vertices);
-  std::vector<char> active(r.adjacency.vertex_count, 1), moved(r.adjacency.vertex_count, 0);
+  std::vector<char> active(r.adjacency.vertex_count, 0), moved(r.adjacency.vertex_count, 0);
+  for (int v : vertices) active[v] = 1;
   bool any_moved = !vertices.empty();
   while (any_moved && result.sweeps < o.sweeps && !result.interrupted) {
     for_each_of(
@@ -177,6 +226,8 @@ LocalRelaxationResult relax_locally(Relaxation& r, std::vector<int> vertices, co
           const int v = vertices[i];
           moved[v] = active[v] && local.improve(v, newton) > o.rest;
         });
+    if (o.slides_copies)
+      slide_junctions(r, active, newton, [&](int v, double distance) { moved[v] = distance > o.rest; });
     r.retraction.count();
     mark_active(r.adjacency, vertices, moved, active);
     const auto moves = std::ranges::count_if(vertices, [&](int v) { return moved[v] != 0; });

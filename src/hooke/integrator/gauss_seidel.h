@@ -3,6 +3,8 @@
 // regions that need local relaxation.
 #pragma once
 
+#include <span>
+
 #include "hooke/integrator/relaxation.h"
 #include "hooke/integrator/vertex_ring.h"
 
@@ -33,9 +35,15 @@ class LocalNewton {
   /// that the step -inverse * gradient also descends from saddles. Zero for a fixed vertex.
   LocalCurvature curvature(int vertex);
 
+  /// The same of copies of a junction vertex that slide together, for each: the mean of theirs.
+  LocalCurvature curvature(std::span<const int> copies);
+
   /// Moves the vertex toward the minimum of its energy, within the guards; returns the distance moved in its
   /// target lengths.
   double improve(int vertex, const LocalNewtonOptions& options);
+
+  /// The same for copies of a junction vertex that slide together, by the energy around all of them.
+  double improve(std::span<const int> copies, const LocalNewtonOptions& options);
 
  private:
   /// The ring of one wedge of the vertex, at the current position and at the candidate.
@@ -44,19 +52,22 @@ class LocalNewton {
     RingShape before, after;
   };
 
-  bool gather(int vertex);
+  void gather(std::span<const int> copies);
   Mat32 directions(int vertex) const;
-  bool may_move(const SurfacePosition& candidate);
+  bool may_move(std::span<const SurfacePosition> candidates);
+  bool stays(int vertex) const;
 
   Relaxation& r_;
-  Wedge wedge_, other_wedge_;
-  bool two_wedges_ = false;
+  std::vector<Wedge> wedges_;  // the first `count_` are in use
+  std::size_t count_ = 0;
+  std::vector<SurfacePosition> candidates_;
   Mat32 basis_ = Mat32::Zero();
   RingModel model_;
 };
 
-/// One sweep over all vertices; those with `active` false stay (empty: all move). Returns the distance each
-/// vertex moved, in its target lengths.
+/// One sweep over all vertices, then over those of junctions that slide with their copies; those with
+/// `active` false stay (empty: all move), but for copies of one that moves. Returns the distance each vertex
+/// moved, in its target lengths.
 std::vector<double> local_newton_sweep(Relaxation& relaxation, const std::vector<char>& active,
                                        const LocalNewtonOptions& options);
 
@@ -64,6 +75,7 @@ struct LocalRelaxationOptions {
   int sweeps = 8;
   double over_relaxation = 1;  // above 1: faster where vertices move far, but magnifies rounding
   double rest = 3e-3;          // in target lengths; a vertex that moves less skips the next sweep
+  bool slides_copies = true;   // of junction vertices, together; else these stay
 };
 
 struct LocalRelaxationResult {
@@ -73,7 +85,7 @@ struct LocalRelaxationResult {
 };
 
 /// Sweeps over `vertices`, each named once, until all are at rest or the sweeps are used up. No other vertex
-/// moves.
+/// moves, but for copies that slide with one of them.
 LocalRelaxationResult relax_locally(Relaxation& relaxation, std::vector<int> vertices,
                                     const LocalRelaxationOptions& options, const Observer& observer);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hooke/constraints/junction_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/filter/retraction.h"
@@ -45,18 +46,18 @@ Vec3 sum_of_normals(const Mat3X& normals, const Triangle& wedges) {
 
 // Sufficient tests that most faces and edges pass without a square root and without measuring the state
 // before. They keep a margin, so that they never contradict the exact rules.
-constexpr double rounding = 1e-9;
+constexpr double margin = 1e-9;
 
 /// Is the cosine between two vectors, given their product and squared lengths, above the limit?
 bool cosine_exceeds(double limit, double product, double square, double other_square) {
-  return product > 0 && product * product > limit * limit * (1 + rounding) * square * other_square;
+  return product > 0 && product * product > limit * limit * (1 + margin) * square * other_square;
 }
 
 /// `n` is the doubled area vector of the face.
 bool area_and_alignment_within_limit(const ShapeLimits& limits, const Vec3& n_before, const Vec3& n,
                                      const Vec3& normals) {
   const double square = n.squaredNorm();
-  return square > limits.area * limits.area * (1 + rounding) * n_before.squaredNorm() &&
+  return square > limits.area * limits.area * (1 + margin) * n_before.squaredNorm() &&
          cosine_exceeds(limits.alignment, n.dot(normals), square, normals.squaredNorm());
 }
 
@@ -66,12 +67,12 @@ bool angles_within_limit(const ShapeLimits& limits, const Mat3X& points, const T
   const double cosine =
       .5 *
       (a2 + b2 + c2 - 2 * std::min({a2, b2, c2}));  // of the smallest angle, times the lengths of its edges
-  return cosine * cosine < limits.cotangent * limits.cotangent * (1 - rounding) * n.squaredNorm();
+  return cosine * cosine < limits.cotangent * limits.cotangent * (1 - margin) * n.squaredNorm();
 }
 
 /// Uses (l / 2) tan(theta / 4) <= (l / 2) sin(theta / 2).
 bool sagitta_within_limit(const ShapeLimits& limits, double target, const Vec3& edge, double cosine) {
-  const double limit = limits.sagitta * (1 - rounding) * target;
+  const double limit = limits.sagitta * (1 - margin) * target;
   return .125 * edge.squaredNorm() * (1 - cosine) < limit * limit;
 }
 
@@ -171,10 +172,13 @@ std::vector<int> Guards::step(Retraction& retraction, const SurfacePositions& fr
   timed(stopwatch, "projection", [&] { retraction.step(from, displacement, to); });
   std::vector<int> offending = offenders(from, to);
   if (offending.empty()) return {};
+  const Constraints& constraints = retraction.constraints();
+  const IntLists copies = copies_of_junctions(constraints);
 
   std::vector<unsigned char> halvings(adjacency_.vertex_count, 0);
   std::vector<int> limited;
   while (!offending.empty()) {
+    add_sliding_copies(constraints, copies, offending);
     std::vector<int> slowed;
     for (int v : offending) {
       auto u = displacement.col(v);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "hooke/constraints/junction_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/integrator/gauss_seidel.h"
 
@@ -226,6 +227,14 @@ void Preconditioner::refresh(Relaxation& r) {
     LocalNewton newton(r);
     for (size_t v = begin; v < end; ++v) {
       const LocalCurvature c = newton.curvature(static_cast<int>(v));
+      inverse_[v] = SymmetricMatrix(c.inverse);
+      mean[v] = static_cast<float>(c.mean);
+    }
+  });
+  LocalNewton newton(r);
+  for_each_sliding(r.retraction.constraints(), [&](std::span<const int> copies) {
+    const LocalCurvature c = newton.curvature(copies);
+    for (const int v : copies) {
       inverse_[v] = SymmetricMatrix(c.inverse);
       mean[v] = static_cast<float>(c.mean);
     }

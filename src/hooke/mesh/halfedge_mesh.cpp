@@ -83,6 +83,12 @@ bool HalfedgeMesh::on_crease(int vertex) const {
   return std::ranges::any_of(outgoing(vertex), [&](int h) { return is_crease(h) || is_crease(previous(h)); });
 }
 
+int HalfedgeMesh::half_edge(int from, int to) const {
+  for (int h : outgoing(from))
+    if (this->to(h) == to) return h;
+  return -1;
+}
+
 bool HalfedgeMesh::adjacent(int a, int b) const {
   for (int h : outgoing(a))
     if (to(h) == b || opposite_vertex(h) == b) return true;
@@ -166,7 +172,7 @@ int HalfedgeMesh::split(int h) {
   return vertex;
 }
 
-bool HalfedgeMesh::may_collapse(int h) const {
+bool HalfedgeMesh::keeps_topology(int h) const {
   const int a = from(h), b = to(h), t = twin(h);
   if (t >= 0 && on_boundary(a) && on_boundary(b)) return false;
   const auto may_lose = [this](int v) { return valence(v) > (on_boundary(v) ? 2 : 3); };
@@ -177,7 +183,7 @@ bool HalfedgeMesh::may_collapse(int h) const {
   const SmallIntList ring = neighbours(a);
   int common = 0;
   for (int v : neighbours(b)) common += std::ranges::count(ring, v) > 0;
-  return common == (t < 0 ? 1 : 2) && !connects_junctions(h);
+  return common == (t < 0 ? 1 : 2);
 }
 
 /// Would the collapse of h make an edge between two vertices at junctions?
@@ -216,7 +222,7 @@ int HalfedgeMesh::wedge_after_collapse(int h, int stays, int out) const {
 }
 
 void HalfedgeMesh::collapse(int h, int stays) {
-  assert(may_collapse(h));
+  assert(keeps_topology(h));
   const int removed = from(h) == stays ? to(h) : from(h), t = twin(h);
   const SmallIntList halfedges = outgoing(removed);
   SmallIntList wedges;

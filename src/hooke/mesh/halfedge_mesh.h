@@ -68,6 +68,8 @@ class HalfedgeMesh {
   /// Whether an edge joins a and b.
   bool adjacent(int a, int b) const;
 
+  /// The half-edge from one vertex to the other, -1 if there is none.
+  int half_edge(int from, int to) const;
   /// Whether a new edge may join a and b: no edge does, and not both are at junctions.
   bool may_connect(int a, int b) const { return !(at_junction(a) && at_junction(b)) && !adjacent(a, b); }
 
@@ -91,15 +93,17 @@ class HalfedgeMesh {
   /// Whether the edge of h can be collapsed without a change of the topology, including that of the creases.
   /// The link condition: H. Edelsbrunner, "Geometry and topology for mesh generation", 2001. Holes,
   /// components and the pieces between creases keep at least one triangle.
-  /// Makes no edge between vertices at junctions.
-  bool may_collapse(int h) const;
+  bool keeps_topology(int h) const;
+
+  /// The same, where the collapse makes no edge between vertices at junctions.
+  bool may_collapse(int h) const { return keeps_topology(h) && !connects_junctions(h); }
 
   /// The wedge of `stays`, an end of h, that the outgoing half-edge `out` of either end belongs to after
   /// the collapse of h. Pre-condition: the other end has no wedges but those along h.
   int wedge_after_collapse(int h, int stays, int out) const;
 
   /// Collapses the edge of h: its other end is merged into `stays`, and the faces of h are removed. Edges
-  /// that coincide afterwards are constrained if one of them was. Pre-condition: may_collapse(h).
+  /// that coincide afterwards are constrained if one of them was. Pre-condition: keeps_topology(h).
   void collapse(int h, int stays);
 
   /// Removes the unused ids of vertices and faces and puts the others in memory order, see

@@ -38,7 +38,8 @@ std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const 
     }
   for (size_t v = 0; v < vertex_limits.size(); ++v) {
     if (work.vertices.constraints.freedom[v] != Freedom::fixed ||
-        work.vertices.constraints.at_bend(static_cast<int>(v)))
+        work.vertices.constraints.at_bend(static_cast<int>(v)) ||
+        work.vertices.constraints.slides_with_copies(static_cast<int>(v)))
       continue;
     const bool requested =
         std::ranges::binary_search(fixed_vertices, work.vertex_of_input(static_cast<int>(v))) ||

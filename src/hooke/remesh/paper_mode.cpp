@@ -23,7 +23,9 @@ class PaperRun {
         observer_(observer),
         work_(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction),
         to_input_(*work_.retraction),
-        mesh_(build_mesh(*work_.start, *work_.adjacency)) {}
+        mesh_(build_mesh(*work_.start, *work_.adjacency)) {
+    for (JunctionVertex& v : work_.vertices.constraints.junction_vertices) v.slides = false;
+  }
 
   RemeshResult run(TriMesh& mesh) {
     result_.folded_before = static_cast<int>(folded_faces().size());

@@ -97,7 +97,9 @@ class PreservingRemesh {
   Run best() {
     Run best = attempt();
     if (!best.result.measures) return best;  // not finite
+    const FilterKind filter = options_.filter.kind;
     if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
+    if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
     if (options_.connectivity != ConnectivityMode::adapt && vertex_points(best.mesh) == vertex_points(mesh_))
       best.result.steps_smoothed = false;
@@ -139,13 +141,15 @@ class PreservingRemesh {
 
   /// Moves vertices that are too far to the closest points of the input, the corners of faces that are turned
   /// over or intersect to the points closest to the middle of their neighbours, and the vertices closest to
-  /// lost ones of the input towards these, as near as they must be, but none that is fixed or on the boundary
-  /// or, for faces, on a crease. Keeps that if it makes fewer flaws, and returns whether it did.
+  /// lost ones of the input towards these, as near as they must be, but none that is fixed, at a junction or
+  /// on the boundary or, for faces, on a crease. Keeps that if it makes fewer flaws, and returns whether it
+  /// did.
   bool move_to_input(Run& run) const {
     const Preservation& p = run.preservation();
     const MeasuredSurface surface = surface_of(run);
     Mat3X moved = surface.points;
     std::vector<char> is_held(moved.cols(), 0);
+    for (int v : find_junctions(surface.adjacency, surface.joined).vertices) is_held[v] = 1;
     constexpr unsigned char immovable = limited_by_boundary | limited_at_corner | limited_by_request;
     const auto may_move = [&](int v) { return !is_held[v] && (limits_of(run, surface, v) & immovable) == 0; };
     std::vector<FarVertex> lost = p.lost_vertices;
@@ -273,6 +277,22 @@ class PreservingRemesh {
     if (next.is_better_than(best)) best = std::move(next);
   }
 
+  /// Makes attempts in which the vertices of junctions stand still, and keeps the first that is better.
+  void hold_junctions(FilterKind filter, Run& best) {
+    const std::vector<int> vertices = find_junctions(input_.adjacency, input_.joined).vertices;
+    if (vertices.empty()) return;
+    for (int v : vertices) options_.constraints.fixed_vertices.push_back(memory_order_.order.old_vertex[v]);
+    options_.filter.kind = filter;
+    Run next = attempt();
+    if (!next.is_interrupted() && !next.is_good()) project_to_faces(next);
+    if (next.is_interrupted()) {
+      best.result.reason = StopReason::interrupted;
+      return;
+    }
+    next.result.rescue = Rescue::junctions;
+    if (next.is_better_than(best)) best = std::move(next);
+  }
+
   /// Puts vertices back to where they were, ring by ring around what is wrong, and all if that is not enough
   /// or makes worse faces than there were; a result with other faces is replaced by one with those of the
   /// input first.
@@ -344,14 +364,27 @@ class PreservingRemesh {
     return wrong;
   }
 
+  /// The vertices with all copies of those at junctions.
+  std::vector<int> with_copies(const std::vector<int>& vertices) const {
+    if (input_.joined.empty()) return vertices;
+    std::vector<char> is_meant(input_.joined.size(), 0);
+    for (int v : vertices) is_meant[input_.joined[v]] = 1;
+    std::vector<int> all;
+    for (std::size_t v = 0; v < input_.joined.size(); ++v)
+      if (is_meant[input_.joined[v]]) all.push_back(static_cast<int>(v));
+    return all;
+  }
+
   /// Moves the vertices to their places in the input, and those within `rings` rings around them the less,
-  /// the farther away they are.
+  /// the farther away they are; not those at junctions, which might leave their curves.
   void move_back(Run& run, const std::vector<int>& vertices, int rings) const {
     const auto points = vertex_points(run.mesh);
     const auto input = vertex_points(mesh_);
     const Adjacency& c = input_.adjacency;
-    std::vector<int> ring(c.vertex_count, rings), front = vertices;
-    for (int v : vertices) ring[v] = 0;
+    std::vector<int> ring(c.vertex_count, rings), front = with_copies(vertices);
+    std::vector<char> at_junction(c.vertex_count, 0);
+    for (int v : find_junctions(c, input_.joined).vertices) at_junction[v] = 1;
+    for (int v : front) ring[v] = 0;
     for (size_t i = 0; i < front.size(); ++i)
       for (int n : c.vertex_neighbours[front[i]]) {
         const int next = ring[front[i]] + 1;
@@ -362,6 +395,7 @@ class PreservingRemesh {
     for (int v : front) {
       const int id = memory_order_.order.old_vertex[v];
       const double share = static_cast<double>(ring[v]) / rings;
+      if (share > 0 && at_junction[v]) continue;
       if (share == 0) run.result.vertex_limits[id] |= VertexLimit::put_back;
       place(v, input.col(id) + share * (points.col(id) - input.col(id)), run);
     }

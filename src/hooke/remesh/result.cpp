@@ -41,7 +41,8 @@ CreaseCounts count_creases(const Workspace& work) {
   std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   for (int v : ends) {
-    const bool inner = constraints.freedom[v] == Freedom::curve || constraints.at_bend(v);
+    const bool inner = constraints.freedom[v] == Freedom::curve || constraints.at_bend(v) ||
+                       constraints.slides_with_copies(v);
     ++(inner ? counts.curve_vertices : counts.corners);
   }
   return counts;

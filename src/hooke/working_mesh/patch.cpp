@@ -120,6 +120,7 @@ class PatchCutter {
     VertexTable& vertices = patch_.vertices;
     const bool has_no_creases = m_.vertices.constraints.creases.empty();
     vertices = m_.vertices.rows(patch_.vertex_ids, patch_.wedge_ids);
+    vertices.constraints.junction.clear();  // their vertices stand still
     for (size_t id = 0; id < patch_.vertex_ids.size(); ++id) {
       Freedom& freedom = vertices.constraints.freedom[id];
       const bool free = id < patch_.movable && freedom == Freedom::surface &&

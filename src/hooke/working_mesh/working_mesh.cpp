@@ -45,7 +45,8 @@ bool is_junction_edge(const WorkingMesh& m, int h) {
   const std::vector<int>& number = m.vertices.constraints.junction;
   if (number.empty() || !m.halfedges.is_feature_edge(h)) return false;
   const auto [low, high] = std::minmax(number[m.halfedges.from(h)], number[m.halfedges.to(h)]);
-  return low >= 0 && std::ranges::binary_search(m.vertices.constraints.junction_edges, Edge{low, high});
+  return low >= 0 && std::ranges::binary_search(m.vertices.constraints.junction_edges, Edge{low, high}, {},
+                                                &JunctionEdge::ends);
 }
 
 double relative_length(const WorkingMesh& m, int h) {

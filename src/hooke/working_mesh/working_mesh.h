@@ -35,7 +35,7 @@ struct WorkingMesh {
 /// The curve on which a feature edge lies; curve -1 if none is known.
 CurveFinder::Location curve_of(const WorkingMesh& mesh, int half_edge);
 
-/// Whether the edge is one of a junction, which no change may lose or split.
+/// Whether the edge is one of a junction; only match_junction_edges() splits or collapses these.
 bool is_junction_edge(const WorkingMesh& mesh, int half_edge);
 
 /// Target length of an edge between the vertices.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hooke/constraints/crease_detection.h"
+#include "hooke/constraints/junction_curves.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
@@ -41,18 +42,6 @@ std::vector<int> wedges_of_surface(const Adjacency& c, const Adjacency& surface)
   for (size_t f = 0; f < c.faces.size(); ++f)
     for (size_t k = 0; k < 3; ++k) wedges[c.wedges_of_faces()[f][k]] = surface.wedges_of_faces()[f][k];
   return wedges;
-}
-
-void number_junctions(const Junctions& junctions, const std::vector<int>& joined, Constraints& constraints) {
-  if (junctions.vertices.empty()) return;
-  constraints.junction.assign(joined.size(), -1);
-  for (const int v : junctions.vertices) constraints.junction[v] = joined[v];
-  constraints.junction_numbers = static_cast<int>(joined.size());
-  for (const auto& [a, b] : junctions.edges)
-    constraints.junction_edges.push_back({std::min(joined[a], joined[b]), std::max(joined[a], joined[b])});
-  std::vector<Edge>& edges = constraints.junction_edges;
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
 /// Appends those of the edges that are not on the boundary.
@@ -104,16 +93,17 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   }
   faceted_ = is_faceted(*start, *input_surface_);
   ConstraintOptions reordered = constraint_options;
-  reordered.fixed_vertices = order.new_vertices(constraint_options.fixed_vertices);
-  reordered.fixed_vertices.insert(reordered.fixed_vertices.end(), junctions.vertices.begin(),
-                                  junctions.vertices.end());
-  reordered.junction_edges = junctions.edges;
+  std::vector<int>& fixed = reordered.fixed_vertices;
+  fixed = order.new_vertices(constraint_options.fixed_vertices);
   for (int tip : detect_tips(*start, *input_surface_, vertices.vertex_length, constraint_options.features))
-    reordered.fixed_vertices.push_back(tip);
+    fixed.push_back(tip);
+  const std::vector<int> held = fixed;
+  fixed.insert(fixed.end(), junctions.vertices.begin(), junctions.vertices.end());
+  reordered.junction_edges = junctions.edges;
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there
   vertices.constraints =
       timed(stopwatch, "constraints", [&] { return find_constraints(*start, *adjacency, reordered); });
-  number_junctions(junctions, joined, vertices.constraints);
+  constrain_junctions(*start, *adjacency, junctions, joined, held, reordered, vertices.constraints);
   vertices.origins = identity(adjacency->vertex_count);
 
   const Stage stage(stopwatch, "fit");
@@ -339,7 +329,7 @@ MemoryOrder Workspace::memory_order() const {
 
 std::vector<int> Workspace::joined_in_result() const {
   std::vector<int> number(order.old_vertex.size()), joined = identity(static_cast<int>(number.size())),
-                                                    first(vertices.constraints.junction_numbers, -1);
+                                                    first(vertices.constraints.junction_vertices.size(), -1);
   for (std::size_t v = 0; v < number.size(); ++v)
     number[order.old_vertex[v]] = vertices.constraints.junction[v];
   for (std::size_t id = 0; id < joined.size(); ++id) {
