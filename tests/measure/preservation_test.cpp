@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
+#include "support/masks.h"
 #include "support/meshes.h"
 #include "support/solids.h"
 
@@ -127,6 +129,14 @@ TEST(Preservation, FacetsAreMeantWhereTheyAreFlatOrLong) {
   EXPECT_FALSE(faceted(test::globe(24, 12)));  // of quadrilaterals
   EXPECT_FALSE(faceted(test::globe(64, 16)));
   EXPECT_TRUE(faceted(test::both(test::globe(24, 12), test::cube())));
+  const test::Triangles spheres = test::marched_level(9, [](const Vec3& x) {
+    return std::min((x - Vec3(2.3, .2, .1)).norm() - 5.2, (x + Vec3(2.9, .3, .2)).norm() - 5.4);
+  });
+  EXPECT_GT(
+      sharp_edges(spheres.points, make_adjacency(static_cast<int>(spheres.points.cols()), spheres.faces), 40)
+          .size(),
+      0u);
+  EXPECT_FALSE(faceted(spheres));  // in spite of many slivers beside its cells
 }
 
 }  // namespace hooke::preservation_test

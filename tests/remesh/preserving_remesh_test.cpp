@@ -73,6 +73,19 @@ TEST(PreservingRemesh, TheStepsOfAMaskAreNoEdges) {
   }
 }
 
+TEST(PreservingRemesh, AMarchedSurfaceWithSharpPlacesIsImproved) {
+  const test::Triangles t = test::marched_level(9, [](const Vec3& x) {
+    return std::min((x - Vec3(2.3, .2, .1)).norm() - 5.2, (x + Vec3(2.9, .3, .2)).norm() - 5.4);
+  });
+  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
+    const test::Outcome o = preserved(t, options_for(mode));
+    const ResultMeasures& m = *o.result.measures;
+    EXPECT_TRUE(m.preservation.holds());
+    EXPECT_LT(20 * m.quality.faces_below_20, m.input_quality.faces_below_20);
+    EXPECT_GT(m.quality.shape.mean, m.input_quality.shape.mean + .2);
+  }
+}
+
 TEST(PreservingRemesh, BodiesThatCrossAreAsGoodAsEachAlone) {
   const test::Triangles one = test::sphere(2, .3, 1);
   const auto n = static_cast<int>(one.points.cols());

@@ -1,6 +1,7 @@
-// Surfaces of binary masks. For tests.
+// Surfaces that marching tetrahedra make, as of binary masks. For tests.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -8,21 +9,25 @@
 
 namespace hooke::test {
 
-/// The surface between the points of a grid of edge 1 that are inside, and the others: marching tetrahedra,
-/// six to a cell, whose faces cut the edges in the middle. Points beyond `size` are not inside.
-template <typename IsInside>
-Triangles marched_mask(int size, const IsInside& is_inside) {
+/// The surface where a function is 0, which is less inside: marching tetrahedra on a grid of edge 1, six to a
+/// cell, whose faces cut the edges where the function is 0 between their ends, but not closer than .01 to
+/// them. Points beyond `size` are not looked at.
+template <typename Value>
+Triangles marched_level(int size, const Value& value) {
   using Point = std::array<int, 3>;
   std::map<Point, int> ids;  // by twice the coordinates
   Triangles t;
   std::vector<Vec3> points;
-  const auto middle = [&](const Point& a, const Point& b) {
+  const auto value_at = [&](const Point& p) -> double { return value(Vec3(p[0], p[1], p[2])); };
+  const auto cut = [&](const Point& a, const Point& b) {
     const Point doubled = {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
     const auto [at, is_new] = ids.try_emplace(doubled, static_cast<int>(points.size()));
-    if (is_new) points.push_back(.5 * Vec3(doubled[0], doubled[1], doubled[2]));
+    if (is_new) {
+      const double share = std::clamp(value_at(a) / (value_at(a) - value_at(b)), .01, .99);
+      points.push_back(Vec3(a[0], a[1], a[2]) + share * Vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+    }
     return at->second;
   };
-  const auto inside = [&](const Point& p) { return is_inside(Vec3(p[0], p[1], p[2])); };
   const auto add = [&](Triangle face, const Vec3& outwards) {
     const Vec3 a = points[face[0]];
     if ((points[face[1]] - a).cross(points[face[2]] - a).dot(outwards) < 0) std::swap(face[1], face[2]);
@@ -31,16 +36,14 @@ Triangles marched_mask(int size, const IsInside& is_inside) {
   const auto march = [&](const std::array<Point, 4>& corners) {
     std::vector<Point> in, out;
     Vec3 outwards = Vec3::Zero();
-    for (const Point& p : corners) (inside(p) ? in : out).push_back(p);
+    for (const Point& p : corners) (value_at(p) < 0 ? in : out).push_back(p);
     if (in.empty() || out.empty()) return;
     for (const Point& p : out) outwards += Vec3(p[0], p[1], p[2]) / static_cast<double>(out.size());
     for (const Point& p : in) outwards -= Vec3(p[0], p[1], p[2]) / static_cast<double>(in.size());
-    if (in.size() == 1)
-      return add({middle(in[0], out[0]), middle(in[0], out[1]), middle(in[0], out[2])}, outwards);
-    if (out.size() == 1)
-      return add({middle(in[0], out[0]), middle(in[1], out[0]), middle(in[2], out[0])}, outwards);
-    const std::array<int, 4> quad = {middle(in[0], out[0]), middle(in[0], out[1]), middle(in[1], out[1]),
-                                     middle(in[1], out[0])};
+    if (in.size() == 1) return add({cut(in[0], out[0]), cut(in[0], out[1]), cut(in[0], out[2])}, outwards);
+    if (out.size() == 1) return add({cut(in[0], out[0]), cut(in[1], out[0]), cut(in[2], out[0])}, outwards);
+    const std::array<int, 4> quad = {cut(in[0], out[0]), cut(in[0], out[1]), cut(in[1], out[1]),
+                                     cut(in[1], out[0])};
     add({quad[0], quad[1], quad[2]}, outwards);
     add({quad[0], quad[2], quad[3]}, outwards);
   };
@@ -57,6 +60,12 @@ Triangles marched_mask(int size, const IsInside& is_inside) {
   t.points.resize(3, std::ssize(points));
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) t.points.col(v) = points[v];
   return t;
+}
+
+/// The same between the points of the grid that are inside, and the others: edges are cut in the middle.
+template <typename IsInside>
+Triangles marched_mask(int size, const IsInside& is_inside) {
+  return marched_level(size, [&](const Vec3& x) { return is_inside(x) ? -1 : 1; });
 }
 
 }  // namespace hooke::test

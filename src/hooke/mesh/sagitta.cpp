@@ -1,6 +1,7 @@
 #include "hooke/mesh/sagitta.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,20 @@ namespace hooke {
 namespace {
 
 constexpr std::size_t sagitta_block = 4096;
+
+/// The share of the area that lies in faces with two edges more than so many times as long as the third.
+double share_of_needles(const Mat3X& points, const Adjacency& c, double ratio) {
+  double all = 0, needles = 0;
+  for (const Triangle& t : c.faces) {
+    std::array<double, 3> lengths;
+    for (size_t k = 0; k < 3; ++k) lengths[k] = (points.col(t[k]) - points.col(t[(k + 1) % 3])).norm();
+    std::ranges::sort(lengths);
+    const double area = doubled_area_vector(points, t).norm();
+    all += area;
+    if (lengths[1] > ratio * lengths[0]) needles += area;
+  }
+  return all > 0 ? needles / all : 0;
+}
 
 }  // namespace
 
@@ -98,7 +113,7 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
 }
 
 bool is_faceted(const Mat3X& points, const Adjacency& c) {
-  constexpr double flat = 1e-6, flat_share = .85, uneven = 3, uneven_share = .5;
+  constexpr double flat = 1e-6, flat_share = .85, uneven = 3, uneven_share = .5, needle_share = .25;
   constexpr std::size_t few_faces = 64;
   constexpr double sharp = .088;  // tan(40 degrees / 4) / 2
   const auto faces = static_cast<double>(c.faces.size());
@@ -124,7 +139,8 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
     if (2 * std::ranges::count_if(c.face_edges, has_sharp_edge) >= std::ssize(c.faces)) return true;
   }
   const auto unevens = std::ranges::count_if(unevenness, [&](double u) { return u > uneven; });
-  return !is_smooth && static_cast<double>(unevens) >= uneven_share * faces;
+  return !is_smooth && static_cast<double>(unevens) >= uneven_share * faces &&
+         share_of_needles(points, c, uneven) >= needle_share;
 }
 
 }  // namespace hooke
