@@ -56,11 +56,24 @@ void warn_of_crossings(RunRecord& run) {
                    only_there ? ", all where the surface crosses itself already" : "")});
 }
 
-/// Warns if the surfaces are more than half a natural length or a fiftieth of the size apart.
+/// Has a closed body lost or gained more than a twentieth of its volume, as a thin tube of long edges does?
+/// No if that is less than a hundredth of a natural length all over, as where two sheets enclose nearly
+/// nothing.
+bool changes_volume(const RunRecord& run) {
+  constexpr double max_share = .05, min_lengths = .01;
+  const double change = std::abs(run.deviation->volume_change.value_or(0));
+  return change > max_share && change * std::abs(run.before.extent.volume.value_or(0)) >
+                                   min_lengths * run.target.natural * run.before.extent.area;
+}
+
+/// Warns if the surfaces are more than half a natural length or a fiftieth of the size apart, or the volume
+/// is another.
 void warn_of_distance(const Settings& s, RunRecord& run) {
   constexpr double max_lengths = .5, max_share = .02;
   const double distance = std::max(run.deviation->to_reference.max, run.deviation->from_reference.max);
-  if (distance <= std::min(max_lengths * run.target.natural, max_share * run.deviation->diagonal)) return;
+  if (distance <= std::min(max_lengths * run.target.natural, max_share * run.deviation->diagonal) &&
+      !changes_volume(run))
+    return;
   const bool closest = !s.paper && s.remesh.filter.kind == FilterKind::closest;
   run.warnings.push_back(
       {"surface_left",

@@ -4,7 +4,7 @@ import csv
 import json
 import os
 import unittest
-from math import dist
+from math import cos, dist, pi, sin
 
 from command import DATA, CommandTest, read_fields, read_mesh, write_off
 
@@ -241,6 +241,20 @@ class Report(CommandTest):
             self.assertEqual(codes(DATA / sample, "-o", "out.off"), [])
         coarse = (DATA / "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", "4x", "--accept-invalid")
         self.assertIn("surface_left", codes(*coarse))
+
+    def test_a_thin_body_that_lost_volume_is_a_warning(self):
+        around, along = 20, 80
+        turn = lambda k, n: (cos(2 * pi * k / n), sin(2 * pi * k / n))
+        ring = [(u * (4 + x), v * (4 + x), z) for u, v in (turn(i, along) for i in range(along))
+                for x, z in (turn(j, around) for j in range(around))]
+        at = lambda i, j: i % along * around + j % around
+        quads = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for i in range(along) for j in range(around)]
+        write_off(self.folder / "ring.off", ring, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))])
+        for length, expected in (("1x", []), (".9", ["surface_left"])):
+            report = self.report("ring.off", "-o", "out.off", "--connectivity", "adapt", "-L", length)
+            self.assertEqual([w["code"] for w in report["warnings"]], expected)
+        self.assertLess(report["geometry"]["volume_change"], -.05)
+        self.assertLess(report["geometry"]["distance_to_input"]["max"], .15)
 
     def test_what_holds_angles_down_is_named(self):
         codes = lambda *options: [w["code"] for w in self.report(*options)["warnings"]]
