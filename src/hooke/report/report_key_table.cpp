@@ -261,9 +261,9 @@ constexpr Row promises[] = {
      "where that is, or else a face that is turned over or crosses another, or a lost crease: x, y and z"},
     {"promises.place.<n>", or_null(number), length, neither, "coordinate of the place"},
     {"promises.rescue", text, none, neither,
-     "how the result came to keep it: none; tips = made again with lost vertices held; closest = on the "
-     "input's "
-     "faces; put_back = vertices went back"},
+     "how the result came to keep it: none; tips = made again with lost vertices held; junctions = with "
+     "those "
+     "of edges of three faces or more held; closest = on the input's faces; put_back = vertices went back"},
 };
 
 constexpr Row after_statistics[] = {
