@@ -277,11 +277,22 @@ class PreservingRemesh {
     if (next.is_better_than(best)) best = std::move(next);
   }
 
-  /// Makes attempts in which the vertices of junctions stand still, and keeps the first that is better.
+  /// May these vertices of the input have moved? In mode `adapt` others may stand in their places.
+  bool may_have_moved(const std::vector<int>& ids, const Run& run) const {
+    const auto now = vertex_points(run.mesh), before = vertex_points(mesh_);
+    return options_.connectivity == ConnectivityMode::adapt ||
+           std::ranges::any_of(ids, [&](int id) { return now.col(id) != before.col(id); });
+  }
+
+  /// If vertices of junctions may have slid, makes attempts in which they stand still, and keeps the first
+  /// that is better.
   void hold_junctions(FilterKind filter, Run& best) {
-    const std::vector<int> vertices = find_junctions(input_.adjacency, input_.joined).vertices;
-    if (vertices.empty()) return;
-    for (int v : vertices) options_.constraints.fixed_vertices.push_back(memory_order_.order.old_vertex[v]);
+    const Junctions junctions = find_junctions(input_.adjacency, input_.joined);
+    std::vector<int> ids;
+    for (int v : junctions.vertices) ids.push_back(memory_order_.order.old_vertex[v]);
+    if (junctions.edges.empty() || !may_have_moved(ids, best)) return;
+    std::vector<int>& fixed = options_.constraints.fixed_vertices;
+    fixed.insert(fixed.end(), ids.begin(), ids.end());
     options_.filter.kind = filter;
     Run next = attempt();
     if (!next.is_interrupted() && !next.is_good()) project_to_faces(next);
@@ -289,7 +300,7 @@ class PreservingRemesh {
       best.result.reason = StopReason::interrupted;
       return;
     }
-    next.result.rescue = Rescue::junctions;
+    if (next.result.rescue == Rescue::none) next.result.rescue = Rescue::junctions;
     if (next.is_better_than(best)) best = std::move(next);
   }
 
