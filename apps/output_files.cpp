@@ -45,7 +45,8 @@ void require_outputs(const Settings& s) {
 }
 
 void OutputFiles::commit() {
-  std::ranges::stable_partition(files_, [](const PendingFile& file) { return !file.is_standard_output(); });
+  std::stable_partition(files_.begin(), files_.end(),
+                        [](const PendingFile& file) { return !file.is_standard_output(); });
   std::size_t done = 0;
   try {
     for (; done < files_.size(); ++done) files_[done].commit();
