@@ -133,6 +133,26 @@ def stl_seeds():
     return [STL, STL + STL, binary]
 
 
+CONFIG = b"""# settings
+length = '1.2x'  # text
+connectivity = "flip"
+tolerance = '0.1%'
+max-outer = 3
+rho = .5
+repair = true
+paper = false
+require = ['after.min_angle.min >= 1', # both
+  "geometry.flipped_faces == 0" ,
+]
+drop-components = 'off'
+fill-holes = 9
+weld = '1%'
+keep = 'seams,non-manifold'
+sizing = 'curvature:0.1%'
+report = '-'
+"""
+
+
 def array_seeds():
     cube = [(x, y, z) for x in (0, 20) for y in (0, 20) for z in (0, 20)]
     faces = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2),
@@ -145,7 +165,8 @@ def array_seeds():
 
 
 SEEDS = {"obj": lambda: [OBJ, (DATA / "cube.obj").read_bytes()], "ply": ply_seeds, "off": off_seeds, "stl": stl_seeds,
-         "msh": lambda: [MSH2, MSH4], "vtp": lambda: [VTP], "repair": array_seeds, "pipeline": array_seeds}
+         "msh": lambda: [MSH2, MSH4], "vtp": lambda: [VTP], "repair": array_seeds, "pipeline": array_seeds,
+         "config": lambda: [CONFIG, b"effort = 'fast'\nthreads = 2\nsuffix = '_b'\n"]}
 
 
 def run(build, target, seconds):
