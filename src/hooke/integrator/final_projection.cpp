@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -26,10 +25,12 @@ constexpr double area_ratio = .01;
 /// angle.
 constexpr double cotangent_reserve = 3e-3;
 
+void add_none(std::vector<int>& /*vertices*/) {}
+
 /// `add_copies` adds the vertices that must be reverted together with some.
-std::vector<int> revert(
-    const Guards& guards, const SurfacePositions& from, std::vector<int> offending, SurfacePositions& to,
-    const std::function<void(std::vector<int>&)>& add_copies = [](std::vector<int>&) {}) {
+template <typename AddCopies>
+std::vector<int> revert(const Guards& guards, const SurfacePositions& from, std::vector<int> offending,
+                        SurfacePositions& to, const AddCopies& add_copies) {
   std::vector<char> is_back(from.drift.size(), 0);
   std::vector<int> all;
   while (!offending.empty()) {
@@ -66,12 +67,12 @@ std::vector<char> mark_around_crossings(const SurfacePositions& p, const Adjacen
 }  // namespace
 
 std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from, SurfacePositions& to) {
-  return revert(guards, from, guards.offenders(from, to), to);
+  return revert(guards, from, guards.offenders(from, to), to, add_none);
 }
 
 std::vector<int> revert_offenders(const Guards& guards, const SurfacePositions& from,
                                   const std::vector<int>& moved, SurfacePositions& to) {
-  return revert(guards, from, guards.offenders_around(from, to, moved), to);
+  return revert(guards, from, guards.offenders_around(from, to, moved), to, add_none);
 }
 
 std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacency,
