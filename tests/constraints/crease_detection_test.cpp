@@ -169,6 +169,34 @@ TEST(Features, FoldsOfASheetThatTurnToAndFroAreKept) {
   EXPECT_EQ(features_of(sheet).size(), 19u * 20);
 }
 
+/// Strips of these widths and 20 long, each of two triangles; `degrees` is the angle between every two.
+test::Triangles folded_strips(const std::vector<double>& widths, double degrees) {
+  std::vector<Vec3> p = {{0, 0, 0}, {0, 20, 0}};
+  test::Triangles t;
+  double slope = 0;
+  for (const double width : widths) {
+    const int n = static_cast<int>(p.size());
+    const Vec3 step = width * Vec3(std::cos(slope), 0, -std::sin(slope));
+    p.push_back(p[n - 2] + step);
+    p.push_back(p[n - 1] + step);
+    t.faces.push_back({n - 2, n, n + 1});
+    t.faces.push_back({n - 2, n + 1, n - 1});
+    slope += degrees * std::numbers::pi / 180;
+  }
+  t.points.resize(3, std::ssize(p));
+  for (size_t v = 0; v < p.size(); ++v) t.points.col(static_cast<Eigen::Index>(v)) = p[v];
+  return t;
+}
+
+TEST(Features, ARoundBendsThriceABevelTwice) {
+  for (const double width : {1., 1.8}) {
+    EXPECT_EQ(features_of(folded_strips({20, width, 20}, 20)).size(), 2u) << width;
+    EXPECT_TRUE(features_of(folded_strips({20, width, width, 20}, 20)).empty()) << width;
+    EXPECT_TRUE(features_of(folded_strips({20, width, width, width, 20}, 20)).empty()) << width;
+  }
+  EXPECT_EQ(features_of(folded_strips({20, 5, 5, 20}, 20)).size(), 3u) << "facets that the length resolves";
+}
+
 /// A hull of few triangles, seen from lengths much smaller than its edges: each triangle is a facet, also
 /// where two meet at a small angle; not so where lengths are of the order of the edges.
 TEST(Features, TrianglesBetweenSharpEdgesAreFacets) {

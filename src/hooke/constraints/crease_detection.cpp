@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "hooke/core/parallel.h"
@@ -208,6 +209,7 @@ class FeatureSearch {
         for (int e : c_.face_edges[f])
           if (!c_.is_boundary_edge(e) && !std::ranges::all_of(c_.edge_faces[e], is_member))
             borders.push_back(e);
+      region_is_gentle_.push_back(std::ranges::none_of(borders, [&](int e) { return angle_[e] > o_.angle; }));
       region_borders_.push_back(std::move(borders));
       faces_in_regions += members.size();
     }
@@ -250,7 +252,7 @@ class FeatureSearch {
   bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
     return narrower_width(edge, regions) > o_.resolved_facet &&
            std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
-             return strip_width(f, regions[f], edge) >
+             return strip_width(f, regions, edge) >
                     (is_gentle(regions[f]) ? o_.resolved_gentle_strip : o_.resolved_strip);
            });
   }
@@ -264,43 +266,71 @@ class FeatureSearch {
     return a >= 0 && a == b ? 0 : std::min(width(left, a, edge), width(right, b, edge));
   }
 
-  /// The least distance, in target lengths, of the ends of the edge from a parallel edge at which the face or
-  /// its region bends on, as a strip of a round body does: to the same side, and about as much, or twice as
-  /// much where the round begins at this edge; where no edge is sharp at least 2/3 as much, as on a surface
-  /// whose curvature varies. Edges in line with it or at an obtuse angle to it do not
-  /// count. A face alone may bend on at any other edge: its height then. Infinite if there is no such edge.
-  double strip_width(int face, int region, int edge) const {
-    const bool gentle = is_gentle(region);
-    const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
-    const Vec3 along = direction(edge);
-    const int a = c_.edges[edge][0], b = c_.edges[edge][1];
-    const double target = .5 * (length_[a] + length_[b]);
+  /// The width of the face or its region as a strip of a round body, in target lengths: the least distance
+  /// of an edge at which it bends on, see bend_distance(). Infinite if it is none: a round bends on at three
+  /// edges in a row, where a polyhedron may have two that are alike.
+  double strip_width(int face, const std::vector<int>& regions, int edge) const {
+    const bool is_second = bends_on(other_face(edge, face), regions, edge);
     double least = std::numeric_limits<double>::infinity();
-    const auto bend_on = [&](int e) {
-      const double ratio = angle_[e] / angle_[edge];
-      const bool bends_on =
-          gentle ? ratio > o_.gentle_ratio
-                 : std::abs(ratio - 1) < o_.strip_angle || std::abs(ratio - 2) < o_.strip_end_angle;
-      if (e == edge || !bends_on || is_convex(e) != is_convex(edge)) return;
-      const Vec3 other = direction(e), origin = X_.col(c_.edges[e][0]);
-      if (are_in_line(e, edge, along) || continues(e, edge)) return;
-      if (std::abs(other.dot(along)) > parallel)
-        for (int v : {a, b}) least = std::min(least, other.cross(X_.col(v) - origin).norm() / target);
-      else if (region < 0)
-        least = std::min(least, height(face, edge));
-    };
-    if (region < 0)
-      std::ranges::for_each(c_.face_edges[face], bend_on);
-    else
-      std::ranges::for_each(region_borders_[region], bend_on);
+    for (int e : borders(face, regions)) {
+      const double distance = bend_distance(face, regions[face], edge, e);
+      if (distance < least && (is_second || bends_on(face_beyond(e, face, regions), regions, e)))
+        least = distance;
+    }
     return least;
   }
 
-  /// Is no edge of the flat region sharp, as of the quadrilaterals of a smooth surface?
-  bool is_gentle(int region) const {
-    return region >= 0 &&
-           std::ranges::none_of(region_borders_[region], [&](int e) { return angle_[e] > o_.angle; });
+  /// Does the face, or its region, bend on at another edge as it does at this one?
+  bool bends_on(int face, const std::vector<int>& regions, int edge) const {
+    return std::ranges::any_of(borders(face, regions), [&](int e) {
+      return std::isfinite(bend_distance(face, regions[face], edge, e));
+    });
   }
+
+  /// The edges around the face or its region.
+  std::span<const int> borders(int face, const std::vector<int>& regions) const {
+    if (regions[face] < 0) return c_.face_edges[face];
+    return region_borders_[regions[face]];
+  }
+
+  int other_face(int edge, int face) const {
+    const auto& [left, right] = c_.edge_faces[edge];
+    return face == left ? right : left;
+  }
+
+  /// The face beside the edge that is neither this one nor in its region.
+  int face_beyond(int edge, int face, const std::vector<int>& regions) const {
+    const auto& [left, right] = c_.edge_faces[edge];
+    return left == face || (regions[face] >= 0 && regions[left] == regions[face]) ? right : left;
+  }
+
+  /// Distance, in target lengths, of the ends of the edge from another edge of the face or its region at
+  /// which the surface bends on: to the same side, and about as much, or twice as much where the round begins
+  /// at this edge. Where no edge is sharp it must bend at least 2/3 as much, as on a surface whose curvature
+  /// varies, and the width of the region counts. Edges in line with it or at an obtuse angle to it do not
+  /// count. A face alone may bend on at any other edge: its height then. Infinite if the surface does not
+  /// bend on there.
+  double bend_distance(int face, int region, int edge, int e) const {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const bool gentle = is_gentle(region);
+    const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
+    const double ratio = angle_[e] / angle_[edge];
+    const bool is_alike =
+        gentle ? ratio > o_.gentle_ratio
+               : std::abs(ratio - 1) < o_.strip_angle || std::abs(ratio - 2) < o_.strip_end_angle;
+    if (e == edge || !is_alike || is_convex(e) != is_convex(edge)) return none;
+    const Vec3 along = direction(edge), other = direction(e), origin = X_.col(c_.edges[e][0]);
+    if (are_in_line(e, edge, along) || continues(e, edge)) return none;
+    if (std::abs(other.dot(along)) <= parallel) return region < 0 ? height(face, edge) : none;
+    if (gentle) return width(face, region, edge);  // also where its edges meet, at a corner of a polyhedron
+    double least = none;
+    for (int v : c_.edges[edge]) least = std::min(least, other.cross(X_.col(v) - origin).norm());
+    const auto& [a, b] = c_.edges[edge];
+    return least / (.5 * (length_[a] + length_[b]));
+  }
+
+  /// Is no edge of the flat region sharp, as of the quadrilaterals of a smooth surface?
+  bool is_gentle(int region) const { return region >= 0 && region_is_gentle_[region]; }
 
   Vec3 direction(int edge) const {
     const auto& [a, b] = c_.edges[edge];
@@ -495,6 +525,7 @@ class FeatureSearch {
   double diagonal_ = box_diagonal(X_);
   std::vector<std::vector<int>> region_vertices_;  // of the flat regions
   std::vector<std::vector<int>> region_borders_;   // the edges around them
+  std::vector<char> region_is_gentle_;             // is none of these sharp?
   bool flat_mesh_ = false;                         // are so many faces in flat regions that these are meant?
 };
 
