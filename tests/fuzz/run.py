@@ -161,7 +161,10 @@ def array_seeds():
     cells = [t for x in range(4) for y in range(4) for c in [5 * x + y] for t in ((c, c + 5, c + 6), (c, c + 6, c + 1))]
     pack = lambda choice, points, triangles: bytes([choice, len(points) - 4] + [i for p in points for i in p] +
                                                    [i for t in triangles for i in t])
-    return [pack(choice, *mesh) for choice in range(8) for mesh in ((cube, faces), (grid, cells))]
+    wall = grid + [(8, 4 * y, 12) for y in range(5)]
+    junction = cells + [t for y in range(4) for t in ((10 + y, 11 + y, 26 + y), (10 + y, 26 + y, 25 + y))]
+    return [pack(choice, *mesh) for choice in range(8) for mesh in ((cube, faces), (grid, cells))] + [
+        pack(32 + choice, wall, junction) for choice in range(3)]
 
 
 SEEDS = {"obj": lambda: [OBJ, (DATA / "cube.obj").read_bytes()], "ply": ply_seeds, "off": off_seeds, "stl": stl_seeds,

@@ -9,6 +9,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/remesh/options.h"
 #include "support/crease_solids.h"
+#include "support/junction_sheets.h"
 #include "support/masks.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
@@ -179,6 +180,25 @@ TEST(PreservingRemesh, HoldsTheTipOfAConeWithGoodFaces) {
       nearest = std::min(nearest, (made.points.col(v) - cone.points.col(32)).norm());
     EXPECT_EQ(nearest, 0);
     EXPECT_GT(min_angle(made.points, made.faces), 24);
+  }
+}
+
+/// Strips that meet in a bent line, of which only the vertices of the line may move: along its chords, which
+/// leaves the strips by a little.
+TEST(PreservingRemesh, HoldsJunctionsIfSlidingBreaksAPromise) {
+  Mat3X line = test::on_axis({0, .7, 1.4, 3, 4.2, 5, 6.3, 7});
+  for (Eigen::Index i = 0; i < line.cols(); ++i) line(1, i) = .02 * line(0, i) * line(0, i);
+  const TriMesh input = test::sheets(test::fan(line, 3, 1, 1), 1);
+  RemeshOptions options = options_for(ConnectivityMode::fixed);
+  for (int v = static_cast<int>(line.cols()); v < 4 * line.cols(); ++v)
+    options.constraints.fixed_vertices.push_back(v);
+  for (const double max_distance : {1., 1e-6}) {
+    TriMesh mesh = input;
+    const RemeshResult done =
+        preserving_remesh(mesh, find_memory_order(mesh), options, {.max_distance = max_distance});
+    EXPECT_TRUE(done.measures->preservation.holds());
+    EXPECT_EQ(done.rescue, max_distance == 1 ? Rescue::none : Rescue::junctions);
+    EXPECT_EQ(vertex_points(mesh) == vertex_points(input), max_distance < 1);
   }
 }
 
