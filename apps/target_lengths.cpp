@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "hooke/constraints/crease_detection.h"
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"

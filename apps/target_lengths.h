@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "hooke/constraints/crease_detection.h"
+#include "hooke/constraints/constraint_options.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/repair.h"
 #include "hooke/report/report.h"

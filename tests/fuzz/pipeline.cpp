@@ -1,6 +1,6 @@
-// The whole run on tiny meshes, repaired where they are not valid, by cutting their junctions or keeping them: the
-// result is finite, its faces are the input's or form a valid mesh, copies of a vertex lie in one place, and what is
-// promised is kept but in mode `adapt`.
+// The whole run on tiny meshes, repaired where they are not valid, by cutting their junctions or keeping
+// them: the result is finite, its faces are the input's or form a valid mesh, copies of a vertex lie in one
+// place, and what is promised is kept but in mode `adapt`.
 #include <cstdlib>
 
 #include "arrays.h"
@@ -9,6 +9,7 @@
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/valid_mesh.h"
 #include "hooke/remesh/preserving_remesh.h"
+#include "hooke/springs/sizing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace hooke;

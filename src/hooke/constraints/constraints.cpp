@@ -138,7 +138,7 @@ class CreaseTracer {
     add_curve(points_, vertices, closed, result_);
     ++result_.crease_curves;
     // Sliding past a bend of an even crease cuts it off and gains nothing.
-    for (const int i : bends_of_even_curve(result_.curves.back(), options_.even_crease, options_.crease_bend))
+    for (const int i : bends_of_even_curve(result_.curves.back(), options_.even_crease))
       result_.freedom[vertices[i]] = Freedom::fixed;
   }
 

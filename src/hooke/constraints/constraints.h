@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "hooke/constraints/crease_detection.h"
+#include "hooke/constraints/constraint_options.h"
 #include "hooke/constraints/feature_curves.h"
 #include "hooke/mesh/adjacency.h"
 
@@ -16,28 +16,6 @@ std::vector<int> coincident_boundary_vertices(const Mat3X& points, const Adjacen
 
 /// What a vertex may do: move on the surface, slide along a curve of the input, or stand still.
 enum class Freedom : unsigned char { surface, curve, fixed };
-
-enum class BoundaryRule { slide, fixed, free };
-
-struct ConstraintOptions {
-  BoundaryRule boundary = BoundaryRule::slide;
-  std::vector<int> fixed_vertices = {};  // ids of vertices that stand still
-  /// Edges to be kept as creases are, though the surface is smooth across them: pairs of vertex ids.
-  std::vector<Edge> seams = {};
-  /// Boundary edges and creases of junctions, which have curves of their own: pairs of vertex ids, sorted,
-  /// smaller one first. Their ends must be among `fixed_vertices`.
-  std::vector<Edge> junction_edges = {};
-  /// Edges at which the input says that its surface is sharp: pairs of vertex ids. Where it bends enough to
-  /// continue a crease (CreaseOptions::hysteresis) they are creases, and never noise.
-  std::vector<Edge> hard_edges = {};
-  double corner_angle = 35;  // degrees; a curve that turns by more in space has a fixed corner
-  // Maximum ratio of the longest to the shortest edge of a crease whose vertices stand still at bends; below
-  // 1: none.
-  double even_crease = 1.5;
-  // Minimum distance of a bend from the chord between its neighbours, in mean edge lengths of the crease.
-  static constexpr double crease_bend = .01;
-  CreaseOptions features = {};
-};
 
 /// A vertex of a junction, with all its copies.
 struct JunctionVertex {

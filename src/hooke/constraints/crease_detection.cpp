@@ -18,6 +18,35 @@
 namespace hooke {
 namespace {
 
+// The bend ratio of an edge compares the flattest continuation of its faces with the edge itself: for each
+// face the smaller angle at its two other edges over the angle at the edge; the larger of both faces.
+constexpr double hysteresis = .6;  // fraction of the sharp angle above which an edge may continue a crease
+constexpr double max_turn = 35;    // degrees; maximum change of direction from edge to edge of a chain
+constexpr double max_bend_ratio = .25;       // of a crease edge; above it the surface is round
+constexpr double max_chain_bend_ratio = .1;  // maximum median bend ratio of a chain with a loose end
+constexpr double sharp_share = .3;           // minimum fraction of sharp edges in a chain with a loose end
+constexpr int min_edges = 12;                // minimum number of edges of a chain with a loose end
+constexpr double min_length = 8;             // minimum length of a chain with a loose end, in target lengths
+constexpr double flat_bend_ratio = .02;  // maximum median bend ratio of a chain or network between flat faces
+constexpr double min_curve = 5;  // minimum mean number of edges between the corners of a network, unless flat
+/// Minimum length of a sharp edge, and minimum height of its faces, in target lengths, for the edge to be
+/// certainly no noise.
+constexpr double resolved = 1.5;
+constexpr double noise_width = .1;      // the same for the facets beside a sharp edge where facets are meant
+constexpr double flat_angle = .2;       // degrees; an edge between resolved flat regions is a crease above it
+constexpr double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
+constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
+constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
+constexpr double resolved_facet = .5;        // and where none is
+constexpr double strip_angle = .05;      // maximum relative difference of the angles at both edges of a strip
+constexpr double strip_end_angle = .02;  // maximum difference of their ratio from 2 where a round begins
+constexpr double facet_angle =
+    1.4;  // minimum angle at all edges of a face that is a facet of its own, over `angle`
+/// Minimum share of faces in flat regions or with a resolved sharp edge, beyond which facets are meant.
+constexpr double flat_share = .6;
+constexpr double flatness =
+    1e-6;  // maximum distance of a flat region from its plane, in diagonals of the mesh
+
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
 std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
@@ -43,14 +72,14 @@ class FeatureSearch {
         o_(o),
         angle_(edge_angles(points, c)),
         kept_(c.edges.size(), 0),
-        cos_turn_(std::cos(o.max_turn * std::numbers::pi / 180)) {}
+        cos_turn_(std::cos(max_turn * std::numbers::pi / 180)) {}
 
   /// The hard edges that bend enough to be creases, and all that the search finds unless `hard_only`.
   std::vector<int> run(const std::vector<Edge>& hard_edges, bool hard_only) {
     if (!hard_only) search();
     for (const auto& [a, b] : hard_edges)
       for (const int e : c_.vertex_edges[a])
-        if (c_.other_end(e, a) == b && angle_[e] > o_.hysteresis * o_.angle) kept_[e] = 1;
+        if (c_.other_end(e, a) == b && angle_[e] > hysteresis * o_.angle) kept_[e] = 1;
     std::vector<int> edges;
     for (size_t e = 0; e < kept_.size(); ++e)
       if (kept_[e]) edges.push_back(static_cast<int>(e));
@@ -84,10 +113,8 @@ class FeatureSearch {
 
   /// Is the face a flat facet of its own: sharp on all sides, in a place where edges are sharp or flat?
   bool is_facet(int face) const {
-    const auto is_sharp = [&](int e) {
-      return c_.is_boundary_edge(e) || angle_[e] > o_.facet_angle * o_.angle;
-    };
-    const auto is_flat = [&](int e) { return angle_[e] < o_.flat_bend_ratio * o_.angle; };
+    const auto is_sharp = [&](int e) { return c_.is_boundary_edge(e) || angle_[e] > facet_angle * o_.angle; };
+    const auto is_flat = [&](int e) { return angle_[e] < flat_bend_ratio * o_.angle; };
     return std::ranges::all_of(c_.face_edges[face], is_sharp) &&
            std::ranges::all_of(c_.faces[face], [&](int v) {
              return std::ranges::all_of(c_.vertex_edges[v], [&](int e) { return is_sharp(e) || is_flat(e); });
@@ -105,10 +132,10 @@ class FeatureSearch {
   /// twice as long and beside a flat region, or does it divide facets that are meant? Then it is no noise.
   bool is_resolved(int edge, const std::vector<int>& regions) const {
     const auto& [left, right] = c_.edge_faces[edge];
-    if (narrower_width(edge, regions) > o_.noise_width) return true;
-    if (length(edge) <= o_.resolved) return false;
-    if (height(left, edge) > o_.resolved && height(right, edge) > o_.resolved) return true;
-    return length(edge) > 2 * o_.resolved && (flat_mesh_ || regions[left] >= 0 || regions[right] >= 0);
+    if (narrower_width(edge, regions) > noise_width) return true;
+    if (length(edge) <= resolved) return false;
+    if (height(left, edge) > resolved && height(right, edge) > resolved) return true;
+    return length(edge) > 2 * resolved && (flat_mesh_ || regions[left] >= 0 || regions[right] >= 0);
   }
 
   /// Adds the sharp edges that are resolved or divide flat regions, and weaker edges between resolved flat
@@ -120,7 +147,7 @@ class FeatureSearch {
       if (kept_[e] || c_.is_boundary_edge(edge)) continue;
       if (angle_[e] > o_.angle)
         kept_[e] = is_resolved(edge, regions) || divides_flat_regions(edge, regions);
-      else if (angle_[e] > o_.flat_angle)
+      else if (angle_[e] > flat_angle)
         kept_[e] = divides_resolved_regions(edge, regions);
     }
     const std::vector<char> kept = kept_;
@@ -145,7 +172,7 @@ class FeatureSearch {
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
       const bool is_single =
           network.size() == 1 && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); });
-      if (is_single || (is_noisy && std::ssize(network) < o_.min_edges))
+      if (is_single || (is_noisy && std::ssize(network) < min_edges))
         for (int i : network) kept_[i] = 0;
     }
   }
@@ -153,10 +180,10 @@ class FeatureSearch {
   /// Does the edge divide flat regions where edges at both its ends that are hardly sharper are creases? A
   /// body is round both ways or not at all.
   bool goes_with_creases(int edge, const std::vector<char>& kept, const std::vector<int>& regions) const {
-    return angle_[edge] > o_.flat_angle && narrower_width(edge, regions) > o_.resolved_facet &&
+    return angle_[edge] > flat_angle && narrower_width(edge, regions) > resolved_facet &&
            std::ranges::all_of(c_.edges[edge], [&](int v) {
              return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
-               return kept[e] && angle_[e] < (1 + o_.strip_angle) * angle_[edge];
+               return kept[e] && angle_[e] < (1 + strip_angle) * angle_[edge];
              });
            });
   }
@@ -171,10 +198,10 @@ class FeatureSearch {
     std::vector<int> order;
     for (size_t f = 0; f < areas.size(); ++f)
       if (std::ranges::any_of(c_.face_edges[f],
-                              [&](int e) { return angle_[e] <= o_.flat_angle && !c_.is_boundary_edge(e); }))
+                              [&](int e) { return angle_[e] <= flat_angle && !c_.is_boundary_edge(e); }))
         order.push_back(static_cast<int>(f));
     std::ranges::stable_sort(order, std::greater(), [&](int f) { return areas[f]; });
-    const double tolerance = o_.flatness * diagonal_;
+    const double tolerance = flatness * diagonal_;
     constexpr int none = -1, alone = -2;
     size_t faces_in_regions = 0;
     std::vector<int> regions(areas.size(), none);
@@ -193,7 +220,7 @@ class FeatureSearch {
       for (size_t i = 0; i < members.size(); ++i)
         for (int e : c_.face_edges[members[i]])
           for (int f : c_.edge_faces[e]) {
-            if (f < 0 || regions[f] != none || angle_[e] > o_.flat_angle || !lies_in_plane(f)) continue;
+            if (f < 0 || regions[f] != none || angle_[e] > flat_angle || !lies_in_plane(f)) continue;
             regions[f] = region;
             members.push_back(f);
           }
@@ -215,15 +242,15 @@ class FeatureSearch {
     }
     for (size_t f = 0; f < regions.size(); ++f)
       if (regions[f] < 0) faces_in_regions += has_resolved_edge(static_cast<int>(f));
-    flat_mesh_ = static_cast<double>(faces_in_regions) >= o_.flat_share * static_cast<double>(regions.size());
+    flat_mesh_ = static_cast<double>(faces_in_regions) >= flat_share * static_cast<double>(regions.size());
     return regions;
   }
 
   /// Has the face a sharp edge that the target length resolves?
   bool has_resolved_edge(int face) const {
     return std::ranges::any_of(c_.face_edges[face], [&](int e) {
-      return angle_[e] > o_.angle && length(e) > o_.resolved &&
-             std::ranges::all_of(c_.edge_faces[e], [&](int f) { return height(f, e) > o_.resolved; });
+      return angle_[e] > o_.angle && length(e) > resolved &&
+             std::ranges::all_of(c_.edge_faces[e], [&](int f) { return height(f, e) > resolved; });
     });
   }
 
@@ -244,16 +271,16 @@ class FeatureSearch {
     const auto& [left, right] = c_.edge_faces[edge];
     const int a = regions[left], b = regions[right];
     return flat_mesh_ && a >= 0 && b >= 0 && a != b &&
-           std::max(width(left, a, edge), width(right, b, edge)) > 2 * o_.resolved;
+           std::max(width(left, a, edge), width(right, b, edge)) > 2 * resolved;
   }
 
   /// Does the edge divide two flat regions, or single faces, that the target length resolves? In a mesh with
   /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
   bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
-    return narrower_width(edge, regions) > o_.resolved_facet &&
+    return narrower_width(edge, regions) > resolved_facet &&
            std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
              return strip_width(f, regions, edge) >
-                    (is_gentle(regions[f]) ? o_.resolved_gentle_strip : o_.resolved_strip);
+                    (is_gentle(regions[f]) ? resolved_gentle_strip : resolved_strip);
            });
   }
 
@@ -315,9 +342,8 @@ class FeatureSearch {
     const bool gentle = is_gentle(region);
     const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
     const double ratio = angle_[e] / angle_[edge];
-    const bool is_alike =
-        gentle ? ratio > o_.gentle_ratio
-               : std::abs(ratio - 1) < o_.strip_angle || std::abs(ratio - 2) < o_.strip_end_angle;
+    const bool is_alike = gentle ? ratio > gentle_ratio
+                                 : std::abs(ratio - 1) < strip_angle || std::abs(ratio - 2) < strip_end_angle;
     if (e == edge || !is_alike || is_convex(e) != is_convex(edge)) return none;
     const Vec3 along = direction(edge), other = direction(e), origin = X_.col(c_.edges[e][0]);
     if (are_in_line(e, edge, along) || continues(e, edge)) return none;
@@ -340,7 +366,7 @@ class FeatureSearch {
   /// Are both edges pieces of one straight line?
   bool are_in_line(int edge, int other, const Vec3& along) const {
     const Vec3 apart = X_.col(c_.edges[edge][0]) - X_.col(c_.edges[other][0]);
-    return apart.cross(along).norm() <= o_.flatness * diagonal_;
+    return apart.cross(along).norm() <= flatness * diagonal_;
   }
 
   /// Do the edges meet at an obtuse angle, of more than 96 degrees?
@@ -362,7 +388,7 @@ class FeatureSearch {
   }
 
   bool may_belong(int edge, double min_angle) const {
-    return angle_[edge] > min_angle && bend_ratio(edge) <= o_.max_bend_ratio;
+    return angle_[edge] > min_angle && bend_ratio(edge) <= max_bend_ratio;
   }
 
   int other_end(int edge, int vertex) const {
@@ -397,7 +423,7 @@ class FeatureSearch {
       ++count;
       for (int v : c_.edges[edge])
         for (int next : c_.vertex_edges[v]) {
-          if (kept_[next] || !may_belong(next, o_.hysteresis * o_.angle) || !goes_on(edge, next, v)) continue;
+          if (kept_[next] || !may_belong(next, hysteresis * o_.angle) || !goes_on(edge, next, v)) continue;
           kept_[next] = 1;
           front.push_back(next);
         }
@@ -459,12 +485,12 @@ class FeatureSearch {
     const auto edges = static_cast<int>(chain.edges.size());
     const double ratio = median_bend_ratio(chain.edges);
     if (on_boundary(chain.first) && edges > 1 && sharp == edges) {
-      if (kept_edges(chain.last).size() > 1 && ratio <= o_.flat_bend_ratio) return true;
-      if (on_boundary(chain.last) && median_bend_ratio(chain.edges, true) <= o_.flat_bend_ratio) return true;
+      if (kept_edges(chain.last).size() > 1 && ratio <= flat_bend_ratio) return true;
+      if (on_boundary(chain.last) && median_bend_ratio(chain.edges, true) <= flat_bend_ratio) return true;
     }
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
-    return edges >= o_.min_edges && sum >= o_.min_length && sharp >= o_.sharp_share * edges &&
-           ratio <= (is_lone ? o_.flat_bend_ratio : o_.max_chain_bend_ratio);
+    return edges >= min_edges && sum >= min_length && sharp >= sharp_share * edges &&
+           ratio <= (is_lone ? flat_bend_ratio : max_chain_bend_ratio);
   }
 
   void drop_loose_chains() {
@@ -509,8 +535,8 @@ class FeatureSearch {
     for (size_t e = 0; e < kept_.size(); ++e) {
       if (!kept_[e] || seen[e]) continue;
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
-      const bool short_curves = 2 * static_cast<double>(network.size()) < o_.min_curve * curve_ends(network);
-      if (short_curves && median_bend_ratio(network) > o_.flat_bend_ratio)
+      const bool short_curves = 2 * static_cast<double>(network.size()) < min_curve * curve_ends(network);
+      if (short_curves && median_bend_ratio(network) > flat_bend_ratio)
         for (int i : network) kept_[i] = 0;
     }
   }
@@ -537,7 +563,7 @@ std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
   if (o.angle >= 180) return tips;
   for (int v = 0; v < c.vertex_count; ++v) {
     const auto is_resolved = [&](int e) {
-      return (points.col(c.other_end(e, v)) - points.col(v)).norm() > o.resolved * vertex_length[v];
+      return (points.col(c.other_end(e, v)) - points.col(v)).norm() > resolved * vertex_length[v];
     };
     if (std::ranges::all_of(c.vertex_edges[v], is_resolved) && is_tip(points, c, v)) tips.push_back(v);
   }

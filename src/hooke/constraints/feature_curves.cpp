@@ -77,7 +77,8 @@ bool turns(const Vec3& before, const Vec3& at, const Vec3& after, double cosine)
   return in.dot(out) < cosine * in.norm() * out.norm();
 }
 
-std::vector<int> bends_of_even_curve(const Curve& curve, double even, double bend) {
+std::vector<int> bends_of_even_curve(const Curve& curve, double even) {
+  constexpr double bend = .01;
   const int n = static_cast<int>(curve.points.cols()), segments = curve.segment_count();
   const auto point = [&](int i) { return curve.points.col(i % n); };
   double sum = 0, shortest = std::numeric_limits<double>::infinity(), longest = 0;

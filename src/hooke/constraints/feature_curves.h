@@ -23,9 +23,9 @@ Curve make_curve(Mat3X points, bool closed);
 /// Does a polyline through these points turn by more than the angle with this cosine?
 bool turns(const Vec3& before, const Vec3& at, const Vec3& after, double cosine);
 
-/// Indices of the points at the bends of an even curve: farther than `bend` mean edge lengths from the chord
+/// Indices of the points at the bends of an even curve: farther than .01 mean edge lengths from the chord
 /// between their neighbours. None if the longest edge is more than `even` times the shortest.
-std::vector<int> bends_of_even_curve(const Curve& curve, double even, double bend);
+std::vector<int> bends_of_even_curve(const Curve& curve, double even);
 
 /// A point projected to a curve.
 struct CurveProjection {

@@ -106,8 +106,7 @@ class JunctionTracer {
       result_.junction_vertices[n] = {curve, true};
       segments_[n] = static_cast<int>(i);
     }
-    for (const int i : bends_of_even_curve(result_.junction_curves.back(), options_.even_crease,
-                                           ConstraintOptions::crease_bend))
+    for (const int i : bends_of_even_curve(result_.junction_curves.back(), options_.even_crease))
       result_.junction_vertices[vertices[i]].slides = false;
   }
 

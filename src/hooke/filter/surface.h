@@ -2,12 +2,12 @@
 // search and an analytic surface can all serve as one.
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <utility>
 
 #include "hooke/core/symmetric_matrix.h"
 #include "hooke/core/types.h"
+#include "hooke/filter/projection_counts.h"
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
@@ -25,24 +25,6 @@ ShapeOperator unknown_shape_operator();
 /// Least-squares fit of S to the edges at each vertex; unknown where they do not span a plane.
 std::vector<ShapeOperator> shape_operators(const Mat3X& points, const Mat3X& normals,
                                            const Adjacency& adjacency);
-
-/// How a projection ended. All but `converged` used the fallback; the report counts them.
-enum class ProjectionStatus : unsigned char {
-  converged,
-  no_cover,       // no patch of the field covers the point
-  flat_gradient,  // |grad psi| too small for a Newton step
-  too_far,        // Newton's method left the neighbourhood of its start
-  step_limit,     // Newton's method did not converge
-};
-
-/// Number of projections, in total and by status, and of field evaluations.
-struct ProjectionCounts {
-  long long calls = 0;
-  long long evaluations = 0;
-  std::array<long long, 5> by_status{};  // indexed by ProjectionStatus
-
-  ProjectionCounts& operator+=(const ProjectionCounts& other);
-};
 
 /// A point projected to the surface.
 struct Projection {

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 
 #include "hooke/core/types.h"
+#include "hooke/filter/filter_options.h"
 #include "hooke/filter/surface.h"
 #include "hooke/filter/thin_plate_spline.h"
 #include "hooke/mesh/adjacency.h"
@@ -33,38 +33,6 @@ struct NearFaces {
 
  private:
   Projection closest_point_of_ring(const Vec3& x, int hint) const;
-};
-
-/// How points are projected to the surface.
-enum class FilterKind {
-  local,    // blended splines on patches: meshes of any size
-  global,   // the paper's single dense spline [30]: a few thousand vertices
-  closest,  // closest point on the faces
-  none,     // points are not projected
-};
-
-/// When a new surface field is fitted: before each outer iteration that follows one in which guards limited
-/// vertices, or once. Mode `adapt` always fits once.
-enum class Refit { each, once };
-
-/// The unit of the offset of the splines' second points.
-enum class OffsetUnit {
-  edge,  // mean edge length: at each vertex (local), of the mesh (global)
-  file,  // the unit of the points, as in the paper (global)
-};
-
-struct FilterOptions {
-  FilterKind kind = FilterKind::local;
-  Kernel kernel = Kernel::r3;
-  double offset = .3;  // rho of [13]
-  OffsetUnit offset_unit = OffsetUnit::edge;
-  bool inward = false;  // are the second points inside, as in the paper (global)? Otherwise they are outside
-  bool facets =
-      true;  // curved facets where the splines do not follow the surface; see SurfaceField::project()
-  std::size_t memory_limit_bytes = SIZE_MAX;  // of the dense fit (global)
-  /// Maximum distance of the surface from the faces, in vertex lengths, where splines may overshoot: near
-  /// long edges along which the normals turn.
-  double max_deviation = std::numeric_limits<double>::infinity();
 };
 
 /// The field of a reference mesh, whose vertices lie on the surface. Shares ownership of what it needs, is

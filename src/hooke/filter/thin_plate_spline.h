@@ -13,12 +13,9 @@
 
 #include "hooke/core/simd.h"
 #include "hooke/core/types.h"
+#include "hooke/filter/filter_options.h"
 
 namespace hooke {
-
-/// r2logr is the paper's [27]. Both kernels are conditionally positive definite of order 2: they need at
-/// least an affine part.
-enum class Kernel { r2logr, r3 };
 
 /// Polynomial part: 1 affine [29], 2 quadratic.
 using SplineDegree = int;

@@ -25,14 +25,6 @@ struct AngleSpringOptions {
   double keep_within = .1;         // degrees below the best angle at which a later state is still kept
 };
 
-struct AngleSpringResult {
-  int stages = 0;
-  int sweeps = 0;
-  double min_angle_before = 0, min_angle_after = 0;    // degrees
-  double edge_error_before = 0, edge_error_after = 0;  // standard deviation of l / L_e
-  bool interrupted = false;
-};
-
 /// Raises the minimum angle in stages while the standard deviation of l / L_e stays within its limit.
 /// Restores the best state and the energy terms.
 AngleSpringResult raise_angles(Relaxation& relaxation, const TargetLengths& targets,

@@ -18,14 +18,6 @@ class Retraction;
 struct Relaxation;
 struct SurfacePositions;
 
-/// The constants of [17], section 4.6. They assume target lengths of about 1: a string force is a length, a
-/// torque force has no unit.
-struct DampedOptions {
-  double string = 2;       // lambda, the string tension; positive
-  double torque = 1;       // mu, the torque coefficient
-  double friction = 1000;  // tau, one over a time; positive
-};
-
 /// Throws Error if the string tension or the friction is not a positive number.
 void require_valid(const DampedOptions& options);
 

@@ -1,4 +1,4 @@
-// Options, progress and results common to all integrators.
+// Options, progress and results of the integrators, as far as users see them.
 #pragma once
 
 #include <functional>
@@ -25,6 +25,14 @@ struct Progress {
 /// Called after every step; returns false to stop and keep what has been reached.
 using Observer = std::function<bool(const Progress&)>;
 
+/// The constants of [17], section 4.6. They assume target lengths of about 1: a string force is a length, a
+/// torque force has no unit.
+struct DampedOptions {
+  double string = 2;       // lambda, the string tension; positive
+  double torque = 1;       // mu, the torque coefficient
+  double friction = 1000;  // tau, one over a time; positive
+};
+
 struct IntegrationOptions {
   int max_steps = 2000;       // evaluations of the energy (lbfgs) or time steps (damped)
   double energy_drop = 2e-3;  // relative fall of the energy over the window, below which it is at rest
@@ -38,6 +46,15 @@ struct IntegrationResult {
   double energy = 0;            // at the end
   long long limited_steps = 0;  // vertex displacements shortened by the guards
   StopReason reason = StopReason::stalled;
+};
+
+/// What raise_angles() did.
+struct AngleSpringResult {
+  int stages = 0;
+  int sweeps = 0;
+  double min_angle_before = 0, min_angle_after = 0;    // degrees
+  double edge_error_before = 0, edge_error_after = 0;  // standard deviation of l / L_e
+  bool interrupted = false;
 };
 
 }  // namespace hooke

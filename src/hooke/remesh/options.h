@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "hooke/connectivity/connectivity_mode.h"
-#include "hooke/constraints/constraints.h"
-#include "hooke/filter/surface_field.h"
-#include "hooke/integrator/damped_evolution.h"
+#include "hooke/constraints/constraint_options.h"
+#include "hooke/filter/filter_options.h"
+#include "hooke/integrator/integration.h"
 
 namespace hooke {
 

@@ -2,9 +2,9 @@
 // "Hooke's Optimization for 3D triangular mesh", section 4.6.
 #pragma once
 
-#include "hooke/constraints/constraints.h"
+#include "hooke/constraints/constraint_options.h"
+#include "hooke/filter/filter_options.h"
 #include "hooke/filter/retraction.h"
-#include "hooke/filter/surface_field.h"
 #include "hooke/integrator/damped_evolution.h"
 #include "hooke/remesh/result.h"
 

@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "hooke/connectivity/connectivity_mode.h"
-#include "hooke/filter/surface.h"
-#include "hooke/integrator/angle_springs.h"
+#include "hooke/filter/projection_counts.h"
 #include "hooke/integrator/integration.h"
 #include "hooke/integrator/time_step.h"
 #include "hooke/mesh/mesh.h"
