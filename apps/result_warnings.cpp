@@ -139,6 +139,10 @@ std::string topology_change(const Topology& before, const Topology& after) {
   return fmt::format("its topology would be another: {}", fmt::join(changes, ", "));
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 /// What the result does not keep of the input; empty if it keeps all, or was not measured.
 std::string what_is_broken(const RunRecord& run) {
   if (!run.result->measures || run.result->measures->preservation.holds()) return "";
@@ -153,13 +157,13 @@ std::string what_is_broken(const RunRecord& run) {
   if (!p.creases_kept)
     broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away{}", p.crease_loss,
                                  p.flipped_faces + p.new_crossings == 0 ? at : ""));
-  if (p.flipped_faces > 0) broken.push_back(fmt::format("{} faces turned over{}", p.flipped_faces, at));
-  if (p.new_folds > 0) broken.push_back(fmt::format("{} new folds", p.new_folds));
+  if (p.flipped_faces > 0) broken.push_back(counted(p.flipped_faces, "face", "faces") + " turned over" + at);
+  if (p.new_folds > 0) broken.push_back(counted(p.new_folds, "new fold", "new folds"));
   if (p.new_crossings > 0)
-    broken.push_back(
-        fmt::format("{} new self-intersections{}", p.new_crossings, p.flipped_faces == 0 ? at : ""));
+    broken.push_back(counted(p.new_crossings, "new self-intersection", "new self-intersections") +
+                     (p.flipped_faces == 0 ? at : ""));
   if (p.new_degenerate_faces > 0)
-    broken.push_back(fmt::format("{} new faces without area", p.new_degenerate_faces));
+    broken.push_back(counted(p.new_degenerate_faces, "new face", "new faces") + " without area");
   return fmt::format("{}", fmt::join(broken, "; "));
 }
 
@@ -179,12 +183,10 @@ void warn_of_rescue(RunRecord& run) {
         return "vertices at tips of the surface stand still; without that it would lose them";
       case Rescue::junctions:
         return "the vertices of edges with three faces or more stand still; if they slid it would not keep "
-               "the "
-               "input";
+               "the input";
       case Rescue::closest:
         return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input, "
-               "or "
-               "only with small angles";
+               "or only with small angles";
       case Rescue::put_back: {
         const auto count = std::ranges::count_if(
             run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });

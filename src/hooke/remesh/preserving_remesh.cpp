@@ -113,7 +113,11 @@ class PreservingRemesh {
   Run attempt() {
     Run run = make();
     judge(run);
-    if (!run.result.measures || run.is_interrupted()) return run;
+    if (!run.result.measures) return run;
+    if (run.is_interrupted()) {
+      if (run.flaws() > 0) mend(run);
+      return run;
+    }
     const std::vector<FarVertex> lost = run.preservation().lost_vertices;
     mend(run);
     const bool only_lost = run.flaws() == run.preservation().lost_vertices.size();

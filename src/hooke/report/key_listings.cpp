@@ -200,9 +200,8 @@ These quantities are told by the figures below, as in `after.min_angle.p05`:
 )" + table_of(keys_of({"before"}, is_quantity)) +
           "\n" + table_of_figures() + "\n" + table_of(keys_of({"before"}, other)));
   add("What the result keeps: `promises`, `geometry`",
-      R"(Both are of what is in the output file, as `after` is. A result that breaks a promise is not written, unless
-`--accept-invalid` is given or only the rounding to single precision broke it; a warning then tells of faces turned over
-and of intersections.
+      R"(Both are of what is in the output file, as `after` is. A result that breaks a promise, by its rounding too, is
+not written unless `--accept-invalid` is given.
 
 )" + table_of(keys_of({"promises", "geometry"}, all_of_them)));
   add("Gates, comparison, warnings and repairs",
