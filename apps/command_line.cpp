@@ -5,14 +5,13 @@
 #include <memory>
 #include <utility>
 
-#include "completion.h"
 #include "config_file.h"
 #include "exit_codes.h"
+#include "generated_help.h"
 #include "help.h"
 #include "hooke/core/error.h"
 #include "hooke/io/files.h"
 #include "listing_request.h"
-#include "man_page.h"
 #include "messages.h"
 #include "nearest_word.h"
 #include "option_table.h"

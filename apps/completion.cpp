@@ -1,4 +1,4 @@
-#include "completion.h"
+#include "generated_help.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

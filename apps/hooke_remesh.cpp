@@ -1,9 +1,12 @@
 // hooke-remesh: reads a mesh, optimizes it, writes the result and reports its quality.
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <initializer_list>
 #include <new>
 #include <utility>
 
@@ -26,7 +29,6 @@
 #include "result_warnings.h"
 #include "signals.h"
 #include "stages.h"
-#include "standard_streams.h"
 
 namespace hooke::app {
 namespace {
@@ -126,6 +128,13 @@ int run(Settings s) {
   finish(s, record, files);
   if (caught_signal()) return 128 + caught_signal();
   return passes(record) ? done : gate_failed;
+}
+
+/// Opens /dev/null, read-only, for each standard stream that is closed. Otherwise the next file to be opened
+/// would take its descriptor and receive its output.
+void occupy_standard_streams() {
+  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) != stream) return;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "man_page.h"
+#include "generated_help.h"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,7 @@
 #include <utility>
 
 #include "hooke/io/mesh_file.h"
-#include "hooke/io/rewrite_obj.h"
-#include "hooke/io/rewrite_off.h"
-#include "hooke/io/rewrite_ply.h"
+#include "hooke/io/rewrite_formats.h"
 
 namespace hooke {
 

@@ -1,4 +1,4 @@
-#include "hooke/io/rewrite_obj.h"
+#include "hooke/io/rewrite_formats.h"
 
 #include <fmt/format.h>
 

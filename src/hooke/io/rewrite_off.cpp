@@ -1,4 +1,4 @@
-#include "hooke/io/rewrite_off.h"
+#include "hooke/io/rewrite_formats.h"
 
 #include <cmath>
 #include <optional>
