@@ -143,7 +143,8 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
       adjacency_(c),
       near_(index_of(c.vertex_count), 0),
       is_tip_(near_),
-      components_(label_components(c)) {
+      components_(label_components(c)),
+      facet_of_face_(c.faces.size(), -1) {
   std::vector<char> at_facet(near_.size(), 0);
   for (std::size_t f = 0; f < curved.size(); ++f)
     if (curved[f])
@@ -166,6 +167,7 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
                 face_normal.col(static_cast<Eigen::Index>(f)),
                 {}};
     for (std::size_t k = 0; k < 3; ++k) facet.arcs[k] = arcs[index_of(c.face_edges[f][k])];
+    facet_of_face_[f] = static_cast<int>(facets_.size());
     facets_.push_back(facet);
     triangles.push_back(t);
   }
@@ -194,10 +196,18 @@ double CurvedFacets::rise_at(int index, const Vec3& at) const {
 CurvedFacets::Place CurvedFacets::find(const Vec3& x, int hint) const {
   const int component = components_[index_of(hint)];
   const Vec3 side = normals_.col(hint);
-  const ClosestPoint closest = tree_->closest(x, [&](int index) {
+  const auto accepts = [&](int index) {
     const Facet& facet = facets_[index_of(index)];
     return facet.component == component && facet.normal.dot(side) >= min_agreement;
-  });
+  };
+  ClosestPoint at_hint;
+  for (int f : adjacency_.vertex_faces[hint]) {
+    const int index = facet_of_face_[index_of(f)];
+    if (index < 0 || !accepts(index)) continue;
+    const Triangle& t = adjacency_.faces[index_of(f)];
+    update_closest(x, {points_.col(t[0]), points_.col(t[1]), points_.col(t[2])}, index, at_hint);
+  }
+  const ClosestPoint closest = tree_->closest(x, accepts, at_hint);
   return {closest.face, closest.point, std::sqrt(closest.squared_distance)};
 }
 
@@ -227,8 +237,8 @@ bool CurvedFacets::allows(const Place& place) const {
 }
 
 std::size_t CurvedFacets::memory_bytes() const {
-  return near_.capacity() + sizeof(int) * components_.capacity() + sizeof(Facet) * facets_.capacity() +
-         sizeof(AabbTree::Face) * facets_.size();
+  return near_.capacity() + sizeof(int) * (components_.capacity() + facet_of_face_.capacity()) +
+         sizeof(Facet) * facets_.capacity() + sizeof(AabbTree::Face) * facets_.size();
 }
 
 }  // namespace hooke

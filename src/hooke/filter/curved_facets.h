@@ -75,10 +75,11 @@ class CurvedFacets {
   const Mat3X& points_;
   const Mat3X& normals_;
   const Adjacency& adjacency_;
-  std::vector<char> near_;       // per vertex
-  std::vector<char> is_tip_;     // per vertex: do the faces come to a point there?
-  std::vector<int> components_;  // per vertex
-  std::vector<Facet> facets_;    // the curved ones and those around
+  std::vector<char> near_;          // per vertex
+  std::vector<char> is_tip_;        // per vertex: do the faces come to a point there?
+  std::vector<int> components_;     // per vertex
+  std::vector<int> facet_of_face_;  // -1 for faces that are none
+  std::vector<Facet> facets_;       // the curved ones and those around
   std::optional<AabbTree> tree_;
 };
 

@@ -112,7 +112,6 @@ ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Ve
       return best;
     }
   }
-  best.squared_distance = std::numeric_limits<double>::infinity();
   for (const Vec3& p :
        {closest_on_segment(x, a, b), closest_on_segment(x, b, c), closest_on_segment(x, c, a)}) {
     const double squared_distance = (x - p).squaredNorm();

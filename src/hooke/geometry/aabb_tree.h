@@ -90,7 +90,7 @@ std::vector<int> spatial_order(const std::vector<Vec3>& points);
 
 struct ClosestPoint {
   Vec3 point = Vec3::Zero();
-  double squared_distance = 0;
+  double squared_distance = std::numeric_limits<double>::infinity();
   int face = -1;  // lowest id among the equally close faces visited; -1 if the tree is empty
 };
 
@@ -141,9 +141,11 @@ class AabbTree {
     return closest(x, [](int) { return true; });
   }
 
-  /// The same among the faces whose ids are accepted; face -1 without any.
+  /// The same among the faces whose ids are accepted; face -1 without any. The search passes all that is
+  /// nearer than the closest of these, much where few are accepted: `known`, the closest point of some of
+  /// them, makes it short.
   template <typename Accepts>
-  ClosestPoint closest(const Vec3& x, const Accepts& accepts) const;
+  ClosestPoint closest(const Vec3& x, const Accepts& accepts, const ClosestPoint& known = {}) const;
 
   /// The boxes of all nodes; the leaves are the nodes from leaf_count() on.
   std::span<const Box> boxes() const { return boxes_; }
@@ -225,18 +227,17 @@ class AabbTree {
 };
 
 /// Keeps the face in `best` if it is closer, or as close and of a lower id.
-inline void update_closest(const Vec3& x, const AabbTree::Face& face, ClosestPoint& best) {
-  const ClosestPoint candidate = closest_point(x, face.corners[0], face.corners[1], face.corners[2]);
+inline void update_closest(const Vec3& x, const std::array<Vec3, 3>& corners, int id, ClosestPoint& best) {
+  const ClosestPoint candidate = closest_point(x, corners[0], corners[1], corners[2]);
   const double d = candidate.squared_distance;
-  if (d > best.squared_distance || (d == best.squared_distance && face.id >= best.face)) return;
+  if (d > best.squared_distance || (d == best.squared_distance && id >= best.face)) return;
   best = candidate;
-  best.face = face.id;
+  best.face = id;
 }
 
 template <typename Accepts>
-ClosestPoint AabbTree::closest(const Vec3& x, const Accepts& accepts) const {
-  ClosestPoint best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
+ClosestPoint AabbTree::closest(const Vec3& x, const Accepts& accepts, const ClosestPoint& known) const {
+  ClosestPoint best = known;
   if (empty()) return best;
 
   const auto squared_distance = [&](const Box& box) {  // without branches, which would be mispredicted
@@ -255,7 +256,7 @@ ClosestPoint AabbTree::closest(const Vec3& x, const Accepts& accepts) const {
     if (is_leaf(visit.node)) {
       for (const Face& face : faces_of(visit.node - leaf_count()))
         if (squared_distance(face.box()) <= best.squared_distance && accepts(face.id))
-          update_closest(x, face, best);
+          update_closest(x, face.corners, face.id, best);
       continue;
     }
     Visit near{2 * visit.node, squared_distance(boxes_[2 * visit.node])};
