@@ -77,12 +77,20 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
                       const std::vector<double>& limits, bool is_reference, std::vector<FarVertex>& far,
                       Preservation& p) {
   const Adjacency& c = from.adjacency;
+  const auto any_face = [](int) { return true; };
   std::vector<double> excess(c.faces.size(), 0), distances(excess);
   parallel_for(c.faces.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       const auto corner = [&](std::size_t k) { return Vec3(from.points.col(c.faces[f][k % 3])); };
+      int near = -1;  // the face closest to the sample before
       const auto sample = [&](const Vec3& x) {
-        const ClosestPoint closest = to.tree.closest(x);
+        ClosestPoint known;
+        if (near >= 0) {
+          const Triangle& t = to.adjacency.faces[index_of(near)];
+          update_closest(x, {to.points.col(t[0]), to.points.col(t[1]), to.points.col(t[2])}, near, known);
+        }
+        const ClosestPoint closest = to.tree.closest(x, any_face, known);
+        near = closest.face;
         const double distance = std::sqrt(closest.squared_distance),
                      limit = limits[is_reference ? f : index_of(closest.face)];
         distances[f] = std::max(distances[f], distance);
