@@ -23,6 +23,7 @@
 #include "hooke/remesh/result.h"
 #include "hooke/remesh/run_options.h"
 #include "hooke/working_mesh/working_mesh.h"
+#include "support/crease_solids.h"
 #include "support/remeshed.h"
 #include "support/solids.h"
 #include "support/working_scene.h"
@@ -119,6 +120,15 @@ TEST(Adaptation, MakesGoodTriangles) {
   const Outcome o = adapted(t, natural(t), adaptation_options(Effort::standard));
   EXPECT_GT(min_angle(o.points, o.adjacency.faces), 44);
   EXPECT_LT(min_angle(t.points, t.faces), 15);
+}
+
+/// Splits alone would cut the 1500 edges at the tip into some 30 pieces each.
+TEST(Adaptation, FansOfNeedlesAreNotCutInPiecesFirst) {
+  const test::Triangles t = test::pyramid(1500, 20, 40);
+  const Outcome o = adapted(t, natural(t));
+  EXPECT_LT(o.result.adaptation.splits, 5 * static_cast<long long>(t.faces.size()));
+  EXPECT_GT(min_angle(o.points, o.adjacency.faces), 20);
+  EXPECT_EQ(measure_topology(o.adjacency).euler, 2);
 }
 
 double irregular_share(const Adjacency& c) {

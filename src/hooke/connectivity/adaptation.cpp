@@ -68,6 +68,11 @@ class AdaptationSteps {
   /// Writes the mesh to the workspace.
   void finish() { work_.replace_mesh(m_.halfedges.faces(), m_.halfedges.wedges()); }
 
+  /// Number of faces of the target length that the surface takes.
+  double wanted_faces() const {
+    return target_face_count(m_.vertices.positions.points, m_.halfedges.faces(), m_.vertices.vertex_length);
+  }
+
   double face_count() const { return static_cast<double>(m_.halfedges.faces().size()); }
   const StepCounts& counts() const { return counts_; }
   bool interrupted() const { return interrupted_; }
@@ -123,6 +128,18 @@ double exceeded_by(double share, std::vector<Turn> turns) {
     std::ranges::pop_heap(turns, {}, &Turn::angle);
   }
   return 0;
+}
+
+/// About the number of vertices that splits put on the edges.
+double vertices_of_splits(const WorkingMesh& m) {
+  const HalfedgeMesh& t = m.halfedges;
+  return parallel_sum(t.half_edge_count(), 4096, [&](size_t begin, size_t end) {
+    double number = 0;
+    for (size_t i = begin; i < end; ++i)
+      if (const int h = static_cast<int>(i); !t.is_removed(h / 3) && t.twin(h) < h)
+        number += std::max(0., relative_length(m, h) - 1);
+    return number;
+  });
 }
 
 /// Number of ids in [0, count) that satisfy the predicate, which is called from several threads.
@@ -219,6 +236,12 @@ int AdaptationSteps::coarse_levels(double target_faces, const CoarseLimits& limi
 
 void AdaptationSteps::split_and_collapse() {
   count_curve_edges(m_, options_.chord_error);
+  // Splits would cut fans of needles, as of the caps of extruded bodies, into many times the faces that are
+  // wanted.
+  if (constexpr double far_more = 4; vertices_of_splits(m_) > far_more * wanted_faces()) {
+    const Stage stage(work_.stopwatch, "collapses");
+    counts_.collapses += collapse_short_edges(m_);
+  }
   // Splits leave flat faces, which prevent collapses, so flips come first. Without splits, flips before the
   // collapses gain nothing: most of the flipped edges collapse.
   if (const int splits = timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_); })) {

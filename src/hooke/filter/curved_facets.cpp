@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
@@ -200,8 +201,10 @@ CurvedFacets::Place CurvedFacets::find(const Vec3& x, int hint) const {
     const Facet& facet = facets_[index_of(index)];
     return facet.component == component && facet.normal.dot(side) >= min_agreement;
   };
+  constexpr std::size_t enough = 8;  // faces for a bound; at the centre of a cap there may be thousands
+  const std::span<const int> ring = adjacency_.vertex_faces[hint];
   ClosestPoint at_hint;
-  for (int f : adjacency_.vertex_faces[hint]) {
+  for (int f : ring.first(std::min(enough, ring.size()))) {
     const int index = facet_of_face_[index_of(f)];
     if (index < 0 || !accepts(index)) continue;
     const Triangle& t = adjacency_.faces[index_of(f)];
