@@ -97,7 +97,7 @@ std::string for_zsh(const std::vector<OptionEntry>& entries) {
     const std::string value = e.is_flag() ? "" : "=";
     text += " \\\n  ";
     if (e.short_name.empty())
-      text += shell_quoted(exclusive + e.long_name + value + rest);
+      text += shell_quoted(fmt::format("{}{}{}{}", exclusive, e.long_name, value, rest));
     else
       text += fmt::format("{}{{{},{}{}}}{}", shell_quoted(exclusive), e.short_name + (e.is_flag() ? "" : "+"),
                           e.long_name, value, shell_quoted(rest));

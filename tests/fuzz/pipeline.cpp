@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mending.keep_junctions = (arrays.choice & 32) != 0;
   RemeshOptions options;
   options.connectivity = static_cast<ConnectivityMode>(arrays.choice % 3);
-  options.effort = (arrays.choice & 64) != 0 ? Effort::fast : Effort::standard;
+  const bool adapts = options.connectivity == ConnectivityMode::adapt;
+  options.effort = adapts || (arrays.choice & 64) != 0 ? Effort::fast : Effort::standard;
   if (options.connectivity == ConnectivityMode::fixed && (arrays.choice & 128) != 0)
     options.integrator = IntegratorKind::damped;
   try {
@@ -34,7 +35,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Mat3X points = vertex_points(mesh);
     const std::vector<Triangle> result = triangles_of(mesh);
     if (!points.allFinite()) std::abort();
-    const bool adapts = options.connectivity == ConnectivityMode::adapt;
     if (!adapts && mesh.n_vertices() != vertices) std::abort();
     if (options.connectivity == ConnectivityMode::fixed && result != faces) std::abort();
     for (const Problem& problem : find_problems(points, result))
