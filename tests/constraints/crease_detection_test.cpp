@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "support/crease_solids.h"
 #include "support/solids.h"
 
@@ -84,7 +86,7 @@ TEST(Features, AWeakerEdgeGoesOnFromASharpOne) {
 
 TEST(Features, AChainWithALooseEndIsLongAndSharp) {
   EXPECT_FALSE(features_of(fading_sheet()).empty());
-  EXPECT_TRUE(features_of(fading_sheet(60, 5)).empty()) << "8 edges";
+  EXPECT_TRUE(features_of(test::moved(fading_sheet(60, 5), 1.3)).empty()) << "8 edges, 10 target lengths";
   EXPECT_TRUE(features_of(test::moved(fading_sheet(), .2)).empty()) << "7 target lengths";
   EXPECT_FALSE(features_of(test::moved(fading_sheet(), .3)).empty());
   EXPECT_TRUE(features_of(fading_sheet(43)).empty()) << "3 of 25 edges are sharp";
@@ -195,6 +197,30 @@ TEST(Features, ARoundBendsThriceABevelTwice) {
     EXPECT_TRUE(features_of(folded_strips({20, width, width, width, 20}, 20)).empty()) << width;
   }
   EXPECT_EQ(features_of(folded_strips({20, 5, 5, 20}, 20)).size(), 3u) << "facets that the length resolves";
+}
+
+/// A plate with bevels along its long sides, in cells of one length: what is asked of each edge of a border
+/// must not be asked of all others each time.
+TEST(Features, LongBordersTakeNoLongTime) {
+  const int rows = 1500;
+  std::vector<double> x(16), z(16, 0);
+  for (int i = 0; i < 16; ++i) {
+    const double out = std::max(0., std::abs(i - 7.5) - 2.5);
+    x[i] = (i < 8 ? -1 : 1) * (std::min(std::abs(i - 7.5), 2.5) + out * std::cos(std::numbers::pi / 9));
+    z[i] = -out * std::sin(std::numbers::pi / 9);
+  }
+  test::Triangles t{Mat3X(3, 16 * (rows + 1)), {}};
+  for (int r = 0; r <= rows; ++r)
+    for (int i = 0; i < 16; ++i) t.points.col(16 * r + i) = Vec3(x[i], r, z[i]);
+  for (int r = 0; r < rows; ++r)
+    for (int i = 0; i < 15; ++i) {
+      const int v = 16 * r + i;
+      t.faces.push_back({v, v + 1, v + 17});
+      t.faces.push_back({v, v + 17, v + 16});
+    }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(features_of(t).size(), 2u * rows);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 /// A hull of few triangles, seen from lengths much smaller than its edges: each triangle is a facet, also

@@ -178,7 +178,7 @@ def run(build, target, seconds):
     findings.mkdir(exist_ok=True)
     for i, seed in enumerate(SEEDS[target]()):
         (corpus / ("seed%d" % i)).write_bytes(seed)
-    slow = 120 if target == "pipeline" else 5  # seconds for one input; long needles are cut into many faces
+    slow = 120 if target == "pipeline" else 5  # seconds for one input; `adapt` makes thousands of faces of long needles
     done = subprocess.run([build / "tests" / "fuzz" / ("fuzz_" + target), "-max_total_time=%d" % seconds, "-timeout=%d" % slow,
                            "-rss_limit_mb=3000", "-max_len=4096", "-artifact_prefix=%s/%s-" % (findings, target),
                            "-print_final_stats=1", "-verbosity=0", corpus], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)

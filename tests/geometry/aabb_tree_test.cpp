@@ -82,6 +82,34 @@ TEST(AabbTree, ClosestPointEqualsBruteForce) {
   }
 }
 
+TEST(AabbTree, AKnownPointOnlyShortensTheSearch) {
+  const test::Triangles t = test::shaken(test::sphere(2), .1);
+  const AabbTree tree(t.points, t.faces);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(-2, 2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 x(u(random), u(random), u(random));
+    int visited = 0, visited_with = 0;
+    const auto accepts = [i](int f) { return f % 7 == i % 7; };
+    const auto count = [&](int& tests) {
+      return [&](int f) {
+        ++tests;
+        return accepts(f);
+      };
+    };
+    const ClosestPoint found = tree.closest(x, count(visited));
+    ClosestPoint known;
+    const int face = i % 7 + 7 * (i % 40);
+    const auto& [a, b, c] = t.faces[static_cast<size_t>(face)];
+    update_closest(x, {t.points.col(a), t.points.col(b), t.points.col(c)}, face, known);
+    const ClosestPoint with = tree.closest(x, count(visited_with), known);
+    ASSERT_TRUE(accepts(found.face));
+    ASSERT_EQ(with.face, found.face);
+    ASSERT_EQ(with.point, found.point);
+    ASSERT_LE(visited_with, visited);
+  }
+}
+
 TEST(AabbTree, PointOnAVertexHasDistanceZero) {
   const test::Triangles t = test::sphere(3, .2);
   const AabbTree tree(t.points, t.faces);

@@ -130,16 +130,22 @@ double exceeded_by(double share, std::vector<Turn> turns) {
   return 0;
 }
 
-/// About the number of vertices that splits put on the edges.
-double vertices_of_splits(const WorkingMesh& m) {
+/// About the number of vertices that splits put on the edges of fans: at vertices with very many edges.
+double splits_of_fans(const WorkingMesh& m) {
+  constexpr int very_many = 50;
   const HalfedgeMesh& t = m.halfedges;
-  return parallel_sum(t.half_edge_count(), 4096, [&](size_t begin, size_t end) {
-    double number = 0;
-    for (size_t i = begin; i < end; ++i)
-      if (const int h = static_cast<int>(i); !t.is_removed(h / 3) && t.twin(h) < h)
-        number += std::max(0., relative_length(m, h) - 1);
-    return number;
+  std::vector<int> valence(t.id_count(), 0);
+  const auto for_each_half_edge = [&](const auto& use) {
+    for (int h = 0; h < t.half_edge_count(); ++h)
+      if (!t.is_removed(h / 3)) use(h);
+  };
+  for_each_half_edge([&](int h) { ++valence[t.from(h)]; });
+  double number = 0;
+  for_each_half_edge([&](int h) {
+    if (t.twin(h) < h && std::max(valence[t.from(h)], valence[t.to(h)]) > very_many)
+      number += std::max(0., relative_length(m, h) - 1);
   });
+  return number;
 }
 
 /// Number of ids in [0, count) that satisfy the predicate, which is called from several threads.
@@ -238,7 +244,7 @@ void AdaptationSteps::split_and_collapse() {
   count_curve_edges(m_, options_.chord_error);
   // Splits would cut fans of needles, as of the caps of extruded bodies, into many times the faces that are
   // wanted.
-  if (constexpr double far_more = 4; vertices_of_splits(m_) > far_more * wanted_faces()) {
+  if (constexpr double far_more = 4; splits_of_fans(m_) > far_more * wanted_faces()) {
     const Stage stage(work_.stopwatch, "collapses");
     counts_.collapses += collapse_short_edges(m_);
   }

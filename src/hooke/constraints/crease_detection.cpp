@@ -37,7 +37,7 @@ constexpr double flat_angle = .2;       // degrees; an edge between resolved fla
 constexpr double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
 constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
 constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
-constexpr double resolved_facet = .5;        // and where none is
+constexpr double resolved_facet = .5;        // minimum width of the regions or faces beside such a crease
 constexpr double strip_angle = .05;      // maximum relative difference of the angles at both edges of a strip
 constexpr double strip_end_angle = .02;  // maximum difference of their ratio from 2 where a round begins
 constexpr double facet_angle =
@@ -72,7 +72,8 @@ class FeatureSearch {
         o_(o),
         angle_(edge_angles(points, c)),
         kept_(c.edges.size(), 0),
-        cos_turn_(std::cos(max_turn * std::numbers::pi / 180)) {}
+        cos_turn_(std::cos(max_turn * std::numbers::pi / 180)),
+        bends_on_(2 * c.edges.size(), 0) {}
 
   /// The hard edges that bend enough to be creases, and all that the search finds unless `hard_only`.
   std::vector<int> run(const std::vector<Edge>& hard_edges, bool hard_only) {
@@ -97,7 +98,7 @@ class FeatureSearch {
     add_resolved();
   }
 
-  /// Bend ratio of the edge, see CreaseOptions. Boundary edges count as flat or, with `goes_on`, where the
+  /// Bend ratio of the edge, see above. Boundary edges count as flat or, with `goes_on`, where the
   /// surface evidently continues, are left out.
   double bend_ratio(int edge, bool goes_on = false) const {
     double worst = 0;
@@ -293,25 +294,34 @@ class FeatureSearch {
     return a >= 0 && a == b ? 0 : std::min(width(left, a, edge), width(right, b, edge));
   }
 
-  /// The width of the face or its region as a strip of a round body, in target lengths: the least distance
-  /// of an edge at which it bends on, see bend_distance(). Infinite if it is none: a round bends on at three
-  /// edges in a row, where a polyhedron may have two that are alike.
+  /// The width of the face or its region as a strip of a round body, in target lengths: the least distance of
+  /// the ends of the edge from another one at which it bends on; for a gentle region its width, also where
+  /// its edges meet, at a corner of a polyhedron. Infinite if it is no strip: a round bends on at three edges
+  /// in a row, where a polyhedron may have two that are alike.
   double strip_width(int face, const std::vector<int>& regions, int edge) const {
+    const int region = regions[face];
     const bool is_second = bends_on(other_face(edge, face), regions, edge);
     double least = std::numeric_limits<double>::infinity();
     for (int e : borders(face, regions)) {
-      const double distance = bend_distance(face, regions[face], edge, e);
-      if (distance < least && (is_second || bends_on(face_beyond(e, face, regions), regions, e)))
-        least = distance;
+      if (!bends_on_at(region, edge, e)) continue;
+      if (!is_second && !bends_on(face_beyond(e, face, regions), regions, e)) continue;
+      if (is_gentle(region)) return width(face, region, edge);
+      least = std::min(least, distance_of_ends(face, region, edge, e));
     }
     return least;
   }
 
-  /// Does the face, or its region, bend on at another edge as it does at this one?
+  /// Does the face beside the edge, or its region, bend on at any other edge as it does at this one? Each
+  /// answer is found once.
   bool bends_on(int face, const std::vector<int>& regions, int edge) const {
-    return std::ranges::any_of(borders(face, regions), [&](int e) {
-      return std::isfinite(bend_distance(face, regions[face], edge, e));
-    });
+    enum : char { unknown, no, yes };
+    char& answer = bends_on_[2 * static_cast<size_t>(edge) + (face == c_.edge_faces[edge][0] ? 0 : 1)];
+    if (answer == unknown)
+      answer = std::ranges::any_of(borders(face, regions),
+                                   [&](int e) { return bends_on_at(regions[face], edge, e); })
+                   ? yes
+                   : no;
+    return answer == yes;
   }
 
   /// The edges around the face or its region.
@@ -331,27 +341,31 @@ class FeatureSearch {
     return left == face || (regions[face] >= 0 && regions[left] == regions[face]) ? right : left;
   }
 
-  /// Distance, in target lengths, of the ends of the edge from another edge of the face or its region at
-  /// which the surface bends on: to the same side, and about as much, or twice as much where the round begins
-  /// at this edge. Where no edge is sharp it must bend at least 2/3 as much, as on a surface whose curvature
-  /// varies, and the width of the region counts. Edges in line with it or at an obtuse angle to it do not
-  /// count. A face alone may bend on at any other edge: its height then. Infinite if the surface does not
-  /// bend on there.
-  double bend_distance(int face, int region, int edge, int e) const {
-    constexpr double none = std::numeric_limits<double>::infinity();
+  /// Does the region, or the face if there is none, bend on at e as it does at the edge: to the same side,
+  /// and about as much, or twice as much where the round begins at this edge; where no edge is sharp at least
+  /// 2/3 as much, as on a surface whose curvature varies? Edges of a region must be about parallel. Edges in
+  /// line or at an obtuse angle to each other do not count.
+  bool bends_on_at(int region, int edge, int e) const {
     const bool gentle = is_gentle(region);
     const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
     const double ratio = angle_[e] / angle_[edge];
     const bool is_alike = gentle ? ratio > gentle_ratio
                                  : std::abs(ratio - 1) < strip_angle || std::abs(ratio - 2) < strip_end_angle;
-    if (e == edge || !is_alike || is_convex(e) != is_convex(edge)) return none;
-    const Vec3 along = direction(edge), other = direction(e), origin = X_.col(c_.edges[e][0]);
-    if (are_in_line(e, edge, along) || continues(e, edge)) return none;
-    if (std::abs(other.dot(along)) <= parallel) return region < 0 ? height(face, edge) : none;
-    if (gentle) return width(face, region, edge);  // also where its edges meet, at a corner of a polyhedron
-    double least = none;
-    for (int v : c_.edges[edge]) least = std::min(least, other.cross(X_.col(v) - origin).norm());
+    if (e == edge || !is_alike || is_convex(e) != is_convex(edge)) return false;
+    const Vec3 along = direction(edge);
+    if (are_in_line(e, edge, along) || continues(e, edge)) return false;
+    return region < 0 || std::abs(direction(e).dot(along)) > parallel;
+  }
+
+  /// Distance, in target lengths, of the ends of the edge from another edge of the face or its region; the
+  /// height of a face alone where they are not about parallel.
+  double distance_of_ends(int face, int region, int edge, int e) const {
+    constexpr double parallel = .96;  // cosine
+    const Vec3 other = direction(e), origin = X_.col(c_.edges[e][0]);
+    if (region < 0 && std::abs(other.dot(direction(edge))) <= parallel) return height(face, edge);
     const auto& [a, b] = c_.edges[edge];
+    const double least =
+        std::min(other.cross(X_.col(a) - origin).norm(), other.cross(X_.col(b) - origin).norm());
     return least / (.5 * (length_[a] + length_[b]));
   }
 
@@ -552,6 +566,7 @@ class FeatureSearch {
   std::vector<std::vector<int>> region_vertices_;  // of the flat regions
   std::vector<std::vector<int>> region_borders_;   // the edges around them
   std::vector<char> region_is_gentle_;             // is none of these sharp?
+  mutable std::vector<char> bends_on_;             // the answers of bends_on(), two per edge
   bool flat_mesh_ = false;                         // are so many faces in flat regions that these are meant?
 };
 

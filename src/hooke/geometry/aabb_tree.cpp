@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "hooke/core/parallel.h"
 #include "hooke/core/simd.h"

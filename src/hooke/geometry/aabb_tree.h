@@ -141,9 +141,10 @@ class AabbTree {
     return closest(x, [](int) { return true; });
   }
 
-  /// The same among the faces whose ids are accepted; face -1 without any. The search passes all that is
-  /// nearer than the closest of these, much where few are accepted: `known`, the closest point of some of
-  /// them, makes it short.
+  /// The same among the faces whose ids are accepted; face -1 without any. `known`, the closest point on some
+  /// accepted faces of the tree, shortens the search, which otherwise visits every face that is nearer than
+  /// the closest accepted one. Of faces that are equally close but for rounding it may make another one the
+  /// result.
   template <typename Accepts>
   ClosestPoint closest(const Vec3& x, const Accepts& accepts, const ClosestPoint& known = {}) const;
 

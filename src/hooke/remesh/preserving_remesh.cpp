@@ -98,6 +98,7 @@ class PreservingRemesh {
     Run best = attempt();
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
+    if (best.is_interrupted() && options_.connectivity == ConnectivityMode::adapt) mend(best);
     if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
@@ -113,11 +114,7 @@ class PreservingRemesh {
   Run attempt() {
     Run run = make();
     judge(run);
-    if (!run.result.measures) return run;
-    if (run.is_interrupted()) {
-      if (run.flaws() > 0) mend(run);
-      return run;
-    }
+    if (!run.result.measures || run.is_interrupted()) return run;
     const std::vector<FarVertex> lost = run.preservation().lost_vertices;
     mend(run);
     const bool only_lost = run.flaws() == run.preservation().lost_vertices.size();
@@ -134,13 +131,14 @@ class PreservingRemesh {
     return next.is_better_than(run) ? std::move(next) : std::move(run);
   }
 
-  /// Moves vertices to the input while that leaves fewer flaws, or fewer chords.
+  /// Moves vertices to the input while that leaves fewer flaws, or fewer chords; an interrupted run only as
+  /// long as it has flaws, and not for long.
   void mend(Run& run) const {
-    constexpr int max_rounds = 6;
+    const int max_rounds = run.is_interrupted() ? 2 : 6;
+    const auto must_go_on = [&] { return run.flaws() + (run.is_interrupted() ? 0 : run.chords()) > 0; };
     if (!run.result.measures) return;  // not finite
     run.unmended_angle = run.angle;
-    for (int round = 0; round < max_rounds && run.flaws() + run.chords() > 0 && move_to_input(run); ++round)
-      continue;
+    for (int round = 0; round < max_rounds && must_go_on() && move_to_input(run); ++round) continue;
   }
 
   /// Moves vertices that are too far to the closest points of the input, the corners of faces that are turned

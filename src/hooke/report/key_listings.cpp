@@ -201,7 +201,7 @@ These quantities are told by the figures below, as in `after.min_angle.p05`:
           "\n" + table_of_figures() + "\n" + table_of(keys_of({"before"}, other)));
   add("What the result keeps: `promises`, `geometry`",
       R"(Both are of what is in the output file, as `after` is. A result that breaks a promise, by its rounding too, is
-not written unless `--accept-invalid` is given.
+not written unless `--accept-invalid` is given or a signal stopped the run; a warning then tells of it.
 
 )" + table_of(keys_of({"promises", "geometry"}, all_of_them)));
   add("Gates, comparison, warnings and repairs",
