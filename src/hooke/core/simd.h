@@ -83,15 +83,16 @@ HOOKE_INLINE void sum_odd_series(const Lanes& q, Lanes& series) {
   for (int n = last - 2; n >= 3; n -= 2) series = q * series + 1. / n;
 }
 
-/// x := ln x, with a relative error of about 1e-15. Pre-condition: x is finite, positive and not subnormal.
+/// x := ln x, with a relative error of about 1e-15. Some number where x is not finite, positive and normal.
 HOOKE_INLINE void take_log(Lanes& x) {
-  using Bits = long long __attribute__((vector_size(32)));
+  using Bits = unsigned long long __attribute__((vector_size(32)));
   // x = 2^e m with m from sqrt(1/2) to sqrt(2); the offset makes the mantissa wrap at sqrt(2) instead of 2.
-  constexpr long long one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd, mantissa = 0xfffffffffffff;
+  constexpr unsigned long long one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd,
+                               mantissa = 0xfffffffffffff;
   const Bits shifted = reinterpret_cast<Bits>(x) + (one - sqrt_half);
   const Lanes m = reinterpret_cast<Lanes>((shifted & mantissa) + sqrt_half);
   // An integer below 2^52 in the mantissa of 2^52 is that integer plus 2^52.
-  constexpr long long two_to_52 = 0x4330000000000000;
+  constexpr unsigned long long two_to_52 = 0x4330000000000000;
   const Lanes e = reinterpret_cast<Lanes>((shifted >> 52) | two_to_52) - (4503599627370496. + 1023.);
 
   // log m = 2 artanh s, |s| < .172.
