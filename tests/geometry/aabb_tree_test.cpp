@@ -68,7 +68,6 @@ TEST(AabbTree, ClosestPointEqualsBruteForce) {
   for (int i = 0; i < 1000; ++i) {
     const Vec3 x(u(random), u(random), u(random));
     ClosestPoint best;
-    best.squared_distance = std::numeric_limits<double>::infinity();
     for (size_t f = 0; f < t.faces.size(); ++f) {
       const auto& [a, b, c] = t.faces[f];
       const ClosestPoint p = closest_point(x, t.points.col(a), t.points.col(b), t.points.col(c));

@@ -134,17 +134,11 @@ double exceeded_by(double share, std::vector<Turn> turns) {
 double splits_of_fans(const WorkingMesh& m) {
   constexpr int very_many = 50;
   const HalfedgeMesh& t = m.halfedges;
-  std::vector<int> valence(t.id_count(), 0);
-  const auto for_each_half_edge = [&](const auto& use) {
-    for (int h = 0; h < t.half_edge_count(); ++h)
-      if (!t.is_removed(h / 3)) use(h);
-  };
-  for_each_half_edge([&](int h) { ++valence[t.from(h)]; });
   double number = 0;
-  for_each_half_edge([&](int h) {
-    if (t.twin(h) < h && std::max(valence[t.from(h)], valence[t.to(h)]) > very_many)
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (!t.is_removed(h / 3) && t.twin(h) < h &&
+        std::max(t.valence(t.from(h)), t.valence(t.to(h))) > very_many)
       number += std::max(0., relative_length(m, h) - 1);
-  });
   return number;
 }
 
