@@ -23,12 +23,17 @@ namespace {
 constexpr double hysteresis = .6;  // fraction of the sharp angle above which an edge may continue a crease
 constexpr double max_turn = 35;    // degrees; maximum change of direction from edge to edge of a chain
 constexpr double max_bend_ratio = .25;       // of a crease edge; above it the surface is round
+constexpr double max_round_bend_ratio = .5;  // of a sharp edge that continues a crease
 constexpr double max_chain_bend_ratio = .1;  // maximum median bend ratio of a chain with a loose end
 constexpr double sharp_share = .3;           // minimum fraction of sharp edges in a chain with a loose end
 constexpr int min_edges = 12;                // minimum number of edges of a chain with a loose end
 constexpr double min_length = 8;             // minimum length of a chain with a loose end, in target lengths
-constexpr double flat_bend_ratio = .02;  // maximum median bend ratio of a chain or network between flat faces
-constexpr double min_curve = 5;  // minimum mean number of edges between the corners of a network, unless flat
+constexpr double unlikely = 1e-4;            // expected number of chains of noise with one loose end
+constexpr double unlikely_lone = 1e-8;       // the same with two
+constexpr double clear_sharpness = 1.5;      // minimum mean angle, over `angle`, of a chain that stands out
+constexpr double flat_bend_ratio = .02;      // maximum median bend ratio of a chain between flat faces
+constexpr double clear_bend_ratio = .05;     // maximum median bend ratio of a network of short curves
+constexpr double min_curve = 5;              // minimum mean number of edges between the corners of a network
 /// Minimum length of a sharp edge, and minimum height of its faces, in target lengths, for the edge to be
 /// certainly no noise.
 constexpr double resolved = 1.5;
@@ -37,6 +42,9 @@ constexpr double flat_angle = .2;       // degrees; an edge between resolved fla
 constexpr double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
 constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
 constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
+constexpr double max_round_angle = 25;       // degrees; at the edges of vertices of a round body
+constexpr double max_needle_angle = 20;      // degrees; at the sides of a needle of a round body
+constexpr double max_needle_width = .25;     // of the shorter of these sides
 constexpr double resolved_facet = .5;        // minimum width of the regions or faces beside such a crease
 constexpr double strip_angle = .05;      // maximum relative difference of the angles at both edges of a strip
 constexpr double strip_end_angle = .02;  // maximum difference of their ratio from 2 where a round begins
@@ -143,6 +151,7 @@ class FeatureSearch {
   /// regions.
   void add_resolved() {
     const std::vector<int> regions = flat_regions();
+    find_rounds();
     for (size_t e = 0; e < kept_.size(); ++e) {
       const int edge = static_cast<int>(e);
       if (kept_[e] || c_.is_boundary_edge(edge)) continue;
@@ -182,7 +191,7 @@ class FeatureSearch {
   /// body is round both ways or not at all.
   bool goes_with_creases(int edge, const std::vector<char>& kept, const std::vector<int>& regions) const {
     return angle_[edge] > flat_angle && narrower_width(edge, regions) > resolved_facet &&
-           std::ranges::all_of(c_.edges[edge], [&](int v) {
+           !is_in_round(edge) && std::ranges::all_of(c_.edges[edge], [&](int v) {
              return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
                return kept[e] && angle_[e] < (1 + strip_angle) * angle_[edge];
              });
@@ -278,11 +287,35 @@ class FeatureSearch {
   /// Does the edge divide two flat regions, or single faces, that the target length resolves? In a mesh with
   /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
   bool divides_resolved_regions(int edge, const std::vector<int>& regions) const {
-    return narrower_width(edge, regions) > resolved_facet &&
-           std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
-             return strip_width(f, regions, edge) >
-                    (is_gentle(regions[f]) ? resolved_gentle_strip : resolved_strip);
-           });
+    const double narrower = narrower_width(edge, regions);
+    if (narrower <= (is_in_round(edge) ? resolved_gentle_strip : resolved_facet)) return false;
+    return std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
+      return strip_width(f, regions, edge) > (is_gentle(regions[f]) ? resolved_gentle_strip : resolved_strip);
+    });
+  }
+
+  /// Does the edge end at a vertex of a round body?
+  bool is_in_round(int edge) const {
+    return std::ranges::any_of(c_.edges[edge], [&](int v) { return is_in_round_[v] != 0; });
+  }
+
+  /// Finds the vertices of round bodies: the surface turns at three edges or more there, but little at each,
+  /// as it does at two neighbours.
+  void find_rounds() {
+    std::vector<char> turns_gently(c_.vertex_count);
+    for (int v = 0; v < c_.vertex_count; ++v) {
+      const auto edges = c_.vertex_edges[v];
+      turns_gently[v] =
+          std::ranges::all_of(
+              edges, [&](int e) { return !c_.is_boundary_edge(e) && angle_[e] < max_round_angle; }) &&
+          std::ranges::count_if(edges, [&](int e) { return angle_[e] > flat_angle; }) >= 3;
+    }
+    is_in_round_.resize(c_.vertex_count);
+    for (int v = 0; v < c_.vertex_count; ++v) {
+      const auto& neighbours = c_.vertex_neighbours[v];
+      is_in_round_[v] = turns_gently[v] &&
+                        std::ranges::count_if(neighbours, [&](int n) { return turns_gently[n] != 0; }) >= 2;
+    }
   }
 
   /// The smaller width of the two flat regions, or single faces, that the edge divides; 0 if it divides none,
@@ -343,18 +376,32 @@ class FeatureSearch {
 
   /// Does the region, or the face if there is none, bend on at e as it does at the edge: to the same side,
   /// and about as much, or twice as much where the round begins at this edge; where no edge is sharp at least
-  /// 2/3 as much, as on a surface whose curvature varies? Edges of a region must be about parallel. Edges in
-  /// line or at an obtuse angle to each other do not count.
+  /// 2/3 as much, as on a surface whose curvature varies; at the sides of a needle somehow, as where a
+  /// cylinder ends at an oblique cut? Edges of a region must be about parallel. Edges in line or at an obtuse
+  /// angle to each other do not count.
   bool bends_on_at(int region, int edge, int e) const {
     const bool gentle = is_gentle(region);
-    const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
     const double ratio = angle_[e] / angle_[edge];
     const bool is_alike = gentle ? ratio > gentle_ratio
                                  : std::abs(ratio - 1) < strip_angle || std::abs(ratio - 2) < strip_end_angle;
-    if (e == edge || !is_alike || is_convex(e) != is_convex(edge)) return false;
+    const bool is_needle = are_sides_of_needle(edge, e);
+    if (e == edge || !(is_alike || is_needle) || is_convex(e) != is_convex(edge)) return false;
     const Vec3 along = direction(edge);
     if (are_in_line(e, edge, along) || continues(e, edge)) return false;
-    return region < 0 || std::abs(direction(e).dot(along)) > parallel;
+    const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
+    return is_needle || region < 0 || std::abs(direction(e).dot(along)) > parallel;
+  }
+
+  /// Are the edges, at which the surface turns but little, long and close to each other?
+  bool are_sides_of_needle(int edge, int e) const {
+    const auto turns_little = [&](int i) { return angle_[i] > flat_angle && angle_[i] < max_needle_angle; };
+    if (!turns_little(edge) || !turns_little(e)) return false;
+    const Vec3 side = X_.col(c_.edges[edge][1]) - X_.col(c_.edges[edge][0]);
+    const Vec3 other = X_.col(c_.edges[e][1]) - X_.col(c_.edges[e][0]);
+    const double least = max_needle_width * std::min(side.norm(), other.norm());
+    return std::ranges::all_of(c_.edges[e], [&](int v) {
+      return side.cross(X_.col(v) - X_.col(c_.edges[edge][0])).norm() <= least * side.norm();
+    });
   }
 
   /// Distance, in target lengths, of the ends of the edge from another edge of the face or its region; the
@@ -379,8 +426,9 @@ class FeatureSearch {
 
   /// Are both edges pieces of one straight line?
   bool are_in_line(int edge, int other, const Vec3& along) const {
-    const Vec3 apart = X_.col(c_.edges[edge][0]) - X_.col(c_.edges[other][0]);
-    return apart.cross(along).norm() <= flatness * diagonal_;
+    return std::ranges::all_of(c_.edges[edge], [&](int v) {
+      return (X_.col(v) - X_.col(c_.edges[other][0])).cross(along).norm() <= flatness * diagonal_;
+    });
   }
 
   /// Do the edges meet at an obtuse angle, of more than 96 degrees?
@@ -403,6 +451,12 @@ class FeatureSearch {
 
   bool may_belong(int edge, double min_angle) const {
     return angle_[edge] > min_angle && bend_ratio(edge) <= max_bend_ratio;
+  }
+
+  /// May the edge go on with a crease? If it is sharp, also where the surface beside it is rather round.
+  bool may_continue(int edge) const {
+    return may_belong(edge, hysteresis * o_.angle) ||
+           (angle_[edge] > o_.angle && bend_ratio(edge) <= max_round_bend_ratio);
   }
 
   int other_end(int edge, int vertex) const {
@@ -437,7 +491,7 @@ class FeatureSearch {
       ++count;
       for (int v : c_.edges[edge])
         for (int next : c_.vertex_edges[v]) {
-          if (kept_[next] || !may_belong(next, hysteresis * o_.angle) || !goes_on(edge, next, v)) continue;
+          if (kept_[next] || !may_continue(next) || !goes_on(edge, next, v)) continue;
           kept_[next] = 1;
           front.push_back(next);
         }
@@ -486,14 +540,26 @@ class FeatureSearch {
 
   bool is_loose(int vertex) const { return kept_edges(vertex).size() == 1 && !on_boundary(vertex); }
 
-  /// Noise makes short chains and chains that begin and end in the interior of the surface. A chain from the
+  /// About how many such chains noise makes in the mesh: of the edges that it makes a tenth has a bend ratio
+  /// below .04, and few have one above .4; those of faces that it folds over may have any.
+  double expected_by_noise(const std::vector<int>& chain) const {
+    constexpr double folded = 135;  // degrees
+    auto number = static_cast<double>(c_.edges.size());
+    for (int e : chain)
+      if (angle_[e] < folded) number *= std::clamp(bend_ratio(e) / .4, .05, 1.);
+    return number;
+  }
+
+  /// Noise makes short chains and chains that begin and end in the interior of the surface, unless they are
+  /// very sharp or flat on both sides, and unlikely by chance: where round bodies meet. A chain from the
   /// boundary to another crease or to the boundary, sharp between flat faces, may be short: the corner of an
   /// open box, the fold of a strip. A single edge may not: it could be the edge of a loose triangle.
   bool is_worth_keeping(const Chain& chain) const {
-    double sum = 0;
+    double sum = 0, angles = 0;
     int sharp = 0;
     for (int e : chain.edges) {
       sum += length(e);
+      angles += angle_[e];
       sharp += angle_[e] > o_.angle;
     }
     const auto edges = static_cast<int>(chain.edges.size());
@@ -503,7 +569,10 @@ class FeatureSearch {
       if (on_boundary(chain.last) && median_bend_ratio(chain.edges, true) <= flat_bend_ratio) return true;
     }
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
-    return edges >= min_edges && sum >= min_length && sharp >= sharp_share * edges &&
+    if (sharp < sharp_share * edges) return false;
+    const bool stands_out = angles > clear_sharpness * o_.angle * edges || ratio <= flat_bend_ratio;
+    if (stands_out && expected_by_noise(chain.edges) < (is_lone ? unlikely_lone : unlikely)) return true;
+    return edges >= min_edges && sum >= min_length &&
            ratio <= (is_lone ? flat_bend_ratio : max_chain_bend_ratio);
   }
 
@@ -549,8 +618,13 @@ class FeatureSearch {
     for (size_t e = 0; e < kept_.size(); ++e) {
       if (!kept_[e] || seen[e]) continue;
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
-      const bool short_curves = 2 * static_cast<double>(network.size()) < min_curve * curve_ends(network);
-      if (short_curves && median_bend_ratio(network) > flat_bend_ratio)
+      double edges = 0;  // a long edge counts as the edges of the target length that it holds
+      for (int i : network) edges += std::max(1., length(i));
+      const bool short_curves = 2 * edges < min_curve * curve_ends(network);
+      const double ratio = median_bend_ratio(network);
+      const bool is_clear =
+          ratio <= flat_bend_ratio || (ratio <= clear_bend_ratio && expected_by_noise(network) < unlikely);
+      if (short_curves && !is_clear)
         for (int i : network) kept_[i] = 0;
     }
   }
@@ -567,6 +641,7 @@ class FeatureSearch {
   std::vector<std::vector<int>> region_borders_;   // the edges around them
   std::vector<char> region_is_gentle_;             // is none of these sharp?
   mutable std::vector<char> bends_on_;             // the answers of bends_on(), two per edge
+  std::vector<char> is_in_round_;                  // is the vertex of a round body?
   bool flat_mesh_ = false;                         // are so many faces in flat regions that these are meant?
 };
 
