@@ -9,7 +9,45 @@
 #include <algorithm>
 #include <vector>
 
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
+
 namespace hooke {
+namespace {
+
+/// What a thread has done before give() another one sees after take(). TBB sees to that; this tells it to the
+/// thread sanitizer, with which that library is not built.
+struct HandOver {
+#ifdef __SANITIZE_THREAD__
+  void give() {
+    __tsan_release(this);
+  }
+  void take() {
+    __tsan_acquire(this);
+  }
+#else
+  void give() {}
+  void take() {}
+#endif
+};
+
+// Not on a stack: a task must take before it reads its own closure.
+HandOver to_tasks, from_tasks;
+
+/// In scope while a task does its work, which may throw.
+struct Task {
+  Task() { to_tasks.take(); }
+  ~Task() { from_tasks.give(); }
+};
+
+/// In scope while tasks do their work for this thread.
+struct Tasks {
+  Tasks() { to_tasks.give(); }
+  ~Tasks() { from_tasks.take(); }
+};
+
+}  // namespace
 
 struct ThreadLimit::Impl {
   // Constructed in place, because a copy of a global_control is not registered and has no effect.
@@ -36,8 +74,12 @@ void parallel_for(std::size_t count, std::size_t block,
     if (count > 0) body(0, count);
     return;
   }
-  tbb::parallel_for(std::size_t{0}, blocks,
-                    [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
+  const auto do_block = [&](std::size_t b) {
+    const Task task;
+    body(b * block, std::min(count, (b + 1) * block));
+  };
+  const Tasks tasks;
+  tbb::parallel_for(std::size_t{0}, blocks, do_block);
 }
 
 void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second) {
@@ -53,13 +95,20 @@ void parallel_pipeline(const std::function<void*()>& make, const std::function<v
     return;
   }
   const auto source = [&](tbb::flow_control& control) {
+    const Task task;
     void* piece = make();
+    to_tasks.give();  // to the one that uses it
     if (!piece) control.stop();
     return piece;
   };
+  const auto sink = [&](void* piece) {
+    const Task task;
+    use(piece);
+  };
+  const Tasks tasks;
   tbb::parallel_pipeline(4 * threads,
                          tbb::make_filter<void, void*>(tbb::filter_mode::serial_in_order, source) &
-                             tbb::make_filter<void*, void>(tbb::filter_mode::parallel, use));
+                             tbb::make_filter<void*, void>(tbb::filter_mode::parallel, sink));
 }
 
 double parallel_sum(std::size_t count, std::size_t block,
