@@ -262,33 +262,6 @@ TEST(Features, AFanOfNarrowFacetsIsACone) {
   EXPECT_EQ(features_of(test::pyramid(4, 20, 40)).size(), 8u);
 }
 
-/// A cone without its tip, whose rows of vertices stand in the gaps of those below, or a bar with an oblique
-/// end, coarse as drawing programs write them: rows of `around` vertices at these heights.
-test::Triangles rows_of_facets(int around, const std::vector<double>& heights,
-                               const std::function<Vec3(double turn, double height)>& at) {
-  test::Triangles t{Mat3X(3, around * std::ssize(heights) + 2), {}};
-  const auto id = [around](size_t row, int i) { return static_cast<int>(row) * around + i % around; };
-  for (size_t r = 0; r < heights.size(); ++r)
-    for (int i = 0; i < around; ++i) {
-      const double turn = 2 * std::numbers::pi * (i + .5 * static_cast<double>(r % 2)) / around;
-      t.points.col(id(r, i)) = at(turn, heights[r]);
-    }
-  const auto bottom = static_cast<int>(t.points.cols()) - 2, top = bottom + 1;
-  const size_t last = heights.size() - 1;
-  t.points.col(bottom) = t.points.leftCols(around).rowwise().mean();
-  t.points.col(top) = t.points.middleCols(id(last, 0), around).rowwise().mean();
-  for (int i = 0; i < around; ++i) {
-    t.faces.push_back({bottom, id(0, i + 1), id(0, i)});
-    t.faces.push_back({top, id(last, i), id(last, i + 1)});
-    for (size_t r = 0; r < last; ++r) {
-      const int shift = static_cast<int>(r % 2);
-      t.faces.push_back({id(r, i), id(r, i + 1), id(r + 1, i + shift)});
-      t.faces.push_back({id(r, i + 1 - shift), id(r + 1, i + 1), id(r + 1, i)});
-    }
-  }
-  return t;
-}
-
 TEST(Features, CoarseFacetsOfRoundBodiesAreNone) {
   const auto on_cone = [](double turn, double height) {
     return Vec3((15 - .3 * height) * std::cos(turn), (15 - .3 * height) * std::sin(turn), height);
@@ -298,8 +271,8 @@ TEST(Features, CoarseFacetsOfRoundBodiesAreNone) {
   };
   for (const double scale : {.5, 1., 2., 20.}) {
     const auto creases = [&](const test::Triangles& t) { return features_of(test::moved(t, scale)).size(); };
-    EXPECT_EQ(creases(rows_of_facets(20, {0, 4, 26, 30}, on_cone)), 40u) << scale;
-    EXPECT_EQ(creases(rows_of_facets(29, {0, 30}, oblique)), 58u) << scale;
+    EXPECT_EQ(creases(test::rows_of_facets(20, {0, 4, 26, 30}, on_cone)), 40u) << scale;
+    EXPECT_EQ(creases(test::rows_of_facets(29, {0, 30}, oblique)), 58u) << scale;
   }
 }
 

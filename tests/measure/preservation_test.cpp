@@ -5,6 +5,7 @@
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
+#include "support/crease_solids.h"
 #include "support/masks.h"
 #include "support/meshes.h"
 #include "support/solids.h"
@@ -137,6 +138,21 @@ TEST(Preservation, FacetsAreMeantWhereTheyAreFlatOrLong) {
           .size(),
       0u);
   EXPECT_FALSE(faceted(spheres));  // in spite of many slivers beside its cells
+}
+
+/// The vertices of a part with rounded edges are nearly all in its rounds, the area in its flat sides.
+TEST(Preservation, FacetsAreMeantWhereLargeFlatSidesMeetInRounds) {
+  const auto is_disc_faceted = [](double radius) {  // its rim is half a torus
+    std::vector<double> turns(9);
+    for (int i = 0; i < 9; ++i) turns[static_cast<size_t>(i)] = i * std::numbers::pi / 8;
+    const test::Triangles disc = test::rows_of_facets(24, turns, [radius](double turn, double across) {
+      const double out = radius + 3 * std::sin(across);
+      return Vec3(out * std::cos(turn), out * std::sin(turn), -3 * std::cos(across));
+    });
+    return is_faceted(disc.points, make_adjacency(static_cast<int>(disc.points.cols()), disc.faces));
+  };
+  EXPECT_TRUE(is_disc_faceted(40));
+  EXPECT_FALSE(is_disc_faceted(5));
 }
 
 }  // namespace hooke::preservation_test

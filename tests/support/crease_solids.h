@@ -137,4 +137,32 @@ inline Triangles pyramid(int sides, double radius, double height) {
   return t;
 }
 
+/// A round body in rows of `around` vertices at these heights, each row in the gaps of the one below, with
+/// fans of triangles at both ends: coarse, as drawing programs write cones without a tip or obliquely cut
+/// bars.
+inline Triangles rows_of_facets(int around, const std::vector<double>& heights,
+                                const std::function<Vec3(double turn, double height)>& at) {
+  Triangles t{Mat3X(3, around * std::ssize(heights) + 2), {}};
+  const auto id = [around](size_t row, int i) { return static_cast<int>(row) * around + i % around; };
+  for (size_t r = 0; r < heights.size(); ++r)
+    for (int i = 0; i < around; ++i) {
+      const double turn = 2 * std::numbers::pi * (i + .5 * static_cast<double>(r % 2)) / around;
+      t.points.col(id(r, i)) = at(turn, heights[r]);
+    }
+  const auto bottom = static_cast<int>(t.points.cols()) - 2, top = bottom + 1;
+  const size_t last = heights.size() - 1;
+  t.points.col(bottom) = t.points.leftCols(around).rowwise().mean();
+  t.points.col(top) = t.points.middleCols(id(last, 0), around).rowwise().mean();
+  for (int i = 0; i < around; ++i) {
+    t.faces.push_back({bottom, id(0, i + 1), id(0, i)});
+    t.faces.push_back({top, id(last, i), id(last, i + 1)});
+    for (size_t r = 0; r < last; ++r) {
+      const int shift = static_cast<int>(r % 2);
+      t.faces.push_back({id(r, i), id(r, i + 1), id(r + 1, i + shift)});
+      t.faces.push_back({id(r, i + 1 - shift), id(r + 1, i + 1), id(r + 1, i)});
+    }
+  }
+  return t;
+}
+
 }  // namespace hooke::test

@@ -27,6 +27,23 @@ double share_of_needles(const Mat3X& points, const Adjacency& c, double ratio) {
   return all > 0 ? needles / all : 0;
 }
 
+/// Do faces that lie in a plane with a neighbour have most of the area, and, where no edge is sharp, are they
+/// less than half of the faces?
+template <typename IsFlat>
+bool flat_faces_are_large(const Mat3X& points, const Adjacency& c, const IsFlat& is_flat, bool is_smooth) {
+  constexpr double min_area = .75, max_count = .5;
+  double area = 0, flat_area = 0, flat_count = 0;
+  for (std::size_t f = 0; f < c.faces.size(); ++f) {
+    const double doubled = doubled_area_vector(points, c.faces[f]).norm();
+    area += doubled;
+    if (std::ranges::none_of(c.face_edges[f], is_flat)) continue;
+    flat_area += doubled;
+    ++flat_count;
+  }
+  return flat_area >= min_area * area &&
+         (!is_smooth || flat_count <= max_count * static_cast<double>(c.faces.size()));
+}
+
 }  // namespace
 
 std::vector<EdgeArc> edge_arcs(const Mat3X& points, const Adjacency& c) {
@@ -133,6 +150,7 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
   };
   if (static_cast<double>(std::ranges::count_if(c.face_edges, is_in_facet)) >= flat_share * faces)
     return true;
+  if (flat_faces_are_large(points, c, is_flat, is_smooth)) return true;
   const std::vector<double> unevenness = face_unevenness(points, c);
   if (c.faces.size() < few_faces) {
     const auto has_sharp_edge = [&](const Triangle& edges) { return std::ranges::any_of(edges, is_sharp); };
