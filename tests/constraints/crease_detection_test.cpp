@@ -218,6 +218,8 @@ TEST(Features, ARoundBendsThriceABevelTwice) {
     EXPECT_TRUE(features_of(folded_strips({20, width, width, width, 20}, 20)).empty()) << width;
   }
   EXPECT_EQ(features_of(folded_strips({20, 5, 5, 20}, 20)).size(), 3u) << "facets that the length resolves";
+  EXPECT_EQ(features_of(folded_strips({20, 1, 1, 20}, 35)).size(), 3u)
+      << "more than programs leave to a facet";
 }
 
 /// A plate with bevels along its long sides, in cells of one length: what is asked of each edge of a border

@@ -42,6 +42,7 @@ constexpr double flat_angle = .2;       // degrees; an edge between resolved fla
 constexpr double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
 constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
 constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
+constexpr double max_facet_angle = 31;       // degrees; between the facets of a round body
 constexpr double max_round_angle = 25;       // degrees; at the edges of vertices of a round body
 constexpr double max_needle_angle = 20;      // degrees; at the sides of a needle of a round body
 constexpr double max_needle_width = .25;     // of the shorter of these sides
@@ -374,18 +375,20 @@ class FeatureSearch {
     return left == face || (regions[face] >= 0 && regions[left] == regions[face]) ? right : left;
   }
 
-  /// Does the region, or the face if there is none, bend on at e as it does at the edge: to the same side,
-  /// and about as much, or twice as much where the round begins at this edge; where no edge is sharp at least
-  /// 2/3 as much, as on a surface whose curvature varies; at the sides of a needle somehow, as where a
-  /// cylinder ends at an oblique cut? Edges of a region must be about parallel. Edges in line or at an obtuse
-  /// angle to each other do not count.
+  /// Does the region, or the face if there is none, bend on at e as it does at the edge, as far as the facets
+  /// of a round body may bend: to the same side, and about as much, or twice as much where the round begins
+  /// at this edge; where no edge is sharp at least 2/3 as much, as on a surface whose curvature varies; at
+  /// the sides of a needle somehow, as where a cylinder ends at an oblique cut? Edges of a region must be
+  /// about parallel. Edges in line or at an obtuse angle to each other do not count.
   bool bends_on_at(int region, int edge, int e) const {
     const bool gentle = is_gentle(region);
     const double ratio = angle_[e] / angle_[edge];
     const bool is_alike = gentle ? ratio > gentle_ratio
                                  : std::abs(ratio - 1) < strip_angle || std::abs(ratio - 2) < strip_end_angle;
     const bool is_needle = are_sides_of_needle(edge, e);
-    if (e == edge || !(is_alike || is_needle) || is_convex(e) != is_convex(edge)) return false;
+    if (e == edge || angle_[edge] > max_facet_angle || !(is_alike || is_needle) ||
+        is_convex(e) != is_convex(edge))
+      return false;
     const Vec3 along = direction(edge);
     if (are_in_line(e, edge, along) || continues(e, edge)) return false;
     const double parallel = gentle ? .7 : .96;  // cosine; the meridians of a sphere meet at its poles
