@@ -278,6 +278,46 @@ TEST(Features, CoarseFacetsOfRoundBodiesAreNone) {
   }
 }
 
+/// A sheet folded to and fro both ways into flat squares: its vertices turn but little, yet it is not round.
+TEST(Features, FoldsThatAlternateAreNoRound) {
+  const int n = 6;
+  for (const double degrees : {10., 20.}) {
+    test::Triangles sheet = test::grid(n, test::flat);
+    for (Eigen::Index v = 0; v < sheet.points.cols(); ++v) {
+      const long x = std::lround(n * sheet.points(0, v)), y = std::lround(n * sheet.points(1, v));
+      const double rise = std::tan(degrees * std::numbers::pi / 360);
+      sheet.points.col(v) =
+          2 * Vec3(static_cast<double>(x), static_cast<double>(y), rise * static_cast<double>(x % 2 + y % 2));
+    }
+    EXPECT_EQ(features_of(sheet).size(), 2u * n * (n - 1)) << degrees;
+  }
+}
+
+/// A square bar of 40 slices, each turned by 3 degrees: the sides are washboards of edges of 38 degrees.
+TEST(Features, EdgesFarSharperThanAllOthersAreCreases) {
+  test::Triangles bar{Mat3X(3, 4 * 41 + 2), {}};
+  const auto id = [](int slice, int corner) { return 4 * slice + corner % 4; };
+  for (int s = 0; s <= 40; ++s)
+    for (int k = 0; k < 4; ++k) {
+      const double turn = std::numbers::pi * (.5 * k + s / 60.);
+      bar.points.col(id(s, k)) =
+          Vec3(std::sqrt(50) * std::cos(turn), std::sqrt(50) * std::sin(turn), .75 * s);
+    }
+  const int bottom = static_cast<int>(bar.points.cols()) - 2, top = bottom + 1;
+  bar.points.col(bottom) = Vec3::Zero();
+  bar.points.col(top) = Vec3(0, 0, 30);
+  for (int k = 0; k < 4; ++k) {
+    bar.faces.push_back({bottom, id(0, k + 1), id(0, k)});
+    bar.faces.push_back({top, id(40, k), id(40, k + 1)});
+    for (int s = 0; s < 40; ++s) {
+      bar.faces.push_back({id(s, k), id(s, k + 1), id(s + 1, k + 1)});
+      bar.faces.push_back({id(s, k), id(s + 1, k + 1), id(s + 1, k)});
+    }
+  }
+  for (const double scale : {.3, 1.})
+    EXPECT_EQ(features_of(test::moved(bar, scale)).size(), 4u * 40 + 8) << scale;
+}
+
 std::vector<int> tips_of(const test::Triangles& t, double length) {
   const Adjacency c = test::connect(t);
   return detect_tips(t.points, c, std::vector<double>(static_cast<size_t>(c.vertex_count), length), {});

@@ -22,18 +22,19 @@ namespace {
 // face the smaller angle at its two other edges over the angle at the edge; the larger of both faces.
 constexpr double hysteresis = .6;  // fraction of the sharp angle above which an edge may continue a crease
 constexpr double max_turn = 35;    // degrees; maximum change of direction from edge to edge of a chain
-constexpr double max_bend_ratio = .25;       // of a crease edge; above it the surface is round
-constexpr double max_round_bend_ratio = .5;  // of a sharp edge that continues a crease
-constexpr double max_chain_bend_ratio = .1;  // maximum median bend ratio of a chain with a loose end
-constexpr double sharp_share = .3;           // minimum fraction of sharp edges in a chain with a loose end
-constexpr int min_edges = 12;                // minimum number of edges of a chain with a loose end
-constexpr double min_length = 8;             // minimum length of a chain with a loose end, in target lengths
-constexpr double unlikely = 1e-4;            // expected number of chains of noise with one loose end
-constexpr double unlikely_lone = 1e-8;       // the same with two
-constexpr double clear_sharpness = 1.5;      // minimum mean angle, over `angle`, of a chain that stands out
-constexpr double flat_bend_ratio = .02;      // maximum median bend ratio of a chain between flat faces
-constexpr double clear_bend_ratio = .05;     // maximum median bend ratio of a network of short curves
-constexpr double min_curve = 5;              // minimum mean number of edges between the corners of a network
+constexpr double max_bend_ratio = .25;          // of a crease edge; above it the surface is round
+constexpr double max_round_bend_ratio = .6;     // the same where sharp edges stand out from all others
+constexpr double max_going_on_bend_ratio = .5;  // of a sharp edge that continues a crease
+constexpr double max_chain_bend_ratio = .1;     // maximum median bend ratio of a chain with a loose end
+constexpr double sharp_share = .3;              // minimum fraction of sharp edges in a chain with a loose end
+constexpr int min_edges = 12;            // minimum number of edges of such a chain, unless it stands out
+constexpr double min_length = 8;         // and its minimum length, in target lengths
+constexpr double unlikely = 1e-4;        // expected number of chains of noise with one loose end or none
+constexpr double unlikely_lone = 1e-8;   // the same with two
+constexpr double clear_sharpness = 1.5;  // minimum mean angle, over `angle`, of a chain that stands out
+constexpr double flat_bend_ratio = .02;  // maximum median bend ratio of a chain or network between flat faces
+constexpr double min_curve =
+    5;  // minimum mean number of edges between corners of a network that is not clear
 /// Minimum length of a sharp edge, and minimum height of its faces, in target lengths, for the edge to be
 /// certainly no noise.
 constexpr double resolved = 1.5;
@@ -42,11 +43,12 @@ constexpr double flat_angle = .2;       // degrees; an edge between resolved fla
 constexpr double resolved_strip = 1.9;  // the same between such regions, where one is a strip of a round body
 constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
 constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
-constexpr double max_facet_angle = 31;       // degrees; between the facets of a round body
-constexpr double max_round_angle = 25;       // degrees; at the edges of vertices of a round body
-constexpr double max_needle_angle = 20;      // degrees; at the sides of a needle of a round body
-constexpr double max_needle_width = .25;     // of the shorter of these sides
-constexpr double resolved_facet = .5;        // minimum width of the regions or faces beside such a crease
+constexpr double resolved_facet = .5;     // minimum width of the regions or faces beside such a weaker crease
+constexpr int min_round = 12;             // vertices of a round body
+constexpr double max_facet_angle = 31;    // degrees; between the facets of a round body
+constexpr double max_round_angle = 25;    // degrees; at the edges of vertices of a round body
+constexpr double max_needle_angle = 20;   // degrees; at the sides of a needle of a round body
+constexpr double max_needle_width = .25;  // of the shorter of these sides
 constexpr double strip_angle = .05;      // maximum relative difference of the angles at both edges of a strip
 constexpr double strip_end_angle = .02;  // maximum difference of their ratio from 2 where a round begins
 constexpr double facet_angle =
@@ -301,21 +303,34 @@ class FeatureSearch {
   }
 
   /// Finds the vertices of round bodies: the surface turns at three edges or more there, but little at each,
-  /// as it does at two neighbours.
+  /// and in the same way - out, in, or as a saddle - at `min_round` such vertices or more that these edges
+  /// connect. The folds of a polyhedron are fewer or alternate.
   void find_rounds() {
-    std::vector<char> turns_gently(c_.vertex_count);
+    enum : char { not_gentle, out = 1, in = 2, saddle = out | in };
+    std::vector<char> way(c_.vertex_count, not_gentle);
+    const auto turns = [&](int e) { return angle_[e] > flat_angle; };
     for (int v = 0; v < c_.vertex_count; ++v) {
       const auto edges = c_.vertex_edges[v];
-      turns_gently[v] =
-          std::ranges::all_of(
-              edges, [&](int e) { return !c_.is_boundary_edge(e) && angle_[e] < max_round_angle; }) &&
-          std::ranges::count_if(edges, [&](int e) { return angle_[e] > flat_angle; }) >= 3;
+      if (std::ranges::count_if(edges, turns) < 3 || std::ranges::any_of(edges, [&](int e) {
+            return c_.is_boundary_edge(e) || angle_[e] >= max_round_angle;
+          }))
+        continue;
+      for (int e : edges)
+        if (turns(e)) way[v] |= is_convex(e) ? out : in;
     }
-    is_in_round_.resize(c_.vertex_count);
-    for (int v = 0; v < c_.vertex_count; ++v) {
-      const auto& neighbours = c_.vertex_neighbours[v];
-      is_in_round_[v] = turns_gently[v] &&
-                        std::ranges::count_if(neighbours, [&](int n) { return turns_gently[n] != 0; }) >= 2;
+    is_in_round_.assign(c_.vertex_count, 0);
+    std::vector<char> seen(c_.vertex_count, 0);
+    for (int seed = 0; seed < c_.vertex_count; ++seed) {
+      if (way[seed] == not_gentle || seen[seed]) continue;
+      std::vector<int> round = {seed};
+      seen[seed] = 1;
+      for (size_t i = 0; i < round.size(); ++i)
+        for (int e : c_.vertex_edges[round[i]]) {
+          const int next = c_.other_end(e, round[i]);
+          if (turns(e) && way[next] == way[seed] && !std::exchange(seen[next], 1)) round.push_back(next);
+        }
+      if (std::ssize(round) >= min_round)
+        for (int v : round) is_in_round_[v] = 1;
     }
   }
 
@@ -386,7 +401,7 @@ class FeatureSearch {
     const bool is_alike = gentle ? ratio > gentle_ratio
                                  : std::abs(ratio - 1) < strip_angle || std::abs(ratio - 2) < strip_end_angle;
     const bool is_needle = are_sides_of_needle(edge, e);
-    if (e == edge || angle_[edge] > max_facet_angle || !(is_alike || is_needle) ||
+    if (e == edge || std::max(angle_[e], angle_[edge]) > max_facet_angle || !(is_alike || is_needle) ||
         is_convex(e) != is_convex(edge))
       return false;
     const Vec3 along = direction(edge);
@@ -453,13 +468,24 @@ class FeatureSearch {
   }
 
   bool may_belong(int edge, double min_angle) const {
-    return angle_[edge] > min_angle && bend_ratio(edge) <= max_bend_ratio;
+    const bool is_clear = sharp_stand_out_ && angle_[edge] > clear_sharpness * o_.angle;
+    return angle_[edge] > min_angle && bend_ratio(edge) <= (is_clear ? max_round_bend_ratio : max_bend_ratio);
+  }
+
+  /// Are nearly all sharp edges far sharper than the others? Noise makes edges of all angles.
+  bool sharp_edges_stand_out() const {
+    constexpr double max_between = .01;
+    const auto sharper = [&](double angle) {
+      return static_cast<double>(std::ranges::count_if(angle_, [&](double a) { return a > angle; }));
+    };
+    const double clear = sharper(clear_sharpness * o_.angle);
+    return sharper(o_.angle) - clear <= max_between * clear;
   }
 
   /// May the edge go on with a crease? If it is sharp, also where the surface beside it is rather round.
   bool may_continue(int edge) const {
     return may_belong(edge, hysteresis * o_.angle) ||
-           (angle_[edge] > o_.angle && bend_ratio(edge) <= max_round_bend_ratio);
+           (angle_[edge] > o_.angle && bend_ratio(edge) <= max_going_on_bend_ratio);
   }
 
   int other_end(int edge, int vertex) const {
@@ -553,16 +579,24 @@ class FeatureSearch {
     return number;
   }
 
+  /// Are the edges very sharp or between flat faces, and hardly made by noise?
+  bool stands_out(const std::vector<int>& edges, bool is_lone = false) const {
+    double sum = 0;
+    for (int e : edges) sum += angle_[e];
+    return (sum > clear_sharpness * o_.angle * static_cast<double>(edges.size()) ||
+            median_bend_ratio(edges) <= flat_bend_ratio) &&
+           expected_by_noise(edges) < (is_lone ? unlikely_lone : unlikely);
+  }
+
   /// Noise makes short chains and chains that begin and end in the interior of the surface, unless they are
   /// very sharp or flat on both sides, and unlikely by chance: where round bodies meet. A chain from the
   /// boundary to another crease or to the boundary, sharp between flat faces, may be short: the corner of an
   /// open box, the fold of a strip. A single edge may not: it could be the edge of a loose triangle.
   bool is_worth_keeping(const Chain& chain) const {
-    double sum = 0, angles = 0;
+    double sum = 0;
     int sharp = 0;
     for (int e : chain.edges) {
       sum += length(e);
-      angles += angle_[e];
       sharp += angle_[e] > o_.angle;
     }
     const auto edges = static_cast<int>(chain.edges.size());
@@ -573,8 +607,7 @@ class FeatureSearch {
     }
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
     if (sharp < sharp_share * edges) return false;
-    const bool stands_out = angles > clear_sharpness * o_.angle * edges || ratio <= flat_bend_ratio;
-    if (stands_out && expected_by_noise(chain.edges) < (is_lone ? unlikely_lone : unlikely)) return true;
+    if (stands_out(chain.edges, is_lone)) return true;
     return edges >= min_edges && sum >= min_length &&
            ratio <= (is_lone ? flat_bend_ratio : max_chain_bend_ratio);
   }
@@ -621,12 +654,10 @@ class FeatureSearch {
     for (size_t e = 0; e < kept_.size(); ++e) {
       if (!kept_[e] || seen[e]) continue;
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
-      double edges = 0;  // a long edge counts as the edges of the target length that it holds
-      for (int i : network) edges += std::max(1., length(i));
-      const bool short_curves = 2 * edges < min_curve * curve_ends(network);
+      const bool short_curves = 2 * static_cast<double>(network.size()) < min_curve * curve_ends(network);
       const double ratio = median_bend_ratio(network);
       const bool is_clear =
-          ratio <= flat_bend_ratio || (ratio <= clear_bend_ratio && expected_by_noise(network) < unlikely);
+          ratio <= flat_bend_ratio || (ratio <= max_chain_bend_ratio && stands_out(network));
       if (short_curves && !is_clear)
         for (int i : network) kept_[i] = 0;
     }
@@ -645,7 +676,8 @@ class FeatureSearch {
   std::vector<char> region_is_gentle_;             // is none of these sharp?
   mutable std::vector<char> bends_on_;             // the answers of bends_on(), two per edge
   std::vector<char> is_in_round_;                  // is the vertex of a round body?
-  bool flat_mesh_ = false;                         // are so many faces in flat regions that these are meant?
+  bool sharp_stand_out_ = sharp_edges_stand_out();
+  bool flat_mesh_ = false;  // are so many faces in flat regions that these are meant?
 };
 
 }  // namespace

@@ -9,11 +9,12 @@
 namespace hooke {
 
 /// The crease edges, ascending. An edge qualifies if its faces meet at a sharp angle while each of them
-/// continues nearly flat across one of its other edges: a coarse mesh of a round body bends at every edge. A
-/// chain has a loose end where no other crease or chain continues from its last vertex. Noise makes short
-/// chains, so chains with a loose end must be long, straight and clean; so must chains from the boundary,
-/// unless all their edges are sharp between flat faces and they lead to a crease or to the boundary. The
-/// chains that remain form networks; networks with many corners between rough faces are noise.
+/// continues nearly flat across one of its other edges: a coarse mesh of a round body bends at every edge.
+/// Where a crease has begun a sharp edge may go on with it between rounder faces. A chain has a loose
+/// end where no other crease or chain continues from its last vertex. Noise makes short chains, so chains
+/// with a loose end must be long, straight and clean, or sharp beyond what noise makes; so must chains from
+/// the boundary, unless all their edges are sharp between flat faces and they lead to a crease or to the
+/// boundary. The chains that remain form networks; networks with many corners between rough faces are noise.
 /// Edges that the target length resolves are added whatever the chains: sharp ones, and weaker ones between
 /// flat regions where most faces are in such regions. Lone edges are dropped. The steps of a binary mask that
 /// the target length does not resolve are noise, see is_staircase().

@@ -27,21 +27,26 @@ double share_of_needles(const Mat3X& points, const Adjacency& c, double ratio) {
   return all > 0 ? needles / all : 0;
 }
 
-/// Do faces that lie in a plane with a neighbour have most of the area, and, where no edge is sharp, are they
-/// less than half of the faces?
+/// Do faces that lie in a plane with a neighbour have most of the area: where no edge is sharp those that are
+/// much larger than most, else in a mesh of uneven faces?
 template <typename IsFlat>
-bool flat_faces_are_large(const Mat3X& points, const Adjacency& c, const IsFlat& is_flat, bool is_smooth) {
-  constexpr double min_area = .75, max_count = .5;
-  double area = 0, flat_area = 0, flat_count = 0;
-  for (std::size_t f = 0; f < c.faces.size(); ++f) {
-    const double doubled = doubled_area_vector(points, c.faces[f]).norm();
-    area += doubled;
-    if (std::ranges::none_of(c.face_edges[f], is_flat)) continue;
-    flat_area += doubled;
-    ++flat_count;
+bool flat_faces_have_the_area(const Mat3X& points, const Adjacency& c, const IsFlat& is_flat, bool is_smooth,
+                              const std::vector<double>& unevenness) {
+  constexpr double min_share = .75, min_uneven_share = .4, uneven = 3, much_larger = 8;
+  if (c.faces.empty()) return false;
+  std::vector<double> areas(c.faces.size());
+  for (std::size_t f = 0; f < areas.size(); ++f) areas[f] = doubled_area_vector(points, c.faces[f]).norm();
+  std::vector<double> sorted = areas;
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double least = is_smooth ? much_larger * *middle : 0;
+  double area = 0, flat_area = 0, uneven_area = 0;
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    area += areas[f];
+    if (unevenness[f] > uneven) uneven_area += areas[f];
+    if (areas[f] >= least && std::ranges::any_of(c.face_edges[f], is_flat)) flat_area += areas[f];
   }
-  return flat_area >= min_area * area &&
-         (!is_smooth || flat_count <= max_count * static_cast<double>(c.faces.size()));
+  return area > 0 && flat_area >= min_share * area && uneven_area >= min_uneven_share * area;
 }
 
 }  // namespace
@@ -150,8 +155,8 @@ bool is_faceted(const Mat3X& points, const Adjacency& c) {
   };
   if (static_cast<double>(std::ranges::count_if(c.face_edges, is_in_facet)) >= flat_share * faces)
     return true;
-  if (flat_faces_are_large(points, c, is_flat, is_smooth)) return true;
   const std::vector<double> unevenness = face_unevenness(points, c);
+  if (flat_faces_have_the_area(points, c, is_flat, is_smooth, unevenness)) return true;
   if (c.faces.size() < few_faces) {
     const auto has_sharp_edge = [&](const Triangle& edges) { return std::ranges::any_of(edges, is_sharp); };
     if (2 * std::ranges::count_if(c.face_edges, has_sharp_edge) >= std::ssize(c.faces)) return true;
