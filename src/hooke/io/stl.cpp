@@ -341,7 +341,13 @@ std::string write_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<T
                       PlyEncoding encoding, const FaceData& data) {
   if (encoding == PlyEncoding::ascii) return write_text(points, triangles, Groups(data));
   require_floats(points);
-  return write_binary(points.cast<float>().cast<double>(), triangles, find_channel(data, attribute_channel));
+  return write_binary(rounded_to_floats(points), triangles, find_channel(data, attribute_channel));
+}
+
+Mat3X rounded_to_floats(const Eigen::Ref<const Mat3X>& points) {
+  // Through memory: of two casts in one expression GCC 12 leaves out both for vectors of fixed size.
+  const Eigen::Matrix3Xf floats = points.cast<float>();
+  return floats.cast<double>();
 }
 
 Warnings losses_in_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
@@ -349,13 +355,13 @@ Warnings losses_in_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<
   std::vector<char> used(points.cols(), 0);
   for (const Triangle& triangle : triangles)
     for (const int v : triangle) used[v] = 1;
+  const Mat3X written = encoding == PlyEncoding::ascii ? Mat3X(points) : rounded_to_floats(points);
   PointNumbers numbers(used.size());
   size_t count = 0;
   for (size_t v = 0; v < used.size(); ++v) {
     if (!used[v]) continue;
     ++count;
-    const Vec3 point = points.col(static_cast<Eigen::Index>(v));
-    numbers(encoding == PlyEncoding::ascii ? point : Vec3(point.cast<float>().cast<double>()));
+    numbers(written.col(static_cast<Eigen::Index>(v)));
   }
   Warnings warnings;
   if (const size_t lost = count - numbers.points().size(); lost > 0)
@@ -365,7 +371,7 @@ Warnings losses_in_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<
                      "will join them; use PLY",
                      name, lost, encoding == PlyEncoding::ascii ? "" : ", whose numbers have 32 bits")});
   if (encoding != PlyEncoding::ascii) {
-    const auto turned = count_turned_faces(points, points.cast<float>().cast<double>(), triangles);
+    const auto turned = count_turned_faces(points, written, triangles);
     if (turned > 0)
       warnings.push_back(
           {"faces_turned_by_rounding",

@@ -75,7 +75,7 @@ PendingMesh prepare_mesh(const std::filesystem::path& path, const TriMesh& mesh,
   });
   Mat3X rounded;
   if (format == MeshFormat::stl && encoding != PlyEncoding::ascii)
-    rounded = vertex_points(mesh).cast<float>().cast<double>();
+    rounded = rounded_to_floats(vertex_points(mesh));
   const Stage stage(stopwatch, "file");
   std::optional<PendingFile> file;
   std::string hash, faces_hash;
