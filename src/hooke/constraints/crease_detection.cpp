@@ -410,16 +410,22 @@ class FeatureSearch {
     return is_needle || region < 0 || std::abs(direction(e).dot(along)) > parallel;
   }
 
-  /// Are the edges, at which the surface turns but little, long and close to each other?
+  /// Are the edges, at which the surface turns but little, sides of needles that are close to each other?
   bool are_sides_of_needle(int edge, int e) const {
-    const auto turns_little = [&](int i) { return angle_[i] > flat_angle && angle_[i] < max_needle_angle; };
-    if (!turns_little(edge) || !turns_little(e)) return false;
+    if (!divides_needles(edge) || !divides_needles(e)) return false;
     const Vec3 side = X_.col(c_.edges[edge][1]) - X_.col(c_.edges[edge][0]);
     const Vec3 other = X_.col(c_.edges[e][1]) - X_.col(c_.edges[e][0]);
     const double least = max_needle_width * std::min(side.norm(), other.norm());
     return std::ranges::all_of(c_.edges[e], [&](int v) {
       return side.cross(X_.col(v) - X_.col(c_.edges[edge][0])).norm() <= least * side.norm();
     });
+  }
+
+  /// Does the surface turn but little at the edge, and are both faces beside it narrow?
+  bool divides_needles(int edge) const {
+    return angle_[edge] > flat_angle && angle_[edge] < max_needle_angle &&
+           std::ranges::all_of(c_.edge_faces[edge],
+                               [&](int f) { return height(f, edge) <= max_needle_width * length(edge); });
   }
 
   /// Distance, in target lengths, of the ends of the edge from another edge of the face or its region; the
