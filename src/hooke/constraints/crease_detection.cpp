@@ -585,12 +585,12 @@ class FeatureSearch {
     return number;
   }
 
-  /// Are the edges very sharp or between flat faces, and hardly made by noise?
-  bool stands_out(const std::vector<int>& edges, bool is_lone = false) const {
+  /// Are the edges, with this median bend ratio, very sharp or between flat faces, and hardly made by noise?
+  bool stands_out(const std::vector<int>& edges, double ratio, bool is_lone = false) const {
     double sum = 0;
     for (int e : edges) sum += angle_[e];
-    return (sum > clear_sharpness * o_.angle * static_cast<double>(edges.size()) ||
-            median_bend_ratio(edges) <= flat_bend_ratio) &&
+    return (ratio <= flat_bend_ratio ||
+            sum > clear_sharpness * o_.angle * static_cast<double>(edges.size())) &&
            expected_by_noise(edges) < (is_lone ? unlikely_lone : unlikely);
   }
 
@@ -613,7 +613,7 @@ class FeatureSearch {
     }
     const bool is_lone = is_loose(chain.first) && is_loose(chain.last);
     if (sharp < sharp_share * edges) return false;
-    if (stands_out(chain.edges, is_lone)) return true;
+    if (stands_out(chain.edges, ratio, is_lone)) return true;
     return edges >= min_edges && sum >= min_length &&
            ratio <= (is_lone ? flat_bend_ratio : max_chain_bend_ratio);
   }
@@ -663,7 +663,7 @@ class FeatureSearch {
       const bool short_curves = 2 * static_cast<double>(network.size()) < min_curve * curve_ends(network);
       const double ratio = median_bend_ratio(network);
       const bool is_clear =
-          ratio <= flat_bend_ratio || (ratio <= max_chain_bend_ratio && stands_out(network));
+          ratio <= flat_bend_ratio || (ratio <= max_chain_bend_ratio && stands_out(network, ratio));
       if (short_curves && !is_clear)
         for (int i : network) kept_[i] = 0;
     }

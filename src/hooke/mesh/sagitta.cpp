@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t sagitta_block = 4096;
 
+constexpr double uneven = 3;  // minimum unevenness of a facet, see face_unevenness()
+
 /// The share of the area that lies in faces with two edges more than so many times as long as the third.
 double share_of_needles(const Mat3X& points, const Adjacency& c, double ratio) {
   double all = 0, needles = 0;
@@ -32,7 +34,7 @@ double share_of_needles(const Mat3X& points, const Adjacency& c, double ratio) {
 template <typename IsFlat>
 bool flat_faces_have_the_area(const Mat3X& points, const Adjacency& c, const IsFlat& is_flat, bool is_smooth,
                               const std::vector<double>& unevenness) {
-  constexpr double min_share = .75, min_uneven_share = .4, uneven = 3, much_larger = 8;
+  constexpr double min_share = .75, min_uneven_share = .4, much_larger = 8;
   if (c.faces.empty()) return false;
   std::vector<double> areas(c.faces.size());
   for (std::size_t f = 0; f < areas.size(); ++f) areas[f] = doubled_area_vector(points, c.faces[f]).norm();
@@ -135,7 +137,7 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
 }
 
 bool is_faceted(const Mat3X& points, const Adjacency& c) {
-  constexpr double flat = 1e-6, flat_share = .85, uneven = 3, uneven_share = .5, needle_share = .25;
+  constexpr double flat = 1e-6, flat_share = .85, uneven_share = .5, needle_share = .25;
   constexpr std::size_t few_faces = 64;
   constexpr double sharp = .088;  // tan(40 degrees / 4) / 2
   const auto faces = static_cast<double>(c.faces.size());
