@@ -206,6 +206,18 @@ void warn_of_rescue(RunRecord& run) {
     run.warnings.push_back({"result_rescued", fmt::format("{}: {}", run.output->path, text)});
 }
 
+/// Tells that target lengths were shortened.
+void warn_of_shortening(RunRecord& run) {
+  if (const int count = run.result->shortened; count > 0)
+    run.warnings.push_back(
+        {"lengths_shortened",
+         fmt::format(
+             "{}: it has {} faces, as edges are shorter than asked about {} of {} vertices of {}, where "
+             "others would not keep narrow parts; a smaller --length makes them alike all over",
+             run.output->path, run.after->topology.faces, count, run.before.topology.vertices,
+             run.input.path)});
+}
+
 /// Tells what would help against small angles at edges that stay, of facets or of the boundary.
 void warn_of_held_faces(const Settings& s, RunRecord& run) {
   constexpr double small_angle = 20;
@@ -339,6 +351,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   warn_of_folds(run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
   warn_of_rescue(run);
+  warn_of_shortening(run);
   warn_of_held_faces(s, run);
   warn_of_dropped_creases(run);
   warn_of_count(run);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hooke/core/parallel.h"
@@ -152,6 +153,22 @@ TEST(PreservingRemesh, KeepsWhatOneRunMayNot) {
       EXPECT_NEAR(kept.result.measures->quality.min_angle.min, min_angle(kept.points, kept.faces), 1e-9);
     }
   EXPECT_GE(mended, 3);
+}
+
+/// A disc with a sharp rim, which edges as long as its radius cut through.
+TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
+  test::Triangles disc = test::globe(24, 8);
+  disc.points.row(2) *= .05;
+  for (const double length : {.5, 1.5, 2.}) {
+    test::Outcome o;
+    o.mesh = test::with_length(disc, length);
+    o.result = preserving_remesh(o.mesh, find_memory_order(o.mesh), options_for(ConnectivityMode::adapt));
+    const std::vector<double> lengths = vertex_values(o.mesh, target_length_property);
+    EXPECT_TRUE(o.result.measures->preservation.holds());
+    EXPECT_EQ(o.result.shortened > 0, length > 1) << length;
+    EXPECT_EQ(std::ranges::min(lengths) < length, length > 1) << length;
+    EXPECT_LE(std::ranges::max(lengths), length);
+  }
 }
 
 /// A sphere with a spike as thin as its faces, which collapses and the splines would take off.

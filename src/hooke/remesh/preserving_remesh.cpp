@@ -95,12 +95,14 @@ class PreservingRemesh {
   }
 
   Run best() {
+    const RemeshOptions as_asked = options_;
     Run best = attempt();
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && options_.connectivity == ConnectivityMode::adapt) mend(best);
     if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
+    if (options_.connectivity == ConnectivityMode::adapt && !is_mask_) shorten_lengths(as_asked, best);
     if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
     if (options_.connectivity != ConnectivityMode::adapt && vertex_points(best.mesh) == vertex_points(mesh_))
       best.result.steps_smoothed = false;
@@ -216,18 +218,24 @@ class PreservingRemesh {
     return run.result.vertex_limits[surface.ids.vertex(vertex)];
   }
 
-  /// The vertices, none on a crease, of faces of the result that are turned over, chords or intersecting.
-  std::vector<int> corners_of_wrong_faces(const Run& run, const MeasuredSurface& surface) const {
+  /// Which faces of the result intersect where those of the input do not, or are among those with these ids.
+  std::vector<char> wrong_faces(const Run& run, const MeasuredSurface& surface,
+                                const std::vector<int>& turned) const {
     std::vector<char> is_wrong(surface.adjacency.faces.size(), 0);
-    const Deviation& deviation = run.result.measures->deviation;
-    const std::vector<int>& turned =
-        run.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces;  // the former hold the latter
     if (!turned.empty())
       for (size_t f = 0; f < is_wrong.size(); ++f)
         is_wrong[f] = std::ranges::binary_search(turned, surface.ids.face(static_cast<int>(f)));
     if (run.preservation().new_crossings > 0)
       for (const auto& pair : new_crossings(input_, surface))
         for (int f : pair) is_wrong[f] = 1;
+    return is_wrong;
+  }
+
+  /// The vertices, none on a crease, of faces of the result that are turned over, chords or intersecting.
+  std::vector<int> corners_of_wrong_faces(const Run& run, const MeasuredSurface& surface) const {
+    const Deviation& deviation = run.result.measures->deviation;
+    const std::vector<char> is_wrong =
+        wrong_faces(run, surface, run.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces);
     std::vector<char> is_corner(surface.adjacency.vertex_count, 0);
     for (size_t f = 0; f < is_wrong.size(); ++f)
       if (is_wrong[f])
@@ -306,6 +314,84 @@ class PreservingRemesh {
     if (next.is_better_than(best)) best = std::move(next);
   }
 
+  /// Halves the target lengths about what is wrong, as where edges are too long for a thin part, and makes
+  /// attempts with these until nothing is. Ends without that where it makes matters much worse, as at folds
+  /// of the input, or takes far more faces than the lengths asked for.
+  void shorten_lengths(const RemeshOptions& as_asked, Run& best) {
+    constexpr int max_rounds = 10;
+    constexpr double max_growth = 20, min_count = 1000, slope = .3;
+    constexpr std::size_t much_worse = 4;
+    const Adjacency& c = input_.adjacency;
+    const std::vector<double> asked = target_lengths();
+    std::vector<double> lengths = asked;
+    const double faces = best.result.adaptation.target_faces;
+    const auto growth = [&] {
+      const auto covering = [&](const std::vector<double>& of) {
+        return covering_length(input_.points, c, spread_target_lengths(c, of));
+      };
+      return std::pow(covering(asked) / covering(lengths), 2);
+    };
+    for (int round = 0; round < max_rounds && !best.is_interrupted() && !best.keeps_promises(); ++round) {
+      for (int v : input_vertices_at_flaws(best)) lengths[v] /= 2;
+      limit_gradation(input_.points, c, slope, lengths);
+      if (lengths == asked || growth() * faces > max_growth * std::max(min_count, faces)) return;
+      shortened_ = memory_order_.order.scatter(lengths);
+      options_ = as_asked;
+      const bool projects = best.result.rescue == Rescue::closest;
+      if (projects) options_.filter.kind = FilterKind::closest;
+      Run next = attempt();
+      if (projects) next.result.rescue = Rescue::closest;
+      if (!projects && !next.is_interrupted() && !next.keeps_promises()) project_to_faces(next);
+      if (next.is_interrupted()) {
+        best.result.reason = StopReason::interrupted;
+        return;
+      }
+      if (next.flaws() > much_worse * best.flaws()) return;
+      for (std::size_t v = 0; v < lengths.size(); ++v) next.result.shortened += lengths[v] < asked[v];
+      best = std::move(next);
+    }
+  }
+
+  /// The vertices of the input, in memory order, near to which a result does not keep it: the corners of the
+  /// faces closest to what is wrong, on the same side of the surface.
+  std::vector<int> input_vertices_at_flaws(const Run& run) const {
+    const MeasuredSurface now = surface_of(run);
+    const Adjacency &c = input_.adjacency, &n = now.adjacency;
+    const Preservation& p = run.preservation();
+    std::vector<char> is_wrong(n.vertex_count, 0), is_near(c.vertex_count, 0);
+    const std::vector<char> wrong = wrong_faces(run, now, run.result.measures->deviation.flipped_faces);
+    for (size_t f = 0; f < wrong.size(); ++f)
+      if (wrong[f])
+        for (int v : n.faces[f]) is_wrong[v] = 1;
+    if (p.new_folds > 0) {
+      std::vector<Edge> creases = run.result.memory_order.order.new_edges(run.result.crease_edges);
+      for (Edge& e : creases) std::ranges::sort(e);
+      std::ranges::sort(creases);
+      for (int e : sharp_edges(now.points, n, 90)) {
+        Edge ends = n.edges[e];
+        std::ranges::sort(ends);
+        if (!std::ranges::binary_search(creases, ends))
+          for (int v : ends) is_wrong[v] = 1;
+      }
+    }
+    for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
+    for (const FarVertex& lost : p.lost_vertices) is_near[lost.vertex] = 1;
+    const Mat3X normals = vertex_normals(now.points, n), input_normals = face_normals(input_.points, c);
+    const auto add_closest = [&](const Vec3& x, const auto& is_meant) {
+      const int face = input_.tree.closest(x, is_meant).face;
+      if (face < 0) return;
+      for (int v : c.faces[face]) is_near[v] = 1;
+    };
+    for (int v = 0; v < n.vertex_count; ++v)
+      if (is_wrong[v])
+        add_closest(now.points.col(v), [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
+    if (!p.creases_kept) add_closest(p.place, [](int) { return true; });
+    std::vector<int> near;
+    for (int v = 0; v < c.vertex_count; ++v)
+      if (is_near[v]) near.push_back(v);
+    return near;
+  }
+
   /// Puts vertices back to where they were, ring by ring around what is wrong, and all if that is not enough
   /// or makes worse faces than there were; a result with other faces is replaced by one with those of the
   /// input first.
@@ -346,13 +432,9 @@ class PreservingRemesh {
       const Triangle& t = c.faces[f];
       wrong.insert(wrong.end(), t.begin(), t.end());
     };
-    if (run.preservation().new_crossings > 0)
-      for (const auto& pair : new_crossings(input_, now))
-        for (int f : pair) add_face(f);
-    std::vector<int> index_of_face(c.faces.size());
-    const auto& old_face = run.result.memory_order.order.old_face;
-    for (size_t f = 0; f < old_face.size(); ++f) index_of_face[old_face[f]] = static_cast<int>(f);
-    for (int id : run.result.measures->deviation.flipped_faces) add_face(index_of_face[id]);
+    const std::vector<char> is_wrong = wrong_faces(run, now, run.result.measures->deviation.flipped_faces);
+    for (size_t f = 0; f < is_wrong.size(); ++f)
+      if (is_wrong[f]) add_face(static_cast<int>(f));
     for (size_t e = 0; e < c.edges.size(); ++e) {
       const int left = c.edge_faces[e][0], right = c.edge_faces[e][1];
       if (right < 0) continue;
@@ -449,6 +531,7 @@ class PreservingRemesh {
   Run make() const {
     Run a;
     a.mesh = mesh_;
+    if (!shortened_.empty()) set_vertex_values(a.mesh, target_length_property, shortened_);
     if (is_mask_) vertex_points(a.mesh) = smoothed_;
     a.result = remesh(a.mesh, memory_order_, options_, observer_, stopwatch_);
     if (is_mask_) {
@@ -497,8 +580,9 @@ class PreservingRemesh {
 
   const TriMesh& mesh_;
   bool is_mask_ = false;
-  Mat3X smoothed_;  // of a mask: the points that attempts start from, by vertex id
-  int steps_ = 0;   // sharp edges of a mask
+  Mat3X smoothed_;                 // of a mask: the points that attempts start from, by vertex id
+  int steps_ = 0;                  // sharp edges of a mask
+  std::vector<double> shortened_;  // target lengths by vertex id, if they are not those of the mesh
   const MemoryOrder& memory_order_;
   RemeshOptions options_;
   const Observer& observer_;

@@ -188,7 +188,8 @@ Json promises_json(const RunRecord& run) {
           {"lost_vertices", p.lost_vertices.size()},
           {"distance_over_limit", number(p.excess)},
           {"place", vector(p.place)},
-          {"rescue", rescues[static_cast<int>(run.result->rescue)]}};
+          {"rescue", rescues[static_cast<int>(run.result->rescue)]},
+          {"shortened_vertices", run.result->shortened}};
 }
 
 /// Null if no creases were found.
