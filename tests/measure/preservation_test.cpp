@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hooke/geometry/self_intersection.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
@@ -79,6 +80,20 @@ TEST(Preservation, CrossingsAreNewOnlyWhereThereWereNone) {
   EXPECT_EQ(p.new_crossings, *coarse.quality.self_intersections);
   EXPECT_GT(p.place.x(), .2);  // between the spheres
   EXPECT_LT(p.place.x(), 1);
+}
+
+/// A shaft in its bore: where the walls lie on each other, other facets of theirs cross.
+TEST(Preservation, CrossingsAreNotNewWhereWallsTouch) {
+  const auto two = [](double gap, unsigned seed) {
+    test::Triangles shaft = test::cylinder(16, 0), bore = test::cylinder(16, seed == 0 ? 0 : .3, seed);
+    shaft.points.topRows(2) *= 1 - gap;
+    for (Triangle& t : bore.faces) std::swap(t[0], t[1]);
+    return test::both(shaft, bore);
+  };
+  const Measured touching(two(0, 0)), apart(two(1e-3, 0)), turned(two(0, 3));
+  EXPECT_GT(find_self_intersections(turned.surface.tree).size(), 0u);
+  EXPECT_TRUE(new_crossings(touching.surface, turned.surface).empty());
+  EXPECT_GT(new_crossings(apart.surface, turned.surface).size(), 0u);
 }
 
 TEST(Preservation, AFaceTurnedOverBreaksIt) {

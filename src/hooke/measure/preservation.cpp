@@ -270,6 +270,19 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
   compare(result, certain * angle, reference, false, p.far_vertices);
 }
 
+/// Does another sheet touch the surface at the point of it that is closest to x?
+bool sheets_touch(const MeasuredSurface& surface, const Vec3& x) {
+  constexpr double touching = 1e-6;  // of the diagonal
+  const ClosestPoint here = surface.tree.closest(x);
+  if (here.face < 0) return false;
+  const Triangle& t = surface.adjacency.faces[index_of(here.face)];
+  const ClosestPoint other = surface.tree.closest(here.point, [&](int f) {
+    return std::ranges::find_first_of(surface.adjacency.faces[index_of(f)], t) ==
+           surface.adjacency.faces[index_of(f)].end();
+  });
+  return other.face >= 0 && other.squared_distance <= std::pow(touching * surface.extent.diagonal, 2);
+}
+
 }  // namespace
 
 std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
@@ -284,6 +297,10 @@ std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
     return crossing_segment(corners(pair[0]), corners(pair[1]));
   };
   std::vector<Pair> crossings = find_self_intersections(result.tree);
+  std::erase_if(crossings, [&](const Pair& pair) {
+    const auto [from, to] = segment_of(result, pair);
+    return sheets_touch(reference, (from + to) / 2);
+  });
   const std::vector<Pair> old = crossings.empty() ? crossings : find_self_intersections(reference.tree);
   if (old.empty()) return crossings;
   Mat3X ends(3, 2 * std::ssize(old));
