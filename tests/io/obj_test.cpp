@@ -45,6 +45,7 @@ TEST(Obj, CornerFormsNameTheSameVertices) {
   EXPECT_EQ(corners(extra + "f 1/1 2/2 3/3"), expected);
   EXPECT_EQ(corners(extra + "f 1//1 2//-1 3//1"), expected);
   EXPECT_EQ(corners(extra + "f 1/1/1 2/-2/1 3/3/1"), expected);
+  EXPECT_EQ(corners(extra + "f 1/ 2/2/ 3//"), expected);  // as some programs write what they have not
   EXPECT_EQ(corners("f 1 \\\n 2 \\\r\n 3"), expected);
 }
 
@@ -190,7 +191,7 @@ TEST(Obj, ErrorsNameTheLine) {
   EXPECT_ERROR(InputError, "m.obj:4: vertex index 4294967297", read(three + "f 4294967297 2 3"));
   EXPECT_ERROR(InputError, "m.obj:4: texture coordinate index 1", read(three + "f 1/1 2/1 3/1"));
   EXPECT_ERROR(InputError, "m.obj:4: normal index 1", read(three + "f 1//1 2//1 3//1"));
-  for (const char* corner : {"f", "1.5", "/1", "1/", "1//", "1/1/", "1/1/1/1"})
+  for (const char* corner : {"f", "1.5", "/1", "1/x", "1/1/1/1"})
     EXPECT_ERROR(InputError, "m.obj:5: face corner '" + std::string(corner) + "'",
                  read(three + "vt 0 0\nf 2 3 " + corner + "\nvn 0 0 1\n"));
   EXPECT_ERROR(InputError, "m.obj: no vertices", read("hello\n"));

@@ -106,9 +106,10 @@ int read_corner(ObjReader& obj, std::string_view corner) {
   if (first == corner.npos) return vertex;
   const std::string_view rest = corner.substr(first + 1);
   const size_t second = rest.find('/');
-  const std::string_view texture = rest.substr(0, second);
-  if (second == rest.npos || !texture.empty()) read_corner_index(in, texture, corner, number, obj.texture);
-  if (second != rest.npos) read_corner_index(in, rest.substr(second + 1), corner, number, obj.normals);
+  const std::string_view texture = rest.substr(0, second),
+                         normal = second == rest.npos ? "" : rest.substr(second + 1);
+  if (!texture.empty()) read_corner_index(in, texture, corner, number, obj.texture);
+  if (!normal.empty()) read_corner_index(in, normal, corner, number, obj.normals);
   return vertex;
 }
 
