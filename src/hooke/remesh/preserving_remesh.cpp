@@ -102,7 +102,9 @@ class PreservingRemesh {
     if (best.is_interrupted() && options_.connectivity == ConnectivityMode::adapt) mend(best);
     if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
-    if (options_.connectivity == ConnectivityMode::adapt && !is_mask_) shorten_lengths(as_asked, best);
+    if (options_.connectivity == ConnectivityMode::adapt && !best.is_interrupted() &&
+        !best.keeps_promises() && !is_mask_)
+      shorten_lengths(as_asked, best);
     if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
     if (options_.connectivity != ConnectivityMode::adapt && vertex_points(best.mesh) == vertex_points(mesh_))
       best.result.steps_smoothed = false;
@@ -315,29 +317,29 @@ class PreservingRemesh {
   }
 
   /// Halves the target lengths about what is wrong, as where edges are too long for a thin part, and makes
-  /// attempts with these until nothing is. Ends without that where it makes matters much worse, as at folds
-  /// of the input, or takes far more faces than the lengths asked for.
+  /// attempts with these until nothing is; the result is kept then. Ends without that where it makes matters
+  /// much worse, as at folds of the input, or would take too many faces.
   void shorten_lengths(const RemeshOptions& as_asked, Run& best) {
-    constexpr int max_rounds = 10;
-    constexpr double max_growth = 20, min_count = 1000, slope = .3;
+    const double faces = best.result.adaptation.target_faces;
+    const double max_faces = std::max(5e4, 1.5 * faces);
+    const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
+    constexpr double slope = .3;
     constexpr std::size_t much_worse = 4;
     const Adjacency& c = input_.adjacency;
     const std::vector<double> asked = target_lengths();
-    std::vector<double> lengths = asked;
-    const double faces = best.result.adaptation.target_faces;
-    const auto growth = [&] {
-      const auto covering = [&](const std::vector<double>& of) {
-        return covering_length(input_.points, c, spread_target_lengths(c, of));
-      };
-      return std::pow(covering(asked) / covering(lengths), 2);
+    const auto covering = [&](const std::vector<double>& lengths) {
+      return covering_length(input_.points, c, spread_target_lengths(c, lengths));
     };
-    for (int round = 0; round < max_rounds && !best.is_interrupted() && !best.keeps_promises(); ++round) {
-      for (int v : input_vertices_at_flaws(best)) lengths[v] /= 2;
-      limit_gradation(input_.points, c, slope, lengths);
-      if (lengths == asked || growth() * faces > max_growth * std::max(min_count, faces)) return;
+    std::vector<double> lengths = asked, longest(asked.size(), std::numeric_limits<double>::infinity());
+    Run last = best;
+    for (int round = 0; round < max_rounds && !last.keeps_promises(); ++round) {
+      for (int v : input_vertices_at_flaws(last)) longest[v] = lengths[v] / 2;
+      limit_gradation(input_.points, c, slope, longest);
+      for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked[v], longest[v]);
+      if (lengths == asked || faces * std::pow(covering(asked) / covering(lengths), 2) > max_faces) return;
       shortened_ = memory_order_.order.scatter(lengths);
       options_ = as_asked;
-      const bool projects = best.result.rescue == Rescue::closest;
+      const bool projects = last.result.rescue == Rescue::closest;
       if (projects) options_.filter.kind = FilterKind::closest;
       Run next = attempt();
       if (projects) next.result.rescue = Rescue::closest;
@@ -346,10 +348,12 @@ class PreservingRemesh {
         best.result.reason = StopReason::interrupted;
         return;
       }
-      if (next.flaws() > much_worse * best.flaws()) return;
-      for (std::size_t v = 0; v < lengths.size(); ++v) next.result.shortened += lengths[v] < asked[v];
-      best = std::move(next);
+      if (next.flaws() > much_worse * last.flaws()) return;
+      last = std::move(next);
     }
+    if (!last.keeps_promises()) return;
+    for (std::size_t v = 0; v < lengths.size(); ++v) last.result.shortened += lengths[v] < asked[v];
+    best = std::move(last);
   }
 
   /// The vertices of the input, in memory order, near to which a result does not keep it: the corners of the
