@@ -317,8 +317,9 @@ class PreservingRemesh {
   }
 
   /// Halves the target lengths about what is wrong, as where edges are too long for a thin part, and makes
-  /// attempts with these until nothing is; the result is kept then. Ends without that where it makes matters
-  /// much worse, as at folds of the input, or would take too many faces.
+  /// attempts with these until nothing is; then about faces with small angles, which parts as narrow have
+  /// left, while that halves their number. The result is kept if nothing is wrong with it. Ends without that
+  /// where it makes matters much worse, as at folds of the input, or would take too many faces.
   void shorten_lengths(const RemeshOptions& as_asked, Run& best) {
     const double faces = best.result.adaptation.target_faces;
     const double max_faces = std::max(5e4, 1.5 * faces);
@@ -330,9 +331,10 @@ class PreservingRemesh {
     const auto covering = [&](const std::vector<double>& lengths) {
       return covering_length(input_.points, c, spread_target_lengths(c, lengths));
     };
+    const auto small_angles = [](const Run& run) { return run.result.measures->quality.faces_below_20; };
     std::vector<double> lengths = asked, longest(asked.size(), std::numeric_limits<double>::infinity());
     Run last = best;
-    for (int round = 0; round < max_rounds && !last.keeps_promises(); ++round) {
+    for (int round = 0; round < max_rounds && !(last.keeps_promises() && small_angles(last) == 0); ++round) {
       for (int v : input_vertices_at_flaws(last)) longest[v] = lengths[v] / 2;
       limit_gradation(input_.points, c, slope, longest);
       for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked[v], longest[v]);
@@ -345,19 +347,21 @@ class PreservingRemesh {
       if (projects) next.result.rescue = Rescue::closest;
       if (!projects && !next.is_interrupted() && !next.keeps_promises()) project_to_faces(next);
       if (next.is_interrupted()) {
-        best.result.reason = StopReason::interrupted;
+        if (!last.keeps_promises()) best.result.reason = StopReason::interrupted;
         return;
       }
-      if (next.flaws() > much_worse * last.flaws()) return;
+      if (next.keeps_promises() ? last.keeps_promises() && 2 * small_angles(next) > small_angles(last)
+                                : last.keeps_promises() || next.flaws() > much_worse * last.flaws())
+        return;
+      for (std::size_t v = 0; v < lengths.size(); ++v) next.result.shortened += lengths[v] < asked[v];
+      if (next.keeps_promises()) best = next;
       last = std::move(next);
     }
-    if (!last.keeps_promises()) return;
-    for (std::size_t v = 0; v < lengths.size(); ++v) last.result.shortened += lengths[v] < asked[v];
-    best = std::move(last);
   }
 
-  /// The vertices of the input, in memory order, near to which a result does not keep it: the corners of the
-  /// faces closest to what is wrong, on the same side of the surface.
+  /// The vertices of the input, in memory order, near to which a result does not keep it, or if it does has
+  /// angles below 20 degrees: the corners of the faces closest to what is wrong, on the same side of the
+  /// surface.
   std::vector<int> input_vertices_at_flaws(const Run& run) const {
     const MeasuredSurface now = surface_of(run);
     const Adjacency &c = input_.adjacency, &n = now.adjacency;
@@ -378,6 +382,10 @@ class PreservingRemesh {
           for (int v : ends) is_wrong[v] = 1;
       }
     }
+    if (run.keeps_promises())
+      for (const Triangle& t : n.faces)
+        if (min_angle(now.points, {t}) < 20)
+          for (int v : t) is_wrong[v] = 1;
     for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
     for (const FarVertex& lost : p.lost_vertices) is_near[lost.vertex] = 1;
     const Mat3X normals = vertex_normals(now.points, n), input_normals = face_normals(input_.points, c);
