@@ -87,6 +87,7 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 void warn_of_count(RunRecord& run) {
   const AdaptResult& adapted = run.result->adaptation;
   if (run.result->reason == StopReason::interrupted) return;  // adaptation may be incomplete
+  if (run.result->shortened > 0) return;                      // another warning tells the count
   const double faces = run.after->topology.faces, expected = adapted.target_faces;
   if (adapted.rounds > 0 && std::abs(faces - expected) > (1 + 1e-9) * std::max(3., .03 * expected))
     run.warnings.push_back(

@@ -1,6 +1,7 @@
 """The mesh that is written: same vertices and faces, better triangles, constraints kept, the same on every run."""
 
 import csv
+import math
 import unittest
 
 from command import DATA, CommandTest, irregular_torus, read_mesh, write_off
@@ -40,6 +41,29 @@ class Result(CommandTest):
         self.assertIn("promise_broken", [w["code"] for w in report["warnings"]])
         self.assertFalse(report["promises"]["kept"])
         self.assertTrue((self.folder / "out.off").exists())
+
+    def test_edges_get_shorter_where_they_would_cut_through_a_thin_part(self):
+        around, rings = 24, 8
+        points = [(0, 0, .05)]
+        for k in range(1, rings):
+            r, z = math.sin(math.pi * k / rings), .05 * math.cos(math.pi * k / rings)
+            points += [(r * math.cos(2 * math.pi * i / around), r * math.sin(2 * math.pi * i / around), z)
+                       for i in range(around)]
+        points.append((0, 0, -.05))
+        at = lambda k, i: 1 + (k - 1) * around + i % around
+        faces = [(0, at(1, i), at(1, i + 1)) for i in range(around)]
+        for k in range(1, rings - 1):
+            faces += [t for i in range(around) for t in ((at(k, i), at(k + 1, i), at(k + 1, i + 1)),
+                                                         (at(k, i), at(k + 1, i + 1), at(k, i + 1)))]
+        faces += [(len(points) - 1, at(rings - 1, i + 1), at(rings - 1, i)) for i in range(around)]
+        write_off(self.folder / "disc.off", points, faces)
+        for length, is_short in ((.3, False), (2, True)):
+            report = self.report("disc.off", "-o", "out.off", "--connectivity", "adapt", "-L", length)
+            codes = [w["code"] for w in report["warnings"]]
+            self.assertTrue(report["promises"]["kept"])
+            self.assertEqual(report["promises"]["shortened_vertices"] > 0, is_short)
+            self.assertEqual("lengths_shortened" in codes, is_short, codes)
+            self.assertNotIn("face_count_missed", codes)
 
     def test_with_its_faces_kept_a_mesh_goes_back_rather_than_too_far(self):
         report = self.report(DATA / "torus.off", "-o", "out.off", "--max-distance", "0.001%")

@@ -96,6 +96,25 @@ TEST(Preservation, CrossingsAreNotNewWhereWallsTouch) {
   EXPECT_GT(new_crossings(apart.surface, turned.surface).size(), 0u);
 }
 
+TEST(Preservation, ABodyThatTouchesAnotherMayNotCrossItself) {
+  const auto plate_on_block = [](double top) {
+    test::Triangles plate = test::cells(
+        6, 6, 1, [](int, int, int) { return true; }, 0);
+    for (int v = 0; v < plate.points.cols(); ++v) {
+      const bool is_inner = plate.points(0, v) > 0 && plate.points(0, v) < 6 && plate.points(1, v) > 0 &&
+                            plate.points(1, v) < 6;
+      if (plate.points(2, v) > 0) plate.points(2, v) = is_inner ? top : .1;
+    }
+    test::Triangles block = test::cells(
+        6, 6, 1, [](int, int, int) { return true; }, .2);
+    block.points.row(2).array() -= 1 + 1e-7;
+    return test::both(plate, block);
+  };
+  const Measured whole(plate_on_block(.1)), through(plate_on_block(-.1));
+  EXPECT_EQ(whole.quality.self_intersections, 0u);
+  EXPECT_GT(new_crossings(whole.surface, through.surface).size(), 10u);
+}
+
 TEST(Preservation, AFaceTurnedOverBreaksIt) {
   const test::Triangles t = test::grid(6, test::flat);
   test::Triangles folded = t;

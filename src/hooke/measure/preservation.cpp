@@ -8,6 +8,7 @@
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
+#include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {
@@ -270,17 +271,39 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
   compare(result, certain * angle, reference, false, p.far_vertices);
 }
 
-/// Does another sheet touch the surface at the point of it that is closest to x?
-bool sheets_touch(const MeasuredSurface& surface, const Vec3& x) {
+std::array<Vec3, 2> crossing_segment_of(const MeasuredSurface& surface, const std::array<int, 2>& pair) {
+  const auto corners = [&](int f) {
+    const Triangle& t = surface.adjacency.faces[index_of(f)];
+    return std::array<Vec3, 3>{surface.points.col(t[0]), surface.points.col(t[1]), surface.points.col(t[2])};
+  };
+  return crossing_segment(corners(pair[0]), corners(pair[1]));
+}
+
+/// Does another body touch the surface at the point of it that is closest to x, no farther than `reach` away?
+/// `body`: per vertex.
+bool bodies_touch(const MeasuredSurface& surface, const std::vector<int>& body, const Vec3& x, double reach) {
   constexpr double touching = 1e-6;  // of the diagonal
+  const auto body_of = [&](int f) { return body[index_of(surface.adjacency.faces[index_of(f)][0])]; };
   const ClosestPoint here = surface.tree.closest(x);
-  if (here.face < 0) return false;
-  const Triangle& t = surface.adjacency.faces[index_of(here.face)];
-  const ClosestPoint other = surface.tree.closest(here.point, [&](int f) {
-    return std::ranges::find_first_of(surface.adjacency.faces[index_of(f)], t) ==
-           surface.adjacency.faces[index_of(f)].end();
-  });
+  if (here.face < 0 || here.squared_distance > reach * reach) return false;
+  const ClosestPoint other =
+      surface.tree.closest(here.point, [&](int f) { return body_of(f) != body_of(here.face); });
   return other.face >= 0 && other.squared_distance <= std::pow(touching * surface.extent.diagonal, 2);
+}
+
+/// Removes the pairs of faces of two bodies of the result that cross where bodies of the reference touch.
+void drop_contacts(const MeasuredSurface& reference, const MeasuredSurface& result,
+                   std::vector<std::array<int, 2>>& crossings) {
+  if (crossings.empty() || !reference.joined.empty()) return;
+  const std::vector<int> before = label_components(reference.adjacency),
+                         after = label_components(result.adjacency);
+  std::erase_if(crossings, [&](const std::array<int, 2>& pair) {
+    const auto body = [&](int f) { return after[index_of(result.adjacency.faces[index_of(f)][0])]; };
+    if (body(pair[0]) == body(pair[1])) return false;
+    const auto [from, to] = crossing_segment_of(result, pair);
+    const double reach = std::max(longest_edge(result, pair[0]), longest_edge(result, pair[1]));
+    return bodies_touch(reference, before, (from + to) / 2, reach);
+  });
 }
 
 }  // namespace
@@ -288,33 +311,22 @@ bool sheets_touch(const MeasuredSurface& surface, const Vec3& x) {
 std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
                                               const MeasuredSurface& result) {
   using Pair = std::array<int, 2>;
-  const auto segment_of = [](const MeasuredSurface& surface, const Pair& pair) {
-    const auto corners = [&](int f) {
-      const Triangle& t = surface.adjacency.faces[index_of(f)];
-      return std::array<Vec3, 3>{surface.points.col(t[0]), surface.points.col(t[1]),
-                                 surface.points.col(t[2])};
-    };
-    return crossing_segment(corners(pair[0]), corners(pair[1]));
-  };
   std::vector<Pair> crossings = find_self_intersections(result.tree);
-  std::erase_if(crossings, [&](const Pair& pair) {
-    const auto [from, to] = segment_of(result, pair);
-    return sheets_touch(reference, (from + to) / 2);
-  });
+  drop_contacts(reference, result, crossings);
   const std::vector<Pair> old = crossings.empty() ? crossings : find_self_intersections(reference.tree);
   if (old.empty()) return crossings;
   Mat3X ends(3, 2 * std::ssize(old));
   std::vector<Edge> segments;
   for (const Pair& pair : old) {
     const int next = 2 * static_cast<int>(segments.size());
-    const auto [from, to] = segment_of(reference, pair);
+    const auto [from, to] = crossing_segment_of(reference, pair);
     ends.col(next) = from;
     ends.col(next + 1) = to;
     segments.push_back({next, next + 1});
   }
   const AabbTree tree(ends, as_segments(segments));
   std::erase_if(crossings, [&](const Pair& pair) {
-    const auto [from, to] = segment_of(result, pair);
+    const auto [from, to] = crossing_segment_of(result, pair);
     const double reach = std::max(longest_edge(result, pair[0]), longest_edge(result, pair[1]));
     return tree.closest((from + to) / 2).squared_distance <= reach * reach;
   });

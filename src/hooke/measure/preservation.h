@@ -69,8 +69,8 @@ struct CreasedSurface {
 
 /// The pairs of faces of the result that intersect where no faces of the reference do: the middle of their
 /// crossing_segment() is farther from those of the reference than their longest edge. So surfaces that cross
-/// may cross in other faces, and those that touch, as bodies in contact, may cross where they do. Ascending
-/// pairs of faces of the adjacency.
+/// may cross in other faces, and bodies that touch may cross where they do. Ascending pairs of faces of the
+/// adjacency.
 std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
                                               const MeasuredSurface& result);
 

@@ -95,7 +95,6 @@ class PreservingRemesh {
   }
 
   Run best() {
-    const RemeshOptions as_asked = options_;
     Run best = attempt();
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
@@ -104,7 +103,7 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (options_.connectivity == ConnectivityMode::adapt && !best.is_interrupted() &&
         !best.keeps_promises() && !is_mask_)
-      shorten_lengths(as_asked, best);
+      shorten_lengths(filter, best);
     if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
     if (options_.connectivity != ConnectivityMode::adapt && vertex_points(best.mesh) == vertex_points(mesh_))
       best.result.steps_smoothed = false;
@@ -320,12 +319,14 @@ class PreservingRemesh {
   /// attempts with these until nothing is; then about faces with small angles, which parts as narrow have
   /// left, while that halves their number. The result is kept if nothing is wrong with it. Ends without that
   /// where it makes matters much worse, as at folds of the input, or would take too many faces.
-  void shorten_lengths(const RemeshOptions& as_asked, Run& best) {
+  void shorten_lengths(FilterKind filter, Run& best) {
     const double faces = best.result.adaptation.target_faces;
     const double max_faces = std::max(5e4, 1.5 * faces);
     const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
     constexpr double slope = .3;
-    constexpr std::size_t much_worse = 4;
+    constexpr std::size_t much_worse = 4, few = 10;
+    RemeshOptions start = options_;  // with the tips and junctions that are held
+    start.filter.kind = filter;
     const Adjacency& c = input_.adjacency;
     const std::vector<double> asked = target_lengths();
     const auto covering = [&](const std::vector<double>& lengths) {
@@ -337,10 +338,11 @@ class PreservingRemesh {
     for (int round = 0; round < max_rounds && !(last.keeps_promises() && small_angles(last) == 0); ++round) {
       for (int v : input_vertices_at_flaws(last)) longest[v] = lengths[v] / 2;
       limit_gradation(input_.points, c, slope, longest);
+      const std::vector<double> before = lengths;
       for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked[v], longest[v]);
-      if (lengths == asked || faces * std::pow(covering(asked) / covering(lengths), 2) > max_faces) return;
+      if (lengths == before || faces * std::pow(covering(asked) / covering(lengths), 2) > max_faces) return;
       shortened_ = memory_order_.order.scatter(lengths);
-      options_ = as_asked;
+      options_ = start;
       const bool projects = last.result.rescue == Rescue::closest;
       if (projects) options_.filter.kind = FilterKind::closest;
       Run next = attempt();
@@ -350,10 +352,11 @@ class PreservingRemesh {
         if (!last.keeps_promises()) best.result.reason = StopReason::interrupted;
         return;
       }
-      if (next.keeps_promises() ? last.keeps_promises() && 2 * small_angles(next) > small_angles(last)
-                                : last.keeps_promises() || next.flaws() > much_worse * last.flaws())
+      if (next.keeps_promises()
+              ? last.keeps_promises() && 2 * small_angles(next) > small_angles(last)
+              : last.keeps_promises() || next.flaws() > much_worse * std::max(few, last.flaws()))
         return;
-      for (std::size_t v = 0; v < lengths.size(); ++v) next.result.shortened += lengths[v] < asked[v];
+      for (std::size_t v = 0; v < lengths.size(); ++v) next.result.shortened += 2 * lengths[v] <= asked[v];
       if (next.keeps_promises()) best = next;
       last = std::move(next);
     }

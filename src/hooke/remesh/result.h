@@ -82,7 +82,8 @@ struct RemeshResult {
   /// Of preserving_remesh(), null if not measured; copies of the result share them.
   std::shared_ptr<ResultMeasures> measures;
   Rescue rescue = Rescue::none;
-  int shortened = 0;  // vertices of the input about which preserving_remesh() took shorter target lengths
+  /// Vertices of the input to which preserving_remesh() gave half of their target length or less.
+  int shortened = 0;
   BoundCounts bound;  // time steps by the test that set them (paper_remesh() only)
   FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)
   std::vector<TimeStepRecord> time_steps;  // paper_remesh() only

@@ -264,8 +264,9 @@ constexpr Row promises[] = {
      "how the result came to keep it: none; tips = made again with lost vertices held; junctions = with "
      "those "
      "of edges of three faces or more held; closest = on the input's faces; put_back = vertices went back"},
-    {"promises.shortened_vertices", integer, none, lower,
-     "vertices of the input about which mode adapt took shorter target lengths, to keep thin parts"},
+    {"promises.shortened_vertices", integer, none, neither,
+     "vertices of the input to which mode adapt gave half of their target length or less, to keep thin "
+     "parts"},
 };
 
 constexpr Row after_statistics[] = {
