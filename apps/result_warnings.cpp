@@ -213,8 +213,8 @@ void warn_of_shortening(RunRecord& run) {
     run.warnings.push_back(
         {"lengths_shortened",
          fmt::format(
-             "{}: it has {} faces, as edges are shorter than asked about {} of {} vertices of {}, where "
-             "others would not keep narrow parts; a smaller --length makes them alike all over",
+             "{}: {} faces, as edges near {} of {} vertices of {} are shorter than asked; longer ones would "
+             "not keep the narrow parts there; a smaller --length makes all edges alike",
              run.output->path, run.after->topology.faces, count, run.before.topology.vertices,
              run.input.path)});
 }

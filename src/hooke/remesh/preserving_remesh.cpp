@@ -349,7 +349,7 @@ class PreservingRemesh {
       if (projects) next.result.rescue = Rescue::closest;
       if (!projects && !next.is_interrupted() && !next.keeps_promises()) project_to_faces(next);
       if (next.is_interrupted()) {
-        if (!last.keeps_promises()) best.result.reason = StopReason::interrupted;
+        best.result.reason = StopReason::interrupted;
         return;
       }
       if (next.keeps_promises()
