@@ -362,42 +362,53 @@ class PreservingRemesh {
     }
   }
 
-  /// The vertices of the input, in memory order, near to which a result does not keep it, or if it does has
-  /// angles below 20 degrees: the corners of the faces closest to what is wrong, on the same side of the
-  /// surface.
-  std::vector<int> input_vertices_at_flaws(const Run& run) const {
-    const MeasuredSurface now = surface_of(run);
-    const Adjacency &c = input_.adjacency, &n = now.adjacency;
+  /// Which vertices of the result, in memory order, are at faces that do not keep the input or at folds, or
+  /// too far from it; if it keeps the input, which are at angles below 20 degrees.
+  std::vector<char> at_flaws(const Run& run, const MeasuredSurface& now) const {
+    const Adjacency& c = now.adjacency;
     const Preservation& p = run.preservation();
-    std::vector<char> is_wrong(n.vertex_count, 0), is_near(c.vertex_count, 0);
+    std::vector<char> is_wrong(c.vertex_count, 0);
+    const auto add = [&](const auto& vertices) {
+      for (int v : vertices) is_wrong[v] = 1;
+    };
     const std::vector<char> wrong = wrong_faces(run, now, run.result.measures->deviation.flipped_faces);
     for (size_t f = 0; f < wrong.size(); ++f)
-      if (wrong[f])
-        for (int v : n.faces[f]) is_wrong[v] = 1;
+      if (wrong[f]) add(c.faces[f]);
     if (p.new_folds > 0) {
       std::vector<Edge> creases = run.result.memory_order.order.new_edges(run.result.crease_edges);
       for (Edge& e : creases) std::ranges::sort(e);
       std::ranges::sort(creases);
-      for (int e : sharp_edges(now.points, n, 90)) {
-        Edge ends = n.edges[e];
+      for (int e : sharp_edges(now.points, c, 90)) {
+        Edge ends = c.edges[e];
         std::ranges::sort(ends);
-        if (!std::ranges::binary_search(creases, ends))
-          for (int v : ends) is_wrong[v] = 1;
+        if (!std::ranges::binary_search(creases, ends)) add(ends);
       }
     }
-    if (run.keeps_promises())
-      for (const Triangle& t : n.faces)
-        if (min_angle(now.points, {t}) < 20)
-          for (int v : t) is_wrong[v] = 1;
     for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
+    constexpr double small_angle = 20;
+    if (run.keeps_promises())
+      for (const Triangle& t : c.faces)
+        if (min_angle(now.points, {t}) < small_angle) add(t);
+    return is_wrong;
+  }
+
+  /// The vertices of the input, in memory order, whose surface a result does not keep: those it lost, and the
+  /// corners of the faces closest to its vertices at_flaws(), on the same side of the surface.
+  std::vector<int> input_vertices_at_flaws(const Run& run) const {
+    const MeasuredSurface now = surface_of(run);
+    const Preservation& p = run.preservation();
+    const Adjacency& c = input_.adjacency;
+    std::vector<char> is_near(c.vertex_count, 0);
     for (const FarVertex& lost : p.lost_vertices) is_near[lost.vertex] = 1;
-    const Mat3X normals = vertex_normals(now.points, n), input_normals = face_normals(input_.points, c);
     const auto add_closest = [&](const Vec3& x, const auto& is_meant) {
       const int face = input_.tree.closest(x, is_meant).face;
       if (face < 0) return;
       for (int v : c.faces[face]) is_near[v] = 1;
     };
-    for (int v = 0; v < n.vertex_count; ++v)
+    const std::vector<char> is_wrong = at_flaws(run, now);
+    const Mat3X normals = vertex_normals(now.points, now.adjacency),
+                input_normals = face_normals(input_.points, c);
+    for (size_t v = 0; v < is_wrong.size(); ++v)
       if (is_wrong[v])
         add_closest(now.points.col(v), [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
     if (!p.creases_kept) add_closest(p.place, [](int) { return true; });
