@@ -85,12 +85,19 @@ void require_memory_for_file(const Settings& s) {
                : without_a_mesh()));
 }
 
+double most_faces(const Settings& s) {
+  return 2 * s.memory_limit * megabyte / bytes_per_new_vertex;
+}
+
 void require_memory(const Settings& s, std::size_t vertices, const RunRecord& record) {
   if (s.memory_limit <= 0) return;
   const double count = static_cast<double>(vertices);
   double added = 0;
   if (!s.check && !s.paper && s.remesh.connectivity == ConnectivityMode::adapt && record.target.mean > 0)
-    added = std::max(0., equilateral_faces(record.before.extent.area, record.target.mean) / 2 - count);
+    added =
+        std::max(record.target.faces, equilateral_faces(record.before.extent.area, record.target.mean)) / 2 -
+        count;
+  added = std::max(added, 0.);
   const double needed = program_bytes + bytes_per_vertex(s) * count + bytes_per_new_vertex * added;
   if (needed <= s.memory_limit * megabyte) return;
   const double fits =

@@ -20,6 +20,9 @@ void require_memory_for_file(const Settings& settings);
 /// of the mesh and its target length.
 void require_memory(const Settings& settings, std::size_t vertices, const RunRecord& record);
 
+/// The number of faces of a result that fit into --memory-limit.
+double most_faces(const Settings& settings);
+
 /// An upper estimate of the peak in bytes, by the size of the file, its format, and the finer mesh that
 /// `adapt` makes of it where the length is given in natural lengths.
 std::size_t memory_for(const std::filesystem::path& mesh, const Settings& settings);

@@ -127,9 +127,15 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
       ->type_name("FILE|ply:PROPERTY|curvature[:ERROR]")
       ->default_str("off");
   app.add_option("--gradation", raw.gradation,
-                 "Maximum change of a sizing's lengths along an edge, over the edge's length")
+                 "Maximum change of the lengths of --sizing along an edge, over its length, and of those of "
+                 "--min-length")
       ->type_name("X|off")
       ->default_str("0.3");
+  app.add_option("--min-length", s.min_length_text,
+                 "How short edges may be where creases or boundaries are closer than the target length, so "
+                 "that triangles there are well shaped too; of --connectivity adapt")
+      ->type_name("X|X%|Xx|off")
+      ->capture_default_str();
   add_file(app, "--edge-lengths", s.edge_lengths,
            "Target lengths of edges, one a line: two vertex ids (0-based) and a length in file units; other "
            "edges have that of --length. Springs of altitudes and angles, which ask for equilateral faces, "

@@ -54,7 +54,8 @@ struct Settings {
   std::string length_text = "auto";
   SizingSource sizing;
   std::string sizing_text = "off";
-  double gradation = Sizing{}.gradation;                    // limit of the gradation of a sizing
+  std::string min_length_text = "off";
+  std::optional<LengthSpec> min_length;                     // of edges in narrow regions
   std::filesystem::path edge_lengths;                       // file of target lengths of edges; empty for none
   std::optional<std::vector<EdgeLength>> edge_length_list;  // in place of the file, for a mesh of arrays
   bool check = false;                                       // only measure the input

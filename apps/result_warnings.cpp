@@ -230,6 +230,13 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
              return limits[v] & (limited_by_crease | limited_at_corner);
            });
   };
+  const auto is_narrow = [&](const WorstFace& f) {
+    constexpr double well_below = .5;  // also at a sharp corner, but that is no narrow region
+    return f.min_angle < std::min(small_angle, well_below * f.bound.degrees) &&
+           std::ranges::all_of(f.vertices, [&](int v) {
+             return limits[v] & (limited_by_boundary | limited_by_crease | limited_at_corner);
+           });
+  };
   const auto is_at_fixed_edge = [&](const WorstFace& f) {
     return f.min_angle < small_angle &&
            std::ranges::count_if(f.vertices, [&](int v) { return limits[v] & limited_by_request; }) >= 2;
@@ -238,16 +245,22 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
     run.warnings.push_back({code, fmt::format("{}: face {} is left with an angle of {:.2g} degrees: {}",
                                               run.output->path, f.face, f.min_angle, text)});
   };
-  const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
-  const auto bad = adapts ? std::ranges::find_if(faces, is_at_fixed_edge)
-                          : std::ranges::find_if(faces, is_between_creases);
-  if (bad == faces.end()) return;
-  if (!adapts)
-    warn("facets_without_inner_vertices", *bad,
-         "it lies between creases, and facets with no inner vertices cannot be mended without new ones; use "
-         "--connectivity adapt");
-  else if (s.remesh.constraints.boundary == BoundaryRule::fixed)
-    warn("boundary_holds_angles", *bad, "the edges of a fixed boundary stay; use --boundary slide");
+  const auto warn_of_first = [&](const auto& is_meant, const char* code, const char* text) {
+    const auto f = std::ranges::find_if(faces, is_meant);
+    if (f != faces.end()) warn(code, *f, text);
+  };
+  if (s.remesh.connectivity != ConnectivityMode::adapt)
+    return warn_of_first(
+        is_between_creases, "facets_without_inner_vertices",
+        "it lies between creases, and facets with no inner vertices cannot be mended without "
+        "new ones; use --connectivity adapt");
+  if (s.remesh.constraints.boundary == BoundaryRule::fixed)
+    warn_of_first(is_at_fixed_edge, "boundary_holds_angles",
+                  "the edges of a fixed boundary stay; use --boundary slide");
+  if (!s.min_length)
+    warn_of_first(is_narrow, "narrow_regions",
+                  "it lies between creases or boundaries closer than the target length; use --min-length, "
+                  "with which edges there may be shorter");
 }
 
 void warn_of_dropped_creases(RunRecord& run) {

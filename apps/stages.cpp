@@ -183,6 +183,7 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
                                 record);
   timed(&stopwatch, "boundary", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, origin, points, record); });
+  set_min_length(s, mesh, memory_order, points, record);
   const UniformVector targets = edge_targets(mesh, memory_order);
   record.paper_before = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
   const MeasuredSurface surface = surface_of(std::move(points), memory_order, original.joined, stopwatch);

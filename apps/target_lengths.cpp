@@ -16,8 +16,10 @@
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/springs/narrow_regions.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/springs/target_lengths.h"
+#include "mesh_memory.h"
 #include "result_warnings.h"
 
 namespace hooke::app {
@@ -169,7 +171,7 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   const Adjacency& adjacency = *memory_order.adjacency;
   const Sizing sizing{
       read_sizing(s.sizing, s.input, points, memory_order, s.remesh.constraints.features, origin),
-      s.gradation};
+      s.remesh.gradation};
   std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
   std::vector<double> of_edges;
   if (!s.edge_lengths.empty()) {
@@ -188,10 +190,33 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
                             {"sizing", printable(s.sizing_text)},
                             {"edge_lengths", nullptr}});
   if (!s.edge_lengths.empty()) record.parameters["edge_lengths"] = printable(s.edge_lengths.native());
-  const bool limited = s.sizing.kind != SizingSource::Kind::none && std::isfinite(s.gradation);
-  record.parameters["gradation"] = limited ? nlohmann::ordered_json(s.gradation) : nlohmann::ordered_json();
+  const double gradation = s.remesh.gradation;
+  const bool limited =
+      (s.sizing.kind != SizingSource::Kind::none || s.min_length) && std::isfinite(gradation);
+  record.parameters["gradation"] = limited ? nlohmann::ordered_json(gradation) : nlohmann::ordered_json();
   if (!s.check && s.edge_lengths.empty() && s.remesh.connectivity != ConnectivityMode::adapt)
     warn_of_length(s, covering_length(points, adjacency, targets), natural, record);
+}
+
+void set_min_length(Settings& s, const TriMesh& mesh, const MemoryOrder& memory_order, const Mat3X& points,
+                    RunRecord& record) {
+  record.parameters["min_length"] = nullptr;
+  if (!s.min_length) return;
+  const Adjacency& c = *memory_order.adjacency;
+  const double shortest = resolve_length(*s.min_length, points, c);
+  s.remesh.min_length = shortest;
+  record.parameters["min_length"] = shortest;
+  if (shortest >= record.target.max)
+    throw Error(fmt::format(
+        "--min-length {}: {:.6g} for {}, whose target length is {:.6g}; expected less, as it is for regions "
+        "narrower than that",
+        in_quotes(s.min_length_text), shortest, printable(s.input.string()), record.target.max));
+  if (s.memory_limit <= 0) return;
+  const std::vector<double> lengths = memory_order.order.gather(vertex_values(mesh, target_length_property));
+  Adjacency creased = c;
+  split_wedges(creased, creases_at(lengths, points, c, s.remesh.constraints.features));
+  record.target.faces = NarrowRegions(points, creased, lengths, shortest, s.remesh.gradation)
+                            .covering_faces(points, c.faces, lengths, most_faces(s));
 }
 
 }  // namespace hooke::app

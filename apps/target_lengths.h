@@ -27,4 +27,10 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
 void set_target_lengths(const Settings& settings, TriMesh& mesh, const MemoryOrder& memory_order,
                         const MeshOrigin& origin, const Mat3X& points, RunRecord& record);
 
+/// Sets how short edges may be in narrow regions, --min-length, in the settings and in the parameters of the
+/// run, and if memory is limited the number of faces that takes. Throws Error if it is no shorter than the
+/// target lengths. Pre-condition: set_target_lengths().
+void set_min_length(Settings& settings, const TriMesh& mesh, const MemoryOrder& memory_order,
+                    const Mat3X& points, RunRecord& record);
+
 }  // namespace hooke::app

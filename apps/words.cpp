@@ -163,12 +163,27 @@ int threads_of_environment() {
   return 0;
 }
 
+LengthSpec parse_min_length(const std::string& text) {
+  using Kind = LengthSpec::Kind;
+  const auto fits = [](Kind kind) {
+    return kind == Kind::absolute || kind == Kind::percent_of_diagonal || kind == Kind::times_natural;
+  };
+  try {
+    if (const LengthSpec spec = parse_length(text); fits(spec.kind)) return spec;
+  } catch (const Error&) {
+  }
+  throw Error(fmt::format("--min-length {}; expected off, or a positive number, alone or with % or x",
+                          in_quotes(text)));
+}
+
 void resolve_sizing(Settings& s, const RawOptions& raw) {
   const bool sized = s.sizing_text != "off";
   if (sized) s.sizing = parsed("--sizing", parse_sizing, s.sizing_text);
-  if (!raw.gradation.empty()) s.gradation = parse_gradation(raw.gradation);
+  if (s.min_length_text != "off") s.min_length = parse_min_length(s.min_length_text);
+  if (!raw.gradation.empty()) s.remesh.gradation = parse_gradation(raw.gradation);
+  if (!raw.gradation.empty() && !sized && !s.min_length)
+    throw Error("--gradation is of --sizing and --min-length; leave it out, or name a sizing");
   if (sized) return;
-  if (!raw.gradation.empty()) throw Error("--gradation is of --sizing; leave it out, or name a sizing");
   if (s.length.kind == LengthSpec::Kind::as_given)
     throw Error("--length sizing without --sizing; name a sizing, or another length");
 }
@@ -199,6 +214,8 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
   refuse(!s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--edge-lengths"},
          "is of --connectivity fixed, where edges stay");
+  refuse(s.paper || s.remesh.connectivity != ConnectivityMode::adapt, {"--min-length"},
+         "is of --connectivity adapt, where edges get shorter by new vertices");
   refuse(s.repair.repair || s.weld_text != "off", {"--edge-lengths"},
          "names edges that --repair and --weld may change");
   refuse(s.repair.keep_junctions, {"--edge-lengths"}, "is not of meshes with --keep non-manifold");

@@ -20,7 +20,8 @@ class UsageErrors(CommandTest):
     def test_bad_values_of_options(self):
         for option in (["-L", "none"], ["-L", "-1"], ["-L", "0"], ["-L", "nan"], ["--tolerance", "1m"],
                        ["--sizing", "ply:"], ["--sizing", "curvature:0"], ["--gradation", "0", "--sizing", "curvature"],
-                       ["--gradation", "1"], ["-L", "sizing"], ["--threads", "0"], ["--filter", "magic"],
+                       ["--gradation", "1"], ["-L", "sizing"], ["--min-length", "0"], ["--min-length", "auto"],
+                       ["--min-length", "1"], ["--min-length", "2x", "--connectivity", "adapt"], ["--threads", "0"], ["--filter", "magic"],
                        ["--max-outer", "0"], ["--format", "vtp"], ["--feature-angle", "0"],
                        ["--feature-angle", "180"], ["--feature-angle", "sharp"],
                        ["--feature-angle", "40", "--paper"]):
@@ -30,7 +31,7 @@ class UsageErrors(CommandTest):
 
     def test_numbers_are_finite_and_in_range(self):
         for option in ("--altitude", "--rho", "--string", "--torque", "--friction", "--step-angle", "--step-expansion",
-                       "--step-displacement", "--step-area", "--tolerance", "--gradation", "--feature-angle",
+                       "--step-displacement", "--step-area", "--tolerance", "--gradation", "--min-length", "--feature-angle",
                        "--max-outer", "--max-steps", "--threads"):
             for value in ("nan", "inf", "1e999", "-2", "", "1z", "0x1p3"):
                 with self.subTest(option=option, value=value):

@@ -270,6 +270,26 @@ class Report(CommandTest):
         self.assertIn("boundary_holds_angles", codes(*adapted, "fixed"))
         self.assertNotIn("boundary_holds_angles", codes(*adapted, "slide"))
 
+    def test_narrow_regions_get_shorter_edges_where_they_may(self):
+        box = [(x, y, z) for z in (0, 20) for y in (0, .4) for x in (0, 30)]
+        quads = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        write_off(self.folder / "plate.off", box, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))])
+        adapted = ("plate.off", "-o", "out.off", "--connectivity", "adapt", "-L", "3")
+        plain, finer = self.report(*adapted), self.report(*adapted, "--min-length", ".1")
+        self.assertIn("narrow_regions", [w["code"] for w in plain["warnings"]])
+        self.assertLess(plain["after"]["min_angle"]["min"], 20)
+        self.assertIsNone(plain["parameters"]["min_length"])
+        self.assertEqual(finer["warnings"], [])
+        self.assertGreater(finer["after"]["min_angle"]["min"], 30)
+        self.assertEqual(finer["parameters"]["min_length"], .1)
+        self.assertEqual(finer["parameters"]["gradation"], .3)
+        self.assertLess(abs(finer["geometry"]["volume_change"]), 1e-9)
+        faces = lambda report: report["adaptation"]["wanted_faces"]
+        steeper = self.report(*adapted, "--min-length", ".1", "--gradation", ".6")
+        self.assertGreater(.9 * faces(finer), faces(steeper))
+        self.assertGreater(faces(steeper), 2 * faces(plain))
+        self.refused(8, *adapted, "--min-length", ".1", "--memory-limit", "14", names="plate.off", says="in the result")
+
     def test_a_seam_stays_closed_and_says_so(self):
         grid = lambda side: [(side * (i + .3 * (i == 1 and j == 1)) / 2, (j + .2 * (j == 1 and i == 1)) / 2, 0)
                              for j in range(3) for i in range(3)]

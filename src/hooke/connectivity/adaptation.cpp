@@ -62,6 +62,9 @@ class AdaptationSteps {
   /// Passes of springs and flips near irregular vertices, until one flips nothing.
   void flip_irregular();
 
+  /// Lets target lengths be as short as this in narrow regions, see Workspace.
+  void shorten_in_narrow_regions(double shortest, double gradation);
+
   /// 1-to-4 subdivision; also halves the target lengths.
   void subdivide();
 
@@ -90,7 +93,6 @@ class AdaptationSteps {
   const ShapeLimits& limits_;
   const Observer observer_;
   WorkingMesh m_;
-  const bool graded_;
   int level_ = 0;  // the target lengths are multiplied by 2^level_
   StepCounts counts_;
   bool interrupted_ = false;
@@ -196,8 +198,7 @@ AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options, co
       terms_(terms),
       limits_(limits),
       observer_(std::move(observer)),
-      m_(work),
-      graded_(work.has_varying_lengths()) {
+      m_(work) {
   work.set_corner_valences(corner_angle);
 }
 
@@ -325,8 +326,14 @@ void AdaptationSteps::relax_springs() {
   resample_lengths();
 }
 
+void AdaptationSteps::shorten_in_narrow_regions(double shortest, double gradation) {
+  work_.shorten_in_narrow_regions(shortest, gradation);
+  m_.length_at = [this](int v) { return work_.input_length(v); };
+  resample_lengths();
+}
+
 void AdaptationSteps::resample_lengths() {
-  if (!graded_) return;
+  if (!work_.has_varying_lengths()) return;
   work_.vertices.vertex_length = work_.input_lengths();
   coarsen(std::exchange(level_, 0));
 }
@@ -353,7 +360,10 @@ class Adaptation {
   AdaptResult run(bool folded) {
     steps_.release_bends();
     steps_.match_junctions();
-    result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
+    if (options_.min_length > 0)
+      steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
+    else
+      result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
     if (result_.levels > 0)
       refine_coarse_mesh();
     else
@@ -371,6 +381,7 @@ class Adaptation {
   void adapt_at_once(bool folded) {
     if (!folded) steps_.lloyd_flow(options_.first_flow);
     adapt_lengths(options_.rounds, options_.flow_rounds);
+    if (options_.min_length > 0) result_.target_faces = steps_.wanted_faces();
     approach(result_.target_faces, options_.count_slack);
   }
 

@@ -67,7 +67,10 @@ struct AdaptOptions {
       .01;                             // share of the target face count by which the count may miss it
   int last_flow = 3, last_passes = 2;  // maximum rounds of flow and flip passes of mode `flip` afterwards
   int last_outer = 6;                  // maximum outer iterations afterwards, if angle optimisation follows
-  std::optional<int> last_steps;       // maximum energy evaluations of L-BFGS in each of these iterations
+  /// Target lengths in narrow regions may be as short as this, in the unit of the points, 0: they are as
+  /// given; and their growth away from these. See springs/narrow_regions.h.
+  double min_length = 0, gradation = 0;
+  std::optional<int> last_steps;  // maximum energy evaluations of L-BFGS in each of these iterations
 
   StepOptions steps;
 };

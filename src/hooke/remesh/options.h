@@ -29,6 +29,9 @@ struct RemeshOptions {
   FilterOptions filter{.max_deviation = .35};
   Refit refit = Refit::each;
   ConstraintOptions constraints;
+  /// In mode `adapt`: how short target lengths may be in narrow regions between creases or boundaries, in the
+  /// unit of the points, 0: as given; and by how much they grow away from these, over the distance.
+  double min_length = 0, gradation = .3;
   double tolerance = 1e-3;       // converged when max |l - L_e| / L_e is below this
   std::optional<int> max_outer;  // maximum number of outer iterations
   std::optional<int> max_steps;  // maximum number of steps of the integrator in each of them

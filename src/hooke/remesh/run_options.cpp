@@ -76,6 +76,8 @@ RunOptions::RunOptions(const RemeshOptions& options)
     set_outer_iterations(*this, options.effort);
   else
     set_sliver_removal(slivers.pass, options.connectivity, options.effort);
+  adaptation.min_length = options.min_length;
+  adaptation.gradation = options.gradation;
   if (options.max_outer) max_outer = adaptation.last_outer = *options.max_outer;
   if (options.max_steps) {
     integration.max_steps = *options.max_steps;

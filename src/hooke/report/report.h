@@ -65,6 +65,7 @@ struct TargetRecord {
   double min = 0;
   double max = 0;
   double natural = 0;  // that of --length auto
+  double faces = 0;    // that the lengths ask for; 0: as the mean does
 };
 
 /// The contents of a report. Parts that a run did not produce stay empty.

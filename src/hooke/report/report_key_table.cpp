@@ -235,6 +235,7 @@ constexpr Row parameters[] = {
      "natural length sqrt(4 A / (sqrt 3 F)) of area A and F faces"},
     {"parameters.sizing", text, none, neither, "--sizing, as given"},
     {"parameters.edge_lengths", or_null(text), none, neither, "--edge-lengths: the file"},
+    {"parameters.min_length", or_null(number), length, neither, "--min-length; null without"},
     {"parameters.gradation", or_null(number), ratio, neither, "--gradation; null without sizing or limit"},
 };
 

@@ -81,7 +81,9 @@ SurfacePosition project_midpoint(const WorkingMesh& m, int h) {
   return m.retraction.moved_copy(m.vertices.positions, a, t.wedge(h), half_way);
 }
 
-int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
+namespace {
+
+int add_vertex_on_surface(WorkingMesh& m, int h, const SurfacePosition* middle) {
   const HalfedgeMesh& t = m.halfedges;
   const int a = t.from(h), b = t.to(h), v = t.id_count(), twin = t.twin(h);
   const int other_wedge = t.is_crease(h) ? v + 1 : -1;
@@ -114,6 +116,14 @@ int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
   start.write_to(p, v);
   const Vec3 half_way = .5 * (p.points.col(b) - p.points.col(a));
   m.retraction.moved(p, v, half_way).write_to(p, v);
+  return v;
+}
+
+}  // namespace
+
+int add_vertex(WorkingMesh& m, int h, const SurfacePosition* middle) {
+  const int v = add_vertex_on_surface(m, h, middle);
+  if (m.length_at) m.vertices.vertex_length[v] = m.length_at(v);
   return v;
 }
 

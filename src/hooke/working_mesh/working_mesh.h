@@ -30,6 +30,9 @@ struct WorkingMesh {
   CurveEdges curve_edges;
   /// Called after vertices have moved, to update their target lengths to their new positions.
   std::function<void()> after_move = nullptr;
+  /// The target length at a vertex, where these vary faster than along its edges; null: the mean of the ends
+  /// of an edge is that of its middle.
+  std::function<double(int vertex)> length_at = nullptr;
 };
 
 /// The curve on which a feature edge lies; curve -1 if none is known.

@@ -261,21 +261,29 @@ void Workspace::resample_lengths() {
   targets = spread_target_lengths(*adjacency, vertices.vertex_length);
 }
 
+void Workspace::shorten_in_narrow_regions(double shortest, double gradation) {
+  narrow_regions_ =
+      NarrowRegions(*start, *adjacency, start_length_.values(), shortest / normalisation.unit, gradation);
+}
+
 bool Workspace::has_varying_lengths() const {
-  return edge_by_edge_ || start_length_.is_varying();
+  return edge_by_edge_ || start_length_.is_varying() || !narrow_regions_.empty();
+}
+
+double Workspace::input_length(int v) const {
+  const SurfacePoint point = locate_on_input(v);
+  if (point.face < 0) return vertices.vertex_length[v];
+  double length = 0;
+  for (size_t k = 0; k < 3; ++k)
+    length +=
+        point.weights[static_cast<Eigen::Index>(k)] * start_length_[input_surface_->faces[point.face][k]];
+  return narrow_regions_.length_at(vertices.positions.points.col(v), length);
 }
 
 std::vector<double> Workspace::input_lengths() const {
-  std::vector<double> lengths = vertices.vertex_length;
+  std::vector<double> lengths(vertices.vertex_length.size());
   parallel_for(lengths.size(), 256, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) {
-      const SurfacePoint point = locate_on_input(static_cast<int>(v));
-      if (point.face < 0) continue;
-      lengths[v] = 0;
-      for (size_t k = 0; k < 3; ++k)
-        lengths[v] +=
-            point.weights[static_cast<Eigen::Index>(k)] * start_length_[input_surface_->faces[point.face][k]];
-    }
+    for (size_t v = begin; v < end; ++v) lengths[v] = input_length(static_cast<int>(v));
   });
   return lengths;
 }

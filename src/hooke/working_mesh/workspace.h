@@ -11,6 +11,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/surface_point.h"
 #include "hooke/mesh/vertex_coloring.h"
+#include "hooke/springs/narrow_regions.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/vertex_table.h"
 
@@ -63,14 +64,23 @@ struct Workspace {
   /// order, and new ones follow. Pre-condition as for replace_faces().
   void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges);
 
+  /// Lets target lengths in narrow regions between the creases and boundaries of the input be as short as
+  /// `shortest`, in the unit of the points that the workspace was made from; see NarrowRegions. They change
+  /// when they are sampled next. Pre-condition: replace_faces() and replace_mesh() were not called yet.
+  void shorten_in_narrow_regions(double shortest, double gradation);
+
   /// Do the target lengths vary?
   bool has_varying_lengths() const;
 
   /// Are they given for each edge by itself (`e:target_length`), not by the place on the surface?
   bool has_edge_lengths() const { return edge_by_edge_; }
 
-  /// Target lengths of the input, interpolated linearly in its faces at the positions of the vertices.
+  /// Target lengths of the input, interpolated linearly in its faces at the positions of the vertices, or
+  /// those of its narrow regions.
   std::vector<double> input_lengths() const;
+
+  /// The same at one vertex.
+  double input_length(int vertex) const;
 
   /// Updates varying target lengths to the current positions of the vertices, unless each edge has its own.
   /// References to the targets stay valid.
@@ -126,6 +136,7 @@ struct Workspace {
   std::optional<std::vector<Edge>> sharp_;          // creases where the surface is sharp; none: all are
   std::shared_ptr<const Adjacency> input_surface_;  // with the points `start`, and wedges where it is sharp
   UniformVector start_length_;                      // target lengths with the points `start`
+  NarrowRegions narrow_regions_;                    // see shorten_in_narrow_regions()
   bool refitted_ = false;                           // false: both fields are the same
   bool edge_by_edge_ = false;                       // see has_edge_lengths()
   bool faceted_ = false;                            // are the facets of the input meant?

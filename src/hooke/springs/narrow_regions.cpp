@@ -1,0 +1,266 @@
+#include "hooke/springs/narrow_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <queue>
+#include <tuple>
+
+#include "hooke/mesh/wedges.h"
+
+namespace hooke {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Segment {
+  Vec3 from, to;
+  double width;
+};
+
+/// Finds the narrow regions of a mesh cut open along its creases, so that its boundary edges, the rims, are
+/// all there is to look at. Every vertex near a rim knows its closest edge; at faces whose corners know
+/// different ones a region may end on both sides.
+class RegionSearch {
+ public:
+  RegionSearch(const Mat3X& points, const Adjacency& cut, const std::vector<double>& longest, double shortest)
+      : points_(points),
+        cut_(cut),
+        longest_(longest),
+        shortest_(shortest),
+        inward_(Mat3X::Zero(3, std::ssize(cut.edges))),
+        closest_(cut.vertex_count) {
+    for (std::size_t e = 0; e < cut.edges.size(); ++e)
+      if (cut.is_boundary_edge(static_cast<int>(e))) rim_edges_.push_back(static_cast<int>(e));
+    for (int e : rim_edges_) inward_.col(e) = inward_normal(e);
+    walk_rims();
+    find_closest_edges();
+  }
+
+  std::vector<Segment> run() {
+    for (const Triangle& t : cut_.faces) look_across(t);
+    for (int e : rim_edges_) {
+      look_along(e, points_.col(cut_.edges[e][0]), points_.col(cut_.edges[e][1]));
+      look_around(e);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  /// In the plane of the only face of a boundary edge, across the edge.
+  Vec3 inward_normal(int edge) const {
+    const auto& [a, b] = cut_.edges[edge];
+    const Vec3 along = (points_.col(b) - points_.col(a)).normalized();
+    const Triangle& t = cut_.faces[cut_.edge_faces[edge][0]];
+    const int apex = *std::ranges::find_if(t, [&](int v) { return v != a && v != b; });
+    const Vec3 to_apex = points_.col(apex) - points_.col(a);
+    return (to_apex - to_apex.dot(along) * along).normalized();
+  }
+
+  Vec3 closest_on(int edge, const Vec3& x) const {
+    const Vec3 a = points_.col(cut_.edges[edge][0]), way = points_.col(cut_.edges[edge][1]) - a;
+    const double squared = way.squaredNorm();
+    return squared > 0 ? Vec3(a + std::clamp((x - a).dot(way) / squared, 0., 1.) * way) : a;
+  }
+
+  /// Numbers the closed rims, and finds how far along them their edges begin. Edges of the boundary are
+  /// directed as in their face.
+  void walk_rims() {
+    std::vector<int> next(cut_.vertex_count, -1);
+    for (int e : rim_edges_) next[cut_.edges[e][0]] = e;
+    rim_.assign(cut_.edges.size(), -1);
+    start_.assign(cut_.edges.size(), 0);
+    for (int first : rim_edges_) {
+      if (rim_[first] >= 0) continue;
+      double way = 0;
+      for (int e = first; e >= 0 && rim_[e] < 0; e = next[cut_.edges[e][1]]) {
+        rim_[e] = static_cast<int>(rim_length_.size());
+        start_[e] = way;
+        way += (points_.col(cut_.edges[e][1]) - points_.col(cut_.edges[e][0])).norm();
+      }
+      rim_length_.push_back(way);
+    }
+  }
+
+  /// The way along the rim between points on two edges; infinite for two rims.
+  double way_along_rim(int s, const Vec3& p, int t, const Vec3& q) const {
+    if (rim_[s] != rim_[t]) return infinity;
+    const auto place = [&](int e, const Vec3& x) {
+      return start_[e] + (x - points_.col(cut_.edges[e][0])).norm();
+    };
+    const double way = std::abs(place(s, p) - place(t, q));
+    return std::min(way, rim_length_[rim_[s]] - way);
+  }
+
+  /// Dijkstra's algorithm from the rims, no farther than the target lengths.
+  void find_closest_edges() {
+    using Item = std::tuple<double, int, int>;  // distance, vertex, edge
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    const auto spread = [&](int v, int edge) {
+      for (int w : cut_.vertex_neighbours[v]) {
+        if (!closest_[w].empty()) continue;
+        const double distance = (points_.col(w) - closest_on(edge, points_.col(w))).norm();
+        if (distance < longest_[w]) queue.emplace(distance, w, edge);
+      }
+    };
+    for (int e : rim_edges_)
+      for (int v : cut_.edges[e]) closest_[v].push_back(e);
+    for (int e : rim_edges_)
+      for (int v : cut_.edges[e]) spread(v, e);
+    while (!queue.empty()) {
+      const auto [distance, v, edge] = queue.top();
+      queue.pop();
+      if (!closest_[v].empty()) continue;
+      closest_[v].push_back(edge);
+      spread(v, edge);
+    }
+  }
+
+  double longest_of(const Triangle& t) const {
+    return std::min({longest_[t[0]], longest_[t[1]], longest_[t[2]]});
+  }
+
+  /// From an edge of a rim across x to the closest edge known at a face that faces it there; without one the
+  /// width is infinite.
+  Segment across(const Triangle& t, const Vec3& x, int from) const {
+    constexpr double facing = .5, times_around = 3;
+    const Vec3 foot = closest_on(from, x);
+    Segment narrowest{foot, foot, infinity};
+    for (int v : t)
+      for (int to : closest_[v]) {
+        if (to == from) continue;
+        const Vec3 end = closest_on(to, x), way = end - foot;
+        const double gap = way.norm(), width = (x - foot).norm() + (x - end).norm();
+        if (width < narrowest.width && way.dot(inward_.col(from)) > facing * gap &&
+            -way.dot(inward_.col(to)) > facing * gap &&
+            way_along_rim(from, foot, to, end) > times_around * gap)
+          narrowest = {foot, end, width};
+      }
+    return narrowest;
+  }
+
+  void look_across(const Triangle& t) {
+    for (int v : t)
+      for (int from : closest_[v])
+        if (const Segment s = across(t, points_.col(v), from); s.width < longest_of(t)) found_.push_back(s);
+  }
+
+  /// At pieces of a rim's edge, no longer than the region is wide there.
+  void look_along(int edge, const Vec3& a, const Vec3& b) {
+    const Triangle& t = cut_.faces[cut_.edge_faces[edge][0]];
+    const Vec3 middle = .5 * (a + b);
+    const double piece = (b - a).norm(), longest = longest_of(t), width = across(t, middle, edge).width;
+    if (piece > std::max(shortest_, std::min(width, .5 * longest))) {
+      look_along(edge, a, middle);
+      look_along(edge, middle, b);
+    } else if (width < longest) {
+      found_.push_back({a, b, width});
+    }
+  }
+
+  /// At the end of a rim's edge, where the rim may be round.
+  void look_around(int edge) {
+    constexpr double corner_angle = 35 * std::numbers::pi / 180;
+    const int v = cut_.edges[edge][1];
+    for (int next : closest_[v]) {
+      if (next == edge) continue;
+      const Vec3 before = points_.col(v) - points_.col(cut_.edges[edge][0]),
+                 after = points_.col(cut_.edges[next][1]) - points_.col(v);
+      const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+      const double radius = .5 * (before.norm() + after.norm()) / turn;
+      if (turn < corner_angle && radius < longest_[v])
+        found_.push_back({points_.col(v), points_.col(v), radius});
+    }
+  }
+
+  const Mat3X& points_;
+  const Adjacency& cut_;
+  const std::vector<double>& longest_;
+  const double shortest_;
+  std::vector<int> rim_edges_;
+  Mat3X inward_;                            // per edge, of those on a rim
+  std::vector<int> rim_;                    // per edge
+  std::vector<double> start_, rim_length_;  // per edge, per rim
+  std::vector<std::vector<int>> closest_;   // per vertex: its own edges of rims, or the closest one
+  std::vector<Segment> found_;
+};
+
+AabbTree tree_of(const std::vector<Segment>& segments) {
+  Mat3X ends(3, 2 * std::ssize(segments));
+  std::vector<Triangle> faces;
+  for (const Segment& s : segments) {
+    const int a = 2 * static_cast<int>(faces.size());
+    ends.col(a) = s.from;
+    ends.col(a + 1) = s.to;
+    faces.push_back({a, a + 1, a + 1});
+  }
+  return {ends, faces};
+}
+
+}  // namespace
+
+NarrowRegions::NarrowRegions(const Mat3X& points, const Adjacency& c,
+                             const std::vector<double>& vertex_length, double shortest, double gradation)
+    : gradation_(std::min(gradation, 1e3)) {
+  const Adjacency cut = cut_open(c);
+  std::vector<double> longest(cut.vertex_count);
+  for (int w = 0; w < cut.vertex_count; ++w) longest[w] = vertex_length[c.vertex_of_wedge(w)];
+  constexpr double ratio = 1.25;
+  std::map<int, std::vector<Segment>> by_width;
+  for (const Segment& s : RegionSearch(wedge_points(points, c), cut, longest, shortest).run())
+    by_width[std::max(0, static_cast<int>(std::log(s.width / shortest) / std::log(ratio)))].push_back(s);
+  for (const auto& [power, segments] : by_width)
+    widths_.push_back({shortest * std::pow(ratio, power), tree_of(segments)});
+}
+
+double NarrowRegions::length_at(const Vec3& x, double asked) const {
+  double length = asked;
+  for (const auto& [width, segments] : widths_) {
+    if (width >= length) break;
+    const double reach = (length - width) / gradation_;
+    const ClosestPoint closest =
+        segments.closest(x, [](int) { return true; }, {.squared_distance = reach * reach});
+    if (closest.face >= 0) length = width + gradation_ * std::sqrt(closest.squared_distance);
+  }
+  return length;
+}
+
+double NarrowRegions::covering_faces(const Mat3X& points, const std::vector<Triangle>& faces,
+                                     const std::vector<double>& vertex_length, double enough) const {
+  struct Piece {
+    std::array<Vec3, 3> corners;
+    Vec3 asked;  // lengths at the corners
+  };
+  double count = 0;
+  std::vector<Piece> pieces;
+  for (const Triangle& t : faces) {
+    pieces.push_back({});
+    for (std::size_t k = 0; k < 3; ++k) {
+      pieces.back().corners[k] = points.col(t[k]);
+      pieces.back().asked[static_cast<Eigen::Index>(k)] = vertex_length[t[k]];
+    }
+    while (!pieces.empty() && count <= enough) {
+      Piece p = pieces.back();
+      pieces.pop_back();
+      const auto& [a, b, c] = p.corners;
+      const double length = length_at((a + b + c) / 3, p.asked.mean());
+      const std::array<double, 3> edges = {(b - a).norm(), (c - b).norm(), (a - c).norm()};
+      const std::size_t longest = std::ranges::max_element(edges) - edges.begin(), next = (longest + 1) % 3;
+      if (edges[longest] <= length) {
+        count += 2 * (b - a).cross(c - a).norm() / (std::sqrt(3.) * length * length);
+        continue;
+      }
+      Piece other = p;
+      const auto i = static_cast<Eigen::Index>(longest), j = static_cast<Eigen::Index>(next);
+      p.corners[next] = other.corners[longest] = .5 * (p.corners[longest] + p.corners[next]);
+      p.asked[j] = other.asked[i] = .5 * (p.asked[i] + p.asked[j]);
+      pieces.push_back(p);
+      pieces.push_back(other);
+    }
+  }
+  return count;
+}
+
+}  // namespace hooke

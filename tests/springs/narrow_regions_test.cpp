@@ -1,0 +1,136 @@
+#include "hooke/springs/narrow_regions.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "hooke/mesh/wedges.h"
+#include "support/crease_solids.h"
+#include "support/solids.h"
+
+namespace hooke::narrow_regions_test {
+
+using test::Triangles;
+
+constexpr double rounded_down = 1 / 1.25, no_limit = std::numeric_limits<double>::infinity();
+
+/// All sharp edges are creases.
+NarrowRegions regions_of(const Triangles& t, double asked, double shortest, double gradation = .3) {
+  Adjacency c = test::connect(t);
+  split_wedges(c, test::bent_edges(t.points, t.faces));
+  return {t.points, c, std::vector<double>(c.vertex_count, asked), shortest, gradation};
+}
+
+/// In the plane, with this many edges on both long sides.
+Triangles strip(double length, double width, int pieces) {
+  Triangles t{Mat3X(3, 2 * (pieces + 1)), {}};
+  for (int i = 0; i <= pieces; ++i) {
+    t.points.col(2 * i) = Vec3(length * i / pieces, 0, 0);
+    t.points.col(2 * i + 1) = Vec3(length * i / pieces, width, 0);
+  }
+  for (int i = 0; i < 2 * pieces; i += 2) {
+    t.faces.push_back({i, i + 2, i + 3});
+    t.faces.push_back({i, i + 3, i + 1});
+  }
+  return t;
+}
+
+/// A regular polygon with a vertex in the middle.
+Triangles disc(int sides, double radius) {
+  Triangles t{Mat3X::Zero(3, sides + 1), {}};
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    t.points.col(i) = radius * Vec3(std::cos(angle), std::sin(angle), 0);
+    t.faces.push_back({i, (i + 1) % sides, sides});
+  }
+  return t;
+}
+
+Triangles box(double x, double y, double z) {
+  Triangles t = test::cube();
+  const Vec3 low = t.points.rowwise().minCoeff(), size = t.points.rowwise().maxCoeff() - low;
+  t.points = (Vec3(x, y, z).cwiseQuotient(size).asDiagonal() * (t.points.colwise() - low)).eval();
+  return t;
+}
+
+TEST(NarrowRegions, EdgesFitAcrossAStripHoweverItIsCut) {
+  for (int pieces : {1, 7, 60}) {
+    const NarrowRegions regions = regions_of(strip(40, 1, pieces), 5, .01);
+    for (double x : {4., 11.3, 20., 33.}) {
+      EXPECT_LE(regions.length_at({x, 0, 0}, 5), 1) << pieces << ' ' << x;
+      EXPECT_GE(regions.length_at({x, 1, 0}, 5), rounded_down) << pieces << ' ' << x;
+    }
+  }
+}
+
+TEST(NarrowRegions, NoLengthIsBelowTheShortest) {
+  const NarrowRegions regions = regions_of(strip(40, 1, 3), 5, 2);
+  EXPECT_EQ(regions.length_at({20, 0, 0}, 5), 2);
+}
+
+TEST(NarrowRegions, CreasesBoundRegionsAsBoundariesDo) {
+  const NarrowRegions regions = regions_of(box(40, 1, 30), 5, .01);
+  for (const Vec3& on_narrow_side : {Vec3(20, .5, 0), Vec3(0, .5, 15), Vec3(20, 0, 30)})
+    EXPECT_NEAR(regions.length_at(on_narrow_side, 5), 1 - .5 * (1 - rounded_down),
+                .5 * (1 - rounded_down) + .15);
+  EXPECT_EQ(regions.length_at({20, 0, 15}, 5), 5);
+}
+
+TEST(NarrowRegions, LengthsGrowAsTheGradationSays) {
+  const Triangles t = box(40, 1, 30);
+  for (double gradation : {.1, .3, 1.}) {
+    const NarrowRegions regions = regions_of(t, 5, .01, gradation);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> x(0, 40), z(0, 30);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 a(x(random), 0, z(random)), b(x(random), 0, z(random));
+      const double difference = std::abs(regions.length_at(a, 5) - regions.length_at(b, 5));
+      EXPECT_LE(difference, gradation * (a - b).norm() + 1e-12);
+    }
+    EXPECT_NEAR(regions.length_at({20, 0, 2}, 5) - regions.length_at({20, 0, 1}, 5), gradation, 1e-12);
+  }
+  const NarrowRegions sudden = regions_of(t, 5, .01, no_limit);
+  EXPECT_LE(sudden.length_at({20, 0, 0}, 5), 1);
+  EXPECT_EQ(sudden.length_at({20, 0, .1}, 5), 5);
+}
+
+TEST(NarrowRegions, CornersAndDiscsAreNone) {
+  EXPECT_TRUE(regions_of(strip(6, 6, 9), 5, .01).empty());
+  EXPECT_TRUE(regions_of(box(6, 6, 6), 5, .01).empty());
+  EXPECT_TRUE(regions_of(disc(60, 6), 5, .01).empty());
+  EXPECT_TRUE(regions_of(test::sphere(2), 5, .01).empty());  // no rims at all
+  EXPECT_EQ(NarrowRegions().length_at(Vec3::Zero(), 5), 5);
+}
+
+TEST(NarrowRegions, ASmallDiscIsAsWideAsItsRadius) {
+  const NarrowRegions regions = regions_of(disc(60, 2), 5, .01);
+  EXPECT_LE(regions.length_at({2, 0, 0}, 5), 2);
+  EXPECT_GE(regions.length_at({2, 0, 0}, 5), rounded_down * 1.99);
+}
+
+TEST(NarrowRegions, LengthsScaleWithTheMesh) {
+  const Triangles t = box(40, 1, 30);
+  Triangles twice = t;
+  twice.points *= 2;
+  const NarrowRegions regions = regions_of(t, 5, .01), larger = regions_of(twice, 10, .02);
+  for (double z = 0; z < 10; z += .37)
+    EXPECT_EQ(larger.length_at({40, 0, 2 * z}, 10), 2 * regions.length_at({20, 0, z}, 5)) << z;
+}
+
+TEST(NarrowRegions, FacesAreCountedAsTheirLengthsAsk) {
+  const Triangles t = strip(40, 1, 5);
+  const std::vector<double> asked(t.points.cols(), .25);
+  const double uniform = NarrowRegions().covering_faces(t.points, t.faces, asked, no_limit);
+  EXPECT_NEAR(uniform, 40 * 4 / (std::sqrt(3.) * .25 * .25), 1e-6 * uniform);
+  const std::vector<double> longer(t.points.cols(), 5);
+  const NarrowRegions regions = regions_of(t, 5, .01);
+  const double fitting = regions.covering_faces(t.points, t.faces, longer, no_limit);
+  EXPECT_GT(fitting, 40 * 4 / std::sqrt(3.) / std::pow(1.15, 2));  // of the length 1, grown by half a width
+  EXPECT_LT(fitting, 40 * 4 / std::sqrt(3.) / std::pow(rounded_down, 2));
+  EXPECT_LT(regions.covering_faces(t.points, t.faces, longer, 10), fitting);
+  EXPECT_GT(regions.covering_faces(t.points, t.faces, longer, 10), 10);
+}
+
+}  // namespace hooke::narrow_regions_test
