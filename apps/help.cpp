@@ -15,6 +15,7 @@ constexpr TextPair needed_most[] = {
      "default auto, for as many triangles as there are"},
     {"--connectivity MODE", "fixed, flip or adapt: see above"},
     {"--sizing curvature", "shorter edges where the surface bends; or a file of lengths"},
+    {"--min-length LENGTH", "with adapt: shorter edges where creases are close, as along slots and fillets"},
     {"--feature-angle DEG", "edges sharper than this stay (40); off for scans of round bodies"},
     {"--boundary fixed", "boundary vertices stand still; default: they slide along it"},
     {"--fix FILE", "vertices that stay where they are: an id (from 0) a line"},
