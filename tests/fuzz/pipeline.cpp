@@ -31,6 +31,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::vector<Triangle> faces = triangles_of(mesh);
     const std::size_t vertices = mesh.n_vertices();
     set_target_lengths(mesh, input.memory_order, {});
+    if (adapts && (arrays.choice & 128) != 0)
+      options.min_length = .05 * vertex_values(mesh, target_length_property).front();
     const RemeshResult done = preserving_remesh(mesh, std::move(input.memory_order), options);
     const Mat3X points = vertex_points(mesh);
     const std::vector<Triangle> result = triangles_of(mesh);

@@ -12,6 +12,7 @@
 #include "hooke/io/ply.h"
 #include "hooke/io/ply_format.h"
 #include "hooke/io/renewed_normals.h"
+#include "hooke/io/text.h"
 
 namespace hooke {
 namespace {
@@ -31,6 +32,15 @@ struct TextNumbers {
     else
       copy.replace_by_number(raw, value);
   }
+
+  // What a number of this type reads as once it is written: the shortest text of .1 in single precision is
+  // .1.
+  static double written(PlyType type, double value) {
+    if (type != PlyType::float32) return value;
+    std::string text;
+    append_number(text, static_cast<float>(value));
+    return read(text, type);
+  }
 };
 
 struct BinaryNumbers {
@@ -43,6 +53,7 @@ struct BinaryNumbers {
     put_binary(end, type, value, swap);
     copy.replace(raw, {bytes, raw.size()});
   }
+  static double written(PlyType, double value) { return value; }
 };
 
 // The value as the type holds it; none if the type cannot.
@@ -143,7 +154,7 @@ class PlyRewriter {
     const bool same = *fresh == as_type(type, old);
     if (!same) numbers_.write(copy_, raw, type, *fresh);
     fit_.any_rounded |= type == PlyType::float32;
-    value = same ? old : *fresh;
+    value = same ? old : numbers_.written(type, *fresh);
   }
 
   void set_normal(std::string_view raw, PlyType type, double value) {

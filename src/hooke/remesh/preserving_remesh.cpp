@@ -321,7 +321,7 @@ class PreservingRemesh {
   /// where it makes matters much worse, as at folds of the input, or would take too many faces.
   void shorten_lengths(FilterKind filter, Run& best) {
     const double faces = best.result.adaptation.target_faces;
-    const double max_faces = std::max(5e4, 1.5 * faces);
+    const double max_faces = std::max(std::min(5e4, 25 * faces), 1.5 * faces);
     const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
     constexpr double slope = .3;
     constexpr std::size_t much_worse = 4, few = 10;

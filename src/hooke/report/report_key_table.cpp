@@ -236,7 +236,8 @@ constexpr Row parameters[] = {
     {"parameters.sizing", text, none, neither, "--sizing, as given"},
     {"parameters.edge_lengths", or_null(text), none, neither, "--edge-lengths: the file"},
     {"parameters.min_length", or_null(number), length, neither, "--min-length; null without"},
-    {"parameters.gradation", or_null(number), ratio, neither, "--gradation; null without limit, --sizing and --min-length"},
+    {"parameters.gradation", or_null(number), ratio, neither,
+     "--gradation; null without limit, --sizing and --min-length"},
 };
 
 constexpr Row promises[] = {
