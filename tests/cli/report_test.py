@@ -288,6 +288,11 @@ class Report(CommandTest):
         steeper = self.report(*adapted, "--min-length", ".1", "--gradation", ".6")
         self.assertGreater(.9 * faces(finer), faces(steeper))
         self.assertGreater(faces(steeper), 2 * faces(plain))
+        blob = (DATA / "blob.ply", "-o", "blob.ply", "--connectivity", "adapt", "-q")  # has no narrow regions
+        self.run_command(*blob)
+        before = (self.folder / "blob.ply").read_bytes()
+        self.run_command(*blob, "--min-length", ".1x")
+        self.assertEqual((self.folder / "blob.ply").read_bytes(), before)
         self.refused(8, *adapted, "--min-length", ".1", "--memory-limit", "14", names="plate.off", says="in the result")
 
     def test_a_seam_stays_closed_and_says_so(self):

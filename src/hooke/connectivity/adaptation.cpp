@@ -62,8 +62,8 @@ class AdaptationSteps {
   /// Passes of springs and flips near irregular vertices, until one flips nothing.
   void flip_irregular();
 
-  /// Lets target lengths be as short as this in narrow regions, see Workspace.
-  void shorten_in_narrow_regions(double shortest, double gradation);
+  /// Lets target lengths be as short as this in narrow regions, see Workspace. Returns whether there are any.
+  bool shorten_in_narrow_regions(double shortest, double gradation);
 
   /// 1-to-4 subdivision; also halves the target lengths.
   void subdivide();
@@ -326,10 +326,11 @@ void AdaptationSteps::relax_springs() {
   resample_lengths();
 }
 
-void AdaptationSteps::shorten_in_narrow_regions(double shortest, double gradation) {
-  work_.shorten_in_narrow_regions(shortest, gradation);
+bool AdaptationSteps::shorten_in_narrow_regions(double shortest, double gradation) {
+  if (!work_.shorten_in_narrow_regions(shortest, gradation)) return false;
   m_.length_at = [this](int v) { return work_.input_length(v); };
   resample_lengths();
+  return true;
 }
 
 void AdaptationSteps::resample_lengths() {
@@ -360,10 +361,9 @@ class Adaptation {
   AdaptResult run(bool folded) {
     steps_.release_bends();
     steps_.match_junctions();
-    if (options_.min_length > 0)
-      steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
-    else
-      result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
+    fits_regions_ =
+        options_.min_length > 0 && steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
+    if (!fits_regions_) result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
     if (result_.levels > 0)
       refine_coarse_mesh();
     else
@@ -381,7 +381,7 @@ class Adaptation {
   void adapt_at_once(bool folded) {
     if (!folded) steps_.lloyd_flow(options_.first_flow);
     adapt_lengths(options_.rounds, options_.flow_rounds);
-    if (options_.min_length > 0) result_.target_faces = steps_.wanted_faces();
+    if (fits_regions_) result_.target_faces = steps_.wanted_faces();
     approach(result_.target_faces, options_.count_slack);
   }
 
@@ -431,6 +431,7 @@ class Adaptation {
   const AdaptOptions& options_;
   const Observer& observer_;
   AdaptationSteps steps_;
+  bool fits_regions_ = false;  // do lengths follow narrow regions?
   AdaptResult result_;
 };
 

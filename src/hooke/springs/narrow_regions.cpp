@@ -51,11 +51,11 @@ class RegionSearch {
  private:
   /// In the plane of the only face of a boundary edge, across the edge.
   Vec3 inward_normal(int edge) const {
-    const auto& [a, b] = cut_.edges[edge];
-    const Vec3 along = (points_.col(b) - points_.col(a)).normalized();
+    const Edge& ends = cut_.edges[edge];
+    const Vec3 along = (points_.col(ends[1]) - points_.col(ends[0])).normalized();
     const Triangle& t = cut_.faces[cut_.edge_faces[edge][0]];
-    const int apex = *std::ranges::find_if(t, [&](int v) { return v != a && v != b; });
-    const Vec3 to_apex = points_.col(apex) - points_.col(a);
+    const int apex = *std::ranges::find_if(t, [&](int v) { return v != ends[0] && v != ends[1]; });
+    const Vec3 to_apex = points_.col(apex) - points_.col(ends[0]);
     return (to_apex - to_apex.dot(along) * along).normalized();
   }
 

@@ -261,9 +261,10 @@ void Workspace::resample_lengths() {
   targets = spread_target_lengths(*adjacency, vertices.vertex_length);
 }
 
-void Workspace::shorten_in_narrow_regions(double shortest, double gradation) {
+bool Workspace::shorten_in_narrow_regions(double shortest, double gradation) {
   narrow_regions_ =
       NarrowRegions(*start, *adjacency, start_length_.values(), shortest / normalisation.unit, gradation);
+  return !narrow_regions_.empty();
 }
 
 bool Workspace::has_varying_lengths() const {

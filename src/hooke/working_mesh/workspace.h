@@ -66,8 +66,9 @@ struct Workspace {
 
   /// Lets target lengths in narrow regions between the creases and boundaries of the input be as short as
   /// `shortest`, in the unit of the points that the workspace was made from; see NarrowRegions. They change
-  /// when they are sampled next. Pre-condition: replace_faces() and replace_mesh() were not called yet.
-  void shorten_in_narrow_regions(double shortest, double gradation);
+  /// when they are sampled next. Returns whether there are such regions. Pre-condition: replace_faces() and
+  /// replace_mesh() were not called yet.
+  bool shorten_in_narrow_regions(double shortest, double gradation);
 
   /// Do the target lengths vary?
   bool has_varying_lengths() const;
