@@ -24,7 +24,7 @@ void require_memory(const Settings& settings, std::size_t vertices, const RunRec
 double most_faces(const Settings& settings);
 
 /// An upper estimate of the peak in bytes, by the size of the file, its format, and the finer mesh that
-/// `adapt` makes of it where the length is given in natural lengths.
+/// `adapt` makes of it where the length is given in natural lengths; --min-length is not foreseen.
 std::size_t memory_for(const std::filesystem::path& mesh, const Settings& settings);
 
 }  // namespace hooke::app

@@ -257,10 +257,11 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   if (s.remesh.constraints.boundary == BoundaryRule::fixed)
     warn_of_first(is_at_fixed_edge, "boundary_holds_angles",
                   "the edges of a fixed boundary stay; use --boundary slide");
-  if (!s.min_length)
-    warn_of_first(is_narrow, "narrow_regions",
-                  "it lies between creases or boundaries closer than the target length; use --min-length, "
-                  "with which edges there may be shorter");
+  warn_of_first(is_narrow, "narrow_regions",
+                s.min_length
+                    ? "it lies between creases or boundaries closer than --min-length; use a shorter one"
+                    : "it lies between creases or boundaries closer than the target length; use "
+                      "--min-length, with which edges there may be shorter");
 }
 
 void warn_of_dropped_creases(RunRecord& run) {

@@ -121,9 +121,9 @@ void require_reasonable(const Settings& s, double min_length, double max_length,
 
 /// The creases that these lengths show.
 std::vector<Edge> creases_at(const std::vector<double>& lengths, const Mat3X& points, const Adjacency& c,
-                             const CreaseOptions& features) {
+                             const CreaseOptions& features, const std::vector<Edge>& hard_edges = {}) {
   std::vector<Edge> creases;
-  for (int e : detect_creases(points, c, lengths, features)) creases.push_back(c.edges[e]);
+  for (int e : detect_creases(points, c, lengths, features, hard_edges)) creases.push_back(c.edges[e]);
   return creases;
 }
 
@@ -206,15 +206,22 @@ void set_min_length(Settings& s, const TriMesh& mesh, const MemoryOrder& memory_
   const double shortest = resolve_length(*s.min_length, points, c);
   s.remesh.min_length = shortest;
   record.parameters["min_length"] = shortest;
-  if (shortest >= record.target.max)
+  constexpr double least_share = 1e-4;  // of the longest; less takes too many pieces of long narrow regions
+  if (shortest >= record.target.max || shortest < least_share * record.target.max)
     throw Error(fmt::format(
-        "--min-length {}: {:.6g} for {}, whose target length is {:.6g}; expected less, as it is for regions "
-        "narrower than that",
-        in_quotes(s.min_length_text), shortest, printable(s.input.string()), record.target.max));
-  if (s.memory_limit <= 0) return;
+        "--min-length {}: {:.6g} for {}, whose target length is up to {:.6g}; expected less than that, and "
+        "at "
+        "least {:.0e} of it",
+        in_quotes(s.min_length_text), shortest, printable(s.input.string()), record.target.max, least_share));
+  if (s.memory_limit <= 0 || s.check) return;
   const std::vector<double> lengths = memory_order.order.gather(vertex_values(mesh, target_length_property));
   Adjacency creased = c;
-  split_wedges(creased, creases_at(lengths, points, c, s.remesh.constraints.features));
+  const ConstraintOptions& kept = s.remesh.constraints;
+  std::vector<Edge> creases =
+      creases_at(lengths, points, c, kept.features, memory_order.order.new_edges(kept.hard_edges));
+  const std::vector<Edge> seams = memory_order.order.new_edges(kept.seams);
+  creases.insert(creases.end(), seams.begin(), seams.end());
+  split_wedges(creased, creases);
   record.target.faces = NarrowRegions(points, creased, lengths, shortest, s.remesh.gradation)
                             .covering_faces(points, c.faces, lengths, most_faces(s));
 }

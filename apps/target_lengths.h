@@ -29,7 +29,7 @@ void set_target_lengths(const Settings& settings, TriMesh& mesh, const MemoryOrd
 
 /// Sets how short edges may be in narrow regions, --min-length, in the settings and in the parameters of the
 /// run, and if memory is limited the number of faces that takes. Throws Error if it is no shorter than the
-/// target lengths. Pre-condition: set_target_lengths().
+/// longest target length, or less than 1e-4 of that. Pre-condition: set_target_lengths().
 void set_min_length(Settings& settings, const TriMesh& mesh, const MemoryOrder& memory_order,
                     const Mat3X& points, RunRecord& record);
 

@@ -182,7 +182,12 @@ void resolve_sizing(Settings& s, const RawOptions& raw) {
   if (s.min_length_text != "off") s.min_length = parse_min_length(s.min_length_text);
   if (!raw.gradation.empty()) s.remesh.gradation = parse_gradation(raw.gradation);
   if (!raw.gradation.empty() && !sized && !s.min_length)
-    throw Error("--gradation is of --sizing and --min-length; leave it out, or name a sizing");
+    throw Error("--gradation is of --sizing and --min-length; leave it out, or give one of them");
+  if (s.min_length && s.remesh.gradation > 1)
+    throw Error(
+        fmt::format("--gradation {} with --min-length; expected at most 1, as edges cannot get longer "
+                    "any faster",
+                    in_quotes(raw.gradation)));
   if (sized) return;
   if (s.length.kind == LengthSpec::Kind::as_given)
     throw Error("--length sizing without --sizing; name a sizing, or another length");
@@ -214,7 +219,7 @@ void reject_unused_options(const Settings& s, const RawOptions& raw) {
   refuse(!splines, {"--kernel", "--rho", "--rho-unit"}, "is of splines, which this --filter has none of");
   refuse(!s.paper && s.remesh.connectivity != ConnectivityMode::fixed, {"--edge-lengths"},
          "is of --connectivity fixed, where edges stay");
-  refuse(s.paper || s.remesh.connectivity != ConnectivityMode::adapt, {"--min-length"},
+  refuse(s.min_length && (s.paper || s.remesh.connectivity != ConnectivityMode::adapt), {"--min-length"},
          "is of --connectivity adapt, where edges get shorter by new vertices");
   refuse(s.repair.repair || s.weld_text != "off", {"--edge-lengths"},
          "names edges that --repair and --weld may change");

@@ -21,7 +21,9 @@ class UsageErrors(CommandTest):
         for option in (["-L", "none"], ["-L", "-1"], ["-L", "0"], ["-L", "nan"], ["--tolerance", "1m"],
                        ["--sizing", "ply:"], ["--sizing", "curvature:0"], ["--gradation", "0", "--sizing", "curvature"],
                        ["--gradation", "1"], ["-L", "sizing"], ["--min-length", "0"], ["--min-length", "auto"],
-                       ["--min-length", "1"], ["--min-length", "2x", "--connectivity", "adapt"], ["--threads", "0"], ["--filter", "magic"],
+                       ["--min-length", "1"], ["--min-length", "2x", "--connectivity", "adapt"],
+                       ["--min-length", "1e-5x", "--connectivity", "adapt"],
+                       ["--gradation", "off", "--min-length", ".1x", "--connectivity", "adapt"], ["--threads", "0"], ["--filter", "magic"],
                        ["--max-outer", "0"], ["--format", "vtp"], ["--feature-angle", "0"],
                        ["--feature-angle", "180"], ["--feature-angle", "sharp"],
                        ["--feature-angle", "40", "--paper"]):

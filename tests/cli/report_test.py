@@ -285,6 +285,13 @@ class Report(CommandTest):
         self.assertEqual(finer["parameters"]["gradation"], .3)
         self.assertLess(abs(finer["geometry"]["volume_change"]), 1e-9)
         faces = lambda report: report["adaptation"]["wanted_faces"]
+        blunt = self.report(*adapted, "--min-length", "2")
+        self.assertIn("narrow_regions", [w["code"] for w in blunt["warnings"]])
+        results = []
+        for threads in ("1", "2"):
+            self.run_command(*adapted, "--min-length", ".1", "-j", threads, "-q")
+            results.append((self.folder / "out.off").read_bytes())
+        self.assertEqual(*results)
         steeper = self.report(*adapted, "--min-length", ".1", "--gradation", ".6")
         self.assertGreater(.9 * faces(finer), faces(steeper))
         self.assertGreater(faces(steeper), 2 * faces(plain))

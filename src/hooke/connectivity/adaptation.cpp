@@ -361,6 +361,7 @@ class Adaptation {
   AdaptResult run(bool folded) {
     steps_.release_bends();
     steps_.match_junctions();
+    // After the bends and junctions of the input: long edges do not show lengths that vary along them.
     fits_regions_ =
         options_.min_length > 0 && steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
     if (!fits_regions_) result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);

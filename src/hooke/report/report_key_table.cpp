@@ -227,8 +227,8 @@ constexpr Row parameters[] = {
     {"parameters.time_limit", or_null(number), seconds, neither, "--time-limit; null for none"},
     {"parameters.preserve", or_null(text), none, neither, "whether --preserve could act: on or off"},
     {"parameters.reproject_uv", or_null(text), none, neither, "--reproject-uv: on or off"},
-    {"parameters.L", number, length, neither, "target length, mean over the edges"},
-    {"parameters.L_min", number, length, neither, "least target length"},
+    {"parameters.L", number, length, neither, "target length, mean over the edges, before --min-length"},
+    {"parameters.L_min", number, length, neither, "least target length, likewise"},
     {"parameters.L_max", number, length, neither, "greatest target length"},
     {"parameters.L_spec", text, none, neither, "--length, as given"},
     {"parameters.L_natural", number, length, neither,
@@ -399,7 +399,7 @@ constexpr Row course[] = {
     {"adaptation.splits", integer, none, neither, "edges split"},
     {"adaptation.collapses", integer, none, neither, "edges collapsed"},
     {"adaptation.flips", integer, none, neither, "edges flipped"},
-    {"adaptation.wanted_faces", or_null(number), none, neither, "faces that the target length asks for"},
+    {"adaptation.wanted_faces", or_null(number), none, neither, "faces that the target lengths ask for"},
 };
 
 constexpr Row messages[] = {

@@ -20,6 +20,13 @@ struct Segment {
   double width;
 };
 
+constexpr double ratio_of_widths = 1.25;
+
+/// Widths are rounded down to the shortest times a power of the ratio.
+int power_of(double width, double shortest) {
+  return std::max(0, static_cast<int>(std::log(width / shortest) / std::log(ratio_of_widths)));
+}
+
 /// Finds the narrow regions of a mesh cut open along its creases, so that its boundary edges, the rims, are
 /// all there is to look at. Every vertex near a rim knows its closest edge; at faces whose corners know
 /// different ones a region may end on both sides.
@@ -68,14 +75,20 @@ class RegionSearch {
   /// Numbers the closed rims, and finds how far along them their edges begin. Edges of the boundary are
   /// directed as in their face.
   void walk_rims() {
-    std::vector<int> next(cut_.vertex_count, -1);
-    for (int e : rim_edges_) next[cut_.edges[e][0]] = e;
-    rim_.assign(cut_.edges.size(), -1);
+    std::vector<int> from(cut_.vertex_count, -1);
+    for (int e : rim_edges_) from[cut_.edges[e][0]] = e;
+    next_.assign(cut_.edges.size(), -1);
+    previous_ = rim_ = next_;
+    for (int e : rim_edges_)
+      if (const int next = from[cut_.edges[e][1]]; next >= 0) {
+        next_[e] = next;
+        previous_[next] = e;
+      }
     start_.assign(cut_.edges.size(), 0);
     for (int first : rim_edges_) {
       if (rim_[first] >= 0) continue;
       double way = 0;
-      for (int e = first; e >= 0 && rim_[e] < 0; e = next[cut_.edges[e][1]]) {
+      for (int e = first; e >= 0 && rim_[e] < 0; e = next_[e]) {
         rim_[e] = static_cast<int>(rim_length_.size());
         start_[e] = way;
         way += (points_.col(cut_.edges[e][1]) - points_.col(cut_.edges[e][0])).norm();
@@ -147,7 +160,8 @@ class RegionSearch {
         if (const Segment s = across(t, points_.col(v), from); s.width < longest_of(t)) found_.push_back(s);
   }
 
-  /// At pieces of a rim's edge, no longer than the region is wide there.
+  /// At pieces of a rim's edge, no longer than the region is wide there. Pieces in a row that are about as
+  /// wide make one segment.
   void look_along(int edge, const Vec3& a, const Vec3& b) {
     const Triangle& t = cut_.faces[cut_.edge_faces[edge][0]];
     const Vec3 middle = .5 * (a + b);
@@ -156,32 +170,65 @@ class RegionSearch {
       look_along(edge, a, middle);
       look_along(edge, middle, b);
     } else if (width < longest) {
-      found_.push_back({a, b, width});
+      Segment* const last = found_.empty() ? nullptr : &found_.back();
+      if (last && last->to == a && power_of(last->width, shortest_) == power_of(width, shortest_))
+        last->to = b;
+      else
+        found_.push_back({a, b, width});
     }
   }
 
-  /// At the end of a rim's edge, where the rim may be round.
-  void look_around(int edge) {
-    constexpr double corner_angle = 35 * std::numbers::pi / 180;
-    const int v = cut_.edges[edge][1];
-    for (int next : closest_[v]) {
-      if (next == edge) continue;
-      const Vec3 before = points_.col(v) - points_.col(cut_.edges[edge][0]),
-                 after = points_.col(cut_.edges[next][1]) - points_.col(v);
-      const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-      const double radius = .5 * (before.norm() + after.norm()) / turn;
-      if (turn < corner_angle && radius < longest_[v])
-        found_.push_back({points_.col(v), points_.col(v), radius});
-    }
+  Vec3 direction(int edge) const {
+    return points_.col(cut_.edges[edge][1]) - points_.col(cut_.edges[edge][0]);
   }
+
+  /// The turn of a rim from an edge to the next one, radians.
+  double turn_after(int edge) const {
+    const Vec3 before = direction(edge), after = direction(next_[edge]);
+    return std::atan2(before.cross(after).norm(), before.dot(after));
+  }
+
+  /// How far a rim gets along this way from the end of an edge, on the edges after it or, backward, from that
+  /// edge on; no way past a corner, nor past half the rim.
+  Vec3 way_from(int edge, double length, bool forward) const {
+    length = std::min(length, .5 * rim_length_[rim_[edge]]);
+    Vec3 way = Vec3::Zero();
+    for (int e = forward ? next_[edge] : edge; e >= 0; e = forward ? next_[e] : previous_[e]) {
+      const Vec3 step = forward ? direction(e) : Vec3(-direction(e));
+      if (step.norm() >= length) return way + length * step.normalized();
+      length -= step.norm();
+      way += step;
+      const int last = forward ? e : previous_[e];
+      if (last < 0 || next_[last] < 0 || turn_after(last) > greatest_turn) break;
+    }
+    return Vec3::Zero();
+  }
+
+  /// At the end of a rim's edge, where the rim may be round: it must turn by as much as there along an eighth
+  /// of a circle on both sides, so that kinks, corners and noise are not taken for that.
+  void look_around(int edge) {
+    constexpr double eighth = std::numbers::pi / 4, kept_share = 2. / 3;
+    if (next_[edge] < 0) return;
+    const int v = cut_.edges[edge][1];
+    const double turn = turn_after(edge),
+                 radius = .5 * (direction(edge).norm() + direction(next_[edge]).norm()) / turn;
+    if (!(turn < greatest_turn && radius < longest_[v])) return;
+    const Vec3 back = way_from(edge, eighth * radius, false), ahead = way_from(edge, eighth * radius, true);
+    const double turned = std::atan2(back.cross(ahead).norm(), -back.dot(ahead));
+    if (!back.isZero(0) && !ahead.isZero(0) && turned >= kept_share * eighth)
+      found_.push_back({points_.col(v), points_.col(v), radius});
+  }
+
+  static constexpr double greatest_turn = 60.5 * std::numbers::pi / 180;  // of a round rim: a hexagon's
 
   const Mat3X& points_;
   const Adjacency& cut_;
   const std::vector<double>& longest_;
   const double shortest_;
   std::vector<int> rim_edges_;
-  Mat3X inward_;                            // per edge, of those on a rim
-  std::vector<int> rim_;                    // per edge
+  Mat3X inward_;  // per edge, of those on a rim
+  std::vector<int> next_, previous_,
+      rim_;  // per edge, of those on a rim: the adjacent ones, the number of the rim
   std::vector<double> start_, rim_length_;  // per edge, per rim
   std::vector<std::vector<int>> closest_;   // per vertex: its own edges of rims, or the closest one
   std::vector<Segment> found_;
@@ -203,16 +250,15 @@ AabbTree tree_of(const std::vector<Segment>& segments) {
 
 NarrowRegions::NarrowRegions(const Mat3X& points, const Adjacency& c,
                              const std::vector<double>& vertex_length, double shortest, double gradation)
-    : gradation_(std::min(gradation, 1e3)) {
+    : gradation_(gradation) {
   const Adjacency cut = cut_open(c);
   std::vector<double> longest(cut.vertex_count);
   for (int w = 0; w < cut.vertex_count; ++w) longest[w] = vertex_length[c.vertex_of_wedge(w)];
-  constexpr double ratio = 1.25;
   std::map<int, std::vector<Segment>> by_width;
   for (const Segment& s : RegionSearch(wedge_points(points, c), cut, longest, shortest).run())
-    by_width[std::max(0, static_cast<int>(std::log(s.width / shortest) / std::log(ratio)))].push_back(s);
+    by_width[power_of(s.width, shortest)].push_back(s);
   for (const auto& [power, segments] : by_width)
-    widths_.push_back({shortest * std::pow(ratio, power), tree_of(segments)});
+    widths_.push_back({shortest * std::pow(ratio_of_widths, power), tree_of(segments)});
 }
 
 double NarrowRegions::length_at(const Vec3& x, double asked) const {
@@ -241,7 +287,8 @@ double NarrowRegions::covering_faces(const Mat3X& points, const std::vector<Tria
       pieces.back().corners[k] = points.col(t[k]);
       pieces.back().asked[static_cast<Eigen::Index>(k)] = vertex_length[t[k]];
     }
-    while (!pieces.empty() && count <= enough) {
+    while (!pieces.empty()) {
+      if (count > enough) return count;
       Piece p = pieces.back();
       pieces.pop_back();
       const auto& [a, b, c] = p.corners;

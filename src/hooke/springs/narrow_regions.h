@@ -12,15 +12,16 @@ namespace hooke {
 /// A region is narrow where two stretches of creases or boundaries face each other across a smooth part of
 /// the surface, closer than the target length; stretches that lead into each other nearby, as at a corner or
 /// around a disc, make none. A round crease or boundary whose radius is less than that counts as such a
-/// region, as wide as the radius. Lengths and distances are in the unit of the points.
+/// region, as wide as the radius. Lengths and distances are in the unit of the points; distances are in
+/// space, so that lengths on other sheets close by get shorter too.
 class NarrowRegions {
  public:
   /// None.
   NarrowRegions() = default;
 
   /// `vertex_length`: target length per vertex; `shortest`: widths below that count as that; `gradation`: by
-  /// how much lengths grow away from the regions, over the distance. Both are positive. `with_creases`: see
-  /// split_wedges().
+  /// how much lengths grow away from the regions, over the distance. Both are positive and finite; time and
+  /// memory grow with the length of narrow regions over `shortest`. `with_creases`: see split_wedges().
   NarrowRegions(const Mat3X& points, const Adjacency& with_creases, const std::vector<double>& vertex_length,
                 double shortest, double gradation);
 
