@@ -156,9 +156,14 @@ TEST(PreservingRemesh, KeepsWhatOneRunMayNot) {
 }
 
 /// A disc with a sharp rim, which edges as long as its radius cut through.
-TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
+test::Triangles thin_disc() {
   test::Triangles disc = test::globe(24, 8);
   disc.points.row(2) *= .05;
+  return disc;
+}
+
+TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
+  const test::Triangles disc = thin_disc();
   for (const double length : {.5, 1.5, 2.}) {
     test::Outcome o;
     o.mesh = test::with_length(disc, length);
@@ -168,6 +173,31 @@ TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
     EXPECT_EQ(o.result.shortened > 0, length > 1) << length;
     EXPECT_EQ(std::ranges::min(lengths) < length, length > 1) << length;
     EXPECT_LE(std::ranges::max(lengths), length);
+  }
+}
+
+TEST(PreservingRemesh, StoppedWhileEdgesGetShorterItKeepsTheResultAsAsked) {
+  int calls = 0, last_call = 0;
+  const auto run = [&] {
+    test::Outcome o;
+    o.mesh = test::with_length(thin_disc(), 1.5);
+    calls = 0;
+    o.result = preserving_remesh(o.mesh, find_memory_order(o.mesh), options_for(ConnectivityMode::adapt), {},
+                                 {}, [&](const Progress&) { return ++calls != last_call; });
+    return o;
+  };
+  const test::Outcome whole = run();
+  EXPECT_NE(whole.result.reason, StopReason::interrupted);
+  EXPECT_GT(whole.result.shortened, 0);
+  const int all = calls;
+  for (int eighth = 3; eighth <= 8; ++eighth) {
+    last_call = all * eighth / 8;
+    const test::Outcome o = run();
+    EXPECT_EQ(o.result.reason, StopReason::interrupted) << eighth;
+    ASSERT_TRUE(o.result.measures) << eighth;
+    EXPECT_TRUE(vertex_points(o.mesh).allFinite()) << eighth;
+    EXPECT_EQ(o.result.shortened, 0) << eighth;
+    for (double length : vertex_values(o.mesh, target_length_property)) EXPECT_EQ(length, 1.5) << eighth;
   }
 }
 
