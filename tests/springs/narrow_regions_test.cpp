@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
-#include "support/crease_solids.h"
 #include "support/solids.h"
 
 namespace hooke::narrow_regions_test {
@@ -19,7 +19,9 @@ constexpr double rounded_down = 1 / 1.25, no_limit = std::numeric_limits<double>
 /// All sharp edges are creases.
 NarrowRegions regions_of(const Triangles& t, double asked, double shortest, double gradation = .3) {
   Adjacency c = test::connect(t);
-  split_wedges(c, test::bent_edges(t.points, t.faces));
+  std::vector<Edge> creases;
+  for (int e : sharp_edges(t.points, c, 40)) creases.push_back(c.edges[e]);
+  split_wedges(c, creases);
   return {t.points, c, std::vector<double>(c.vertex_count, asked), shortest, gradation};
 }
 
