@@ -56,10 +56,15 @@ class RegionSearch {
   }
 
  private:
+  /// From the start of an edge to its end.
+  Vec3 direction(int edge) const {
+    return points_.col(cut_.edges[edge][1]) - points_.col(cut_.edges[edge][0]);
+  }
+
   /// In the plane of the only face of a boundary edge, across the edge.
   Vec3 inward_normal(int edge) const {
     const Edge& ends = cut_.edges[edge];
-    const Vec3 along = (points_.col(ends[1]) - points_.col(ends[0])).normalized();
+    const Vec3 along = direction(edge).normalized();
     const Triangle& t = cut_.faces[cut_.edge_faces[edge][0]];
     const int apex = *std::ranges::find_if(t, [&](int v) { return v != ends[0] && v != ends[1]; });
     const Vec3 to_apex = points_.col(apex) - points_.col(ends[0]);
@@ -67,7 +72,7 @@ class RegionSearch {
   }
 
   Vec3 closest_on(int edge, const Vec3& x) const {
-    const Vec3 a = points_.col(cut_.edges[edge][0]), way = points_.col(cut_.edges[edge][1]) - a;
+    const Vec3 a = points_.col(cut_.edges[edge][0]), way = direction(edge);
     const double squared = way.squaredNorm();
     return squared > 0 ? Vec3(a + std::clamp((x - a).dot(way) / squared, 0., 1.) * way) : a;
   }
@@ -91,7 +96,7 @@ class RegionSearch {
       for (int e = first; e >= 0 && rim_[e] < 0; e = next_[e]) {
         rim_[e] = static_cast<int>(rim_length_.size());
         start_[e] = way;
-        way += (points_.col(cut_.edges[e][1]) - points_.col(cut_.edges[e][0])).norm();
+        way += direction(e).norm();
       }
       rim_length_.push_back(way);
     }
@@ -176,10 +181,6 @@ class RegionSearch {
       else
         found_.push_back({a, b, width});
     }
-  }
-
-  Vec3 direction(int edge) const {
-    return points_.col(cut_.edges[edge][1]) - points_.col(cut_.edges[edge][0]);
   }
 
   /// The turn of a rim from an edge to the next one, radians.
