@@ -23,7 +23,7 @@ std::string reason_in_words(const RunRecord& run) {
   if (r.rescue == Rescue::put_back && (r.reason == StopReason::converged || r.reason == StopReason::stalled))
     return run.deviation->displacement && is_rounding(run.deviation->displacement->max, *run.deviation)
                ? "nothing moved: vertices were put back to where they were, to keep the surface"
-               : "at rest, but for the vertices that were put back to where they were, to keep the surface";
+               : "at rest, but for the vertices that are where they were, to keep the surface";
   switch (r.reason) {
     case StopReason::converged:
       return "converged: every edge is within the tolerance of the target length";

@@ -175,7 +175,7 @@ void warn_of_promises(RunRecord& run) {
 }
 
 /// Tells of a result that was not made as asked, because it would have broken a promise.
-void warn_of_rescue(RunRecord& run) {
+void warn_of_rescue(const Settings& s, RunRecord& run) {
   const auto why = [&]() -> std::string {
     switch (run.result->rescue) {
       case Rescue::none:
@@ -191,6 +191,11 @@ void warn_of_rescue(RunRecord& run) {
       case Rescue::put_back: {
         const auto count = std::ranges::count_if(
             run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });
+        if (s.remesh.connectivity == ConnectivityMode::adapt)
+          return fmt::format(
+              "{} of {} vertices and the faces between them are those of {}, where others would not keep its "
+              "surface; a smaller --length leaves fewer, and --repair if the surface crosses itself there",
+              count, run.result->vertex_limits.size(), run.input.path);
         const std::string what =
             count > 0
                 ? fmt::format(
@@ -223,7 +228,8 @@ void warn_of_shortening(RunRecord& run) {
 void warn_of_held_faces(const Settings& s, RunRecord& run) {
   constexpr double small_angle = 20;
   const auto& limits = run.result->vertex_limits;
-  if (limits.empty() || run.result->rescue == Rescue::put_back) return;
+  const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
+  if (limits.empty() || (run.result->rescue == Rescue::put_back && !adapts)) return;
   const std::vector<WorstFace>& faces = run.after->worst_faces;
   const auto is_between_creases = [&](const WorstFace& f) {
     return f.min_angle < small_angle && std::ranges::all_of(f.vertices, [&](int v) {
@@ -249,7 +255,7 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
     const auto f = std::ranges::find_if(faces, is_meant);
     if (f != faces.end()) warn(code, *f, text);
   };
-  if (s.remesh.connectivity != ConnectivityMode::adapt)
+  if (!adapts)
     return warn_of_first(
         is_between_creases, "facets_without_inner_vertices",
         "it lies between creases, and facets with no inner vertices cannot be mended without "
@@ -365,7 +371,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   warn_of_crossings(run);
   warn_of_folds(run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
-  warn_of_rescue(run);
+  warn_of_rescue(s, run);
   warn_of_shortening(run);
   warn_of_held_faces(s, run);
   warn_of_dropped_creases(run);

@@ -8,6 +8,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/options.h"
 #include "support/crease_solids.h"
 #include "support/junction_sheets.h"
@@ -199,6 +200,41 @@ TEST(PreservingRemesh, StoppedWhileEdgesGetShorterItKeepsTheResultAsAsked) {
     EXPECT_EQ(o.result.shortened, 0) << eighth;
     for (double length : vertex_values(o.mesh, target_length_property)) EXPECT_EQ(length, 1.5) << eighth;
   }
+}
+
+/// A plane with a bump, whose surface no new vertices keep to within rounding.
+test::Triangles bumped_plane() {
+  return test::grid(
+      16,
+      [](double x, double y) {
+        return .3 * std::pow(std::max(0., .04 - std::hypot(x - .5, y - .5) * .2), 2);
+      },
+      .3, 4);
+}
+
+TEST(PreservingRemesh, KeepsTheFacesOfTheInputWhereNoOthersDo) {
+  const test::Triangles t = bumped_plane();
+  RemeshOptions options = options_for(ConnectivityMode::adapt);
+  options.map = true;
+  const test::Outcome o = preserved(t, options, nullptr, {.max_distance = 1e-9});
+  EXPECT_TRUE(o.result.measures->preservation.holds());
+  EXPECT_EQ(o.result.rescue, Rescue::put_back);
+  int count = 0;
+  for (int v = 0; v < o.points.cols(); ++v) {
+    if ((o.result.vertex_limits[v] & VertexLimit::put_back) == 0) continue;
+    ++count;
+    EXPECT_EQ(o.points.col(v), t.points.col(o.result.map[v].vertex));
+  }
+  EXPECT_GT(count, 9);
+  EXPECT_LT(2 * count, o.points.cols());
+}
+
+TEST(PreservingRemesh, DoesNotKeepMostFacesOfTheInput) {
+  TriMesh mesh = test::with_length(test::sphere(2, .3, 1), .5);
+  const RemeshResult result = preserving_remesh(mesh, find_memory_order(mesh),
+                                                options_for(ConnectivityMode::adapt), {.max_distance = 1e-9});
+  EXPECT_FALSE(result.measures->preservation.holds());
+  EXPECT_NE(result.rescue, Rescue::put_back);
 }
 
 /// A sphere with a spike as thin as its faces, which collapses and the splines would take off.

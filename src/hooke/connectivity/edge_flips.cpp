@@ -134,7 +134,7 @@ CornerValence corner_valence(const WorkingMesh& m, int h) {
 
 bool flip_keeps_topology(const WorkingMesh& m, int h) {
   const HalfedgeMesh& t = m.halfedges;
-  if (t.twin(h) < 0 || t.is_crease(h)) return false;
+  if (t.twin(h) < 0 || t.is_crease(h) || is_frozen_edge(m, h)) return false;
   const int g = t.twin(h), opposite_h = HalfedgeMesh::previous(h), opposite_g = HalfedgeMesh::previous(g);
   return may_lose_an_edge(m, h) && may_lose_an_edge(m, g) && may_gain_an_edge(m, opposite_h) &&
          may_gain_an_edge(m, opposite_g) && t.may_connect(t.from(opposite_h), t.from(opposite_g));

@@ -61,7 +61,7 @@ bool shortens(const WorkingMesh& m, int h) {
 
 int split_edge(WorkingMesh& m, int h, const SurfacePosition* middle) {
   HalfedgeMesh& t = m.halfedges;
-  if (is_fixed(m, h) || is_junction_edge(m, h)) return -1;
+  if (is_fixed(m, h) || is_junction_edge(m, h) || is_frozen_edge(m, h)) return -1;
   const int v = add_vertex(m, h, middle), twin = t.twin(h), right = t.is_crease(h) ? v + 1 : v;
   if (!may_split_face(m, h, v, v) || (twin >= 0 && !may_split_face(m, twin, v, right))) {
     remove_last_vertex(m);

@@ -76,7 +76,7 @@ class ChangeFinder {
   std::vector<EdgeChange> changes(int h) const {
     std::vector<EdgeChange> changes;
     if (may_flip(h)) changes.push_back({h, ChangeKind::flip});
-    if (rules_.splits && may_split(h)) changes.push_back({h, ChangeKind::split});
+    if (rules_.splits && may_split(h) && !is_frozen_edge(m_, h)) changes.push_back({h, ChangeKind::split});
     if (rules_.collapses && may_collapse(h)) changes.push_back(collapse(h));
     return changes;
   }

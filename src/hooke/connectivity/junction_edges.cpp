@@ -119,6 +119,7 @@ class JunctionMatch {
   /// Splits the edge in all its sheets. Returns the number of the new vertices, -1 if a sheet forbids it.
   int split(const SharedEdge& edge) {
     const auto [a, b] = edge.sides.front();
+    if (c_.is_frozen(a, b)) return -1;
     const Vec3 chord = .5 * point(a) + .5 * point(b);
     const CurveProjection middle = project_to_curve(c_.junction_curves[edge.curve], chord, segment_of(edge));
     constexpr double rounding = 1e-9, most = .9;  // of the length of the edge

@@ -16,7 +16,8 @@ enum class BoundaryRule { slide, fixed, free };
 
 struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
-  std::vector<int> fixed_vertices = {};  // ids of vertices that stand still
+  std::vector<int> fixed_vertices = {};   // ids of vertices that stand still
+  std::vector<int> frozen_vertices = {};  // ids of vertices that stand still, as do the edges between them
   /// Edges to be kept as creases are, though the surface is smooth across them: pairs of vertex ids.
   std::vector<Edge> seams = {};
   /// Boundary edges and creases of junctions, which have curves of their own: pairs of vertex ids, sorted,

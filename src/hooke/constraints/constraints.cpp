@@ -87,6 +87,7 @@ class CreaseTracer {
         result_(result),
         breaks_(crease_breaks(points, c, cos_corner)),
         traced_(c.edges.size(), 0) {
+    for (int v : options.frozen_vertices) breaks_[v] = 1;
     for (size_t e = 0; e < traced_.size() && !options.junction_edges.empty(); ++e) {
       const auto [low, high] = std::minmax(c.edges[e][0], c.edges[e][1]);
       traced_[e] = std::ranges::binary_search(options.junction_edges, Edge{low, high});
@@ -162,6 +163,7 @@ void add_boundary(const Mat3X& points, const Adjacency& c, const ConstraintOptio
   std::vector<char> breaks = CreaseTracer::crease_breaks(points, c, cos_corner);
   for (const Edge& edge : options.junction_edges)
     for (int v : edge) breaks[v] = 1;
+  for (int v : options.frozen_vertices) breaks[v] = 1;
   std::vector<bool> seen(next.size(), false);
   for (size_t start = 0; start < next.size(); ++start) {
     if (next[start] < 0 || seen[start]) continue;
@@ -188,6 +190,11 @@ Constraints find_constraints(const Mat3X& points, const Adjacency& c, const Cons
   for (size_t v = 0; v < n; ++v)
     if (c.vertex_faces[static_cast<int>(v)].empty()) result.freedom[v] = Freedom::fixed;
   for (int v : options.fixed_vertices) result.freedom[v] = Freedom::fixed;
+  if (!options.frozen_vertices.empty()) result.frozen.assign(n, 0);
+  for (int v : options.frozen_vertices) {
+    result.freedom[v] = Freedom::fixed;
+    result.frozen[v] = 1;
+  }
 
   for (int v : coincident_boundary_vertices(points, c)) result.freedom[v] = Freedom::fixed;
 

@@ -32,6 +32,7 @@ struct Constraints {
   std::vector<Freedom> freedom;  // per vertex
   std::vector<int> curve;        // per vertex: index into curves, -1 without one
   std::vector<int> segment;      // per vertex: segment of its curve on which it starts; not kept up to date
+  std::vector<char> frozen;  // per vertex: do its edges to other such vertices stay? empty if there are none
   std::vector<Curve> curves;
   std::vector<Edge> creases;      // crease edges, by their vertices, which no change of the faces may lose
   std::vector<int> extra_wedges;  // vertex of each extra wedge at creases, see mesh/adjacency.h
@@ -54,6 +55,11 @@ struct Constraints {
     return freedom[v] == Freedom::fixed && curve[v] >= 0;
   }
 
+  /// Whether the edge between the vertices is neither flipped nor split. None of its ends is removed.
+  bool is_frozen(int v, int w) const {
+    return !frozen.empty() && frozen[static_cast<size_t>(v)] && frozen[static_cast<size_t>(w)];
+  }
+
   /// What the vertex shares with its copies; null off junctions.
   const JunctionVertex* junction_vertex(int vertex) const {
     const size_t v = vertex;
@@ -70,8 +76,8 @@ struct Constraints {
 /// Turns the boundary loops and creases of the adjacency into curves. Curves end at corners, where three or
 /// more of them meet or one ends, and where a crease meets the boundary; such vertices stand still. So do the
 /// vertices at the bends of even creases (see ConstraintOptions), where the curve goes on;
-/// options.fixed_vertices; vertices without faces; and coincident_boundary_vertices(), between which a gap
-/// would open.
+/// options.fixed_vertices; options.frozen_vertices, where curves end; vertices without faces; and
+/// coincident_boundary_vertices(), between which a gap would open.
 Constraints find_constraints(const Mat3X& points, const Adjacency& adjacency,
                              const ConstraintOptions& options);
 

@@ -41,6 +41,10 @@ CurveFinder::Location curve_of(const WorkingMesh& m, int h) {
   return m.curve_finder.common(m.vertices.positions.points.col(a), m.vertices.positions.points.col(b));
 }
 
+bool is_frozen_edge(const WorkingMesh& m, int h) {
+  return m.vertices.constraints.is_frozen(m.halfedges.from(h), m.halfedges.to(h));
+}
+
 bool is_junction_edge(const WorkingMesh& m, int h) {
   const std::vector<int>& number = m.vertices.constraints.junction;
   if (number.empty() || !m.halfedges.is_feature_edge(h)) return false;

@@ -41,6 +41,9 @@ CurveFinder::Location curve_of(const WorkingMesh& mesh, int half_edge);
 /// Whether the edge is one of a junction; only match_junction_edges() splits or collapses these.
 bool is_junction_edge(const WorkingMesh& mesh, int half_edge);
 
+/// Whether the edge is neither flipped nor split, see Constraints::frozen.
+bool is_frozen_edge(const WorkingMesh& mesh, int half_edge);
+
 /// Target length of an edge between the vertices.
 inline double target_length(const WorkingMesh& m, int v, int w) {
   return .5 * (m.vertices.vertex_length[v] + m.vertices.vertex_length[w]);

@@ -97,7 +97,9 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   fixed = order.new_vertices(constraint_options.fixed_vertices);
   for (int tip : detect_tips(*start, *input_surface_, vertices.vertex_length, constraint_options.features))
     fixed.push_back(tip);
-  const std::vector<int> held = fixed;
+  reordered.frozen_vertices = order.new_vertices(constraint_options.frozen_vertices);
+  std::vector<int> held = fixed;
+  held.insert(held.end(), reordered.frozen_vertices.begin(), reordered.frozen_vertices.end());
   fixed.insert(fixed.end(), junctions.vertices.begin(), junctions.vertices.end());
   reordered.junction_edges = junctions.edges;
   if (has_varying_lengths()) reordered.even_crease = 0;  // even edges are not wanted there

@@ -1,0 +1,170 @@
+#include "hooke/remesh/attempts.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "hooke/core/stopwatch.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/junctions.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/mesh/sagitta.h"
+#include "hooke/mesh/staircase.h"
+#include "hooke/remesh/remesh.h"
+#include "hooke/mesh/normals.h"
+#include "hooke/springs/sizing.h"
+
+namespace hooke {
+namespace {
+
+Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
+                Stopwatch* stopwatch) {
+  return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, stopwatch);
+}
+
+}  // namespace
+
+std::size_t Attempt::chords() const {
+  constexpr std::size_t max_chords = 20;
+  const std::size_t count = result.measures->deviation.opposing_faces.size();
+  return count > max_chords ? 0 : count;
+}
+
+bool Attempt::is_good() const {
+  constexpr double good_angle = 25, kept_share = .8;
+  return keeps_promises() && angle >= std::min(good_angle, kept_share * unmended_angle);
+}
+
+bool Attempt::is_better_than(const Attempt& other) const {
+  return std::tuple(flaws(), lost_angle, -angle) < std::tuple(other.flaws(), other.lost_angle, -other.angle);
+}
+
+AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
+                           const RemeshOptions& remesh_options, const PreservationOptions& preservation,
+                           const KnownInput& known, const Observer& observer, Stopwatch* stopwatch,
+                           bool smooths_steps)
+    : options(remesh_options),
+      lengths(memory_order.order.gather(vertex_values(mesh, target_length_property))),
+      mesh_(mesh),
+      memory_order_(memory_order),
+      observer_(observer),
+      stopwatch_(stopwatch),
+      input_(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency,
+             memory_order.order.old_ids(), known.tree_order, joined_vertices(mesh, memory_order.order)),
+      preservation_(preservation),
+      input_quality_(known.quality ? *known.quality : measure(input_, mesh, memory_order.order, stopwatch)) {
+  is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
+             options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
+  const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&
+                                     is_staircase(input_.points, input_.adjacency, lengths));
+  if (is_noise) preservation_.feature_angle = 180;
+  if (is_mask_) smooth_steps();
+  constexpr double rounding = 1e-9;
+  const bool must_unfold = input_quality_.folded_edges > 0;
+  if (!must_unfold && !target_lengths_of(mesh, memory_order.order, input_.adjacency).edge.is_varying())
+    least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
+  preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
+  preservation_.keeps_facets = preservation_.faceted && !adapts();
+}
+
+std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) const {
+  if (input_.joined.empty()) return vertices;
+  std::vector<char> is_meant(input_.joined.size(), 0);
+  for (int v : vertices) is_meant[input_.joined[v]] = 1;
+  std::vector<int> all;
+  for (std::size_t v = 0; v < input_.joined.size(); ++v)
+    if (is_meant[input_.joined[v]]) all.push_back(static_cast<int>(v));
+  return all;
+}
+
+/// Is the input made of a binary mask? Without creases no length resolves its steps.
+bool AttemptMaker::is_marched_mask_at_lengths() const {
+  if (options.constraints.features.angle < 180)
+    return is_marched_mask(input_.points, input_.adjacency, lengths);
+  const std::vector<double> any(lengths.size(), std::numeric_limits<double>::infinity());
+  return is_marched_mask(input_.points, input_.adjacency, any);
+}
+
+/// Lets attempts start from the input with its steps smoothed and no creases; boundaries, seams, junctions
+/// and fixed vertices stay.
+void AttemptMaker::smooth_steps() {
+  const Adjacency& c = input_.adjacency;
+  std::vector<char> is_held(c.vertex_count, 0);
+  const auto hold_edge = [&](const Edge& e) {
+    for (int v : e) is_held[v] = 1;
+  };
+  for (std::size_t e = 0; e < c.edges.size(); ++e)
+    if (c.is_boundary_edge(static_cast<int>(e))) hold_edge(c.edges[e]);
+  std::ranges::for_each(memory_order_.order.new_edges(options.constraints.seams), hold_edge);
+  for (int v : memory_order_.order.new_vertices(options.constraints.fixed_vertices)) is_held[v] = 1;
+  for (int v : find_junctions(c, input_.joined).vertices) is_held[v] = 1;
+  smoothed_ = memory_order_.order.scatter(without_steps(input_.points, c, is_held));
+  double& angle = options.constraints.features.angle;
+  if (angle < 180) steps_ = static_cast<int>(sharp_edges(input_.points, c, angle).size());
+  angle = 180;
+}
+
+Attempt AttemptMaker::run() const {
+  Attempt a;
+  a.mesh = mesh_;
+  set_vertex_values(a.mesh, target_length_property, memory_order_.order.scatter(lengths));
+  if (is_mask_) vertex_points(a.mesh) = smoothed_;
+  a.result = remesh(a.mesh, memory_order_, options, observer_, stopwatch_);
+  if (is_mask_) {
+    a.result.steps_smoothed = smoothed_ != vertex_points(mesh_);
+    a.result.creases.sharp = a.result.creases.dropped = steps_;
+    a.result.input_points = vertex_points(mesh_);
+  }
+  return a;
+}
+
+void AttemptMaker::judge(Attempt& a) const {
+  a.result.measures.reset();
+  if (!vertex_points(a.mesh).allFinite()) return;
+  const Permutation& order = a.result.memory_order.order;
+  const MeasuredSurface surface = timed(stopwatch_, "tree", [&] { return surface_of(a); });
+  ResultMeasures m;
+  m.quality = timed(stopwatch_, "after", [&] { return measure(surface, a.mesh, order, stopwatch_); });
+  const std::vector<Edge> before = memory_order_.order.new_edges(a.result.input_creases),
+                          after = order.new_edges(a.result.crease_edges);
+  m.input_quality = input_quality_;
+  apply_creases(m.input_quality, input_, before);
+  apply_creases(m.quality, surface, after);
+  m.deviation =
+      timed(stopwatch_, "deviation", [&] { return measure_deviation(input_, surface, stopwatch_); });
+  m.preservation = timed(stopwatch_, "preservation", [&] {
+    return measure_preservation({input_, m.input_quality, before}, {surface, m.quality, after}, m.deviation,
+                                preservation_);
+  });
+  m.judged_by = preservation_;
+  a.angle = m.quality.worst_faces.front().min_angle;
+  constexpr double small_angle = 25;
+  a.lost_angle =
+      (options.connectivity == ConnectivityMode::fixed && a.angle < least_angle_) ||
+      (options.connectivity == ConnectivityMode::flip && a.angle < std::min(least_angle_, small_angle));
+  a.result.measures = std::make_shared<ResultMeasures>(std::move(m));
+}
+
+MeasuredSurface AttemptMaker::surface_of(const Attempt& a) const {
+  const MemoryOrder& memory_order = a.result.memory_order;
+  const bool same_faces = memory_order.adjacency->faces.size() == input_.adjacency.faces.size() &&
+                          options.connectivity == ConnectivityMode::fixed;
+  return {memory_order.order.gather(vertex_points(a.mesh)), *memory_order.adjacency,
+          memory_order.order.old_ids(), same_faces ? input_.tree.order() : std::vector<int>(),
+          joined_vertices(a.mesh, memory_order.order)};
+}
+
+void AttemptMaker::place(int vertex, const Vec3& point, Attempt& a) const {
+  const int id = a.result.memory_order.order.old_vertex[vertex];
+  vertex_points(a.mesh).col(id) = point;
+  if (a.result.map.empty()) return;
+  const ClosestPoint closest = input_.tree.closest(point);
+  if (closest.face < 0) return;
+  const Triangle& t = input_.adjacency.faces[closest.face];
+  a.result.map[id].position = {
+      memory_order_.order.old_face[closest.face],
+      barycentric(closest.point, input_.points.col(t[0]), input_.points.col(t[1]), input_.points.col(t[2]))};
+}
+
+}  // namespace hooke

@@ -1,0 +1,95 @@
+// Attempts to remesh an input so that the result keeps it: each is a run of remesh(), measured and judged.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hooke/measure/measured_surface.h"
+#include "hooke/remesh/preserving_remesh.h"
+
+namespace hooke {
+
+/// The result of an attempt, with its judgement.
+struct Attempt {
+  TriMesh mesh;
+  RemeshResult result;        // without measures until it is judged, and where a vertex is not finite
+  double angle = 0;           // minimum angle, degrees
+  double unmended_angle = 0;  // before vertices were moved to the input
+  bool lost_angle = false;  // is it less than in the input with fixed faces, or with flipped ones and small?
+
+  bool is_interrupted() const { return result.reason == StopReason::interrupted; }
+
+  const Preservation& preservation() const { return result.measures->preservation; }
+
+  std::size_t flaws() const { return result.measures ? preservation().flaws() : std::size_t(-1); }
+
+  /// Faces that lie against the surface where others lie like them, as a chord across a sharp rounding: no
+  /// broken promise, but better avoided. None if there are so many that the input is rough.
+  std::size_t chords() const;
+
+  /// Does nothing break a promise?
+  bool keeps_promises() const { return flaws() == 0 && !lost_angle; }
+
+  /// The same, and have angles not become small for it?
+  bool is_good() const;
+
+  /// Has it fewer flaws or, with as many, a larger minimum angle?
+  bool is_better_than(const Attempt& other) const;
+};
+
+/// Makes attempts from one input. Keeps references to the mesh, its memory order and the observer. Where
+/// nothing else is said, ids are those of vertices of the input in memory order.
+class AttemptMaker {
+ public:
+  /// `smooths_steps`: do attempts start from smoothed points if the input is the surface of a binary mask?
+  AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order, const RemeshOptions& options,
+               const PreservationOptions& preservation, const KnownInput& known, const Observer& observer,
+               Stopwatch* stopwatch, bool smooths_steps);
+
+  RemeshOptions options;        // of the attempts to come; adapt them between these
+  std::vector<double> lengths;  // their target lengths, by vertex
+
+  bool adapts() const { return options.connectivity == ConnectivityMode::adapt; }
+
+  const TriMesh& mesh() const { return mesh_; }
+  const MeasuredSurface& input() const { return input_; }
+  const Quality& input_quality() const { return input_quality_; }
+  /// The minimum angle that faces of the input must keep, degrees.
+  double least_angle() const { return least_angle_; }
+  /// Do attempts start from smoothed points?
+  bool smooths_mask() const { return is_mask_; }
+  /// The id that the caller knows the vertex by.
+  int id_of(int vertex) const { return memory_order_.order.old_vertex[vertex]; }
+  /// The vertices with all copies of those at junctions.
+  std::vector<int> with_copies(const std::vector<int>& vertices) const;
+
+  /// One run, not judged yet.
+  Attempt run() const;
+
+  /// Measures the result and compares it with the input.
+  void judge(Attempt& attempt) const;
+
+  /// The surface of the result, which must outlive it.
+  MeasuredSurface surface_of(const Attempt& attempt) const;
+
+  /// Moves a vertex of the result, by its index in memory order, and finds it on the input again.
+  void place(int vertex, const Vec3& point, Attempt& attempt) const;
+
+ private:
+  bool is_marched_mask_at_lengths() const;
+  void smooth_steps();
+
+  const TriMesh& mesh_;
+  const MemoryOrder& memory_order_;
+  const Observer& observer_;
+  Stopwatch* stopwatch_;
+  const MeasuredSurface input_;
+  PreservationOptions preservation_;
+  const Quality input_quality_;
+  double least_angle_ = 0;
+  bool is_mask_ = false;
+  Mat3X smoothed_;  // of a mask: the points that attempts start from, by the caller's id
+  int steps_ = 0;   // sharp edges of a mask
+};
+
+}  // namespace hooke

@@ -1,0 +1,125 @@
+#include "hooke/remesh/flaws.h"
+
+#include <algorithm>
+
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
+#include "hooke/remesh/attempts.h"
+
+namespace hooke {
+
+std::vector<char> wrong_faces(const AttemptMaker& maker, const Attempt& attempt,
+                              const MeasuredSurface& surface, const std::vector<int>& turned) {
+  std::vector<char> is_wrong(surface.adjacency.faces.size(), 0);
+  if (!turned.empty())
+    for (std::size_t f = 0; f < is_wrong.size(); ++f)
+      is_wrong[f] = std::ranges::binary_search(turned, surface.ids.face(static_cast<int>(f)));
+  if (attempt.preservation().new_crossings > 0)
+    for (const auto& pair : new_crossings(maker.input(), surface))
+      for (int f : pair) is_wrong[f] = 1;
+  return is_wrong;
+}
+
+namespace {
+
+/// Ends of edges of the result that fold and are no creases.
+std::vector<int> vertices_at_folds(const Attempt& attempt, const MeasuredSurface& surface) {
+  std::vector<Edge> creases = attempt.result.memory_order.order.new_edges(attempt.result.crease_edges);
+  for (Edge& e : creases) std::ranges::sort(e);
+  std::ranges::sort(creases);
+  std::vector<int> vertices;
+  for (int e : sharp_edges(surface.points, surface.adjacency, 90)) {
+    Edge ends = surface.adjacency.edges[e];
+    std::ranges::sort(ends);
+    if (!std::ranges::binary_search(creases, ends)) vertices.insert(vertices.end(), ends.begin(), ends.end());
+  }
+  return vertices;
+}
+
+/// Per vertex of the result: is anything wrong there that input_vertices_at_flaws() counts?
+std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
+                           const MeasuredSurface& surface) {
+  const Adjacency& c = surface.adjacency;
+  const Preservation& p = attempt.preservation();
+  std::vector<char> is_wrong(c.vertex_count, 0);
+  const auto add = [&](const auto& vertices) {
+    for (int v : vertices) is_wrong[v] = 1;
+  };
+  const std::vector<char> wrong =
+      wrong_faces(maker, attempt, surface, attempt.result.measures->deviation.flipped_faces);
+  for (std::size_t f = 0; f < wrong.size(); ++f)
+    if (wrong[f]) add(c.faces[f]);
+  if (p.new_folds > 0) add(vertices_at_folds(attempt, surface));
+  for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
+  constexpr double small_angle = 20;
+  if (attempt.keeps_promises())
+    for (const Triangle& t : c.faces)
+      if (min_angle(surface.points, {t}) < small_angle) add(t);
+  return is_wrong;
+}
+
+}  // namespace
+
+std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt) {
+  const MeasuredSurface& input = maker.input();
+  const MeasuredSurface surface = maker.surface_of(attempt);
+  const Preservation& p = attempt.preservation();
+  const Adjacency& c = input.adjacency;
+  std::vector<char> is_near(c.vertex_count, 0);
+  for (const FarVertex& lost : p.lost_vertices) is_near[lost.vertex] = 1;
+  const auto add_closest = [&](const Vec3& x, const auto& is_meant) {
+    const int face = input.tree.closest(x, is_meant).face;
+    if (face < 0) return;
+    for (int v : c.faces[face]) is_near[v] = 1;
+  };
+  const std::vector<char> is_wrong = at_flaws(maker, attempt, surface);
+  const Mat3X normals = vertex_normals(surface.points, surface.adjacency),
+              input_normals = face_normals(input.points, c);
+  for (std::size_t v = 0; v < is_wrong.size(); ++v)  // on the same side of the surface
+    if (is_wrong[v])
+      add_closest(surface.points.col(v), [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
+  if (!p.creases_kept) add_closest(p.place, [](int) { return true; });
+  std::vector<int> near;
+  for (int v = 0; v < c.vertex_count; ++v)
+    if (is_near[v]) near.push_back(v);
+  return near;
+}
+
+std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt) {
+  const MeasuredSurface& input = maker.input();
+  const MeasuredSurface now = maker.surface_of(attempt);
+  const Adjacency& c = input.adjacency;
+  std::vector<int> wrong;
+  const auto add_face = [&](int f) {
+    const Triangle& t = c.faces[f];
+    wrong.insert(wrong.end(), t.begin(), t.end());
+  };
+  const std::vector<char> is_wrong =
+      wrong_faces(maker, attempt, now, attempt.result.measures->deviation.flipped_faces);
+  for (std::size_t f = 0; f < is_wrong.size(); ++f)
+    if (is_wrong[f]) add_face(static_cast<int>(f));
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    const int left = c.edge_faces[e][0], right = c.edge_faces[e][1];
+    if (right < 0) continue;
+    const auto fold = [&](const Mat3X& points) {
+      return cosine_between(points, c.faces[left], c.faces[right]);
+    };
+    if (fold(now.points) < 0 && fold(now.points) < fold(input.points)) {
+      add_face(left);
+      add_face(right);
+    }
+  }
+  if (attempt.lost_angle || attempt.preservation().new_degenerate_faces > 0) {
+    constexpr double no_angle = 1e-6;
+    for (std::size_t f = 0; f < c.faces.size(); ++f)
+      if (min_angle(now.points, {c.faces[f]}) < std::max(maker.least_angle(), no_angle))
+        add_face(static_cast<int>(f));
+  }
+  for (const FarVertex& far : attempt.preservation().far_vertices) wrong.push_back(far.vertex);
+  for (const FarVertex& lost : attempt.preservation().lost_vertices) wrong.push_back(lost.vertex);
+  std::ranges::sort(wrong);
+  wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+  return wrong;
+}
+
+}  // namespace hooke
