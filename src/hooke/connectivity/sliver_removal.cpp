@@ -67,7 +67,13 @@ class SliverPass {
 
   double cotangent(int f) const { return max_cotangent(m_.vertices.positions.points, t_.faces()[f]); }
 
-  bool is_sliver(int f) const { return !t_.is_removed(f) && cotangent(f) > sliver_cotangent_; }
+  /// A frozen face cannot be mended.
+  bool is_sliver(int f) const {
+    const auto& [a, b, c] = t_.faces()[f];
+    const Constraints& constraints = m_.vertices.constraints;
+    return !t_.is_removed(f) && cotangent(f) > sliver_cotangent_ &&
+           !(constraints.is_frozen(a, b) && constraints.is_frozen(b, c));
+  }
 
   /// Worst first.
   std::vector<int> slivers() const {

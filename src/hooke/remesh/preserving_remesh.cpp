@@ -277,18 +277,19 @@ class PreservingRemesh {
   /// until nothing is wrong or they are half of the surface. Lengths grow away from their edges.
   void keep_faces(Attempt& best) {
     constexpr double max_share = .5;
+    constexpr int max_rounds = 10;
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
-    std::vector<char> is_kept(c.vertex_count, 0);
+    std::vector<int> kept_rings(c.vertex_count, 0);
     Attempt last = best;
-    for (int rings : {1, 1, 2, 2, 4, 4, 8, 8}) {
-      add_rings(input_vertices_at_flaws(maker_, last), rings, is_kept);
-      if (share_of_area(is_kept) > max_share) return;
+    for (int round = 0; round < max_rounds; ++round) {
+      keep_around(input_vertices_at_flaws(maker_, last), kept_rings);
+      if (share_of_area(kept_rings) > max_share) return;
       std::vector<int>& frozen = options_.constraints.frozen_vertices;
       frozen.clear();
       maker_.lengths = before;
       for (int v = 0; v < c.vertex_count; ++v) {
-        if (!is_kept[v]) continue;
+        if (kept_rings[v] == 0) continue;
         frozen.push_back(maker_.id_of(v));
         maker_.lengths[v] = std::min(maker_.lengths[v], mean_edge(v));
       }
@@ -311,22 +312,36 @@ class PreservingRemesh {
     }
   }
 
-  /// Marks the vertices of the input, so many rings around them, and all copies of those at junctions.
-  void add_rings(const std::vector<int>& vertices, int rings, std::vector<char>& marks) const {
-    std::vector<int> front = maker_.with_copies(vertices);
-    for (int v : front) marks[v] = 1;
-    for (int ring = 0; ring < rings; ++ring) {
-      std::vector<int> next;
-      for (int v : front)
-        for (int n : input_.adjacency.vertex_neighbours[v])
-          if (!std::exchange(marks[n], 1)) next.push_back(n);
-      front = maker_.with_copies(next);
-      for (int v : front) marks[v] = 1;
+  /// Keeps the vertices of the input and a ring around them, or twice as many rings as the last time if they
+  /// or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it was kept with,
+  /// 0: not kept.
+  void keep_around(const std::vector<int>& vertices, std::vector<int>& kept_rings) const {
+    const Adjacency& c = input_.adjacency;
+    std::vector<int> front = maker_.with_copies(vertices), rings(c.vertex_count, 0), left(c.vertex_count, -1);
+    for (int v : front) {
+      int last = kept_rings[v];
+      for (int n : c.vertex_neighbours[v]) last = std::max(last, kept_rings[n]);
+      rings[v] = left[v] = std::max(1, 2 * last);
     }
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      const int v = front[i];
+      if (left[v] == 0) continue;
+      for (int n : c.vertex_neighbours[v]) {
+        if (left[n] >= left[v] - 1) continue;
+        left[n] = left[v] - 1;
+        rings[n] = std::max(rings[n], rings[v]);
+        front.push_back(n);
+      }
+    }
+    for (int v = 0; v < c.vertex_count; ++v) kept_rings[v] = std::max(kept_rings[v], rings[v]);
+    std::vector<int> kept;
+    for (int v = 0; v < c.vertex_count; ++v)
+      if (kept_rings[v] > 0) kept.push_back(v);
+    for (int v : maker_.with_copies(kept)) kept_rings[v] = std::max(kept_rings[v], 1);
   }
 
   /// The share of the input's area in faces all of whose corners are marked.
-  double share_of_area(const std::vector<char>& marks) const {
+  double share_of_area(const std::vector<int>& marks) const {
     double all = 0, marked = 0;
     for (const Triangle& t : input_.adjacency.faces) {
       const double area = face_shape(input_.points, t).area;
