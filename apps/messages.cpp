@@ -23,7 +23,9 @@ std::string reason_in_words(const RunRecord& run) {
   if (r.rescue == Rescue::put_back && (r.reason == StopReason::converged || r.reason == StopReason::stalled))
     return run.deviation->displacement && is_rounding(run.deviation->displacement->max, *run.deviation)
                ? "nothing moved: vertices were put back to where they were, to keep the surface"
-               : "at rest, but for the vertices that are where they were, to keep the surface";
+               : "at rest, but for the vertices that were put back to where they were, to keep the surface";
+  if (r.rescue == Rescue::kept_faces && r.reason == StopReason::stalled)
+    return "at rest, but for the faces of the input that stay, to keep the surface";
   switch (r.reason) {
     case StopReason::converged:
       return "converged: every edge is within the tolerance of the target length";

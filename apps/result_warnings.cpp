@@ -87,7 +87,8 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
 void warn_of_count(RunRecord& run) {
   const AdaptResult& adapted = run.result->adaptation;
   if (run.result->reason == StopReason::interrupted) return;  // adaptation may be incomplete
-  if (run.result->shortened > 0) return;                      // another warning tells the count
+  // Another warning tells that.
+  if (run.result->shortened > 0 || run.result->rescue == Rescue::kept_faces) return;
   const double faces = run.after->topology.faces, expected = adapted.target_faces;
   if (adapted.rounds > 0 && std::abs(faces - expected) > (1 + 1e-9) * std::max(3., .03 * expected))
     run.warnings.push_back(
@@ -175,8 +176,10 @@ void warn_of_promises(RunRecord& run) {
 }
 
 /// Tells of a result that was not made as asked, because it would have broken a promise.
-void warn_of_rescue(const Settings& s, RunRecord& run) {
+void warn_of_rescue(RunRecord& run) {
   const auto why = [&]() -> std::string {
+    const auto count = std::ranges::count_if(
+        run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });
     switch (run.result->rescue) {
       case Rescue::none:
         return "";
@@ -189,13 +192,6 @@ void warn_of_rescue(const Settings& s, RunRecord& run) {
         return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input, "
                "or only with small angles";
       case Rescue::put_back: {
-        const auto count = std::ranges::count_if(
-            run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });
-        if (s.remesh.connectivity == ConnectivityMode::adapt)
-          return fmt::format(
-              "{} of {} vertices and the faces between them are those of {}, where others would not keep its "
-              "surface; a smaller --length leaves fewer, and --repair if the surface crosses itself there",
-              count, run.result->vertex_limits.size(), run.input.path);
         const std::string what =
             count > 0
                 ? fmt::format(
@@ -205,6 +201,11 @@ void warn_of_rescue(const Settings& s, RunRecord& run) {
         return what +
                " to keep its surface and angles; --connectivity adapt, which makes new vertices, can do more";
       }
+      case Rescue::kept_faces:
+        return fmt::format(
+            "{} of {} vertices and the faces between them are those of {}, where others would not keep its "
+            "surface, as at folds and self-intersections",
+            count, run.result->vertex_limits.size(), run.input.path);
     }
     return "";
   };
@@ -229,7 +230,7 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   constexpr double small_angle = 20;
   const auto& limits = run.result->vertex_limits;
   const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
-  if (limits.empty() || (run.result->rescue == Rescue::put_back && !adapts)) return;
+  if (limits.empty() || run.result->rescue == Rescue::put_back) return;
   const std::vector<WorstFace>& faces = run.after->worst_faces;
   const auto is_between_creases = [&](const WorstFace& f) {
     return f.min_angle < small_angle && std::ranges::all_of(f.vertices, [&](int v) {
@@ -238,8 +239,9 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   };
   const auto is_narrow = [&](const WorstFace& f) {
     constexpr double well_below = .5;  // also at a sharp corner, but that is no narrow region
+    const auto is_kept = [&](int v) { return limits[v] & VertexLimit::put_back; };
     return f.min_angle < std::min(small_angle, well_below * f.bound.degrees) &&
-           std::ranges::all_of(f.vertices, [&](int v) {
+           !std::ranges::all_of(f.vertices, is_kept) && std::ranges::all_of(f.vertices, [&](int v) {
              return limits[v] & (limited_by_boundary | limited_by_crease | limited_at_corner);
            });
   };
@@ -371,7 +373,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   warn_of_crossings(run);
   warn_of_folds(run);
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
-  warn_of_rescue(s, run);
+  warn_of_rescue(run);
   warn_of_shortening(run);
   warn_of_held_faces(s, run);
   warn_of_dropped_creases(run);

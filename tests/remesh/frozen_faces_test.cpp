@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <map>
 #include <set>
 
 #include "hooke/mesh/memory_order.h"
@@ -52,7 +50,8 @@ void expect_frozen(const test::Triangles& t, const TriMesh& input, const Vec3& c
              after = faces_between(vertex_points(mesh), triangles_of(mesh), places);
   ASSERT_GE(before.size(), 4u);
   EXPECT_TRUE(std::ranges::includes(after, before)) << before.size() << ' ' << after.size();
-  EXPECT_NE(vertex_points(mesh), vertex_points(input));
+  const Mat3X points = vertex_points(mesh), input_points = vertex_points(input);
+  EXPECT_TRUE(points.cols() != input_points.cols() || points != input_points);
 }
 
 RemeshOptions options_for(ConnectivityMode mode, Effort effort = Effort::fast) {
@@ -91,7 +90,7 @@ TEST_P(Frozen, StayAtTheBoundary) {
 }
 
 TEST_P(Frozen, StayInAllSheetsOfAJunction) {
-  const test::Triangles t = test::fan(test::on_axis({0, .9, 2.1, 3, 4.2, 5}), 3, 4, 4);
+  const test::Triangles t = test::shaken(test::fan(test::on_axis({0, .9, 2.1, 3, 4.2, 5}), 3, 4, 4), .3);
   for (const double length : {.6, 1., 2.}) {
     const TriMesh sheets = test::sheets(t, length);
     test::Triangles apart;

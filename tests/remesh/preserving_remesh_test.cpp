@@ -218,7 +218,7 @@ TEST(PreservingRemesh, KeepsTheFacesOfTheInputWhereNoOthersDo) {
   options.map = true;
   const test::Outcome o = preserved(t, options, nullptr, {.max_distance = 1e-9});
   EXPECT_TRUE(o.result.measures->preservation.holds());
-  EXPECT_EQ(o.result.rescue, Rescue::put_back);
+  EXPECT_EQ(o.result.rescue, Rescue::kept_faces);
   int count = 0;
   for (int v = 0; v < o.points.cols(); ++v) {
     if ((o.result.vertex_limits[v] & VertexLimit::put_back) == 0) continue;
@@ -229,12 +229,47 @@ TEST(PreservingRemesh, KeepsTheFacesOfTheInputWhereNoOthersDo) {
   EXPECT_LT(2 * count, o.points.cols());
 }
 
+TEST(PreservingRemesh, FarFromKeptFacesLengthsAreAsAsked) {
+  TriMesh mesh = test::to_mesh(bumped_plane());
+  std::vector<double> lengths;
+  for (Eigen::Index v = 0; v < vertex_points(mesh).cols(); ++v)
+    lengths.push_back(vertex_points(mesh)(0, v) > .9 ? .03 : .1);
+  set_vertex_values(mesh, target_length_property, lengths);
+  const RemeshResult result = preserving_remesh(mesh, find_memory_order(mesh),
+                                                options_for(ConnectivityMode::adapt), {.max_distance = 1e-9});
+  EXPECT_EQ(result.rescue, Rescue::kept_faces);
+  const std::vector<double> now = vertex_values(mesh, target_length_property);
+  int far = 0;
+  for (std::size_t v = 0; v < now.size(); ++v) {
+    const Vec3 x = vertex_points(mesh).col(static_cast<Eigen::Index>(v));
+    if (x[0] > .8 || (x - Vec3(.5, .5, 0)).norm() < .55) continue;
+    ++far;
+    EXPECT_NEAR(now[v], .1, 1e-12);
+  }
+  EXPECT_GT(far, 9);
+}
+
+TEST(PreservingRemesh, StoppedWhileFacesAreKeptItKeepsTheResultBefore) {
+  int calls = 0, last_call = 0;
+  const auto run = [&] {
+    calls = 0;
+    return preserved(bumped_plane(), options_for(ConnectivityMode::adapt),
+                     [&](const Progress&) { return ++calls != last_call; }, {.max_distance = 1e-9});
+  };
+  EXPECT_EQ(run().result.rescue, Rescue::kept_faces);
+  last_call = calls - 1;
+  const test::Outcome o = run();
+  EXPECT_EQ(o.result.reason, StopReason::interrupted);
+  ASSERT_TRUE(o.result.measures);
+  EXPECT_FALSE(o.result.measures->preservation.holds());
+}
+
 TEST(PreservingRemesh, DoesNotKeepMostFacesOfTheInput) {
   TriMesh mesh = test::with_length(test::sphere(2, .3, 1), .5);
   const RemeshResult result = preserving_remesh(mesh, find_memory_order(mesh),
                                                 options_for(ConnectivityMode::adapt), {.max_distance = 1e-9});
   EXPECT_FALSE(result.measures->preservation.holds());
-  EXPECT_NE(result.rescue, Rescue::put_back);
+  EXPECT_NE(result.rescue, Rescue::kept_faces);
 }
 
 /// A sphere with a spike as thin as its faces, which collapses and the splines would take off.

@@ -72,9 +72,7 @@ class AdaptationSteps {
   void finish() { work_.replace_mesh(m_.halfedges.faces(), m_.halfedges.wedges()); }
 
   /// Number of faces of the target length that the surface takes.
-  double wanted_faces() const {
-    return target_face_count(m_.vertices.positions.points, m_.halfedges.faces(), m_.vertices.vertex_length);
-  }
+  double wanted_faces() const { return target_face_count(m_.vertices, m_.halfedges.faces()); }
 
   double face_count() const { return static_cast<double>(m_.halfedges.faces().size()); }
   const StepCounts& counts() const { return counts_; }
@@ -353,8 +351,7 @@ class Adaptation {
       : options_(options),
         observer_(observer),
         steps_(work, options.steps, terms, limits, corner_angle, watch()) {
-    result_.target_faces =
-        target_face_count(work.vertices.positions.points, work.adjacency->faces, work.vertices.vertex_length);
+    result_.target_faces = target_face_count(work.vertices, work.adjacency->faces);
   }
 
   /// `folded`: are there folded faces? Splits and collapses remove them, whereas Lloyd flow would keep them.

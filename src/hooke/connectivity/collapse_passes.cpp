@@ -72,7 +72,8 @@ int collapse_folded_faces(WorkingMesh& m) {
   const HalfedgeMesh& t = m.halfedges;
   const auto is_folded = [&](int f) {
     const size_t face = f;
-    return face_alignment(m.vertices.positions.points, m.vertices.positions.normals, t.faces()[face],
+    return !m.vertices.constraints.is_frozen(t.faces()[face]) &&
+           face_alignment(m.vertices.positions.points, m.vertices.positions.normals, t.faces()[face],
                           t.wedges()[face]) < options.limits.alignment;
   };
   const int count = t.half_edge_count() / 3;

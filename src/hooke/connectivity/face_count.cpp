@@ -64,13 +64,14 @@ std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count
 
 }  // namespace
 
-double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
-                         const std::vector<double>& vertex_length) {
+double target_face_count(const VertexTable& vertices, const std::vector<Triangle>& faces) {
   double count = 0;
   for (const Triangle& t : faces) {
     double length = 0;
-    for (int v : t) length += vertex_length[v] / 3;
-    count += 4 * face_shape(points, t).area / (std::sqrt(3.) * length * length);
+    for (int v : t) length += vertices.vertex_length[v] / 3;
+    count += vertices.constraints.is_frozen(t)
+                 ? 1
+                 : 4 * face_shape(vertices.positions.points, t).area / (std::sqrt(3.) * length * length);
   }
   return count;
 }

@@ -6,12 +6,12 @@
 
 namespace hooke {
 
+struct VertexTable;
 struct WorkingMesh;
 
 /// The number of equilateral triangles of the target length that cover the surface: the sum over the faces of
-/// 4 A / (sqrt 3 L^2).
-double target_face_count(const Mat3X& points, const std::vector<Triangle>& faces,
-                         const std::vector<double>& vertex_length);
+/// 4 A / (sqrt 3 L^2), or of 1 for a frozen one.
+double target_face_count(const VertexTable& vertices, const std::vector<Triangle>& faces);
 
 struct CountChanges {
   int splits = 0;

@@ -69,10 +69,8 @@ class SliverPass {
 
   /// A frozen face cannot be mended.
   bool is_sliver(int f) const {
-    const auto& [a, b, c] = t_.faces()[f];
-    const Constraints& constraints = m_.vertices.constraints;
     return !t_.is_removed(f) && cotangent(f) > sliver_cotangent_ &&
-           !(constraints.is_frozen(a, b) && constraints.is_frozen(b, c));
+           !m_.vertices.constraints.is_frozen(t_.faces()[f]);
   }
 
   /// Worst first.
@@ -201,7 +199,7 @@ FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double s
   const auto& faces = work.adjacency->faces;
   const auto count = static_cast<double>(faces.size());
   if (mode == ConnectivityMode::flip) return {count, count};
-  const double target = target_face_count(work.vertices.positions.points, faces, work.vertices.vertex_length);
+  const double target = target_face_count(work.vertices, faces);
   return {(1 - share) * target, (1 + share) * target};
 }
 

@@ -16,8 +16,9 @@ enum class BoundaryRule { slide, fixed, free };
 
 struct ConstraintOptions {
   BoundaryRule boundary = BoundaryRule::slide;
-  std::vector<int> fixed_vertices = {};   // ids of vertices that stand still
-  std::vector<int> frozen_vertices = {};  // ids of vertices that stand still, as do the edges between them
+  std::vector<int> fixed_vertices = {};  // ids of vertices that stand still
+  /// Ids of vertices that stand still, with the edges and faces between them; of junctions all copies.
+  std::vector<int> frozen_vertices = {};
   /// Edges to be kept as creases are, though the surface is smooth across them: pairs of vertex ids.
   std::vector<Edge> seams = {};
   /// Boundary edges and creases of junctions, which have curves of their own: pairs of vertex ids, sorted,

@@ -60,6 +60,9 @@ struct Constraints {
     return !frozen.empty() && frozen[static_cast<size_t>(v)] && frozen[static_cast<size_t>(w)];
   }
 
+  /// Whether the face is one of the input that stays.
+  bool is_frozen(const Triangle& t) const { return is_frozen(t[0], t[1]) && is_frozen(t[1], t[2]); }
+
   /// What the vertex shares with its copies; null off junctions.
   const JunctionVertex* junction_vertex(int vertex) const {
     const size_t v = vertex;

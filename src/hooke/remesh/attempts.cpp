@@ -9,10 +9,10 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
 #include "hooke/mesh/staircase.h"
 #include "hooke/remesh/remesh.h"
-#include "hooke/mesh/normals.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {

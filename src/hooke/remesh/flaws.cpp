@@ -5,6 +5,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/remesh/attempts.h"
+#include "hooke/remesh/limiting_factors.h"
 
 namespace hooke {
 
@@ -22,7 +23,7 @@ std::vector<char> wrong_faces(const AttemptMaker& maker, const Attempt& attempt,
 
 namespace {
 
-/// Ends of edges of the result that fold and are no creases.
+/// Ends of edges of the result that fold and are neither creases nor kept from the input.
 std::vector<int> vertices_at_folds(const Attempt& attempt, const MeasuredSurface& surface) {
   std::vector<Edge> creases = attempt.result.memory_order.order.new_edges(attempt.result.crease_edges);
   for (Edge& e : creases) std::ranges::sort(e);
@@ -31,7 +32,11 @@ std::vector<int> vertices_at_folds(const Attempt& attempt, const MeasuredSurface
   for (int e : sharp_edges(surface.points, surface.adjacency, 90)) {
     Edge ends = surface.adjacency.edges[e];
     std::ranges::sort(ends);
-    if (!std::ranges::binary_search(creases, ends)) vertices.insert(vertices.end(), ends.begin(), ends.end());
+    const auto is_kept = [&](int v) {
+      return (attempt.result.vertex_limits[surface.ids.vertex(v)] & VertexLimit::put_back) != 0;
+    };
+    if (!std::ranges::all_of(ends, is_kept) && !std::ranges::binary_search(creases, ends))
+      vertices.insert(vertices.end(), ends.begin(), ends.end());
   }
   return vertices;
 }
@@ -78,7 +83,7 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
   for (std::size_t v = 0; v < is_wrong.size(); ++v)  // on the same side of the surface
     if (is_wrong[v])
       add_closest(surface.points.col(v), [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
-  if (!p.creases_kept) add_closest(p.place, [](int) { return true; });
+  if (!p.creases_kept || !p.within_max_distance) add_closest(p.place, [](int) { return true; });
   std::vector<int> near;
   for (int v = 0; v < c.vertex_count; ++v)
     if (is_near[v]) near.push_back(v);

@@ -24,7 +24,7 @@ constexpr double gradation = .3;
 class PreservingRemesh {
  public:
   explicit PreservingRemesh(AttemptMaker& maker)
-      : maker_(maker), input_(maker.input()), options_(maker.options) {}
+      : maker_(maker), input_(maker.input()), options_(maker.options), asked_(maker.lengths) {}
 
   Attempt best() {
     Attempt best = attempt();
@@ -230,26 +230,25 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best);
   }
 
-  /// Halves the target lengths about what is wrong, and makes attempts with these while that halves the number
-  /// of flaws; then about faces with small angles, which narrow parts have left, while that halves theirs.
-  /// Keeps the best lengths. Ends where it would take too many faces.
+  /// Halves the target lengths about what is wrong, and makes attempts with these while that halves the
+  /// number of flaws; then about faces with small angles, which narrow parts have left, while that halves
+  /// theirs. Keeps the best lengths. Ends where it would take too many faces.
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
     const double faces = best.result.adaptation.target_faces;
     const double max_faces = std::max(std::min(5e4, 25 * faces), 1.5 * faces);
     const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
-    const std::vector<double> asked = maker_.lengths;
     const auto covering = [&](const std::vector<double>& lengths) {
       return covering_length(input_.points, c, spread_target_lengths(c, lengths));
     };
     const auto small_angles = [](const Attempt& a) { return a.result.measures->quality.faces_below_20; };
-    std::vector<double> lengths = asked, longest(asked.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> lengths = asked_, longest(asked_.size(), std::numeric_limits<double>::infinity());
     for (int round = 0; round < max_rounds && !(best.keeps_promises() && small_angles(best) == 0); ++round) {
       for (int v : input_vertices_at_flaws(maker_, best)) longest[v] = lengths[v] / 2;
       limit_gradation(input_.points, c, gradation, longest);
       const std::vector<double> before = lengths;
-      for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked[v], longest[v]);
-      if (lengths == before || faces * std::pow(covering(asked) / covering(lengths), 2) > max_faces) return;
+      for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked_[v], longest[v]);
+      if (lengths == before || faces * std::pow(covering(asked_) / covering(lengths), 2) > max_faces) return;
       const std::vector<double> best_lengths = std::exchange(maker_.lengths, lengths);
       options_ = start;
       const bool projects = best.result.rescue == Rescue::closest;
@@ -268,7 +267,7 @@ class PreservingRemesh {
         maker_.lengths = best_lengths;
         return;
       }
-      for (std::size_t v = 0; v < lengths.size(); ++v) next.result.shortened += 2 * lengths[v] <= asked[v];
+      next.result.shortened = count_shortened();
       best = std::move(next);
     }
   }
@@ -277,23 +276,26 @@ class PreservingRemesh {
   /// until nothing is wrong or they are half of the surface. Lengths grow away from their edges.
   void keep_faces(Attempt& best) {
     constexpr double max_share = .5;
-    constexpr int max_rounds = 10;
+    const double faces = best.result.adaptation.target_faces;
+    const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
     std::vector<int> kept_rings(c.vertex_count, 0);
     Attempt last = best;
-    for (int round = 0; round < max_rounds; ++round) {
+    for (int round = 0; round < max_rounds && !best.keeps_promises(); ++round) {
+      const std::vector<int> kept_before = kept_rings;
       keep_around(input_vertices_at_flaws(maker_, last), kept_rings);
-      if (share_of_area(kept_rings) > max_share) return;
+      if (kept_rings == kept_before || share_of_area(kept_rings) > max_share) return;
       std::vector<int>& frozen = options_.constraints.frozen_vertices;
       frozen.clear();
-      maker_.lengths = before;
+      std::vector<double> longest(c.vertex_count, std::numeric_limits<double>::infinity());
       for (int v = 0; v < c.vertex_count; ++v) {
         if (kept_rings[v] == 0) continue;
         frozen.push_back(maker_.id_of(v));
-        maker_.lengths[v] = std::min(maker_.lengths[v], mean_edge(v));
+        longest[v] = std::min(before[v], mean_edge(v));
       }
-      limit_gradation(input_.points, c, gradation, maker_.lengths);
+      limit_gradation(input_.points, c, gradation, longest);
+      for (std::size_t v = 0; v < longest.size(); ++v) maker_.lengths[v] = std::min(before[v], longest[v]);
       Attempt next = maker_.run();
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
@@ -302,19 +304,23 @@ class PreservingRemesh {
       maker_.judge(next);
       if (!next.result.measures) return;  // not finite
       mend(next);
-      next.result.rescue = Rescue::put_back;
-      next.result.shortened = best.result.shortened;
-      if (next.keeps_promises()) {
-        best = std::move(next);
-        return;
-      }
+      next.result.rescue = Rescue::kept_faces;
+      next.result.shortened = count_shortened();
+      if (next.is_better_than(best)) best = next;
       last = std::move(next);
     }
   }
 
+  /// The vertices with half of the length asked for or less.
+  int count_shortened() const {
+    int count = 0;
+    for (std::size_t v = 0; v < asked_.size(); ++v) count += 2 * maker_.lengths[v] <= asked_[v];
+    return count;
+  }
+
   /// Keeps the vertices of the input and a ring around them, or twice as many rings as the last time if they
-  /// or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it was kept with,
-  /// 0: not kept.
+  /// or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it was kept
+  /// with, 0: not kept.
   void keep_around(const std::vector<int>& vertices, std::vector<int>& kept_rings) const {
     const Adjacency& c = input_.adjacency;
     std::vector<int> front = maker_.with_copies(vertices), rings(c.vertex_count, 0), left(c.vertex_count, -1);
@@ -417,7 +423,8 @@ class PreservingRemesh {
 
   AttemptMaker& maker_;
   const MeasuredSurface& input_;
-  RemeshOptions& options_;  // of the attempts to come
+  RemeshOptions& options_;           // of the attempts to come
+  const std::vector<double> asked_;  // target lengths, by vertex of the input in memory order
 };
 
 }  // namespace

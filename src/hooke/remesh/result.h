@@ -52,10 +52,11 @@ CreaseCounts count_creases(const Workspace& work);
 /// How a result came to keep what it must keep of the input, where the first run did not.
 enum class Rescue {
   none,
-  tips,       // the vertices that were lost stand still
-  junctions,  // the vertices of junctions stand still
-  closest,    // vertices were projected to the faces of the input
-  put_back,   // vertices were put back to where they were; in mode `adapt` faces of the input stayed
+  tips,        // the vertices that were lost stand still
+  junctions,   // the vertices of junctions stand still
+  closest,     // vertices were projected to the faces of the input
+  put_back,    // vertices were put back to where they were
+  kept_faces,  // faces of the input stay, in mode `adapt`
 };
 
 struct RemeshResult {

@@ -20,7 +20,7 @@ std::string held_by(const Quality& q) {
       {"fixed", "fixed vertices"},
       {"crease", "a crease"},
       {"boundary", "the boundary"},
-      {"put_back", "a vertex that was put back to keep the surface"},
+      {"put_back", "a vertex that is where it was, to keep the surface"},
       {"valence", "how many faces meet at a vertex"},
       {"guard", "the shape of the surface there"},
   }};

@@ -175,7 +175,7 @@ Json geometry_json(const RunRecord& run) {
 Json promises_json(const RunRecord& run) {
   if (!run.result || !run.result->measures) return nullptr;
   const Preservation& p = run.result->measures->preservation;
-  const char* const rescues[] = {"none", "tips", "junctions", "closest", "put_back"};
+  const char* const rescues[] = {"none", "tips", "junctions", "closest", "put_back", "kept_faces"};
   return {{"kept", p.holds()},
           {"flipped_faces", p.flipped_faces},
           {"new_folds", p.new_folds},
