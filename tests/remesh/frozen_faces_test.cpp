@@ -31,7 +31,7 @@ std::multiset<std::array<Place, 3>> faces_between(const Mat3X& points, const std
     std::array<Place, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = {points(0, t[k]), points(1, t[k]), points(2, t[k])};
     if (!std::ranges::all_of(corners, [&](const Place& x) { return places.contains(x); })) continue;
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     found.insert(corners);
   }
   return found;
