@@ -229,7 +229,6 @@ void warn_of_shortening(RunRecord& run) {
 void warn_of_held_faces(const Settings& s, RunRecord& run) {
   constexpr double small_angle = 20;
   const auto& limits = run.result->vertex_limits;
-  const bool adapts = s.remesh.connectivity == ConnectivityMode::adapt;
   if (limits.empty() || run.result->rescue == Rescue::put_back) return;
   const std::vector<WorstFace>& faces = run.after->worst_faces;
   const auto is_between_creases = [&](const WorstFace& f) {
@@ -257,7 +256,7 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
     const auto f = std::ranges::find_if(faces, is_meant);
     if (f != faces.end()) warn(code, *f, text);
   };
-  if (!adapts)
+  if (s.remesh.connectivity != ConnectivityMode::adapt)
     return warn_of_first(
         is_between_creases, "facets_without_inner_vertices",
         "it lies between creases, and facets with no inner vertices cannot be mended without "

@@ -76,7 +76,7 @@ class ChangeFinder {
   std::vector<EdgeChange> changes(int h) const {
     std::vector<EdgeChange> changes;
     if (may_flip(h)) changes.push_back({h, ChangeKind::flip});
-    if (rules_.splits && may_split(h) && !is_frozen_edge(m_, h)) changes.push_back({h, ChangeKind::split});
+    if (rules_.splits && may_split(h)) changes.push_back({h, ChangeKind::split});
     if (rules_.collapses && may_collapse(h)) changes.push_back(collapse(h));
     return changes;
   }
@@ -102,7 +102,8 @@ class ChangeFinder {
   bool may_flip(int h) const { return may_split(h) && flip_keeps_topology(m_, h); }
 
   bool may_split(int h) const {
-    return at_both_opposite_vertices(h, [this](int corner) { return may_gain_an_edge(corner); });
+    return !is_frozen_edge(m_, h) &&
+           at_both_opposite_vertices(h, [this](int corner) { return may_gain_an_edge(corner); });
   }
 
   bool is_removable(int v) const {

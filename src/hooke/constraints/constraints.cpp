@@ -85,9 +85,8 @@ class CreaseTracer {
         c_(c),
         options_(options),
         result_(result),
-        breaks_(crease_breaks(points, c, cos_corner)),
+        breaks_(curve_breaks(points, c, cos_corner, options)),
         traced_(c.edges.size(), 0) {
-    for (int v : options.frozen_vertices) breaks_[v] = 1;
     for (size_t e = 0; e < traced_.size() && !options.junction_edges.empty(); ++e) {
       const auto [low, high] = std::minmax(c.edges[e][0], c.edges[e][1]);
       traced_[e] = std::ranges::binary_search(options.junction_edges, Edge{low, high});
@@ -104,9 +103,11 @@ class CreaseTracer {
             if (c_.is_crease(e) && !traced_[e]) trace(static_cast<int>(v), e);
   }
 
-  /// Marks the vertices where crease curves end.
-  static std::vector<char> crease_breaks(const Mat3X& points, const Adjacency& c, double cos_corner) {
+  /// Marks the vertices where curves end because of creases, or as they are frozen.
+  static std::vector<char> curve_breaks(const Mat3X& points, const Adjacency& c, double cos_corner,
+                                        const ConstraintOptions& options) {
     std::vector<char> breaks(c.vertex_count, 0);
+    for (int v : options.frozen_vertices) breaks[v] = 1;
     if (c.creases.empty()) return breaks;
     for (int v = 0; v < c.vertex_count; ++v) {
       std::vector<int> ends;
@@ -116,7 +117,7 @@ class CreaseTracer {
         boundary |= c.is_boundary_edge(e);
       }
       if (ends.empty()) continue;
-      breaks[v] = boundary || ends.size() != 2 || is_corner(points, ends[0], v, ends[1], cos_corner);
+      breaks[v] |= boundary || ends.size() != 2 || is_corner(points, ends[0], v, ends[1], cos_corner);
     }
     return breaks;
   }
@@ -160,10 +161,9 @@ class CreaseTracer {
 void add_boundary(const Mat3X& points, const Adjacency& c, const ConstraintOptions& options,
                   double cos_corner, Constraints& result) {
   const std::vector<int> next = boundary_successors(c);
-  std::vector<char> breaks = CreaseTracer::crease_breaks(points, c, cos_corner);
+  std::vector<char> breaks = CreaseTracer::curve_breaks(points, c, cos_corner, options);
   for (const Edge& edge : options.junction_edges)
     for (int v : edge) breaks[v] = 1;
-  for (int v : options.frozen_vertices) breaks[v] = 1;
   std::vector<bool> seen(next.size(), false);
   for (size_t start = 0; start < next.size(); ++start) {
     if (next[start] < 0 || seen[start]) continue;

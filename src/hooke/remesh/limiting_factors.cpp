@@ -46,7 +46,10 @@ std::vector<unsigned char> vertex_limits_of_result(const Workspace& work, const 
         (asked.boundary == BoundaryRule::fixed && (vertex_limits[v] & limited_by_boundary));
     const bool is_frozen = work.vertices.constraints.is_frozen(static_cast<int>(v), static_cast<int>(v));
     if (is_frozen) vertex_limits[v] |= put_back;
-    if (requested || !is_frozen) vertex_limits[v] |= requested ? limited_by_request : limited_at_corner;
+    if (requested)
+      vertex_limits[v] |= limited_by_request;
+    else if (!is_frozen)
+      vertex_limits[v] |= limited_at_corner;
   }
   for (const int v : guards.vertices_at_limits(work.vertices.positions)) vertex_limits[v] |= limited_by_guard;
 

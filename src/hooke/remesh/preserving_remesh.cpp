@@ -1,6 +1,7 @@
 #include "hooke/remesh/preserving_remesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/remesh/attempts.h"
 #include "hooke/remesh/flaws.h"
 #include "hooke/remesh/limiting_factors.h"
@@ -280,6 +282,7 @@ class PreservingRemesh {
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
+    const Eigen::VectorXd mean_edges = mean_edge_lengths(input_.points, c);
     std::vector<int> kept_rings(c.vertex_count, 0);
     Attempt last = best;
     for (int round = 0; round < max_rounds && !best.keeps_promises(); ++round) {
@@ -292,7 +295,7 @@ class PreservingRemesh {
       for (int v = 0; v < c.vertex_count; ++v) {
         if (kept_rings[v] == 0) continue;
         frozen.push_back(maker_.id_of(v));
-        longest[v] = std::min(before[v], mean_edge(v));
+        longest[v] = std::min(before[v], mean_edges[v]);
       }
       limit_gradation(input_.points, c, gradation, longest);
       for (std::size_t v = 0; v < longest.size(); ++v) maker_.lengths[v] = std::min(before[v], longest[v]);
@@ -355,13 +358,6 @@ class PreservingRemesh {
       if (std::ranges::all_of(t, [&](int v) { return marks[v] != 0; })) marked += area;
     }
     return marked / all;
-  }
-
-  double mean_edge(int vertex) const {
-    const auto neighbours = input_.adjacency.vertex_neighbours[vertex];
-    double sum = 0;
-    for (int n : neighbours) sum += (input_.points.col(n) - input_.points.col(vertex)).norm();
-    return sum / std::max(1., static_cast<double>(std::ssize(neighbours)));
   }
 
   /// Puts vertices back to where they were, ring by ring around what is wrong, and all if that is not enough
