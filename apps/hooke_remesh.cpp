@@ -107,13 +107,15 @@ int run(Settings s) {
   record.connectivity = s.remesh.connectivity;
   record.parameters = parameters_of(s);
   const std::string obstacle = obstacle_to_preserving(s, loaded);
-  record.parameters["preserve"] = s.preserve && obstacle.empty() ? "on" : "off";
+  const bool preserves = s.preserve && obstacle.empty();
+  record.parameters["preserve"] = preserves ? "on" : "off";
   record.parameters["reproject_uv"] = s.reproject_uv ? "on" : "off";
   if (s.reproject_uv && (s.format != MeshFormat::obj || !obstacle.empty()))
     throw Error("--reproject-uv is of OBJ files that are preserved; " +
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
   require_memory(s, loaded.mesh.n_vertices(), record);
   if (!s.check) timed(&stopwatch, "seams", [&] { keep_seams(s, loaded, record); });
+  if (preserves) keep_polygons(s, loaded);
   Original original;
   progress.enter("measure");
   measure_input(s, loaded.mesh, loaded.memory_order, loaded.origin, original, record, stopwatch);

@@ -16,6 +16,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/springs/polygon_edges.h"
 #include "result_files.h"
 
 namespace hooke::app {
@@ -135,6 +136,12 @@ void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord
 }
 
 }  // namespace
+
+void keep_polygons(const Settings& s, LoadedMesh& loaded) {
+  if (loaded.polygons.items.empty() || !s.edge_lengths.empty() || s.paper) return;
+  set_edge_values(loaded.mesh, rest_ratio_property, loaded.memory_order.order, *loaded.memory_order.adjacency,
+                  rest_ratios(loaded.polygons, loaded.memory_order));
+}
 
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {
   if (keeps_faces(s) || s.keep.hard_edges)

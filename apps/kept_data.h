@@ -1,5 +1,5 @@
-// Data of faces and corners where faces are replaced: the seams that are kept for them, and the data of the
-// new faces.
+// What a file has beside triangles: the seams that are kept for data of faces and corners, these data where
+// faces are replaced, and its polygons where they stay.
 #pragma once
 
 #include "hooke/io/read_mesh.h"
@@ -14,6 +14,10 @@ namespace hooke::app {
 /// data that are not to be kept, of which it warns. Where faces stay it only tells of hard edges
 /// (ConstraintOptions::hard_edges).
 void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
+
+/// Lets springs make the polygons of a file regular that is written as it was, not the triangles that they
+/// are cut into; not where the lengths of edges are given, nor with --paper.
+void keep_polygons(const Settings& settings, LoadedMesh& loaded);
 
 /// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal
 /// labels together, in the order in which the input has them; ids of faces in the record follow. Does nothing

@@ -184,7 +184,8 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   require_reasonable(s, *min_length, *max_length, natural);
   set_vertex_values(mesh, target_length_property, memory_order.order.scatter(lengths));
 
-  const TargetLengths targets = target_lengths_of(mesh, memory_order.order, adjacency);
+  const TargetLengths targets = of_edges.empty() ? spread_target_lengths(adjacency, lengths)
+                                                 : from_edge_lengths(adjacency, std::move(of_edges));
   record.target = {mean_length(points, adjacency, targets), *min_length, *max_length, natural};
   record.parameters.update({{"L_spec", printable(s.length_text)},
                             {"sizing", printable(s.sizing_text)},

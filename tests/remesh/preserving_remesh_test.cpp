@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/aabb_tree.h"
@@ -174,6 +176,50 @@ TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
     EXPECT_EQ(o.result.shortened > 0, length > 1) << length;
     EXPECT_EQ(std::ranges::min(lengths) < length, length > 1) << length;
     EXPECT_LE(std::ranges::max(lengths), length);
+  }
+}
+
+/// Sheet metal of thickness 1, 40 and 27 wide, with a round bend.
+test::Triangles bent_sheet() {
+  constexpr int in_bend = 9;
+  std::vector<std::array<double, 2>> outside = {{0, 0}}, inside = {{0, 1}};
+  for (int i = 0; i < in_bend; ++i) {
+    const double angle = std::numbers::pi / 2 * i / (in_bend - 1), s = std::sin(angle), c = std::cos(angle);
+    outside.push_back({40 + 3 * s, 3 - 3 * c});
+    inside.push_back({40 + 2 * s, 3 - 2 * c});
+  }
+  outside.push_back({43, 30});
+  inside.push_back({42, 30});
+  const int n = static_cast<int>(outside.size());
+  test::Triangles t{Mat3X(3, 4 * n), {}};
+  const auto quad = [&](int a, int b, int c, int d) {
+    t.faces.insert(t.faces.end(), {{a, b, c}, {a, c, d}});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int side : {0, 1}) {
+      t.points.col(2 * n * side + i) = Vec3(outside[i][0], outside[i][1], 25. * side);
+      t.points.col(2 * n * side + n + i) = Vec3(inside[i][0], inside[i][1], 25. * side);
+    }
+  const int last = n - 1, far = 2 * n;  // indices: outside i, inside n + i, and far more on the other side
+  for (int i = 0, j = 1; j < n; ++i, ++j) {
+    quad(i, j, far + j, far + i);
+    quad(n + j, n + i, far + n + i, far + n + j);
+    quad(n + i, n + j, j, i);
+    quad(far + i, far + j, far + n + j, far + n + i);
+  }
+  quad(n, 0, far, far + n);
+  quad(last, n + last, far + n + last, far + last);
+  return t;
+}
+
+TEST(PreservingRemesh, ShortensEdgesAgainWhereThatDoesNotHalveWhatIsWrongAtFirst) {
+  for (const double length : {5., 10., 20.}) {
+    test::Outcome o;
+    o.mesh = test::with_length(bent_sheet(), length);
+    o.result = preserving_remesh(o.mesh, find_memory_order(o.mesh), options_for(ConnectivityMode::adapt));
+    EXPECT_TRUE(o.result.measures->preservation.holds()) << length;
+    EXPECT_NE(o.result.rescue, Rescue::kept_faces) << length;
+    EXPECT_LT(o.mesh.n_faces(), 4000) << length;
   }
 }
 

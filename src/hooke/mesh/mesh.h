@@ -38,6 +38,9 @@ inline constexpr char target_length_property[] =
     "v:target_length";  // double; the target of an edge is the mean of its ends
 inline constexpr char edge_length_property[] =
     "e:target_length";  // double, optional; the targets of the edges, each by itself
+inline constexpr char rest_ratio_property[] =
+    "e:rest_ratio";  // double, optional; by which the targets of the vertices are multiplied, fixed faces
+                     // only
 
 /// Builds a mesh from points, by vertex id, and an adjacency, whose vertices and faces get these ids; edges
 /// keep theirs.

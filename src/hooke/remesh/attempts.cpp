@@ -1,6 +1,7 @@
 #include "hooke/remesh/attempts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -62,8 +63,10 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   if (is_mask_) smooth_steps();
   constexpr double rounding = 1e-9;
   const bool must_unfold = input_quality_.folded_edges > 0;
-  if (!must_unfold && !target_lengths_of(mesh, memory_order.order, input_.adjacency).edge.is_varying())
-    least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
+  const bool has_one_length =
+      UniformVector::are_equal(lengths) &&
+      edge_values(mesh, edge_length_property, memory_order.order, input_.adjacency).empty();
+  if (!must_unfold && has_one_length) least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
   preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
   preservation_.keeps_facets = preservation_.faceted && !adapts();
 }
@@ -76,6 +79,15 @@ std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) con
   for (std::size_t v = 0; v < input_.joined.size(); ++v)
     if (is_meant[input_.joined[v]]) all.push_back(static_cast<int>(v));
   return all;
+}
+
+bool AttemptMaker::has_worse_faces(const Attempt& a) const {
+  const Quality &before = input_quality_, &now = a.result.measures->quality;
+  OpenMesh::EPropHandleT<double> ratios;
+  if (mesh_.get_property_handle(ratios, rest_ratio_property))
+    return std::hypot(now.length_error.mean, now.length_error.std) >
+           std::hypot(before.length_error.mean, before.length_error.std);
+  return now.shape.mean < before.shape.mean;
 }
 
 /// Is the input made of a binary mask? Without creases no length resolves its steps.

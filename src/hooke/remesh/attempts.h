@@ -63,6 +63,10 @@ class AttemptMaker {
   /// The vertices with all copies of those at junctions.
   std::vector<int> with_copies(const std::vector<int>& vertices) const;
 
+  /// Has the attempt worse faces on average than the input? Polygons are judged by the lengths of their
+  /// edges.
+  bool has_worse_faces(const Attempt& attempt) const;
+
   /// One run, not judged yet.
   Attempt run() const;
 

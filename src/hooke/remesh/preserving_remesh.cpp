@@ -232,12 +232,14 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best);
   }
 
-  /// Halves the target lengths about what is wrong, and makes attempts with these while that halves the
-  /// number of flaws; then about faces with small angles, which narrow parts have left, while that halves
-  /// theirs. Keeps the best lengths. Ends where it would take too many faces.
+  /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is; then
+  /// about faces with small angles, which narrow parts have left, while that halves their number. Keeps the
+  /// best lengths. Ends where it would take too many faces, or has made too many without halving what is
+  /// wrong.
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
+    constexpr double max_faces_in_vain = 1e4;
     const double faces = best.result.adaptation.target_faces;
-    const double max_faces = std::max(std::min(5e4, 25 * faces), 1.5 * faces);
+    const double max_faces = std::max(std::clamp(25 * faces, 3e3, 5e4), 1.5 * faces);
     const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
     const auto covering = [&](const std::vector<double>& lengths) {
@@ -245,33 +247,40 @@ class PreservingRemesh {
     };
     const auto small_angles = [](const Attempt& a) { return a.result.measures->quality.faces_below_20; };
     std::vector<double> lengths = asked_, longest(asked_.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> best_lengths = maker_.lengths;
+    double faces_in_vain = 0;
+    Attempt last = best;
     for (int round = 0; round < max_rounds && !(best.keeps_promises() && small_angles(best) == 0); ++round) {
-      for (int v : input_vertices_at_flaws(maker_, best)) longest[v] = lengths[v] / 2;
+      for (int v : input_vertices_at_flaws(maker_, last)) longest[v] = lengths[v] / 2;
       limit_gradation(input_.points, c, gradation, longest);
       const std::vector<double> before = lengths;
       for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked_[v], longest[v]);
-      if (lengths == before || faces * std::pow(covering(asked_) / covering(lengths), 2) > max_faces) return;
-      const std::vector<double> best_lengths = std::exchange(maker_.lengths, lengths);
+      if (lengths == before || faces * std::pow(covering(asked_) / covering(lengths), 2) > max_faces) break;
+      maker_.lengths = lengths;
       options_ = start;
-      const bool projects = best.result.rescue == Rescue::closest;
+      const bool projects = last.result.rescue == Rescue::closest;
       if (projects) options_.filter.kind = FilterKind::closest;
       Attempt next = attempt();
       if (projects) next.result.rescue = Rescue::closest;
       if (!projects && !next.is_interrupted() && !next.keeps_promises()) project_to_faces(next);
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
-        return;
+        break;
       }
-      const bool is_better = best.keeps_promises()
-                                 ? next.keeps_promises() && 2 * small_angles(next) <= small_angles(best)
-                                 : 2 * next.flaws() <= best.flaws();
-      if (!is_better) {
-        maker_.lengths = best_lengths;
-        return;
-      }
+      if (!next.result.measures) break;  // not finite
       next.result.shortened = count_shortened();
-      best = std::move(next);
+      const bool kept = best.keeps_promises();
+      const bool halves = kept ? next.keeps_promises() && 2 * small_angles(next) <= small_angles(best)
+                               : 2 * next.flaws() <= best.flaws();
+      if (halves || (!kept && next.is_better_than(best))) {
+        best = next;
+        best_lengths = lengths;
+      }
+      faces_in_vain += halves ? 0 : static_cast<double>(next.mesh.n_faces());
+      last = std::move(next);
+      if (!halves && (kept || faces_in_vain > max_faces_in_vain)) break;
     }
+    maker_.lengths = std::move(best_lengths);
   }
 
   /// Makes attempts in which faces of the input stay where something was wrong, and ever more around them,
@@ -381,9 +390,7 @@ class PreservingRemesh {
       if (wrong.empty()) break;
       move_back(best, wrong, rings);
     }
-    if (best.keeps_promises() &&
-        best.result.measures->quality.shape.mean >= maker_.input_quality().shape.mean)
-      return;
+    if (best.keeps_promises() && !maker_.has_worse_faces(best)) return;
     std::vector<int> all(input_.adjacency.vertex_count);
     std::iota(all.begin(), all.end(), 0);
     move_back(best, all, 1);

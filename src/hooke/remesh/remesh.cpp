@@ -41,12 +41,16 @@ double spread_of_edges(const Workspace& work) {
 void set_residual_forces(TriMesh& mesh, const MemoryOrder& memory_order, double altitude) {
   const Permutation& order = memory_order.order;
   const Adjacency& c = *memory_order.adjacency;
-  const std::vector<double> lengths = vertex_values(mesh, target_length_property);
+  const std::vector<double> of_vertices = vertex_values(mesh, target_length_property);
   const double unit =
-      std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
-  std::vector<double> of_edges = target_lengths_of(mesh, order, c).edge.values();
-  for (double& length : of_edges) length /= unit;
-  const TargetLengths targets = from_edge_lengths(c, std::move(of_edges));
+      std::accumulate(of_vertices.begin(), of_vertices.end(), 0.) / static_cast<double>(of_vertices.size());
+  const auto in_units = [&](const UniformVector& lengths) {
+    std::vector<double> values = lengths.values();
+    for (double& length : values) length /= unit;
+    return UniformVector(std::move(values));
+  };
+  const TargetLengths in_file = target_lengths_of(mesh, order, c);
+  const TargetLengths targets{in_units(in_file.edge), in_units(in_file.face)};
   const Mat3X points = order.gather(vertex_points(mesh)) / unit;
   Mat3X gradient;
   Energy(c, targets, {.altitude = altitude})(points, vertex_normals(points, c), &gradient);
@@ -387,7 +391,8 @@ RemeshResult run_remesh(TriMesh& mesh, MemoryOrder memory_order, const RunOption
                         const Observer& observer, Stopwatch* stopwatch) {
   Workspace work(mesh, std::move(memory_order), options.chosen.constraints, options.chosen.filter,
                  options.retraction, stopwatch);
-  if (work.has_edge_lengths() && options.chosen.connectivity != ConnectivityMode::fixed)
+  if ((work.has_edge_lengths() || work.has_rest_ratios()) &&
+      options.chosen.connectivity != ConnectivityMode::fixed)
     throw Error("target lengths of single edges; expected connectivity fixed, where edges stay");
   const InputCreases input = input_creases(work, options.chosen.constraints.features);
   const EnergyTerms terms{.altitude = options.chosen.altitude};

@@ -175,7 +175,10 @@ void set_target_lengths(TriMesh& mesh, const MemoryOrder& memory_order, const Le
 TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, const Adjacency& adjacency) {
   std::vector<double> of_edges = edge_values(mesh, edge_length_property, order, adjacency);
   if (!of_edges.empty()) return from_edge_lengths(adjacency, std::move(of_edges));
-  return spread_target_lengths(adjacency, order.gather(vertex_values(mesh, target_length_property)));
+  TargetLengths targets =
+      spread_target_lengths(adjacency, order.gather(vertex_values(mesh, target_length_property)));
+  const std::vector<double> ratios = edge_values(mesh, rest_ratio_property, order, adjacency);
+  return ratios.empty() ? targets : at_rest_ratios(adjacency, targets, ratios);
 }
 
 }  // namespace hooke

@@ -42,7 +42,8 @@ void set_target_lengths(TriMesh& mesh, const MemoryOrder& memory_order, const Le
                         Sizing sizing = {});
 
 /// The target lengths of a mesh: those of `e:target_length`, and without this property those that spread from
-/// `v:target_length`. The vertices of the adjacency are in this order. Throws Error without both properties.
+/// `v:target_length`, multiplied by `e:rest_ratio` if it has this. The vertices of the adjacency are in this
+/// order. Throws Error without both properties.
 TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, const Adjacency& adjacency);
 
 /// The source of target lengths per vertex, as the user specifies it.

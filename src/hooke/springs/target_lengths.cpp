@@ -67,6 +67,23 @@ TargetLengths from_edge_lengths(const Adjacency& c, std::vector<double> edge) {
   return {std::move(edge), std::move(face)};
 }
 
+TargetLengths at_rest_ratios(const Adjacency& c, const TargetLengths& targets,
+                             const std::vector<double>& ratios) {
+  std::vector<double> edge(c.edges.size()), face(c.faces.size());
+  for (size_t e = 0; e < edge.size(); ++e) edge[e] = ratios[e] * targets.edge[e];
+  parallel_for(face.size(), length_block, [&](size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) {
+      const auto& [i, j, k] = c.face_edges[f];
+      const double a = edge[i], b = edge[j], d = edge[k], half = (a + b + d) / 2;
+      const double area = std::sqrt(std::max(0., half * (half - a) * (half - b) * (half - d)));  // Heron
+      constexpr double least_share = .5;  // of the mean, for edges that make no triangle
+      face[f] =
+          std::max(4 / std::sqrt(3.) * area / std::max({a, b, d}), least_share * mean_of_three(a, b, d));
+    }
+  });
+  return {std::move(edge), std::move(face)};
+}
+
 TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double>& vertex_length) {
   if (!c.faces.empty() && UniformVector::are_equal(vertex_length)) {
     const double length = vertex_length[0];

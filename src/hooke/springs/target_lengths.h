@@ -26,6 +26,11 @@ double mean_length(const Mat3X& points, const Adjacency& adjacency, const Target
 /// Target lengths of edges that are given one by one; those of the faces are their means.
 TargetLengths from_edge_lengths(const Adjacency& adjacency, std::vector<double> edge_length);
 
+/// These targets with the lengths of edges multiplied by their ratios. Altitude springs of a face then rest
+/// at the smallest altitude of the triangle with these edges.
+TargetLengths at_rest_ratios(const Adjacency& adjacency, const TargetLengths& targets,
+                             const std::vector<double>& ratios);
+
 /// Target lengths of edges and faces from those of the vertices.
 TargetLengths spread_target_lengths(const Adjacency& adjacency, const std::vector<double>& vertex_length);
 

@@ -82,7 +82,8 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
     creases.insert(creases.end(), seams.begin(), seams.end());
   }
   connect(std::move(memory_order.adjacency), creases);
-  targets = spread_target_lengths(*adjacency, vertices.vertex_length);
+  rest_ratios_ = edge_values(source, rest_ratio_property, order, *adjacency);
+  spread_lengths();
   input_surface_ = surface();
   start_length_ = vertices.vertex_length;
   if (std::vector<double> of_edges = edge_values(source, edge_length_property, order, *adjacency);
@@ -260,7 +261,12 @@ SurfacePoint Workspace::locate_on_input(int v) const {
 void Workspace::resample_lengths() {
   if (edge_by_edge_ || !has_varying_lengths()) return;
   vertices.vertex_length = input_lengths();
+  spread_lengths();
+}
+
+void Workspace::spread_lengths() {
   targets = spread_target_lengths(*adjacency, vertices.vertex_length);
+  if (!rest_ratios_.empty()) targets = at_rest_ratios(*adjacency, targets, rest_ratios_);
 }
 
 bool Workspace::shorten_in_narrow_regions(double shortest, double gradation) {

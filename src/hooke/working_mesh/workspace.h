@@ -76,6 +76,9 @@ struct Workspace {
   /// Are they given for each edge by itself (`e:target_length`), not by the place on the surface?
   bool has_edge_lengths() const { return edge_by_edge_; }
 
+  /// Have the edges ratios of their own, `e:rest_ratio`, by which these lengths are multiplied?
+  bool has_rest_ratios() const { return !rest_ratios_.empty(); }
+
   /// Target lengths of the input, interpolated linearly in its faces at the positions of the vertices, or
   /// those of its narrow regions.
   std::vector<double> input_lengths() const;
@@ -125,6 +128,8 @@ struct Workspace {
   std::vector<int> joined_in_result() const;
   const Permutation& input_order() const { return input_order_ ? *input_order_ : order; }
   void connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases);
+  /// Sets the targets of edges and faces from those of the vertices.
+  void spread_lengths();
   std::shared_ptr<const Adjacency> surface() const;
   SurfaceField fit(std::shared_ptr<const Mat3X> points,
                    const std::shared_ptr<const Adjacency>& surface) const;
@@ -140,6 +145,7 @@ struct Workspace {
   NarrowRegions narrow_regions_;                    // see shorten_in_narrow_regions()
   bool refitted_ = false;                           // false: both fields are the same
   bool edge_by_edge_ = false;                       // see has_edge_lengths()
+  std::vector<double> rest_ratios_;                 // `e:rest_ratio`, by edge; empty without it
   bool faceted_ = false;                            // are the facets of the input meant?
   std::vector<int> input_hints_;                    // per wedge: hint on the field of the input
   std::unique_ptr<Retraction> to_input_;            // to the field of the input
