@@ -55,6 +55,8 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
     measure_rounded(s, written.rounded, loaded.mesh, loaded.memory_order, original, record, stopwatch);
     points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   }
+  if (keeps_faces(s) && loaded.origin.vertex.empty())
+    record.after->polygon_angles = measure_polygon_angles(vertex_points(loaded.mesh), loaded.polygons);
   if (!s.fields.empty()) files.add(PendingFile(s.fields, fields_text(loaded, points, original, record)));
   if (!s.map.empty())
     files.add(PendingFile(s.map, map_text(map_of_output(loaded.mesh, loaded.origin, record))));
@@ -107,18 +109,19 @@ int run(Settings s) {
   record.connectivity = s.remesh.connectivity;
   record.parameters = parameters_of(s);
   const std::string obstacle = obstacle_to_preserving(s, loaded);
-  const bool preserves = s.preserve && obstacle.empty();
-  record.parameters["preserve"] = preserves ? "on" : "off";
+  record.parameters["preserve"] = s.preserve && obstacle.empty() ? "on" : "off";
   record.parameters["reproject_uv"] = s.reproject_uv ? "on" : "off";
   if (s.reproject_uv && (s.format != MeshFormat::obj || !obstacle.empty()))
     throw Error("--reproject-uv is of OBJ files that are preserved; " +
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
   require_memory(s, loaded.mesh.n_vertices(), record);
   if (!s.check) timed(&stopwatch, "seams", [&] { keep_seams(s, loaded, record); });
-  if (preserves) keep_polygons(s, loaded);
+  keep_polygons(s, loaded);
   Original original;
   progress.enter("measure");
   measure_input(s, loaded.mesh, loaded.memory_order, loaded.origin, original, record, stopwatch);
+  if (loaded.origin.vertex.empty())
+    record.before.polygon_angles = measure_polygon_angles(vertex_points(loaded.mesh), loaded.polygons);
 
   OutputFiles files;
   if (!s.check) make_result(s, loaded, original, record, files, progress, stopwatch);

@@ -138,7 +138,9 @@ void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord
 }  // namespace
 
 void keep_polygons(const Settings& s, LoadedMesh& loaded) {
-  if (loaded.polygons.items.empty() || !s.edge_lengths.empty() || s.paper) return;
+  const bool has_file_vertices = loaded.origin.vertex.empty();
+  if (!keeps_faces(s) || !has_file_vertices || loaded.polygons.items.empty()) return;
+  if (!s.edge_lengths.empty() || s.paper) return;
   set_edge_values(loaded.mesh, rest_ratio_property, loaded.memory_order.order, *loaded.memory_order.adjacency,
                   rest_ratios(loaded.polygons, loaded.memory_order));
 }

@@ -15,8 +15,8 @@ namespace hooke::app {
 /// (ConstraintOptions::hard_edges).
 void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
 
-/// Lets springs make the polygons of a file regular that is written as it was, not the triangles that they
-/// are cut into; not where the lengths of edges are given, nor with --paper.
+/// Where faces stay, lets springs make the polygons of the file regular, not the triangles that they are cut
+/// into, whatever is written; not after a repair, where the lengths of edges are given, or with --paper.
 void keep_polygons(const Settings& settings, LoadedMesh& loaded);
 
 /// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal

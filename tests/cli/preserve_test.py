@@ -277,6 +277,10 @@ class Preserve(CommandTest):
             points = [(i + shift(-.3, .3), 4 * (j + shift(-.3, .3)), 0) for j in range(n + 1) for i in range(n + 1)]
             self.put("quads.obj", "".join(["v %r %r %r\n" % p for p in points] + ["f %d %d %d %d\n" % q for q in quads]).encode())
             report = self.kept("quads.obj")[2]
+            angles = [report[when]["polygon_angles"] for when in ("before", "after")]
+            self.assertGreater(min(angles[0]["min"], angles[1]["min"]), 0)
+            self.assertLess(max(angles[0]["max"], angles[1]["max"]), 180)
+            report = self.kept("quads.obj", "-L", "3x")[2]
             told = [w["message"] for w in report["warnings"] if w["code"] == "polygons_concave"]
             after, before = concave("out.obj"), concave("quads.obj")
             self.assertEqual(len(told), int(after > before), (before, after))

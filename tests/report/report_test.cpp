@@ -22,12 +22,12 @@ Json quality_of(const test::Triangles& t, const std::vector<double>& targets = {
   return to_json(measure_quality(t.points, test::connect(t), targets));
 }
 
-const std::vector<std::string> quality_keys = {"min_angle",          "max_angle",    "shape",
-                                               "radius_ratio",       "aspect_ratio", "edge_ratio",
-                                               "edge_length",        "length_error", "faces_below_20",
-                                               "faces_below_30",     "folded_edges", "self_intersections",
-                                               "degenerate_faces",   "valence",      "mean_curvature",
-                                               "gaussian_curvature", "worst_faces"};
+const std::vector<std::string> quality_keys = {"min_angle",          "max_angle",      "shape",
+                                               "radius_ratio",       "aspect_ratio",   "edge_ratio",
+                                               "edge_length",        "length_error",   "faces_below_20",
+                                               "faces_below_30",     "folded_edges",   "self_intersections",
+                                               "degenerate_faces",   "valence",        "mean_curvature",
+                                               "gaussian_curvature", "polygon_angles", "worst_faces"};
 
 TEST(QualityJson, HasTheKeysOfTheContractInOrder) {
   EXPECT_EQ(keys(quality_of(test::sphere(1))), quality_keys);

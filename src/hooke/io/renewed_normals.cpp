@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/normals.h"
 
 namespace hooke {
 namespace {
@@ -21,22 +22,6 @@ int polygon_count(const MovedPolygons& moved) {
 Vec3 unit_normal(const Vec3& v) {
   const double length = v.norm();
   return length > 0 && std::isfinite(length) ? Vec3(v / length) : Vec3(Vec3::Zero());
-}
-
-// Newell's normal of a polygon, of unit length; zero without area.
-Vec3 newell_normal(const Mat3X& points, std::span<const int> corners) {
-  const Vec3 origin = points.col(corners[0]);
-  double size = 0;
-  for (const int v : corners) size = std::max(size, (points.col(v) - origin).cwiseAbs().maxCoeff());
-  if (!(size > 0)) return Vec3::Zero();
-  Vec3 sum = Vec3::Zero();
-  Vec3 last = (points.col(corners.back()) - origin) / size;
-  for (const int v : corners) {
-    const Vec3 next = (points.col(v) - origin) / size;
-    sum += last.cross(next);
-    last = next;
-  }
-  return unit_normal(sum);
 }
 
 // Which polygons have a vertex that moved.

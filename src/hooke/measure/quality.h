@@ -9,6 +9,7 @@
 #include "hooke/core/uniform_vector.h"
 #include "hooke/measure/angle_bound.h"
 #include "hooke/measure/measured_surface.h"
+#include "hooke/measure/polygon_angles.h"
 #include "hooke/measure/statistics.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/topology.h"
@@ -59,6 +60,9 @@ struct Quality {
   Range gaussian_curvature;  // likewise
   /// One for each region, so that no two share a vertex; smallest angle first, ties by face id.
   std::vector<WorstFace> worst_faces;
+
+  /// Of a file's polygons, where the faces are their triangles; not set by measure_quality().
+  std::optional<PolygonAngles> polygon_angles;
 
   Topology topology;
   JunctionCounts junctions;

@@ -1,5 +1,6 @@
 #include "hooke/mesh/normals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -49,6 +50,22 @@ Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adj
     }
   });
   return normals;
+}
+
+Vec3 newell_normal(const Mat3X& points, std::span<const int> corners) {
+  const Vec3 origin = points.col(corners[0]);
+  double size = 0;
+  for (const int v : corners) size = std::max(size, (points.col(v) - origin).cwiseAbs().maxCoeff());
+  if (!(size > 0)) return Vec3::Zero();
+  Vec3 sum = Vec3::Zero();
+  Vec3 last = (points.col(corners.back()) - origin) / size;
+  for (const int v : corners) {
+    const Vec3 next = (points.col(v) - origin) / size;
+    sum += last.cross(next);
+    last = next;
+  }
+  const double length = sum.norm();
+  return length > 0 && std::isfinite(length) ? Vec3(sum / length) : Vec3(Vec3::Zero());
 }
 
 Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {

@@ -2,6 +2,8 @@
 // which they turn; and mean edge lengths.
 #pragma once
 
+#include <span>
+
 #include "hooke/core/types.h"
 #include "hooke/mesh/adjacency.h"
 
@@ -17,6 +19,9 @@ Mat3X certain_face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacenc
 /// the normal is exact if the one-ring lies on a sphere (N. Max, "Weights for computing vertex normals from
 /// facet normals", 1999).
 Mat3X vertex_normals(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);
+
+/// Newell's normal of a polygon, of unit length; zero without area. Pre-condition: it has corners.
+Vec3 newell_normal(const Mat3X& points, std::span<const int> corners);
 
 /// Mean length of the edges at each vertex; zero for a vertex without edges.
 Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);

@@ -98,6 +98,11 @@ Json to_json(const Quality& q) {
                      {"boundary", valence_counts(q.valence.boundary)}};
   json["mean_curvature"] = to_json(q.mean_curvature);
   json["gaussian_curvature"] = to_json(q.gaussian_curvature);
+  json["polygon_angles"] = nullptr;
+  if (const auto& angles = q.polygon_angles)
+    json["polygon_angles"] = {{"min", number(angles->min)},
+                              {"max", number(angles->max)},
+                              {"rms_deviation", number(angles->rms_deviation)}};
   json["worst_faces"] = worst_faces(q.worst_faces);
   return json;
 }

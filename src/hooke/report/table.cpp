@@ -52,6 +52,13 @@ std::vector<Row> rows_of(const Quality& q) {
   };
 }
 
+std::vector<Row> rows_of(const std::optional<PolygonAngles>& angles) {
+  const auto degrees = [&](double PolygonAngles::*figure) { return angles ? text((*angles).*figure) : "-"; };
+  return {{"polygons, least angle", degrees(&PolygonAngles::min)},
+          {"  greatest angle", degrees(&PolygonAngles::max)},
+          {"  rms from regular", degrees(&PolygonAngles::rms_deviation)}};
+}
+
 std::string deviation_rows(const Deviation& d) {
   const auto share = [&](double x) {
     return fmt::format("{} % of the diagonal", text(100 * x / d.diagonal));
@@ -92,10 +99,13 @@ std::string quality_table(const Quality& mesh) {
 }
 
 std::string quality_table(const Quality& before, const Quality& after, const Deviation& deviation) {
-  const std::vector<Row> left = rows_of(before), right = rows_of(after);
   std::string out = fmt::format("{:<24}{:>20}    {:>20}\n", "", "before", "after");
-  for (size_t k = 0; k < left.size(); ++k)
-    out += fmt::format("{:<24}{:>20}    {:>20}\n", left[k].name, left[k].value, right[k].value);
+  const auto add = [&](const std::vector<Row>& left, const std::vector<Row>& right) {
+    for (size_t k = 0; k < left.size(); ++k)
+      out += fmt::format("{:<24}{:>20}    {:>20}\n", left[k].name, left[k].value, right[k].value);
+  };
+  add(rows_of(before), rows_of(after));
+  if (before.polygon_angles) add(rows_of(before.polygon_angles), rows_of(after.polygon_angles));
   return out + deviation_rows(deviation);
 }
 

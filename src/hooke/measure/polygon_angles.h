@@ -1,0 +1,25 @@
+// The corners of quadrilaterals and polygons, whose shape their triangles do not show: two equilateral
+// triangles make a rhombus.
+#pragma once
+
+#include <optional>
+
+#include "hooke/core/lists.h"
+#include "hooke/core/types.h"
+
+namespace hooke {
+
+/// Angles at the corners of polygons with more than three, degrees; above 180 where a corner is concave as
+/// seen against the polygon's Newell normal.
+struct PolygonAngles {
+  double min = 0;
+  double max = 0;
+  double rms_deviation =
+      0;  // from the angle of a regular polygon with as many corners, 90 of a quadrilateral
+};
+
+/// Of the polygons, given by their vertices; empty if none has more than three corners. A corner at which an
+/// edge has no length has angle zero.
+std::optional<PolygonAngles> measure_polygon_angles(const Mat3X& points, const IntLists& polygons);
+
+}  // namespace hooke
