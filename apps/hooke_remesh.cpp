@@ -16,6 +16,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/io/read_mesh.h"
+#include "hooke/measure/polygon_angles.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/report/report.h"
 #include "judging.h"
@@ -55,7 +56,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
     measure_rounded(s, written.rounded, loaded.mesh, loaded.memory_order, original, record, stopwatch);
     points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   }
-  if (keeps_faces(s) && loaded.origin.vertex.empty())
+  if (keeps_polygons(s, loaded))
     record.after->polygon_angles = measure_polygon_angles(vertex_points(loaded.mesh), loaded.polygons);
   if (!s.fields.empty()) files.add(PendingFile(s.fields, fields_text(loaded, points, original, record)));
   if (!s.map.empty())
@@ -120,7 +121,7 @@ int run(Settings s) {
   Original original;
   progress.enter("measure");
   measure_input(s, loaded.mesh, loaded.memory_order, loaded.origin, original, record, stopwatch);
-  if (loaded.origin.vertex.empty())
+  if (keeps_polygons(s, loaded))
     record.before.polygon_angles = measure_polygon_angles(vertex_points(loaded.mesh), loaded.polygons);
 
   OutputFiles files;

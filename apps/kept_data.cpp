@@ -137,10 +137,12 @@ void renumber_faces(const std::vector<int>& order, LoadedMesh& loaded, RunRecord
 
 }  // namespace
 
+bool keeps_polygons(const Settings& s, const LoadedMesh& loaded) {
+  return keeps_faces(s) && !loaded.polygons.items.empty() && !is_repaired(loaded);
+}
+
 void keep_polygons(const Settings& s, LoadedMesh& loaded) {
-  const bool has_file_vertices = loaded.origin.vertex.empty();
-  if (!keeps_faces(s) || !has_file_vertices || loaded.polygons.items.empty()) return;
-  if (!s.edge_lengths.empty() || s.paper) return;
+  if (!keeps_polygons(s, loaded) || !s.edge_lengths.empty() || s.paper) return;
   set_edge_values(loaded.mesh, rest_ratio_property, loaded.memory_order.order, *loaded.memory_order.adjacency,
                   rest_ratios(loaded.polygons, loaded.memory_order));
 }

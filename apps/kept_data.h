@@ -15,8 +15,11 @@ namespace hooke::app {
 /// (ConstraintOptions::hard_edges).
 void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
 
-/// Where faces stay, lets springs make the polygons of the file regular, not the triangles that they are cut
-/// into, whatever is written; not after a repair, where the lengths of edges are given, or with --paper.
+/// Are the faces of the result those of the file's polygons, which no repair has changed?
+bool keeps_polygons(const Settings& settings, const LoadedMesh& loaded);
+
+/// Where polygons are kept, lets springs make squares of quadrilaterals, not equilateral triangles of their
+/// halves, whatever is written; not where the lengths of edges are given, or with --paper.
 void keep_polygons(const Settings& settings, LoadedMesh& loaded);
 
 /// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal

@@ -24,14 +24,9 @@
 
 namespace hooke::app {
 
-namespace {
-
-/// Whether a repair has changed the mesh: what it left says so too.
 bool is_repaired(const LoadedMesh& loaded) {
   return std::ranges::any_of(loaded.repairs, [](const Note& n) { return !n.code.ends_with("_left"); });
 }
-
-}  // namespace
 
 std::string obstacle_to_preserving(const Settings& s, const LoadedMesh& loaded) {
   if (s.check) return "nothing is written";

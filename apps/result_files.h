@@ -12,6 +12,9 @@
 
 namespace hooke::app {
 
+/// Has a repair changed the mesh? Its notes of what it left do not count.
+bool is_repaired(const LoadedMesh& loaded);
+
 /// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.
 std::string obstacle_to_preserving(const Settings& settings, const LoadedMesh& loaded);
 

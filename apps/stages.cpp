@@ -77,6 +77,14 @@ UniformVector edge_targets(const TriMesh& mesh, const MemoryOrder& memory_order)
   return target_lengths_of(mesh, memory_order.order, *memory_order.adjacency).edge;
 }
 
+/// The same without the ratios of quadrilaterals, which the paper does not have.
+UniformVector paper_targets(const TriMesh& mesh, const MemoryOrder& memory_order) {
+  OpenMesh::EPropHandleT<double> ratios;
+  if (!mesh.get_property_handle(ratios, rest_ratio_property)) return edge_targets(mesh, memory_order);
+  const std::vector<double> lengths = vertex_values(mesh, target_length_property);
+  return spread_target_lengths(*memory_order.adjacency, memory_order.order.gather(lengths)).edge;
+}
+
 /// Returns work(). Puts the name of the input in front of the messages of its errors.
 template <typename Work>
 auto in_the_name_of(const std::string& name, const Work& work) {
@@ -136,7 +144,7 @@ void judge_result(const Settings& s, const TriMesh& mesh, const MemoryOrder& mem
                   RunRecord& record) {
   record.paper_after =
       measure_paper_figures(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency,
-                            edge_targets(mesh, memory_order), s.paper);
+                            paper_targets(mesh, memory_order), s.paper);
   if (record.result->adaptation.rounds > 0)
     record.deviation->displacement.reset();  // vertices do not correspond
   require_promises(s, record, cause);
@@ -185,7 +193,8 @@ void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, 
   timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, origin, points, record); });
   set_min_length(s, mesh, memory_order, points, record);
   const UniformVector targets = edge_targets(mesh, memory_order);
-  record.paper_before = measure_paper_figures(points, *memory_order.adjacency, targets, s.paper);
+  record.paper_before =
+      measure_paper_figures(points, *memory_order.adjacency, paper_targets(mesh, memory_order), s.paper);
   const MeasuredSurface surface = surface_of(std::move(points), memory_order, original.joined, stopwatch);
   record.before =
       timed(&stopwatch, "before", [&] { return measure_quality(surface, targets, {}, &stopwatch); });

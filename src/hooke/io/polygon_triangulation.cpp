@@ -242,7 +242,7 @@ void append_warnings(const TriangulatedPolygons& triangulation, const std::strin
   };
   if (triangulation.polygons_cut > 0) {
     add_cut(content.anew, "cut into triangles");
-    add_cut(content.preserved, "measured as triangles, moved and written as they were");
+    add_cut(content.preserved, "measured as triangles, written as they were");
   }
   if (triangulation.not_simple > 0)
     warnings.push_back(

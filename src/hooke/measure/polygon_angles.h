@@ -9,13 +9,14 @@
 
 namespace hooke {
 
-/// Angles at the corners of polygons with more than three, degrees; above 180 where a corner is concave as
-/// seen against the polygon's Newell normal.
+/// Angles at the corners of polygons with more than three, degrees; above 180 where a corner is concave, seen
+/// from the side of the polygon's Newell normal.
 struct PolygonAngles {
   double min = 0;
   double max = 0;
-  double rms_deviation =
-      0;  // from the angle of a regular polygon with as many corners, 90 of a quadrilateral
+  /// Root mean square of the differences from the angle of a regular polygon with as many corners, 90 of a
+  /// quadrilateral.
+  double rms_deviation = 0;
 };
 
 /// Of the polygons, given by their vertices; empty if none has more than three corners. A corner at which an

@@ -64,8 +64,7 @@ Vec3 newell_normal(const Mat3X& points, std::span<const int> corners) {
     sum += last.cross(next);
     last = next;
   }
-  const double length = sum.norm();
-  return length > 0 && std::isfinite(length) ? Vec3(sum / length) : Vec3(Vec3::Zero());
+  return sum.allFinite() ? unit_or_zero(sum) : Vec3(Vec3::Zero());
 }
 
 Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency) {

@@ -1,12 +1,12 @@
 #include "hooke/remesh/attempts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
 
 #include "hooke/core/stopwatch.h"
+#include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
@@ -14,6 +14,7 @@
 #include "hooke/mesh/sagitta.h"
 #include "hooke/mesh/staircase.h"
 #include "hooke/remesh/remesh.h"
+#include "hooke/remesh/run_options.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {
@@ -63,10 +64,13 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   if (is_mask_) smooth_steps();
   constexpr double rounding = 1e-9;
   const bool must_unfold = input_quality_.folded_edges > 0;
+  OpenMesh::EPropHandleT<double> ratios;
+  has_rest_ratios_ = mesh.get_property_handle(ratios, rest_ratio_property);
   const bool has_one_length =
-      UniformVector::are_equal(lengths) &&
-      edge_values(mesh, edge_length_property, memory_order.order, input_.adjacency).empty();
+      has_rest_ratios_ ? UniformVector::are_equal(lengths)
+                       : !target_lengths_of(mesh, memory_order.order, input_.adjacency).edge.is_varying();
   if (!must_unfold && has_one_length) least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
+  if (has_rest_ratios_) least_angle_ = std::min(least_angle_, NearRegularOptions().angle_of_rhombi);
   preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
   preservation_.keeps_facets = preservation_.faceted && !adapts();
 }
@@ -83,10 +87,8 @@ std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) con
 
 bool AttemptMaker::has_worse_faces(const Attempt& a) const {
   const Quality &before = input_quality_, &now = a.result.measures->quality;
-  OpenMesh::EPropHandleT<double> ratios;
-  if (mesh_.get_property_handle(ratios, rest_ratio_property))
-    return std::hypot(now.length_error.mean, now.length_error.std) >
-           std::hypot(before.length_error.mean, before.length_error.std);
+  const auto deviation = [](const Statistics& error) { return error.std / (1 + error.mean); };
+  if (has_rest_ratios_) return deviation(now.length_error) > deviation(before.length_error);
   return now.shape.mean < before.shape.mean;
 }
 

@@ -63,8 +63,7 @@ class AttemptMaker {
   /// The vertices with all copies of those at junctions.
   std::vector<int> with_copies(const std::vector<int>& vertices) const;
 
-  /// Has the attempt worse faces on average than the input? Polygons are judged by the lengths of their
-  /// edges.
+  /// Has the attempt worse faces on average than the input? With rest ratios its edges tell.
   bool has_worse_faces(const Attempt& attempt) const;
 
   /// One run, not judged yet.
@@ -91,6 +90,7 @@ class AttemptMaker {
   PreservationOptions preservation_;
   const Quality input_quality_;
   double least_angle_ = 0;
+  bool has_rest_ratios_ = false;
   bool is_mask_ = false;
   Mat3X smoothed_;  // of a mask: the points that attempts start from, by the caller's id
   int steps_ = 0;   // sharp edges of a mask

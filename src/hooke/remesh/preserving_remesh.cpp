@@ -232,14 +232,14 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best);
   }
 
-  /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is; then
-  /// about faces with small angles, which narrow parts have left, while that halves their number. Keeps the
-  /// best lengths. Ends where it would take too many faces, or has made too many without halving what is
-  /// wrong.
+  /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is, or until
+  /// they had too many faces since one that halved what is wrong; then about faces with small angles, which
+  /// narrow parts have left, while each attempt halves their number. Keeps the best lengths. Ends where it
+  /// would take too many faces, or after some rounds.
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
     constexpr double max_faces_in_vain = 1e4;
     const double faces = best.result.adaptation.target_faces;
-    const double max_faces = std::max(std::clamp(25 * faces, 3e3, 5e4), 1.5 * faces);
+    const double max_faces = std::max(std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces);
     const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
     const auto covering = [&](const std::vector<double>& lengths) {
@@ -249,6 +249,7 @@ class PreservingRemesh {
     std::vector<double> lengths = asked_, longest(asked_.size(), std::numeric_limits<double>::infinity());
     std::vector<double> best_lengths = maker_.lengths;
     double faces_in_vain = 0;
+    std::size_t flaws_to_halve = best.flaws();
     Attempt last = best;
     for (int round = 0; round < max_rounds && !(best.keeps_promises() && small_angles(best) == 0); ++round) {
       for (int v : input_vertices_at_flaws(maker_, last)) longest[v] = lengths[v] / 2;
@@ -271,12 +272,13 @@ class PreservingRemesh {
       next.result.shortened = count_shortened();
       const bool kept = best.keeps_promises();
       const bool halves = kept ? next.keeps_promises() && 2 * small_angles(next) <= small_angles(best)
-                               : 2 * next.flaws() <= best.flaws();
-      if (halves || (!kept && next.is_better_than(best))) {
+                               : 2 * next.flaws() <= flaws_to_halve;
+      if (halves || (!kept && next.flaws() < best.flaws())) {
         best = next;
         best_lengths = lengths;
       }
-      faces_in_vain += halves ? 0 : static_cast<double>(next.mesh.n_faces());
+      faces_in_vain = halves ? 0 : faces_in_vain + static_cast<double>(next.mesh.n_faces());
+      if (halves) flaws_to_halve = next.flaws();
       last = std::move(next);
       if (!halves && (kept || faces_in_vain > max_faces_in_vain)) break;
     }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "hooke/core/error.h"
 #include "hooke/core/stopwatch.h"
+#include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/guards.h"
@@ -58,10 +61,14 @@ void set_residual_forces(TriMesh& mesh, const MemoryOrder& memory_order, double 
 }
 
 bool keep_near_regular(Workspace& work, const NearRegularOptions& options, ShapeLimits& limits) {
-  const bool near_regular = min_angle(*work.start, work.adjacency->faces) >= options.angle &&
-                            spread_of_edges(work) <= options.deviation;
+  const double deviation = work.has_rest_ratios() ? options.deviation_of_squares : options.deviation;
+  const bool near_regular =
+      min_angle(*work.start, work.adjacency->faces) >= options.angle && spread_of_edges(work) <= deviation;
   if (near_regular || !work.has_varying_lengths())
     limits.cotangent = cotangent_limit(work.vertices.positions.points, work.adjacency->faces);
+  if (work.has_rest_ratios())
+    limits.cotangent =
+        std::max(limits.cotangent, 1 / std::tan(options.angle_of_rhombi * std::numbers::pi / 180));
   if (near_regular) {
     work.vertices.constraints.rest_position = *work.start;
     for (double length : work.vertices.vertex_length)
@@ -95,7 +102,7 @@ class OuterIterations {
       ++outer_;
       iterate();
     }
-    if (!interrupted() && options_.chosen.polish_angles)
+    if (!interrupted() && polishes())
       raise_angles();
     else if (outer_ == 0)
       project_to_input();  // no iteration has done so
@@ -199,8 +206,16 @@ class OuterIterations {
 
   /// Does the next iteration or the angle optimisation continue on the same field, without projection?
   bool goes_on() const {
-    return options_.chosen.polish_angles &&
+    return options_.chosen.polish_angles && !work_.has_rest_ratios() &&
            (free_of_guards_ || options_.chosen.connectivity == ConnectivityMode::adapt);
+  }
+
+  /// With rest ratios only if angles are small: larger ones of two triangles make a rhombus of a square.
+  bool polishes() const {
+    constexpr double small_angle = 20;
+    const bool has_squares = work_.has_rest_ratios() && min_angle(work_.vertices.positions.points,
+                                                                  work_.adjacency->faces) >= small_angle;
+    return options_.chosen.polish_angles && !has_squares;
   }
 
   void iterate() {

@@ -20,8 +20,11 @@ namespace hooke {
 /// are all good could lose angles for more equal edges. A mesh is near-regular if it is within both `angle`
 /// and `deviation`.
 struct NearRegularOptions {
-  double angle = 35;        // degrees; minimum angle of a near-regular mesh
-  double deviation = .25;   // maximum standard deviation of l / L_e, over its mean
+  double angle = 35;                  // degrees; minimum angle of a near-regular mesh
+  double deviation = .25;             // maximum standard deviation of l / L_e, over its mean
+  double deviation_of_squares = .03;  // the same with rest ratios: about rhombi with a corner of 83 degrees
+  double angle_of_rhombi =
+      36;                   // degrees; with rest ratios angles above may get less, as two of a square are 45
   double max_travel = .19;  // maximum travel of a vertex of a near-regular mesh, in its target lengths
 };
 

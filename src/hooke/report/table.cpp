@@ -94,7 +94,11 @@ std::string text_histogram(const Histogram& histogram) {
 
 std::string quality_table(const Quality& mesh) {
   std::string out;
-  for (const Row& row : rows_of(mesh)) out += fmt::format("{:<24}{:>20}\n", row.name, row.value);
+  const auto add = [&](const std::vector<Row>& rows) {
+    for (const Row& row : rows) out += fmt::format("{:<24}{:>20}\n", row.name, row.value);
+  };
+  add(rows_of(mesh));
+  if (mesh.polygon_angles) add(rows_of(mesh.polygon_angles));
   return out;
 }
 

@@ -8,8 +8,10 @@ namespace hooke {
 
 /// Target lengths of the springs, in the unit of the points.
 struct TargetLengths {
-  UniformVector edge;  // mean of the ends, which always satisfies the triangle inequality
-  UniformVector face;  // mean of the three edges
+  /// Where they are not given for single edges, the mean of the ends, which always satisfies the triangle
+  /// inequality, times the rest ratio if there is one.
+  UniformVector edge;
+  UniformVector face;  // mean of the three edges; with rest ratios see at_rest_ratios()
 };
 
 /// L* = sqrt(4 A / (sqrt 3 F)): the edge length of F equilateral triangles that cover the area A.
