@@ -280,6 +280,9 @@ class Preserve(CommandTest):
             angles = [report[when]["polygon_angles"] for when in ("before", "after")]
             self.assertGreater(min(angles[0]["min"], angles[1]["min"]), 0)
             self.assertLess(max(angles[0]["max"], angles[1]["max"]), 180)
+            output = self.get("out.obj")
+            self.run_command("quads.obj", "-o", "repaired.obj", "-q", "--repair")
+            self.assertEqual(self.get("repaired.obj"), output)
             report = self.kept("quads.obj", "-L", "3x")[2]
             told = [w["message"] for w in report["warnings"] if w["code"] == "polygons_concave"]
             after, before = concave("out.obj"), concave("quads.obj")

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
+
+#include "hooke/measure/polygon_angles.h"
 
 namespace hooke {
 namespace {
