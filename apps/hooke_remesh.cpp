@@ -30,6 +30,7 @@
 #include "result_warnings.h"
 #include "signals.h"
 #include "stages.h"
+#include "target_lengths.h"
 
 namespace hooke::app {
 namespace {
@@ -117,10 +118,13 @@ int run(Settings s) {
                 (obstacle.empty() ? record.input.path + " is " + name_of(loaded.format) : obstacle));
   require_memory(s, loaded.mesh.n_vertices(), record);
   if (!s.check) timed(&stopwatch, "seams", [&] { keep_seams(s, loaded, record); });
-  keep_polygons(s, loaded);
-  Original original;
   progress.enter("measure");
-  measure_input(s, loaded.mesh, loaded.memory_order, loaded.origin, original, record, stopwatch);
+  timed(&stopwatch, "sizing", [&] {
+    set_target_lengths(s, loaded.mesh, loaded.memory_order, loaded.origin, record);
+    keep_polygons(s, loaded);
+  });
+  Original original;
+  measure_input(s, loaded.mesh, loaded.memory_order, original, record, stopwatch);
   if (keeps_polygons(s, loaded))
     record.before.polygon_angles = measure_polygon_angles(vertex_points(loaded.mesh), loaded.polygons);
 

@@ -17,6 +17,7 @@
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/polygon_edges.h"
+#include "hooke/springs/sizing.h"
 #include "result_files.h"
 
 namespace hooke::app {
@@ -143,8 +144,14 @@ bool keeps_polygons(const Settings& s, const LoadedMesh& loaded) {
 
 void keep_polygons(const Settings& s, LoadedMesh& loaded) {
   if (!keeps_polygons(s, loaded) || !s.edge_lengths.empty() || s.paper) return;
-  set_edge_values(loaded.mesh, rest_ratio_property, loaded.memory_order.order, *loaded.memory_order.adjacency,
-                  rest_ratios(loaded.polygons, loaded.memory_order));
+  const Permutation& order = loaded.memory_order.order;
+  const Adjacency& c = *loaded.memory_order.adjacency;
+  const bool are_most = 4 * count_quadrilaterals(loaded.polygons) >= c.faces.size();
+  if (!are_most) return;
+  const Mat3X points = order.gather(vertex_points(loaded.mesh));
+  set_edge_values(
+      loaded.mesh, rest_ratio_property, order, c,
+      rest_ratios(loaded.polygons, loaded.memory_order, points, target_lengths_of(loaded.mesh, order, c)));
 }
 
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {

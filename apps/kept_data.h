@@ -18,8 +18,9 @@ void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
 /// Are the faces of the result those of the file's polygons, which no repair has changed?
 bool keeps_polygons(const Settings& settings, const LoadedMesh& loaded);
 
-/// Where polygons are kept, lets springs make squares of quadrilaterals, not equilateral triangles of their
-/// halves, whatever is written; not where the lengths of edges are given, or with --paper.
+/// Where polygons are kept and most triangles are halves of quadrilaterals, lets springs make rectangles of
+/// those, not equilateral triangles, whatever is written; not where the lengths of edges are given, or with
+/// --paper. Pre-condition: set_target_lengths().
 void keep_polygons(const Settings& settings, LoadedMesh& loaded);
 
 /// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal

@@ -13,6 +13,7 @@
 #include "result_files.h"
 #include "result_warnings.h"
 #include "stages.h"
+#include "target_lengths.h"
 
 namespace hooke::app {
 namespace {
@@ -49,7 +50,9 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   if (s.repair.keep_junctions) record.parameters["keep"] = "non-manifold";
   Stopwatch stopwatch;
   Original original;
-  measure_input(s, mesh.mesh, mesh.memory_order, mesh.origin, original, record, stopwatch);
+  timed(&stopwatch, "sizing",
+        [&] { set_target_lengths(s, mesh.mesh, mesh.memory_order, mesh.origin, record); });
+  measure_input(s, mesh.mesh, mesh.memory_order, original, record, stopwatch);
   if (!s.check) {
     remesh_and_measure(s, mesh.mesh, mesh.memory_order, original, record, observer, stopwatch);
     record.output = {result_name, "", "", hash_of_faces(mesh.mesh)};

@@ -182,15 +182,14 @@ std::size_t count_coincident(const Mat3X& points, const Adjacency& c, const std:
 
 }  // namespace
 
-void measure_input(Settings& s, TriMesh& mesh, const MemoryOrder& memory_order, const MeshOrigin& origin,
-                   Original& original, RunRecord& record, Stopwatch& stopwatch) {
+void measure_input(Settings& s, const TriMesh& mesh, const MemoryOrder& memory_order, Original& original,
+                   RunRecord& record, Stopwatch& stopwatch) {
   Mat3X points = memory_order.order.gather(vertex_points(mesh));
   original.joined = joined_vertices(mesh, memory_order.order);
   if (!s.check)
     warn_of_coincident_boundary(s, count_coincident(points, *memory_order.adjacency, original.joined),
                                 record);
   timed(&stopwatch, "boundary", [&] { warn_of_near_boundary(points, *memory_order.adjacency, record); });
-  timed(&stopwatch, "sizing", [&] { set_target_lengths(s, mesh, memory_order, origin, points, record); });
   set_min_length(s, mesh, memory_order, points, record);
   const UniformVector targets = edge_targets(mesh, memory_order);
   record.paper_before =

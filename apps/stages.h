@@ -26,11 +26,10 @@ nlohmann::ordered_json parameters_of(const Settings& settings);
 /// vertices that a repair has dropped.
 void set_fixed_vertices(Settings& settings, const MeshOrigin& origin, int vertices);
 
-/// Sets the target lengths of the input, measures it, completes the settings by what follows from its size,
-/// and warns of its boundaries and orientation. `origin`: of a repaired mesh. Throws Error for lengths out of
-/// range.
-void measure_input(Settings& settings, TriMesh& mesh, const MemoryOrder& memory_order,
-                   const MeshOrigin& origin, Original& original, RunRecord& record, Stopwatch& stopwatch);
+/// Measures the input, completes the settings by what follows from its size, and warns of its boundaries and
+/// orientation. Throws Error for --min-length out of range. Pre-condition: set_target_lengths().
+void measure_input(Settings& settings, const TriMesh& mesh, const MemoryOrder& memory_order,
+                   Original& original, RunRecord& record, Stopwatch& stopwatch);
 
 /// Remeshes the mesh and measures the result; `memory_order` becomes the result's, `original` is completed.
 /// Throws NumericalError for a result that is not finite, ResultError for one that does not keep what it must

@@ -167,8 +167,9 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
 }
 
 void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& memory_order,
-                        const MeshOrigin& origin, const Mat3X& points, RunRecord& record) {
+                        const MeshOrigin& origin, RunRecord& record) {
   const Adjacency& adjacency = *memory_order.adjacency;
+  const Mat3X points = memory_order.order.gather(vertex_points(mesh));
   const Sizing sizing{
       read_sizing(s.sizing, s.input, points, memory_order, s.remesh.constraints.features, origin),
       s.remesh.gradation};

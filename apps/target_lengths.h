@@ -22,10 +22,10 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
                                 const CreaseOptions& features = {}, const MeshOrigin& origin = {});
 
 /// Sets the target lengths of the vertices (v:target_length) and records them in the parameters of the run.
-/// `points` are in memory order. Throws Error if the lengths are unreasonable for the size of the mesh, and
+/// `origin`: as of read_sizing(). Throws Error if the lengths are unreasonable for the size of the mesh, and
 /// what read_sizing() throws.
 void set_target_lengths(const Settings& settings, TriMesh& mesh, const MemoryOrder& memory_order,
-                        const MeshOrigin& origin, const Mat3X& points, RunRecord& record);
+                        const MeshOrigin& origin, RunRecord& record);
 
 /// Sets how short edges may be in narrow regions, --min-length, in the settings and in the parameters of the
 /// run, and if memory is limited the number of faces that takes. Throws Error if it is no shorter than the

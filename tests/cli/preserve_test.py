@@ -267,15 +267,16 @@ class Preserve(CommandTest):
         n, told_at_all = 12, 0
         quads = [(a + 1, a + 2, a + n + 3, a + n + 2) for j in range(n) for a in range(j * (n + 1), j * (n + 1) + n)]
 
-        def concave(name):
+        def concave(name, count):
             x = [tuple(map(float, line.split()[1:4])) for line in self.get(name).decode().splitlines() if line.startswith("v ")]
             turn = lambda a, b, c: (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-            return sum(any(turn(*(x[q[(k + i) % 4] - 1] for i in range(3))) < 0 for k in range(4)) for q in quads)
+            return sum(any(turn(*(x[q[(k + i) % 4] - 1] for i in range(3))) < 0 for k in range(4)) for q in quads[:count])
 
         for seed in range(6):
             shift = random.Random(seed).uniform
             points = [(i + shift(-.3, .3), 4 * (j + shift(-.3, .3)), 0) for j in range(n + 1) for i in range(n + 1)]
-            self.put("quads.obj", "".join(["v %r %r %r\n" % p for p in points] + ["f %d %d %d %d\n" % q for q in quads]).encode())
+            vertices = ["v %r %r %r\n" % p for p in points]
+            self.put("quads.obj", "".join(vertices + ["f %d %d %d %d\n" % q for q in quads]).encode())
             report = self.kept("quads.obj")[2]
             angles = [report[when]["polygon_angles"] for when in ("before", "after")]
             self.assertGreater(min(angles[0]["min"], angles[1]["min"]), 0)
@@ -283,14 +284,36 @@ class Preserve(CommandTest):
             output = self.get("out.obj")
             self.run_command("quads.obj", "-o", "repaired.obj", "-q", "--repair")
             self.assertEqual(self.get("repaired.obj"), output)
-            report = self.kept("quads.obj", "-L", "3x")[2]
+            few = n * n // 2 - 1
+            triangles = [t for a, b, c, d in quads[few:] for t in ((a, b, c), (a, c, d))]
+            faces = ["f " + " ".join(map(str, face)) + "\n" for face in quads[:few] + triangles]
+            self.put("few.obj", "".join(vertices + faces).encode())
+            report = self.kept("few.obj", "-L", "3x")[2]
             told = [w["message"] for w in report["warnings"] if w["code"] == "polygons_concave"]
-            after, before = concave("out.obj"), concave("quads.obj")
+            after, before = concave("out.obj", few), concave("few.obj", few)
             self.assertEqual(len(told), int(after > before), (before, after))
             if told:
                 self.assertIn("%d polygons are concave, %d before" % (after, before), told[0])
             told_at_all += len(told)
         self.assertGreater(told_at_all, 0)
+
+    def test_few_quadrilaterals_are_moved_as_the_triangles_they_are(self):
+        n, shift = 12, random.Random(4).uniform
+        points = [(i + j / 2 + shift(-.2, .2), j + shift(-.2, .2), 0) for j in range(n + 1) for i in range(n + 1)]
+        quads = [(a + 1, a + 2, a + n + 3, a + n + 2) for j in range(n) for a in range(j * (n + 1), j * (n + 1) + n)]
+
+        def moved(count):
+            triangles = [triangle for a, b, c, d in quads[count:] for triangle in ((a, b, d), (b, c, d))]
+            lines = ["v %r %r %r\n" % p for p in points]
+            lines += ["f " + " ".join(map(str, face)) + "\n" for face in quads[:count] + triangles]
+            self.put("some.obj", "".join(lines).encode())
+            self.run_command("some.obj", "-o", "out.obj", "-q")
+            return [float(x) for line in self.get("out.obj").splitlines() if line.startswith(b"v ") for x in line.split()[1:]]
+
+        difference = lambda x, y: max(abs(a - b) for a, b in zip(x, y))
+        triangles = moved(0)
+        self.assertLess(difference(moved(n * n // 2 - 1), triangles), 1e-6)
+        self.assertGreater(difference(moved(n * n // 2), triangles), .1)
 
     def test_an_input_that_changes_meanwhile_is_refused(self):
         data = off_file("OFF", *irregular_torus(240, 100))

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "hooke/core/error.h"
@@ -42,8 +45,8 @@ Polygons regular_polygon(int n) {
   return p;
 }
 
-/// n x n squares of side 1, their inner corners sheared and moved at random.
-Polygons sheared_sheet(int n, double shear, double noise) {
+/// n x n rectangles of this size, their inner corners sheared and moved at random, by shares of the size.
+Polygons sheared_sheet(int n, double shear, double noise, double width = 1) {
   Polygons p{Mat3X(3, (n + 1) * (n + 1))};
   std::mt19937 random(3);
   std::uniform_real_distribution<double> move(-noise, noise);
@@ -53,31 +56,45 @@ Polygons sheared_sheet(int n, double shear, double noise) {
       const bool is_inner = i > 0 && j > 0 && i < n && j < n;
       const double bulge = shear * std::sin(std::numbers::pi * i / n) * std::sin(std::numbers::pi * j / n);
       p.points.col(id(i, j)) =
-          Vec3(i + bulge + (is_inner ? move(random) : 0), j + (is_inner ? move(random) : 0), 0);
+          Vec3(width * (i + bulge + (is_inner ? move(random) : 0)), j + (is_inner ? move(random) : 0), 0);
     }
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) p.add({id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
   return p;
 }
 
-/// The ratios of all edges, by the lengths of the edges in a mesh of regular polygons.
-void expect_ratios_of_lengths(const Polygons& p) {
-  const MemoryOrder memory_order = find_memory_order(static_cast<int>(p.points.cols()), p.triangles);
-  const std::vector<double> ratios = rest_ratios(p.corners, memory_order);
+/// The ratios of a mesh of polygons, by edge of the adjacency.
+std::vector<double> ratios_of(const Polygons& p, const MemoryOrder& memory_order) {
+  const Adjacency& c = *memory_order.adjacency;
+  const TargetLengths targets = spread_target_lengths(c, std::vector<double>(c.vertex_count, 3.));
+  return rest_ratios(p.corners, memory_order, memory_order.order.gather(p.points), targets);
+}
+
+/// The lengths of the edges over that of as many equilateral triangles with the same area.
+std::vector<double> relative_lengths(const Polygons& p, const MemoryOrder& memory_order) {
   const Adjacency& c = *memory_order.adjacency;
   const Mat3X points = memory_order.order.gather(p.points);
   double area = 0;
   for (const Triangle& t : c.faces) area += face_shape(points, t).area;
-  const double length = natural_length(area, c.faces.size());
-  for (std::size_t e = 0; e < ratios.size(); ++e) {
-    const auto [v, w] = c.edges[e];
-    EXPECT_NEAR(ratios[e], (points.col(v) - points.col(w)).norm() / length, 1e-12);
-  }
+  std::vector<double> lengths;
+  for (const auto& [v, w] : c.edges)
+    lengths.push_back((points.col(v) - points.col(w)).norm() / natural_length(area, c.faces.size()));
+  return lengths;
 }
 
-TEST(RestRatios, AreThoseOfEquilateralTrianglesAndSquaresThatCoverTheArea) {
+void expect_ratios_of_lengths(const Polygons& p) {
+  const MemoryOrder memory_order = find_memory_order(static_cast<int>(p.points.cols()), p.triangles);
+  const std::vector<double> ratios = ratios_of(p, memory_order), lengths = relative_lengths(p, memory_order);
+  for (std::size_t e = 0; e < ratios.size(); ++e) EXPECT_NEAR(ratios[e], lengths[e], 1e-12);
+}
+
+TEST(RestRatios, AreTheLengthsOfRectanglesAndEquilateralTrianglesWhateverTheTargetLength) {
   expect_ratios_of_lengths(regular_polygon(3));
   expect_ratios_of_lengths(sheared_sheet(3, 0, 0));
+  expect_ratios_of_lengths(sheared_sheet(3, 0, 0, 7));
+  Polygons graded = sheared_sheet(9, 0, 0);
+  graded.points = (.3 * graded.points.array()).exp();
+  expect_ratios_of_lengths(graded);
   Polygons house = regular_polygon(4);
   house.points.conservativeResize(3, 5);
   house.points.col(4) = Vec3(1, 1, 0) / 2 + Vec3(1, 1, 0).normalized() * std::sqrt(1.5);
@@ -85,16 +102,45 @@ TEST(RestRatios, AreThoseOfEquilateralTrianglesAndSquaresThatCoverTheArea) {
   expect_ratios_of_lengths(house);
 }
 
-TEST(RestRatios, AreEqualInOtherPolygons) {
-  for (const int n : {5, 7}) {
-    const Polygons p = regular_polygon(n);
-    for (double ratio : rest_ratios(p.corners, find_memory_order(n, p.triangles))) EXPECT_DOUBLE_EQ(ratio, 1);
+TEST(RestRatios, AreEvenWhereLengthsAreNoisy) {
+  const Polygons noisy = sheared_sheet(20, 0, .2, 3), even = sheared_sheet(20, 0, 0, 3);
+  const MemoryOrder memory_order = find_memory_order(static_cast<int>(noisy.points.cols()), noisy.triangles);
+  const std::vector<double> ratios = ratios_of(noisy, memory_order),
+                            lengths = relative_lengths(noisy, memory_order),
+                            wanted = ratios_of(even, memory_order);
+  double error = 0, noise = 0;
+  for (std::size_t e = 0; e < ratios.size(); ++e) {
+    error += std::pow(ratios[e] / wanted[e] - 1, 2);
+    noise += std::pow(lengths[e] / wanted[e] - 1, 2);
   }
+  EXPECT_LT(std::sqrt(error), .4 * std::sqrt(noise));
+}
+
+TEST(RestRatios, ArePositiveForEdgesWithoutLength) {
+  Polygons p = sheared_sheet(4, 0, 0);
+  for (int j = 0; j <= 4; ++j) p.points.col(j) = Vec3(-1, 2, 0);  // a pole
+  const MemoryOrder memory_order = find_memory_order(static_cast<int>(p.points.cols()), p.triangles);
+  for (double ratio : ratios_of(p, memory_order)) EXPECT_GT(ratio, 1e-3);
 }
 
 TEST(RestRatios, MustBeOfThePolygonsOfTheMesh) {
-  const Polygons p = regular_polygon(5);
-  EXPECT_THROW(rest_ratios(p.corners, find_memory_order(4, {{0, 1, 2}, {0, 2, 3}})), Error);
+  const Polygons pentagon = regular_polygon(5), square = regular_polygon(4), triangle = regular_polygon(3);
+  const MemoryOrder two_triangles = find_memory_order(4, square.triangles);
+  EXPECT_THROW(ratios_of({square.points, pentagon.corners}, two_triangles), Error);
+  EXPECT_THROW(ratios_of({square.points, triangle.corners}, two_triangles), Error);
+  const Polygons apart = sheared_sheet(2, 0, 0);
+  Polygons crossed = apart;
+  std::swap(crossed.triangles[1], crossed.triangles[6]);
+  EXPECT_THROW(ratios_of(crossed, find_memory_order(9, crossed.triangles)), Error);
+}
+
+TEST(CountQuadrilaterals, CountsThoseWithFourCorners) {
+  Polygons p = regular_polygon(5);
+  EXPECT_EQ(count_quadrilaterals(p.corners), 0U);
+  p.add({0, 1, 2, 3});
+  p.add({0, 1, 2});
+  EXPECT_EQ(count_quadrilaterals(p.corners), 1U);
+  EXPECT_EQ(count_quadrilaterals({{0}, {}}), 0U);
 }
 
 /// The mean deviation of the corners of quadrilaterals from 90 degrees.
@@ -109,31 +155,46 @@ double mean_deviation(const Polygons& p, const Mat3X& points) {
   return sum / static_cast<double>(p.corners.items.size());
 }
 
-TEST(RestRatios, MakeSquaresOfQuadrilaterals) {
-  const Polygons p = sheared_sheet(12, 3, .2);
-  TriMesh mesh = build_mesh(p.points, p.triangles);
-  const MemoryOrder memory_order = find_memory_order(mesh);
-  set_target_lengths(mesh, memory_order);
-  TriMesh as_triangles = mesh;
-  set_edge_values(mesh, rest_ratio_property, memory_order.order, *memory_order.adjacency,
-                  rest_ratios(p.corners, memory_order));
-  EXPECT_EQ(preserving_remesh(mesh, memory_order, {}).measures->preservation.flaws(), 0);
-  preserving_remesh(as_triangles, memory_order, {});
-  const double before = mean_deviation(p, p.points), squares = mean_deviation(p, vertex_points(mesh));
-  EXPECT_LT(squares, .6 * before);
-  EXPECT_LT(squares, .6 * mean_deviation(p, vertex_points(as_triangles)));
+/// A mesh with target lengths, its quadrilaterals with springs of their own.
+struct SprungPolygons {
+  TriMesh mesh;
+  MemoryOrder memory_order;
+
+  explicit SprungPolygons(const Polygons& p, bool has_ratios = true)
+      : mesh(build_mesh(p.points, p.triangles)), memory_order(find_memory_order(mesh)) {
+    set_target_lengths(mesh, memory_order);
+    if (has_ratios)
+      set_edge_values(mesh, rest_ratio_property, memory_order.order, *memory_order.adjacency,
+                      ratios_of(p, memory_order));
+  }
+};
+
+TEST(RestRatios, MakeRectanglesOfQuadrilaterals) {
+  for (const double width : {1., 4.}) {
+    const Polygons p = sheared_sheet(16, width == 1 ? 3 : 0, .2, width);
+    SprungPolygons rectangles(p), triangles(p, false);
+    EXPECT_EQ(preserving_remesh(rectangles.mesh, rectangles.memory_order, {}).measures->preservation.flaws(),
+              0);
+    preserving_remesh(triangles.mesh, triangles.memory_order, {});
+    const double after = mean_deviation(p, vertex_points(rectangles.mesh));
+    EXPECT_LT(after, .75 * mean_deviation(p, p.points));
+    EXPECT_LT(after, .75 * mean_deviation(p, vertex_points(triangles.mesh)));
+  }
+}
+
+TEST(RestRatios, LeaveRectanglesAsTheyAre) {
+  Polygons graded = sheared_sheet(12, 0, 0);
+  graded.points = (.3 * graded.points.array()).exp();
+  SprungPolygons sprung(graded);
+  preserving_remesh(sprung.mesh, sprung.memory_order, {});
+  EXPECT_LT((vertex_points(sprung.mesh) - graded.points).colwise().norm().maxCoeff(), 1e-6);
 }
 
 TEST(RestRatios, AreForFixedFacesOnly) {
-  const Polygons p = sheared_sheet(3, 0, .2);
-  TriMesh mesh = build_mesh(p.points, p.triangles);
-  const MemoryOrder memory_order = find_memory_order(mesh);
-  set_target_lengths(mesh, memory_order);
-  set_edge_values(mesh, rest_ratio_property, memory_order.order, *memory_order.adjacency,
-                  rest_ratios(p.corners, memory_order));
+  SprungPolygons sprung(sheared_sheet(3, 0, .2));
   RemeshOptions options;
   options.connectivity = ConnectivityMode::flip;
-  EXPECT_THROW(preserving_remesh(mesh, memory_order, options), Error);
+  EXPECT_THROW(preserving_remesh(sprung.mesh, sprung.memory_order, options), Error);
 }
 
 }  // namespace

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <set>
+#include <vector>
 
 #include "hooke/core/error.h"
 #include "hooke/mesh/adjacency.h"
@@ -171,6 +175,27 @@ TEST(VertexLengths, FollowTheLeastRadiusOfCurvature) {
   for (double l : curvature_lengths(t.points, c, 5, 100))
     EXPECT_EQ(l, 10);  // a smaller radius does not count
   for (double l : curvature_lengths(t.points, c, .3, .1)) EXPECT_EQ(l, .1);
+}
+
+TEST(AreaOfSides, IsThatOfTheTriangleAndZeroWithoutOne) {
+  EXPECT_DOUBLE_EQ(area_of_sides(3, 4, 5), 6);
+  EXPECT_DOUBLE_EQ(area_of_sides(5, 3, 4), 6);
+  EXPECT_EQ(area_of_sides(1, 2, 4), 0);
+  EXPECT_EQ(area_of_sides(0, 1, 1), 0);
+}
+
+TEST(LeastRestAngle, IsThatOfTheSlimmestTriangleOfRestLengths) {
+  const Adjacency c = make_adjacency(4, {{0, 1, 2}, {0, 2, 3}});
+  const auto angle_with = [&](double diagonal, double side) {
+    std::vector<double> lengths(c.edges.size(), side);
+    for (std::size_t e = 0; e < lengths.size(); ++e)
+      if (!c.is_boundary_edge(static_cast<int>(e))) lengths[e] = diagonal;
+    return least_rest_angle(c, from_edge_lengths(c, lengths));
+  };
+  EXPECT_NEAR(angle_with(2, 2), 60, 1e-9);
+  EXPECT_NEAR(angle_with(std::numbers::sqrt2, 1), 45, 1e-9);
+  EXPECT_NEAR(angle_with(1, 2), 2 * std::asin(.25) * 180 / std::numbers::pi, 1e-9);
+  EXPECT_EQ(angle_with(3, 1), 0);
 }
 
 }  // namespace hooke::target_lengths_test

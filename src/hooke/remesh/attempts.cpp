@@ -16,6 +16,7 @@
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/run_options.h"
 #include "hooke/springs/sizing.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 namespace {
@@ -64,13 +65,15 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   if (is_mask_) smooth_steps();
   constexpr double rounding = 1e-9;
   const bool must_unfold = input_quality_.folded_edges > 0;
+  const TargetLengths targets = target_lengths_of(mesh, memory_order.order, input_.adjacency);
   OpenMesh::EPropHandleT<double> ratios;
   has_rest_ratios_ = mesh.get_property_handle(ratios, rest_ratio_property);
   const bool has_one_length =
-      has_rest_ratios_ ? UniformVector::are_equal(lengths)
-                       : !target_lengths_of(mesh, memory_order.order, input_.adjacency).edge.is_varying();
+      has_rest_ratios_ ? UniformVector::are_equal(lengths) : !targets.edge.is_varying();
   if (!must_unfold && has_one_length) least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
-  if (has_rest_ratios_) least_angle_ = std::min(least_angle_, NearRegularOptions().angle_of_rhombi);
+  if (has_rest_ratios_)
+    least_angle_ = std::min(
+        least_angle_, NearRegularOptions().share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
   preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
   preservation_.keeps_facets = preservation_.faceted && !adapts();
 }

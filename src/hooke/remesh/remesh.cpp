@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "hooke/core/error.h"
@@ -20,6 +19,7 @@
 #include "hooke/remesh/run_options.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/sizing.h"
+#include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
@@ -68,7 +68,8 @@ bool keep_near_regular(Workspace& work, const NearRegularOptions& options, Shape
     limits.cotangent = cotangent_limit(work.vertices.positions.points, work.adjacency->faces);
   if (work.has_rest_ratios())
     limits.cotangent =
-        std::max(limits.cotangent, 1 / std::tan(options.angle_of_rhombi * std::numbers::pi / 180));
+        std::max(limits.cotangent,
+                 cotangent_of(options.share_of_rest_angle * least_rest_angle(*work.adjacency, work.targets)));
   if (near_regular) {
     work.vertices.constraints.rest_position = *work.start;
     for (double length : work.vertices.vertex_length)
@@ -206,17 +207,11 @@ class OuterIterations {
 
   /// Does the next iteration or the angle optimisation continue on the same field, without projection?
   bool goes_on() const {
-    return options_.chosen.polish_angles && !work_.has_rest_ratios() &&
-           (free_of_guards_ || options_.chosen.connectivity == ConnectivityMode::adapt);
+    return polishes() && (free_of_guards_ || options_.chosen.connectivity == ConnectivityMode::adapt);
   }
 
-  /// With rest ratios only if angles are small: larger ones of two triangles make a rhombus of a square.
-  bool polishes() const {
-    constexpr double small_angle = 20;
-    const bool has_squares = work_.has_rest_ratios() && min_angle(work_.vertices.positions.points,
-                                                                  work_.adjacency->faces) >= small_angle;
-    return options_.chosen.polish_angles && !has_squares;
-  }
+  /// Not with rest ratios: larger angles of two triangles make a rhombus of a square.
+  bool polishes() const { return options_.chosen.polish_angles && !work_.has_rest_ratios(); }
 
   void iterate() {
     const Stage stage(work_.stopwatch, "relax");

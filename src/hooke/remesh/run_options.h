@@ -23,8 +23,8 @@ struct NearRegularOptions {
   double angle = 35;                  // degrees; minimum angle of a near-regular mesh
   double deviation = .25;             // maximum standard deviation of l / L_e, over its mean
   double deviation_of_squares = .03;  // the same with rest ratios: about rhombi with a corner of 83 degrees
-  double angle_of_rhombi =
-      36;                   // degrees; with rest ratios angles above may get less, as two of a square are 45
+  double share_of_rest_angle =
+      .8;                   // with rest ratios angles above this share of their least rest angle may get less
   double max_travel = .19;  // maximum travel of a vertex of a near-regular mesh, in its target lengths
 };
 

@@ -1,19 +1,27 @@
-// Springs of triangulated quadrilaterals that are to be squares: the diagonal that cuts one into triangles is
-// longer than its sides, or springs would make a rhombus of each square.
+// Springs of quadrilaterals, which are cut into triangles and are to be rectangles: a diagonal is longer than
+// the sides, and opposite sides are as long as each other.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "hooke/core/lists.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 
-/// Rest lengths over target lengths of the edges of a mesh, by edge of the adjacency, for `e:rest_ratio`: q
-/// of most edges, q sqrt(2) of the diagonals of quadrilaterals. With q such squares, and equilateral
-/// triangles of all else, cover as much as equilateral triangles, as many as there are, of the target length:
-/// .93 for quadrilaterals alone. `polygons`: the vertex ids of each; their triangles are the faces of the
-/// mesh, in this order. Throws Error if those are not as many.
-std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& memory_order);
+/// Rest lengths over target lengths of the edges of a mesh, by edge of the adjacency, for `e:rest_ratio`.
+/// Quadrilaterals lie in strips, which cannot end within them, so that no motion of the vertices makes all
+/// sides equal. Each side keeps the length that those across the same strip have near it, and a diagonal is
+/// that of the rectangle; edges of other faces keep the length of those around them. The rest lengths cover
+/// as much as equilateral triangles of the target length, as many as there are: all are .93 of it in a mesh
+/// of equal squares. `polygons`: the vertex ids of each; their triangles are the faces of the mesh, in this
+/// order. The points are in memory order. Throws Error if the polygons are not those faces.
+std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& memory_order,
+                                const Mat3X& points, const TargetLengths& targets);
+
+/// How many have four corners.
+std::size_t count_quadrilaterals(const IntLists& polygons);
 
 }  // namespace hooke

@@ -1,7 +1,9 @@
 #include "hooke/springs/target_lengths.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "hooke/core/parallel.h"
 
@@ -74,14 +76,29 @@ TargetLengths at_rest_ratios(const Adjacency& c, const TargetLengths& targets,
   parallel_for(face.size(), length_block, [&](size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
       const auto& [i, j, k] = c.face_edges[f];
-      const double a = edge[i], b = edge[j], d = edge[k], half = (a + b + d) / 2;
-      const double area = std::sqrt(std::max(0., half * (half - a) * (half - b) * (half - d)));  // Heron
-      constexpr double least_share = .5;  // of the mean, for edges that make no triangle
-      face[f] =
-          std::max(4 / std::sqrt(3.) * area / std::max({a, b, d}), least_share * mean_of_three(a, b, d));
+      const double a = edge[i], b = edge[j], d = edge[k];
+      constexpr double least_share = .05;  // of the mean, for edges that make no triangle
+      face[f] = std::max(4 / std::sqrt(3.) * area_of_sides(a, b, d) / std::max({a, b, d}),
+                         least_share * mean_of_three(a, b, d));
     }
   });
   return {std::move(edge), std::move(face)};
+}
+
+double least_rest_angle(const Adjacency& c, const TargetLengths& targets) {
+  double greatest_cosine = 0;
+  for (const auto& [i, j, k] : c.face_edges) {
+    std::array<double, 3> sides{targets.edge[i], targets.edge[j], targets.edge[k]};
+    std::ranges::sort(sides);
+    const auto& [a, b, d] = sides;
+    greatest_cosine = std::max(greatest_cosine, (b * b + d * d - a * a) / (2 * b * d));
+  }
+  return std::acos(std::min(1., greatest_cosine)) * 180 / std::numbers::pi;
+}
+
+double area_of_sides(double a, double b, double c) {
+  const double half = (a + b + c) / 2;
+  return std::sqrt(std::max(0., half * (half - a) * (half - b) * (half - c)));
 }
 
 TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double>& vertex_length) {

@@ -33,6 +33,13 @@ TargetLengths from_edge_lengths(const Adjacency& adjacency, std::vector<double> 
 TargetLengths at_rest_ratios(const Adjacency& adjacency, const TargetLengths& targets,
                              const std::vector<double>& ratios);
 
+/// The least angle of the triangles with these edges, degrees; 0 where edges make none. Pre-condition: there
+/// are faces.
+double least_rest_angle(const Adjacency& adjacency, const TargetLengths& targets);
+
+/// The area of a triangle by its sides (Heron); 0 where they make none.
+double area_of_sides(double a, double b, double c);
+
 /// Target lengths of edges and faces from those of the vertices.
 TargetLengths spread_target_lengths(const Adjacency& adjacency, const std::vector<double>& vertex_length);
 
