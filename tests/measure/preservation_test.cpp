@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
@@ -26,10 +29,10 @@ struct Measured {
 };
 
 Preservation compare(const test::Triangles& before, const test::Triangles& after,
-                     const PreservationOptions& options = {}) {
+                     const PreservationOptions& options = {}, const std::vector<Edge>& creases = {},
+                     const std::vector<Edge>& creases_after = {}) {
   const Measured a(before), b(after);
-  const std::vector<Edge> none;
-  return measure_preservation({a.surface, a.quality, none}, {b.surface, b.quality, none},
+  return measure_preservation({a.surface, a.quality, creases}, {b.surface, b.quality, creases_after},
                               measure_deviation(a.surface, b.surface), options);
 }
 
@@ -133,6 +136,34 @@ TEST(Preservation, AFaceThatLosesItsAreaBreaksIt) {
   flat.points.col(a) = .5 * (t.points.col(b) + t.points.col(c));
   EXPECT_EQ(compare(t, flat).new_degenerate_faces, 1u);
   EXPECT_EQ(compare(flat, flat).new_degenerate_faces, 0u);
+}
+
+TEST(Preservation, EachLostCreaseIsNamed) {
+  const test::Triangles cube = test::cube();
+  const Adjacency c = make_adjacency(static_cast<int>(cube.points.cols()), cube.faces);
+  std::vector<Edge> creases, without_corner, at_corner;
+  for (int e : sharp_edges(cube.points, c, 40)) {
+    const bool is_there = std::ranges::count(c.edges[e], 0) > 0;
+    creases.push_back(c.edges[e]);
+    (is_there ? at_corner : without_corner).push_back(c.edges[e]);
+  }
+  ASSERT_EQ(at_corner.size(), 3u);
+  const double side = (cube.points.col(creases[0][0]) - cube.points.col(creases[0][1])).norm();
+  const Preservation kept = compare(cube, cube, {}, creases, creases);
+  EXPECT_TRUE(kept.holds());
+  EXPECT_TRUE(kept.lost_creases.empty());
+  const Preservation corner = compare(cube, cube, {}, creases, without_corner);
+  EXPECT_FALSE(corner.creases_kept);
+  EXPECT_FALSE(corner.holds());
+  EXPECT_EQ(corner.lost_creases, at_corner);
+  EXPECT_NEAR(corner.crease_loss, side, 1e-12);
+  const auto is_middle = [&](const Edge& e) {
+    return corner.place.isApprox((cube.points.col(e[0]) + cube.points.col(e[1])) / 2);
+  };
+  EXPECT_TRUE(std::ranges::any_of(at_corner, is_middle));
+  EXPECT_EQ(compare(cube, cube, {}, creases, {}).lost_creases, creases);
+  // One edge of a cube is within half a side of those it meets.
+  EXPECT_TRUE(compare(cube, cube, {}, creases, {creases.begin() + 1, creases.end()}).holds());
 }
 
 TEST(Preservation, AMaximumDistanceHoldsBetweenVerticesToo) {

@@ -89,7 +89,7 @@ struct CandidateOptions {
   double gain = 4;             // degrees squared; minimum decrease of the cost for a change to be kept
   double max_cost_rise = 500;  // degrees squared; maximum rise of the cost after the sweeps to go on
   int rings = 2;               // around the edge, within which vertices are relaxed
-  size_t max_vertices = 100;   // maximum number of relaxed vertices; edges with more are not tested
+  size_t max_vertices = 48;    // maximum number of relaxed vertices; edges with more are not tested
   int sweeps = 3;              // of Newton's method vertex by vertex, to relax the patch
   // Limits after a change, unless exceeded before; those of alignment and fold are those of all steps.
   double sagitta = .5;   // maximum of an edge, over its target length

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/self_intersection.h"
@@ -214,14 +215,19 @@ EdgeDistances edge_distances(const Mat3X& points, const std::vector<Edge>& edges
   return d;
 }
 
-/// Notes how far the farthest of these edges is from the others, and where it is if creases are lost.
+/// Notes how far the farthest of these edges is from the others, and where the farthest of the lost ones is.
 void note_crease_loss(const Mat3X& points, const std::vector<Edge>& edges,
-                      const std::vector<double>& distances, Preservation& p) {
-  const auto farthest = std::ranges::max_element(distances);
-  if (*farthest <= p.crease_loss) return;
-  p.crease_loss = *farthest;
-  if (p.creases_kept || p.excess > 1 || p.flipped_faces + p.new_crossings > 0) return;
-  const auto& [a, b] = edges[index_of(static_cast<int>(farthest - distances.begin()))];
+                      const std::vector<double>& distances, const std::vector<std::size_t>& lost,
+                      Preservation& p) {
+  const double before = p.crease_loss;
+  p.crease_loss = std::max(before, std::ranges::max(distances));
+  if (lost.empty()) return;
+  const bool is_first = std::exchange(p.creases_kept, false);
+  if (p.excess > 1 || p.flipped_faces + p.new_crossings > 0) return;
+  const std::size_t farthest =
+      *std::ranges::max_element(lost, {}, [&](std::size_t e) { return distances[e]; });
+  if (!is_first && distances[farthest] <= before) return;
+  const auto& [a, b] = edges[farthest];
   p.place = (points.col(a) + points.col(b)) / 2;
 }
 
@@ -230,19 +236,21 @@ void measure_creases(const CreasedSurface& reference, const CreasedSurface& resu
                      Preservation& p) {
   if (reference.creases.empty()) return;
   const Mat3X& from = reference.surface.points;
-  if (result.creases.empty()) {
-    p.creases_kept = false;
-    note_crease_loss(from, reference.creases,
-                     std::vector<double>(reference.creases.size(), reference.surface.extent.diagonal), p);
-    return;
-  }
   const Mat3X& X = result.surface.points;
-  const EdgeDistances d = edge_distances(from, reference.creases, X, result.creases);
+  EdgeDistances d{std::vector<double>(reference.creases.size(), reference.surface.extent.diagonal), {}};
+  if (!result.creases.empty()) d = edge_distances(from, reference.creases, X, result.creases);
+  std::vector<std::size_t> lost;
   for (std::size_t e = 0; e < d.distance.size(); ++e) {
-    const auto& [a, b] = result.creases[d.closest[e]];
-    p.creases_kept &= d.distance[e] <= std::max(least, max_crease_loss * (X.col(a) - X.col(b)).norm());
+    double limit = 0;
+    if (!result.creases.empty()) {
+      const auto& [a, b] = result.creases[d.closest[e]];
+      limit = std::max(least, max_crease_loss * (X.col(a) - X.col(b)).norm());
+    }
+    if (d.distance[e] <= limit) continue;
+    lost.push_back(e);
+    p.lost_creases.push_back(reference.creases[e]);
   }
-  note_crease_loss(from, reference.creases, d.distance, p);
+  note_crease_loss(from, reference.creases, d.distance, lost, p);
 }
 
 /// Compares all sharp edges, both ways, where the facets are meant: each lies on one of the other mesh that
@@ -258,14 +266,15 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
     EdgeDistances d{std::vector<double>(edges.size(), reference.extent.diagonal),
                     std::vector<std::size_t>(edges.size(), 0)};
     if (!others.empty()) d = edge_distances(from.points, edges, to.points, others);
+    std::vector<std::size_t> lost;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const double sagitta = others.empty() ? 0 : sagittas[is_reference ? e : d.closest[e]];
       const double limit = std::max(exact * reference.extent.diagonal, 2 * sagitta);
       if (d.distance[e] <= limit) continue;
-      p.creases_kept = false;
+      lost.push_back(e);
       for (int v : edges[e]) far.push_back({v, d.distance[e], limit});
     }
-    note_crease_loss(from.points, edges, d.distance, p);
+    note_crease_loss(from.points, edges, d.distance, lost, p);
   };
   compare(reference, angle, result, true, p.lost_vertices);
   compare(result, certain * angle, reference, false, p.far_vertices);

@@ -40,14 +40,15 @@ struct Preservation {
   double excess = 0;                     // the greatest distance of these vertices over its limit
   double distance = 0;                   // the distance there
   /// The vertex there; if no distance is beyond its limit, the centre of a face that is turned over or
-  /// crosses another, if there is one, else the middle of the crease edge that is lost by most.
+  /// crosses another, if there is one, else the middle of the lost crease edge that is farthest.
   Vec3 place = Vec3::Zero();
   std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
   std::size_t new_crossings = 0;         // new_crossings(), likewise
   std::size_t new_degenerate_faces = 0;  // likewise
   bool topology_kept = true;             // components, boundary loops, Euler number and junctions
-  double crease_loss = 0;    // greatest distance of the reference's creases from those of the result
-  bool creases_kept = true;  // within half an edge
+  double crease_loss = 0;          // greatest distance of the reference's creases from those of the result
+  bool creases_kept = true;        // within half an edge
+  std::vector<Edge> lost_creases;  // of the reference, those that are not; no sharp edges of facets
 
   /// Is everything kept?
   bool holds() const { return flaws() == 0; }

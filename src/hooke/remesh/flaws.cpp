@@ -83,7 +83,9 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
   for (std::size_t v = 0; v < is_wrong.size(); ++v)  // on the same side of the surface
     if (is_wrong[v])
       add_closest(surface.points.col(v), [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
-  if (!p.creases_kept || !p.within_max_distance) add_closest(p.place, [](int) { return true; });
+  for (const Edge& lost : p.lost_creases)
+    for (int v : lost) is_near[v] = 1;
+  if (!p.within_max_distance) add_closest(p.place, [](int) { return true; });
   std::vector<int> near;
   for (int v = 0; v < c.vertex_count; ++v)
     if (is_near[v]) near.push_back(v);
