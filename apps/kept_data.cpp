@@ -142,16 +142,18 @@ bool keeps_polygons(const Settings& s, const LoadedMesh& loaded) {
   return keeps_faces(s) && !loaded.polygons.items.empty() && !is_repaired(loaded);
 }
 
-void keep_polygons(const Settings& s, LoadedMesh& loaded) {
-  if (!keeps_polygons(s, loaded) || !s.edge_lengths.empty() || s.paper) return;
+bool keep_polygons(const Settings& s, LoadedMesh& loaded) {
+  if (!keeps_polygons(s, loaded) || !s.edge_lengths.empty() || s.paper) return false;
   const Permutation& order = loaded.memory_order.order;
   const Adjacency& c = *loaded.memory_order.adjacency;
-  const bool are_most = 4 * count_quadrilaterals(loaded.polygons) >= c.faces.size();
-  if (!are_most) return;
+  const auto are_most = [&](std::size_t triangles) { return 2 * triangles >= c.faces.size(); };
+  if (!are_most(c.faces.size() - count_with_corners(loaded.polygons, 3))) return false;
+  if (!are_most(2 * count_with_corners(loaded.polygons, 4))) return true;
   const Mat3X points = order.gather(vertex_points(loaded.mesh));
   set_edge_values(
       loaded.mesh, rest_ratio_property, order, c,
       rest_ratios(loaded.polygons, loaded.memory_order, points, target_lengths_of(loaded.mesh, order, c)));
+  return true;
 }
 
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {

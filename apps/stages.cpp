@@ -220,10 +220,11 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
   };
   record.result = timed(&stopwatch, "remesh", [&] {
     return in_the_name_of(name, [&] {
-      RemeshResult result =
-          s.paper ? paper_remesh(mesh, std::move(memory_order), s.paper_options, limited)
-                  : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation,
-                                      {&record.before, original.tree_order}, limited, &stopwatch);
+      RemeshResult result = s.paper
+                                ? paper_remesh(mesh, std::move(memory_order), s.paper_options, limited)
+                                : preserving_remesh(mesh, std::move(memory_order), s.remesh, s.preservation,
+                                                    {&record.before, original.tree_order, original.polygons},
+                                                    limited, &stopwatch);
       join_sheets(mesh);  // throws if they have come apart
       return result;
     });

@@ -1,6 +1,7 @@
 // The stages of a run between reading the mesh and writing the result: lengths, measures, remeshing.
 #pragma once
 
+#include "hooke/core/lists.h"
 #include "hooke/mesh/repair.h"
 #include "hooke/report/report.h"
 #include "options.h"
@@ -11,8 +12,9 @@ namespace hooke::app {
 struct Original {
   Mat3X points;  // in memory order
   MemoryOrder memory_order;
-  std::vector<int> joined;      // likewise, of the input, see mesh/junctions.h
-  std::vector<int> tree_order;  // order of the faces in its bounding volume tree
+  std::vector<int> joined;             // likewise, of the input, see mesh/junctions.h
+  std::vector<int> tree_order;         // order of the faces in its bounding volume tree
+  const IntLists* polygons = nullptr;  // of the file, if keep_polygons()
 };
 
 /// Whether the run moves vertices only.

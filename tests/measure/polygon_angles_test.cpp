@@ -56,5 +56,19 @@ TEST(PolygonAngles, WithoutAnAngleAreZero) {
   EXPECT_EQ(angles_of({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}})->min, 0);
 }
 
+TEST(WorsePolygons, AreThoseWhoseAnglesDeviateMore) {
+  Mat3X before(3, 6), after;
+  before << 0, 1, 2, 0, 1, 2,  //
+      0, 0, 0, 1, 1, 1,        //
+      0, 0, 0, 0, 0, 0;
+  const IntLists squares{{0, 4, 8, 11}, {0, 1, 4, 3, 1, 2, 5, 4, 0, 1, 4}};
+  after = before;
+  EXPECT_TRUE(vertices_of_worse_polygons(after, before, squares, 0).empty());
+  after.col(5).x() += .5;
+  EXPECT_EQ(vertices_of_worse_polygons(after, before, squares, 1), (std::vector<int>{1, 2, 4, 5}));
+  EXPECT_TRUE(vertices_of_worse_polygons(after, before, squares, 80).empty());
+  EXPECT_TRUE(vertices_of_worse_polygons(before, after, squares, 0).empty());
+}
+
 }  // namespace
 }  // namespace hooke

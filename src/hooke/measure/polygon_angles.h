@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "hooke/core/lists.h"
 #include "hooke/core/types.h"
@@ -22,5 +23,10 @@ struct PolygonAngles {
 /// Of the polygons, given by their vertices; empty if none has more than three corners. A corner at which an
 /// edge has no length has angle zero.
 std::optional<PolygonAngles> measure_polygon_angles(const Mat3X& points, const IntLists& polygons);
+
+/// The vertices, ascending, of polygons whose own deviation is greater than with the points `before`, by more
+/// than `margin` degrees.
+std::vector<int> vertices_of_worse_polygons(const Mat3X& points, const Mat3X& before,
+                                            const IntLists& polygons, double margin);
 
 }  // namespace hooke

@@ -8,6 +8,7 @@
 #include "hooke/core/stopwatch.h"
 #include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/measure/polygon_angles.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -56,7 +57,8 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
       input_(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency,
              memory_order.order.old_ids(), known.tree_order, joined_vertices(mesh, memory_order.order)),
       preservation_(preservation),
-      input_quality_(known.quality ? *known.quality : measure(input_, mesh, memory_order.order, stopwatch)) {
+      input_quality_(known.quality ? *known.quality : measure(input_, mesh, memory_order.order, stopwatch)),
+      polygons_(known.polygons) {
   is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
              options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
   const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&
@@ -67,11 +69,11 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   const bool must_unfold = input_quality_.folded_edges > 0;
   const TargetLengths targets = target_lengths_of(mesh, memory_order.order, input_.adjacency);
   OpenMesh::EPropHandleT<double> ratios;
-  has_rest_ratios_ = mesh.get_property_handle(ratios, rest_ratio_property);
+  const bool has_rest_ratios = mesh.get_property_handle(ratios, rest_ratio_property);
   const bool has_one_length =
-      has_rest_ratios_ ? UniformVector::are_equal(lengths) : !targets.edge.is_varying();
+      has_rest_ratios ? UniformVector::are_equal(lengths) : !targets.edge.is_varying();
   if (!must_unfold && has_one_length) least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
-  if (has_rest_ratios_)
+  if (has_rest_ratios)
     least_angle_ = std::min(
         least_angle_, NearRegularOptions().share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
   preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
@@ -89,10 +91,24 @@ std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) con
 }
 
 bool AttemptMaker::has_worse_faces(const Attempt& a) const {
-  const Quality &before = input_quality_, &now = a.result.measures->quality;
-  const auto deviation = [](const Statistics& error) { return error.std / (1 + error.mean); };
-  if (has_rest_ratios_) return deviation(now.length_error) > deviation(before.length_error);
-  return now.shape.mean < before.shape.mean;
+  if (polygons_ != nullptr) return has_worse_polygons(a);
+  return a.result.measures->quality.shape.mean < input_quality_.shape.mean;
+}
+
+bool AttemptMaker::has_worse_polygons(const Attempt& a) const {
+  if (polygons_ == nullptr) return false;
+  const auto deviation = [&](const TriMesh& mesh) {
+    const auto angles = measure_polygon_angles(vertex_points(mesh), *polygons_);
+    return angles ? angles->rms_deviation : 0;
+  };
+  constexpr double rounding = 1e-3;  // degrees
+  return deviation(a.mesh) > deviation(mesh_) + rounding;
+}
+
+std::vector<int> AttemptMaker::vertices_of_worse_polygons(const Attempt& a) const {
+  constexpr double clearly = 2;  // degrees
+  return memory_order_.order.new_vertices(
+      hooke::vertices_of_worse_polygons(vertex_points(a.mesh), vertex_points(mesh_), *polygons_, clearly));
 }
 
 /// Is the input made of a binary mask? Without creases no length resolves its steps.

@@ -63,8 +63,14 @@ class AttemptMaker {
   /// The vertices with all copies of those at junctions.
   std::vector<int> with_copies(const std::vector<int>& vertices) const;
 
-  /// Has the attempt worse faces on average than the input? With rest ratios its edges tell.
+  /// Has the attempt worse faces on average than the input? Of known polygons these tell.
   bool has_worse_faces(const Attempt& attempt) const;
+
+  /// Have the known polygons worse angles on the whole than in the input?
+  bool has_worse_polygons(const Attempt& attempt) const;
+
+  /// The vertices of the known polygons that have clearly worse angles.
+  std::vector<int> vertices_of_worse_polygons(const Attempt& attempt) const;
 
   /// One run, not judged yet.
   Attempt run() const;
@@ -90,7 +96,7 @@ class AttemptMaker {
   PreservationOptions preservation_;
   const Quality input_quality_;
   double least_angle_ = 0;
-  bool has_rest_ratios_ = false;
+  const IntLists* polygons_;
   bool is_mask_ = false;
   Mat3X smoothed_;  // of a mask: the points that attempts start from, by the caller's id
   int steps_ = 0;   // sharp edges of a mask

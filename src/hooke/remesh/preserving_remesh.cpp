@@ -37,7 +37,7 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (maker_.adapts() && !best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask())
       keep_narrow_parts(filter, best);
-    if (best.is_interrupted() ? best.flaws() > 0 : !best.keeps_promises()) put_back(best);
+    if (best.is_interrupted() ? best.flaws() > 0 : !keeps_all(best)) put_back(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == vertex_points(maker_.mesh()))
       best.result.steps_smoothed = false;
     return best;
@@ -286,9 +286,9 @@ class PreservingRemesh {
   }
 
   /// Makes attempts in which faces of the input stay where something was wrong, and ever more around them,
-  /// until nothing is wrong or they are half of the surface. Lengths grow away from their edges.
+  /// until nothing is wrong or they are nearly all of the surface. Lengths grow away from their edges.
   void keep_faces(Attempt& best) {
-    constexpr double max_share = .5;
+    constexpr double max_share = .9;
     const double faces = best.result.adaptation.target_faces;
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
@@ -371,6 +371,9 @@ class PreservingRemesh {
     return marked / all;
   }
 
+  /// Does it keep its promises, and its polygons?
+  bool keeps_all(const Attempt& run) const { return run.keeps_promises() && !maker_.has_worse_polygons(run); }
+
   /// Puts vertices back to where they were, ring by ring around what is wrong, and all if that is not enough
   /// or makes worse faces than there were; a result with other faces is replaced by one with those of the
   /// input first.
@@ -387,8 +390,9 @@ class PreservingRemesh {
     }
     best.result.rescue = Rescue::put_back;
     for (int rings : {1, 2, 4, 8, 16}) {
-      if (best.keeps_promises()) break;
-      const std::vector<int> wrong = vertices_to_put_back(maker_, best);
+      if (keeps_all(best)) break;
+      std::vector<int> wrong = vertices_to_put_back(maker_, best);
+      if (best.keeps_promises()) wrong = maker_.vertices_of_worse_polygons(best);
       if (wrong.empty()) break;
       move_back(best, wrong, rings);
     }

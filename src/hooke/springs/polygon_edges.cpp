@@ -68,10 +68,44 @@ std::vector<Edge> pairs_of_edges(const std::vector<Quadrilateral>& quadrilateral
   return pairs;
 }
 
-/// Weighted means of the values around each edge, over about the square root of `rounds` pairs away. Those
-/// that stand in one pair, at the ends of strips, stay as they are, so that linear growth stays too.
-void smooth(const std::vector<Edge>& pairs, std::vector<double>& values) {
-  constexpr int rounds = 12;
+/// Pairs of sides of quadrilaterals that go on in line across a vertex: of four sides those that share no
+/// quadrilateral, and those along a boundary that ends at no other side but one.
+std::vector<Edge> pairs_in_line(const std::vector<Quadrilateral>& quadrilaterals, const Adjacency& c) {
+  std::vector<int> quadrilateral_of_face(c.faces.size(), -1);
+  std::vector<char> is_side(c.edges.size(), 0);
+  for (std::size_t q = 0; q < quadrilaterals.size(); ++q) {
+    for (int f : c.edge_faces[quadrilaterals[q].diagonal]) quadrilateral_of_face[f] = static_cast<int>(q);
+    for (const Edge& side : quadrilaterals[q].sides)
+      for (int e : side) is_side[e] = 1;
+  }
+  const auto share_quadrilateral = [&](int e, int other) {
+    for (int f : c.edge_faces[e])
+      for (int g : c.edge_faces[other])
+        if (f >= 0 && g >= 0 && quadrilateral_of_face[f] >= 0 &&
+            quadrilateral_of_face[f] == quadrilateral_of_face[g])
+          return true;
+    return false;
+  };
+  std::vector<Edge> pairs;
+  for (int v = 0; v < c.vertex_count; ++v) {
+    std::vector<int> sides;
+    for (int e : c.vertex_edges[v])
+      if (is_side[e]) sides.push_back(e);
+    const auto can_go_on = [&](int e) {
+      return sides.size() == 4 || (sides.size() == 3 && c.is_boundary_edge(e));
+    };
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (can_go_on(sides[i]) && can_go_on(sides[j]) && !share_quadrilateral(sides[i], sides[j]))
+          pairs.push_back({sides[i], sides[j]});
+  }
+  return pairs;
+}
+
+/// Weighted means of the values around each edge, over some pairs away. The values of edges in fewer than
+/// `least_count` pairs stay.
+std::vector<double> smoothed(const std::vector<Edge>& pairs, std::vector<double> values, int least_count) {
+  constexpr int rounds = 24;
   std::vector<int> count(values.size(), 0);
   for (const auto& [a, b] : pairs) {
     ++count[a];
@@ -85,8 +119,23 @@ void smooth(const std::vector<Edge>& pairs, std::vector<double>& values) {
       sum[b] += values[a];
     }
     for (std::size_t e = 0; e < values.size(); ++e)
-      if (count[e] > 1) values[e] = (values[e] + sum[e] / count[e]) / 2;
+      if (count[e] >= least_count) values[e] = (values[e] + sum[e] / count[e]) / 2;
   }
+  return values;
+}
+
+/// Evens the lengths across strips, whose ends stay, so that linear growth stays too. What that changes by
+/// the same amount in a whole line of sides, as at the rim of a plate, is meant, and is taken back.
+std::vector<double> evened(const std::vector<Quadrilateral>& quadrilaterals, const Adjacency& c,
+                           const std::vector<double>& lengths) {
+  std::vector<double> even = smoothed(pairs_of_edges(quadrilaterals, c), lengths, 2);
+  const std::vector<Edge> lines = pairs_in_line(quadrilaterals, c);
+  std::vector<double> change(even.size(), 0);
+  for (const Edge& pair : lines)
+    for (int e : pair) change[e] = even[e] - lengths[e];
+  change = smoothed(lines, change, 1);
+  for (std::size_t e = 0; e < even.size(); ++e) even[e] -= change[e];
+  return even;
 }
 
 }  // namespace
@@ -100,10 +149,10 @@ std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& mem
     const auto& [v, w] = c.edges[e];
     ratios[e] = (points.col(v) - points.col(w)).norm() / targets.edge[e];
   }
-  constexpr double least_share = .01;  // of the mean, for edges without length
+  ratios = evened(quadrilaterals, c, ratios);
+  constexpr double least_share = 1e-4;  // of the mean, for edges without length
   const double mean = std::accumulate(ratios.begin(), ratios.end(), 0.) / static_cast<double>(ratios.size());
   for (double& ratio : ratios) ratio = std::max(ratio, least_share * mean);
-  smooth(pairs_of_edges(quadrilaterals, c), ratios);
   for (const auto& [sides, diagonal] : quadrilaterals)
     ratios[diagonal] = std::hypot(std::midpoint(ratios[sides[0][0]], ratios[sides[0][1]]),
                                   std::midpoint(ratios[sides[1][0]], ratios[sides[1][1]]));
@@ -114,9 +163,9 @@ std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& mem
   return ratios;
 }
 
-std::size_t count_quadrilaterals(const IntLists& polygons) {
+std::size_t count_with_corners(const IntLists& polygons, std::size_t corners) {
   std::size_t count = 0;
-  for (int p = 0; p + 1 < std::ssize(polygons.first); ++p) count += polygons[p].size() == 4;
+  for (int p = 0; p + 1 < std::ssize(polygons.first); ++p) count += polygons[p].size() == corners;
   return count;
 }
 

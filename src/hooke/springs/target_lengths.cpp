@@ -77,7 +77,7 @@ TargetLengths at_rest_ratios(const Adjacency& c, const TargetLengths& targets,
     for (size_t f = begin; f < end; ++f) {
       const auto& [i, j, k] = c.face_edges[f];
       const double a = edge[i], b = edge[j], d = edge[k];
-      constexpr double least_share = .05;  // of the mean, for edges that make no triangle
+      constexpr double least_share = 1e-3;  // of the mean, for edges that make no triangle
       face[f] = std::max(4 / std::sqrt(3.) * area_of_sides(a, b, d) / std::max({a, b, d}),
                          least_share * mean_of_three(a, b, d));
     }
