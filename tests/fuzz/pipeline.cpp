@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace hooke;
   const fuzz::Arrays arrays = fuzz::arrays_from(data, size);
   if (arrays.triangles.empty()) return 0;
-  constexpr int max_calls = 400;  // a mesh that no lengths can keep is made again and again
+  constexpr int max_calls = 100;  // a mesh that no lengths can keep is made again and again
   const ThreadLimit one(1);
   RepairOptions mending;
   mending.repair = true;

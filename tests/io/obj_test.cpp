@@ -177,13 +177,19 @@ TEST(Obj, DataOfFacesAndCornersAreWrittenAsTheyWereRead) {
             text);
 }
 
+TEST(Obj, FacesWithFewerThanThreeCornersUseAVertexTwice) {
+  const MeshFile file = read(three + "vt .5 0\nvt 0 .5\nf 1/1 2/2\nf 3\nf 1 2 3\n");
+  EXPECT_EQ(file.polygons.items, (std::vector<int>{0, 1, 1, 2, 2, 2, 0, 1, 2}));
+  EXPECT_EQ(file.texture.corners, (std::vector<int>{0, 1, -1, -1, -1, -1, -1, -1, -1}));
+  EXPECT_EQ(file.lines, (std::vector<int>{6, 7, 8}));
+}
+
 TEST(Obj, ErrorsNameTheLine) {
   EXPECT_ERROR(InputError, "m.obj:2: z is missing", read("v 0 0 0\nv 1 0\n"));
   EXPECT_ERROR(InputError, "m.obj:1: x is 'nan'", read("v nan 0 0\n"));
   EXPECT_ERROR(InputError, "m.obj:1: y is '1e400'", read("v 0 1e400 0\n"));
   EXPECT_ERROR(InputError, "m.obj:1: vertex weight w is 2", read("v 0 0 0 2\n"));
   EXPECT_ERROR(InputError, "m.obj:1: vertex with 5 numbers", read("v 0 0 0 1 1\n"));
-  EXPECT_ERROR(InputError, "m.obj:4: face with 2 corners", read(three + "f 1 2"));
   EXPECT_ERROR(InputError, "m.obj:4: face with 0 corners", read(three + "f"));
   EXPECT_ERROR(InputError, "m.obj:4: vertex index 0", read(three + "f 0 1 2"));
   EXPECT_ERROR(InputError, "m.obj:4: vertex index 4; expected at most 3", read(three + "f 1 2 4\nf 1 2 3"));

@@ -119,9 +119,10 @@ void read_face(ObjReader& obj) {
   const size_t before = obj.part.polygons.items.size();
   for (std::string_view token = in.token(); !token.empty(); token = in.token())
     obj.part.polygons.items.push_back(read_corner(obj, token));
-  const size_t corners = obj.part.polygons.items.size() - before;
-  if (corners < 3)
-    in.fail_at(line, fmt::format("face with {} corners; expected 3 or more; correct or remove it", corners));
+  std::vector<int>& corners = obj.part.polygons.items;
+  if (corners.size() == before)
+    in.fail_at(line, "face with 0 corners; expected 3 or more; correct or remove it");
+  while (corners.size() < before + 3) corners.push_back(corners.back());  // a face that uses a vertex twice
   obj.part.lines.push_back(line);
   end_polygon(obj.part);
 }
