@@ -119,11 +119,12 @@ int run(Settings s) {
   require_memory(s, loaded.mesh.n_vertices(), record);
   if (!s.check) timed(&stopwatch, "seams", [&] { keep_seams(s, loaded, record); });
   progress.enter("measure");
-  Original original;
   timed(&stopwatch, "sizing", [&] {
     set_target_lengths(s, loaded.mesh, loaded.memory_order, loaded.origin, record);
-    if (keep_polygons(s, loaded)) original.polygons = &loaded.polygons;
+    set_rest_ratios(s, loaded);
   });
+  Original original;
+  if (guards_polygons(s, loaded)) original.polygons = &loaded.polygons;
   measure_input(s, loaded.mesh, loaded.memory_order, original, record, stopwatch);
   if (keeps_polygons(s, loaded))
     record.before.polygon_angles = measure_polygon_angles(vertex_points(loaded.mesh), loaded.polygons);

@@ -142,18 +142,33 @@ bool keeps_polygons(const Settings& s, const LoadedMesh& loaded) {
   return keeps_faces(s) && !loaded.polygons.items.empty() && !is_repaired(loaded);
 }
 
-bool keep_polygons(const Settings& s, LoadedMesh& loaded) {
-  if (!keeps_polygons(s, loaded) || !s.edge_lengths.empty() || s.paper) return false;
+namespace {
+
+/// Is it the polygons that are moved, not their triangles?
+bool moves_polygons(const Settings& s, const LoadedMesh& loaded) {
+  return keeps_polygons(s, loaded) && s.edge_lengths.empty() && !s.paper;
+}
+
+/// Are these most of the triangles that the polygons are cut into?
+bool are_most(std::size_t triangles, const LoadedMesh& loaded) {
+  return 2 * triangles >= loaded.mesh.n_faces();
+}
+
+}  // namespace
+
+bool guards_polygons(const Settings& s, const LoadedMesh& loaded) {
+  return moves_polygons(s, loaded) && s.sizing.kind == SizingSource::Kind::none &&
+         are_most(loaded.mesh.n_faces() - count_with_corners(loaded.polygons, 3), loaded);
+}
+
+void set_rest_ratios(const Settings& s, LoadedMesh& loaded) {
+  if (!moves_polygons(s, loaded) || !are_most(2 * count_with_corners(loaded.polygons, 4), loaded)) return;
   const Permutation& order = loaded.memory_order.order;
   const Adjacency& c = *loaded.memory_order.adjacency;
-  const auto are_most = [&](std::size_t triangles) { return 2 * triangles >= c.faces.size(); };
-  if (!are_most(c.faces.size() - count_with_corners(loaded.polygons, 3))) return false;
-  if (!are_most(2 * count_with_corners(loaded.polygons, 4))) return true;
   const Mat3X points = order.gather(vertex_points(loaded.mesh));
   set_edge_values(
       loaded.mesh, rest_ratio_property, order, c,
       rest_ratios(loaded.polygons, loaded.memory_order, points, target_lengths_of(loaded.mesh, order, c)));
-  return true;
 }
 
 void keep_seams(Settings& s, LoadedMesh& loaded, RunRecord& record) {

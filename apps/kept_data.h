@@ -18,10 +18,15 @@ void keep_seams(Settings& settings, LoadedMesh& loaded, RunRecord& record);
 /// Are the faces of the result those of the file's polygons, which no repair has changed?
 bool keeps_polygons(const Settings& settings, const LoadedMesh& loaded);
 
-/// Are polygons kept and most triangles parts of some, so that these must not get worse? Not where the
-/// lengths of edges are given, or with --paper. Where most are halves of quadrilaterals, lets springs make
-/// rectangles of those, not equilateral triangles. Whatever is written. Pre-condition: set_target_lengths().
-bool keep_polygons(const Settings& settings, LoadedMesh& loaded);
+/// Are polygons kept and most triangles parts of those with more than three corners, so that their angles
+/// must not get worse? Not where lengths are asked for that change them: a sizing or single edges; nor with
+/// --paper.
+bool guards_polygons(const Settings& settings, const LoadedMesh& loaded);
+
+/// Where polygons are kept and most triangles are halves of quadrilaterals, lets springs make rectangles of
+/// those, not equilateral triangles, whatever is written; not where the lengths of edges are given, or with
+/// --paper. Pre-condition: set_target_lengths().
+void set_rest_ratios(const Settings& settings, LoadedMesh& loaded);
 
 /// Replaces the data of faces and corners of the input by those of the result, and brings faces with equal
 /// labels together, in the order in which the input has them; ids of faces in the record follow. Does nothing

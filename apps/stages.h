@@ -14,7 +14,7 @@ struct Original {
   MemoryOrder memory_order;
   std::vector<int> joined;             // likewise, of the input, see mesh/junctions.h
   std::vector<int> tree_order;         // order of the faces in its bounding volume tree
-  const IntLists* polygons = nullptr;  // of the file, if keep_polygons()
+  const IntLists* polygons = nullptr;  // of the file, if guards_polygons()
 };
 
 /// Whether the run moves vertices only.

@@ -117,6 +117,20 @@ TEST(RestRatios, AreEvenWhereLengthsAreNoisy) {
   EXPECT_LT(std::sqrt(error), .4 * std::sqrt(noise));
 }
 
+TEST(RestRatios, AreOfSquaresWhereTargetLengthsVary) {
+  const Polygons p = sheared_sheet(6, 0, .2, 3);
+  const MemoryOrder memory_order = find_memory_order(static_cast<int>(p.points.cols()), p.triangles);
+  const Adjacency& c = *memory_order.adjacency;
+  std::vector<double> lengths(c.vertex_count, 1.);
+  lengths[0] = 2;
+  const std::vector<double> ratios = rest_ratios(p.corners, memory_order, memory_order.order.gather(p.points),
+                                                 spread_target_lengths(c, lengths));
+  const double side = std::ranges::min(ratios);
+  for (double ratio : ratios)
+    EXPECT_NEAR(ratio, ratio > 1.2 * side ? std::numbers::sqrt2 * side : side, 1e-12);
+  EXPECT_NEAR(side, .93, .001);
+}
+
 TEST(RestRatios, ArePositiveForEdgesWithoutLength) {
   Polygons p = sheared_sheet(4, 0, 0);
   for (int j = 0; j <= 4; ++j) p.points.col(j) = Vec3(-1, 2, 0);  // a pole
@@ -192,6 +206,10 @@ TEST(RestRatios, LeaveRectanglesAsTheyAre) {
   EXPECT_LT((vertex_points(sprung.mesh) - graded.points).colwise().norm().maxCoeff(), 1e-6);
 }
 
+double rms_deviation(const Polygons& p, const Mat3X& points) {
+  return measure_polygon_angles(points, p.corners)->rms_deviation;
+}
+
 TEST(KnownPolygons, DoNotGetWorseOnTheWhole) {
   for (const double noise : {.01, .03}) {
     const Polygons p = sheared_sheet(12, 0, noise);
@@ -199,9 +217,35 @@ TEST(KnownPolygons, DoNotGetWorseOnTheWhole) {
     preserving_remesh(triangles.mesh, triangles.memory_order, {});
     EXPECT_GT(mean_deviation(p, vertex_points(triangles.mesh)), mean_deviation(p, p.points) + 1);
     preserving_remesh(known.mesh, known.memory_order, {}, {}, {.polygons = &p.corners});
-    EXPECT_LT(measure_polygon_angles(vertex_points(known.mesh), p.corners)->rms_deviation,
-              measure_polygon_angles(p.points, p.corners)->rms_deviation + 1e-3);
+    EXPECT_LT(rms_deviation(p, vertex_points(known.mesh)), rms_deviation(p, p.points) + 1e-3);
   }
+}
+
+TEST(KnownPolygons, MoveWhereTheyGetBetter) {
+  const Polygons p = sheared_sheet(12, 0, .25, 2);
+  SprungPolygons known(p);
+  preserving_remesh(known.mesh, known.memory_order, {}, {}, {.polygons = &p.corners});
+  EXPECT_LT(rms_deviation(p, vertex_points(known.mesh)), .8 * rms_deviation(p, p.points));
+}
+
+TEST(KnownPolygons, DoNotGetWorseWhenInterrupted) {
+  const Polygons p = sheared_sheet(12, 0, .03);
+  for (int last_call = 1; last_call < 400; last_call *= 2) {
+    SprungPolygons known(p, false);
+    int calls = 0;
+    preserving_remesh(known.mesh, known.memory_order, {}, {}, {.polygons = &p.corners},
+                      [&](const Progress&) { return ++calls < last_call; });
+    EXPECT_LT(rms_deviation(p, vertex_points(known.mesh)), rms_deviation(p, p.points) + 1e-3) << last_call;
+  }
+}
+
+TEST(KnownPolygons, AreForFixedFacesOnly) {
+  const Polygons p = sheared_sheet(3, 0, .2);
+  SprungPolygons known(p, false);
+  RemeshOptions options;
+  options.connectivity = ConnectivityMode::flip;
+  EXPECT_THROW(preserving_remesh(known.mesh, known.memory_order, options, {}, {.polygons = &p.corners}),
+               Error);
 }
 
 TEST(RestRatios, AreForFixedFacesOnly) {

@@ -219,14 +219,12 @@ EdgeDistances edge_distances(const Mat3X& points, const std::vector<Edge>& edges
 void note_crease_loss(const Mat3X& points, const std::vector<Edge>& edges,
                       const std::vector<double>& distances, const std::vector<std::size_t>& lost,
                       Preservation& p) {
-  const double before = p.crease_loss;
-  p.crease_loss = std::max(before, std::ranges::max(distances));
+  p.crease_loss = std::max(p.crease_loss, std::ranges::max(distances));
   if (lost.empty()) return;
   const bool is_first = std::exchange(p.creases_kept, false);
-  if (p.excess > 1 || p.flipped_faces + p.new_crossings > 0) return;
+  if (!is_first || p.excess > 1 || p.flipped_faces + p.new_crossings > 0) return;
   const std::size_t farthest =
       *std::ranges::max_element(lost, {}, [&](std::size_t e) { return distances[e]; });
-  if (!is_first && distances[farthest] <= before) return;
   const auto& [a, b] = edges[farthest];
   p.place = (points.col(a) + points.col(b)) / 2;
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
+#include "hooke/core/error.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
@@ -25,6 +27,11 @@ namespace {
 Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
                 Stopwatch* stopwatch) {
   return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, stopwatch);
+}
+
+double deviation_of(const TriMesh& mesh, const IntLists& polygons) {
+  const std::optional<PolygonAngles> angles = measure_polygon_angles(vertex_points(mesh), polygons);
+  return angles ? angles->rms_deviation : 0;
 }
 
 }  // namespace
@@ -59,6 +66,11 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
       preservation_(preservation),
       input_quality_(known.quality ? *known.quality : measure(input_, mesh, memory_order.order, stopwatch)),
       polygons_(known.polygons) {
+  if (polygons_ != nullptr) {
+    if (options.connectivity != ConnectivityMode::fixed)
+      throw Error("known polygons; expected connectivity fixed, where faces stay");
+    polygon_deviation_ = deviation_of(mesh, *polygons_);
+  }
   is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
              options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
   const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&
@@ -97,18 +109,13 @@ bool AttemptMaker::has_worse_faces(const Attempt& a) const {
 
 bool AttemptMaker::has_worse_polygons(const Attempt& a) const {
   if (polygons_ == nullptr) return false;
-  const auto deviation = [&](const TriMesh& mesh) {
-    const auto angles = measure_polygon_angles(vertex_points(mesh), *polygons_);
-    return angles ? angles->rms_deviation : 0;
-  };
   constexpr double rounding = 1e-3;  // degrees
-  return deviation(a.mesh) > deviation(mesh_) + rounding;
+  return deviation_of(a.mesh, *polygons_) > polygon_deviation_ + rounding;
 }
 
-std::vector<int> AttemptMaker::vertices_of_worse_polygons(const Attempt& a) const {
-  constexpr double clearly = 2;  // degrees
+std::vector<int> AttemptMaker::vertices_of_worse_polygons(const Attempt& a, double margin) const {
   return memory_order_.order.new_vertices(
-      hooke::vertices_of_worse_polygons(vertex_points(a.mesh), vertex_points(mesh_), *polygons_, clearly));
+      hooke::vertices_of_worse_polygons(vertex_points(a.mesh), vertex_points(mesh_), *polygons_, margin));
 }
 
 /// Is the input made of a binary mask? Without creases no length resolves its steps.

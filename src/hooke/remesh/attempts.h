@@ -69,8 +69,8 @@ class AttemptMaker {
   /// Have the known polygons worse angles on the whole than in the input?
   bool has_worse_polygons(const Attempt& attempt) const;
 
-  /// The vertices of the known polygons that have clearly worse angles.
-  std::vector<int> vertices_of_worse_polygons(const Attempt& attempt) const;
+  /// The vertices of the known polygons whose own angles are worse by more than the margin, degrees.
+  std::vector<int> vertices_of_worse_polygons(const Attempt& attempt, double margin) const;
 
   /// One run, not judged yet.
   Attempt run() const;
@@ -97,6 +97,7 @@ class AttemptMaker {
   const Quality input_quality_;
   double least_angle_ = 0;
   const IntLists* polygons_;
+  double polygon_deviation_ = 0;  // of the input, degrees
   bool is_mask_ = false;
   Mat3X smoothed_;  // of a mask: the points that attempts start from, by the caller's id
   int steps_ = 0;   // sharp edges of a mask

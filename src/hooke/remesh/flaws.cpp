@@ -124,6 +124,8 @@ std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& 
   }
   for (const FarVertex& far : attempt.preservation().far_vertices) wrong.push_back(far.vertex);
   for (const FarVertex& lost : attempt.preservation().lost_vertices) wrong.push_back(lost.vertex);
+  for (const Edge& lost : attempt.preservation().lost_creases)
+    wrong.insert(wrong.end(), lost.begin(), lost.end());
   std::ranges::sort(wrong);
   wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
   return wrong;

@@ -37,7 +37,9 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (maker_.adapts() && !best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask())
       keep_narrow_parts(filter, best);
-    if (best.is_interrupted() ? best.flaws() > 0 : !keeps_all(best)) put_back(best);
+    const bool must_put_back =
+        best.is_interrupted() ? best.flaws() > 0 || maker_.has_worse_polygons(best) : !keeps_all(best);
+    if (must_put_back) put_back(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == vertex_points(maker_.mesh()))
       best.result.steps_smoothed = false;
     return best;
@@ -391,9 +393,9 @@ class PreservingRemesh {
     best.result.rescue = Rescue::put_back;
     for (int rings : {1, 2, 4, 8, 16}) {
       if (keeps_all(best)) break;
-      std::vector<int> wrong = vertices_to_put_back(maker_, best);
-      if (best.keeps_promises()) wrong = maker_.vertices_of_worse_polygons(best);
-      if (wrong.empty()) break;
+      const double margin = rings <= 2 ? 2 : 0;  // degrees; clearly worse polygons first
+      const std::vector<int> wrong = best.keeps_promises() ? maker_.vertices_of_worse_polygons(best, margin)
+                                                           : vertices_to_put_back(maker_, best);
       move_back(best, wrong, rings);
     }
     if (best.keeps_promises() && !maker_.has_worse_faces(best)) return;

@@ -32,9 +32,9 @@ struct KnownInput {
 /// the lost vertices held, then on the faces of the input. In the modes `fixed` and `flip` vertices go back
 /// to where they were at last, as where polygons get worse on the whole; in mode `adapt` target lengths get
 /// shorter about what is wrong, see RemeshResult::shortened, and where that does not do the faces of the
-/// input stay, unless that were most of the surface. Of a result that is made anew it keeps one with fewer
-/// flaws or, with as many, with a larger minimum angle (with shorter lengths only half as many flaws); in
-/// mode `adapt` the result may still not keep all: see RemeshResult::measures. An interrupted run but the
+/// input stay, unless that were nearly all of the surface. Of a result that is made anew it keeps one with
+/// fewer flaws or, with as many, with a larger minimum angle (with shorter lengths only half as many flaws);
+/// in mode `adapt` the result may still not keep all: see RemeshResult::measures. An interrupted run but the
 /// first is discarded. The surface of a binary mask, see is_staircase(), is smoothed first, so that its steps
 /// are no creases, unless creases are kept whatever the noise; the measures are of the input as it was.
 RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,

@@ -49,7 +49,8 @@ constexpr Quantity quantities[] = {
     {"aspect_ratio", ratio, lower, "longest edge / (2 sqrt(3) inradius) of a face; 1 at best"},
     {"edge_ratio", ratio, lower, "longest / shortest edge of a face; 1 at best"},
     {"edge_length", length, neither, "length of an edge"},
-    {"length_error", ratio, nearer_zero, "(length - target length) / target length of an edge"},
+    {"length_error", ratio, nearer_zero,
+     "(length - target length) / target length of an edge; of quadrilaterals to the rest length"},
 };
 
 /// `better`: of the quantities for which more, for which less, and for which 0 is better.

@@ -87,13 +87,13 @@ std::vector<Edge> pairs_in_line(const std::vector<Quadrilateral>& quadrilaterals
     return false;
   };
   std::vector<Edge> pairs;
+  std::vector<int> sides;
   for (int v = 0; v < c.vertex_count; ++v) {
-    std::vector<int> sides;
+    sides.clear();
     for (int e : c.vertex_edges[v])
       if (is_side[e]) sides.push_back(e);
-    const auto can_go_on = [&](int e) {
-      return sides.size() == 4 || (sides.size() == 3 && c.is_boundary_edge(e));
-    };
+    if (sides.size() != 3 && sides.size() != 4) continue;
+    const auto can_go_on = [&](int e) { return sides.size() == 4 || c.is_boundary_edge(e); };
     for (std::size_t i = 0; i < sides.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (can_go_on(sides[i]) && can_go_on(sides[j]) && !share_quadrilateral(sides[i], sides[j]))
@@ -147,12 +147,18 @@ std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& mem
   std::vector<double> ratios(c.edges.size());
   for (std::size_t e = 0; e < ratios.size(); ++e) {
     const auto& [v, w] = c.edges[e];
-    ratios[e] = (points.col(v) - points.col(w)).norm() / targets.edge[e];
+    ratios[e] = targets.edge.is_varying() ? 1 : (points.col(v) - points.col(w)).norm();
   }
   ratios = evened(quadrilaterals, c, ratios);
-  constexpr double least_share = 1e-4;  // of the mean, for edges without length
+  constexpr double least_share = 1e-4;  // of the mean, for quadrilaterals without length
   const double mean = std::accumulate(ratios.begin(), ratios.end(), 0.) / static_cast<double>(ratios.size());
   for (double& ratio : ratios) ratio = std::max(ratio, least_share * mean);
+  constexpr double least_taper = .1;  // of opposite sides, for sides without length, as at poles
+  for (const Quadrilateral& q : quadrilaterals)
+    for (const auto& [a, b] : q.sides) {
+      ratios[a] = std::max(ratios[a], least_taper * ratios[b]);
+      ratios[b] = std::max(ratios[b], least_taper * ratios[a]);
+    }
   for (const auto& [sides, diagonal] : quadrilaterals)
     ratios[diagonal] = std::hypot(std::midpoint(ratios[sides[0][0]], ratios[sides[0][1]]),
                                   std::midpoint(ratios[sides[1][0]], ratios[sides[1][1]]));

@@ -15,10 +15,11 @@ namespace hooke {
 /// Quadrilaterals lie in strips, which cannot end within them, so that no motion of the vertices makes all
 /// sides equal. Each side keeps the length that those across the same strip have near it, but for what a
 /// whole line of sides has in common, as at the rim of a plate; a diagonal is that of the rectangle; edges of
-/// other faces keep the length of those around them. The rest lengths cover
-/// as much as equilateral triangles of the target length, as many as there are: all are .93 of it in a mesh
-/// of equal squares. `polygons`: the vertex ids of each; their triangles are the faces of the mesh, in this
-/// order. The points are in memory order. Throws Error if the polygons are not those faces.
+/// other faces keep the length of those around them. Where target lengths vary, all sides are to have these,
+/// and rectangles are squares. Rest lengths cover as much as equilateral triangles of the target length, as
+/// many as there are: in a mesh of equal squares they are .93 of it. `polygons`: the vertex ids of each;
+/// their triangles are the faces of the mesh, in this order. The points are in memory order. Throws Error if
+/// the polygons are not those faces.
 std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& memory_order,
                                 const Mat3X& points, const TargetLengths& targets);
 

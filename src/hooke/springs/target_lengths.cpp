@@ -86,12 +86,12 @@ TargetLengths at_rest_ratios(const Adjacency& c, const TargetLengths& targets,
 }
 
 double least_rest_angle(const Adjacency& c, const TargetLengths& targets) {
-  double greatest_cosine = 0;
+  double greatest_cosine = .5;
   for (const auto& [i, j, k] : c.face_edges) {
     std::array<double, 3> sides{targets.edge[i], targets.edge[j], targets.edge[k]};
     std::ranges::sort(sides);
     const auto& [a, b, d] = sides;
-    greatest_cosine = std::max(greatest_cosine, (b * b + d * d - a * a) / (2 * b * d));
+    if (a + b > d) greatest_cosine = std::max(greatest_cosine, (b * b + d * d - a * a) / (2 * b * d));
   }
   return std::acos(std::min(1., greatest_cosine)) * 180 / std::numbers::pi;
 }

@@ -33,8 +33,8 @@ TargetLengths from_edge_lengths(const Adjacency& adjacency, std::vector<double> 
 TargetLengths at_rest_ratios(const Adjacency& adjacency, const TargetLengths& targets,
                              const std::vector<double>& ratios);
 
-/// The least angle of the triangles with these edges, degrees; 0 where edges make none. Pre-condition: there
-/// are faces.
+/// The least angle of the triangles with these edges, degrees; those whose edges make none do not count. 60
+/// without any.
 double least_rest_angle(const Adjacency& adjacency, const TargetLengths& targets);
 
 /// The area of a triangle by its sides (Heron); 0 where they make none.
