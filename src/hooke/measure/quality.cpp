@@ -82,10 +82,9 @@ bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge) {
                                doubled_area_vector(points, adjacency.faces[right]));
 }
 
-size_t count_degenerate_faces(const Mat3X& area_vector, double min_area) {
+size_t count_degenerate_faces(const Mat3X& area_vector, double diagonal) {
   return count_where(static_cast<size_t>(area_vector.cols()), [&](size_t f) {
-    const double area = .5 * area_vector.col(static_cast<Eigen::Index>(f)).norm();
-    return !(area > 0 && area >= min_area);
+    return has_no_area(.5 * area_vector.col(static_cast<Eigen::Index>(f)).norm(), diagonal);
   });
 }
 
@@ -188,6 +187,10 @@ void describe_all(const MeasuredSurface& surface, const FaceShapes& shapes,
 
 }  // namespace
 
+bool has_no_area(double area, double diagonal) {
+  return !(area > 0 && area >= 1e-14 * diagonal * diagonal);
+}
+
 Range range_of(std::vector<double> values) {
   const Statistics s = describe(std::move(values));
   return {s.min, s.mean, s.max};
@@ -219,7 +222,7 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
   timed(stopwatch, "folds", [&] {
     const Mat3X area_vector = area_vectors(points, adjacency.faces);
     q.folded_edges = count_folded_edges(area_vector, adjacency);
-    q.degenerate_faces = count_degenerate_faces(area_vector, 1e-14 * q.extent.diagonal * q.extent.diagonal);
+    q.degenerate_faces = count_degenerate_faces(area_vector, q.extent.diagonal);
   });
   timed(stopwatch, "curvature", [&] {
     VertexCurvature curvature = measure_curvature(points, adjacency);

@@ -37,6 +37,9 @@ struct WorstFace {
   std::vector<std::string> reasons = {};
 };
 
+/// Is this area below 1e-14 times the squared diagonal of the bounding box, or not finite?
+bool has_no_area(double area, double diagonal);
+
 /// Lengths are in the unit of the points, angles in degrees.
 struct Quality {
   // Per face, see geometry/triangle.h.
@@ -53,7 +56,7 @@ struct Quality {
 
   /// Unit normals on both sides have a dot product below -1e-6; without creases after apply_creases().
   std::size_t folded_edges = 0;
-  std::size_t degenerate_faces = 0;  // area below 1e-14 times the squared diagonal of the bounding box
+  std::size_t degenerate_faces = 0;               // see has_no_area()
   std::optional<std::size_t> self_intersections;  // pairs of faces; empty if not requested
   Valence valence;
   Range mean_curvature;      // over the interior vertices, see curvature.h

@@ -55,6 +55,9 @@ std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
   for (std::size_t f = 0; f < wrong.size(); ++f)
     if (wrong[f]) add(c.faces[f]);
   if (p.new_folds > 0) add(vertices_at_folds(attempt, surface));
+  if (p.new_degenerate_faces > 0)
+    for (const Triangle& t : c.faces)
+      if (has_no_area(face_shape(surface.points, t).area, surface.extent.diagonal)) add(t);
   for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
   constexpr double small_angle = 20;
   if (attempt.keeps_promises())
