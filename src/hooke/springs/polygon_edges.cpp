@@ -14,6 +14,8 @@ namespace hooke {
 
 namespace {
 
+constexpr char not_the_faces[] = "polygons that are not the faces of the mesh";
+
 /// A quadrilateral by its edges: two pairs of opposite sides, and the diagonal.
 struct Quadrilateral {
   std::array<Edge, 2> sides;
@@ -27,7 +29,7 @@ Quadrilateral quadrilateral_of(const Triangle& edges, const Triangle& others) {
       if (edges[i] == others[j])
         return {{{{edges[(i + 1) % 3], others[(j + 1) % 3]}, {edges[(i + 2) % 3], others[(j + 2) % 3]}}},
                 edges[i]};
-  throw Error("polygons that are not the faces of the mesh");
+  throw Error(not_the_faces);
 }
 
 std::vector<Quadrilateral> quadrilaterals_of(const IntLists& polygons, const MemoryOrder& memory_order) {
@@ -39,12 +41,12 @@ std::vector<Quadrilateral> quadrilaterals_of(const IntLists& polygons, const Mem
   std::size_t face = 0;
   for (int p = 0; p + 1 < std::ssize(polygons.first); ++p) {
     const std::size_t triangles = polygons[p].size() - 2;
-    if (face + triangles > c.faces.size()) throw Error("polygons that are not the faces of the mesh");
+    if (face + triangles > c.faces.size()) throw Error(not_the_faces);
     if (triangles == 2)
       all.push_back(quadrilateral_of(c.face_edges[in_memory[face]], c.face_edges[in_memory[face + 1]]));
     face += triangles;
   }
-  if (face != c.faces.size()) throw Error("polygons that are not the faces of the mesh");
+  if (face != c.faces.size()) throw Error(not_the_faces);
   return all;
 }
 
@@ -68,8 +70,8 @@ std::vector<Edge> pairs_of_edges(const std::vector<Quadrilateral>& quadrilateral
   return pairs;
 }
 
-/// Pairs of sides of quadrilaterals that go on in line across a vertex: of four sides those that share no
-/// quadrilateral, and those along a boundary that ends at no other side but one.
+/// Pairs of sides of quadrilaterals that go on in line across a vertex: of its four sides those that share no
+/// quadrilateral, of three at a boundary the two along it.
 std::vector<Edge> pairs_in_line(const std::vector<Quadrilateral>& quadrilaterals, const Adjacency& c) {
   std::vector<int> quadrilateral_of_face(c.faces.size(), -1);
   std::vector<char> is_side(c.edges.size(), 0);
@@ -102,8 +104,8 @@ std::vector<Edge> pairs_in_line(const std::vector<Quadrilateral>& quadrilaterals
   return pairs;
 }
 
-/// Weighted means of the values around each edge, over some pairs away. The values of edges in fewer than
-/// `least_count` pairs stay.
+/// Weighted means of the values around each edge, over about the square root of `rounds` pairs away. The
+/// values of edges in fewer than `least_count` pairs stay.
 std::vector<double> smoothed(const std::vector<Edge>& pairs, std::vector<double> values, int least_count) {
   constexpr int rounds = 24;
   std::vector<int> count(values.size(), 0);
@@ -144,29 +146,29 @@ std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& mem
                                 const Mat3X& points, const TargetLengths& targets) {
   const Adjacency& c = *memory_order.adjacency;
   const std::vector<Quadrilateral> quadrilaterals = quadrilaterals_of(polygons, memory_order);
-  std::vector<double> ratios(c.edges.size());
-  for (std::size_t e = 0; e < ratios.size(); ++e) {
+  std::vector<double> rest(c.edges.size());  // lengths, in no unit before they are scaled
+  for (std::size_t e = 0; e < rest.size(); ++e) {
     const auto& [v, w] = c.edges[e];
-    ratios[e] = targets.edge.is_varying() ? 1 : (points.col(v) - points.col(w)).norm();
+    rest[e] = targets.edge.is_varying() ? 1 : (points.col(v) - points.col(w)).norm();
   }
-  ratios = evened(quadrilaterals, c, ratios);
+  rest = evened(quadrilaterals, c, rest);
   constexpr double least_share = 1e-4;  // of the mean, for quadrilaterals without length
-  const double mean = std::accumulate(ratios.begin(), ratios.end(), 0.) / static_cast<double>(ratios.size());
-  for (double& ratio : ratios) ratio = std::max(ratio, least_share * mean);
+  const double mean = std::accumulate(rest.begin(), rest.end(), 0.) / static_cast<double>(rest.size());
+  for (double& length : rest) length = std::max(length, least_share * mean);
   constexpr double least_taper = .1;  // of opposite sides, for sides without length, as at poles
   for (const Quadrilateral& q : quadrilaterals)
     for (const auto& [a, b] : q.sides) {
-      ratios[a] = std::max(ratios[a], least_taper * ratios[b]);
-      ratios[b] = std::max(ratios[b], least_taper * ratios[a]);
+      rest[a] = std::max(rest[a], least_taper * rest[b]);
+      rest[b] = std::max(rest[b], least_taper * rest[a]);
     }
   for (const auto& [sides, diagonal] : quadrilaterals)
-    ratios[diagonal] = std::hypot(std::midpoint(ratios[sides[0][0]], ratios[sides[0][1]]),
-                                  std::midpoint(ratios[sides[1][0]], ratios[sides[1][1]]));
+    rest[diagonal] = std::hypot(std::midpoint(rest[sides[0][0]], rest[sides[0][1]]),
+                                std::midpoint(rest[sides[1][0]], rest[sides[1][1]]));
   double area = 0;
-  for (const auto& [i, j, k] : c.face_edges) area += area_of_sides(ratios[i], ratios[j], ratios[k]);
+  for (const auto& [i, j, k] : c.face_edges) area += area_of_sides(rest[i], rest[j], rest[k]);
   const double scale = natural_length(area, c.faces.size());
-  for (double& ratio : ratios) ratio /= scale;
-  return ratios;
+  for (double& length : rest) length /= scale;
+  return rest;
 }
 
 std::size_t count_with_corners(const IntLists& polygons, std::size_t corners) {
