@@ -198,10 +198,9 @@ void warn_of_rescue(RunRecord& run) {
                       "{} of {} vertices were put back to where they were, with the faces of the input,",
                       count, run.result->vertex_limits.size())
                 : "it has the faces of the input";
-        return what + (run.before.polygon_angles
-                           ? " to keep its surface and the angles of its polygons"
-                           : " to keep its surface and angles; --connectivity adapt, which "
-                             "makes new vertices, can do more");
+        return what +
+               " to keep its surface and the angles of its faces; --connectivity adapt, which makes new "
+               "vertices and triangles, can do more";
       }
       case Rescue::kept_faces:
         return fmt::format(

@@ -12,18 +12,9 @@
 #include "hooke/filter/partition_of_unity.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
+#include "hooke/mesh/surface_point.h"
 
 namespace hooke {
-namespace {
-
-/// Squared distance of x to the box of the corners: a lower bound on that to the face.
-double squared_distance_to_box(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
-  const Vec3 lower = a.cwiseMin(b).cwiseMin(c), upper = a.cwiseMax(b).cwiseMax(c);
-  return (lower - x).cwiseMax(x - upper).cwiseMax(0).squaredNorm();
-}
-
-}  // namespace
-
 int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   double smallest = (points.col(vertex) - x).squaredNorm();
   for (int from = -1; from != vertex;) {
@@ -38,33 +29,6 @@ int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   return vertex;
 }
 
-Projection NearFaces::closest_point_of_ring(const Vec3& x, int hint) const {
-  Projection projection{x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
-  double smallest = std::numeric_limits<double>::infinity();
-  const auto visit = [&](int v) {
-    for (int f : adjacency.vertex_faces[v]) {
-      const Triangle& face = adjacency.faces[f];
-      if (v != hint && std::ranges::find(face, hint) != face.end()) continue;  // visited with the hint
-      const Vec3 a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
-      if (squared_distance_to_box(a, b, c, x) >= smallest) continue;
-      const TrianglePoint near = closest_point_on_triangle(a, b, c, x);
-      if (near.squared_distance >= smallest) continue;
-      smallest = near.squared_distance;
-      projection.point = near.point;
-      projection.normal.setZero();
-      for (int k = 0; k < 3; ++k) projection.normal += near.weights[k] * normals.col(face[k]);
-      Eigen::Index corner;
-      near.weights.maxCoeff(&corner);
-      projection.hint = face[corner];
-      projection.status = ProjectionStatus::converged;
-    }
-  };
-  visit(hint);
-  for (int n : adjacency.vertex_neighbours[hint]) visit(n);
-  projection.normal.normalize();
-  return projection;
-}
-
 bool NearFaces::has_face_within(const Vec3& x, int hint, double distance) const {
   return std::ranges::any_of(adjacency.vertex_faces[hint], [&](int f) {
     const Triangle& face = adjacency.faces[f];
@@ -74,14 +38,13 @@ bool NearFaces::has_face_within(const Vec3& x, int hint, double distance) const 
 }
 
 Projection NearFaces::closest_point(const Vec3& x, int hint) const {
-  Projection projection = closest_point_of_ring(x, hint);
-  while (projection.hint != hint) {
-    hint = projection.hint;
-    const Projection next = closest_point_of_ring(x, hint);
-    if (!((next.point - x).squaredNorm() < (projection.point - x).squaredNorm())) break;
-    projection = next;
-  }
-  return projection;
+  const PointOnFace closest = closest_point_nearby(points, adjacency, x, hint);
+  if (closest.face < 0) return {x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
+  const Triangle& face = adjacency.faces[closest.face];
+  Vec3 normal = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) normal += closest.at.weights[k] * normals.col(face[k]);
+  return {closest.at.point, normal.normalized(), nearest_corner(closest, adjacency),
+          ProjectionStatus::converged, 0};
 }
 
 namespace {

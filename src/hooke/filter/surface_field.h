@@ -26,13 +26,9 @@ struct NearFaces {
   /// Whether a face at the hint has a point within the distance of x. Other faces may be closer.
   bool has_face_within(const Vec3& x, int hint, double distance) const;
 
-  /// Closest point on the faces at the hint and at its neighbours; the search moves on to the nearest corner
-  /// while that gets closer to x. The normal is interpolated from the corners, the hint is the nearest
-  /// corner. Returns x with normal zero and no_cover if the hint has no faces.
+  /// closest_point_nearby(), with the normal interpolated from the corners of its face; the hint is the
+  /// nearest corner. Returns x with normal zero and no_cover if there is none.
   Projection closest_point(const Vec3& x, int hint) const;
-
- private:
-  Projection closest_point_of_ring(const Vec3& x, int hint) const;
 };
 
 /// The field of a reference mesh, whose vertices lie on the surface. Shares ownership of what it needs, is

@@ -1,6 +1,7 @@
 // A point on a mesh given by a face and barycentric weights, which maps values from one mesh to another.
 #pragma once
 
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
@@ -16,8 +17,20 @@ struct MapEntry {
   SurfacePoint position;  // on the faces of that mesh
 };
 
+/// A point of a face, with its distance to the point it was found for.
+struct PointOnFace {
+  int face = -1;  // -1: none
+  TrianglePoint at = {Vec3::Zero(), Vec3::Zero()};
+};
+
 /// The closest point to x on the faces at `hint`, a vertex nearby, and at its neighbours; the search moves on
-/// to the nearest corner while that gets closer to x.
+/// to the nearest corner while that gets closer to x. None if no face is there, or x is not finite.
+PointOnFace closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
+
+/// The corner of its face that has the largest weight. Pre-condition: it is on one.
+int nearest_corner(const PointOnFace& point, const Adjacency& adjacency);
+
+/// The same as a place on the mesh.
 SurfacePoint locate(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
 
 }  // namespace hooke
