@@ -209,13 +209,10 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
 Projection SurfaceField::State::project(const Vec3& x, int hint, double tolerance) const {
   const bool near_facets = facets && facets->is_near(hint);
   const CurvedFacets::Place place = near_facets ? facets->find(x, hint) : CurvedFacets::Place{};
-  if (kind == FilterKind::closest) {
-    const Projection near = faces().closest_point(x, faces().nearest_vertex(x, hint));
-    return place.index >= 0 && place.distance < (near.point - x).norm() ? facets->lift(place) : near;
-  }
   if (place.index >= 0 && facets->is_curved(place.index)) return facets->lift(place);
   hint = faces().nearest_vertex(x, hint);
   if (kind == FilterKind::none) return {x, normals.col(hint), hint};
+  if (kind == FilterKind::closest) return faces().closest_point(x, hint);
 
   NewtonOptions newton;
   newton.tolerance = tolerance;
