@@ -27,6 +27,19 @@ TEST(ClosestPoint, OfATriangleIsNoFartherThanAnyOfItsPoints) {
   }
 }
 
+TEST(ClosestPoint, OfATriangleWithAreaByRoundingOnlyIsOnItsEdges) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int round = 0; round < 1000; ++round) {
+    const Vec3 a(share(random), share(random), share(random)),
+        way(share(random), share(random), share(random));
+    const Vec3 c = a + share(random) * way, x = a + share(random) * way;
+    const TrianglePoint closest = closest_point_on_triangle(a, a + way, c, x);
+    EXPECT_NEAR(closest.weights.sum(), 1, 1e-12);
+    EXPECT_LT(closest.squared_distance, 1e-24);
+  }
+}
+
 TEST(ClosestPoint, OfAPointOfTheTriangleIsItself) {
   const TrianglePoint inside =
       closest_point_on_triangle(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3(.25, .5, 0));

@@ -6,6 +6,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/core/simd.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {

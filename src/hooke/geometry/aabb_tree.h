@@ -94,10 +94,6 @@ struct ClosestPoint {
   int face = -1;  // lowest id among the equally close faces visited; -1 if the tree is empty
 };
 
-/// Minimum squared doubled area of a triangle over the fourth power of its longest edge. Thinner triangles
-/// have no reliable normal and are treated as their edges.
-inline constexpr double min_triangle_squared_area = 1e-24;
-
 /// Closest point to x on the triangle a b c. A triangle without area is treated as its edges.
 ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hooke/core/simd.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/geometry/aabb_tree.h"
 
 namespace hooke {

@@ -27,7 +27,8 @@ double cosine_or(const Vec3& a, const Vec3& b, double otherwise) {
 TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
   const Vec3 normal = (b - a).cross(c - a);
   const double area2 = normal.squaredNorm();
-  if (area2 > 0) {
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  if (area2 > min_triangle_squared_area * longest * longest) {
     const Vec3 weights = Vec3((c - b).cross(x - b).dot(normal), (a - c).cross(x - c).dot(normal),
                               (b - a).cross(x - a).dot(normal)) /
                          area2;

@@ -14,6 +14,10 @@ struct TrianglePoint {
   double squared_distance = 0;
 };
 
+/// Minimum squared doubled area of a triangle over the fourth power of its longest edge. Thinner triangles
+/// have no reliable normal and are treated as their edges.
+inline constexpr double min_triangle_squared_area = 1e-24;
+
 /// The point of the triangle a b c that is closest to x. The triangle may be degenerate.
 TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
 
