@@ -213,10 +213,18 @@ CurvedFacets::Place CurvedFacets::find(const Vec3& x, int hint) const {
   return {closest.face, closest.point, std::sqrt(closest.squared_distance)};
 }
 
+PointOnFace CurvedFacets::on_face(const Place& place) const {
+  const int face = facets_[index_of(place.index)].face;
+  const Triangle& t = adjacency_.faces[index_of(face)];
+  return {face,
+          {place.point, barycentric(place.point, points_.col(t[0]), points_.col(t[1]), points_.col(t[2])),
+           place.distance * place.distance}};
+}
+
 Projection CurvedFacets::lift(const Place& place) const {
   const Facet& facet = facets_[index_of(place.index)];
   const Triangle& t = adjacency_.faces[index_of(facet.face)];
-  const Vec3 weights = barycentric(place.point, points_.col(t[0]), points_.col(t[1]), points_.col(t[2]));
+  const Vec3 weights = on_face(place).at.weights;
   Vec3 offset = Vec3::Zero(), normal = Vec3::Zero();
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);

@@ -48,6 +48,9 @@ class CurvedFacets {
   /// Is there a facet, and may a smooth surface pass it at the distance of the place?
   bool allows(const Place& place) const;
 
+  /// The place as a point of its face.
+  PointOnFace on_face(const Place& place) const;
+
   /// The point of the curved facet over the place.
   Projection lift(const Place& place) const;
 

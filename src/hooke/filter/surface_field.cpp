@@ -37,14 +37,18 @@ bool NearFaces::has_face_within(const Vec3& x, int hint, double distance) const 
   });
 }
 
+Projection NearFaces::projection_to(const PointOnFace& place) const {
+  const Triangle& face = adjacency.faces[place.face];
+  Vec3 normal = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) normal += place.at.weights[k] * normals.col(face[k]);
+  return {place.at.point, normal.normalized(), nearest_corner(place, adjacency), ProjectionStatus::converged,
+          0};
+}
+
 Projection NearFaces::closest_point(const Vec3& x, int hint) const {
   const PointOnFace closest = closest_point_nearby(points, adjacency, x, hint);
   if (closest.face < 0) return {x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
-  const Triangle& face = adjacency.faces[closest.face];
-  Vec3 normal = Vec3::Zero();
-  for (int k = 0; k < 3; ++k) normal += closest.at.weights[k] * normals.col(face[k]);
-  return {closest.at.point, normal.normalized(), nearest_corner(closest, adjacency),
-          ProjectionStatus::converged, 0};
+  return projection_to(closest);
 }
 
 namespace {
@@ -209,6 +213,7 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
 Projection SurfaceField::State::project(const Vec3& x, int hint, double tolerance) const {
   const bool near_facets = facets && facets->is_near(hint);
   const CurvedFacets::Place place = near_facets ? facets->find(x, hint) : CurvedFacets::Place{};
+  if (place.index >= 0 && kind == FilterKind::closest) return faces().projection_to(facets->on_face(place));
   if (place.index >= 0 && facets->is_curved(place.index)) return facets->lift(place);
   hint = faces().nearest_vertex(x, hint);
   if (kind == FilterKind::none) return {x, normals.col(hint), hint};

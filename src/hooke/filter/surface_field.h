@@ -10,6 +10,7 @@
 #include "hooke/filter/surface.h"
 #include "hooke/filter/thin_plate_spline.h"
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/surface_point.h"
 
 namespace hooke {
 
@@ -26,8 +27,10 @@ struct NearFaces {
   /// Whether a face at the hint has a point within the distance of x. Other faces may be closer.
   bool has_face_within(const Vec3& x, int hint, double distance) const;
 
-  /// closest_point_nearby(), with the normal interpolated from the corners of its face; the hint is the
-  /// nearest corner. Returns x with normal zero and no_cover if there is none.
+  /// The normal is interpolated from the corners of the face; the hint is the nearest corner.
+  Projection projection_to(const PointOnFace& place) const;
+
+  /// The projection to closest_point_nearby(), or x with normal zero and no_cover if there is none.
   Projection closest_point(const Vec3& x, int hint) const;
 };
 
