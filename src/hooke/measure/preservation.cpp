@@ -73,6 +73,13 @@ std::vector<double> facet_limits(const MeasuredSurface& surface) {
   return limits;
 }
 
+/// Does the other surface have the face where this one does?
+bool has_same_face(const MeasuredSurface& surface, const MeasuredSurface& other, std::size_t f) {
+  const Triangle& t = surface.adjacency.faces[f];
+  return f < other.adjacency.faces.size() && other.adjacency.faces[f] == t &&
+         std::ranges::all_of(t, [&](int v) { return surface.points.col(v) == other.points.col(v); });
+}
+
 /// The corners of the faces of `from` with a sample beyond the limit from `to`. `limits`: per face of the
 /// reference, which is `to` or, if `is_reference`, `from`.
 void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
@@ -83,6 +90,7 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
   std::vector<double> excess(c.faces.size(), 0), distances(excess);
   parallel_for(c.faces.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
+      if (has_same_face(from, to, f)) continue;
       const auto corner = [&](std::size_t k) { return Vec3(from.points.col(c.faces[f][k % 3])); };
       int near = -1;  // the face closest to the sample before
       const auto sample = [&](const Vec3& x) {
