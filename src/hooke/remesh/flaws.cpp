@@ -59,10 +59,6 @@ std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
     for (const Triangle& t : c.faces)
       if (has_no_area(face_shape(surface.points, t).area, surface.extent.diagonal)) add(t);
   for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
-  constexpr double small_angle = 20;
-  if (attempt.keeps_promises())
-    for (const Triangle& t : c.faces)
-      if (min_angle(surface.points, {t}) < small_angle) add(t);
   return is_wrong;
 }
 

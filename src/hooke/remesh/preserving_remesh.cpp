@@ -235,9 +235,8 @@ class PreservingRemesh {
   }
 
   /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is, or until
-  /// they had too many faces since one that halved what is wrong; then about faces with small angles, which
-  /// narrow parts have left, while each attempt halves their number. Keeps the best lengths. Ends where it
-  /// would take too many faces, or after some rounds.
+  /// they had too many faces since one that halved what is wrong. Keeps the best lengths. Ends where it would
+  /// take too many faces, or after some rounds.
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
     constexpr double max_faces_in_vain = 1e4;
     const double faces = best.result.adaptation.target_faces;
@@ -247,13 +246,12 @@ class PreservingRemesh {
     const auto covering = [&](const std::vector<double>& lengths) {
       return covering_length(input_.points, c, spread_target_lengths(c, lengths));
     };
-    const auto small_angles = [](const Attempt& a) { return a.result.measures->quality.faces_below_20; };
     std::vector<double> lengths = asked_, longest(asked_.size(), std::numeric_limits<double>::infinity());
     std::vector<double> best_lengths = maker_.lengths;
     double faces_in_vain = 0;
     std::size_t flaws_to_halve = best.flaws();
     Attempt last = best;
-    for (int round = 0; round < max_rounds && !(best.keeps_promises() && small_angles(best) == 0); ++round) {
+    for (int round = 0; round < max_rounds && !best.keeps_promises(); ++round) {
       for (int v : input_vertices_at_flaws(maker_, last)) longest[v] = lengths[v] / 2;
       limit_gradation(input_.points, c, gradation, longest);
       const std::vector<double> before = lengths;
@@ -272,17 +270,15 @@ class PreservingRemesh {
       }
       if (!next.result.measures) break;  // not finite
       next.result.shortened = count_shortened();
-      const bool kept = best.keeps_promises();
-      const bool halves = kept ? next.keeps_promises() && 2 * small_angles(next) <= small_angles(best)
-                               : 2 * next.flaws() <= flaws_to_halve;
-      if (halves || (!kept && next.flaws() < best.flaws())) {
+      const bool halves = 2 * next.flaws() <= flaws_to_halve;
+      if (halves || next.flaws() < best.flaws()) {
         best = next;
         best_lengths = lengths;
       }
       faces_in_vain = halves ? 0 : faces_in_vain + static_cast<double>(next.mesh.n_faces());
       if (halves) flaws_to_halve = next.flaws();
       last = std::move(next);
-      if (!halves && (kept || faces_in_vain > max_faces_in_vain)) break;
+      if (faces_in_vain > max_faces_in_vain) break;
     }
     maker_.lengths = std::move(best_lengths);
   }
