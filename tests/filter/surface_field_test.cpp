@@ -36,9 +36,8 @@ test::Triangles hub(int valence) {
 double squared_distance_to_all(const test::Triangles& t, const Vec3& x) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : t.faces)
-    least = std::min(
-        least,
-        closest_point_on_triangle(t.points.col(a), t.points.col(b), t.points.col(c), x).squared_distance);
+    least =
+        std::min(least, closest_point(x, t.points.col(a), t.points.col(b), t.points.col(c)).squared_distance);
   return least;
 }
 
@@ -326,9 +325,8 @@ TEST(SurfaceField, ClosestIsThatOfAllFaces) {
   for (const Start& s : starts_near(t, .1)) {
     double least = INFINITY;
     for (const auto& [a, b, c] : t.faces)
-      least = std::min(least,
-                       closest_point_on_triangle(t.points.col(a), t.points.col(b), t.points.col(c), s.point)
-                           .squared_distance);
+      least = std::min(
+          least, closest_point(s.point, t.points.col(a), t.points.col(b), t.points.col(c)).squared_distance);
     const Projection projection = field.project(s.point, 0, 1e-9);  // whatever the hint it comes from
     EXPECT_NEAR((projection.point - s.point).norm(), std::sqrt(least), 1e-12);
     EXPECT_EQ(projection.status, ProjectionStatus::converged);

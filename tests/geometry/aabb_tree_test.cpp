@@ -13,53 +13,6 @@
 
 namespace hooke::aabb_tree_test {
 
-/// Closest point by a fine walk over the triangle: slow, and true to about 1 / steps.
-double sampled_distance(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-  constexpr int steps = 60;
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= steps; ++i)
-    for (int j = 0; i + j <= steps; ++j)
-      best = std::min(best, (x - (a + double(i) / steps * (b - a) + double(j) / steps * (c - a))).norm());
-  return best;
-}
-
-TEST(ClosestPoint, KnownCases) {
-  const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
-  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).point, Vec3(1, 1, 0));
-  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).squared_distance, 9);
-  EXPECT_EQ(closest_point({-1, -1, 0}, a, b, c).point, a);
-  EXPECT_EQ(closest_point({1, -2, 0}, a, b, c).point, Vec3(1, 0, 0));
-  EXPECT_EQ(closest_point({4, 4, 1}, a, b, c).point, Vec3(2, 2, 0));
-  EXPECT_EQ(closest_point({9, -1, 0}, a, b, c).point, b);
-}
-
-TEST(ClosestPoint, AgreesWithSampling) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> u(-1, 1);
-  const auto point = [&] { return Vec3(u(random), u(random), u(random)); };
-  for (int i = 0; i < 200; ++i) {
-    const Vec3 a = point(), b = point(), c = point(), x = 2 * point();
-    const ClosestPoint p = closest_point(x, a, b, c);
-    const double sampled = sampled_distance(x, a, b, c);
-    EXPECT_NEAR((x - p.point).norm(), std::sqrt(p.squared_distance), 1e-12);
-    EXPECT_LE(std::sqrt(p.squared_distance), sampled + 1e-12);
-    EXPECT_NEAR(std::sqrt(p.squared_distance), sampled, .05);
-  }
-}
-
-TEST(ClosestPoint, TriangleWithoutAreaIsItsEdges) {
-  const ClosestPoint p = closest_point({1, 1, 0}, {0, 0, 0}, {2, 0, 0}, {4, 0, 0});
-  EXPECT_EQ(p.point, Vec3(1, 0, 0));
-  EXPECT_EQ(closest_point({1, 1, 0}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}).point, Vec3(3, 3, 3));
-}
-
-TEST(Barycentric, WeightsRebuildThePoint) {
-  const Vec3 a(0, 0, 0), b(4, 0, 1), c(0, 4, 2), x = .2 * a + .5 * b + .3 * c;
-  EXPECT_TRUE(barycentric(x, a, b, c).isApprox(Vec3(.2, .5, .3), 1e-14));
-  EXPECT_EQ(barycentric(x, a, a, a), Vec3::Constant(1. / 3));
-  EXPECT_EQ(barycentric(b, a, b, c), Vec3(0, 1, 0));
-}
-
 TEST(AabbTree, ClosestPointEqualsBruteForce) {
   const test::Triangles t = test::shaken(test::sphere(2), .1);
   const AabbTree tree(t.points, t.faces);

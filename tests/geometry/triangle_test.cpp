@@ -6,6 +6,16 @@
 
 namespace hooke::triangle_test {
 
+TEST(ClosestPoint, KnownCases) {
+  const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
+  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).point, Vec3(1, 1, 0));
+  EXPECT_EQ(closest_point({1, 1, 3}, a, b, c).squared_distance, 9);
+  EXPECT_EQ(closest_point({-1, -1, 0}, a, b, c).point, a);
+  EXPECT_EQ(closest_point({1, -2, 0}, a, b, c).point, Vec3(1, 0, 0));
+  EXPECT_EQ(closest_point({4, 4, 1}, a, b, c).point, Vec3(2, 2, 0));
+  EXPECT_EQ(closest_point({9, -1, 0}, a, b, c).point, b);
+}
+
 TEST(ClosestPoint, OfATriangleIsNoFartherThanAnyOfItsPoints) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -13,10 +23,8 @@ TEST(ClosestPoint, OfATriangleIsNoFartherThanAnyOfItsPoints) {
   for (int round = 0; round < 500; ++round) {
     const Vec3 a = point(), b = point(), x = 2 * point();
     const Vec3 c = round % 5 == 0 ? Vec3(a + .3 * (b - a)) : round % 5 == 1 ? a : point();
-    const TrianglePoint closest = closest_point_on_triangle(a, b, c, x);
-    EXPECT_GE(closest.weights.minCoeff(), 0);
-    EXPECT_NEAR(closest.weights.sum(), 1, 1e-12);
-    const Vec3& w = closest.weights;
+    const ClosestPoint closest = closest_point(x, a, b, c);
+    const Vec3 w = barycentric(closest.point, a, b, c);
     EXPECT_LT((w[0] * a + w[1] * b + w[2] * c - closest.point).norm(), 1e-12);
     EXPECT_NEAR((closest.point - x).squaredNorm(), closest.squared_distance, 1e-12);
     for (int i = 0; i <= 20; ++i)
@@ -33,19 +41,24 @@ TEST(ClosestPoint, OfATriangleWithAreaByRoundingOnlyIsOnItsEdges) {
   for (int round = 0; round < 1000; ++round) {
     const Vec3 a(share(random), share(random), share(random)),
         way(share(random), share(random), share(random));
-    const Vec3 c = a + share(random) * way, x = a + share(random) * way;
-    const TrianglePoint closest = closest_point_on_triangle(a, a + way, c, x);
-    EXPECT_NEAR(closest.weights.sum(), 1, 1e-12);
+    const Vec3 b = a + way, c = a + share(random) * way, x = a + share(random) * way;
+    const ClosestPoint closest = closest_point(x, a, b, c);
     EXPECT_LT(closest.squared_distance, 1e-24);
+    const Vec3 w = barycentric(closest.point, a, b, c);
+    EXPECT_LT((w[0] * a + w[1] * b + w[2] * c - x).norm(), 1e-12);
   }
 }
 
-TEST(ClosestPoint, OfAPointOfTheTriangleIsItself) {
-  const TrianglePoint inside =
-      closest_point_on_triangle(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3(.25, .5, 0));
-  EXPECT_EQ(inside.point, Vec3(.25, .5, 0));
-  EXPECT_EQ(inside.weights, Vec3(.25, .25, .5));
-  EXPECT_EQ(inside.squared_distance, 0);
+TEST(ClosestPoint, OfATriangleWithoutAreaIsOnItsEdges) {
+  EXPECT_EQ(closest_point({1, 1, 0}, {0, 0, 0}, {2, 0, 0}, {4, 0, 0}).point, Vec3(1, 0, 0));
+  EXPECT_EQ(closest_point({1, 1, 0}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}).point, Vec3(3, 3, 3));
+}
+
+TEST(Barycentric, WeightsRebuildThePoint) {
+  const Vec3 a(0, 0, 0), b(4, 0, 1), c(0, 4, 2), x = .2 * a + .5 * b + .3 * c;
+  EXPECT_TRUE(barycentric(x, a, b, c).isApprox(Vec3(.2, .5, .3), 1e-14));
+  EXPECT_EQ(barycentric(b, a, b, c), Vec3(0, 1, 0));
+  EXPECT_EQ(barycentric(x, a, a, a).sum(), 1);
 }
 
 }  // namespace hooke::triangle_test

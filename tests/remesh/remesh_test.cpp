@@ -203,9 +203,8 @@ double off_the_faces(const test::Triangles& t, const Mat3X& points) {
   for (const auto& x : points.colwise()) {
     double least = 1e300;
     for (const auto& [a, b, c] : t.faces)
-      least = std::min(
-          least,
-          closest_point_on_triangle(t.points.col(a), t.points.col(b), t.points.col(c), x).squared_distance);
+      least = std::min(least,
+                       closest_point(x, t.points.col(a), t.points.col(b), t.points.col(c)).squared_distance);
     worst = std::max(worst, std::sqrt(least));
   }
   return worst;

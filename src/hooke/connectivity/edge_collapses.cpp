@@ -128,9 +128,8 @@ double CollapsedRing::distance(const Vec3& x) const {
   double smallest = std::numeric_limits<double>::infinity();
   for (size_t f = 0; f < faces_.size(); ++f) {
     const Triangle t = corners_of(f);
-    smallest = std::min(smallest,
-                        closest_point_on_triangle(points_.col(t[0]), points_.col(t[1]), points_.col(t[2]), x)
-                            .squared_distance);
+    smallest = std::min(
+        smallest, closest_point(x, points_.col(t[0]), points_.col(t[1]), points_.col(t[2])).squared_distance);
   }
   return std::sqrt(smallest);
 }

@@ -8,6 +8,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 #include "hooke/mesh/normals.h"
+#include "hooke/mesh/surface_point.h"
 #include "hooke/mesh/wedges.h"
 
 namespace hooke {
@@ -176,8 +177,7 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
 
 /// How far the curved facet may rise at a point of it: the sum of the sagittas of its edges, each of which
 /// matters as far as its chord reaches; both shrink towards a tip.
-double CurvedFacets::rise_at(int index, const Vec3& at) const {
-  const Facet& facet = facets_[index_of(index)];
+double CurvedFacets::rise_at(const Facet& facet, const Vec3& at) const {
   const Triangle& t = adjacency_.faces[index_of(facet.face)];
   double rise = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -193,7 +193,7 @@ double CurvedFacets::rise_at(int index, const Vec3& at) const {
   return rise;
 }
 
-CurvedFacets::Place CurvedFacets::find(const Vec3& x, int hint) const {
+ClosestPoint CurvedFacets::find(const Vec3& x, int hint) const {
   const int component = components_[index_of(hint)];
   const Vec3 side = normals_.col(hint);
   const auto accepts = [&](int index) {
@@ -209,41 +209,35 @@ CurvedFacets::Place CurvedFacets::find(const Vec3& x, int hint) const {
     const Triangle& t = adjacency_.faces[index_of(f)];
     update_closest(x, {points_.col(t[0]), points_.col(t[1]), points_.col(t[2])}, index, at_hint);
   }
-  const ClosestPoint closest = tree_->closest(x, accepts, at_hint);
-  return {closest.face, closest.point, std::sqrt(closest.squared_distance)};
+  ClosestPoint closest = tree_->closest(x, accepts, at_hint);
+  if (closest.face >= 0) closest.face = facets_[index_of(closest.face)].face;
+  return closest;
 }
 
-PointOnFace CurvedFacets::on_face(const Place& place) const {
-  const int face = facets_[index_of(place.index)].face;
-  const Triangle& t = adjacency_.faces[index_of(face)];
-  return {face,
-          {place.point, barycentric(place.point, points_.col(t[0]), points_.col(t[1]), points_.col(t[2])),
-           place.distance * place.distance}};
-}
-
-Projection CurvedFacets::lift(const Place& place) const {
-  const Facet& facet = facets_[index_of(place.index)];
-  const Triangle& t = adjacency_.faces[index_of(facet.face)];
-  const Vec3 weights = on_face(place).at.weights;
+Projection CurvedFacets::lift(const ClosestPoint& point) const {
+  const Facet& facet = facet_of(point.face);
+  const Triangle& t = adjacency_.faces[index_of(point.face)];
+  const Vec3 weights = on_face(point, points_, adjacency_).weights;
   Vec3 offset = Vec3::Zero(), normal = Vec3::Zero();
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
   for (Eigen::Index k = 0; k < 3; ++k) {
     const auto v = t[k];
     const Vec3 n = is_tip_[index_of(v)] ? facet.normal : Vec3(normals_.col(v));  // tips have none
-    offset += .5 * weights[k] * n.dot(points_.col(v) - place.point) * n;
+    offset += .5 * weights[k] * n.dot(points_.col(v) - point.point) * n;
     normal += weights[k] * n;
   }
-  const double height = std::abs(offset.dot(facet.normal)), rise = rise_at(place.index, place.point);
+  const double height = std::abs(offset.dot(facet.normal)), rise = rise_at(facet, point.point);
   const double share = height > rise ? rise / height : 1;  // of the curved facet, the rest is flat
   const bool has_normal = !facet.normal.isZero(0);
-  return {place.point + share * offset,
+  return {point.point + share * offset,
           Vec3(has_normal ? facet.normal + share * (normal - facet.normal) : normal).normalized(), t[corner],
           ProjectionStatus::converged, 0};
 }
 
-bool CurvedFacets::allows(const Place& place) const {
-  return place.index >= 0 && place.distance <= max_height * facets_[index_of(place.index)].max_rise;
+bool CurvedFacets::allows(const ClosestPoint& closest) const {
+  return closest.face >= 0 &&
+         std::sqrt(closest.squared_distance) <= max_height * facet_of(closest.face).max_rise;
 }
 
 std::size_t CurvedFacets::memory_bytes() const {

@@ -31,28 +31,18 @@ class CurvedFacets {
   static std::unique_ptr<const CurvedFacets> all_flat(const Mat3X& points, const Mat3X& normals,
                                                       const Adjacency& adjacency);
 
-  /// One of the facets, or a face next to them, and the closest point of it to some point.
-  struct Place {
-    int index = -1;  // of the facet; -1 if there is none
-    Vec3 point;
-    double distance = 0;
-  };
+  /// The point closest to x on the facets and the faces next to them, of the same component as the vertex
+  /// `hint`, those on the opposite side of a thin body aside; face -1 if there is none.
+  ClosestPoint find(const Vec3& x, int hint) const;
 
-  /// The place closest to x on the faces of the same component as the vertex `hint`, those on the opposite
-  /// side of a thin body aside.
-  Place find(const Vec3& x, int hint) const;
+  /// Is the face, one of these, a facet that the surface is made of?
+  bool is_curved(int face) const { return facet_of(face).is_curved; }
 
-  /// Is the facet one of those that the surface is made of?
-  bool is_curved(int index) const { return facets_[index].is_curved; }
+  /// Is there a facet, and may a smooth surface pass it at the distance of its closest point?
+  bool allows(const ClosestPoint& closest) const;
 
-  /// Is there a facet, and may a smooth surface pass it at the distance of the place?
-  bool allows(const Place& place) const;
-
-  /// The place as a point of its face.
-  PointOnFace on_face(const Place& place) const;
-
-  /// The point of the curved facet over the place.
-  Projection lift(const Place& place) const;
+  /// The point of the curved facet over a point of it.
+  Projection lift(const ClosestPoint& point) const;
 
   /// May a point tracked at the vertex lie over one of these facets?
   bool is_near(int vertex) const { return near_[vertex] != 0; }
@@ -63,8 +53,6 @@ class CurvedFacets {
   CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adjacency& adjacency,
                const std::vector<char>& curved, const std::vector<EdgeArc>& arcs,
                const std::vector<double>& rises);
-  double rise_at(int index, const Vec3& at) const;
-
   /// A face of the tree.
   struct Facet {
     int face;
@@ -74,6 +62,9 @@ class CurvedFacets {
     Vec3 normal;                  // unit
     std::array<EdgeArc, 3> arcs;  // of edge k, which joins corners k and k + 1
   };
+
+  const Facet& facet_of(int face) const { return facets_[facet_of_face_[face]]; }
+  double rise_at(const Facet& facet, const Vec3& at) const;
 
   const Mat3X& points_;
   const Mat3X& normals_;

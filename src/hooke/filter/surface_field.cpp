@@ -32,21 +32,21 @@ int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
 bool NearFaces::has_face_within(const Vec3& x, int hint, double distance) const {
   return std::ranges::any_of(adjacency.vertex_faces[hint], [&](int f) {
     const Triangle& face = adjacency.faces[f];
-    return closest_point_on_triangle(points.col(face[0]), points.col(face[1]), points.col(face[2]), x)
+    return hooke::closest_point(x, points.col(face[0]), points.col(face[1]), points.col(face[2]))
                .squared_distance <= distance * distance;
   });
 }
 
-Projection NearFaces::projection_to(const PointOnFace& place) const {
+Projection NearFaces::projection_to(const ClosestPoint& point) const {
+  const SurfacePoint place = on_face(point, points, adjacency);
   const Triangle& face = adjacency.faces[place.face];
   Vec3 normal = Vec3::Zero();
-  for (int k = 0; k < 3; ++k) normal += place.at.weights[k] * normals.col(face[k]);
-  return {place.at.point, normal.normalized(), nearest_corner(place, adjacency), ProjectionStatus::converged,
-          0};
+  for (int k = 0; k < 3; ++k) normal += place.weights[k] * normals.col(face[k]);
+  return {point.point, normal.normalized(), nearest_corner(place, adjacency), ProjectionStatus::converged, 0};
 }
 
 Projection NearFaces::closest_point(const Vec3& x, int hint) const {
-  const PointOnFace closest = closest_point_nearby(points, adjacency, x, hint);
+  const ClosestPoint closest = closest_point_nearby(points, adjacency, x, hint);
   if (closest.face < 0) return {x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
   return projection_to(closest);
 }
@@ -212,9 +212,9 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
 
 Projection SurfaceField::State::project(const Vec3& x, int hint, double tolerance) const {
   const bool near_facets = facets && facets->is_near(hint);
-  const CurvedFacets::Place place = near_facets ? facets->find(x, hint) : CurvedFacets::Place{};
-  if (place.index >= 0 && kind == FilterKind::closest) return faces().projection_to(facets->on_face(place));
-  if (place.index >= 0 && facets->is_curved(place.index)) return facets->lift(place);
+  const ClosestPoint place = near_facets ? facets->find(x, hint) : ClosestPoint{};
+  if (place.face >= 0 && kind == FilterKind::closest) return faces().projection_to(place);
+  if (place.face >= 0 && facets->is_curved(place.face)) return facets->lift(place);
   hint = faces().nearest_vertex(x, hint);
   if (kind == FilterKind::none) return {x, normals.col(hint), hint};
   if (kind == FilterKind::closest) return faces().closest_point(x, hint);
@@ -227,7 +227,7 @@ Projection SurfaceField::State::project(const Vec3& x, int hint, double toleranc
   const Projection projection =
       project_by_newton([this](const Vec3& p, int a) { return sample(p, a); }, x, hint, newton);
   const bool converged = projection.status == ProjectionStatus::converged;
-  if (place.index >= 0 && !(converged && facets->allows(facets->find(projection.point, projection.hint)))) {
+  if (place.face >= 0 && !(converged && facets->allows(facets->find(projection.point, projection.hint)))) {
     Projection lifted = facets->lift(place);
     lifted.evaluations = projection.evaluations;
     return lifted;

@@ -28,7 +28,7 @@ struct NearFaces {
   bool has_face_within(const Vec3& x, int hint, double distance) const;
 
   /// The normal is interpolated from the corners of the face; the hint is the nearest corner.
-  Projection projection_to(const PointOnFace& place) const;
+  Projection projection_to(const ClosestPoint& point) const;
 
   /// The projection to closest_point_nearby(), or x with normal zero and no_cover if there is none.
   Projection closest_point(const Vec3& x, int hint) const;

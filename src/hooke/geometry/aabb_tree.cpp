@@ -6,7 +6,6 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/core/simd.h"
-#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 namespace {
@@ -75,13 +74,6 @@ namespace {
 
 constexpr size_t tree_block = 1024;
 
-Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
-  const Vec3 d = b - a;
-  const double squared_length = d.squaredNorm();
-  if (!(squared_length > 0)) return a;
-  return a + std::clamp(d.dot(x - a) / squared_length, 0., 1.) * d;
-}
-
 AabbTree::Face face_of(const Mat3X& points, const std::vector<Triangle>& faces, size_t id) {
   const auto& [a, b, c] = faces[id];
   return {{points.col(a), points.col(b), points.col(c)}, {a, b, c}, static_cast<int>(id)};
@@ -96,40 +88,6 @@ std::vector<Vec3> centres(const Mat3X& points, const std::vector<Triangle>& face
 }
 
 }  // namespace
-
-ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-  ClosestPoint best;
-  const Vec3 n = (b - a).cross(c - a);
-  const double nn = n.squaredNorm();
-  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  if (nn > min_triangle_squared_area * longest * longest) {
-    const bool inside =
-        n.cross(b - a).dot(x - a) >= 0 && n.cross(c - b).dot(x - b) >= 0 && n.cross(a - c).dot(x - c) >= 0;
-    if (inside) {
-      const double height = n.dot(x - a);
-      best.point = x - (height / nn) * n;
-      best.squared_distance = height * height / nn;
-      return best;
-    }
-  }
-  for (const Vec3& p :
-       {closest_on_segment(x, a, b), closest_on_segment(x, b, c), closest_on_segment(x, c, a)}) {
-    const double squared_distance = (x - p).squaredNorm();
-    if (squared_distance >= best.squared_distance) continue;
-    best.squared_distance = squared_distance;
-    best.point = p;
-  }
-  return best;
-}
-
-Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = (b - a).cross(c - a);
-  Vec3 weights(n.dot((c - b).cross(x - b)), n.dot((a - c).cross(x - c)), n.dot((b - a).cross(x - a)));
-  weights = weights.cwiseMax(0);
-  const double sum = weights.sum();
-  if (!(sum > 0)) return Vec3::Constant(1. / 3);
-  return weights / sum;
-}
 
 AabbTree::AabbTree(const Mat3X& points, const std::vector<Triangle>& faces,
                    const std::vector<int>& given_order)

@@ -12,6 +12,7 @@
 #include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/types.h"
+#include "hooke/geometry/triangle.h"
 
 namespace hooke {
 
@@ -86,20 +87,6 @@ void parallel_radix_sort(std::span<Item> items, std::span<Item> buffer, const Ke
 /// Pre-condition: finite coordinates.
 std::vector<int> spatial_order(const std::vector<Vec3>& points);
 
-// Closest points and the AABB tree.
-
-struct ClosestPoint {
-  Vec3 point = Vec3::Zero();
-  double squared_distance = std::numeric_limits<double>::infinity();
-  int face = -1;  // lowest id among the equally close faces visited; -1 if the tree is empty
-};
-
-/// Closest point to x on the triangle a b c. A triangle without area is treated as its edges.
-ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
-
-/// Barycentric weights of a point of the triangle a b c: non-negative, with sum 1.
-Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
-
 /// Owns a copy of its triangles. Among faces at the same distance the order of faces() decides which one is
 /// returned; otherwise results depend on the triangles only. Const calls are thread-safe.
 class AabbTree {
@@ -133,6 +120,7 @@ class AabbTree {
   /// The ids of faces(), in that order.
   std::vector<int> order() const;
 
+  /// The closest point, with the lowest id among the equally close faces visited; face -1 if there is none.
   ClosestPoint closest(const Vec3& x) const {
     return closest(x, [](int) { return true; });
   }

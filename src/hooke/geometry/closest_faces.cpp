@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "hooke/core/simd.h"
-#include "hooke/geometry/triangle.h"
 #include "hooke/geometry/aabb_tree.h"
 
 namespace hooke {

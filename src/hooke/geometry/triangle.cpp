@@ -11,10 +11,14 @@ namespace hooke {
 namespace {
 
 /// Parameter in [0, 1] of the point of the segment a b closest to x.
-double closest_parameter(const Vec3& a, const Vec3& b, const Vec3& x) {
-  const Vec3 ab = b - a;
-  const double length2 = ab.squaredNorm();
-  return length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0., 1.) : 0;
+double closest_parameter(const Vec3& x, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double squared_length = d.squaredNorm();
+  return squared_length > 0 ? std::clamp(d.dot(x - a) / squared_length, 0., 1.) : 0;
+}
+
+Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
+  return a + closest_parameter(x, a, b) * (b - a);
 }
 
 double cosine_or(const Vec3& a, const Vec3& b, double otherwise) {
@@ -24,41 +28,52 @@ double cosine_or(const Vec3& a, const Vec3& b, double otherwise) {
 
 }  // namespace
 
-TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x) {
-  const Vec3 normal = (b - a).cross(c - a);
-  const double area2 = normal.squaredNorm();
+ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  ClosestPoint best;
+  const Vec3 n = (b - a).cross(c - a);
+  const double nn = n.squaredNorm();
   const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  if (area2 > min_triangle_squared_area * longest * longest) {
-    const Vec3 weights = Vec3((c - b).cross(x - b).dot(normal), (a - c).cross(x - c).dot(normal),
-                              (b - a).cross(x - a).dot(normal)) /
-                         area2;
-    if (weights.minCoeff() >= 0) {
-      const Vec3 point = weights[0] * a + weights[1] * b + weights[2] * c;
-      return {point, weights, (point - x).squaredNorm()};
+  if (nn > min_triangle_squared_area * longest * longest) {
+    const bool inside =
+        n.cross(b - a).dot(x - a) >= 0 && n.cross(c - b).dot(x - b) >= 0 && n.cross(a - c).dot(x - c) >= 0;
+    if (inside) {
+      const double height = n.dot(x - a);
+      best.point = x - (height / nn) * n;
+      best.squared_distance = height * height / nn;
+      return best;
     }
   }
-
-  // Outside, or without area: on one of the edges.
-  const std::array<Vec3, 3> corners = {a, b, c};
-  TrianglePoint best;
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    const Vec3 &from = corners[k], &to = corners[next];
-    const double t = closest_parameter(from, to, x);
-    const Vec3 point = from + t * (to - from);
-    const double squared_distance = (point - x).squaredNorm();
-    if (k > 0 && squared_distance >= best.squared_distance) continue;
-    best.point = point;
+  for (const Vec3& p :
+       {closest_on_segment(x, a, b), closest_on_segment(x, b, c), closest_on_segment(x, c, a)}) {
+    const double squared_distance = (x - p).squaredNorm();
+    if (squared_distance >= best.squared_distance) continue;
     best.squared_distance = squared_distance;
-    best.weights.setZero();
-    best.weights[k] = 1 - t;
-    best.weights[next] = t;
+    best.point = p;
   }
   return best;
 }
 
+Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = (b - a).cross(c - a),
+             edges((b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm());
+  Eigen::Index longest;
+  const double length = edges.maxCoeff(&longest);
+  if (!(n.squaredNorm() > min_triangle_squared_area * length * length)) {
+    const std::array<Vec3, 3> corners = {a, b, c};
+    const Eigen::Index next = (longest + 1) % 3;
+    const double t = closest_parameter(x, corners[longest], corners[next]);
+    Vec3 weights = Vec3::Zero();
+    weights[longest] = 1 - t;
+    weights[next] = t;
+    return weights;
+  }
+  Vec3 weights(n.dot((c - b).cross(x - b)), n.dot((a - c).cross(x - c)), n.dot((b - a).cross(x - a)));
+  weights = weights.cwiseMax(0);
+  return weights / weights.sum();
+}
+
 double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
-  return (x - a - closest_parameter(a, b, x) * (b - a)).norm();
+  return (x - closest_on_segment(x, a, b)).norm();
 }
 
 namespace {

@@ -3,23 +3,28 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "hooke/core/types.h"
 
 namespace hooke {
 
-struct TrianglePoint {
-  Vec3 point;
-  Vec3 weights;  // barycentric: point = weights[0] a + weights[1] b + weights[2] c, none negative
-  double squared_distance = 0;
+struct ClosestPoint {
+  Vec3 point = Vec3::Zero();
+  double squared_distance = std::numeric_limits<double>::infinity();
+  int face = -1;  // of several faces; -1: none
 };
 
 /// Minimum squared doubled area of a triangle over the fourth power of its longest edge. Thinner triangles
 /// have no reliable normal and are treated as their edges.
 inline constexpr double min_triangle_squared_area = 1e-24;
 
-/// The point of the triangle a b c that is closest to x. The triangle may be degenerate.
-TrianglePoint closest_point_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
+/// Closest point to x on the triangle a b c. A triangle without area is treated as its edges.
+ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Barycentric weights of a point of the triangle a b c: non-negative, with sum 1. Without area the point is
+/// taken for one of its longest edge.
+Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Distance of x to the segment a b, which may have no length.
 double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b);

@@ -19,7 +19,8 @@ Vec3 weights_in_plane(const Mat3X& points, const Triangle& t, const Vec3& x) {
   const Vec3 a = points.col(t[0]), ab = points.col(t[1]) - a, ac = points.col(t[2]) - a, ax = x - a;
   const Vec3 normal = ab.cross(ac);
   const double square = normal.squaredNorm();
-  if (!(square > 0)) return Vec3::Constant(-std::numeric_limits<double>::infinity());
+  if (!(square > min_triangle_squared_area * std::pow(std::max(ab.squaredNorm(), ac.squaredNorm()), 2)))
+    return Vec3::Constant(-std::numeric_limits<double>::infinity());
   const double v = ax.cross(ac).dot(normal) / square, w = ab.cross(ax).dot(normal) / square;
   return {1 - v - w, v, w};
 }
@@ -42,21 +43,22 @@ class TexturedSurface {
 
   /// The texture at x, on the side of these faces.
   Vec3 value_near(std::vector<int> faces, const Vec3& x) const {
-    std::vector<TrianglePoint> nearest;
-    for (const int f : faces) nearest.push_back(closest_point(f, x));
+    std::vector<ClosestPoint> nearest;
+    for (const int f : faces) nearest.push_back(closest_on(f, x));
     for (std::size_t i = 0; i < faces.size(); ++i)
       for (const int e : adjacency().face_edges[faces[i]]) {
         if (is_seam(e)) continue;
         const auto& [left, right] = adjacency().edge_faces[e];
         const int next = left == faces[i] ? right : left;
-        const TrianglePoint place = closest_point(next, x);
+        const ClosestPoint place = closest_on(next, x);
         if (is_farther(place, nearest[i]) || std::ranges::find(faces, next) != faces.end()) continue;
         faces.push_back(next);
         nearest.push_back(place);
       }
-    const auto least = std::ranges::min_element(nearest, {}, &TrianglePoint::squared_distance);
+    const auto least = std::ranges::min_element(nearest, {}, &ClosestPoint::squared_distance);
     std::size_t best = least - nearest.begin();
-    Vec3 weights = least->weights;
+    const auto& [a, b, c] = adjacency().faces[faces[best]];
+    Vec3 weights = barycentric(least->point, points_.col(a), points_.col(b), points_.col(c));
     double best_fit = -1;  // farther away than an edge a value is not extrapolated
     for (std::size_t i = 0; i < faces.size(); ++i) {
       if (is_farther(nearest[i], *least)) continue;
@@ -80,12 +82,12 @@ class TexturedSurface {
            differences_.differ_at(edge, b);
   }
 
-  TrianglePoint closest_point(int face, const Vec3& x) const {
+  ClosestPoint closest_on(int face, const Vec3& x) const {
     const Triangle& t = adjacency().faces[face];
-    return closest_point_on_triangle(points_.col(t[0]), points_.col(t[1]), points_.col(t[2]), x);
+    return closest_point(x, points_.col(t[0]), points_.col(t[1]), points_.col(t[2]));
   }
 
-  static bool is_farther(const TrianglePoint& a, const TrianglePoint& b) {
+  static bool is_farther(const ClosestPoint& a, const ClosestPoint& b) {
     constexpr double rounding = 1e-9;
     return a.squared_distance > (1 + rounding) * b.squared_distance;
   }

@@ -134,23 +134,24 @@ class PlaceSearch {
     const auto same_side = [&](int f) {  // the other side of a thin wall may be nearer
       return doubled_area_vector(input_.points, input_.adjacency.faces[f]).dot(normal) > 0;
     };
-    int there = tree_.closest(x, same_side).face;
-    if (there < 0) there = tree_.closest(x).face;
-    return on_face(there, x);
+    const ClosestPoint there = tree_.closest(x, same_side);
+    return place_of(there.face < 0 ? tree_.closest(x) : there);
   }
 
-  SurfacePoint on_face(int face, const Vec3& x) const {
-    const Triangle& t = input_.adjacency.faces[face];
-    return {face, closest_point_on_triangle(input_.points.col(t[0]), input_.points.col(t[1]),
-                                            input_.points.col(t[2]), x)
-                      .weights};
+  SurfacePoint place_of(const ClosestPoint& point) const {
+    return on_face(point, input_.points, input_.adjacency);
+  }
+
+  SurfacePoint place_on(int face, const Vec3& x) const {
+    const auto& [a, b, c] = input_.adjacency.faces[face];
+    ClosestPoint closest = closest_point(x, input_.points.col(a), input_.points.col(b), input_.points.col(c));
+    closest.face = face;
+    return place_of(closest);
   }
 
   /// The place of x in the chart of a place near it, on the same side of all feature edges.
   SurfacePoint from(const SurfacePoint& near, const Vec3& x) const {
-    Eigen::Index corner;
-    near.weights.maxCoeff(&corner);
-    return locate(cut_points_, cut_, x, cut_.faces[near.face][corner]);
+    return locate(cut_points_, cut_, x, nearest_corner(near, cut_));
   }
 
   /// Finds the places of the faces of a chart, from that of one of them.
@@ -180,7 +181,7 @@ class PlaceSearch {
     constexpr double inside = .02;  // of the way to the centre
     constexpr int max_edges = 3;
     const SurfacePoint start = from(places_[face], x + inside * (centre_of(result_, face) - x));
-    SurfacePoint best = on_face(start.face, x);
+    SurfacePoint best = place_on(start.face, x);
     double least = squared_distance(best, x);
     std::vector<int> reached = {start.face};
     std::size_t begin = 0;
@@ -192,7 +193,7 @@ class PlaceSearch {
         });
     }
     for (const int next : reached) {
-      const SurfacePoint place = on_face(next, x);
+      const SurfacePoint place = place_on(next, x);
       const double distance = squared_distance(place, x);
       if (distance >= least) continue;
       least = distance;

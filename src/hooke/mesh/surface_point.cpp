@@ -1,7 +1,6 @@
 #include "hooke/mesh/surface_point.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace hooke {
 namespace {
@@ -14,39 +13,44 @@ double squared_distance_to_box(const Vec3& a, const Vec3& b, const Vec3& c, cons
 
 }  // namespace
 
-PointOnFace closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint) {
-  PointOnFace closest;
-  closest.at.squared_distance = std::numeric_limits<double>::infinity();
+SurfacePoint on_face(const ClosestPoint& point, const Mat3X& points, const Adjacency& adjacency) {
+  const auto& [a, b, c] = adjacency.faces[point.face];
+  return {point.face, barycentric(point.point, points.col(a), points.col(b), points.col(c))};
+}
+
+int nearest_corner(const SurfacePoint& place, const Adjacency& adjacency) {
+  Eigen::Index corner = 0;
+  place.weights.maxCoeff(&corner);
+  return adjacency.faces[place.face][corner];
+}
+
+ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint) {
+  ClosestPoint closest;
   const auto visit = [&](int vertex) {
     for (int f : adjacency.vertex_faces[vertex]) {
       const Triangle& t = adjacency.faces[f];
       if (vertex != hint && std::ranges::find(t, hint) != t.end()) continue;  // visited with the hint
       const Vec3 a = points.col(t[0]), b = points.col(t[1]), c = points.col(t[2]);
-      if (squared_distance_to_box(a, b, c, x) >= closest.at.squared_distance) continue;
-      const TrianglePoint at = closest_point_on_triangle(a, b, c, x);
-      if (at.squared_distance < closest.at.squared_distance) closest = {f, at};
+      if (squared_distance_to_box(a, b, c, x) >= closest.squared_distance) continue;
+      const ClosestPoint of_face = closest_point(x, a, b, c);
+      if (of_face.squared_distance < closest.squared_distance)
+        closest = {of_face.point, of_face.squared_distance, f};
     }
   };
   for (;;) {
-    const double before = closest.at.squared_distance;
+    const double before = closest.squared_distance;
     visit(hint);
     for (int n : adjacency.vertex_neighbours[hint]) visit(n);
-    if (!(closest.at.squared_distance < before)) return closest;
-    const int nearest = nearest_corner(closest, adjacency);
+    if (!(closest.squared_distance < before)) return closest;
+    const int nearest = nearest_corner(on_face(closest, points, adjacency), adjacency);
     if (nearest == hint) return closest;
     hint = nearest;
   }
 }
 
-int nearest_corner(const PointOnFace& point, const Adjacency& adjacency) {
-  Eigen::Index corner = 0;
-  point.at.weights.maxCoeff(&corner);
-  return adjacency.faces[point.face][corner];
-}
-
 SurfacePoint locate(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint) {
-  const PointOnFace closest = closest_point_nearby(points, adjacency, x, hint);
-  return {closest.face, closest.at.weights};
+  const ClosestPoint closest = closest_point_nearby(points, adjacency, x, hint);
+  return closest.face < 0 ? SurfacePoint{} : on_face(closest, points, adjacency);
 }
 
 }  // namespace hooke

@@ -17,20 +17,17 @@ struct MapEntry {
   SurfacePoint position;  // on the faces of that mesh
 };
 
-/// A point of a face, with its distance to the point it was found for.
-struct PointOnFace {
-  int face = -1;  // -1: none
-  TrianglePoint at = {Vec3::Zero(), Vec3::Zero()};
-};
+/// The place of a point of a face. Pre-condition: the point has a face.
+SurfacePoint on_face(const ClosestPoint& point, const Mat3X& points, const Adjacency& adjacency);
+
+/// The corner of its face that has the largest weight. Pre-condition: it is on a face.
+int nearest_corner(const SurfacePoint& place, const Adjacency& adjacency);
 
 /// The closest point to x on the faces at `hint`, a vertex nearby, and at its neighbours; the search moves on
-/// to the nearest corner while that gets closer to x. None if no face is there, or x is not finite.
-PointOnFace closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
+/// to the nearest corner while that gets closer to x. Face -1 if none is there, or x is not finite.
+ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
 
-/// The corner of its face that has the largest weight. Pre-condition: it is on one.
-int nearest_corner(const PointOnFace& point, const Adjacency& adjacency);
-
-/// The same as a place on the mesh.
+/// Its place on the mesh.
 SurfacePoint locate(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
 
 }  // namespace hooke

@@ -201,10 +201,8 @@ void AttemptMaker::place(int vertex, const Vec3& point, Attempt& a) const {
   if (a.result.map.empty()) return;
   const ClosestPoint closest = input_.tree.closest(point);
   if (closest.face < 0) return;
-  const Triangle& t = input_.adjacency.faces[closest.face];
-  a.result.map[id].position = {
-      memory_order_.order.old_face[closest.face],
-      barycentric(closest.point, input_.points.col(t[0]), input_.points.col(t[1]), input_.points.col(t[2]))};
+  a.result.map[id].position = {memory_order_.order.old_face[closest.face],
+                               on_face(closest, input_.points, input_.adjacency).weights};
 }
 
 }  // namespace hooke
