@@ -409,6 +409,14 @@ int levels_of(const test::WorkingScene& s, const CoarseLimits& limits = any_numb
   return coarse_levels(s.mesh, static_cast<double>(s.adjacency.faces.size()), limits);
 }
 
+TEST(FaceCount, ARoundChangesWhatIsMissingButOnlyAShareOfTheEdges) {
+  EXPECT_EQ(changes_towards(100, 100), 0);
+  EXPECT_EQ(changes_towards(104, 100), 2);
+  EXPECT_EQ(changes_towards(96, 100), 2);
+  EXPECT_EQ(changes_towards(1e6, 1000), 30);
+  EXPECT_EQ(changes_towards(1e6, 4), 1);
+}
+
 TEST(CoarseLevels, GrowByOneWhereTheMeshIsTwiceAsFine) {
   const test::WorkingScene coarse(test::sphere(3, .2, 3), test::unit_sphere());
   const test::WorkingScene fine(test::sphere(4, .2, 3), test::unit_sphere());

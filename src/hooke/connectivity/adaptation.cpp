@@ -53,7 +53,8 @@ class AdaptationSteps {
   /// Splits and collapses edges that are too long or too short, and matches the edge counts of the curves.
   void split_and_collapse();
 
-  /// Brings the number of faces closer to the target; false if no inner edge could be changed.
+  /// Brings the number of faces closer to the target; false if hardly an inner edge could be changed, as
+  /// where narrow parts need them.
   bool change_count(double target_faces);
 
   /// Lloyd flow, after which the mesh is Delaunay and its vertices lie on the surface, within the guards.
@@ -258,12 +259,14 @@ void AdaptationSteps::split_and_collapse() {
 }
 
 bool AdaptationSteps::change_count(double target_faces) {
+  constexpr double hardly_any = .05;  // of the edges that a round changes where nothing holds them
+  const int free = changes_towards(target_faces, face_count());
   count_curve_edges(m_, options_.chord_error);
   add(match_curve_edges(m_));
   const CountChanges inner = approach_face_count(m_, target_faces);
   compact_ids();
   add(inner);
-  return inner.splits + inner.collapses > 0;
+  return inner.splits + inner.collapses > hardly_any * free;
 }
 
 void AdaptationSteps::lloyd_flow(int rounds) {

@@ -108,15 +108,19 @@ CountChanges match_curve_edges(WorkingMesh& m) {
   return changes;
 }
 
+int changes_towards(double target, double faces) {
+  const int max_changes = std::max(1, static_cast<int>(largest_part * 1.5 * faces));
+  const double missing = (target - faces) / 2;  // a split adds two faces, a collapse removes two
+  return std::min(max_changes, static_cast<int>(std::lround(std::abs(missing))));
+}
+
 CountChanges approach_face_count(WorkingMesh& m, double target) {
   CountChanges changes;
   HalfedgeMesh& t = m.halfedges;
   const int faces = face_count(t);
-  const double missing = (target - faces) / 2;  // a split adds two faces, a collapse removes two
-  const bool split = missing > 0;
+  const bool split = target > faces;
   const CollapseOptions collapse = collapse_options();
-  const int max_changes = std::max(1, static_cast<int>(largest_part * 1.5 * faces));
-  const int count = std::min(max_changes, static_cast<int>(std::lround(std::abs(missing))));
+  const int count = changes_towards(target, faces);
   std::vector<char> touched(t.id_count() + count, 0);
   int done = 0;
   for (const Candidate& c : candidates(m, split, 8 * static_cast<size_t>(count) + 64, valence_weight)) {

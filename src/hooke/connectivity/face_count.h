@@ -22,6 +22,9 @@ struct CountChanges {
 /// Pre-condition: count_curve_edges().
 CountChanges match_curve_edges(WorkingMesh& mesh);
 
+/// The number of edges that approach_face_count() changes where nothing holds them.
+int changes_towards(double target, double faces);
+
 /// Brings the number of faces closer to `target` by splits or collapses of inner edges without a common
 /// neighbour, preferring the longest or shortest edges and those whose change leaves the best valences.
 CountChanges approach_face_count(WorkingMesh& mesh, double target);
