@@ -319,6 +319,38 @@ TEST(SurfaceField, FarFromTheSurfaceAnswersWithTheClosestPointAndSaysSo) {
   EXPECT_NEAR(projection.normal.norm(), 1, 1e-12);
 }
 
+test::Triangles lens(double height) {
+  test::Triangles t = test::sphere(2);
+  t.points.row(2) *= height;
+  return t;
+}
+
+TEST(SurfaceField, ClosestToAPointOfAFaceIsThePointWhicheverCornerItIsTrackedAt) {
+  for (const double height : {.3, .02}) {
+    const auto t = lens(height);
+    const SurfaceField field = field_of(t, {.kind = FilterKind::closest});
+    for (const Triangle& face : t.faces)
+      for (const Vec3& weights : {Vec3(1, 1, 1), Vec3(4, 1, 1), Vec3(1, 8, 2), Vec3(1, 1, 30)}) {
+        Vec3 x = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) x += weights[k] / weights.sum() * t.points.col(face[k]);
+        for (int hint : face) ASSERT_LT((field.project(x, hint, 1e-9).point - x).norm(), 1e-12);
+      }
+  }
+}
+
+TEST(SurfaceField, ClosestStaysOnItsSideOfAThinBody) {
+  const auto t = lens(.02);
+  const SurfaceField field = field_of(t, {.kind = FilterKind::closest});
+  for (int v = 0; v < t.points.cols(); ++v) {
+    const Vec3 top = t.points.col(v);
+    if (top.z() < .015) continue;
+    const Projection projection =
+        field.project(top - Vec3(0, 0, 1.2 * top.z()), v, 1e-9);  // nearer the other side
+    EXPECT_GT(projection.point.z(), 0);
+    EXPECT_GT(projection.normal.z(), 0);
+  }
+}
+
 TEST(SurfaceField, ClosestIsThatOfAllFaces) {
   const auto t = test::sphere(2, .3);
   const SurfaceField field = field_of(t, {.kind = FilterKind::closest});

@@ -25,6 +25,7 @@ TEST(ClosestPoint, OfATriangleIsNoFartherThanAnyOfItsPoints) {
     const Vec3 c = round % 5 == 0 ? Vec3(a + .3 * (b - a)) : round % 5 == 1 ? a : point();
     const ClosestPoint closest = closest_point(x, a, b, c);
     const Vec3 w = barycentric(closest.point, a, b, c);
+    EXPECT_GE(w.minCoeff(), 0);
     EXPECT_LT((w[0] * a + w[1] * b + w[2] * c - closest.point).norm(), 1e-12);
     EXPECT_NEAR((closest.point - x).squaredNorm(), closest.squared_distance, 1e-12);
     for (int i = 0; i <= 20; ++i)
@@ -38,15 +39,18 @@ TEST(ClosestPoint, OfATriangleIsNoFartherThanAnyOfItsPoints) {
 TEST(ClosestPoint, OfATriangleWithAreaByRoundingOnlyIsOnItsEdges) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
-  for (int round = 0; round < 1000; ++round) {
-    const Vec3 a(share(random), share(random), share(random)),
-        way(share(random), share(random), share(random));
-    const Vec3 b = a + way, c = a + share(random) * way, x = a + share(random) * way;
-    const ClosestPoint closest = closest_point(x, a, b, c);
-    EXPECT_LT(closest.squared_distance, 1e-24);
-    const Vec3 w = barycentric(closest.point, a, b, c);
-    EXPECT_LT((w[0] * a + w[1] * b + w[2] * c - x).norm(), 1e-12);
-  }
+  const auto point = [&] { return Vec3(share(random), share(random), share(random)); };
+  for (double offset : {0., 1e3})
+    for (int round = 0; round < 1000; ++round) {
+      const double rounding = 1e-14 * std::max(1., offset);
+      const Vec3 a = Vec3::Constant(offset) + point(), way = point();
+      const Vec3 b = a + way, c = a + share(random) * way, x = a + share(random) * way;
+      const ClosestPoint closest = closest_point(x, a, b, c);
+      EXPECT_LT(std::sqrt(closest.squared_distance), rounding);
+      const Vec3 w = barycentric(closest.point, a, b, c);
+      EXPECT_GE(w.minCoeff(), 0);
+      EXPECT_LT((w[0] * a + w[1] * b + w[2] * c - x).norm(), 4 * rounding);
+    }
 }
 
 TEST(ClosestPoint, OfATriangleWithoutAreaIsOnItsEdges) {

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/surface_point.h"

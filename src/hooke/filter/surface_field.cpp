@@ -15,6 +15,7 @@
 #include "hooke/mesh/surface_point.h"
 
 namespace hooke {
+
 int NearFaces::nearest_vertex(const Vec3& x, int vertex) const {
   double smallest = (points.col(vertex) - x).squaredNorm();
   for (int from = -1; from != vertex;) {
@@ -37,7 +38,8 @@ bool NearFaces::has_face_within(const Vec3& x, int hint, double distance) const 
   });
 }
 
-Projection NearFaces::projection_to(const ClosestPoint& point) const {
+Projection NearFaces::projection_to(const ClosestPoint& point, const Vec3& x, int hint) const {
+  if (point.face < 0) return {x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
   const SurfacePoint place = on_face(point, points, adjacency);
   const Triangle& face = adjacency.faces[place.face];
   Vec3 normal = Vec3::Zero();
@@ -46,9 +48,7 @@ Projection NearFaces::projection_to(const ClosestPoint& point) const {
 }
 
 Projection NearFaces::closest_point(const Vec3& x, int hint) const {
-  const ClosestPoint closest = closest_point_nearby(points, adjacency, x, hint);
-  if (closest.face < 0) return {x, Vec3::Zero(), hint, ProjectionStatus::no_cover, 0};
-  return projection_to(closest);
+  return projection_to(closest_point_nearby(points, adjacency, x, hint), x, hint);
 }
 
 namespace {
@@ -213,11 +213,14 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
 Projection SurfaceField::State::project(const Vec3& x, int hint, double tolerance) const {
   const bool near_facets = facets && facets->is_near(hint);
   const ClosestPoint place = near_facets ? facets->find(x, hint) : ClosestPoint{};
-  if (place.face >= 0 && kind == FilterKind::closest) return faces().projection_to(place);
-  if (place.face >= 0 && facets->is_curved(place.face)) return facets->lift(place);
+  if (kind != FilterKind::closest && place.face >= 0 && facets->is_curved(place.face))
+    return facets->lift(place);
   hint = faces().nearest_vertex(x, hint);
   if (kind == FilterKind::none) return {x, normals.col(hint), hint};
-  if (kind == FilterKind::closest) return faces().closest_point(x, hint);
+  if (kind == FilterKind::closest) {
+    const ClosestPoint nearby = closest_point_nearby(*points, *adjacency, x, hint);
+    return faces().projection_to(nearby.squared_distance < place.squared_distance ? nearby : place, x, hint);
+  }
 
   NewtonOptions newton;
   newton.tolerance = tolerance;

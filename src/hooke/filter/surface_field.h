@@ -27,10 +27,11 @@ struct NearFaces {
   /// Whether a face at the hint has a point within the distance of x. Other faces may be closer.
   bool has_face_within(const Vec3& x, int hint, double distance) const;
 
-  /// The normal is interpolated from the corners of the face; the hint is the nearest corner.
-  Projection projection_to(const ClosestPoint& point) const;
+  /// The projection of x to a point of a face: the normal is interpolated from the corners, the hint is the
+  /// nearest one. If there is none, x with normal zero, the hint given and no_cover.
+  Projection projection_to(const ClosestPoint& point, const Vec3& x, int hint) const;
 
-  /// The projection to closest_point_nearby(), or x with normal zero and no_cover if there is none.
+  /// That to closest_point_nearby().
   Projection closest_point(const Vec3& x, int hint) const;
 };
 

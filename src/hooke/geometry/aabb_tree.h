@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -215,7 +214,7 @@ class AabbTree {
 inline void update_closest(const Vec3& x, const std::array<Vec3, 3>& corners, int id, ClosestPoint& best) {
   const ClosestPoint candidate = closest_point(x, corners[0], corners[1], corners[2]);
   const double d = candidate.squared_distance;
-  if (d > best.squared_distance || (d == best.squared_distance && id >= best.face)) return;
+  if (!(d <= best.squared_distance) || (d == best.squared_distance && id >= best.face)) return;
   best = candidate;
   best.face = id;
 }

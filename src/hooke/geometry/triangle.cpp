@@ -32,8 +32,7 @@ ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Ve
   ClosestPoint best;
   const Vec3 n = (b - a).cross(c - a);
   const double nn = n.squaredNorm();
-  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-  if (nn > min_triangle_squared_area * longest * longest) {
+  if (has_reliable_normal(n, b - a, c - b, a - c)) {
     const bool inside =
         n.cross(b - a).dot(x - a) >= 0 && n.cross(c - b).dot(x - b) >= 0 && n.cross(a - c).dot(x - c) >= 0;
     if (inside) {
@@ -54,22 +53,23 @@ ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Ve
 }
 
 Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = (b - a).cross(c - a),
-             edges((b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm());
-  Eigen::Index longest;
-  const double length = edges.maxCoeff(&longest);
-  if (!(n.squaredNorm() > min_triangle_squared_area * length * length)) {
-    const std::array<Vec3, 3> corners = {a, b, c};
-    const Eigen::Index next = (longest + 1) % 3;
-    const double t = closest_parameter(x, corners[longest], corners[next]);
-    Vec3 weights = Vec3::Zero();
-    weights[longest] = 1 - t;
-    weights[next] = t;
-    return weights;
-  }
+  constexpr double thin = 1e-12;  // squared doubled area over the fourth power of the longest edge
+  const Vec3 n = (b - a).cross(c - a);
+  const Vec3 squares((b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm());
   Vec3 weights(n.dot((c - b).cross(x - b)), n.dot((a - c).cross(x - c)), n.dot((b - a).cross(x - a)));
   weights = weights.cwiseMax(0);
-  return weights / weights.sum();
+  weights /= weights.sum();
+  Eigen::Index longest;
+  const double length2 = squares.maxCoeff(&longest);
+  if (n.squaredNorm() > thin * length2 * length2) return weights;
+  const std::array<Vec3, 3> corners = {a, b, c};
+  const Eigen::Index next = (longest + 1) % 3;
+  const double t = closest_parameter(x, corners[longest], corners[next]);
+  Vec3 on_edge = Vec3::Zero();
+  on_edge[longest] = 1 - t;
+  on_edge[next] = t;
+  const auto error = [&](const Vec3& w) { return (w[0] * (a - x) + w[1] * (b - x) + w[2] * (c - x)).norm(); };
+  return error(weights) < error(on_edge) ? weights : on_edge;
 }
 
 double distance_to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {

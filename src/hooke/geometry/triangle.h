@@ -19,11 +19,17 @@ struct ClosestPoint {
 /// have no reliable normal and are treated as their edges.
 inline constexpr double min_triangle_squared_area = 1e-24;
 
+/// Is the triangle with these edges, whose normal is as long as twice its area, not thinner?
+inline bool has_reliable_normal(const Vec3& normal, const Vec3& ab, const Vec3& bc, const Vec3& ca) {
+  const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
+  return normal.squaredNorm() > min_triangle_squared_area * longest * longest;
+}
+
 /// Closest point to x on the triangle a b c. A triangle without area is treated as its edges.
 ClosestPoint closest_point(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Barycentric weights of a point of the triangle a b c: non-negative, with sum 1. Without area the point is
-/// taken for one of its longest edge.
+/// Barycentric weights of a point of the triangle a b c: non-negative, with sum 1. In a thin triangle they
+/// are those of the longest edge where these give the point more exactly.
 Vec3 barycentric(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Distance of x to the segment a b, which may have no length.

@@ -19,7 +19,7 @@ Vec3 weights_in_plane(const Mat3X& points, const Triangle& t, const Vec3& x) {
   const Vec3 a = points.col(t[0]), ab = points.col(t[1]) - a, ac = points.col(t[2]) - a, ax = x - a;
   const Vec3 normal = ab.cross(ac);
   const double square = normal.squaredNorm();
-  if (!(square > min_triangle_squared_area * std::pow(std::max(ab.squaredNorm(), ac.squaredNorm()), 2)))
+  if (!has_reliable_normal(normal, ab, ac - ab, ac))
     return Vec3::Constant(-std::numeric_limits<double>::infinity());
   const double v = ax.cross(ac).dot(normal) / square, w = ab.cross(ax).dot(normal) / square;
   return {1 - v - w, v, w};

@@ -27,7 +27,7 @@ int nearest_corner(const SurfacePoint& place, const Adjacency& adjacency);
 /// to the nearest corner while that gets closer to x. Face -1 if none is there, or x is not finite.
 ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
 
-/// Its place on the mesh.
+/// Its place on the mesh; face -1 if there is none.
 SurfacePoint locate(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
 
 }  // namespace hooke

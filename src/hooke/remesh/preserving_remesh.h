@@ -33,10 +33,10 @@ struct KnownInput {
 /// to where they were at last, as where polygons get worse on the whole; in mode `adapt` target lengths get
 /// shorter about what is wrong, see RemeshResult::shortened, and where that does not do the faces of the
 /// input stay, unless that were nearly all of the surface. Of a result that is made anew it keeps one with
-/// fewer flaws or, with as many, with a larger minimum angle (with shorter lengths only half as many flaws);
-/// in mode `adapt` the result may still not keep all: see RemeshResult::measures. An interrupted run but the
-/// first is discarded. The surface of a binary mask, see is_staircase(), is smoothed first, so that its steps
-/// are no creases, unless creases are kept whatever the noise; the measures are of the input as it was.
+/// fewer flaws or, with as many, with a larger minimum angle; in mode `adapt` the result may still not keep
+/// all: see RemeshResult::measures. An interrupted run but the first is discarded. The surface of a binary
+/// mask, see is_staircase(), is smoothed first, so that its steps are no creases, unless creases are kept
+/// whatever the noise; the measures are of the input as it was.
 RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                                const PreservationOptions& preservation = {}, const KnownInput& known = {},
                                const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
