@@ -260,13 +260,13 @@ void AdaptationSteps::split_and_collapse() {
 
 bool AdaptationSteps::change_count(double target_faces) {
   constexpr double hardly_any = .05;  // of the edges that a round changes where nothing holds them
-  const int free = changes_towards(target_faces, face_count());
+  const int planned = changes_towards(target_faces, face_count());
   count_curve_edges(m_, options_.chord_error);
   add(match_curve_edges(m_));
   const CountChanges inner = approach_face_count(m_, target_faces);
   compact_ids();
   add(inner);
-  return inner.splits + inner.collapses > hardly_any * free;
+  return inner.splits + inner.collapses > hardly_any * planned;
 }
 
 void AdaptationSteps::lloyd_flow(int rounds) {

@@ -213,14 +213,14 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
 Projection SurfaceField::State::project(const Vec3& x, int hint, double tolerance) const {
   const bool near_facets = facets && facets->is_near(hint);
   const ClosestPoint place = near_facets ? facets->find(x, hint) : ClosestPoint{};
-  if (kind != FilterKind::closest && place.face >= 0 && facets->is_curved(place.face))
-    return facets->lift(place);
-  hint = faces().nearest_vertex(x, hint);
-  if (kind == FilterKind::none) return {x, normals.col(hint), hint};
   if (kind == FilterKind::closest) {
+    hint = faces().nearest_vertex(x, hint);
     const ClosestPoint nearby = closest_point_nearby(*points, *adjacency, x, hint);
     return faces().projection_to(nearby.squared_distance < place.squared_distance ? nearby : place, x, hint);
   }
+  if (place.face >= 0 && facets->is_curved(place.face)) return facets->lift(place);
+  hint = faces().nearest_vertex(x, hint);
+  if (kind == FilterKind::none) return {x, normals.col(hint), hint};
 
   NewtonOptions newton;
   newton.tolerance = tolerance;
