@@ -94,6 +94,32 @@ inline Triangles torus(int around, int across, double jitter) {
   return t;
 }
 
+/// A cylinder of radius 1 without vertices between its rims: its sides are needles, its caps are cut at
+/// random.
+inline Triangles drum(int sides, double height) {
+  std::mt19937 random(5);
+  Triangles t;
+  t.points.resize(3, 2 * sides);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    t.points.col(i) << std::cos(angle), std::sin(angle), 0;
+    t.points.col(sides + i) << std::cos(angle), std::sin(angle), height;
+    const int next = (i + 1) % sides;
+    t.faces.push_back({i, next, sides + next});
+    t.faces.push_back({i, sides + next, sides + i});
+  }
+  const auto cut_caps = [&](const auto& self, int low, int high) -> void {
+    if (high - low < 2) return;
+    const int middle = std::uniform_int_distribution(low + 1, high - 1)(random);
+    t.faces.push_back({low, high, middle});
+    t.faces.push_back({sides + low, sides + middle, sides + high});
+    self(self, low, middle);
+    self(self, middle, high);
+  };
+  cut_caps(cut_caps, 0, sides - 1);
+  return t;
+}
+
 inline Triangles both(const Triangles& a, const Triangles& b) {
   Triangles t{Mat3X(3, a.points.cols() + b.points.cols()), a.faces};
   t.points << a.points, b.points;

@@ -72,10 +72,10 @@ int split_edge(WorkingMesh& m, int h, const SurfacePosition* middle) {
   return v;
 }
 
-int split_long_edges(WorkingMesh& m) {
+int split_long_edges(WorkingMesh& m, int max_splits) {
   EdgeQueue queue(m.halfedges, [&](int h) { return relative_length(m, h) - max_relative_length; });
   int splits = 0;
-  for (int h = queue.pop(); h >= 0; h = queue.pop()) {
+  for (int h = queue.pop(); h >= 0 && splits < max_splits; h = queue.pop()) {
     if (!shortens(m, h)) continue;
     const int v = split_edge(m, h);
     if (v < 0) continue;

@@ -1,6 +1,8 @@
 // Edge splits: of edges that are too long, and of all edges in 1-to-4 subdivision.
 #pragma once
 
+#include <limits>
+
 #include "hooke/core/types.h"
 
 namespace hooke {
@@ -20,8 +22,9 @@ int split_edge(WorkingMesh& mesh, int half_edge, const SurfacePosition* middle =
 /// a sliver, or less aligned with the surface than the limits of the local shape and the old face.
 bool may_split_face(const WorkingMesh& mesh, int half_edge, int vertex, int wedge);
 
-/// Splits edges, the longest first, until none that may be split is too long. Returns the number of splits.
-int split_long_edges(WorkingMesh& mesh);
+/// Splits edges, the longest first, until none that may be split is too long, or as often as allowed. Returns
+/// the number of splits.
+int split_long_edges(WorkingMesh& mesh, int max_splits = std::numeric_limits<int>::max());
 
 /// 1-to-4 subdivision: splits every edge, with the new vertices on their feature curves or on the surface,
 /// and joins the three new vertices of each face. All new inner vertices are regular. The connectivity is

@@ -250,7 +250,7 @@ void SurfaceField::State::find_facets() {
     return;
   }
   facets = CurvedFacets::where_exceeded(*points, normals, *adjacency, [this](const Vec3& x, int hint) {
-    const FieldSample s = sample(x, hint);
+    const FieldSample s = sample(x, faces().nearest_vertex(x, hint));
     return s.value / s.gradient.norm();
   });
   for (std::size_t v = 0; facets && v < shape_operators.size(); ++v)
