@@ -131,6 +131,18 @@ double exceeded_by(double share, std::vector<Turn> turns) {
   return 0;
 }
 
+/// About the number of vertices that splits put on the edges of fans: at vertices with very many edges.
+double splits_of_fans(const WorkingMesh& m) {
+  constexpr int very_many = 50;
+  const HalfedgeMesh& t = m.halfedges;
+  double number = 0;
+  for (int h = 0; h < t.half_edge_count(); ++h)
+    if (!t.is_removed(h / 3) && t.twin(h) < h &&
+        std::max(t.valence(t.from(h)), t.valence(t.to(h))) > very_many)
+      number += std::max(0., relative_length(m, h) - 1);
+  return number;
+}
+
 /// Number of ids in [0, count) that satisfy the predicate, which is called from several threads.
 double count_of(int count, const auto& is_such) {
   return parallel_sum(count, 4096, [&](size_t begin, size_t end) {
@@ -224,11 +236,16 @@ int AdaptationSteps::coarse_levels(double target_faces, const CoarseLimits& limi
 
 void AdaptationSteps::split_and_collapse() {
   count_curve_edges(m_, options_.chord_error);
-  // All splits at once would cut needles, as of extruded bodies, into many times the faces that are wanted.
+  // Splits would cut needles, as of extruded bodies, into many times the faces that are wanted, so they come
+  // a share at a time, and after collapses where needles form fans, as in the caps of these bodies.
+  if (constexpr double far_more = 4; splits_of_fans(m_) > far_more * wanted_faces()) {
+    const Stage stage(work_.stopwatch, "collapses");
+    counts_.collapses += collapse_short_edges(m_);
+  }
   constexpr double max_at_once = 1e9;
   constexpr int max_passes = 100;
   const auto at_once = static_cast<int>(std::min(max_at_once, 2 * wanted_faces() + 1000));
-  for (int pass = 0, splits = at_once; pass < max_passes && splits == at_once; ++pass) {
+  for (int pass = 0, splits = at_once; pass < max_passes && splits == at_once && !interrupted_; ++pass) {
     splits = timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, at_once); });
     counts_.splits += splits;
     // Splits leave flat faces, which prevent collapses, so flips come first. Without splits, flips before the
@@ -236,6 +253,7 @@ void AdaptationSteps::split_and_collapse() {
     if (splits > 0) counts_.flips += flip_to_delaunay(m_);
     const Stage stage(work_.stopwatch, "collapses");
     counts_.collapses += collapse_short_edges(m_);
+    interrupted_ = observer_ && !observer_({.step = pass});
   }
   counts_.collapses += timed(work_.stopwatch, "collapses", [&] { return collapse_folded_faces(m_); });
   add(match_curve_edges(m_));

@@ -1,6 +1,7 @@
 #include "hooke/filter/surface_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -250,8 +251,13 @@ void SurfaceField::State::find_facets() {
     return;
   }
   facets = CurvedFacets::where_exceeded(*points, normals, *adjacency, [this](const Vec3& x, int hint) {
-    const FieldSample s = sample(x, faces().nearest_vertex(x, hint));
-    return s.value / s.gradient.norm();
+    const auto height_tracked_at = [&](int v) {
+      const FieldSample s = sample(x, v);
+      return s.value / s.gradient.norm();
+    };
+    // Splines may not reach the point from the vertex that it is projected from.
+    const double nearest = height_tracked_at(faces().nearest_vertex(x, hint));
+    return std::isnan(nearest) ? nearest : height_tracked_at(hint);
   });
   for (std::size_t v = 0; facets && v < shape_operators.size(); ++v)
     if (facets->is_near(static_cast<int>(v))) shape_operators[v] = unknown_shape_operator();
