@@ -248,6 +248,40 @@ TEST(PreservingRemesh, StoppedWhileEdgesGetShorterItKeepsTheResultAsAsked) {
   }
 }
 
+/// A flat needle of slivers, along which vertices have long ways.
+test::Triangles stretched_sphere() {
+  test::Triangles t = test::sphere(4, .45, 2);
+  t.points.row(1) *= .05;
+  t.points.row(2) *= .02;
+  return t;
+}
+
+TEST(PreservingRemesh, FlawsAlongLongWaysDoNotPutMostVerticesBack) {
+  const test::Triangles t = stretched_sphere();
+  int calls = 0, stop = 0;
+  const auto run = [&] {
+    calls = 0;
+    return preserved(t, options_for(ConnectivityMode::fixed),
+                     [&](const Progress&) { return ++calls != stop; });
+  };
+  const test::Outcome o = run();
+  EXPECT_TRUE(o.result.measures->preservation.holds());
+  EXPECT_EQ(o.result.rescue, Rescue::put_back);
+  Eigen::Index count = 0;
+  for (int v = 0; v < o.points.cols(); ++v) {
+    if ((o.result.vertex_limits[v] & VertexLimit::put_back) == 0) continue;
+    ++count;
+    EXPECT_EQ(o.points.col(v), t.points.col(v));
+  }
+  EXPECT_GT(count, 0);
+  EXPECT_LT(4 * count, o.points.cols());
+
+  stop = calls - 10;  // while it runs with vertices held
+  const test::Outcome stopped = run();
+  EXPECT_EQ(stopped.result.reason, StopReason::interrupted);
+  EXPECT_TRUE(stopped.result.measures->preservation.holds());
+}
+
 /// A plane with a bump, whose surface no new vertices keep to within rounding.
 test::Triangles bumped_plane() {
   return test::grid(

@@ -372,9 +372,57 @@ class PreservingRemesh {
   /// Does it keep its promises, and its polygons?
   bool keeps_all(const Attempt& run) const { return run.keeps_promises() && !maker_.has_worse_polygons(run); }
 
-  /// Puts vertices back to where they were, ring by ring around what is wrong, and all if that is not enough
-  /// or makes worse faces than there were; a result with other faces is replaced by one with those of the
-  /// input first.
+  /// Puts vertices back to where they were, ring by ring around what is wrong, until nothing is.
+  void put_back_around_flaws(Attempt& best, int max_rings) const {
+    best.result.rescue = Rescue::put_back;
+    for (int rings = 1; rings <= max_rings && !keeps_all(best); rings *= 2) {
+      const double margin = rings <= 2 ? 2 : 0;  // degrees; clearly worse polygons first
+      move_back(best,
+                best.keeps_promises() ? maker_.vertices_of_worse_polygons(best, margin)
+                                      : vertices_to_put_back(maker_, best),
+                rings);
+    }
+  }
+
+  /// The vertices and so many rings around them, ascending.
+  std::vector<int> with_rings(std::vector<int> vertices, int rings) const {
+    for (int ring = 0; ring < rings; ++ring) {
+      for (std::size_t i = 0, end = vertices.size(); i < end; ++i)
+        for (int n : input_.adjacency.vertex_neighbours[vertices[i]]) vertices.push_back(n);
+      std::ranges::sort(vertices);
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    }
+    return vertices;
+  }
+
+  /// Holds the vertices of the input in all runs to come; false if all are held already.
+  bool hold_in_place(const std::vector<int>& vertices) {
+    std::vector<int>& fixed = options_.constraints.fixed_vertices;
+    std::vector<char> is_fixed(vertex_points(maker_.mesh()).cols(), 0);
+    for (int id : fixed) is_fixed[id] = 1;
+    const std::size_t before = held_.size();
+    for (int v : vertices)
+      if (const int id = maker_.id_of(v); !is_fixed[id]) held_.push_back(id);
+    fixed.insert(fixed.end(), held_.begin() + static_cast<std::ptrdiff_t>(before), held_.end());
+    return held_.size() > before;
+  }
+
+  /// A run with vertices held in place, which is not judged if it is interrupted.
+  Attempt run_with_held() const {
+    Attempt run = maker_.run();
+    if (run.is_interrupted()) return run;
+    for (int id : held_) {
+      unsigned char& limits = run.result.vertex_limits[id];
+      limits = static_cast<unsigned char>((limits & ~limited_by_request) | VertexLimit::put_back);
+    }
+    maker_.judge(run);
+    mend(run);
+    return run;
+  }
+
+  /// Puts vertices back around what is wrong. Where that is not enough, as among long ways of many vertices,
+  /// runs again with the vertices there held; puts all back if that is not enough either or the faces are
+  /// worse than they were. A result with other faces is replaced by one with those of the input first.
   void put_back(Attempt& best) {
     if (maker_.adapts()) return;
     if (options_.connectivity == ConnectivityMode::flip) {
@@ -386,15 +434,22 @@ class PreservingRemesh {
       best = std::move(next);
       if (interrupted) best.result.reason = StopReason::interrupted;
     }
-    best.result.rescue = Rescue::put_back;
-    for (int rings : {1, 2, 4, 8, 16}) {
-      if (keeps_all(best)) break;
-      const double margin = rings <= 2 ? 2 : 0;  // degrees; clearly worse polygons first
-      const std::vector<int> wrong = best.keeps_promises() ? maker_.vertices_of_worse_polygons(best, margin)
-                                                           : vertices_to_put_back(maker_, best);
-      move_back(best, wrong, rings);
+    constexpr int max_runs = 3;
+    const auto is_good = [&] { return best.keeps_promises() && !maker_.has_worse_faces(best); };
+    for (int run = 1; run <= max_runs; ++run) {
+      const std::vector<int> wrong = vertices_to_put_back(maker_, best);
+      const bool had_worse_faces = maker_.has_worse_faces(best);
+      put_back_around_flaws(best, 8);
+      if (is_good()) return;
+      if (had_worse_faces || best.is_interrupted() || maker_.smooths_mask()) break;
+      if (!hold_in_place(with_rings(wrong, run))) break;
+      Attempt next = run_with_held();
+      if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
+      if (next.is_interrupted() || !next.result.measures) break;  // or not finite
+      best = std::move(next);
     }
-    if (best.keeps_promises() && !maker_.has_worse_faces(best)) return;
+    put_back_around_flaws(best, 16);
+    if (is_good()) return;
     std::vector<int> all(input_.adjacency.vertex_count);
     std::iota(all.begin(), all.end(), 0);
     move_back(best, all, 1);
@@ -431,6 +486,7 @@ class PreservingRemesh {
   AttemptMaker& maker_;
   const MeasuredSurface& input_;
   RemeshOptions& options_;           // of the attempts to come
+  std::vector<int> held_;            // ids, see hold_in_place()
   const std::vector<double> asked_;  // target lengths, by vertex of the input in memory order
 };
 

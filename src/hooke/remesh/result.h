@@ -55,7 +55,7 @@ enum class Rescue {
   tips,        // the vertices that were lost stand still
   junctions,   // the vertices of junctions stand still
   closest,     // vertices were projected to the faces of the input
-  put_back,    // vertices were put back to where they were
+  put_back,    // vertices were put back to where they were, or held there
   kept_faces,  // faces of the input stay, in mode `adapt`
 };
 

@@ -267,7 +267,7 @@ constexpr Row promises[] = {
     {"promises.rescue", text, none, neither,
      "how the result came to keep it: none; tips = made again with lost vertices held; junctions = with "
      "those of edges of three faces or more held; closest = on the input's faces; put_back = vertices went "
-     "back; kept_faces = faces of the input stay"},
+     "back or were held where they were; kept_faces = faces of the input stay"},
     {"promises.shortened_vertices", integer, none, neither,
      "vertices of the input to which mode adapt gave half of their target length or less, to keep thin "
      "parts"},
