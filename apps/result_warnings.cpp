@@ -295,8 +295,9 @@ std::string broken_promises(const Settings& s, const RunRecord& run, BrokenBy ca
   const char* const remedy =
       cause == BrokenBy::rounding
           ? "PLY with --preserve off, whose numbers have 64 bits, not 32, or the mesh moved to the origin"
-      : s.remesh.connectivity == ConnectivityMode::adapt ? "a smaller --length, --connectivity flip"
-                                                         : "--feature-noise off";
+      : s.remesh.connectivity != ConnectivityMode::adapt ? "--feature-noise off"
+      : s.min_length ? "a smaller --length, a shorter --min-length, --connectivity flip"
+                     : "a smaller --length, --min-length for narrow parts, --connectivity flip";
   return fmt::format("{}; try {}, or --accept-invalid to write it nevertheless", broken, remedy);
 }
 

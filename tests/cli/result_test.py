@@ -35,7 +35,7 @@ class Result(CommandTest):
         run = (DATA / "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", "4x", "--effort", "fast",
                "--max-distance", "0.001%")
         err = self.refused(9, *run, names="torus.off: its result would break a promise, out.off was not written: ",
-                           says="; try a smaller --length, --connectivity flip, or --accept-invalid to write it nevertheless")
+                           says="; try a smaller --length, --min-length for narrow parts, --connectivity flip, or --accept-invalid to write it nevertheless")
         self.assertRegex(err, r"the surface would be \S+ \(\S+ % of the size\) from that of \S+ at \S+ \S+ \S+, volume")
         report = self.report(*run, "--accept-invalid")
         self.assertIn("promise_broken", [w["code"] for w in report["warnings"]])
