@@ -14,7 +14,8 @@ constexpr TextPair needed_most[] = {
      "edge length wanted: 0.5 in file units, 1% of the box's diagonal, 2x the natural length; "
      "default auto, for as many triangles as there are"},
     {"--connectivity MODE", "fixed, flip or adapt: see above"},
-    {"--sizing curvature", "shorter edges where the surface bends; or a file of lengths"},
+    {"--sizing curvature",
+     "shorter edges where the surface bends; input: as the mesh has them there; or a file of lengths"},
     {"--min-length LENGTH", "with adapt: shorter edges where creases are close, as along slots and fillets"},
     {"--feature-angle DEG", "edges sharper than this stay (40); off for scans of round bodies"},
     {"--boundary fixed", "boundary vertices stand still; default: they slide along it"},

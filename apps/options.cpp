@@ -122,13 +122,14 @@ void add_target(CLI::App& app, Settings& s, RawOptions& raw) {
   app.add_option(
          "--sizing", s.sizing_text,
          "Target length per vertex: a file with one a line, a float property of a PLY input's "
-         "vertices, or by curvature, for chord errors in file units or % of the box's diagonal (0.1%)")
+         "vertices, by curvature, for chord errors in file units or % of the box's diagonal (0.1%), or as "
+         "the faces of the input are there")
       ->check(file_name())
-      ->type_name("FILE|ply:PROPERTY|curvature[:ERROR]")
+      ->type_name("FILE|ply:PROPERTY|curvature[:ERROR]|input")
       ->default_str("off");
   app.add_option("--gradation", raw.gradation,
                  "Maximum change of the lengths of --sizing along an edge, over its length, and of those of "
-                 "--min-length")
+                 "--min-length; off for those of the input if faces stay or are flipped only")
       ->type_name("X|off")
       ->default_str("0.3");
   app.add_option("--min-length", s.min_length_text,

@@ -226,6 +226,16 @@ void warn_of_shortening(RunRecord& run) {
              run.input.path)});
 }
 
+/// Tells that edges are not even.
+void warn_of_lengths_of_input(RunRecord& run) {
+  if (!run.result->has_lengths_of_input) return;
+  run.warnings.push_back(
+      {"lengths_of_input",
+       fmt::format("{}: its edges are about as long as those of {} are there, as even ones would make worse "
+                   "triangles with these vertices; --sizing input asks for such lengths",
+                   run.output->path, run.input.path)});
+}
+
 /// Tells what would help against small angles at edges that stay, of facets or of the boundary.
 void warn_of_held_faces(const Settings& s, RunRecord& run) {
   constexpr double small_angle = 20;
@@ -376,6 +386,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   run.warnings.insert(run.warnings.end(), earlier.begin(), earlier.end());
   warn_of_rescue(run);
   warn_of_shortening(run);
+  warn_of_lengths_of_input(run);
   warn_of_held_faces(s, run);
   warn_of_dropped_creases(run);
   warn_of_count(run);

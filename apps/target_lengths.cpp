@@ -162,6 +162,8 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
       split_wedges(creased, creases_at(curvature_lengths(points, c, error, longest), points, c, features));
       return curvature_lengths(points, creased, error, longest);
     }
+    case SizingSource::Kind::input:
+      return input_lengths(points, c);
   }
   return {};
 }

@@ -180,7 +180,10 @@ void resolve_sizing(Settings& s, const RawOptions& raw) {
   const bool sized = s.sizing_text != "off";
   if (sized) s.sizing = parsed("--sizing", parse_sizing, s.sizing_text);
   if (s.min_length_text != "off") s.min_length = parse_min_length(s.min_length_text);
-  if (!raw.gradation.empty()) s.remesh.gradation = parse_gradation(raw.gradation);
+  if (!raw.gradation.empty())
+    s.remesh.gradation = parse_gradation(raw.gradation);
+  else if (s.sizing.kind == SizingSource::Kind::input && s.remesh.connectivity != ConnectivityMode::adapt)
+    s.remesh.gradation = std::numeric_limits<double>::infinity();
   if (!raw.gradation.empty() && !sized && !s.min_length)
     throw Error("--gradation is of --sizing and --min-length; leave it out, or give one of them");
   if (s.min_length && s.remesh.gradation > 1)

@@ -309,6 +309,56 @@ TEST(PreservingRemesh, KeepsTheFacesOfTheInputWhereNoOthersDo) {
   EXPECT_LT(2 * count, o.points.cols());
 }
 
+TEST(PreservingRemesh, FlippedEdgesStayWhereFacesOfTheInputDoNotHaveTo) {
+  const test::Triangles t = bumped_plane();
+  const test::Outcome o = preserved(t, options_for(ConnectivityMode::flip), nullptr, {.max_distance = 1e-9});
+  EXPECT_TRUE(o.result.measures->preservation.holds());
+  EXPECT_EQ(o.result.rescue, Rescue::kept_faces);
+  EXPECT_NE(o.faces, t.faces);
+  int count = 0;
+  for (int v = 0; v < o.points.cols(); ++v) {
+    if ((o.result.vertex_limits[v] & VertexLimit::put_back) == 0) continue;
+    ++count;
+    EXPECT_EQ(o.points.col(v), t.points.col(v));
+  }
+  EXPECT_GT(count, 9);
+  EXPECT_LT(2 * count, o.points.cols());
+}
+
+/// A disc whose faces get finer by a factor of 30 towards its middle, with rows at random angles.
+test::Triangles graded_disc() {
+  constexpr int rings = 24, sides = 24;
+  test::Triangles t;
+  t.points.resize(3, 1 + rings * sides);
+  t.points.col(0).setZero();
+  for (int ring = 0; ring < rings; ++ring)
+    for (int side = 0; side < sides; ++side) {
+      const double radius = std::pow(1.16, ring - rings + 1.);
+      const double angle =
+          2 * std::numbers::pi * (side + .3 * std::sin(7. * ring * sides + 5. * side)) / sides;
+      t.points.col(1 + ring * sides + side) << radius * std::cos(angle), radius * std::sin(angle), 0;
+    }
+  const auto at = [&](int ring, int side) { return 1 + ring * sides + side % sides; };
+  for (int side = 0; side < sides; ++side) t.faces.push_back({0, at(0, side), at(0, side + 1)});
+  for (int ring = 0; ring + 1 < rings; ++ring)
+    for (int side = 0; side < sides; ++side) {
+      t.faces.push_back({at(ring, side), at(ring + 1, side), at(ring + 1, side + 1)});
+      t.faces.push_back({at(ring, side), at(ring + 1, side + 1), at(ring, side + 1)});
+    }
+  return t;
+}
+
+TEST(PreservingRemesh, WhereEvenEdgesMakeWorseFacesThoseOfTheInputGiveTheLengths) {
+  const test::Outcome o = preserved(graded_disc(), options_for(ConnectivityMode::fixed));
+  const ResultMeasures& m = *o.result.measures;
+  EXPECT_TRUE(m.preservation.holds());
+  EXPECT_TRUE(o.result.has_lengths_of_input);
+  EXPECT_GT(m.quality.shape.mean, m.input_quality.shape.mean);
+  EXPECT_GE(m.quality.min_angle.min, (1 - 1e-9) * m.input_quality.min_angle.min);
+  EXPECT_FALSE(
+      preserved(test::sphere(2, .3, 1), options_for(ConnectivityMode::fixed)).result.has_lengths_of_input);
+}
+
 TEST(PreservingRemesh, FarFromKeptFacesLengthsAreAsAsked) {
   TriMesh mesh = test::to_mesh(bumped_plane());
   std::vector<double> lengths;

@@ -83,6 +83,8 @@ TEST(SizingSource, MeansWhatItSays) {
   EXPECT_FALSE(absolute.percent);
   EXPECT_EQ(percent.chord_error, 2);
   EXPECT_TRUE(percent.percent);
+  EXPECT_EQ(parse_sizing("input").kind, Kind::input);
+  EXPECT_EQ(parse_sizing("./input").kind, Kind::file);
   EXPECT_EQ(parse_sizing("ply:size").kind, Kind::ply_property);
   EXPECT_EQ(parse_sizing("ply:size").name, "size");
   EXPECT_EQ(parse_sizing("a:b.txt").name, "a:b.txt");
@@ -92,6 +94,34 @@ TEST(SizingSource, RefusesWhatIsNone) {
   for (const char* text : {"", "ply:", "curvature:", "curvature:0", "curvature:-1", "curvature:nan",
                            "curvature:1x", "curvature:inf", "curvature:1 %"})
     EXPECT_THROW(parse_sizing(text), Error) << text;
+}
+
+TEST(InputLengths, AreThoseOfEquilateralFacesAndScaleWithTheMesh) {
+  const test::Triangles t = test::sphere(2, .3, 1);
+  const Adjacency c = test::connect(t);
+  const std::vector<double> lengths = input_lengths(t.points, c);
+  ASSERT_EQ(std::ssize(lengths), t.points.cols());
+  for (int v = 0; v < c.vertex_count; ++v) {
+    double area = 0, count = 0;
+    for (const Triangle& f : c.faces)
+      if (std::ranges::count(f, v) > 0) {
+        area += face_shape(t.points, f).area;
+        ++count;
+      }
+    EXPECT_NEAR(std::sqrt(3) / 4 * lengths[v] * lengths[v], area / count, 1e-12);
+  }
+  const std::vector<double> scaled = input_lengths(8 * t.points, c);
+  for (std::size_t v = 0; v < lengths.size(); ++v) EXPECT_EQ(scaled[v], 8 * lengths[v]);
+}
+
+TEST(InputLengths, ArePositiveWhereFacesHaveNoArea) {
+  test::Triangles t = test::sphere(1, 0, 1);
+  const Triangle f = t.faces.front();
+  const Adjacency c = test::connect(t);
+  for (const Triangle& g : c.faces)
+    if (std::ranges::count(g, f[0]) > 0)
+      for (int v : g) t.points.col(v) = t.points.col(f[0]);
+  for (double l : input_lengths(t.points, c)) EXPECT_GT(l, 0);
 }
 
 }  // namespace hooke::sizing_test

@@ -102,9 +102,22 @@ std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) con
   return all;
 }
 
-bool AttemptMaker::has_worse_faces(const Attempt& a) const {
+double AttemptMaker::least_angle() const {
+  constexpr double small_angle = 25;
+  switch (options.connectivity) {
+    case ConnectivityMode::fixed:
+      return least_angle_;
+    case ConnectivityMode::flip:
+      return std::min(least_angle_, small_angle);
+    case ConnectivityMode::adapt:
+      break;
+  }
+  return 0;
+}
+
+bool AttemptMaker::has_worse_faces(const Attempt& a, double margin) const {
   if (polygons_ != nullptr) return has_worse_polygons(a);
-  return a.result.measures->quality.shape.mean < input_quality_.shape.mean;
+  return a.result.measures->quality.shape.mean < input_quality_.shape.mean - margin;
 }
 
 bool AttemptMaker::has_worse_polygons(const Attempt& a) const {
@@ -179,10 +192,7 @@ void AttemptMaker::judge(Attempt& a) const {
   });
   m.judged_by = preservation_;
   a.angle = m.quality.worst_faces.front().min_angle;
-  constexpr double small_angle = 25;
-  a.lost_angle =
-      (options.connectivity == ConnectivityMode::fixed && a.angle < least_angle_) ||
-      (options.connectivity == ConnectivityMode::flip && a.angle < std::min(least_angle_, small_angle));
+  a.lost_angle = a.angle < least_angle();
   a.result.measures = std::make_shared<ResultMeasures>(std::move(m));
 }
 

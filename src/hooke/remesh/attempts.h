@@ -15,7 +15,7 @@ struct Attempt {
   RemeshResult result;        // without measures until it is judged, and where a vertex is not finite
   double angle = 0;           // minimum angle, degrees
   double unmended_angle = 0;  // before vertices were moved to the input
-  bool lost_angle = false;  // is it less than in the input with fixed faces, or with flipped ones and small?
+  bool lost_angle = false;    // is it less than AttemptMaker::least_angle()?
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -54,8 +54,8 @@ class AttemptMaker {
   const TriMesh& mesh() const { return mesh_; }
   const MeasuredSurface& input() const { return input_; }
   const Quality& input_quality() const { return input_quality_; }
-  /// The minimum angle that faces of the input must keep, degrees.
-  double least_angle() const { return least_angle_; }
+  /// The minimum angle that faces must keep, degrees; 0 in mode `adapt`.
+  double least_angle() const;
   /// Do attempts start from smoothed points?
   bool smooths_mask() const { return is_mask_; }
   /// The id that the caller knows the vertex by.
@@ -63,8 +63,9 @@ class AttemptMaker {
   /// The vertices with all copies of those at junctions.
   std::vector<int> with_copies(const std::vector<int>& vertices) const;
 
-  /// Has the attempt worse faces on average than the input? Of known polygons these tell.
-  bool has_worse_faces(const Attempt& attempt) const;
+  /// Has the attempt worse faces on average than the input, by more than the margin of their shape? Of known
+  /// polygons these tell.
+  bool has_worse_faces(const Attempt& attempt, double margin = 0) const;
 
   /// Have the known polygons worse angles on the whole than in the input?
   bool has_worse_polygons(const Attempt& attempt) const;

@@ -58,6 +58,9 @@ std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
   if (p.new_degenerate_faces > 0)
     for (const Triangle& t : c.faces)
       if (has_no_area(face_shape(surface.points, t).area, surface.extent.diagonal)) add(t);
+  if (attempt.lost_angle)
+    for (const Triangle& t : c.faces)
+      if (min_angle(surface.points, {t}) < maker.least_angle()) add(t);
   for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
   return is_wrong;
 }

@@ -19,7 +19,7 @@ std::vector<char> wrong_faces(const AttemptMaker& maker, const Attempt& attempt,
 
 /// The vertices of the input whose surface a result does not keep: those it lost, the ends of lost creases,
 /// and the corners of the faces closest to its own vertices that are too far, at folds, or at faces that are
-/// turned over, intersect or have no area. Ascending, in memory order.
+/// turned over, intersect, or have no area or too small angles. Ascending, in memory order.
 std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt);
 
 /// The vertices of a result with the faces of its input that are too far, at lost creases, or at faces that

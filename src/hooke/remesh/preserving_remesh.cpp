@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
@@ -29,23 +30,48 @@ class PreservingRemesh {
       : maker_(maker), input_(maker.input()), options_(maker.options), asked_(maker.lengths) {}
 
   Attempt best() {
-    Attempt best = attempt();
-    if (!best.result.measures) return best;  // not finite
-    const FilterKind filter = options_.filter.kind;
-    if (best.is_interrupted() && maker_.adapts()) mend(best);
-    if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
-    if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
-    if (maker_.adapts() && !best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask())
-      keep_narrow_parts(filter, best);
-    const bool must_put_back =
-        best.is_interrupted() ? best.flaws() > 0 || maker_.has_worse_polygons(best) : !keeps_all(best);
-    if (must_put_back) put_back(best);
+    const RemeshOptions start = options_;
+    Attempt best = best_with_lengths();
+    constexpr double margin = .005;  // less is how even edges differ from good faces
+    const auto is_done = [&](const Attempt& run) {
+      return !run.result.measures || maker_.adapts() || (keeps_all(run) && !has_worse_faces(run, margin)) ||
+             (keeps_all(run) && (run.is_interrupted() || maker_.smooths_mask()));
+    };
+    if (!is_done(best) && may_take_lengths() && !best.is_interrupted()) {
+      options_ = start;
+      maker_.lengths = lengths_of_input();
+      Attempt next = best_with_lengths();
+      if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
+      if (!next.is_interrupted() && next.result.measures && is_done(next)) {
+        best = std::move(next);
+        best.result.has_lengths_of_input = true;
+      }
+    }
+    if (!is_done(best)) leave_as_it_was(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == vertex_points(maker_.mesh()))
       best.result.steps_smoothed = false;
     return best;
   }
 
  private:
+  /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input.
+  Attempt best_with_lengths() {
+    Attempt best = attempt();
+    if (!best.result.measures) return best;  // not finite
+    const FilterKind filter = options_.filter.kind;
+    if (best.is_interrupted() && maker_.adapts()) mend(best);
+    if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
+    if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
+    if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
+      if (maker_.adapts()) keep_narrow_parts(filter, best);
+      if (options_.connectivity == ConnectivityMode::flip) keep_faces(best);
+    }
+    const bool is_valid =
+        best.is_interrupted() ? best.flaws() == 0 && !maker_.has_worse_polygons(best) : keeps_all(best);
+    if (!is_valid && !maker_.adapts()) put_back(best);
+    return best;
+  }
+
   /// A run with the vertices moved to the input that must be. If vertices of the input are lost in spite
   /// of that, or angles get small, but nothing else is wrong, there is a second run with these held; it is
   /// discarded if it is interrupted.
@@ -283,11 +309,13 @@ class PreservingRemesh {
     maker_.lengths = std::move(best_lengths);
   }
 
-  /// Makes attempts in which faces of the input stay where something was wrong, and ever more around them,
-  /// until nothing is wrong or they are nearly all of the surface. Lengths grow away from their edges.
+  /// Makes attempts in which vertices and faces of the input stay where something was wrong, and ever more
+  /// around them, until nothing is wrong or they are nearly all of the surface. In mode `adapt` lengths grow
+  /// away from their edges.
   void keep_faces(Attempt& best) {
     constexpr double max_share = .9;
-    const double faces = best.result.adaptation.target_faces;
+    const double faces =
+        maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
@@ -306,8 +334,10 @@ class PreservingRemesh {
         frozen.push_back(maker_.id_of(v));
         longest[v] = std::min(before[v], mean_edges[v]);
       }
-      limit_gradation(input_.points, c, gradation, longest);
-      for (std::size_t v = 0; v < longest.size(); ++v) maker_.lengths[v] = std::min(before[v], longest[v]);
+      if (maker_.adapts()) {
+        limit_gradation(input_.points, c, gradation, longest);
+        for (std::size_t v = 0; v < longest.size(); ++v) maker_.lengths[v] = std::min(before[v], longest[v]);
+      }
       Attempt next = maker_.run();
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
@@ -316,7 +346,8 @@ class PreservingRemesh {
       maker_.judge(next);
       if (!next.result.measures) return;  // not finite
       mend(next);
-      next.result.rescue = Rescue::kept_faces;
+      next.result.rescue =
+          options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
       next.result.shortened = count_shortened();
       if (next.is_better_than(best)) best = next;
       last = std::move(next);
@@ -374,8 +405,8 @@ class PreservingRemesh {
 
   /// Puts vertices back to where they were, ring by ring around what is wrong, until nothing is.
   void put_back_around_flaws(Attempt& best, int max_rings) const {
-    best.result.rescue = Rescue::put_back;
     for (int rings = 1; rings <= max_rings && !keeps_all(best); rings *= 2) {
+      best.result.rescue = Rescue::put_back;
       const double margin = rings <= 2 ? 2 : 0;  // degrees; clearly worse polygons first
       move_back(best,
                 best.keeps_promises() ? maker_.vertices_of_worse_polygons(best, margin)
@@ -384,76 +415,72 @@ class PreservingRemesh {
     }
   }
 
-  /// The vertices and so many rings around them, ascending.
-  std::vector<int> with_rings(std::vector<int> vertices, int rings) const {
-    for (int ring = 0; ring < rings; ++ring) {
-      for (std::size_t i = 0, end = vertices.size(); i < end; ++i)
-        for (int n : input_.adjacency.vertex_neighbours[vertices[i]]) vertices.push_back(n);
-      std::ranges::sort(vertices);
-      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    }
-    return vertices;
-  }
-
-  /// Holds the vertices of the input in all runs to come; false if all are held already.
-  bool hold_in_place(const std::vector<int>& vertices) {
-    std::vector<int>& fixed = options_.constraints.fixed_vertices;
-    std::vector<char> is_fixed(vertex_points(maker_.mesh()).cols(), 0);
-    for (int id : fixed) is_fixed[id] = 1;
-    const std::size_t before = held_.size();
-    for (int v : vertices)
-      if (const int id = maker_.id_of(v); !is_fixed[id]) held_.push_back(id);
-    fixed.insert(fixed.end(), held_.begin() + static_cast<std::ptrdiff_t>(before), held_.end());
-    return held_.size() > before;
-  }
-
-  /// A run with vertices held in place, which is not judged if it is interrupted.
-  Attempt run_with_held() const {
-    Attempt run = maker_.run();
-    if (run.is_interrupted()) return run;
-    for (int id : held_) {
-      unsigned char& limits = run.result.vertex_limits[id];
-      limits = static_cast<unsigned char>((limits & ~limited_by_request) | VertexLimit::put_back);
-    }
-    maker_.judge(run);
-    mend(run);
-    return run;
-  }
-
   /// Puts vertices back around what is wrong. Where that is not enough, as among long ways of many vertices,
-  /// runs again with the vertices there held; puts all back if that is not enough either or the faces are
-  /// worse than they were. A result with other faces is replaced by one with those of the input first.
+  /// runs again with the vertices there held. A result with other faces is replaced by one with those of the
+  /// input first.
   void put_back(Attempt& best) {
-    if (maker_.adapts()) return;
-    if (options_.connectivity == ConnectivityMode::flip) {
-      options_.connectivity = ConnectivityMode::fixed;
-      Attempt next = maker_.run();  // ends at once if the work is interrupted
-      const bool interrupted = best.is_interrupted() || next.is_interrupted();
-      maker_.judge(next);
-      if (!next.result.measures) return;  // not finite
-      best = std::move(next);
-      if (interrupted) best.result.reason = StopReason::interrupted;
-    }
-    constexpr int max_runs = 3;
-    const auto is_good = [&] { return best.keeps_promises() && !maker_.has_worse_faces(best); };
-    for (int run = 1; run <= max_runs; ++run) {
-      const std::vector<int> wrong = vertices_to_put_back(maker_, best);
-      const bool had_worse_faces = maker_.has_worse_faces(best);
+    with_faces_of_input(best);
+    if (!best.result.measures) return;  // not finite
+    const bool is_worse = has_worse_faces(best);
+    if (is_worse && may_take_lengths()) return;
+    Attempt last = best;
+    put_back_around_flaws(best, 8);
+    if (keeps_all(best) && !has_worse_faces(best)) return;
+    if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) {
+      keep_faces(last);
+      best = std::move(last);
       put_back_around_flaws(best, 8);
-      if (is_good()) return;
-      if (had_worse_faces || best.is_interrupted() || maker_.smooths_mask()) break;
-      if (!hold_in_place(with_rings(wrong, run))) break;
-      Attempt next = run_with_held();
-      if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
-      if (next.is_interrupted() || !next.result.measures) break;  // or not finite
-      best = std::move(next);
     }
     put_back_around_flaws(best, 16);
-    if (is_good()) return;
+  }
+
+  /// In mode `flip`, replaces the result by one with the faces of the input.
+  void with_faces_of_input(Attempt& best) {
+    if (options_.connectivity != ConnectivityMode::flip) return;
+    options_.connectivity = ConnectivityMode::fixed;
+    options_.constraints.frozen_vertices.clear();
+    Attempt next = maker_.run();  // ends at once if the work is interrupted
+    const bool interrupted = best.is_interrupted() || next.is_interrupted();
+    maker_.judge(next);
+    best = std::move(next);
+    if (interrupted) best.result.reason = StopReason::interrupted;
+    best.result.rescue = Rescue::put_back;
+  }
+
+  /// Puts all vertices back.
+  void leave_as_it_was(Attempt& best) {
+    with_faces_of_input(best);
+    if (!best.result.measures) return;  // not finite
     std::vector<int> all(input_.adjacency.vertex_count);
     std::iota(all.begin(), all.end(), 0);
+    best.result.rescue = Rescue::put_back;
     move_back(best, all, 1);
     if (maker_.smooths_mask()) best.result.creases.dropped = 0;
+  }
+
+  /// Where one length is asked for all edges: are the faces worse on average than those of the input?
+  bool has_worse_faces(const Attempt& run, double margin = 0) const {
+    return has_one_length() && maker_.has_worse_faces(run, margin);
+  }
+
+  bool has_one_length() const {
+    OpenMesh::EPropHandleT<double> of_edges;
+    return UniformVector::are_equal(asked_) &&
+           !maker_.mesh().get_property_handle(of_edges, edge_length_property);
+  }
+
+  /// May attempts take the lengths of the input for those asked for?
+  bool may_take_lengths() const {
+    return has_one_length() && maker_.lengths == asked_ && !maker_.smooths_mask();
+  }
+
+  /// Lengths as in the input, scaled to those asked for.
+  std::vector<double> lengths_of_input() const {
+    const double natural = resolve_length({}, input_.points, input_.adjacency);
+    const Sizing sizing{input_lengths(input_.points, input_.adjacency),
+                        std::numeric_limits<double>::infinity()};
+    return resolve_vertex_lengths({LengthSpec::Kind::times_natural, asked_[0] / natural}, sizing,
+                                  input_.points, input_.adjacency);
   }
 
   /// Moves the vertices to their places in the input, and those within `rings` rings around them the less,
@@ -486,7 +513,6 @@ class PreservingRemesh {
   AttemptMaker& maker_;
   const MeasuredSurface& input_;
   RemeshOptions& options_;           // of the attempts to come
-  std::vector<int> held_;            // ids, see hold_in_place()
   const std::vector<double> asked_;  // target lengths, by vertex of the input in memory order
 };
 

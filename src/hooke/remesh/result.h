@@ -85,6 +85,8 @@ struct RemeshResult {
   Rescue rescue = Rescue::none;
   /// Vertices of the input to which preserving_remesh() gave half of their target length or less.
   int shortened = 0;
+  /// Did preserving_remesh() take the lengths that the input has for target lengths?
+  bool has_lengths_of_input = false;
   BoundCounts bound;  // time steps by the test that set them (paper_remesh() only)
   FailedTests jam;    // the tests that no time step passed, if jammed (paper_remesh() only)
   std::vector<TimeStepRecord> time_steps;  // paper_remesh() only

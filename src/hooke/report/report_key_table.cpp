@@ -271,6 +271,9 @@ constexpr Row promises[] = {
     {"promises.shortened_vertices", integer, none, neither,
      "vertices of the input to which mode adapt gave half of their target length or less, to keep thin "
      "parts"},
+    {"promises.lengths_of_input", boolean, none, neither,
+     "edges got the lengths that the input has, as even ones would have made worse faces; of modes fixed and "
+     "flip"},
 };
 
 constexpr Row after_statistics[] = {

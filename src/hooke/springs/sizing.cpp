@@ -9,6 +9,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/springs/target_lengths.h"
@@ -90,13 +91,14 @@ double resolve_length(const LengthSpec& spec, const Mat3X& points, const Adjacen
 
 SizingSource parse_sizing(const std::string& text) {
   const std::string curvature = "curvature", ply = "ply:";
+  if (text == "input") return {.kind = SizingSource::Kind::input, .name = {}};
   if (text == curvature) return {.kind = SizingSource::Kind::curvature, .name = {}};
   if (text.starts_with(curvature + ":"))
     return parse_curvature(std::string_view(text).substr(curvature.size() + 1));
   const bool is_property = text.starts_with(ply);
   const std::string name = is_property ? text.substr(ply.size()) : text;
   if (name.empty())
-    throw Error(fmt::format("{}; expected FILE, ply:PROPERTY or curvature[:ERROR]", in_quotes(text)));
+    throw Error(fmt::format("{}; expected FILE, ply:PROPERTY, curvature[:ERROR] or input", in_quotes(text)));
   return {.kind = is_property ? SizingSource::Kind::ply_property : SizingSource::Kind::file, .name = name};
 }
 
@@ -179,6 +181,24 @@ TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, c
       spread_target_lengths(adjacency, order.gather(vertex_values(mesh, target_length_property)));
   const std::vector<double> ratios = edge_values(mesh, rest_ratio_property, order, adjacency);
   return ratios.empty() ? targets : at_rest_ratios(adjacency, targets, ratios);
+}
+
+std::vector<double> input_lengths(const Mat3X& points, const Adjacency& c) {
+  constexpr double shortest = 1e-3;
+  const double least = shortest * natural_length(total_area(points, c.faces), c.faces.size());
+  std::vector<double> area(c.vertex_count, 0);
+  std::vector<std::size_t> count(c.vertex_count, 0);
+  for (const Triangle& t : c.faces) {
+    const double of_face = face_shape(points, t).area;
+    for (int v : t) {
+      area[v] += of_face;
+      ++count[v];
+    }
+  }
+  std::vector<double> lengths(c.vertex_count);
+  for (int v = 0; v < c.vertex_count; ++v)
+    lengths[v] = count[v] > 0 ? std::max(natural_length(area[v], count[v]), least) : least;
+  return lengths;
 }
 
 }  // namespace hooke

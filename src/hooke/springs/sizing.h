@@ -48,7 +48,7 @@ TargetLengths target_lengths_of(const TriMesh& mesh, const Permutation& order, c
 
 /// The source of target lengths per vertex, as the user specifies it.
 struct SizingSource {
-  enum class Kind { none, values, file, ply_property, curvature };
+  enum class Kind { none, values, file, ply_property, curvature, input };
   Kind kind = Kind::none;
   std::vector<double> values = {};  // of kind `values`: one per vertex id, positive
   std::string name;                 // of the file or the property
@@ -56,8 +56,8 @@ struct SizingSource {
   bool percent = true;              // of the bounding box diagonal; else in the unit of the points
 };
 
-/// Parses "FILE", "ply:PROPERTY", "curvature", "curvature:X" or "curvature:X%". Throws an Error whose message
-/// begins with what is wrong.
+/// Parses "FILE", "ply:PROPERTY", "curvature", "curvature:X", "curvature:X%" or "input". Throws an Error
+/// whose message begins with what is wrong.
 SizingSource parse_sizing(const std::string& text);
 
 /// Target lengths from curvature: l = sqrt(8 R t - 4 t^2) per vertex, the chord of a circle of radius R with
@@ -65,6 +65,11 @@ SizingSource parse_sizing(const std::string& text);
 /// most `longest`. All in the unit of the points. Pre-condition: `chord_error` and `longest` are positive.
 std::vector<double> curvature_lengths(const Mat3X& points, const Adjacency& adjacency, double chord_error,
                                       double longest);
+
+/// Target lengths as the mesh has them, in the unit of the points: at each vertex that of equilateral faces
+/// with the mean area of its faces, but at least a thousandth of the natural length of the mesh.
+/// Pre-condition: there are faces, and their area is positive.
+std::vector<double> input_lengths(const Mat3X& points, const Adjacency& adjacency);
 
 /// Lowers target lengths until along every edge they differ by at most `slope` times the edge's length. The
 /// result is the largest such function nowhere above the given lengths. An infinite slope limits nothing.
