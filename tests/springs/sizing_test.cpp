@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "hooke/core/error.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "support/solids.h"
 
