@@ -32,19 +32,17 @@ class PreservingRemesh {
   Attempt best() {
     const RemeshOptions start = options_;
     Attempt best = best_with_lengths();
-    constexpr double margin = .005;  // less is how even edges differ from good faces
-    const auto is_done = [&](const Attempt& run) {
-      return !run.result.measures || maker_.adapts() || (keeps_all(run) && !has_worse_faces(run, margin)) ||
-             (keeps_all(run) && (run.is_interrupted() || maker_.smooths_mask()));
-    };
     if (!is_done(best) && may_take_lengths() && !best.is_interrupted()) {
-      options_ = start;
+      const RemeshOptions of_best = std::exchange(options_, start);
       maker_.lengths = lengths_of_input();
       Attempt next = best_with_lengths();
       if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
       if (!next.is_interrupted() && next.result.measures && is_done(next)) {
         best = std::move(next);
         best.result.has_lengths_of_input = true;
+      } else {
+        options_ = of_best;
+        maker_.lengths = asked_;
       }
     }
     if (!is_done(best)) leave_as_it_was(best);
@@ -66,10 +64,20 @@ class PreservingRemesh {
       if (maker_.adapts()) keep_narrow_parts(filter, best);
       if (options_.connectivity == ConnectivityMode::flip) keep_faces(best);
     }
-    const bool is_valid =
-        best.is_interrupted() ? best.flaws() == 0 && !maker_.has_worse_polygons(best) : keeps_all(best);
-    if (!is_valid && !maker_.adapts()) put_back(best);
+    if (!is_valid(best) && !maker_.adapts()) put_back(best);
     return best;
+  }
+
+  /// Is nothing left to do for it? In mode `adapt` the result may still break promises.
+  bool is_done(const Attempt& run) const {
+    constexpr double margin = .005;  // of shape: even edges of good faces may cost so much
+    return !run.result.measures || maker_.adapts() ||
+           (is_valid(run) && (maker_.smooths_mask() || !has_worse_faces(run, margin)));
+  }
+
+  /// Does it keep its promises and its polygons, or, if it is interrupted, all but its least angle?
+  bool is_valid(const Attempt& run) const {
+    return run.is_interrupted() ? run.flaws() == 0 && !maker_.has_worse_polygons(run) : keeps_all(run);
   }
 
   /// A run with the vertices moved to the input that must be. If vertices of the input are lost in spite
@@ -348,7 +356,7 @@ class PreservingRemesh {
       mend(next);
       next.result.rescue =
           options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
-      next.result.shortened = count_shortened();
+      if (maker_.adapts()) next.result.shortened = count_shortened();
       if (next.is_better_than(best)) best = next;
       last = std::move(next);
     }
@@ -422,14 +430,13 @@ class PreservingRemesh {
     with_faces_of_input(best);
     if (!best.result.measures) return;  // not finite
     const bool is_worse = has_worse_faces(best);
-    if (is_worse && may_take_lengths()) return;
+    if (is_worse && may_take_lengths() && !best.is_interrupted()) return;  // these come first
     Attempt last = best;
     put_back_around_flaws(best, 8);
     if (keeps_all(best) && !has_worse_faces(best)) return;
     if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) {
       keep_faces(last);
       best = std::move(last);
-      put_back_around_flaws(best, 8);
     }
     put_back_around_flaws(best, 16);
   }

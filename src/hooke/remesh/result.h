@@ -56,7 +56,7 @@ enum class Rescue {
   junctions,   // the vertices of junctions stand still
   closest,     // vertices were projected to the faces of the input
   put_back,    // vertices were put back to where they were, or held there
-  kept_faces,  // faces of the input stay, in mode `adapt`
+  kept_faces,  // faces of the input stay, in the modes `flip` and `adapt`
 };
 
 struct RemeshResult {
