@@ -31,6 +31,25 @@ class Result(CommandTest):
                 self.assertLess(report["geometry"]["distance_to_input"]["rms_over_diagonal"], .005)
                 self.assertEqual(read_mesh(self.folder / "out.off")[1], read_mesh(DATA / sample)[1])
 
+    def test_lengths_of_the_input_keep_its_density(self):
+        n = 16
+        at = [i / n * (.1 + .9 * i / n) for i in range(n + 1)]  # ten times finer at the left
+        points = [(at[i], j / n, 0) for i in range(n + 1) for j in range(n + 1)]
+        faces = [face for i in range(n) for j in range(n) for a in (i * (n + 1) + j,)
+                 for face in ((a, a + n + 1, a + n + 2), (a, a + n + 2, a + 1))]
+        write_off(self.folder / "in.off", points, faces)
+        shares = []
+        for mode, gradation in (("fixed", None), ("flip", None), ("adapt", .3)):
+            for sizing in ("off", "input"):
+                with self.subTest(mode=mode, sizing=sizing):
+                    report = self.report("in.off", "-o", "out.off", "--connectivity", mode, "--sizing", sizing)
+                    self.assertEqual(report["parameters"]["gradation"], gradation if sizing == "input" else None)
+                    if mode == "adapt":
+                        result = read_mesh(self.folder / "out.off")[0]
+                        shares.append(sum(x < .25 for x, _, _ in result) / len(result))
+        even, as_given = shares
+        self.assertGreater(as_given, 1.3 * even)
+
     def test_what_breaks_a_promise_is_not_written(self):
         run = (DATA / "torus.off", "-o", "out.off", "--connectivity", "adapt", "-L", "4x", "--effort", "fast",
                "--max-distance", "0.001%")

@@ -179,6 +179,8 @@ TEST(Msh, ErrorsNameThePlace) {
   EXPECT_TRUE(has(error(old_text, "$Nodes\n5", "$Nodes\n99999999999"), "only"));
   EXPECT_TRUE(
       has(error(old_text, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", ""), "expected $MeshFormat first"));
+  EXPECT_TRUE(has(error(old_text, "$MeshFormat", "5 2 4\n0 0 1\n$MeshFormat"),
+                  "m:1: '5'; expected $MeshFormat first, as in a file of Gmsh"));
   const std::string no_faces = old_text.substr(0, old_text.find("3 2 2 7")) + "$EndElements\n";
   EXPECT_TRUE(has(error(no_faces, "$Elements\n4", "$Elements\n2"), "m: no triangles, but 1 lines, 1 points"));
 }

@@ -377,6 +377,11 @@ bool read_section(MshInput& in, std::string_view name, MshContent& content) {
 void read_sections(MshInput& in, MshContent& content) {
   bool format = false;
   for (std::string_view word = in.word(); !word.empty(); word = in.word()) {
+    if (!format && !word.starts_with('$'))
+      in.fail(fmt::format(
+          "{}; expected $MeshFormat first, as in a file of Gmsh; others name other formats .msh too, "
+          "as FreeFem does: convert these",
+          in_quotes(word)));
     if (!word.starts_with('$') || word.starts_with("$End"))
       in.fail(fmt::format("{}; expected a section such as $Nodes; is a count wrong?", in_quotes(word)));
     const std::string_view name = word.substr(1);
