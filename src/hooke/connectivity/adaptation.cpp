@@ -72,7 +72,7 @@ class AdaptationSteps {
   /// Writes the mesh to the workspace.
   void finish() { work_.replace_mesh(m_.halfedges.faces(), m_.halfedges.wedges()); }
 
-  /// Number of faces of the target length that the surface takes.
+  /// Number of faces of the target length that the surface takes. No face may be removed.
   double wanted_faces() const { return target_face_count(m_.vertices, m_.halfedges.faces()); }
 
   double face_count() const { return static_cast<double>(m_.halfedges.faces().size()); }
@@ -238,13 +238,14 @@ void AdaptationSteps::split_and_collapse() {
   count_curve_edges(m_, options_.chord_error);
   // Splits would cut needles, as of extruded bodies, into many times the faces that are wanted, so they come
   // a share at a time, and after collapses where needles form fans, as in the caps of these bodies.
-  if (constexpr double far_more = 4; splits_of_fans(m_) > far_more * wanted_faces()) {
+  const double wanted = wanted_faces();  // before any collapse: removed faces have no vertices
+  if (constexpr double far_more = 4; splits_of_fans(m_) > far_more * wanted) {
     const Stage stage(work_.stopwatch, "collapses");
     counts_.collapses += collapse_short_edges(m_);
   }
   constexpr double max_at_once = 1e9;
   constexpr int max_passes = 100;
-  const auto at_once = static_cast<int>(std::min(max_at_once, 2 * wanted_faces() + 1000));
+  const auto at_once = static_cast<int>(std::min(max_at_once, 2 * wanted + 1000));
   for (int pass = 0, splits = at_once; pass < max_passes && splits == at_once && !interrupted_; ++pass) {
     splits = timed(work_.stopwatch, "splits", [&] { return split_long_edges(m_, at_once); });
     counts_.splits += splits;
