@@ -128,6 +128,11 @@ TEST(RelaxLbfgs, TheEnergyFallsFromStepToStep) {
   test::Scene s = test::sphere_scene(.4);
   std::vector<double> energies;
   const IntegrationResult result = relax(s, until_rest(), [&](const Progress& p) {
+    if (!energies.empty() && p.step == static_cast<int>(energies.size())) {  // another try at the next step
+      EXPECT_EQ(p.energy, energies.back());
+      return true;
+    }
+    if (p.step == 0) return true;
     EXPECT_EQ(p.step, static_cast<int>(energies.size()) + 1);
     energies.push_back(p.energy);
     return true;

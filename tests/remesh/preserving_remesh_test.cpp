@@ -361,6 +361,22 @@ TEST(PreservingRemesh, WhereEvenEdgesMakeWorseFacesThoseOfTheInputGiveTheLengths
       preserved(test::sphere(2, .3, 1), options_for(ConnectivityMode::fixed)).result.has_lengths_of_input);
 }
 
+TEST(PreservingRemesh, StoppedWithLengthsOfTheInputItKeepsTheResultIfItIsGood) {
+  int calls = 0, last_call = 0;
+  const auto run = [&] {
+    calls = 0;
+    return preserved(graded_disc(), options_for(ConnectivityMode::fixed),
+                     [&](const Progress&) { return ++calls != last_call; });
+  };
+  ASSERT_TRUE(run().result.has_lengths_of_input);
+  last_call = calls - 1;
+  const test::Outcome o = run();
+  EXPECT_EQ(o.result.reason, StopReason::interrupted);
+  EXPECT_TRUE(o.result.has_lengths_of_input);
+  EXPECT_TRUE(o.result.measures->preservation.holds());
+  EXPECT_TRUE(o.points != graded_disc().points);
+}
+
 TEST(PreservingRemesh, FarFromKeptFacesLengthsAreAsAsked) {
   TriMesh mesh = test::to_mesh(bumped_plane());
   std::vector<double> lengths;

@@ -272,6 +272,10 @@ IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, cons
       ++result.evaluations;
       const double slope = dot_with_difference(gradient, candidate.points, r.positions.points);
       accepted = candidate_energy <= result.energy + armijo * std::min(0., slope);
+      if (!accepted && observer && !observer({"", 0, result.steps, result.energy})) {
+        result.reason = StopReason::interrupted;
+        return result;
+      }
     }
     if (!accepted) {
       if (!memory.empty()) {

@@ -95,41 +95,14 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
 }
 
 std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt) {
-  const MeasuredSurface& input = maker.input();
-  const MeasuredSurface now = maker.surface_of(attempt);
-  const Adjacency& c = input.adjacency;
+  const Preservation& p = attempt.preservation();
+  std::vector<char> is_wrong = at_flaws(maker, attempt, maker.surface_of(attempt));
+  for (const FarVertex& lost : p.lost_vertices) is_wrong[lost.vertex] = 1;
+  for (const Edge& lost : p.lost_creases)
+    for (int v : lost) is_wrong[v] = 1;
   std::vector<int> wrong;
-  const auto add_face = [&](int f) {
-    const Triangle& t = c.faces[f];
-    wrong.insert(wrong.end(), t.begin(), t.end());
-  };
-  const std::vector<char> is_wrong =
-      wrong_faces(maker, attempt, now, attempt.result.measures->deviation.flipped_faces);
-  for (std::size_t f = 0; f < is_wrong.size(); ++f)
-    if (is_wrong[f]) add_face(static_cast<int>(f));
-  for (std::size_t e = 0; e < c.edges.size(); ++e) {
-    const int left = c.edge_faces[e][0], right = c.edge_faces[e][1];
-    if (right < 0) continue;
-    const auto fold = [&](const Mat3X& points) {
-      return cosine_between(points, c.faces[left], c.faces[right]);
-    };
-    if (fold(now.points) < 0 && fold(now.points) < fold(input.points)) {
-      add_face(left);
-      add_face(right);
-    }
-  }
-  if (attempt.lost_angle || attempt.preservation().new_degenerate_faces > 0) {
-    constexpr double no_angle = 1e-6;
-    for (std::size_t f = 0; f < c.faces.size(); ++f)
-      if (min_angle(now.points, {c.faces[f]}) < std::max(maker.least_angle(), no_angle))
-        add_face(static_cast<int>(f));
-  }
-  for (const FarVertex& far : attempt.preservation().far_vertices) wrong.push_back(far.vertex);
-  for (const FarVertex& lost : attempt.preservation().lost_vertices) wrong.push_back(lost.vertex);
-  for (const Edge& lost : attempt.preservation().lost_creases)
-    wrong.insert(wrong.end(), lost.begin(), lost.end());
-  std::ranges::sort(wrong);
-  wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+  for (std::size_t v = 0; v < is_wrong.size(); ++v)
+    if (is_wrong[v]) wrong.push_back(static_cast<int>(v));
   return wrong;
 }
 

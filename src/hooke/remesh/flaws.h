@@ -22,8 +22,7 @@ std::vector<char> wrong_faces(const AttemptMaker& maker, const Attempt& attempt,
 /// turned over, intersect, or have no area or too small angles. Ascending, in memory order.
 std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt);
 
-/// The vertices of a result with the faces of its input that are too far, at lost creases, or at faces that
-/// are turned over, intersect or fold as those of the input do not, or have smaller angles. Ascending, in
+/// The vertices of a result with the faces of its input that are at such flaws themselves. Ascending, in
 /// memory order.
 std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt);
 

@@ -37,7 +37,7 @@ class PreservingRemesh {
       maker_.lengths = lengths_of_input();
       Attempt next = best_with_lengths();
       if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
-      if (!next.is_interrupted() && next.result.measures && is_done(next)) {
+      if (next.result.measures && is_done(next)) {
         best = std::move(next);
         best.result.has_lengths_of_input = true;
       } else {
@@ -58,7 +58,10 @@ class PreservingRemesh {
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(best);
-    if (!best.is_interrupted() && !best.is_good()) project_to_faces(best);
+    const bool keeps_rest = may_keep_faces(best);
+    if (keeps_rest) keep_faces(best);
+    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && best.keeps_promises()))
+      project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, best);
@@ -66,6 +69,15 @@ class PreservingRemesh {
     }
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
     return best;
+  }
+
+  /// Is so little wrong that its surroundings may stay as they are in the input, before the rest gives up
+  /// its spline? Not in mode `adapt`, where shorter edges may do.
+  bool may_keep_faces(const Attempt& run) const {
+    constexpr double few = .01;  // of the faces
+    return !maker_.adapts() && !maker_.smooths_mask() && !run.is_interrupted() && !run.keeps_promises() &&
+           static_cast<double>(run.flaws()) < few * static_cast<double>(run.mesh.n_faces()) &&
+           !has_worse_faces(run);
   }
 
   /// Is nothing left to do for it? In mode `adapt` the result may still break promises.
@@ -318,8 +330,8 @@ class PreservingRemesh {
   }
 
   /// Makes attempts in which vertices and faces of the input stay where something was wrong, and ever more
-  /// around them, until nothing is wrong or they are nearly all of the surface. In mode `adapt` lengths grow
-  /// away from their edges.
+  /// around them, until nothing is wrong or they are nearly all of the surface. In mode `fixed` it may do to
+  /// put vertices back there; in mode `adapt` lengths grow away from the edges that stay.
   void keep_faces(Attempt& best) {
     constexpr double max_share = .9;
     const double faces =
@@ -328,13 +340,22 @@ class PreservingRemesh {
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
     const Eigen::VectorXd mean_edges = mean_edge_lengths(input_.points, c);
+    std::vector<int>& frozen = options_.constraints.frozen_vertices;
     std::vector<int> kept_rings(c.vertex_count, 0);
     Attempt last = best;
-    for (int round = 0; round < max_rounds && !best.keeps_promises(); ++round) {
+    for (int round = 0; !best.keeps_promises(); ++round) {
+      if (options_.connectivity == ConnectivityMode::fixed) {
+        Attempt local = last;
+        put_back_around_flaws(local, 8);
+        if (is_done(local)) {
+          best = std::move(local);
+          break;
+        }
+      }
+      if (round == max_rounds) break;
       const std::vector<int> kept_before = kept_rings;
       keep_around(input_vertices_at_flaws(maker_, last), kept_rings);
-      if (kept_rings == kept_before || share_of_area(kept_rings) > max_share) return;
-      std::vector<int>& frozen = options_.constraints.frozen_vertices;
+      if (kept_rings == kept_before || share_of_area(kept_rings) > max_share) break;
       frozen.clear();
       std::vector<double> longest(c.vertex_count, std::numeric_limits<double>::infinity());
       for (int v = 0; v < c.vertex_count; ++v) {
@@ -349,10 +370,10 @@ class PreservingRemesh {
       Attempt next = maker_.run();
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
-        return;
+        break;
       }
       maker_.judge(next);
-      if (!next.result.measures) return;  // not finite
+      if (!next.result.measures) break;  // not finite
       mend(next);
       next.result.rescue =
           options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
@@ -360,6 +381,7 @@ class PreservingRemesh {
       if (next.is_better_than(best)) best = next;
       last = std::move(next);
     }
+    frozen.clear();
   }
 
   /// The vertices with half of the length asked for or less.
@@ -431,13 +453,7 @@ class PreservingRemesh {
     if (!best.result.measures) return;  // not finite
     const bool is_worse = has_worse_faces(best);
     if (is_worse && may_take_lengths() && !best.is_interrupted()) return;  // these come first
-    Attempt last = best;
-    put_back_around_flaws(best, 8);
-    if (keeps_all(best) && !has_worse_faces(best)) return;
-    if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) {
-      keep_faces(last);
-      best = std::move(last);
-    }
+    if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) keep_faces(best);
     put_back_around_flaws(best, 16);
   }
 
@@ -445,7 +461,6 @@ class PreservingRemesh {
   void with_faces_of_input(Attempt& best) {
     if (options_.connectivity != ConnectivityMode::flip) return;
     options_.connectivity = ConnectivityMode::fixed;
-    options_.constraints.frozen_vertices.clear();
     Attempt next = maker_.run();  // ends at once if the work is interrupted
     const bool interrupted = best.is_interrupted() || next.is_interrupted();
     maker_.judge(next);
