@@ -361,6 +361,29 @@ TEST(PreservingRemesh, WhereEvenEdgesMakeWorseFacesThoseOfTheInputGiveTheLengths
       preserved(test::sphere(2, .3, 1), options_for(ConnectivityMode::fixed)).result.has_lengths_of_input);
 }
 
+TEST(PreservingRemesh, WhereLittleIsWrongTheRestKeepsItsSpline) {
+  const test::Triangles fine = test::sphere(4, .3, 1);
+  const auto count = fine.points.cols();
+  const auto off_sphere = [](const auto& points) {
+    return (points.colwise().norm().array() - 1).abs().maxCoeff();
+  };
+  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
+    RemeshOptions on_faces = options_for(mode);
+    on_faces.filter.kind = FilterKind::closest;
+    const double off_faces = off_sphere(preserved(fine, on_faces).points);
+    int rescued = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+      test::Triangles thin = lens(seed);
+      thin.points = ((.1 * thin.points).colwise() + Vec3(2, 0, 0)).eval();
+      const test::Outcome o = preserved(test::both(fine, thin), options_for(mode));
+      EXPECT_TRUE(o.result.measures->preservation.holds());
+      rescued += o.result.rescue != Rescue::none;
+      EXPECT_LT(off_sphere(o.points.leftCols(count)), off_faces / 5) << seed;
+    }
+    EXPECT_GT(rescued, 0);
+  }
+}
+
 TEST(PreservingRemesh, StoppedWithLengthsOfTheInputItKeepsTheResultIfItIsGood) {
   int calls = 0, last_call = 0;
   const auto run = [&] {

@@ -22,7 +22,8 @@ struct Progress {
   double energy = 0;
 };
 
-/// Called after every step; returns false to stop and keep what has been reached.
+/// Called after every step, and after tries of one that are rejected; returns false to stop and keep what has
+/// been reached.
 using Observer = std::function<bool(const Progress&)>;
 
 /// The constants of [17], section 4.6. They assume target lengths of about 1: a string force is a length, a

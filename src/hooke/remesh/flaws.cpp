@@ -41,7 +41,21 @@ std::vector<int> vertices_at_folds(const Attempt& attempt, const MeasuredSurface
   return vertices;
 }
 
-/// Per vertex of the result: is anything wrong there that input_vertices_at_flaws() counts?
+/// The corners of the faces at edges that fold, and more than in the input.
+std::vector<int> corners_at_deeper_folds(const MeasuredSurface& input, const Mat3X& points) {
+  const Adjacency& c = input.adjacency;
+  std::vector<int> corners;
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    const auto [left, right] = c.edge_faces[e];
+    if (right < 0) continue;
+    const double fold = cosine_between(points, c.faces[left], c.faces[right]);
+    if (fold >= 0 || fold >= cosine_between(input.points, c.faces[left], c.faces[right])) continue;
+    for (int f : {left, right}) corners.insert(corners.end(), c.faces[f].begin(), c.faces[f].end());
+  }
+  return corners;
+}
+
+/// Per vertex of the result: is it too far, or at a face that is wrong, apart from folds?
 std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
                            const MeasuredSurface& surface) {
   const Adjacency& c = surface.adjacency;
@@ -54,7 +68,6 @@ std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
       wrong_faces(maker, attempt, surface, attempt.result.measures->deviation.flipped_faces);
   for (std::size_t f = 0; f < wrong.size(); ++f)
     if (wrong[f]) add(c.faces[f]);
-  if (p.new_folds > 0) add(vertices_at_folds(attempt, surface));
   if (p.new_degenerate_faces > 0)
     for (const Triangle& t : c.faces)
       if (has_no_area(face_shape(surface.points, t).area, surface.extent.diagonal)) add(t);
@@ -79,7 +92,9 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
     if (face < 0) return;
     for (int v : c.faces[face]) is_near[v] = 1;
   };
-  const std::vector<char> is_wrong = at_flaws(maker, attempt, surface);
+  std::vector<char> is_wrong = at_flaws(maker, attempt, surface);
+  if (p.new_folds > 0)
+    for (int v : vertices_at_folds(attempt, surface)) is_wrong[v] = 1;
   const Mat3X normals = vertex_normals(surface.points, surface.adjacency),
               input_normals = face_normals(input.points, c);
   for (std::size_t v = 0; v < is_wrong.size(); ++v)  // on the same side of the surface
@@ -95,8 +110,11 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
 }
 
 std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt) {
+  const MeasuredSurface surface = maker.surface_of(attempt);
   const Preservation& p = attempt.preservation();
-  std::vector<char> is_wrong = at_flaws(maker, attempt, maker.surface_of(attempt));
+  std::vector<char> is_wrong = at_flaws(maker, attempt, surface);
+  if (p.new_folds > 0)
+    for (int v : corners_at_deeper_folds(maker.input(), surface.points)) is_wrong[v] = 1;
   for (const FarVertex& lost : p.lost_vertices) is_wrong[lost.vertex] = 1;
   for (const Edge& lost : p.lost_creases)
     for (int v : lost) is_wrong[v] = 1;

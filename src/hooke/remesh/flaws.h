@@ -22,8 +22,9 @@ std::vector<char> wrong_faces(const AttemptMaker& maker, const Attempt& attempt,
 /// turned over, intersect, or have no area or too small angles. Ascending, in memory order.
 std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt);
 
-/// The vertices of a result with the faces of its input that are at such flaws themselves. Ascending, in
-/// memory order.
+/// The vertices of a result with the faces of its input that are too far, lost, at lost creases, or at faces
+/// that are turned over, intersect, fold more than in the input, or have no area or too small angles.
+/// Ascending, in memory order.
 std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt);
 
 }  // namespace hooke

@@ -60,8 +60,7 @@ class PreservingRemesh {
     if (best.is_interrupted() && maker_.adapts()) mend(best);
     const bool keeps_rest = may_keep_faces(best);
     if (keeps_rest) keep_faces(best);
-    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && best.keeps_promises()))
-      project_to_faces(best);
+    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best))) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, best);
@@ -71,13 +70,15 @@ class PreservingRemesh {
     return best;
   }
 
-  /// Is so little wrong that its surroundings may stay as they are in the input, before the rest gives up
-  /// its spline? Not in mode `adapt`, where shorter edges may do.
+  /// Is so little wrong that what surrounds it may stay as it is in the input, before all vertices leave the
+  /// spline for the faces? Not in mode `adapt`, where shorter edges may do.
   bool may_keep_faces(const Attempt& run) const {
-    constexpr double few = .01;  // of the faces
-    return !maker_.adapts() && !maker_.smooths_mask() && !run.is_interrupted() && !run.keeps_promises() &&
-           static_cast<double>(run.flaws()) < few * static_cast<double>(run.mesh.n_faces()) &&
-           !has_worse_faces(run);
+    constexpr double few = .05;  // of the vertices
+    if (maker_.adapts() || maker_.smooths_mask() || options_.filter.kind == FilterKind::closest ||
+        run.is_interrupted() || run.keeps_promises() || has_worse_faces(run))
+      return false;
+    const std::vector<int> wrong = input_vertices_at_flaws(maker_, run);
+    return !wrong.empty() && std::ssize(wrong) < few * input_.adjacency.vertex_count;
   }
 
   /// Is nothing left to do for it? In mode `adapt` the result may still break promises.
@@ -330,8 +331,8 @@ class PreservingRemesh {
   }
 
   /// Makes attempts in which vertices and faces of the input stay where something was wrong, and ever more
-  /// around them, until nothing is wrong or they are nearly all of the surface. In mode `fixed` it may do to
-  /// put vertices back there; in mode `adapt` lengths grow away from the edges that stay.
+  /// around them, until nothing is wrong or they are nearly all of the surface. In mode `fixed`
+  /// putting vertices back there may be enough; in mode `adapt` lengths grow away from the edges that stay.
   void keep_faces(Attempt& best) {
     constexpr double max_share = .9;
     const double faces =
@@ -341,6 +342,7 @@ class PreservingRemesh {
     const std::vector<double> before = maker_.lengths;
     const Eigen::VectorXd mean_edges = mean_edge_lengths(input_.points, c);
     std::vector<int>& frozen = options_.constraints.frozen_vertices;
+    const std::vector<int> frozen_before = frozen;
     std::vector<int> kept_rings(c.vertex_count, 0);
     Attempt last = best;
     for (int round = 0; !best.keeps_promises(); ++round) {
@@ -356,7 +358,7 @@ class PreservingRemesh {
       const std::vector<int> kept_before = kept_rings;
       keep_around(input_vertices_at_flaws(maker_, last), kept_rings);
       if (kept_rings == kept_before || share_of_area(kept_rings) > max_share) break;
-      frozen.clear();
+      frozen = frozen_before;
       std::vector<double> longest(c.vertex_count, std::numeric_limits<double>::infinity());
       for (int v = 0; v < c.vertex_count; ++v) {
         if (kept_rings[v] == 0) continue;
@@ -381,7 +383,7 @@ class PreservingRemesh {
       if (next.is_better_than(best)) best = next;
       last = std::move(next);
     }
-    frozen.clear();
+    frozen = frozen_before;
   }
 
   /// The vertices with half of the length asked for or less.
@@ -445,9 +447,8 @@ class PreservingRemesh {
     }
   }
 
-  /// Puts vertices back around what is wrong. Where that is not enough, as among long ways of many vertices,
-  /// runs again with the vertices there held. A result with other faces is replaced by one with those of the
-  /// input first.
+  /// Keeps faces, then puts vertices back around what is still wrong; a result with other faces is replaced
+  /// by one with those of the input first.
   void put_back(Attempt& best) {
     with_faces_of_input(best);
     if (!best.result.measures) return;  // not finite

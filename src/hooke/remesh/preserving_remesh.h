@@ -28,18 +28,19 @@ struct KnownInput {
 
 /// Like remesh(), and measures the result. If it does not keep what it must keep of the input (see
 /// measure/preservation.h), moves the vertices that are too far to the input, and those closest to lost
-/// vertices of the input to these. Where that does not do or makes small angles, remeshes anew: first with
-/// the lost vertices held, then on the faces of the input. In mode `fixed` vertices about what is wrong go
-/// back to where they were at last; where that breaks more than it mends, they are held there in further
-/// runs. In mode `flip` the faces of the input stay there, and everywhere if that does not do. Where one
-/// length is asked for all edges and faces get worse on average, or nothing keeps the input, all is tried
-/// with the lengths of the input, see RemeshResult::has_lengths_of_input; at last all vertices go back. In
-/// mode `adapt` target lengths get shorter about what is wrong, see RemeshResult::shortened, and where that
-/// does not do the faces of the input stay, unless that were nearly all of the surface. Of a result that is
-/// made anew it keeps one with fewer flaws or, with as many, with a larger minimum angle; in mode `adapt` the
-/// result may still not keep all: see RemeshResult::measures. An interrupted run but the first is discarded.
-/// The surface of a binary mask, see is_staircase(), is smoothed first, so that its steps are no creases,
-/// unless creases are kept whatever the noise; the measures are of the input as it was.
+/// vertices of the input to these. Where that does not do or makes small angles, remeshes anew, with the lost
+/// vertices held. In the modes `fixed` and `flip`, where little is wrong, what surrounds it stays as it is
+/// in the input in further runs, or goes back to that in mode `fixed`. If that does not do, all is remeshed
+/// on the faces of the input, after that again with what surrounds the rest, and in mode `flip` with all
+/// faces of the input. Where one length is asked for all edges and faces get worse on average, or nothing
+/// keeps the input, all is tried with the lengths of the input, see RemeshResult::has_lengths_of_input; at
+/// last all vertices go back. In mode `adapt` target lengths get shorter about what is wrong, see
+/// RemeshResult::shortened, and where that does not do the faces of the input stay, unless that were nearly
+/// all of the surface. Of a result that is made anew it keeps one with fewer flaws or, with as many, with a
+/// larger minimum angle; in mode `adapt` the result may still not keep all: see RemeshResult::measures. Of
+/// interrupted runs only the first, and the first with the lengths of the input, are kept. The surface of a
+/// binary mask, see is_staircase(), is smoothed first, so that its steps are no creases, unless creases are
+/// kept whatever the noise; the measures are of the input as it was.
 RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                                const PreservationOptions& preservation = {}, const KnownInput& known = {},
                                const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
