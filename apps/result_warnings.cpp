@@ -259,27 +259,32 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
     return f.min_angle < small_angle &&
            std::ranges::count_if(f.vertices, [&](int v) { return limits[v] & limited_by_request; }) >= 2;
   };
-  const auto warn = [&](const char* code, const WorstFace& f, const char* text) {
+  const auto warn = [&](const char* code, const WorstFace& f, const std::string& text) {
     run.warnings.push_back({code, fmt::format("{}: face {} is left with an angle of {:.2g} degrees: {}",
                                               run.output->path, f.face, f.min_angle, text)});
   };
-  const auto warn_of_first = [&](const auto& is_meant, const char* code, const char* text) {
+  const auto warn_of_first = [&](const auto& is_meant, const char* code, const std::string& text) {
     const auto f = std::ranges::find_if(faces, is_meant);
     if (f != faces.end()) warn(code, *f, text);
   };
+  const bool has_seams = !s.remesh.constraints.seams.empty();
+  const char* fewer_seams = has_seams ? ", or fewer words of --keep, for fewer seams" : "";
   if (s.remesh.connectivity != ConnectivityMode::adapt)
     return warn_of_first(
         is_between_creases, "facets_without_inner_vertices",
-        "it lies between creases, and facets with no inner vertices cannot be mended without "
-        "new ones; use --connectivity adapt");
+        fmt::format("it lies between creases{}, and facets with no inner vertices cannot be mended without "
+                    "new ones; use --connectivity adapt{}",
+                    has_seams ? " or seams" : "", fewer_seams));
   if (s.remesh.constraints.boundary == BoundaryRule::fixed)
     warn_of_first(is_at_fixed_edge, "boundary_holds_angles",
                   "the edges of a fixed boundary stay; use --boundary slide");
-  warn_of_first(is_narrow, "narrow_regions",
-                s.min_length
-                    ? "it lies between creases or boundaries closer than --min-length; use a shorter one"
-                    : "it lies between creases or boundaries closer than the target length; use "
-                      "--min-length, with which edges there may be shorter");
+  warn_of_first(
+      is_narrow, "narrow_regions",
+      fmt::format("it lies between creases{} or boundaries closer than {}{}", has_seams ? ", seams" : "",
+                  s.min_length ? "--min-length; use a shorter one"
+                               : "the target length; use --min-length, with which edges there may "
+                                 "be shorter",
+                  fewer_seams));
 }
 
 void warn_of_dropped_creases(RunRecord& run) {

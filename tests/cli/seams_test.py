@@ -255,6 +255,23 @@ class Seams(CommandTest):
         self.refused(2, "can.obj", "-o", "o.obj", "--connectivity", "flip", "--keep", "seams,x", says="expected seams, hard-edges, materials, groups")
         self.refused(2, "can.obj", "-o", "o.obj", "--keep", "none", says="--keep")
 
+    def test_that_hold_slivers_are_named(self):
+        columns, rows = 20, 8  # narrow columns, each with a texture of its own
+        lines = ["v %r %r 0" % (.2 * i, j) for i in range(columns + 1) for j in range(rows + 1)]
+        lines += ["vt %r %r" % (.1 * i, .1 * j) for i in range(2 * columns) for j in range(rows + 1)]
+        at = lambda column, side, j: "%d/%d" % ((column + side) * (rows + 1) + j + 1, (2 * column + side) * (rows + 1) + j + 1)
+        for i in range(columns):
+            for j in range(rows):
+                lines.append("f %s %s %s" % (at(i, 0, j), at(i, 1, j), at(i, 1, j + 1)))
+                lines.append("f %s %s %s" % (at(i, 0, j), at(i, 1, j + 1), at(i, 0, j + 1)))
+        self.write("strips.obj", "\n".join(lines) + "\n")
+        for mode, length, code in (("flip", "auto", "facets_without_inner_vertices"), ("adapt", "1.5", "narrow_regions")):
+            for words in ("seams", "none"):
+                with self.subTest(mode=mode, words=words):
+                    report = self.report("strips.obj", "-o", "out.obj", "-q", "--connectivity", mode, "-L", length, "--keep", words)
+                    told = [w["message"] for w in report["warnings"] if w["code"] == code and "words of --keep" in w["message"]]
+                    self.assertEqual(len(told), words == "seams")
+
     def test_seams_of_what_the_output_cannot_hold_are_none(self):
         self.write("can.obj", can())
         out, err = self.run_command("can.obj", "-o", "out.off", "-q", "--connectivity", "adapt", "--report", "-")
