@@ -81,6 +81,7 @@ TEST(Preservation, CrossingsAreNewOnlyWhereThereWereNone) {
   EXPECT_EQ(new_crossings(none.surface, coarse.surface).size(), *coarse.quality.self_intersections);
   const Preservation p = compare(two(2, apart), two(2, crosses), {.max_distance = 10});
   EXPECT_EQ(p.new_crossings, *coarse.quality.self_intersections);
+  EXPECT_EQ(p.crossings, new_crossings(none.surface, coarse.surface));
   EXPECT_GT(p.place.x(), .2);  // between the spheres
   EXPECT_LT(p.place.x(), 1);
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "hooke/geometry/self_intersection.h"
+
 namespace hooke {
 
 MeasuredSurface::MeasuredSurface(Mat3X own_points, const Adjacency& its_adjacency, const MeshIds& mesh_ids,
@@ -13,5 +15,10 @@ MeasuredSurface::MeasuredSurface(Mat3X own_points, const Adjacency& its_adjacenc
       extent(measure_extent(points, adjacency)),
       tree(joined.empty() ? AabbTree(points, adjacency.faces, tree_order)
                           : AabbTree(points, join_faces(adjacency.faces, joined), tree_order)) {}
+
+const std::vector<std::array<int, 2>>& MeasuredSurface::self_intersections() const {
+  if (!self_intersections_) self_intersections_ = find_self_intersections(tree);
+  return *self_intersections_;
+}
 
 }  // namespace hooke

@@ -1,6 +1,10 @@
 // A mesh with the data that several measures share: ids, extent and a tree of its faces.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <vector>
+
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
@@ -24,6 +28,12 @@ struct MeasuredSurface {
   std::vector<int> joined;
   Extent extent;
   AabbTree tree;  // over the faces, with their vertices joined
+
+  /// find_self_intersections(), by the first call. Not thread-safe.
+  const std::vector<std::array<int, 2>>& self_intersections() const;
+
+ private:
+  mutable std::optional<std::vector<std::array<int, 2>>> self_intersections_;
 };
 
 }  // namespace hooke

@@ -326,9 +326,10 @@ void drop_contacts(const MeasuredSurface& reference, const MeasuredSurface& resu
 std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
                                               const MeasuredSurface& result) {
   using Pair = std::array<int, 2>;
-  std::vector<Pair> crossings = find_self_intersections(result.tree);
+  std::vector<Pair> crossings = result.self_intersections();
   drop_contacts(reference, result, crossings);
-  const std::vector<Pair> old = crossings.empty() ? crossings : find_self_intersections(reference.tree);
+  if (crossings.empty()) return crossings;
+  const std::vector<Pair>& old = reference.self_intersections();
   if (old.empty()) return crossings;
   Mat3X ends(3, 2 * std::ssize(old));
   std::vector<Edge> segments;
@@ -379,9 +380,9 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   std::optional<int> wrong;  // a face
   if (p.flipped_faces > 0) wrong = face_with_id(result.surface, deviation.flipped_faces.front());
   if (p.new_crossings > 0) {
-    const auto pairs = new_crossings(reference.surface, result.surface);
-    p.new_crossings = std::min(p.new_crossings, pairs.size());
-    if (p.new_crossings > 0 && !wrong) wrong = pairs.front()[0];
+    p.crossings = new_crossings(reference.surface, result.surface);
+    p.new_crossings = std::min(p.new_crossings, p.crossings.size());
+    if (p.new_crossings > 0 && !wrong) wrong = p.crossings.front()[0];
   }
   if (wrong && p.excess <= 1) p.place = centre_of(result.surface, *wrong);
   const Topology &before = reference.quality.topology, &after = result.quality.topology;

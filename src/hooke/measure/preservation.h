@@ -3,8 +3,10 @@
 // the reference, so that what is wrong in a file may stay as it is.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "hooke/measure/deviation.h"
 #include "hooke/measure/quality.h"
@@ -42,10 +44,11 @@ struct Preservation {
   /// The vertex there; if no distance is beyond its limit, the centre of a face that is turned over or
   /// crosses another, if there is one, else the middle of the lost crease edge that is farthest.
   Vec3 place = Vec3::Zero();
-  std::size_t new_folds = 0;             // folded edges that are no creases, in excess of the reference's
-  std::size_t new_crossings = 0;         // new_crossings(), likewise
-  std::size_t new_degenerate_faces = 0;  // likewise
-  bool topology_kept = true;             // components, boundary loops, Euler number and junctions
+  std::size_t new_folds = 0;      // folded edges that are no creases, in excess of the reference's
+  std::size_t new_crossings = 0;  // self-intersections, likewise; at most the number of `crossings`
+  std::vector<std::array<int, 2>> crossings;  // new_crossings(), if there are more than in the reference
+  std::size_t new_degenerate_faces = 0;       // likewise
+  bool topology_kept = true;                  // components, boundary loops, Euler number and junctions
   double crease_loss = 0;          // greatest distance of the reference's creases from those of the result
   bool creases_kept = true;        // within half an edge
   std::vector<Edge> lost_creases;  // of the reference, those that are not; no sharp edges of facets

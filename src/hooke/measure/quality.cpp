@@ -8,7 +8,6 @@
 
 #include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
-#include "hooke/geometry/self_intersection.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/curvature.h"
@@ -231,7 +230,7 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
   });
   if (options.self_intersections)
     q.self_intersections =
-        timed(stopwatch, "self_intersections", [&] { return find_self_intersections(surface.tree).size(); });
+        timed(stopwatch, "self_intersections", [&] { return surface.self_intersections().size(); });
   return q;
 }
 

@@ -9,15 +9,14 @@
 
 namespace hooke {
 
-std::vector<char> wrong_faces(const AttemptMaker& maker, const Attempt& attempt,
-                              const MeasuredSurface& surface, const std::vector<int>& turned) {
+std::vector<char> wrong_faces(const Attempt& attempt, const MeasuredSurface& surface,
+                              const std::vector<int>& turned) {
   std::vector<char> is_wrong(surface.adjacency.faces.size(), 0);
   if (!turned.empty())
     for (std::size_t f = 0; f < is_wrong.size(); ++f)
       is_wrong[f] = std::ranges::binary_search(turned, surface.ids.face(static_cast<int>(f)));
-  if (attempt.preservation().new_crossings > 0)
-    for (const auto& pair : new_crossings(maker.input(), surface))
-      for (int f : pair) is_wrong[f] = 1;
+  for (const auto& pair : attempt.preservation().crossings)
+    for (int f : pair) is_wrong[f] = 1;
   return is_wrong;
 }
 
@@ -65,7 +64,7 @@ std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
     for (int v : vertices) is_wrong[v] = 1;
   };
   const std::vector<char> wrong =
-      wrong_faces(maker, attempt, surface, attempt.result.measures->deviation.flipped_faces);
+      wrong_faces(attempt, surface, attempt.result.measures->deviation.flipped_faces);
   for (std::size_t f = 0; f < wrong.size(); ++f)
     if (wrong[f]) add(c.faces[f]);
   if (p.new_degenerate_faces > 0)

@@ -14,8 +14,8 @@ struct MeasuredSurface;
 
 /// Per face of the surface of a result: does it intersect others where the input does not, or has it one of
 /// these ids, ascending?
-std::vector<char> wrong_faces(const AttemptMaker& maker, const Attempt& attempt,
-                              const MeasuredSurface& surface, const std::vector<int>& turned);
+std::vector<char> wrong_faces(const Attempt& attempt, const MeasuredSurface& surface,
+                              const std::vector<int>& turned);
 
 /// The vertices of the input whose surface a result does not keep: those it lost, the ends of lost creases,
 /// and the corners of the faces closest to its own vertices that are too far, at folds, or at faces that are

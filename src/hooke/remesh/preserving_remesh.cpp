@@ -205,8 +205,8 @@ class PreservingRemesh {
   /// The vertices, none on a crease, of faces of the result that are turned over, chords or intersecting.
   std::vector<int> corners_to_move(const Attempt& run, const MeasuredSurface& surface) const {
     const Deviation& deviation = run.result.measures->deviation;
-    const std::vector<char> is_wrong = wrong_faces(
-        maker_, run, surface, run.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces);
+    const std::vector<char> is_wrong =
+        wrong_faces(run, surface, run.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces);
     std::vector<char> is_corner(surface.adjacency.vertex_count, 0);
     for (size_t f = 0; f < is_wrong.size(); ++f)
       if (is_wrong[f])
