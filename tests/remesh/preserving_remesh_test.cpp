@@ -10,6 +10,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/options.h"
 #include "support/crease_solids.h"
@@ -124,6 +125,22 @@ TEST(PreservingRemesh, FlipsDoNotMakeSmallAngles) {
   const test::Outcome o = preserved(stairs, options_for(ConnectivityMode::flip));
   EXPECT_GE(o.result.measures->quality.min_angle.min,
             std::min(25., (1 - 1e-9) * o.result.measures->input_quality.min_angle.min));
+}
+
+/// Folds that are creases are no reason for small angles: they do not go away.
+TEST(PreservingRemesh, AnglesDoNotGetSmallerBesideABlade) {
+  test::Triangles blade = test::cells(
+      4, 4, 2, [](int, int, int) { return true; }, 0);
+  blade.points.row(0) += 1.5 * blade.points.row(2);
+  blade.points.colwise() += Vec3(10, 0, 0);
+  ASSERT_FALSE(sharp_edges(blade.points, test::connect(blade), 91).empty());
+  for (const test::Triangles& globe : {test::globe(64, 16), test::globe(20, 20)}) {
+    const test::Outcome o = preserved(test::both(globe, blade), options_for(ConnectivityMode::fixed), nullptr,
+                                      {.max_distance = 1e-3});
+    EXPECT_NE(o.result.rescue, Rescue::none);
+    EXPECT_GE(o.result.measures->quality.min_angle.min,
+              (1 - 1e-9) * o.result.measures->input_quality.min_angle.min);
+  }
 }
 
 TEST(PreservingRemesh, FacesThatStayDoNotGetSmallerAnglesWhereTheyGoBack) {

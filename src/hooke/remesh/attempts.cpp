@@ -78,13 +78,12 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   if (is_noise) preservation_.feature_angle = 180;
   if (is_mask_) smooth_steps();
   constexpr double rounding = 1e-9;
-  const bool must_unfold = input_quality_.folded_edges > 0;
   const TargetLengths targets = target_lengths_of(mesh, memory_order.order, input_.adjacency);
   OpenMesh::EPropHandleT<double> ratios;
   const bool has_rest_ratios = mesh.get_property_handle(ratios, rest_ratio_property);
   const bool has_one_length =
       has_rest_ratios ? UniformVector::are_equal(lengths) : !targets.edge.is_varying();
-  if (!must_unfold && has_one_length) least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
+  if (has_one_length) least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
   if (has_rest_ratios)
     least_angle_ = std::min(
         least_angle_, NearRegularOptions().share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
@@ -192,7 +191,8 @@ void AttemptMaker::judge(Attempt& a) const {
   });
   m.judged_by = preservation_;
   a.angle = m.quality.worst_faces.front().min_angle;
-  a.lost_angle = a.angle < least_angle();
+  const bool has_unfolded = m.quality.folded_edges < m.input_quality.folded_edges;
+  a.lost_angle = !has_unfolded && a.angle < least_angle();
   a.result.measures = std::make_shared<ResultMeasures>(std::move(m));
 }
 

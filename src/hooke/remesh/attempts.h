@@ -15,7 +15,7 @@ struct Attempt {
   RemeshResult result;        // without measures until it is judged, and where a vertex is not finite
   double angle = 0;           // minimum angle, degrees
   double unmended_angle = 0;  // before vertices were moved to the input
-  bool lost_angle = false;    // is it less than AttemptMaker::least_angle()?
+  bool lost_angle = false;    // less than AttemptMaker::least_angle(), though no folds are gone
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
