@@ -2,13 +2,16 @@
 """run.py BUILD SECONDS [TARGET...]   runs each fuzz target of a build that long, from small seeds of every kind of content.
 
 The corpora stay in BUILD/corpus and grow from run to run; what breaks a target is left in BUILD/findings. Prints the
-executions and the findings of each target; exits 1 if there is any.
+executions and the findings of each target; exits 1 if there is any. Environment: JOBS = targets at a time (default: all
+processors).
 """
 
+import os
 import re
 import struct
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 DATA = Path(__file__).resolve().parents[2] / "data"
@@ -175,7 +178,7 @@ SEEDS = {"obj": lambda: [OBJ, (DATA / "cube.obj").read_bytes()], "ply": ply_seed
 def run(build, target, seconds):
     corpus, findings = build / "corpus" / target, build / "findings"
     corpus.mkdir(parents=True, exist_ok=True)
-    findings.mkdir(exist_ok=True)
+    findings.mkdir(parents=True, exist_ok=True)
     for i, seed in enumerate(SEEDS[target]()):
         (corpus / ("seed%d" % i)).write_bytes(seed)
     slow = 120 if target == "pipeline" else 5  # seconds for one input; `adapt` makes thousands of faces of long needles
@@ -184,18 +187,18 @@ def run(build, target, seconds):
                            "-print_final_stats=1", "-verbosity=0", corpus], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     log = done.stderr.decode(errors="replace")
     executions = re.search(r"number_of_executed_units: (\d+)", log)
+    passed = done.returncode == 0
     print("%-10s %9s executions in %d s, %s" % (target, executions[1] if executions else "?", seconds,
-                                               "nothing found" if done.returncode == 0 else "FOUND"), flush=True)
-    if done.returncode != 0:
-        print(log[-3000:])
-    return done.returncode == 0
+                                               "nothing found" if passed else "FOUND\n" + log[-3000:]), flush=True)
+    return passed
 
 
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     build, seconds, targets = Path(sys.argv[1]).resolve(), int(sys.argv[2]), sys.argv[3:] or list(SEEDS)
-    sys.exit(not all([run(build, target, seconds) for target in targets]))
+    with ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
+        sys.exit(not all(list(pool.map(lambda target: run(build, target, seconds), targets))))
 
 
 if __name__ == "__main__":
