@@ -102,12 +102,12 @@ std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) con
 }
 
 double AttemptMaker::least_angle() const {
-  constexpr double small_angle = 25;
+  constexpr double small_angle = 25, kept_in_flips = .999;
   switch (options.connectivity) {
     case ConnectivityMode::fixed:
       return least_angle_;
     case ConnectivityMode::flip:
-      return std::min(least_angle_, small_angle);
+      return std::min(kept_in_flips * least_angle_, small_angle);
     case ConnectivityMode::adapt:
       break;
   }

@@ -54,7 +54,8 @@ class AttemptMaker {
   const TriMesh& mesh() const { return mesh_; }
   const MeasuredSurface& input() const { return input_; }
   const Quality& input_quality() const { return input_quality_; }
-  /// The minimum angle that faces must keep, degrees; 0 in mode `adapt`.
+  /// The minimum angle that faces must keep, degrees: that of the input, in mode `flip` up to a thousandth
+  /// and 25 at most; 0 in mode `adapt`, and where a sizing asks for other lengths.
   double least_angle() const;
   /// Do attempts start from smoothed points?
   bool smooths_mask() const { return is_mask_; }

@@ -9,6 +9,7 @@
 #include "hooke/core/stopwatch.h"
 #include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/integrator/damped_evolution.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/guards.h"
 #include "hooke/integrator/relaxation.h"
