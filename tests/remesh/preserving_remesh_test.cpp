@@ -143,6 +143,28 @@ TEST(PreservingRemesh, AnglesDoNotGetSmallerBesideABlade) {
   }
 }
 
+/// Unfolding costs angles where the folds are, not where vertices are put back elsewhere.
+TEST(PreservingRemesh, AnglesDoNotGetSmallerFarFromFoldsThatGo) {
+  test::Triangles folded = test::grid(8, [](double, double) { return 0.; });
+  const double cell = (folded.points.col(1) - folded.points.col(0)).norm();
+  folded.points.col(40) += Vec3(1.6, .16, 0) * cell;  // over the next edges
+  folded.points *= .3 / cell;
+  folded.points.colwise() += Vec3(10, 0, 0);
+  const size_t folds = sharp_edges(folded.points, test::connect(folded), 91).size();
+  ASSERT_GT(folds, 0u);
+  RemeshOptions options = options_for(ConnectivityMode::fixed);
+  options.effort = Effort::standard;
+  options.constraints.features.angle = 180;
+  for (const test::Triangles& globe : {test::globe(64, 16), test::globe(20, 20)}) {
+    const test::Outcome o =
+        preserved(test::both(globe, folded), options, nullptr, {.max_distance = 1e-3, .feature_angle = 180});
+    EXPECT_NE(o.result.rescue, Rescue::none);
+    EXPECT_LT(o.result.measures->quality.folded_edges, folds);
+    const std::vector<Triangle> faces(o.faces.begin(), o.faces.begin() + std::ssize(globe.faces));
+    EXPECT_GE(min_angle(o.points, faces), (1 - 1e-9) * min_angle(globe.points, globe.faces));
+  }
+}
+
 TEST(PreservingRemesh, FacesThatStayDoNotGetSmallerAnglesWhereTheyGoBack) {
   int rescued = 0;
   for (const test::Triangles& t : {test::globe(64, 16), test::globe(20, 20)})

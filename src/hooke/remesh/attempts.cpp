@@ -172,6 +172,7 @@ Attempt AttemptMaker::run() const {
 }
 
 void AttemptMaker::judge(Attempt& a) const {
+  const bool is_first = !a.result.measures;
   a.result.measures.reset();
   if (!vertex_points(a.mesh).allFinite()) return;
   const Permutation& order = a.result.memory_order.order;
@@ -192,7 +193,9 @@ void AttemptMaker::judge(Attempt& a) const {
   m.judged_by = preservation_;
   a.angle = m.quality.worst_faces.front().min_angle;
   const bool has_unfolded = m.quality.folded_edges < m.input_quality.folded_edges;
-  a.lost_angle = !has_unfolded && a.angle < least_angle();
+  if (is_first) a.unmended_angle = a.angle;
+  a.least_angle = has_unfolded ? std::min(least_angle(), a.unmended_angle) : least_angle();
+  a.lost_angle = a.angle < a.least_angle;
   a.result.measures = std::make_shared<ResultMeasures>(std::move(m));
 }
 

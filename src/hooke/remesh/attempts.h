@@ -14,8 +14,9 @@ struct Attempt {
   TriMesh mesh;
   RemeshResult result;        // without measures until it is judged, and where a vertex is not finite
   double angle = 0;           // minimum angle, degrees
-  double unmended_angle = 0;  // before vertices were moved to the input
-  bool lost_angle = false;    // less than AttemptMaker::least_angle(), though no folds are gone
+  double unmended_angle = 0;  // at the first judgement, before vertices are moved to the input
+  double least_angle = 0;  // that it must keep: AttemptMaker::least_angle(), or what unfolding has left of it
+  bool lost_angle = false;  // is it less?
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 

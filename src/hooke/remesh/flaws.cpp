@@ -55,8 +55,7 @@ std::vector<int> corners_at_deeper_folds(const MeasuredSurface& input, const Mat
 }
 
 /// Per vertex of the result: is it too far, or at a face that is wrong, apart from folds?
-std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
-                           const MeasuredSurface& surface) {
+std::vector<char> at_flaws(const Attempt& attempt, const MeasuredSurface& surface) {
   const Adjacency& c = surface.adjacency;
   const Preservation& p = attempt.preservation();
   std::vector<char> is_wrong(c.vertex_count, 0);
@@ -72,7 +71,7 @@ std::vector<char> at_flaws(const AttemptMaker& maker, const Attempt& attempt,
       if (has_no_area(face_shape(surface.points, t).area, surface.extent.diagonal)) add(t);
   if (attempt.lost_angle)
     for (const Triangle& t : c.faces)
-      if (min_angle(surface.points, {t}) < maker.least_angle()) add(t);
+      if (min_angle(surface.points, {t}) < attempt.least_angle) add(t);
   for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
   return is_wrong;
 }
@@ -91,7 +90,7 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
     if (face < 0) return;
     for (int v : c.faces[face]) is_near[v] = 1;
   };
-  std::vector<char> is_wrong = at_flaws(maker, attempt, surface);
+  std::vector<char> is_wrong = at_flaws(attempt, surface);
   if (p.new_folds > 0)
     for (int v : vertices_at_folds(attempt, surface)) is_wrong[v] = 1;
   const Mat3X normals = vertex_normals(surface.points, surface.adjacency),
@@ -111,7 +110,7 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
 std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt) {
   const MeasuredSurface surface = maker.surface_of(attempt);
   const Preservation& p = attempt.preservation();
-  std::vector<char> is_wrong = at_flaws(maker, attempt, surface);
+  std::vector<char> is_wrong = at_flaws(attempt, surface);
   if (p.new_folds > 0)
     for (int v : corners_at_deeper_folds(maker.input(), surface.points)) is_wrong[v] = 1;
   for (const FarVertex& lost : p.lost_vertices) is_wrong[lost.vertex] = 1;

@@ -122,7 +122,6 @@ class PreservingRemesh {
     const int max_rounds = run.is_interrupted() ? 2 : 6;
     const auto must_go_on = [&] { return run.flaws() + (run.is_interrupted() ? 0 : run.chords()) > 0; };
     if (!run.result.measures) return;  // not finite
-    run.unmended_angle = run.angle;
     for (int round = 0; round < max_rounds && must_go_on() && move_to_input(run); ++round) continue;
   }
 
