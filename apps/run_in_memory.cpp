@@ -55,7 +55,7 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   measure_input(s, mesh.mesh, mesh.memory_order, original, record, stopwatch);
   if (!s.check) {
     remesh_and_measure(s, mesh.mesh, mesh.memory_order, original, record, observer, stopwatch);
-    record.output = {{result_name, "", "", hash_of_faces(mesh.mesh)}};
+    record.output = {{result_name, "", "", hash_of_faces(mesh.mesh)}, false};
     add_result_warnings(s, record);
   }
   join_ids(mesh.mesh, mesh.origin, record);

@@ -10,6 +10,7 @@
 #include "hooke/working_mesh/workspace.h"
 #include "support/junction_sheets.h"
 #include "support/remeshed.h"
+#include "support/scene.h"
 
 namespace hooke::junction_curves_test {
 

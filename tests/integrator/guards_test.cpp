@@ -90,7 +90,7 @@ std::string broken_rule(const test::Scene& s, const SurfacePositions& from, cons
   }
   for (size_t e = 0; e < s.adjacency.edges.size(); ++e) {
     const auto [a, b] = s.adjacency.edges[e];
-    const auto sagitta = [&](const SurfacePositions& p) {
+    const auto sagitta = [a = a, b = b](const SurfacePositions& p) {
       const Vec3 n = p.normals.col(a), m = p.normals.col(b);
       const double theta = std::atan2(n.cross(m).norm(), n.dot(m));
       return .5 * (p.points.col(a) - p.points.col(b)).norm() * std::tan(.25 * theta);

@@ -28,7 +28,7 @@ MeasuredSurface measured(const Mat3X& points, const MemoryOrder& memory_order) {
 std::vector<int> ring_of(const TriMesh& mesh, OpenMesh::VertexHandle v) {
   std::vector<int> ring;
   for (const auto w : mesh.vv_ccw_range(v)) ring.push_back(w.idx());
-  if (!mesh.is_boundary(v)) std::ranges::rotate(ring, std::ranges::min_element(ring));
+  if (!mesh.is_boundary(v)) std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
   return ring;
 }
 

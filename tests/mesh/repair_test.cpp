@@ -36,7 +36,7 @@ using Codes = std::vector<std::string>;
 
 /// The faces, each beginning with its smallest corner.
 std::multiset<Triangle> turned(std::vector<Triangle> faces) {
-  for (Triangle& t : faces) std::ranges::rotate(t, std::ranges::min_element(t));
+  for (Triangle& t : faces) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   return {faces.begin(), faces.end()};
 }
 

@@ -8,6 +8,7 @@
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/integrator/angle_springs.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/mesh.h"

@@ -15,7 +15,7 @@ namespace hooke::patch_test {
 
 /// Sorted faces, each with its smallest corner first.
 std::vector<Triangle> sorted(std::vector<Triangle> faces) {
-  for (Triangle& f : faces) std::ranges::rotate(f, std::ranges::min_element(f));
+  for (Triangle& f : faces) std::rotate(f.begin(), std::ranges::min_element(f), f.end());
   std::ranges::sort(faces);
   return faces;
 }

@@ -544,11 +544,11 @@ bool is_of_result(const std::string& path) {
 
 }  // namespace
 
-std::vector<std::string> split(const std::string& text, char separator) {
+std::vector<std::string> split(const std::string& joined, char separator) {
   std::vector<std::string> parts;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
+  for (size_t begin = 0; begin <= joined.size();) {
+    const size_t end = std::min(joined.find(separator, begin), joined.size());
+    parts.push_back(joined.substr(begin, end - begin));
     begin = end + 1;
   }
   return parts;
