@@ -53,9 +53,10 @@ Triangles sphere(int levels, double jitter, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> shift(-jitter * edge, jitter * edge);
   Triangles t{Mat3X(3, static_cast<Eigen::Index>(p.size())), faces};
-  for (size_t v = 0; v < p.size(); ++v)
-    t.points.col(static_cast<Eigen::Index>(v)) =
-        (p[v] + Vec3(shift(random), shift(random), shift(random))).normalized();
+  for (size_t v = 0; v < p.size(); ++v) {
+    const double z = shift(random), y = shift(random), x = shift(random);
+    t.points.col(static_cast<Eigen::Index>(v)) = (p[v] + Vec3(x, y, z)).normalized();
+  }
   return t;
 }
 
