@@ -29,7 +29,7 @@ struct MeasuredSurface {
   Extent extent;
   AabbTree tree;  // over the faces, with their vertices joined
 
-  /// find_self_intersections(), by the first call. Not thread-safe.
+  /// find_self_intersections() of the tree, which only the first call looks for. Not thread-safe.
   const std::vector<std::array<int, 2>>& self_intersections() const;
 
  private:
