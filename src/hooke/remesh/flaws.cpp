@@ -9,33 +9,43 @@
 
 namespace hooke {
 
-std::vector<char> wrong_faces(const Attempt& attempt, const MeasuredSurface& surface,
-                              const std::vector<int>& turned) {
-  std::vector<char> is_wrong(surface.adjacency.faces.size(), 0);
-  if (!turned.empty())
+std::vector<Edge> folds_off_creases(const Attempt& attempt, const Mat3X& points) {
+  const MemoryOrder& memory_order = attempt.result.memory_order;
+  std::vector<Edge> creases = memory_order.order.new_edges(attempt.result.crease_edges);
+  for (Edge& e : creases) std::ranges::sort(e);
+  std::ranges::sort(creases);
+  std::vector<Edge> folds;
+  for (int e : sharp_edges(points, *memory_order.adjacency, 90)) {
+    Edge ends = memory_order.adjacency->edges[e];
+    std::ranges::sort(ends);
+    if (!std::ranges::binary_search(creases, ends)) folds.push_back(ends);
+  }
+  return folds;
+}
+
+namespace {
+
+/// Per face of the result: is it turned over, or does it intersect others where the input does not?
+std::vector<char> wrong_faces(const Attempt& attempt) {
+  const std::vector<int>& ids = attempt.result.memory_order.order.old_face;
+  const std::vector<int>& flipped = attempt.result.measures->deviation.flipped_faces;
+  std::vector<char> is_wrong(ids.size(), 0);
+  if (!flipped.empty())
     for (std::size_t f = 0; f < is_wrong.size(); ++f)
-      is_wrong[f] = std::ranges::binary_search(turned, surface.ids.face(static_cast<int>(f)));
+      is_wrong[f] = std::ranges::binary_search(flipped, ids[f]);
   for (const auto& pair : attempt.preservation().crossings)
     for (int f : pair) is_wrong[f] = 1;
   return is_wrong;
 }
 
-namespace {
-
-/// Ends of edges of the result that fold and are neither creases nor kept from the input.
+/// Ends of folds of the result that are not kept from the input.
 std::vector<int> vertices_at_folds(const Attempt& attempt, const MeasuredSurface& surface) {
-  std::vector<Edge> creases = attempt.result.memory_order.order.new_edges(attempt.result.crease_edges);
-  for (Edge& e : creases) std::ranges::sort(e);
-  std::ranges::sort(creases);
   std::vector<int> vertices;
-  for (int e : sharp_edges(surface.points, surface.adjacency, 90)) {
-    Edge ends = surface.adjacency.edges[e];
-    std::ranges::sort(ends);
+  for (const Edge& ends : folds_off_creases(attempt, surface.points)) {
     const auto is_kept = [&](int v) {
       return (attempt.result.vertex_limits[surface.ids.vertex(v)] & VertexLimit::put_back) != 0;
     };
-    if (!std::ranges::all_of(ends, is_kept) && !std::ranges::binary_search(creases, ends))
-      vertices.insert(vertices.end(), ends.begin(), ends.end());
+    if (!std::ranges::all_of(ends, is_kept)) vertices.insert(vertices.end(), ends.begin(), ends.end());
   }
   return vertices;
 }
@@ -62,8 +72,7 @@ std::vector<char> at_flaws(const Attempt& attempt, const MeasuredSurface& surfac
   const auto add = [&](const auto& vertices) {
     for (int v : vertices) is_wrong[v] = 1;
   };
-  const std::vector<char> wrong =
-      wrong_faces(attempt, surface, attempt.result.measures->deviation.flipped_faces);
+  const std::vector<char> wrong = wrong_faces(attempt);
   for (std::size_t f = 0; f < wrong.size(); ++f)
     if (wrong[f]) add(c.faces[f]);
   if (p.new_degenerate_faces > 0)
@@ -105,6 +114,25 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
   for (int v = 0; v < c.vertex_count; ++v)
     if (is_near[v]) near.push_back(v);
   return near;
+}
+
+std::vector<int> flaws_at_vertices(const Attempt& attempt, const Mat3X& points) {
+  const Adjacency& c = *attempt.result.memory_order.adjacency;
+  const Preservation& p = attempt.preservation();
+  const Deviation& deviation = attempt.result.measures->deviation;
+  std::vector<int> count(c.vertex_count, 0);
+  for (const FarVertex& far : p.far_vertices) ++count[far.vertex];
+  for (const FarVertex& lost : p.lost_vertices) {
+    const int face = deviation.vertices_from_reference.faces[lost.vertex];
+    if (face >= 0) ++count[c.faces[face][0]];
+  }
+  const std::vector<char> is_wrong = wrong_faces(attempt);
+  for (std::size_t f = 0; f < is_wrong.size(); ++f) count[c.faces[f][0]] += is_wrong[f];
+  for (const Edge& fold : folds_off_creases(attempt, points)) ++count[fold[0]];
+  if (p.new_degenerate_faces > 0)
+    for (const Triangle& t : c.faces)
+      count[t[0]] += has_no_area(face_shape(points, t).area, deviation.diagonal);
+  return count;
 }
 
 std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt) {

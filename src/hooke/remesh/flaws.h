@@ -10,12 +10,15 @@ namespace hooke {
 
 class AttemptMaker;
 struct Attempt;
-struct MeasuredSurface;
 
-/// Per face of the surface of a result: does it intersect others where the input does not, or has it one of
-/// these ids, ascending?
-std::vector<char> wrong_faces(const Attempt& attempt, const MeasuredSurface& surface,
-                              const std::vector<int>& turned);
+/// The edges of a result, which has these points in memory order, that fold and are no creases: their ends,
+/// ascending.
+std::vector<Edge> folds_off_creases(const Attempt& attempt, const Mat3X& points);
+
+/// How many flaws a result, which has these points in memory order, has at each of its vertices: a lost
+/// vertex counts at a corner of the face closest to it, and each face that is turned over, intersects where
+/// the input does not or has no area, and each fold that is no crease, at one of its corners.
+std::vector<int> flaws_at_vertices(const Attempt& attempt, const Mat3X& points);
 
 /// The vertices of the input whose surface a result does not keep: those it lost, the ends of lost creases,
 /// and the corners of the faces closest to its own vertices that are too far, at folds, or at faces that are

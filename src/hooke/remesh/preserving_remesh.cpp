@@ -14,6 +14,7 @@
 #include "hooke/remesh/attempts.h"
 #include "hooke/remesh/flaws.h"
 #include "hooke/remesh/limiting_factors.h"
+#include "hooke/remesh/mending.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/springs/sizing.h"
 
@@ -54,17 +55,19 @@ class PreservingRemesh {
  private:
   /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input.
   Attempt best_with_lengths() {
-    Attempt best = attempt();
+    Attempt unmended;
+    Attempt best = attempt(&unmended);
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
-    if (best.is_interrupted() && maker_.adapts()) mend(best);
-    const bool keeps_rest = may_keep_faces(best);
-    if (keeps_rest) keep_faces(best);
+    if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
+    if (!best.keeps_promises()) unmended = best;
+    const bool keeps_rest = !best.is_good() && may_keep_faces(unmended);
+    if (keeps_rest) keep_faces(std::move(unmended), best);
     if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best))) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, best);
-      if (options_.connectivity == ConnectivityMode::flip) keep_faces(best);
+      if (options_.connectivity == ConnectivityMode::flip) keep_faces(best, best);
     }
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
     return best;
@@ -93,15 +96,16 @@ class PreservingRemesh {
     return run.is_interrupted() ? run.flaws() == 0 && !maker_.has_worse_polygons(run) : keeps_all(run);
   }
 
-  /// A run with the vertices moved to the input that must be. If vertices of the input are lost in spite
-  /// of that, or angles get small, but nothing else is wrong, there is a second run with these held; it is
-  /// discarded if it is interrupted.
-  Attempt attempt() {
+  /// A run with the vertices moved to the input that must be; `unmended` receives it as it was before. If
+  /// vertices of the input are lost in spite of that, or angles get small, but nothing else is wrong, there
+  /// is a second run with these held; it is discarded if it is interrupted.
+  Attempt attempt(Attempt* unmended = nullptr) {
     Attempt run = maker_.run();
     maker_.judge(run);
+    if (unmended != nullptr) *unmended = run;
     if (!run.result.measures || run.is_interrupted()) return run;
     const std::vector<FarVertex> lost = run.preservation().lost_vertices;
-    mend(run);
+    mend(maker_, run);
     const bool only_lost = run.flaws() == run.preservation().lost_vertices.size();
     if (lost.empty() || run.is_good() || !only_lost) return run;
     hold(lost);
@@ -112,109 +116,8 @@ class PreservingRemesh {
     }
     maker_.judge(next);
     next.result.rescue = Rescue::tips;
-    mend(next);
+    mend(maker_, next);
     return next.is_better_than(run) ? std::move(next) : std::move(run);
-  }
-
-  /// Moves vertices to the input while that leaves fewer flaws, or fewer chords; an interrupted run only as
-  /// long as it has flaws, and not for long.
-  void mend(Attempt& run) const {
-    const int max_rounds = run.is_interrupted() ? 2 : 6;
-    const auto must_go_on = [&] { return run.flaws() + (run.is_interrupted() ? 0 : run.chords()) > 0; };
-    if (!run.result.measures) return;  // not finite
-    for (int round = 0; round < max_rounds && must_go_on() && move_to_input(run); ++round) continue;
-  }
-
-  /// Moves vertices that are too far to the closest points of the input, the corners of faces that are turned
-  /// over or intersect to the points closest to the middle of their neighbours, and the vertices closest to
-  /// lost ones of the input towards these, as near as they must be, but none that is fixed, at a junction or
-  /// on the boundary or, for faces, on a crease. Keeps that if it makes fewer flaws, and returns whether it
-  /// did.
-  bool move_to_input(Attempt& run) const {
-    const Preservation& p = run.preservation();
-    const MeasuredSurface surface = maker_.surface_of(run);
-    Mat3X moved = surface.points;
-    std::vector<char> is_held(moved.cols(), 0);
-    for (int v : find_junctions(surface.adjacency, surface.joined).vertices) is_held[v] = 1;
-    constexpr unsigned char immovable =
-        limited_by_boundary | limited_at_corner | limited_by_request | VertexLimit::put_back;
-    const auto may_move = [&](int v) { return !is_held[v] && (limits_of(run, surface, v) & immovable) == 0; };
-    std::vector<FarVertex> lost = p.lost_vertices;
-    std::ranges::stable_sort(lost, std::greater(), &FarVertex::distance);
-    for (const FarVertex& tip : lost) {
-      const Vec3 x = input_.points.col(tip.vertex);
-      const int face = surface.tree.closest(x).face;
-      if (face < 0) continue;
-      const Triangle& t = surface.adjacency.faces[face];
-      const int v = *std::ranges::min_element(
-          t, {}, [&](int corner) { return (surface.points.col(corner) - x).squaredNorm(); });
-      const Vec3 way = x - moved.col(v);
-      constexpr double well_within = .95;
-      const double share = 1 - well_within * tip.limit / way.norm();
-      if (!(share > 0) || !may_move(v)) continue;
-      is_held[v] = 1;
-      moved.col(v) += share * way;
-    }
-    const auto move = [&](int v, const Vec3& x) {
-      const ClosestPoint closest = input_.tree.closest(x);
-      if (closest.face >= 0 && may_move(v)) moved.col(v) = closest.point;
-    };
-    for (const FarVertex& far : p.far_vertices) move(far.vertex, surface.points.col(far.vertex));
-    for (int v : corners_to_move(run, surface)) {
-      Vec3 middle = Vec3::Zero();
-      for (int n : surface.adjacency.vertex_neighbours[v]) middle += surface.points.col(n);
-      move(v, middle / std::ssize(surface.adjacency.vertex_neighbours[v]));
-    }
-    take_back_needles(surface, moved);
-    if (moved == surface.points) return false;
-    Attempt before = run;
-    for (int v = 0; v < moved.cols(); ++v)
-      if (moved.col(v) != surface.points.col(v)) maker_.place(v, moved.col(v), run);
-    maker_.judge(run);
-    const bool only_chords = before.flaws() == 0;
-    if (only_chords ? run.flaws() == 0 && run.chords() < before.chords() && run.angle >= before.angle
-                    : run.flaws() < before.flaws())
-      return true;
-    run = std::move(before);
-    return false;
-  }
-
-  /// Takes back what was moved at faces that would lose nearly all of their angle, as where two corners go to
-  /// the same place, until there are none.
-  static void take_back_needles(const MeasuredSurface& surface, Mat3X& moved) {
-    constexpr double kept_share = .05;
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const Triangle& t : surface.adjacency.faces) {
-        const auto has_moved = [&](int v) { return moved.col(v) != surface.points.col(v); };
-        if (std::ranges::none_of(t, has_moved) ||
-            min_angle(moved, {t}) >= kept_share * min_angle(surface.points, {t}))
-          continue;
-        for (int v : t) moved.col(v) = surface.points.col(v);
-        changed = true;
-      }
-    }
-  }
-
-  /// What limits a vertex of the run's surface: bits of VertexLimit.
-  static unsigned char limits_of(const Attempt& run, const MeasuredSurface& surface, int vertex) {
-    return run.result.vertex_limits[surface.ids.vertex(vertex)];
-  }
-
-  /// The vertices, none on a crease, of faces of the result that are turned over, chords or intersecting.
-  std::vector<int> corners_to_move(const Attempt& run, const MeasuredSurface& surface) const {
-    const Deviation& deviation = run.result.measures->deviation;
-    const std::vector<char> is_wrong =
-        wrong_faces(run, surface, run.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces);
-    std::vector<char> is_corner(surface.adjacency.vertex_count, 0);
-    for (size_t f = 0; f < is_wrong.size(); ++f)
-      if (is_wrong[f])
-        for (int v : surface.adjacency.faces[f]) is_corner[v] = 1;
-    std::vector<int> corners;
-    for (size_t v = 0; v < is_corner.size(); ++v)
-      if (is_corner[v] && (limits_of(run, surface, static_cast<int>(v)) & limited_by_crease) == 0)
-        corners.push_back(static_cast<int>(v));
-    return corners;
   }
 
   /// Holds vertices of the input, as the tip of a cone, that a result has lost.
@@ -277,7 +180,7 @@ class PreservingRemesh {
     start.filter.kind = filter;
     shorten_lengths(start, best);
     options_ = std::move(start);
-    if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best);
+    if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
   }
 
   /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is, or until
@@ -329,10 +232,10 @@ class PreservingRemesh {
     maker_.lengths = std::move(best_lengths);
   }
 
-  /// Makes attempts in which vertices and faces of the input stay where something was wrong, and ever more
-  /// around them, until nothing is wrong or they are nearly all of the surface. In mode `fixed`
+  /// Makes attempts in which vertices and faces of the input stay where something was wrong in the last one,
+  /// and ever more around them, until nothing is wrong or they are nearly all of the surface. In mode `fixed`
   /// putting vertices back there may be enough; in mode `adapt` lengths grow away from the edges that stay.
-  void keep_faces(Attempt& best) {
+  void keep_faces(Attempt last, Attempt& best) {
     constexpr double max_share = .9;
     const double faces =
         maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
@@ -343,13 +246,12 @@ class PreservingRemesh {
     std::vector<int>& frozen = options_.constraints.frozen_vertices;
     const std::vector<int> frozen_before = frozen;
     std::vector<int> kept_rings(c.vertex_count, 0);
-    Attempt last = best;
-    for (int round = 0; !best.keeps_promises(); ++round) {
+    for (int round = 0; !last.keeps_promises(); ++round) {
       if (options_.connectivity == ConnectivityMode::fixed) {
         Attempt local = last;
         put_back_around_flaws(local, 8);
         if (is_done(local)) {
-          best = std::move(local);
+          if (local.is_better_than(best)) best = std::move(local);
           break;
         }
       }
@@ -375,7 +277,7 @@ class PreservingRemesh {
       }
       maker_.judge(next);
       if (!next.result.measures) break;  // not finite
-      mend(next);
+      mend(maker_, next);
       next.result.rescue =
           options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
       if (maker_.adapts()) next.result.shortened = count_shortened();
@@ -453,7 +355,7 @@ class PreservingRemesh {
     if (!best.result.measures) return;  // not finite
     const bool is_worse = has_worse_faces(best);
     if (is_worse && may_take_lengths() && !best.is_interrupted()) return;  // these come first
-    if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) keep_faces(best);
+    if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) keep_faces(best, best);
     put_back_around_flaws(best, 16);
   }
 

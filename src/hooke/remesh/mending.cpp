@@ -1,0 +1,334 @@
+#include "hooke/remesh/mending.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/junctions.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/mesh/surface_point.h"
+#include "hooke/remesh/attempts.h"
+#include "hooke/remesh/flaws.h"
+#include "hooke/remesh/limiting_factors.h"
+
+namespace hooke {
+namespace {
+
+/// Two ways of a round, in turn, as what one does not mend the other may. A lost vertex of the input is
+/// approached by the closest corner of the face closest to it, or by all three; corners of turned faces move
+/// the best first, or in their order.
+enum class Approach { corner_best_first, face_in_order };
+
+/// Vertices are those of the result, in memory order.
+class Mending {
+ public:
+  Mending(const AttemptMaker& maker, Attempt& run)
+      : maker_(maker),
+        input_(maker.input()),
+        run_(run),
+        order_(run.result.memory_order.order),
+        adjacency_(run.result.memory_order.adjacency),
+        c_(*adjacency_),
+        points_(order_.gather(vertex_points(run.mesh))),
+        is_immovable_(c_.vertex_count, 0) {
+    for (int v : find_junctions(c_, joined_vertices(run.mesh, order_)).vertices) is_immovable_[v] = 1;
+    for (int v = 0; v < c_.vertex_count; ++v)
+      if (is_limited(v, limited_by_boundary | limited_at_corner | limited_by_request | VertexLimit::put_back))
+        is_immovable_[v] = 1;
+  }
+
+  void all_rounds() {
+    constexpr double many = .1;  // per vertex: more are hardly ever all removed
+    const bool tries_hard =
+        !run_.is_interrupted() && static_cast<double>(run_.flaws()) <= many * c_.vertex_count;
+    const int max_series = tries_hard ? 3 : 1;
+    for (int series = 0; series < max_series && run_.flaws() > 0; ++series)
+      if (!remove_flaws(series, tries_hard ? 2 : 1)) break;
+    while (!run_.is_interrupted() && run_.flaws() == 0 && run_.chords() > 0 && remove_chords()) continue;
+  }
+
+ private:
+  /// A state of the result, and where it has flaws.
+  struct State {
+    Attempt run;
+    Mat3X points;
+    std::vector<int> flaws;
+  };
+
+  State state() const { return {run_, points_, flaws_at_vertices(run_, points_)}; }
+
+  void return_to(const State& state) {
+    run_ = state.run;
+    points_ = state.points;
+  }
+
+  /// Moves in rounds until so many of them have made no fewer flaws than one before. In each region about
+  /// what moves it keeps the round with the fewest flaws there. Returns whether fewer are left.
+  bool remove_flaws(int series, std::size_t max_in_vain) {
+    const int max_rounds = run_.is_interrupted() ? 2 : 6;
+    std::vector<State> states{state()};
+    std::size_t best = 0;
+    for (int round = 0; round < max_rounds && run_.flaws() > 0 && states.size() <= best + max_in_vain;
+         ++round) {
+      if (!move((series + round) % 2 == 0 ? Approach::corner_best_first : Approach::face_in_order)) break;
+      if (run_.flaws() < states[best].run.flaws()) best = states.size();
+      states.push_back(state());
+    }
+    return_to(states[best]);
+    if (run_.flaws() > 0 && states.size() > 1 && max_in_vain > 1) {
+      place(best_by_region(states));
+      if (run_.flaws() >= states[best].run.flaws()) return_to(states[best]);
+    }
+    return run_.flaws() < states[0].run.flaws();
+  }
+
+  /// Returns whether there are fewer, and nothing else is worse.
+  bool remove_chords() {
+    const State before = state();
+    if (move(Approach::corner_best_first) && run_.flaws() == 0 && run_.chords() < before.run.chords() &&
+        run_.angle >= before.run.angle)
+      return true;
+    return_to(before);
+    return false;
+  }
+
+  bool is_limited(int vertex, unsigned char limits) const {
+    return (run_.result.vertex_limits[order_.old_vertex[vertex]] & limits) != 0;
+  }
+
+  /// One round of moves, judged. Returns whether there are any.
+  bool move(Approach approach) {
+    Mat3X moved = points_;
+    approach_lost_vertices(approach, moved);
+    move_to_input(approach, moved);
+    take_back_needles(moved);
+    if (moved == points_) return false;
+    place(moved);
+    return true;
+  }
+
+  void place(const Mat3X& moved) {
+    for (int v = 0; v < moved.cols(); ++v)
+      if (moved.col(v) != points_.col(v)) maker_.place(v, moved.col(v), run_);
+    maker_.judge(run_);
+    points_ = moved;
+  }
+
+  /// Moves the vertices that are closest to lost vertices of the input towards these, as near as they must
+  /// be.
+  void approach_lost_vertices(Approach approach, Mat3X& moved) const {
+    std::vector<FarVertex> lost = run_.preservation().lost_vertices;
+    std::ranges::stable_sort(lost, std::greater(), &FarVertex::distance);
+    const std::vector<int>& faces = run_.result.measures->deviation.vertices_from_reference.faces;
+    for (const FarVertex& tip : lost) {
+      const int face = faces[tip.vertex];
+      if (face < 0) continue;
+      const Vec3 x = input_.points.col(tip.vertex);
+      const Triangle& t = c_.faces[face];
+      Vec3 weights = Vec3::Zero();
+      if (approach == Approach::corner_best_first) {
+        const auto distance = [&](int v) { return (points_.col(v) - x).squaredNorm(); };
+        weights[std::ranges::min_element(t, {}, distance) - t.begin()] = 1;
+      } else {
+        ClosestPoint closest = closest_point(x, points_.col(t[0]), points_.col(t[1]), points_.col(t[2]));
+        closest.face = face;
+        weights = on_face(closest, points_, c_).weights;
+      }
+      Vec3 way = x;
+      bool may_move = true;
+      for (int k = 0; k < 3; ++k) {
+        if (weights[k] == 0) continue;
+        way -= weights[k] * points_.col(t[k]);
+        may_move = may_move && !is_immovable_[t[k]] && moved.col(t[k]) == points_.col(t[k]);
+      }
+      constexpr double well_within = .95;
+      const double share = 1 - well_within * tip.limit / way.norm();
+      if (!(share > 0) || !may_move) continue;
+      for (int k = 0; k < 3; ++k) moved.col(t[k]) += weights[k] / weights.squaredNorm() * share * way;
+    }
+  }
+
+  /// Moves vertices that are too far to the closest points of the input, and the corners of faces that are
+  /// turned over, chords, folded or intersecting, none on a crease, to better places.
+  void move_to_input(Approach approach, Mat3X& moved) const {
+    const auto may_move = [&](int v) { return !is_immovable_[v] && moved.col(v) == points_.col(v); };
+    for (const FarVertex& far : run_.preservation().far_vertices)
+      if (may_move(far.vertex)) moved.col(far.vertex) = on_input(points_.col(far.vertex));
+    std::vector<Place> places;
+    for (int v : corners_of_turned_faces())
+      if (!is_limited(v, limited_by_crease) && may_move(v)) places.push_back(best_place(v, points_));
+    if (approach == Approach::corner_best_first)
+      std::ranges::stable_sort(
+          places, [](const Place& a, const Place& b) { return a.score.is_better_than(b.score); });
+    for (const Place& place : places)
+      if (may_move(place.vertex)) moved.col(place.vertex) = best_place(place.vertex, moved).point;
+    for (int v : corners_of_crossing_faces())
+      if (!is_limited(v, limited_by_crease) && may_move(v))
+        moved.col(v) = on_input(middle_of_neighbours(v, points_));
+  }
+
+  /// Or of chords, if there are some to be removed. Ascending.
+  std::vector<int> corners_of_turned_faces() const {
+    const Deviation& deviation = run_.result.measures->deviation;
+    const std::vector<int>& turned = run_.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces;
+    std::vector<int> corners;
+    for (std::size_t f = 0; f < c_.faces.size(); ++f)
+      if (std::ranges::binary_search(turned, order_.old_face[f]))
+        corners.insert(corners.end(), c_.faces[f].begin(), c_.faces[f].end());
+    return without_repeats(std::move(corners));
+  }
+
+  /// And the ends of folds, if there are more than in the input. Ascending.
+  std::vector<int> corners_of_crossing_faces() const {
+    std::vector<int> corners;
+    for (const auto& pair : run_.preservation().crossings)
+      for (int f : pair) corners.insert(corners.end(), c_.faces[f].begin(), c_.faces[f].end());
+    if (run_.preservation().new_folds > 0)
+      for (const Edge& e : folds_off_creases(run_, points_))
+        corners.insert(corners.end(), e.begin(), e.end());
+    return without_repeats(std::move(corners));
+  }
+
+  static std::vector<int> without_repeats(std::vector<int> vertices) {
+    std::ranges::sort(vertices);
+    const auto rest = std::ranges::unique(vertices);
+    vertices.erase(rest.begin(), rest.end());
+    return vertices;
+  }
+
+  Vec3 on_input(const Vec3& x) const { return input_.tree.closest(x).point; }
+
+  Vec3 middle_of_neighbours(int v, const Mat3X& points) const {
+    Vec3 sum = Vec3::Zero();
+    for (int n : c_.vertex_neighbours[v]) sum += points.col(n);
+    return sum / std::ssize(c_.vertex_neighbours[v]);
+  }
+
+  /// Of the faces around a vertex.
+  struct Score {
+    int opposing = 0;  // how many oppose the input
+    double least_angle = 180;
+
+    bool is_better_than(const Score& other) const {
+      return std::pair(opposing, -least_angle) < std::pair(other.opposing, -other.least_angle);
+    }
+  };
+
+  struct Place {
+    int vertex;
+    Vec3 point;
+    Score score;
+  };
+
+  /// The best place of a vertex: its own if no face opposes the input there, else of that and, on the input,
+  /// of those at its own, at the middle of its neighbours, and on the way to each of them.
+  Place best_place(int v, const Mat3X& points) const {
+    const Vec3 here = points.col(v);
+    Place best{v, here, score_of(v, here, points)};
+    if (best.score.opposing == 0) return best;
+    const auto try_place = [&](const Vec3& x) {
+      const Vec3 point = on_input(x);
+      const Score score = score_of(v, point, points);
+      if (score.is_better_than(best.score)) best = {v, point, score};
+    };
+    try_place(here);
+    try_place(middle_of_neighbours(v, points));
+    for (int n : c_.vertex_neighbours[v])
+      for (const double share : {.15, .3, .5, .7}) try_place(here + share * (points.col(n) - here));
+    return best;
+  }
+
+  /// With the vertex at x.
+  Score score_of(int v, const Vec3& x, const Mat3X& points) const {
+    Score score;
+    for (int f : c_.vertex_faces[v]) {
+      Mat3X corners(3, 3);
+      for (int k = 0; k < 3; ++k) corners.col(k) = c_.faces[f][k] == v ? x : Vec3(points.col(c_.faces[f][k]));
+      const Triangle face{0, 1, 2};
+      score.least_angle = std::min(score.least_angle, min_angle(corners, {face}));
+      const ClosestPoint closest = input_.tree.closest(corners.rowwise().mean());
+      const Vec3 there = doubled_area_vector(input_.points, input_.adjacency.faces[closest.face]);
+      score.opposing += doubled_area_vector(corners, face).dot(there) <= 0;
+    }
+    return score;
+  }
+
+  /// Takes back what was moved at faces that would lose nearly all of their angle, as where two corners go to
+  /// the same place, until there are none.
+  void take_back_needles(Mat3X& moved) const {
+    constexpr double kept_share = .05;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Triangle& t : c_.faces) {
+        const auto has_moved = [&](int v) { return moved.col(v) != points_.col(v); };
+        if (std::ranges::none_of(t, has_moved) ||
+            min_angle(moved, {t}) >= kept_share * min_angle(points_, {t}))
+          continue;
+        for (int v : t) moved.col(v) = points_.col(v);
+        changed = true;
+      }
+    }
+  }
+
+  /// The points, in each region those of the state with the fewest flaws there. Regions are apart by more
+  /// than two rings about what has moved.
+  Mat3X best_by_region(const std::vector<State>& states) const {
+    const std::vector<char> is_near = near_moves(states);
+    std::vector<char> is_seen(c_.vertex_count, 0);
+    Mat3X points = points_;
+    for (int first = 0; first < c_.vertex_count; ++first) {
+      if (!is_near[first] || is_seen[first]) continue;
+      std::vector<int> region{first};
+      is_seen[first] = 1;
+      for (std::size_t i = 0; i < region.size(); ++i)
+        for (int n : c_.vertex_neighbours[region[i]]) {
+          if (!is_near[n] || is_seen[n]) continue;
+          is_seen[n] = 1;
+          region.push_back(n);
+        }
+      const auto flaws = [&](const State& s) {
+        int sum = 0;
+        for (int v : region) sum += s.flaws[v];
+        return sum;
+      };
+      const Mat3X& best = std::ranges::min_element(states, {}, flaws)->points;
+      for (int v : region) points.col(v) = best.col(v);
+    }
+    return points;
+  }
+
+  /// Per vertex: has it, or one no more than two rings away, moved in any state?
+  std::vector<char> near_moves(const std::vector<State>& states) const {
+    std::vector<char> is_near(c_.vertex_count, 0);
+    for (int v = 0; v < c_.vertex_count; ++v)
+      is_near[v] = std::ranges::any_of(
+          states, [&](const State& s) { return s.points.col(v) != states[0].points.col(v); });
+    for (int ring = 0; ring < 2; ++ring) {
+      const std::vector<char> inner = is_near;
+      for (int v = 0; v < c_.vertex_count; ++v)
+        if (inner[v])
+          for (int n : c_.vertex_neighbours[v]) is_near[n] = 1;
+    }
+    return is_near;
+  }
+
+  const AttemptMaker& maker_;
+  const MeasuredSurface& input_;
+  Attempt& run_;
+  const Permutation order_;
+  const std::shared_ptr<const Adjacency> adjacency_;
+  const Adjacency& c_;
+  Mat3X points_;
+  std::vector<char> is_immovable_;
+};
+
+}  // namespace
+
+void mend(const AttemptMaker& maker, Attempt& run) {
+  const bool is_finite = run.result.measures != nullptr;
+  if (is_finite && run.flaws() + run.chords() > 0) Mending(maker, run).all_rounds();
+}
+
+}  // namespace hooke

@@ -1,0 +1,104 @@
+#include "hooke/remesh/mending.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "hooke/remesh/attempts.h"
+#include "hooke/remesh/limiting_factors.h"
+#include "support/remeshed.h"
+#include "support/solids.h"
+
+namespace hooke::mending_test {
+
+/// A sphere, and a run on it to be damaged.
+class Sphere {
+ public:
+  Sphere() : mesh_(test::with_length(t_, test::natural(t_))) {
+    run = maker.run();
+    maker.judge(run);
+    EXPECT_EQ(run.flaws(), 0u);
+  }
+
+  const Adjacency& connectivity() const { return *run.result.memory_order.adjacency; }
+  Mat3X points() const { return run.result.memory_order.order.gather(vertex_points(run.mesh)); }
+
+  /// Moves a vertex beyond its neighbours, so that faces there are turned over.
+  void turn_over_at(int vertex) {
+    const Mat3X x = points();
+    const int n = connectivity().vertex_neighbours[vertex][0];
+    maker.place(vertex, x.col(n) + .6 * (x.col(n) - x.col(vertex)), run);
+    maker.judge(run);
+  }
+
+  void hold(int vertex) {
+    run.result.vertex_limits[run.result.memory_order.order.old_vertex[vertex]] |= limited_by_request;
+  }
+
+ private:
+  const test::Triangles t_ = test::sphere(3, .2, 1);
+  TriMesh mesh_;
+  const MemoryOrder memory_order_ = find_memory_order(mesh_);
+  const RemeshOptions options_;  // mode `fixed`
+  const Observer observer_;
+
+ public:
+  AttemptMaker maker{mesh_, memory_order_, options_, {}, {}, observer_, nullptr, false};
+  Attempt run;
+};
+
+/// How many vertices the mending has moved that are farther than these rings from the vertex.
+int moved_far_from(int vertex, int rings, const Mat3X& before, const Sphere& sphere) {
+  const Adjacency& c = sphere.connectivity();
+  std::vector<char> is_near(c.vertex_count, 0);
+  is_near[vertex] = 1;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> inner = is_near;
+    for (int v = 0; v < c.vertex_count; ++v)
+      if (inner[v])
+        for (int n : c.vertex_neighbours[v]) is_near[n] = 1;
+  }
+  const Mat3X after = sphere.points();
+  int count = 0;
+  for (int v = 0; v < c.vertex_count; ++v) count += !is_near[v] && after.col(v) != before.col(v);
+  return count;
+}
+
+TEST(Mending, TurnsFacesBackAndMovesNothingElse) {
+  for (int vertex : {5, 60, 200, 400}) {
+    Sphere sphere;
+    sphere.turn_over_at(vertex);
+    const Mat3X before = sphere.points();
+    ASSERT_GT(sphere.run.preservation().flipped_faces, 0u);
+    mend(sphere.maker, sphere.run);
+    EXPECT_EQ(sphere.run.flaws(), 0u);
+    EXPECT_EQ(moved_far_from(vertex, 4, before, sphere), 0);
+  }
+}
+
+TEST(Mending, MendsOnePlaceWhereItCannotMendAnother) {
+  const int held = 60, free = 400;
+  Sphere sphere;
+  sphere.turn_over_at(held);
+  sphere.hold(held);
+  for (int n : sphere.connectivity().vertex_neighbours[held]) {
+    sphere.hold(n);
+    for (int m : sphere.connectivity().vertex_neighbours[n]) sphere.hold(m);
+  }
+  const std::size_t at_held = sphere.run.flaws();
+  const Vec3 place = sphere.points().col(held);
+  sphere.turn_over_at(free);
+  ASSERT_GT(sphere.run.flaws(), at_held);
+  mend(sphere.maker, sphere.run);
+  EXPECT_EQ(sphere.run.flaws(), at_held);
+  EXPECT_TRUE(sphere.points().col(held) == place);
+}
+
+TEST(Mending, LeavesAResultThatKeepsItsInput) {
+  Sphere sphere;
+  const Mat3X before = sphere.points();
+  mend(sphere.maker, sphere.run);
+  EXPECT_TRUE(sphere.points() == before);
+}
+
+}  // namespace hooke::mending_test
