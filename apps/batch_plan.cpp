@@ -47,7 +47,7 @@ fs::path output_in_folder(const Settings& s, const fs::path& input) {
 
 /// The file of an option for this mesh: the file itself, or one in the folder that it names.
 fs::path own_file(const Settings& s, const GivenOption& option, const char* extension, const MeshTask& task) {
-  const fs::path path = option.values.back();
+  fs::path path = option.values.back();
   if (path == "-")
     throw Error(
         fmt::format("--{} - is for one mesh without --table and --skip-existing; expected a folder FOLDER/, "

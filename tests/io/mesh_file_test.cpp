@@ -71,7 +71,8 @@ TEST(MeshFile, OnlyRegularFilesAreRead) {
   fs::create_symlink("/dev/zero", folder / "zero.obj");
   write_text(folder / "empty.obj", "");
   const auto error = [&](const char* name) {
-    const std::string message = error_of(folder / name), start = (folder / name).native() + ": ";
+    std::string message = error_of(folder / name);
+    const std::string start = (folder / name).native() + ": ";
     EXPECT_EQ(message.substr(0, start.size()), start);
     return message;
   };

@@ -164,7 +164,7 @@ TEST(Msh, ErrorsNameThePlace) {
   const auto error = [](std::string text, const std::string& old_part, const std::string& new_part) {
     const size_t at = text.find(old_part);
     text.replace(at, old_part.size(), new_part);
-    const std::string message = test::message_of<InputError>([&] { read_msh(text, "m"); });
+    std::string message = test::message_of<InputError>([&] { read_msh(text, "m"); });
     EXPECT_EQ(message.find('\n'), std::string::npos);
     return message;
   };

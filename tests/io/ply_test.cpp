@@ -164,7 +164,7 @@ TEST(Ply, OtherPropertiesAndElementsArePassedOverAndNamed) {
         .put(static_cast<float>(y))
         .put(0.f)
         .put(x)
-        .bytes.append(static_cast<size_t>(4 * x), 'w');
+        .bytes.append(4 * static_cast<size_t>(x), 'w');
   file.put(static_cast<unsigned char>(255)).put(static_cast<unsigned char>(3)).put(0).put(1).put(2).put(.5f);
   const MeshFile mesh = read(file.bytes);
   expect_the_triangle(mesh);

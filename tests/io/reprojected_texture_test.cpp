@@ -26,7 +26,7 @@ struct Strip {
     values.conservativeResize(3, 10);
     values.rightCols(4) = points(Eigen::all, {1, 2, 5, 4});
     values.rightCols(4).row(0).array() += 10;
-    for (int k = 0; k < 4; ++k) elements[static_cast<size_t>(4 + k)] = 6 + k;
+    for (int k = 0; k < 4; ++k) elements[4 + static_cast<size_t>(k)] = 6 + k;
   }
 
   /// The texture after vertex 1 went to (x, 0).
@@ -93,7 +93,7 @@ struct Barrel {
     for (int j = 0; j <= up; ++j)
       for (int i = 0; i <= around; ++i) {
         const double inner = j > 0 && j < up ? 1 : 0;
-        const double u = i % around > 0 ? (i + inner * shift(random)) / around : i / around;
+        const double u = i % around > 0 ? (i + inner * shift(random)) / around : (i == 0 ? 0 : 1);
         const double z = i < around ? 2 * (j + inner * shift(random)) / up : 2 * values(1, row(j, 0));
         values.col(row(j, i)) = Vec3(u, z / 2, 0);
         if (i < around) points.col(vertex(j, i)) = place(u, z);

@@ -166,7 +166,8 @@ TEST(Rewrite, FloatsAreRoundedAndDoublesAreNot) {
 }
 
 TEST(Rewrite, ATypeThatCannotHoldTheResultIsAnObstacle) {
-  const File ints = files[6], floats{MeshFormat::off, binary_off("OFF", false)};
+  const File& ints = files[6];
+  const File floats{MeshFormat::off, binary_off("OFF", false)};
   const auto obstacle = [](const File& file, double x) {
     Mat3X points = parse(file).points;
     points(0, 0) = x;

@@ -161,7 +161,7 @@ TEST(Stl, AttributesOfFacetsComeBack) {
 
 TEST(Stl, ErrorsNameThePlace) {
   const auto error = [](const std::string& bytes) {
-    const std::string message = test::message_of<InputError>([&] { read_stl(bytes, "m"); });
+    std::string message = test::message_of<InputError>([&] { read_stl(bytes, "m"); });
     EXPECT_EQ(message.find('\n'), std::string::npos);
     return message;
   };

@@ -136,7 +136,7 @@ TEST(Vtp, ErrorsNameTheLine) {
   const auto error = [](const auto& change) {
     Sample sample;
     change(sample);
-    const std::string message = test::message_of<InputError>([&] { read_vtp(sample.text(), "m"); });
+    std::string message = test::message_of<InputError>([&] { read_vtp(sample.text(), "m"); });
     EXPECT_EQ(message.find('\n'), std::string::npos);
     return message;
   };

@@ -9,13 +9,10 @@
 #include "hooke/core/error.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/repair.h"
-#include "support/errors.h"
 #include "support/meshes.h"
 #include "support/solids.h"
 
 namespace hooke::junctions_test {
-
-using test::has;
 
 constexpr RepairOptions keep{.keep_junctions = true};
 

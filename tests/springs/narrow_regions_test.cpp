@@ -112,8 +112,10 @@ TEST(NarrowRegions, ASmallDiscIsAsWideAsItsRadius) {
 
 TEST(NarrowRegions, KinksAndJaggedRimsAreNotRound) {
   Triangles kinked = strip(40, 12, 80);
-  for (int i = 80; i <= 160; ++i)
-    kinked.points.col(i) += Vec3(0, .2 * (i / 2 - 40) * .5, 0);  // a turn of 11 degrees
+  for (int i = 80; i <= 160; ++i) {
+    const int column = i / 2;
+    kinked.points.col(i) += Vec3(0, .2 * (column - 40) * .5, 0);  // a turn of 11 degrees
+  }
   EXPECT_TRUE(regions_of(kinked, 5, .01).empty());
   std::mt19937 random(2);
   std::uniform_real_distribution<double> noise(-.05, .05);

@@ -199,7 +199,7 @@ void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, M
   else
     lost = keep_as_vertex_data(file, data, static_cast<size_t>(numbers), kind);
   if (lost.empty()) return;
-  append(file.content.no_obj, std::move(lost));
+  append(file.content.no_obj, lost);
   corners_of_file = {data.values, numbers, std::move(data.elements)};
 }
 

@@ -63,15 +63,13 @@ Scanner::Scanner(std::string_view text, std::string name, Syntax syntax, int fir
 
 void Scanner::skip_line() {
   while (cursor_ < end_ && !is_line_end(*cursor_)) {
-    if (kind_of(*cursor_) != LetterKind::mark) {
-      ++cursor_;
-    } else if (*cursor_ == '#' && syntax_.comments) {
+    const bool is_mark = kind_of(*cursor_) == LetterKind::mark;
+    if (is_mark && *cursor_ == '#' && syntax_.comments) {
       while (cursor_ < end_ && !is_line_end(*cursor_)) ++cursor_;
-    } else if (at_continuation(cursor_)) {
-      ++cursor_;
-      skip_line_end();
     } else {
+      const bool continues = is_mark && at_continuation(cursor_);
       ++cursor_;
+      if (continues) skip_line_end();
     }
   }
 }

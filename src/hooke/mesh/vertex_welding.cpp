@@ -42,8 +42,9 @@ class Grid {
   void for_each_near(int vertex, const Use& use) const {
     const Cell cell = cell_of(vertex);
     if (size_ == 0) return for_each_in(cell, use);
-    for (int k = 0; k < 27; ++k)
-      for_each_in({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1}, use);
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k) for_each_in({cell[0] + k, cell[1] + j, cell[2] + i}, use);
   }
 
  private:

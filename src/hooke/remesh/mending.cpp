@@ -193,8 +193,8 @@ class Mending {
 
   static std::vector<int> without_repeats(std::vector<int> vertices) {
     std::ranges::sort(vertices);
-    const auto rest = std::ranges::unique(vertices);
-    vertices.erase(rest.begin(), rest.end());
+    const auto rest = std::unique(vertices.begin(), vertices.end());
+    vertices.erase(rest, vertices.end());
     return vertices;
   }
 
