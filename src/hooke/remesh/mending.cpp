@@ -50,47 +50,51 @@ class Mending {
   }
 
  private:
-  /// A state of the result, and where it has flaws.
-  struct State {
-    Attempt run;
+  /// The points after a round, and how many flaws there are at each vertex.
+  struct Round {
     Mat3X points;
     std::vector<int> flaws;
   };
 
-  State state() const { return {run_, points_, flaws_at_vertices(run_, points_)}; }
-
-  void return_to(const State& state) {
-    run_ = state.run;
-    points_ = state.points;
-  }
+  Round this_round() const { return {points_, flaws_at_vertices(run_, points_)}; }
 
   /// Moves in rounds until so many of them have made no fewer flaws than one before. In each region about
   /// what moves it keeps the round with the fewest flaws there. Returns whether fewer are left.
   bool remove_flaws(int series, std::size_t max_in_vain) {
-    const int max_rounds = run_.is_interrupted() ? 2 : 6;
-    std::vector<State> states{state()};
-    std::size_t best = 0;
-    for (int round = 0; round < max_rounds && run_.flaws() > 0 && states.size() <= best + max_in_vain;
-         ++round) {
-      if (!move((series + round) % 2 == 0 ? Approach::corner_best_first : Approach::face_in_order)) break;
-      if (run_.flaws() < states[best].run.flaws()) best = states.size();
-      states.push_back(state());
+    const std::size_t max_rounds = run_.is_interrupted() ? 2 : 6, flaws_at_start = run_.flaws();
+    std::vector<Round> rounds{this_round()};
+    Attempt best = run_;
+    std::size_t best_round = 0;
+    while (run_.flaws() > 0 && rounds.size() <= std::min(max_rounds, best_round + max_in_vain)) {
+      const bool is_odd = (static_cast<std::size_t>(series) + rounds.size()) % 2 == 1;
+      if (!move(is_odd ? Approach::corner_best_first : Approach::face_in_order)) break;
+      if (run_.flaws() < best.flaws()) {
+        best = run_;
+        best_round = rounds.size();
+      }
+      rounds.push_back(this_round());
     }
-    return_to(states[best]);
-    if (run_.flaws() > 0 && states.size() > 1 && max_in_vain > 1) {
-      place(best_by_region(states));
-      if (run_.flaws() >= states[best].run.flaws()) return_to(states[best]);
+    run_ = best;
+    points_ = rounds[best_round].points;
+    if (run_.flaws() > 0 && rounds.size() > 1 && max_in_vain > 1) {
+      place(best_by_region(rounds));
+      if (run_.flaws() >= best.flaws()) {
+        run_ = std::move(best);
+        points_ = std::move(rounds[best_round].points);
+      }
     }
-    return run_.flaws() < states[0].run.flaws();
+    return run_.flaws() < flaws_at_start;
   }
 
   /// Returns whether there are fewer, and nothing else is worse.
   bool remove_chords() {
-    const State before = state();
-    if (move(Approach::corner_best_first) && run_.flaws() == 0 && run_.chords() < before.run.chords() &&
-        run_.angle >= before.run.angle)
+    const Attempt before = run_;
+    const Mat3X points = points_;
+    if (move(Approach::corner_best_first) && run_.flaws() == 0 && run_.chords() < before.chords() &&
+        run_.angle >= before.angle)
       return true;
-    return_to(before);
+    run_ = before;
+    points_ = points;
     return false;
   }
 
@@ -272,10 +276,10 @@ class Mending {
     }
   }
 
-  /// The points, in each region those of the state with the fewest flaws there. Regions are apart by more
-  /// than two rings about what has moved.
-  Mat3X best_by_region(const std::vector<State>& states) const {
-    const std::vector<char> is_near = near_moves(states);
+  /// The points, in each region those of the first round with the fewest flaws there. A region is what has
+  /// moved with two rings about it.
+  Mat3X best_by_region(const std::vector<Round>& rounds) const {
+    const std::vector<char> is_near = near_moves(rounds);
     std::vector<char> is_seen(c_.vertex_count, 0);
     Mat3X points = points_;
     for (int first = 0; first < c_.vertex_count; ++first) {
@@ -288,23 +292,23 @@ class Mending {
           is_seen[n] = 1;
           region.push_back(n);
         }
-      const auto flaws = [&](const State& s) {
+      const auto flaws = [&](const Round& r) {
         int sum = 0;
-        for (int v : region) sum += s.flaws[v];
+        for (int v : region) sum += r.flaws[v];
         return sum;
       };
-      const Mat3X& best = std::ranges::min_element(states, {}, flaws)->points;
+      const Mat3X& best = std::ranges::min_element(rounds, {}, flaws)->points;
       for (int v : region) points.col(v) = best.col(v);
     }
     return points;
   }
 
-  /// Per vertex: has it, or one no more than two rings away, moved in any state?
-  std::vector<char> near_moves(const std::vector<State>& states) const {
+  /// Per vertex: has it, or one no more than two rings away, moved in any round?
+  std::vector<char> near_moves(const std::vector<Round>& rounds) const {
     std::vector<char> is_near(c_.vertex_count, 0);
     for (int v = 0; v < c_.vertex_count; ++v)
       is_near[v] = std::ranges::any_of(
-          states, [&](const State& s) { return s.points.col(v) != states[0].points.col(v); });
+          rounds, [&](const Round& r) { return r.points.col(v) != rounds[0].points.col(v); });
     for (int ring = 0; ring < 2; ++ring) {
       const std::vector<char> inner = is_near;
       for (int v = 0; v < c_.vertex_count; ++v)
