@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "hooke/remesh/attempts.h"
@@ -31,6 +32,8 @@ class Sphere {
     maker.judge(run);
   }
 
+  void watch(Observer observer) { observer_ = std::move(observer); }
+
   void hold(int vertex) {
     run.result.vertex_limits[run.result.memory_order.order.old_vertex[vertex]] |= limited_by_request;
   }
@@ -40,7 +43,7 @@ class Sphere {
   TriMesh mesh_;
   const MemoryOrder memory_order_ = find_memory_order(mesh_);
   const RemeshOptions options_;  // mode `fixed`
-  const Observer observer_;
+  Observer observer_;
 
  public:
   AttemptMaker maker{mesh_, memory_order_, options_, {}, {}, observer_, nullptr, false};
@@ -92,6 +95,40 @@ TEST(Mending, MendsOnePlaceWhereItCannotMendAnother) {
   mend(sphere.maker, sphere.run);
   EXPECT_EQ(sphere.run.flaws(), at_held);
   EXPECT_TRUE(sphere.points().col(held) == place);
+}
+
+TEST(Mending, ThinLensesAreMendedWithoutAnotherRun) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    test::Triangles t = test::sphere(2, .4, seed);
+    t.points.row(2) *= .03;
+    const TriMesh mesh = test::with_length(t, test::natural(t));
+    const MemoryOrder memory_order = find_memory_order(mesh);
+    RemeshOptions options;
+    options.connectivity = ConnectivityMode::adapt;
+    options.effort = Effort::fast;
+    const Observer observer;
+    const AttemptMaker maker(mesh, memory_order, options, {}, {}, observer, nullptr, false);
+    Attempt run = maker.run();
+    maker.judge(run);
+    ASSERT_GT(run.flaws(), 0u);
+    mend(maker, run);
+    EXPECT_EQ(run.flaws(), 0u) << seed;
+  }
+}
+
+TEST(Mending, WhatIsStoppedIsInterruptedAndMovesNothing) {
+  Sphere sphere;
+  sphere.turn_over_at(60);
+  const Mat3X before = sphere.points();
+  int calls = 0;
+  sphere.watch([&](const Progress&) {
+    ++calls;
+    return false;
+  });
+  mend(sphere.maker, sphere.run);
+  EXPECT_TRUE(sphere.run.is_interrupted());
+  EXPECT_TRUE(sphere.points() == before);
+  EXPECT_EQ(calls, 1);
 }
 
 TEST(Mending, LeavesAResultThatKeepsItsInput) {

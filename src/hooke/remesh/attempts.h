@@ -84,6 +84,9 @@ class AttemptMaker {
   /// The surface of the result, which must outlive it.
   MeasuredSurface surface_of(const Attempt& attempt) const;
 
+  /// Does the observer ask to stop?
+  bool is_stopped() const { return observer_ && !observer_({.stage = "mend"}); }
+
   /// Moves a vertex of the result, by its index in memory order, and finds it on the input again.
   void place(int vertex, const Vec3& point, Attempt& attempt) const;
 

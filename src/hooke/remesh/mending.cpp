@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
@@ -16,9 +20,9 @@
 namespace hooke {
 namespace {
 
-/// Two ways of a round, in turn, as what one does not mend the other may. A lost vertex of the input is
-/// approached by the closest corner of the face closest to it, or by all three; corners of turned faces move
-/// the best first, or in their order.
+/// Two ways of a round, in turn, as what one does not mend the other may, from where that has led. A lost
+/// vertex of the input is approached by the closest corner of the face closest to it, or by all three;
+/// corners of turned faces move the best first, or in their order.
 enum class Approach { corner_best_first, face_in_order };
 
 /// Vertices are those of the result, in memory order.
@@ -40,13 +44,14 @@ class Mending {
   }
 
   void all_rounds() {
-    constexpr double many = .1;  // per vertex: more are hardly ever all removed
-    const bool tries_hard =
-        !run_.is_interrupted() && static_cast<double>(run_.flaws()) <= many * c_.vertex_count;
+    constexpr double many = .1, too_many = 3000;  // per vertex, and in all: hardly ever all removed
+    const bool tries_hard = !run_.is_interrupted() &&
+                            static_cast<double>(run_.flaws()) <= std::min(many * c_.vertex_count, too_many);
     const int max_series = tries_hard ? 3 : 1;
     for (int series = 0; series < max_series && run_.flaws() > 0; ++series)
       if (!remove_flaws(series, tries_hard ? 2 : 1)) break;
     while (!run_.is_interrupted() && run_.flaws() == 0 && run_.chords() > 0 && remove_chords()) continue;
+    if (is_stopped_) run_.result.reason = StopReason::interrupted;
   }
 
  private:
@@ -102,13 +107,15 @@ class Mending {
     return (run_.result.vertex_limits[order_.old_vertex[vertex]] & limits) != 0;
   }
 
-  /// One round of moves, judged. Returns whether there are any.
+  /// One round of moves, judged. Returns whether there are any, none if the work is stopped.
   bool move(Approach approach) {
+    is_stopped_ = is_stopped_ || (!run_.is_interrupted() && maker_.is_stopped());
+    if (is_stopped_) return false;
     Mat3X moved = points_;
     approach_lost_vertices(approach, moved);
     move_to_input(approach, moved);
     take_back_needles(moved);
-    if (moved == points_) return false;
+    if (moved == points_ || !moved.allFinite()) return false;
     place(moved);
     return true;
   }
@@ -142,7 +149,9 @@ class Mending {
       }
       Vec3 way = x;
       bool may_move = true;
+      constexpr double rounding = 1e-9;
       for (int k = 0; k < 3; ++k) {
+        if (weights[k] < rounding) weights[k] = 0;
         if (weights[k] == 0) continue;
         way -= weights[k] * points_.col(t[k]);
         may_move = may_move && !is_immovable_[t[k]] && moved.col(t[k]) == points_.col(t[k]);
@@ -160,14 +169,17 @@ class Mending {
     const auto may_move = [&](int v) { return !is_immovable_[v] && moved.col(v) == points_.col(v); };
     for (const FarVertex& far : run_.preservation().far_vertices)
       if (may_move(far.vertex)) moved.col(far.vertex) = on_input(points_.col(far.vertex));
-    std::vector<Place> places;
-    for (int v : corners_of_turned_faces())
-      if (!is_limited(v, limited_by_crease) && may_move(v)) places.push_back(best_place(v, points_));
+    const std::vector<int> corners = corners_of_turned_faces();
+    std::vector<Place> places(corners.size());
+    parallel_for(corners.size(), 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) places[i] = best_place(corners[i], points_);
+    });
     if (approach == Approach::corner_best_first)
       std::ranges::stable_sort(
           places, [](const Place& a, const Place& b) { return a.score.is_better_than(b.score); });
     for (const Place& place : places)
-      if (may_move(place.vertex)) moved.col(place.vertex) = best_place(place.vertex, moved).point;
+      if (!is_limited(place.vertex, limited_by_crease) && may_move(place.vertex))
+        moved.col(place.vertex) = best_place(place.vertex, moved).point;
     for (int v : corners_of_crossing_faces())
       if (!is_limited(v, limited_by_crease) && may_move(v))
         moved.col(v) = on_input(middle_of_neighbours(v, points_));
@@ -212,17 +224,17 @@ class Mending {
 
   /// Of the faces around a vertex.
   struct Score {
-    int opposing = 0;  // how many oppose the input
-    double least_angle = 180;
+    int opposing = 0;                                             // how many oppose the input
+    double cotangent = -std::numeric_limits<double>::infinity();  // of their least angle
 
     bool is_better_than(const Score& other) const {
-      return std::pair(opposing, -least_angle) < std::pair(other.opposing, -other.least_angle);
+      return std::pair(opposing, cotangent) < std::pair(other.opposing, other.cotangent);
     }
   };
 
   struct Place {
-    int vertex;
-    Vec3 point;
+    int vertex = -1;
+    Vec3 point = Vec3::Zero();
     Score score;
   };
 
@@ -248,13 +260,15 @@ class Mending {
   Score score_of(int v, const Vec3& x, const Mat3X& points) const {
     Score score;
     for (int f : c_.vertex_faces[v]) {
-      Mat3X corners(3, 3);
-      for (int k = 0; k < 3; ++k) corners.col(k) = c_.faces[f][k] == v ? x : Vec3(points.col(c_.faces[f][k]));
-      const Triangle face{0, 1, 2};
-      score.least_angle = std::min(score.least_angle, min_angle(corners, {face}));
-      const ClosestPoint closest = input_.tree.closest(corners.rowwise().mean());
-      const Vec3 there = doubled_area_vector(input_.points, input_.adjacency.faces[closest.face]);
-      score.opposing += doubled_area_vector(corners, face).dot(there) <= 0;
+      std::array<Vec3, 3> p;
+      for (int k = 0; k < 3; ++k) p[k] = c_.faces[f][k] == v ? x : Vec3(points.col(c_.faces[f][k]));
+      const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
+      for (int k = 0; k < 3; ++k) {
+        const double dot = (p[(k + 1) % 3] - p[k]).dot(p[(k + 2) % 3] - p[k]);
+        score.cotangent = std::max(score.cotangent, dot / normal.norm());
+      }
+      const int closest = input_.tree.closest((p[0] + p[1] + p[2]) / 3).face;
+      score.opposing += normal.dot(doubled_area_vector(input_.points, input_.adjacency.faces[closest])) <= 0;
     }
     return score;
   }
@@ -326,6 +340,7 @@ class Mending {
   const Adjacency& c_;
   Mat3X points_;
   std::vector<char> is_immovable_;
+  bool is_stopped_ = false;
 };
 
 }  // namespace

@@ -56,12 +56,12 @@ class PreservingRemesh {
   /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input.
   Attempt best_with_lengths() {
     Attempt unmended;
-    Attempt best = attempt(&unmended);
+    Attempt best = attempt(maker_.adapts() ? nullptr : &unmended);
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (!best.keeps_promises()) unmended = best;
-    const bool keeps_rest = !best.is_good() && may_keep_faces(unmended);
+    const bool keeps_rest = !best.is_interrupted() && !best.is_good() && may_keep_faces(unmended);
     if (keeps_rest) keep_faces(std::move(unmended), best);
     if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best))) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);

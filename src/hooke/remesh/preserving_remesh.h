@@ -27,10 +27,10 @@ struct KnownInput {
 };
 
 /// Like remesh(), and measures the result. If it does not keep what it must keep of the input (see
-/// measure/preservation.h), moves the vertices that are too far to the input, and those closest to lost
-/// vertices of the input to these. Where that does not do or makes small angles, remeshes anew, with the lost
-/// vertices held. In the modes `fixed` and `flip`, where little is wrong, what surrounds it stays as it is
-/// in the input in further runs, or goes back to that in mode `fixed`. If that does not do, all is remeshed
+/// measure/preservation.h), moves vertices where something is wrong, see mend(). Where that does not do or
+/// makes small angles, remeshes anew, with the lost vertices held. In the modes `fixed` and `flip`, where
+/// little is wrong or mending makes small angles, what surrounds it stays as it is in the input in further
+/// runs, or goes back to that in mode `fixed`. If that does not do, all is remeshed
 /// on the faces of the input, after that again with what surrounds the rest, and in mode `flip` with all
 /// faces of the input. Where one length is asked for all edges and faces get worse on average, or nothing
 /// keeps the input, all is tried with the lengths of the input, see RemeshResult::has_lengths_of_input; at
