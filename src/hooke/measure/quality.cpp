@@ -75,12 +75,6 @@ size_t count_folded_edges(const Mat3X& area_vector, const Adjacency& adjacency) 
   });
 }
 
-bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge) {
-  const auto [left, right] = adjacency.edge_faces[edge];
-  return right >= 0 && is_fold(doubled_area_vector(points, adjacency.faces[left]),
-                               doubled_area_vector(points, adjacency.faces[right]));
-}
-
 size_t count_degenerate_faces(const Mat3X& area_vector, double diagonal) {
   return count_where(static_cast<size_t>(area_vector.cols()), [&](size_t f) {
     return has_no_area(.5 * area_vector.col(static_cast<Eigen::Index>(f)).norm(), diagonal);
@@ -185,6 +179,12 @@ void describe_all(const MeasuredSurface& surface, const FaceShapes& shapes,
 }
 
 }  // namespace
+
+bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge) {
+  const auto [left, right] = adjacency.edge_faces[edge];
+  return right >= 0 && is_fold(doubled_area_vector(points, adjacency.faces[left]),
+                               doubled_area_vector(points, adjacency.faces[right]));
+}
 
 bool has_no_area(double area, double diagonal) {
   return !(area > 0 && area >= 1e-14 * diagonal * diagonal);

@@ -83,6 +83,9 @@ Quality measure_quality(const MeasuredSurface& surface, const UniformVector& edg
 Quality measure_quality(const Mat3X& points, const Adjacency& adjacency,
                         const UniformVector& edge_target_length, const QualityOptions& options = {});
 
+/// Is it counted as folded, creases included?
+bool is_folded_edge(const Mat3X& points, const Adjacency& adjacency, int edge);
+
 /// Takes the folded edges that are creases, and so meant, from the count, and computes the angle bounds of
 /// the worst faces anew for fixed creases, see bound_min_angles(). Creases are pairs of vertices of the
 /// adjacency.

@@ -15,8 +15,10 @@ std::vector<Edge> folds_off_creases(const Attempt& attempt, const Mat3X& points)
   for (Edge& e : creases) std::ranges::sort(e);
   std::ranges::sort(creases);
   std::vector<Edge> folds;
-  for (int e : sharp_edges(points, *memory_order.adjacency, 90)) {
-    Edge ends = memory_order.adjacency->edges[e];
+  const Adjacency& c = *memory_order.adjacency;
+  for (std::size_t e = 0; e < c.edges.size(); ++e) {
+    if (!is_folded_edge(points, c, static_cast<int>(e))) continue;
+    Edge ends = c.edges[e];
     std::ranges::sort(ends);
     if (!std::ranges::binary_search(creases, ends)) folds.push_back(ends);
   }
