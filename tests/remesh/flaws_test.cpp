@@ -40,6 +40,23 @@ TEST(Flaws, AreAtFacesThatLoseTheirArea) {
   EXPECT_LT(vertices.size(), 8u);
 }
 
+TEST(Flaws, FoldsAreFoundWhereTheyAreCountedHoweverThinTheFace) {
+  for (double height : {1e-2, 1e-8, 1e-13}) {
+    test::Triangles t;
+    t.points.resize(3, 4);
+    t.points << 0, 1, .5, .5, 0, 0, 1, height, 0, 0, 0, 0;
+    t.faces = {{0, 1, 2}, {1, 0, 3}};
+    const TriMesh mesh = test::with_length(t, 1);
+    const MemoryOrder memory_order = find_memory_order(mesh);
+    const AttemptMaker maker(mesh, memory_order, {}, {}, {}, nullptr, nullptr, true);
+    Attempt attempt;
+    attempt.mesh = mesh;
+    attempt.result.memory_order = memory_order;
+    EXPECT_EQ(maker.input_quality().folded_edges, 1u);
+    EXPECT_EQ(folds_off_creases(attempt, maker.input().points).size(), 1u) << height;
+  }
+}
+
 TEST(Flaws, OfAFoldAllCornersGoBackWhateverWentBackBefore) {
   const TriMesh mesh = test::with_length(test::grid(6, test::flat), 1. / 6);
   const MemoryOrder memory_order = find_memory_order(mesh);
