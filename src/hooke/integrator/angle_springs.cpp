@@ -74,6 +74,7 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
   result.edge_error_before = result.edge_error_after =
       relative_edge_deviation(r.positions.points, edges, targets);
 
+  const double limit = o.edge_error_limit * result.edge_error_before;
   double best = result.min_angle_before;
   double threshold = std::max(o.first_threshold, best + o.margin);
   double too_high = o.last_threshold + 1e-9;  // the lowest threshold known to cost too much
@@ -94,7 +95,6 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
     const double angle = min_angle(r.positions.points, faces);
     const double error = relative_edge_deviation(r.positions.points, edges, targets);
     if (kept_stages > 0 && angle < best - o.keep_within) break;  // the threshold is not what limits the angle
-    const double limit = result.edge_error_before * (kept_stages > 0 ? o.edge_error_limit : 1);
     if (error > limit) {  // half the threshold step, from the last state kept
       r.positions = kept;
       too_high = threshold;
@@ -112,7 +112,7 @@ AngleSpringResult raise_angles(Relaxation& r, const TargetLengths& targets, cons
       result.edge_error_after = error;
       // The error grows faster than linearly: a step predicted to exceed the limit is not tested.
       const double rise = 2 * std::max(0., error - last_error) / (threshold - last_threshold);  // per degree
-      const double left = o.edge_error_limit * result.edge_error_before - error;
+      const double left = limit - error;
       if (rise * step > left) {
         step /= 2;
         if (step < o.min_step || (rise > 0 && rise * step > left)) break;

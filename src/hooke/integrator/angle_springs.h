@@ -19,10 +19,10 @@ struct AngleSpringOptions {
   static constexpr double first_weight = 30;  // weight w of the first stage
   static constexpr double weight = 100;       // weight w of the other stages
   int sweeps = 3;                             // Gauss-Seidel sweeps per stage
-  int rings = 2;                   // rings around the faces below the threshold within which vertices move
-  double rest = .01;               // in target lengths; a vertex that moves less skips the next sweep
-  double edge_error_limit = .995;  // maximal deviation of l / L_e over its start, after the first stage kept
-  double keep_within = .1;         // degrees below the best angle at which a later state is still kept
+  int rings = 2;                // rings around the faces below the threshold within which vertices move
+  double rest = .01;            // in target lengths; a vertex that moves less skips the next sweep
+  double edge_error_limit = 1;  // maximal deviation of l / L_e over its start
+  double keep_within = .1;      // degrees below the best angle at which a later state is still kept
 };
 
 /// Raises the minimum angle in stages while the standard deviation of l / L_e stays within its limit.
