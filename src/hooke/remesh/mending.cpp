@@ -49,7 +49,7 @@ class Mending {
                             static_cast<double>(run_.flaws()) <= std::min(many * c_.vertex_count, too_many);
     const int max_series = tries_hard ? 3 : 1;
     for (int series = 0; series < max_series && run_.flaws() > 0; ++series)
-      if (!remove_flaws(series, tries_hard ? 2 : 1)) break;
+      if (!remove_flaws(tries_hard ? 2 : 1)) break;
     while (!run_.is_interrupted() && run_.flaws() == 0 && run_.chords() > 0 && remove_chords()) continue;
     if (is_stopped_) run_.result.reason = StopReason::interrupted;
   }
@@ -65,13 +65,13 @@ class Mending {
 
   /// Moves in rounds until so many of them have made no fewer flaws than one before. In each region about
   /// what moves it keeps the round with the fewest flaws there. Returns whether fewer are left.
-  bool remove_flaws(int series, std::size_t max_in_vain) {
+  bool remove_flaws(std::size_t max_in_vain) {
     const std::size_t max_rounds = run_.is_interrupted() ? 2 : 6, flaws_at_start = run_.flaws();
     std::vector<Round> rounds{this_round()};
     Attempt best = run_;
     std::size_t best_round = 0;
     while (run_.flaws() > 0 && rounds.size() <= std::min(max_rounds, best_round + max_in_vain)) {
-      const bool is_odd = (static_cast<std::size_t>(series) + rounds.size()) % 2 == 1;
+      const bool is_odd = (first_turn_ + rounds.size()) % 2 == 1;
       if (!move(is_odd ? Approach::corner_best_first : Approach::face_in_order)) break;
       if (run_.flaws() < best.flaws()) {
         best = run_;
@@ -81,8 +81,10 @@ class Mending {
     }
     run_ = best;
     points_ = rounds[best_round].points;
+    first_turn_ += best_round + 1;  // not what was tried on this round
     if (run_.flaws() > 0 && rounds.size() > 1 && max_in_vain > 1) {
-      place(best_by_region(rounds));
+      const Mat3X joined = best_by_region(rounds);
+      if (joined != points_) place(joined);
       if (run_.flaws() >= best.flaws()) {
         run_ = std::move(best);
         points_ = std::move(rounds[best_round].points);
@@ -340,6 +342,7 @@ class Mending {
   const Adjacency& c_;
   Mat3X points_;
   std::vector<char> is_immovable_;
+  std::size_t first_turn_ = 0;  // odd turns take the corner that is best, even ones faces in order
   bool is_stopped_ = false;
 };
 
