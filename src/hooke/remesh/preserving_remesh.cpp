@@ -58,12 +58,15 @@ class PreservingRemesh {
     Attempt unmended;
     Attempt best = attempt(maker_.adapts() ? nullptr : &unmended);
     if (!best.result.measures) return best;  // not finite
+    if (!best.is_interrupted() && may_take_lengths() && has_clearly_worse_faces(best)) return best;
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest = !best.is_interrupted() && !best.is_good() && may_keep_faces(unmended);
     if (keeps_rest) keep_faces(std::move(unmended), best);
-    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best))) project_to_faces(best);
+    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best)) &&
+        (maker_.adapts() || has_few_flaws(best)))
+      project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, best);
@@ -76,19 +79,21 @@ class PreservingRemesh {
   /// Is so little wrong that what surrounds it may stay as it is in the input, before all vertices leave the
   /// spline for the faces? Not in mode `adapt`, where shorter edges may do.
   bool may_keep_faces(const Attempt& run) const {
+    return !maker_.adapts() && !maker_.smooths_mask() && options_.filter.kind != FilterKind::closest &&
+           !run.is_interrupted() && !run.keeps_promises() && !has_worse_faces(run) && has_few_flaws(run) &&
+           !input_vertices_at_flaws(maker_, run).empty();
+  }
+
+  /// Is something wrong at few vertices of the input only?
+  bool has_few_flaws(const Attempt& run) const {
     constexpr double few = .05;  // of the vertices
-    if (maker_.adapts() || maker_.smooths_mask() || options_.filter.kind == FilterKind::closest ||
-        run.is_interrupted() || run.keeps_promises() || has_worse_faces(run))
-      return false;
-    const std::vector<int> wrong = input_vertices_at_flaws(maker_, run);
-    return !wrong.empty() && std::ssize(wrong) < few * input_.adjacency.vertex_count;
+    return std::ssize(input_vertices_at_flaws(maker_, run)) < few * input_.adjacency.vertex_count;
   }
 
   /// Is nothing left to do for it? In mode `adapt` the result may still break promises.
   bool is_done(const Attempt& run) const {
-    constexpr double margin = .005;  // of shape: even edges of good faces may cost so much
     return !run.result.measures || maker_.adapts() ||
-           (is_valid(run) && (maker_.smooths_mask() || !has_worse_faces(run, margin)));
+           (is_valid(run) && (maker_.smooths_mask() || !has_clearly_worse_faces(run)));
   }
 
   /// Does it keep its promises and its polygons, or, if it is interrupted, all but its least angle?
@@ -356,7 +361,7 @@ class PreservingRemesh {
     const bool is_worse = has_worse_faces(best);
     if (is_worse && may_take_lengths() && !best.is_interrupted()) return;  // these come first
     if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) keep_faces(best, best);
-    put_back_around_flaws(best, 16);
+    put_back_around_flaws(best, input_.adjacency.vertex_count);
   }
 
   /// In mode `flip`, replaces the result by one with the faces of the input.
@@ -387,6 +392,9 @@ class PreservingRemesh {
     return has_one_length() && maker_.has_worse_faces(run, margin);
   }
 
+  /// The same, by more than even edges of good faces may cost.
+  bool has_clearly_worse_faces(const Attempt& run) const { return has_worse_faces(run, .005); }
+
   bool has_one_length() const {
     OpenMesh::EPropHandleT<double> of_edges;
     return UniformVector::are_equal(asked_) &&
@@ -395,7 +403,7 @@ class PreservingRemesh {
 
   /// May attempts take the lengths of the input for those asked for?
   bool may_take_lengths() const {
-    return has_one_length() && maker_.lengths == asked_ && !maker_.smooths_mask();
+    return !maker_.adapts() && has_one_length() && maker_.lengths == asked_ && !maker_.smooths_mask();
   }
 
   /// Lengths as in the input, scaled to those asked for.
