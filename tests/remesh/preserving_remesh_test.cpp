@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
+#include "hooke/core/stopwatch.h"
 #include "hooke/geometry/aabb_tree.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
@@ -413,7 +414,7 @@ TEST(PreservingRemesh, WhereLittleIsWrongTheRestKeepsItsSpline) {
     int rescued = 0;
     for (unsigned seed = 1; seed <= 6; ++seed) {
       test::Triangles thin = lens(seed);
-      thin.points.row(2) *= .3;
+      thin.points.row(2) *= .3;  // so that mending alone does not do
       thin.points = ((.1 * thin.points).colwise() + Vec3(2, 0, 0)).eval();
       const test::Outcome o = preserved(test::both(fine, thin), options_for(mode));
       EXPECT_TRUE(o.result.measures->preservation.holds());
@@ -421,6 +422,41 @@ TEST(PreservingRemesh, WhereLittleIsWrongTheRestKeepsItsSpline) {
       EXPECT_LT(off_sphere(o.points.leftCols(count)), off_faces / 5) << seed;
     }
     EXPECT_GT(rescued, 0);
+  }
+}
+
+/// A flat tongue whose faces get finer by a factor of 20 towards its end, which even edges spoil and leave.
+test::Triangles graded_tongue() {
+  test::Triangles t = test::sphere(4, .3, 3);
+  for (auto p : t.points.colwise())
+    p = Vec3(std::exp(3 * p[0]), .3 * std::exp(1.5 * p[0]) * p[1], .03 * p[2]);
+  return t;
+}
+
+TEST(PreservingRemesh, WhereEvenEdgesSpoilMuchThoseOfTheInputComeAtOnce) {
+  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
+    TriMesh mesh = test::with_length(graded_tongue(), test::natural(graded_tongue()));
+    const MemoryOrder memory_order = find_memory_order(mesh);
+    Stopwatch stopwatch;
+    const RemeshResult result =
+        preserving_remesh(mesh, memory_order, options_for(mode), {}, {}, nullptr, &stopwatch);
+    EXPECT_TRUE(result.has_lengths_of_input);
+    EXPECT_TRUE(result.measures->preservation.holds());
+    const auto untangle = std::ranges::find(stopwatch.stages(), "untangle", &StageTime::name);
+    ASSERT_NE(untangle, stopwatch.stages().end());
+    EXPECT_EQ(untangle->calls, 2);  // one a run
+  }
+}
+
+TEST(PreservingRemesh, SmallThinBodiesAreTriedOnTheirFaces) {
+  for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
+    int on_faces = 0;
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      test::Triangles t = lens(seed);
+      t.points.row(2) *= .3;
+      on_faces += preserved(t, options_for(mode)).result.rescue == Rescue::closest;
+    }
+    EXPECT_GT(on_faces, 0);
   }
 }
 

@@ -21,7 +21,7 @@ struct AngleSpringOptions {
   int sweeps = 3;                             // Gauss-Seidel sweeps per stage
   int rings = 2;                // rings around the faces below the threshold within which vertices move
   double rest = .01;            // in target lengths; a vertex that moves less skips the next sweep
-  double edge_error_limit = 1;  // maximal deviation of l / L_e over its start
+  double edge_error_limit = 1;  // maximal standard deviation of l / L_e, relative to its start
   double keep_within = .1;      // degrees below the best angle at which a later state is still kept
 };
 

@@ -25,6 +25,10 @@ namespace {
 /// corners of turned faces move the best first, or in their order.
 enum class Approach { corner_best_first, face_in_order };
 
+Approach other(Approach a) {
+  return a == Approach::face_in_order ? Approach::corner_best_first : Approach::face_in_order;
+}
+
 /// Vertices are those of the result, in memory order.
 class Mending {
  public:
@@ -70,9 +74,11 @@ class Mending {
     std::vector<Round> rounds{this_round()};
     Attempt best = run_;
     std::size_t best_round = 0;
-    while (run_.flaws() > 0 && rounds.size() <= std::min(max_rounds, best_round + max_in_vain)) {
-      const bool is_odd = (first_turn_ + rounds.size()) % 2 == 1;
-      if (!move(is_odd ? Approach::corner_best_first : Approach::face_in_order)) break;
+    for (Approach turn = next_;
+         run_.flaws() > 0 && rounds.size() <= std::min(max_rounds, best_round + max_in_vain);
+         turn = other(turn)) {
+      if (rounds.size() == best_round + 1) next_ = other(turn);  // as this one is tried on the best round now
+      if (!move(turn)) break;
       if (run_.flaws() < best.flaws()) {
         best = run_;
         best_round = rounds.size();
@@ -81,10 +87,9 @@ class Mending {
     }
     run_ = best;
     points_ = rounds[best_round].points;
-    first_turn_ += best_round + 1;  // not what was tried on this round
     if (run_.flaws() > 0 && rounds.size() > 1 && max_in_vain > 1) {
       const Mat3X joined = best_by_region(rounds);
-      if (joined != points_) place(joined);
+      if (std::ranges::find(rounds, joined, &Round::points) == rounds.end()) place(joined);
       if (run_.flaws() >= best.flaws()) {
         run_ = std::move(best);
         points_ = std::move(rounds[best_round].points);
@@ -342,7 +347,7 @@ class Mending {
   const Adjacency& c_;
   Mat3X points_;
   std::vector<char> is_immovable_;
-  std::size_t first_turn_ = 0;  // odd turns take the corner that is best, even ones faces in order
+  Approach next_ = Approach::corner_best_first;
   bool is_stopped_ = false;
 };
 

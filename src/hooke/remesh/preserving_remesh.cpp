@@ -24,6 +24,9 @@ namespace {
 /// Of target lengths, away from where they are shorter than asked.
 constexpr double gradation = .3;
 
+/// Of the vertices: what is wrong at no more of them may stay as it is in the input.
+constexpr double few = .05;
+
 /// Attempts and what mends them, until one keeps the input.
 class PreservingRemesh {
  public:
@@ -53,20 +56,18 @@ class PreservingRemesh {
   }
 
  private:
-  /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input.
+  /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input,
+  /// unless those lengths are at fault and others are to be tried.
   Attempt best_with_lengths() {
     Attempt unmended;
     Attempt best = attempt(maker_.adapts() ? nullptr : &unmended);
-    if (!best.result.measures) return best;  // not finite
-    if (!best.is_interrupted() && may_take_lengths() && has_clearly_worse_faces(best)) return best;
+    if (!best.result.measures || spoils_faces(best)) return best;
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest = !best.is_interrupted() && !best.is_good() && may_keep_faces(unmended);
     if (keeps_rest) keep_faces(std::move(unmended), best);
-    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best)) &&
-        (maker_.adapts() || has_few_flaws(best)))
-      project_to_faces(best);
+    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best))) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, best);
@@ -79,15 +80,26 @@ class PreservingRemesh {
   /// Is so little wrong that what surrounds it may stay as it is in the input, before all vertices leave the
   /// spline for the faces? Not in mode `adapt`, where shorter edges may do.
   bool may_keep_faces(const Attempt& run) const {
-    return !maker_.adapts() && !maker_.smooths_mask() && options_.filter.kind != FilterKind::closest &&
-           !run.is_interrupted() && !run.keeps_promises() && !has_worse_faces(run) && has_few_flaws(run) &&
-           !input_vertices_at_flaws(maker_, run).empty();
+    if (maker_.adapts() || maker_.smooths_mask() || options_.filter.kind == FilterKind::closest ||
+        run.is_interrupted() || run.keeps_promises() || has_worse_faces(run))
+      return false;
+    const std::vector<int> wrong = input_vertices_at_flaws(maker_, run);
+    return !wrong.empty() && std::ssize(wrong) < few * input_.adjacency.vertex_count;
   }
 
-  /// Is something wrong at few vertices of the input only?
-  bool has_few_flaws(const Attempt& run) const {
-    constexpr double few = .05;  // of the vertices
-    return std::ssize(input_vertices_at_flaws(maker_, run)) < few * input_.adjacency.vertex_count;
+  /// Is so much wrong that no other attempt with these lengths is of use, in a mesh where it takes long? Not
+  /// in mode `adapt`, where edges get shorter, nor where the steps of a mask go.
+  bool is_beyond_help(const Attempt& run) const {
+    constexpr double at_least = 200;
+    return run.result.measures != nullptr && !maker_.adapts() && !maker_.smooths_mask() &&
+           static_cast<double>(input_vertices_at_flaws(maker_, run).size()) >
+               std::max(at_least, few * input_.adjacency.vertex_count);
+  }
+
+  /// Have even edges made worse faces, and so much else wrong that other lengths come next?
+  bool spoils_faces(const Attempt& run) const {
+    return !maker_.adapts() && !run.is_interrupted() && may_take_lengths() && has_clearly_worse_faces(run) &&
+           !maker_.has_worse_polygons(run) && is_beyond_help(run);
   }
 
   /// Is nothing left to do for it? In mode `adapt` the result may still break promises.
@@ -139,9 +151,9 @@ class PreservingRemesh {
     for (int v : held) options_.constraints.fixed_vertices.push_back(maker_.id_of(v));
   }
 
-  /// Makes an attempt on the faces of the input, and keeps it if it is better.
+  /// Makes an attempt on the faces of the input, if that may help, and keeps it if it is better.
   void project_to_faces(Attempt& best) {
-    if (options_.filter.kind == FilterKind::closest) return;
+    if (options_.filter.kind == FilterKind::closest || is_beyond_help(best)) return;
     options_.filter.kind = FilterKind::closest;
     Attempt next = attempt();
     if (next.is_interrupted()) {
@@ -361,7 +373,7 @@ class PreservingRemesh {
     const bool is_worse = has_worse_faces(best);
     if (is_worse && may_take_lengths() && !best.is_interrupted()) return;  // these come first
     if (!is_worse && !best.is_interrupted() && !maker_.smooths_mask()) keep_faces(best, best);
-    put_back_around_flaws(best, input_.adjacency.vertex_count);
+    put_back_around_flaws(best, 16);
   }
 
   /// In mode `flip`, replaces the result by one with the faces of the input.
@@ -403,7 +415,7 @@ class PreservingRemesh {
 
   /// May attempts take the lengths of the input for those asked for?
   bool may_take_lengths() const {
-    return !maker_.adapts() && has_one_length() && maker_.lengths == asked_ && !maker_.smooths_mask();
+    return has_one_length() && maker_.lengths == asked_ && !maker_.smooths_mask();
   }
 
   /// Lengths as in the input, scaled to those asked for.
