@@ -56,12 +56,11 @@ class PreservingRemesh {
   }
 
  private:
-  /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input,
-  /// unless those lengths are at fault and others are to be tried.
+  /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input.
   Attempt best_with_lengths() {
     Attempt unmended;
     Attempt best = attempt(maker_.adapts() ? nullptr : &unmended);
-    if (!best.result.measures || spoils_faces(best)) return best;
+    if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (!best.keeps_promises()) unmended = best;
@@ -96,16 +95,11 @@ class PreservingRemesh {
                std::max(at_least, few * input_.adjacency.vertex_count);
   }
 
-  /// Have even edges made worse faces, and so much else wrong that other lengths come next?
-  bool spoils_faces(const Attempt& run) const {
-    return !maker_.adapts() && !run.is_interrupted() && may_take_lengths() && has_clearly_worse_faces(run) &&
-           !maker_.has_worse_polygons(run) && is_beyond_help(run);
-  }
-
   /// Is nothing left to do for it? In mode `adapt` the result may still break promises.
   bool is_done(const Attempt& run) const {
+    constexpr double margin = .005;  // of shape: even edges of good faces may cost so much
     return !run.result.measures || maker_.adapts() ||
-           (is_valid(run) && (maker_.smooths_mask() || !has_clearly_worse_faces(run)));
+           (is_valid(run) && (maker_.smooths_mask() || !has_worse_faces(run, margin)));
   }
 
   /// Does it keep its promises and its polygons, or, if it is interrupted, all but its least angle?
@@ -403,9 +397,6 @@ class PreservingRemesh {
   bool has_worse_faces(const Attempt& run, double margin = 0) const {
     return has_one_length() && maker_.has_worse_faces(run, margin);
   }
-
-  /// The same, by more than even edges of good faces may cost.
-  bool has_clearly_worse_faces(const Attempt& run) const { return has_worse_faces(run, .005); }
 
   bool has_one_length() const {
     OpenMesh::EPropHandleT<double> of_edges;

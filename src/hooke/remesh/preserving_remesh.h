@@ -34,8 +34,7 @@ struct KnownInput {
 /// unless so much is wrong in a large mesh that this is of no use; after that again with what surrounds the
 /// rest, and in mode `flip` with all faces of the input. Where one length is asked for all edges and faces get
 /// worse on average, or nothing keeps the input, all is tried with the lengths of the input, see
-/// RemeshResult::has_lengths_of_input, at once where much else is wrong too; at
-/// last all vertices go back. In mode `adapt` target lengths get shorter about what is wrong, see
+/// RemeshResult::has_lengths_of_input; at last all vertices go back. In mode `adapt` target lengths get shorter about what is wrong, see
 /// RemeshResult::shortened, and where that does not do the faces of the input stay, unless that were nearly
 /// all of the surface. Of a result that is made anew it keeps one with fewer flaws or, with as many, with a
 /// larger minimum angle; in mode `adapt` the result may still not keep all: see RemeshResult::measures. Of
