@@ -12,8 +12,9 @@ folds has the paper's edge SD afterwards as long as its faces are kept. Here con
    vertex leans by more than 60 degrees from the surface or an angle falls below the paper's least angle before.
    It ends at the paper's edge SD before.
 
-Fitted per family to the paper's figures: `rounds` to the edge SD after; `gap`, the least distance of the random
-points of S1, too; `boost`, a conformal map of S2 that thins out one side, to the greatest displacement.
+Fitted per family to the paper's figures: `rounds` to the edge SD after, that of S1 to the least angle too; `gap`, the
+least distance of the random points of S1, to the edge SD; `boost`, a conformal map of S2 that thins out one side, to the
+greatest displacement.
 """
 
 import sys
@@ -295,7 +296,7 @@ FAMILIES = {  # surface, vertices, the paper's least angle (rad) and edge SD bef
     "M1": (CUBIC, 121, .0546, .0777, 2, 0, 0),
     "M2": (CUBIC, 441, .0270, .0400, 20, 0, 0),
     "M3": (CUBIC, 961, .0092, .0280, 10, 0, 0),
-    "S1": (Sphere(), 222, .1265, .1129, 1, .2, 0),
+    "S1": (Sphere(), 222, .1265, .1129, 3, .2, 0),
     "S2": (Sphere(), 1146, .0147, .0501, 40, 0, .2),
 }
 
