@@ -296,7 +296,7 @@ FAMILIES = {  # surface, vertices, the paper's least angle (rad) and edge SD bef
     "M1": (CUBIC, 121, .0546, .0777, 2, 0, 0),
     "M2": (CUBIC, 441, .0270, .0400, 20, 0, 0),
     "M3": (CUBIC, 961, .0092, .0280, 10, 0, 0),
-    "S1": (Sphere(), 222, .1265, .1129, 3, .2, 0),
+    "S1": (Sphere(), 222, .1265, .1129, 2, .1, 0),
     "S2": (Sphere(), 1146, .0147, .0501, 40, 0, .2),
 }
 
