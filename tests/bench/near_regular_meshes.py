@@ -12,9 +12,9 @@ folds has the paper's edge SD afterwards as long as its faces are kept. Here con
    vertex leans by more than 60 degrees from the surface or an angle falls below the paper's least angle before.
    It ends at the paper's edge SD before.
 
-Fitted per family to the paper's figures: `rounds` to the edge SD after, that of S1 to the least angle too; `gap`, the
-least distance of the random points of S1, to the edge SD; `boost`, a conformal map of S2 that thins out one side, to the
-greatest displacement.
+Fitted per family to the paper's figures: `rounds` to the edge SD after; `boost`, a conformal map of S2 that thins out
+one side, to the greatest displacement; of S1 `rounds`, `gap`, the least distance of its random points, and the L that
+paper_table.py gives it, together to all three figures after, on seeds 1 to 10.
 """
 
 import sys
