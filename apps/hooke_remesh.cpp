@@ -53,7 +53,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   static_cast<FileRecord&>(*record.output) = {name_of_output(s.output), written.sha256, name_of(*s.format),
                                               written.connectivity_sha256};
   files.add(std::move(written.file));
-  if (written.rounded.size() > 0) {
+  if (written.rounded.size() > 0 && written.rounded != vertex_points(loaded.mesh)) {
     measure_rounded(s, written.rounded, loaded.mesh, loaded.memory_order, original, record, stopwatch);
     points = loaded.memory_order.order.gather(vertex_points(loaded.mesh));
   }
@@ -130,6 +130,7 @@ int run(Settings s) {
     record.before.polygon_angles = measure_polygon_angles(vertex_points(loaded.mesh), loaded.polygons);
 
   OutputFiles files;
+  s.preservation.has_float_points = has_float_points(s, loaded);
   if (!s.check) make_result(s, loaded, original, record, files, progress, stopwatch);
   join_ids(loaded.mesh, loaded.origin, record);
   record.stages = stopwatch.stages();

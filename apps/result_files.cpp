@@ -45,6 +45,11 @@ PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
   return s.format == loaded.format ? loaded.encoding : PlyEncoding::binary_little_endian;
 }
 
+bool has_float_points(const Settings& s, const LoadedMesh& loaded) {
+  if (s.format == MeshFormat::stl) return encoding_of_output(s, loaded) != PlyEncoding::ascii;
+  return s.preserve && loaded.has_float_points && obstacle_to_preserving(s, loaded).empty();
+}
+
 namespace {
 
 /// Whether a user would expect the output to be the input's bytes with other digits: a file of a format that

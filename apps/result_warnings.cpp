@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "messages.h"
@@ -302,13 +303,21 @@ void warn_of_dropped_creases(RunRecord& run) {
                      run.input.path, c.dropped, c.sharp)});
 }
 
+/// Would 32-bit floats as large as the coordinates move vertices by more than a share of the edges?
+bool is_rounded_coarsely(const RunRecord& run) {
+  constexpr double share = 1e-4;
+  const Extent& e = run.before.extent;
+  const double largest = e.lower.cwiseAbs().cwiseMax(e.upper.cwiseAbs()).maxCoeff();
+  return largest * std::numeric_limits<float>::epsilon() > share * run.before.edge_length.mean;
+}
+
 }  // namespace
 
-std::string broken_promises(const Settings& s, const RunRecord& run, BrokenBy cause) {
+std::string broken_promises(const Settings& s, const RunRecord& run) {
   const std::string broken = what_is_broken(run);
   if (broken.empty()) return "";
   const char* const remedy =
-      cause == BrokenBy::rounding
+      s.preservation.has_float_points && is_rounded_coarsely(run)
           ? "PLY with --preserve off, whose numbers have 64 bits, not 32, or the mesh moved to the origin"
       : s.remesh.connectivity != ConnectivityMode::adapt ? "--feature-noise off"
       : s.min_length ? "a smaller --length, a shorter --min-length, --connectivity flip"

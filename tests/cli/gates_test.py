@@ -99,6 +99,15 @@ class Rounding(CommandTest):
         self.run_command("far.off", "-o", "out.stl", "-q", "-L", ".05", *gate, expect=6)
 
 
+    def test_results_are_made_in_the_numbers_of_their_file(self):
+        vertices, faces = read_mesh(PATCH)
+        to_float = lambda x: struct.unpack("f", struct.pack("f", x))[0]
+        write_off(self.folder / "rounded.off", [(to_float(x + 6e5), to_float(y), to_float(z)) for x, y, z in vertices],
+                  faces)
+        for mode in ("fixed", "flip", "adapt"):
+            run = ("rounded.off", "-o", "out.stl", "-q", "--feature-angle", "off", "--connectivity", mode)
+            self.assertTrue(self.report(*run)["promises"]["kept"])
+
     def test_promises_that_rounding_breaks_are_not_kept(self):
         vertices, faces = read_mesh(PATCH)
         write_off(self.folder / "farther.off", [(x + 1e6, y, z) for x, y, z in vertices], faces)

@@ -1,5 +1,6 @@
 #include "hooke/remesh/preserving_remesh.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,6 +58,20 @@ TEST(PreservingRemesh, LeavesAGoodResultAsItIs) {
     EXPECT_TRUE(kept.result.measures->preservation.holds());
     EXPECT_EQ(kept.points, once.points);
     EXPECT_EQ(kept.faces, once.faces);
+  }
+}
+
+TEST(PreservingRemesh, PointsThatAreRoundedAreJudgedAsTheyAre) {
+  test::Triangles t = test::sphere(2, .3, 1);
+  t.points = rounded_to_floats(t.points.colwise() + Vec3(2e5, 1e5, 1e5));
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    const test::Outcome o = preserved(t, options_for(mode), nullptr, {.has_float_points = true});
+    const ResultMeasures& m = *o.result.measures;
+    EXPECT_EQ(m.preservation.flaws(), 0);
+    EXPECT_NEAR(m.quality.min_angle.min, min_angle(o.points, o.faces), 1e-9);
+    EXPECT_GT(m.quality.min_angle.min, 45);
+    for (const double x : o.points.reshaped()) EXPECT_EQ(x, std::stof(fmt::format("{:.17g}", x)));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,6 +21,15 @@ using Edge = std::array<int, 2>;      // vertex ids
 /// of them.
 inline std::size_t corner_of(const Triangle& face, int vertex) {
   return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
+}
+
+/// The 32-bit float closest to a number, or the number itself beyond the range of floats; of all coordinates.
+inline double rounded_to_float(double x) {
+  const auto rounded = static_cast<double>(static_cast<float>(x));
+  return std::isfinite(rounded) ? rounded : x;
+}
+inline Mat3X rounded_to_floats(const Eigen::Ref<const Mat3X>& points) {
+  return points.unaryExpr(&rounded_to_float);
 }
 
 /// Value and gradient of a scalar field at a point.

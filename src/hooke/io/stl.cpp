@@ -344,12 +344,6 @@ std::string write_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<T
   return write_binary(rounded_to_floats(points), triangles, find_channel(data, attribute_channel));
 }
 
-Mat3X rounded_to_floats(const Eigen::Ref<const Mat3X>& points) {
-  // Through memory: of two casts in one expression GCC 12 leaves out both for vectors of fixed size.
-  const Eigen::Matrix3Xf floats = points.cast<float>();
-  return floats.cast<double>();
-}
-
 Warnings losses_in_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                        PlyEncoding encoding, const std::string& name) {
   std::vector<char> used(points.cols(), 0);

@@ -27,9 +27,6 @@ MeshFile read_stl(std::string_view bytes, const std::string& name);
 std::string write_stl(const Eigen::Ref<const Mat3X>& points, const std::vector<Triangle>& triangles,
                       PlyEncoding encoding, const FaceData& data = {});
 
-/// The points as a binary STL file holds them, in numbers of 32 bits.
-Mat3X rounded_to_floats(const Eigen::Ref<const Mat3X>& points);
-
 /// What the mesh loses in an STL file: the warning `vertices_coincide` if different vertices of its faces
 /// have the same coordinates there, so that a reader joins them; `faces_turned_by_rounding` if its numbers
 /// of 32 bits turn faces over or take their area; `attributes_not_kept` if there are vertices

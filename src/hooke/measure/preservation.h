@@ -24,6 +24,9 @@ struct PreservationOptions {
   /// Also limits the distances between faces and between creases, at samples, to 2 local sagittas or 1e-3 (on
   /// creases 1e-6) of the diagonal: for results with the vertices of a reference whose facets are meant.
   bool keeps_facets = false;
+  /// Are the points of results rounded to 32-bit floats, as in the file that they are for? They are judged as
+  /// they stand there.
+  bool has_float_points = false;
 };
 
 /// A vertex that is too far from the other surface.

@@ -163,6 +163,7 @@ Attempt AttemptMaker::run() const {
   set_vertex_values(a.mesh, target_length_property, memory_order_.order.scatter(lengths));
   if (is_mask_) vertex_points(a.mesh) = smoothed_;
   a.result = remesh(a.mesh, memory_order_, options, observer_, stopwatch_);
+  if (preservation_.has_float_points) vertex_points(a.mesh) = rounded_to_floats(vertex_points(a.mesh));
   if (is_mask_) {
     a.result.steps_smoothed = smoothed_ != vertex_points(mesh_);
     a.result.creases.sharp = a.result.creases.dropped = steps_;
@@ -208,8 +209,9 @@ MeasuredSurface AttemptMaker::surface_of(const Attempt& a) const {
           joined_vertices(a.mesh, memory_order.order)};
 }
 
-void AttemptMaker::place(int vertex, const Vec3& point, Attempt& a) const {
+void AttemptMaker::place(int vertex, const Vec3& exact, Attempt& a) const {
   const int id = a.result.memory_order.order.old_vertex[vertex];
+  const Vec3 point = preservation_.has_float_points ? Vec3(rounded_to_floats(exact)) : exact;
   vertex_points(a.mesh).col(id) = point;
   if (a.result.map.empty()) return;
   const ClosestPoint closest = input_.tree.closest(point);

@@ -87,7 +87,8 @@ class AttemptMaker {
   /// Does the observer ask to stop?
   bool is_stopped() const { return observer_ && !observer_({.stage = "mend"}); }
 
-  /// Moves a vertex of the result, by its index in memory order, and finds it on the input again.
+  /// Moves a vertex of the result, by its index in memory order, to the point, rounded as the results are,
+  /// and finds it on the input again.
   void place(int vertex, const Vec3& point, Attempt& attempt) const;
 
  private:

@@ -131,7 +131,7 @@ class Mending {
     for (int v = 0; v < moved.cols(); ++v)
       if (moved.col(v) != points_.col(v)) maker_.place(v, moved.col(v), run_);
     maker_.judge(run_);
-    points_ = moved;
+    points_ = order_.gather(vertex_points(run_.mesh));
   }
 
   /// Moves the vertices that are closest to lost vertices of the input towards these, as near as they must
