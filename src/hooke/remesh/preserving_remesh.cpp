@@ -26,6 +26,8 @@ constexpr double gradation = .3;
 
 /// Of the vertices: what is wrong at no more of them may stay as it is in the input.
 constexpr double few = .05;
+/// Likewise, in mode `adapt`: no shorter edges are tried, which would take more runs for hardly better faces.
+constexpr double very_few = .005;
 
 /// Attempts and what mends them, until one keeps the input.
 class PreservingRemesh {
@@ -66,7 +68,7 @@ class PreservingRemesh {
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest = !best.is_interrupted() && !best.is_good() && may_keep_faces(unmended);
     if (keeps_rest) keep_faces(std::move(unmended), best);
-    if (!best.is_interrupted() && !best.is_good() && !(keeps_rest && is_done(best))) project_to_faces(best);
+    if (!is_settled(best) && !(keeps_rest && is_done(best))) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, best);
@@ -93,6 +95,12 @@ class PreservingRemesh {
     return run.result.measures != nullptr && !maker_.adapts() && !maker_.smooths_mask() &&
            static_cast<double>(input_vertices_at_flaws(maker_, run).size()) >
                std::max(at_least, few * input_.adjacency.vertex_count);
+  }
+
+  /// Would its faces be no better on those of the input? In mode `adapt` they hardly ever are where all is
+  /// kept.
+  bool is_settled(const Attempt& run) const {
+    return run.is_interrupted() || (maker_.adapts() ? run.keeps_promises() : run.is_good());
   }
 
   /// Is nothing left to do for it? In mode `adapt` the result may still break promises.
@@ -175,7 +183,7 @@ class PreservingRemesh {
     fixed.insert(fixed.end(), ids.begin(), ids.end());
     options_.filter.kind = filter;
     Attempt next = attempt();
-    if (!next.is_interrupted() && !next.is_good()) project_to_faces(next);
+    if (!is_settled(next)) project_to_faces(next);
     if (next.is_interrupted()) {
       best.result.reason = StopReason::interrupted;
       return;
@@ -185,11 +193,13 @@ class PreservingRemesh {
   }
 
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces
-  /// of the input where that does not do.
+  /// of the input where that does not do, or next to nothing is wrong.
   void keep_narrow_parts(FilterKind filter, Attempt& best) {
     RemeshOptions start = options_;  // with the tips and junctions that are held
     start.filter.kind = filter;
-    shorten_lengths(start, best);
+    if (static_cast<double>(input_vertices_at_flaws(maker_, best).size()) >
+        very_few * input_.adjacency.vertex_count)
+      shorten_lengths(start, best);
     options_ = std::move(start);
     if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
   }
@@ -223,7 +233,6 @@ class PreservingRemesh {
       if (projects) options_.filter.kind = FilterKind::closest;
       Attempt next = attempt();
       if (projects) next.result.rescue = Rescue::closest;
-      if (!projects && !next.is_interrupted() && !next.keeps_promises()) project_to_faces(next);
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
         break;
