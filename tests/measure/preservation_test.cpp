@@ -139,6 +139,43 @@ TEST(Preservation, AFaceThatLosesItsAreaBreaksIt) {
   EXPECT_EQ(compare(flat, flat).new_degenerate_faces, 0u);
 }
 
+/// The face 30 has no area, its first corner on the opposite edge.
+test::Triangles with_flat_face() {
+  test::Triangles t = test::sphere(2);
+  const auto [a, b, c] = t.faces[30];
+  t.points.col(a) = .4 * t.points.col(b) + .6 * t.points.col(c);
+  return t;
+}
+
+/// The edge b c is split at its point x of the way.
+test::Triangles with_split_edge(test::Triangles t, int b, int c, double x) {
+  const int middle = static_cast<int>(t.points.cols());
+  t.points.conservativeResize(3, middle + 1);
+  t.points.col(middle) = (1 - x) * t.points.col(b) + x * t.points.col(c);
+  const std::vector<Triangle> before = t.faces;
+  for (std::size_t f = 0; f < before.size(); ++f)
+    if (std::ranges::count(before[f], b) + std::ranges::count(before[f], c) == 2) {
+      Triangle half = before[f];
+      std::ranges::replace(t.faces[f], b, middle);
+      std::ranges::replace(half, c, middle);
+      t.faces.push_back(half);
+    }
+  return t;
+}
+
+TEST(Preservation, AFaceWithoutAreaMayBeSplitInTwo) {
+  const test::Triangles t = with_flat_face();
+  const auto [a, b, c] = t.faces[30];
+  test::Triangles split = with_split_edge(t, b, c, .3);
+  EXPECT_EQ(Measured(split).quality.degenerate_faces, 2u);
+  EXPECT_EQ(compare(t, split).new_degenerate_faces, 0u);
+  const auto [d, e, f] = split.faces[100];
+  split.points.col(d) = .5 * (split.points.col(e) + split.points.col(f));
+  const Preservation p = compare(t, split);
+  EXPECT_EQ(p.new_degenerate_faces, 1u);
+  EXPECT_EQ(p.degenerate_faces, std::vector{100});
+}
+
 TEST(Preservation, EachLostCreaseIsNamed) {
   const test::Triangles cube = test::cube();
   const Adjacency c = make_adjacency(static_cast<int>(cube.points.cols()), cube.faces);

@@ -351,15 +351,41 @@ std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
 
 namespace {
 
+Vec3 centre_of(const MeasuredSurface& surface, int face) {
+  const Triangle& t = surface.adjacency.faces[index_of(face)];
+  return (surface.points.col(t[0]) + surface.points.col(t[1]) + surface.points.col(t[2])) / 3;
+}
+
+std::vector<int> faces_without_area(const MeasuredSurface& surface) {
+  const std::vector<Triangle>& faces = surface.adjacency.faces;
+  std::vector<int> found;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (has_no_area(face_shape(surface.points, faces[f]).area, surface.extent.diagonal))
+      found.push_back(static_cast<int>(f));
+  return found;
+}
+
+}  // namespace
+
+std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const MeasuredSurface& result) {
+  std::vector<Triangle> old;
+  for (int f : faces_without_area(reference)) old.push_back(reference.adjacency.faces[index_of(f)]);
+  const AabbTree tree(reference.points, old);
+  constexpr double within = 1e-3;  // of its longest edge a face is on one of the reference
+  std::vector<int> found = faces_without_area(result);
+  std::erase_if(found, [&](int f) {
+    return tree.closest(centre_of(result, f)).squared_distance <=
+           std::pow(within * longest_edge(result, f), 2);
+  });
+  return found;
+}
+
+namespace {
+
 int face_with_id(const MeasuredSurface& surface, int id) {
   int face = 0;
   while (surface.ids.face(face) != id) ++face;
   return face;
-}
-
-Vec3 centre_of(const MeasuredSurface& surface, int face) {
-  const Triangle& t = surface.adjacency.faces[index_of(face)];
-  return (surface.points.col(t[0]) + surface.points.col(t[1]) + surface.points.col(t[2])) / 3;
 }
 
 }  // namespace
@@ -383,6 +409,11 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
     p.crossings = new_crossings(reference.surface, result.surface);
     p.new_crossings = std::min(p.new_crossings, p.crossings.size());
     if (p.new_crossings > 0 && !wrong) wrong = p.crossings.front()[0];
+  }
+  if (p.new_degenerate_faces > 0) {
+    p.degenerate_faces = new_degenerate_faces(reference.surface, result.surface);
+    p.new_degenerate_faces = std::min(p.new_degenerate_faces, p.degenerate_faces.size());
+    if (p.new_degenerate_faces > 0 && !wrong) wrong = p.degenerate_faces.front();
   }
   if (wrong && p.excess <= 1) p.place = centre_of(result.surface, *wrong);
   const Topology &before = reference.quality.topology, &after = result.quality.topology;

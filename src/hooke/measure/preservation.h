@@ -44,14 +44,15 @@ struct Preservation {
   bool within_max_distance = true;       // are the surfaces, by the samples of the Deviation?
   double excess = 0;                     // the greatest distance of these vertices over its limit
   double distance = 0;                   // the distance there
-  /// The vertex there; if no distance is beyond its limit, the centre of a face that is turned over or
-  /// crosses another, if there is one, else the middle of the lost crease edge that is farthest.
+  /// The vertex there; if no distance is beyond its limit, the centre of a face that is turned over, crosses
+  /// another or has no area, if there is one, else the middle of the lost crease edge that is farthest.
   Vec3 place = Vec3::Zero();
   std::size_t new_folds = 0;      // folded edges that are no creases, in excess of the reference's
   std::size_t new_crossings = 0;  // self-intersections, likewise; at most the number of `crossings`
   std::vector<std::array<int, 2>> crossings;  // new_crossings(), if there are more than in the reference
-  std::size_t new_degenerate_faces = 0;       // likewise
-  bool topology_kept = true;                  // components, boundary loops, Euler number and junctions
+  std::size_t new_degenerate_faces = 0;  // faces without area, likewise; at most that of degenerate_faces
+  std::vector<int> degenerate_faces;     // new_degenerate_faces(), if there are more than in the reference
+  bool topology_kept = true;             // components, boundary loops, Euler number and junctions
   double crease_loss = 0;          // greatest distance of the reference's creases from those of the result
   bool creases_kept = true;        // within half an edge
   std::vector<Edge> lost_creases;  // of the reference, those that are not; no sharp edges of facets
@@ -80,6 +81,10 @@ struct CreasedSurface {
 /// adjacency.
 std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
                                               const MeasuredSurface& result);
+
+/// The faces without area of the result whose centre is not on one of the reference. So one that is split may
+/// become two. Ascending faces of the adjacency.
+std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const MeasuredSurface& result);
 
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,
                                   const Deviation& deviation, const PreservationOptions& options = {});

@@ -77,9 +77,7 @@ std::vector<char> at_flaws(const Attempt& attempt, const MeasuredSurface& surfac
   const std::vector<char> wrong = wrong_faces(attempt);
   for (std::size_t f = 0; f < wrong.size(); ++f)
     if (wrong[f]) add(c.faces[f]);
-  if (p.new_degenerate_faces > 0)
-    for (const Triangle& t : c.faces)
-      if (has_no_area(face_shape(surface.points, t).area, surface.extent.diagonal)) add(t);
+  for (int f : p.degenerate_faces) add(c.faces[f]);
   if (attempt.lost_angle)
     for (const Triangle& t : c.faces)
       if (min_angle(surface.points, {t}) < attempt.least_angle) add(t);
@@ -131,9 +129,7 @@ std::vector<int> flaws_at_vertices(const Attempt& attempt, const Mat3X& points) 
   const std::vector<char> is_wrong = wrong_faces(attempt);
   for (std::size_t f = 0; f < is_wrong.size(); ++f) count[c.faces[f][0]] += is_wrong[f];
   for (const Edge& fold : folds_off_creases(attempt, points)) ++count[fold[0]];
-  if (p.new_degenerate_faces > 0)
-    for (const Triangle& t : c.faces)
-      count[t[0]] += has_no_area(face_shape(points, t).area, deviation.diagonal);
+  for (int f : p.degenerate_faces) ++count[c.faces[f][0]];
   return count;
 }
 
