@@ -301,9 +301,8 @@ bool bodies_touch(const MeasuredSurface& surface, const std::vector<int>& body, 
   const auto body_of = [&](int f) { return body[index_of(surface.adjacency.faces[index_of(f)][0])]; };
   const ClosestPoint here = surface.tree.closest(x);
   if (here.face < 0 || here.squared_distance > reach * reach) return false;
-  const ClosestPoint other =
-      surface.tree.closest(here.point, [&](int f) { return body_of(f) != body_of(here.face); });
-  return other.face >= 0 && other.squared_distance <= std::pow(touching * surface.extent.diagonal, 2);
+  return surface.tree.has_face_within(touching * surface.extent.diagonal, here.point,
+                                      [&](int f) { return body_of(f) != body_of(here.face); });
 }
 
 /// Removes the pairs of faces of two bodies of the result that cross where bodies of the reference touch.
@@ -321,19 +320,14 @@ void drop_contacts(const MeasuredSurface& reference, const MeasuredSurface& resu
   });
 }
 
-}  // namespace
-
-std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
-                                              const MeasuredSurface& result) {
-  using Pair = std::array<int, 2>;
-  std::vector<Pair> crossings = result.self_intersections();
-  drop_contacts(reference, result, crossings);
-  if (crossings.empty()) return crossings;
-  const std::vector<Pair>& old = reference.self_intersections();
-  if (old.empty()) return crossings;
+/// Removes the pairs of faces of the result that cross where faces of the reference do.
+void drop_old(const MeasuredSurface& reference, const MeasuredSurface& result,
+              std::vector<std::array<int, 2>>& crossings) {
+  const std::vector<std::array<int, 2>>& old = reference.self_intersections();
+  if (crossings.empty() || old.empty()) return;
   Mat3X ends(3, 2 * std::ssize(old));
   std::vector<Edge> segments;
-  for (const Pair& pair : old) {
+  for (const auto& pair : old) {
     const int next = 2 * static_cast<int>(segments.size());
     const auto [from, to] = crossing_segment_of(reference, pair);
     ends.col(next) = from;
@@ -341,11 +335,20 @@ std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
     segments.push_back({next, next + 1});
   }
   const AabbTree tree(ends, as_segments(segments));
-  std::erase_if(crossings, [&](const Pair& pair) {
+  std::erase_if(crossings, [&](const std::array<int, 2>& pair) {
     const auto [from, to] = crossing_segment_of(result, pair);
     const double reach = std::max(longest_edge(result, pair[0]), longest_edge(result, pair[1]));
-    return tree.closest((from + to) / 2).squared_distance <= reach * reach;
+    return tree.has_face_within(reach, (from + to) / 2);
   });
+}
+
+}  // namespace
+
+std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
+                                              const MeasuredSurface& result) {
+  std::vector<std::array<int, 2>> crossings = result.self_intersections();
+  drop_old(reference, result, crossings);
+  drop_contacts(reference, result, crossings);  // takes longer
   return crossings;
 }
 
@@ -374,8 +377,7 @@ std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const Me
   constexpr double within = 1e-3;  // of its longest edge a face is on one of the reference
   std::vector<int> found = faces_without_area(result);
   std::erase_if(found, [&](int f) {
-    return tree.closest(centre_of(result, f)).squared_distance <=
-           std::pow(within * longest_edge(result, f), 2);
+    return tree.has_face_within(within * longest_edge(result, f), centre_of(result, f));
   });
   return found;
 }
