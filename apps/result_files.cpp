@@ -46,8 +46,7 @@ PlyEncoding encoding_of_output(const Settings& s, const LoadedMesh& loaded) {
 }
 
 bool has_float_points(const Settings& s, const LoadedMesh& loaded) {
-  if (s.format == MeshFormat::stl) return encoding_of_output(s, loaded) != PlyEncoding::ascii;
-  return s.preserve && loaded.has_float_points && obstacle_to_preserving(s, loaded).empty();
+  return s.format == MeshFormat::stl && encoding_of_output(s, loaded) != PlyEncoding::ascii;
 }
 
 namespace {

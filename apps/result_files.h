@@ -18,7 +18,8 @@ bool is_repaired(const LoadedMesh& loaded);
 /// Why the output cannot be the input file with moved vertices; empty if nothing is known to be in the way.
 std::string obstacle_to_preserving(const Settings& settings, const LoadedMesh& loaded);
 
-/// Does the output hold coordinates as 32-bit floats, unless something is found in the way of preserving it?
+/// Can the format of the output hold coordinates as 32-bit floats only? Of others that are preserved and hold
+/// floats there is a new file of doubles where these do not do.
 bool has_float_points(const Settings& settings, const LoadedMesh& loaded);
 
 /// A file of the input's format is encoded like the input, others are binary where they can be.

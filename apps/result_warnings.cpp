@@ -159,14 +159,15 @@ std::string what_is_broken(const RunRecord& run) {
                                  with_share(p.distance, run), run.input.path, place, volume_change(run)));
   if (!p.creases_kept)
     broken.push_back(fmt::format("sharp edges would be lost, up to {:.4g} away{}", p.crease_loss,
-                                 p.flipped_faces + p.new_crossings == 0 ? at : ""));
+                                 p.flipped_faces + p.new_crossings + p.new_degenerate_faces == 0 ? at : ""));
   if (p.flipped_faces > 0) broken.push_back(counted(p.flipped_faces, "face", "faces") + " turned over" + at);
   if (p.new_folds > 0) broken.push_back(counted(p.new_folds, "new fold", "new folds"));
   if (p.new_crossings > 0)
     broken.push_back(counted(p.new_crossings, "new self-intersection", "new self-intersections") +
                      (p.flipped_faces == 0 ? at : ""));
   if (p.new_degenerate_faces > 0)
-    broken.push_back(counted(p.new_degenerate_faces, "new face", "new faces") + " without area");
+    broken.push_back(counted(p.new_degenerate_faces, "new face", "new faces") + " without area" +
+                     (p.flipped_faces + p.new_crossings == 0 ? at : ""));
   return fmt::format("{}", fmt::join(broken, "; "));
 }
 
@@ -303,21 +304,21 @@ void warn_of_dropped_creases(RunRecord& run) {
                      run.input.path, c.dropped, c.sharp)});
 }
 
-/// Would 32-bit floats as large as the coordinates move vertices by more than a share of the edges?
+/// Is the mesh so far from the origin that 32-bit floats are coarser than a millionth of its size?
 bool is_rounded_coarsely(const RunRecord& run) {
-  constexpr double share = 1e-4;
+  constexpr double share = 1e-6;
   const Extent& e = run.before.extent;
   const double largest = e.lower.cwiseAbs().cwiseMax(e.upper.cwiseAbs()).maxCoeff();
-  return largest * std::numeric_limits<float>::epsilon() > share * run.before.edge_length.mean;
+  return largest * static_cast<double>(std::numeric_limits<float>::epsilon()) > share * e.diagonal;
 }
 
 }  // namespace
 
-std::string broken_promises(const Settings& s, const RunRecord& run) {
+std::string broken_promises(const Settings& s, const RunRecord& run, BrokenBy cause) {
   const std::string broken = what_is_broken(run);
   if (broken.empty()) return "";
   const char* const remedy =
-      s.preservation.has_float_points && is_rounded_coarsely(run)
+      cause == BrokenBy::rounding || (s.preservation.has_float_points && is_rounded_coarsely(run))
           ? "PLY with --preserve off, whose numbers have 64 bits, not 32, or the mesh moved to the origin"
       : s.remesh.connectivity != ConnectivityMode::adapt ? "--feature-noise off"
       : s.min_length ? "a smaller --length, a shorter --min-length, --connectivity flip"

@@ -28,8 +28,11 @@ void warn_of_inside_out(RunRecord& run);
 /// and edge lengths. Pre-condition: the run has a result that was measured.
 void add_result_warnings(const Settings& settings, RunRecord& run);
 
+/// Where a promise is broken: by the method, or by writing numbers with fewer digits.
+enum class BrokenBy { method, rounding };
+
 /// What the result does not keep of the input, the greatest damage first, and what to do; empty if it keeps
 /// all, or was not measured.
-std::string broken_promises(const Settings& settings, const RunRecord& record);
+std::string broken_promises(const Settings& settings, const RunRecord& record, BrokenBy cause);
 
 }  // namespace hooke::app

@@ -127,11 +127,11 @@ void measure_result(const Settings& s, const TriMesh& mesh, const MemoryOrder& m
 
 /// Throws ResultError, or LimitError at the end of the time, if the result does not keep what it must keep
 /// and is not accepted nevertheless.
-void require_promises(const Settings& s, const RunRecord& record) {
+void require_promises(const Settings& s, const RunRecord& record, BrokenBy cause) {
   const bool is_out_of_time = record.status == "time_limit";
   if (s.accept_invalid || (record.result->reason == StopReason::interrupted && !is_out_of_time)) return;
-  const std::string broken = broken_promises(s, record);
-  if (is_out_of_time && !broken.empty())
+  const std::string broken = broken_promises(s, record, cause);
+  if (is_out_of_time && cause == BrokenBy::method && !broken.empty())
     throw LimitError(fmt::format("{}: no valid mesh within --time-limit {:g}: {}", name_of_input(s.input),
                                  s.time_limit, broken));
   if (!broken.empty())
@@ -140,14 +140,14 @@ void require_promises(const Settings& s, const RunRecord& record) {
 }
 
 /// After either measurement of the result: the figures of the paper, the promises, and what limits angles.
-void judge_result(const Settings& s, const TriMesh& mesh, const MemoryOrder& memory_order,
+void judge_result(const Settings& s, const TriMesh& mesh, const MemoryOrder& memory_order, BrokenBy cause,
                   RunRecord& record) {
   record.paper_after =
       measure_paper_figures(memory_order.order.gather(vertex_points(mesh)), *memory_order.adjacency,
                             paper_targets(mesh, memory_order), s.paper);
   if (record.result->adaptation.rounds > 0)
     record.deviation->displacement.reset();  // vertices do not correspond
-  require_promises(s, record);
+  require_promises(s, record, cause);
   if (record.result->vertex_limits.empty()) return;
   for (WorstFace& face : record.after->worst_faces)
     face.reasons = limiting_factors(face, record.result->vertex_limits);
@@ -245,14 +245,14 @@ void remesh_and_measure(const Settings& s, TriMesh& mesh, MemoryOrder& memory_or
   } else {
     measure_result(s, mesh, memory_order, original, record, stopwatch);
   }
-  judge_result(s, mesh, memory_order, record);
+  judge_result(s, mesh, memory_order, BrokenBy::method, record);
 }
 
 void measure_rounded(const Settings& s, const Mat3X& rounded, TriMesh& mesh, const MemoryOrder& memory_order,
                      const Original& original, RunRecord& record, Stopwatch& stopwatch) {
   vertex_points(mesh) = rounded;
   measure_result(s, mesh, memory_order, original, record, stopwatch);
-  judge_result(s, mesh, memory_order, record);
+  judge_result(s, mesh, memory_order, BrokenBy::rounding, record);
 }
 
 }  // namespace hooke::app

@@ -40,9 +40,9 @@ void remesh_and_measure(const Settings& settings, TriMesh& mesh, MemoryOrder& me
                         Original& original, RunRecord& record, const Observer& observer,
                         Stopwatch& stopwatch);
 
-/// Measures the result again after its coordinates were rounded for the file: `rounded` are those in the
-/// file. Sets the points of the mesh, and what the record tells of the result, its deviation and what it
-/// keeps. Pre-condition: remesh_and_measure().
+/// Measures the result again if its coordinates were rounded for the file, as in preserved files of floats:
+/// `rounded` are those in the file. Sets the points of the mesh, and what the record tells of the result, its
+/// deviation and what it keeps. Pre-condition: remesh_and_measure().
 void measure_rounded(const Settings& settings, const Mat3X& rounded, TriMesh& mesh,
                      const MemoryOrder& memory_order, const Original& original, RunRecord& record,
                      Stopwatch& stopwatch);

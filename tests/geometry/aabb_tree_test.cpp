@@ -13,6 +13,25 @@
 
 namespace hooke::aabb_tree_test {
 
+TEST(AabbTree, AFaceIsWithinADistanceIfTheClosestIs) {
+  const test::Triangles t = test::sphere(3, .3, 1);
+  const AabbTree tree(t.points, t.faces);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(-2, 2);
+  for (int i = 0; i < 500; ++i) {
+    Vec3 x;
+    for (double& coordinate : x) coordinate = u(random);
+    const double distance = std::sqrt(tree.closest(x).squared_distance);
+    EXPECT_TRUE(tree.has_face_within(1.001 * distance, x));
+    EXPECT_FALSE(tree.has_face_within(.999 * distance, x));
+    const auto is_even = [](int f) { return f % 2 == 0; };
+    const double of_even = std::sqrt(tree.closest(x, is_even).squared_distance);
+    EXPECT_TRUE(tree.has_face_within(1.001 * of_even, x, is_even));
+    EXPECT_FALSE(tree.has_face_within(.999 * of_even, x, is_even));
+  }
+  EXPECT_FALSE(AabbTree(t.points, {}).has_face_within(1e9, Vec3::Zero()));
+}
+
 TEST(AabbTree, ClosestPointEqualsBruteForce) {
   const test::Triangles t = test::shaken(test::sphere(2), .1);
   const AabbTree tree(t.points, t.faces);

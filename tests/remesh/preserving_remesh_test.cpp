@@ -75,6 +75,20 @@ TEST(PreservingRemesh, PointsThatAreRoundedAreJudgedAsTheyAre) {
   }
 }
 
+TEST(PreservingRemesh, RoundingOfWhatStandsStillPutsNothingBack) {
+  for (const double offset : {10., 100., 1000.}) {
+    test::Triangles t = test::grid(8, test::flat);
+    t.points.colwise() += Vec3(offset, .1, .1);
+    t.points.col(t.faces[40][0]) = .9 * t.points.col(t.faces[40][1]) + .1 * t.points.col(t.faces[40][2]);
+    t.points(1, t.faces[40][0]) += .01 / 3;
+    RemeshOptions options = options_for(ConnectivityMode::fixed);
+    options.constraints.fixed_vertices = {t.faces[40].begin(), t.faces[40].end()};
+    const test::Outcome o = preserved(t, options, nullptr, {.has_float_points = true});
+    EXPECT_EQ(o.result.rescue, Rescue::none) << offset;
+    EXPECT_TRUE(o.result.measures->preservation.holds());
+  }
+}
+
 TEST(PreservingRemesh, TheStepsOfAMaskAreNoEdges) {
   test::Triangles t =
       test::marched_mask(7, [](const Vec3& x) { return (x - Vec3(.3, .2, .1)).norm() < 5.5; });

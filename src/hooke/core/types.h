@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ inline std::size_t corner_of(const Triangle& face, int vertex) {
 
 /// The 32-bit float closest to a number, or the number itself beyond the range of floats; of all coordinates.
 inline double rounded_to_float(double x) {
-  const auto rounded = static_cast<double>(static_cast<float>(x));
-  return std::isfinite(rounded) ? rounded : x;
+  const bool is_in_range = std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max());
+  return is_in_range ? static_cast<double>(static_cast<float>(x)) : x;
 }
 inline Mat3X rounded_to_floats(const Eigen::Ref<const Mat3X>& points) {
   return points.unaryExpr(&rounded_to_float);

@@ -142,7 +142,6 @@ MeshFile read_binary_off(std::string_view bytes, const std::string& name) {
   MeshFile file;
   file.name = name;
   file.format = MeshFormat::off;
-  file.has_float_points = true;
   file.points.resize(3, layout.header.vertices);
   file.vertex_data = allocate_binary_data(layout.header);
   read_binary_vertices(words, file);

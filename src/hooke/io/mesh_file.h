@@ -35,14 +35,13 @@ struct MeshFile {
   std::string name;  // printable name of the file, for messages
   MeshFormat format = MeshFormat::obj;
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of PLY and STL files
-  bool has_float_points = false;  // is a coordinate of a binary PLY or OFF file a 32-bit float?
-  Mat3X points;                   // vertices in file order
-  IntLists polygons{{0}, {}};     // vertex ids (0-based) of each face, in file order
-  std::vector<int> lines;         // line number of each polygon; empty for binary files
-  VertexData vertex_data;         // other values of the vertices, in file order
-  FaceData face_data;             // of the polygons
-  PolygonCorners texture;         // texture coordinates, if vertices have several; else they are vertex data
-  PolygonCorners normals;         // likewise
+  Mat3X points;                                              // vertices in file order
+  IntLists polygons{{0}, {}};  // vertex ids (0-based) of each face, in file order
+  std::vector<int> lines;      // line number of each polygon; empty for binary files
+  VertexData vertex_data;      // other values of the vertices, in file order
+  FaceData face_data;          // of the polygons
+  PolygonCorners texture;      // texture coordinates, if vertices have several; else they are vertex data
+  PolygonCorners normals;      // likewise
   std::vector<std::string> material_libraries;  // the files that an OBJ names for its materials
   ContentWarnings content;
   std::string misread;  // what simple readers would read wrongly in the file as it is; empty for nothing

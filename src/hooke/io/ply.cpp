@@ -230,11 +230,6 @@ MeshFile read_ply(std::string_view bytes, const std::string& name) {
   file.name = name;
   file.format = MeshFormat::ply;
   file.encoding = header.encoding;
-  file.has_float_points =
-      header.encoding != PlyEncoding::ascii &&
-      std::ranges::any_of(vertex.properties, [](const PlyProperty& p) {
-        return p.type == PlyType::float32 && (p.name == "x" || p.name == "y" || p.name == "z");
-      });
   add_labels(face, file);
   if (header.encoding == PlyEncoding::ascii)
     read_ascii_body(AsciiPlyBody(bytes, name, header), {header, vertex, face}, file);

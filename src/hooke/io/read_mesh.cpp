@@ -172,7 +172,6 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
           std::move(memory_order),
           file.format,
           file.encoding,
-          file.has_float_points,
           std::move(hash),
           std::move(faces_hash),
           polygons_cut > 0 ? std::move(file.polygons) : IntLists(),

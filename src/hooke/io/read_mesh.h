@@ -21,7 +21,6 @@ struct LoadedMesh {
   MemoryOrder memory_order;  // memory order of the mesh, with its adjacency
   MeshFormat format = MeshFormat::obj;
   PlyEncoding encoding = PlyEncoding::binary_little_endian;  // of PLY and STL files
-  bool has_float_points = false;                             // see MeshFile
   std::string sha256;                                        // of the bytes of the file, hexadecimal
   std::string connectivity_sha256;                           // see sha256.h
   IntLists polygons;                                         // of the file; empty if all are triangles

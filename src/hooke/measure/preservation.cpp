@@ -230,7 +230,7 @@ void note_crease_loss(const Mat3X& points, const std::vector<Edge>& edges,
   p.crease_loss = std::max(p.crease_loss, std::ranges::max(distances));
   if (lost.empty()) return;
   const bool is_first = std::exchange(p.creases_kept, false);
-  if (!is_first || p.excess > 1 || p.flipped_faces + p.new_crossings > 0) return;
+  if (!is_first || p.excess > 1 || p.flipped_faces + p.new_crossings + p.new_degenerate_faces > 0) return;
   const std::size_t farthest =
       *std::ranges::max_element(lost, {}, [&](std::size_t e) { return distances[e]; });
   const auto& [a, b] = edges[farthest];
@@ -374,10 +374,12 @@ std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const Me
   std::vector<Triangle> old;
   for (int f : faces_without_area(reference)) old.push_back(reference.adjacency.faces[index_of(f)]);
   const AabbTree tree(reference.points, old);
-  constexpr double within = 1e-3;  // of its longest edge a face is on one of the reference
+  constexpr double within = 1e-3, rounding = 1e-12;  // of its longest edge, and of the diagonal
   std::vector<int> found = faces_without_area(result);
   std::erase_if(found, [&](int f) {
-    return tree.has_face_within(within * longest_edge(result, f), centre_of(result, f));
+    const double distance = within * longest_edge(result, f) + rounding * result.extent.diagonal;
+    return std::ranges::all_of(result.adjacency.faces[index_of(f)],
+                               [&](int v) { return tree.has_face_within(distance, result.points.col(v)); });
   });
   return found;
 }

@@ -82,8 +82,8 @@ struct CreasedSurface {
 std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
                                               const MeasuredSurface& result);
 
-/// The faces without area of the result whose centre is not on one of the reference. So one that is split may
-/// become two. Ascending faces of the adjacency.
+/// The faces without area of the result whose corners are not on such faces of the reference. So one that is
+/// split may become two. Ascending faces of the adjacency.
 std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const MeasuredSurface& result);
 
 Preservation measure_preservation(const CreasedSurface& reference, const CreasedSurface& result,

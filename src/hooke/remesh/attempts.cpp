@@ -24,6 +24,8 @@
 namespace hooke {
 namespace {
 
+constexpr double angle_rounding = 1e-9;  // relative
+
 Quality measure(const MeasuredSurface& surface, const TriMesh& mesh, const Permutation& order,
                 Stopwatch* stopwatch) {
   return measure_quality(surface, target_lengths_of(mesh, order, surface.adjacency).edge, {}, stopwatch);
@@ -77,18 +79,32 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
                                      is_staircase(input_.points, input_.adjacency, lengths));
   if (is_noise) preservation_.feature_angle = 180;
   if (is_mask_) smooth_steps();
-  constexpr double rounding = 1e-9;
   const TargetLengths targets = target_lengths_of(mesh, memory_order.order, input_.adjacency);
   OpenMesh::EPropHandleT<double> ratios;
   const bool has_rest_ratios = mesh.get_property_handle(ratios, rest_ratio_property);
   const bool has_one_length =
       has_rest_ratios ? UniformVector::are_equal(lengths) : !targets.edge.is_varying();
-  if (has_one_length) least_angle_ = (1 - rounding) * input_quality_.min_angle.min;
+  if (has_one_length) least_angle_ = (1 - angle_rounding) * input_quality_.min_angle.min;
+  least_mean_shape_ = input_quality_.shape.mean;
+  if (preservation_.has_float_points) allow_for_rounding();
   if (has_rest_ratios)
     least_angle_ = std::min(
         least_angle_, NearRegularOptions().share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
   preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
   preservation_.keeps_facets = preservation_.faceted && !adapts();
+}
+
+/// What stands still or is put back is rounded too.
+void AttemptMaker::allow_for_rounding() {
+  const Quality rounded = measure_quality(rounded_to_floats(input_.points), input_.adjacency, {},
+                                          {.self_intersections = false, .worst_faces = 0});
+  least_angle_ = std::min(least_angle_, (1 - angle_rounding) * rounded.min_angle.min);
+  least_mean_shape_ = std::min(least_mean_shape_, rounded.shape.mean);
+}
+
+Mat3X AttemptMaker::input_points_as_written() const {
+  return preservation_.has_float_points ? rounded_to_floats(vertex_points(mesh_))
+                                        : Mat3X(vertex_points(mesh_));
 }
 
 std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) const {
@@ -116,7 +132,7 @@ double AttemptMaker::least_angle() const {
 
 bool AttemptMaker::has_worse_faces(const Attempt& a, double margin) const {
   if (polygons_ != nullptr) return has_worse_polygons(a);
-  return a.result.measures->quality.shape.mean < input_quality_.shape.mean - margin;
+  return a.result.measures->quality.shape.mean < least_mean_shape_ - margin;
 }
 
 bool AttemptMaker::has_worse_polygons(const Attempt& a) const {

@@ -54,6 +54,8 @@ class AttemptMaker {
 
   const TriMesh& mesh() const { return mesh_; }
   const MeasuredSurface& input() const { return input_; }
+  /// The points of the input by the caller's id, rounded as those of results are.
+  Mat3X input_points_as_written() const;
   const Quality& input_quality() const { return input_quality_; }
   /// The minimum angle that faces must keep, degrees: that of the input, in mode `flip` up to a thousandth
   /// and 25 at most; 0 in mode `adapt`, and where a sizing asks for other lengths.
@@ -94,6 +96,7 @@ class AttemptMaker {
  private:
   bool is_marched_mask_at_lengths() const;
   void smooth_steps();
+  void allow_for_rounding();
 
   const TriMesh& mesh_;
   const MemoryOrder& memory_order_;
@@ -103,6 +106,7 @@ class AttemptMaker {
   PreservationOptions preservation_;
   const Quality input_quality_;
   double least_angle_ = 0;
+  double least_mean_shape_ = 0;  // of the faces of the input
   const IntLists* polygons_;
   double polygon_deviation_ = 0;  // of the input, degrees
   bool is_mask_ = false;

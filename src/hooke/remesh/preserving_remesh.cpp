@@ -26,7 +26,7 @@ constexpr double gradation = .3;
 
 /// Of the vertices: what is wrong at no more of them may stay as it is in the input.
 constexpr double few = .05;
-/// Likewise, in mode `adapt`: no shorter edges are tried, which would take more runs for hardly better faces.
+/// Likewise, in mode `adapt`: shorter edges, which take more runs for hardly better faces, come last.
 constexpr double very_few = .005;
 
 /// Attempts and what mends them, until one keeps the input.
@@ -52,7 +52,7 @@ class PreservingRemesh {
       }
     }
     if (!is_done(best)) leave_as_it_was(best);
-    if (!maker_.adapts() && vertex_points(best.mesh) == vertex_points(maker_.mesh()))
+    if (!maker_.adapts() && vertex_points(best.mesh) == maker_.input_points_as_written())
       best.result.steps_smoothed = false;
     return best;
   }
@@ -168,7 +168,8 @@ class PreservingRemesh {
 
   /// May these vertices of the input have moved? In mode `adapt` others may stand in their places.
   bool may_have_moved(const std::vector<int>& ids, const Attempt& run) const {
-    const auto now = vertex_points(run.mesh), before = vertex_points(maker_.mesh());
+    const auto now = vertex_points(run.mesh);
+    const Mat3X before = maker_.input_points_as_written();
     return maker_.adapts() || std::ranges::any_of(ids, [&](int id) { return now.col(id) != before.col(id); });
   }
 
@@ -193,13 +194,17 @@ class PreservingRemesh {
   }
 
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces
-  /// of the input where that does not do, or next to nothing is wrong.
+  /// of the input where that does not do. These come first where next to nothing is wrong.
   void keep_narrow_parts(FilterKind filter, Attempt& best) {
     RemeshOptions start = options_;  // with the tips and junctions that are held
     start.filter.kind = filter;
-    if (static_cast<double>(input_vertices_at_flaws(maker_, best).size()) >
-        very_few * input_.adjacency.vertex_count)
-      shorten_lengths(start, best);
+    const auto wrong = static_cast<double>(input_vertices_at_flaws(maker_, best).size());
+    if (wrong <= very_few * input_.adjacency.vertex_count) {
+      options_ = start;
+      keep_faces(best, best);
+      if (best.is_interrupted() || best.keeps_promises()) return;
+    }
+    shorten_lengths(start, best);
     options_ = std::move(start);
     if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
   }

@@ -250,7 +250,8 @@ constexpr Row promises[] = {
     {"promises.new_folds", integer, none, lower, "folded edges more than in the input"},
     {"promises.new_self_intersections", integer, none, lower,
      "intersecting pairs of faces more than in the input, and where it has none"},
-    {"promises.new_degenerate_faces", integer, none, lower, "faces without area more than in the input"},
+    {"promises.new_degenerate_faces", integer, none, lower,
+     "faces without area more than in the input, and where it has none"},
     {"promises.topology_kept", boolean, none, higher,
      "components, boundary loops and Euler number; with --keep non-manifold also the junctions"},
     {"promises.creases_kept", boolean, none, higher, "creases within half an edge"},
@@ -262,7 +263,8 @@ constexpr Row promises[] = {
     {"promises.distance_over_limit", or_null(number), ratio, lower,
      "the greatest distance of these over what is allowed there; 0 if none"},
     {"promises.place", list, length, neither,
-     "where that is, or else a face that is turned over or crosses another, or a lost crease: x, y and z"},
+     "where that is, or else a face that is turned over, crosses another or has no area, or a lost crease: "
+     "x, y and z"},
     {"promises.place.<n>", or_null(number), length, neither, "coordinate of the place"},
     {"promises.rescue", text, none, neither,
      "how the result came to keep it: none; tips = made again with lost vertices held; junctions = with "
