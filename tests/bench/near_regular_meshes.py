@@ -7,7 +7,8 @@ folds has the paper's edge SD afterwards as long as its faces are kept. Here con
 1. Random points on the surface, evened out by `rounds` of { Delaunay flips by angles in space; each vertex to the
    area-weighted mean of the circumcentres of its faces: L. Chen and M. Holst, "Efficient mesh optimization schemes
    based on optimal Delaunay triangulations", 2011 }. Then no inner vertex with three faces is left: one of its
-   angles is at most 30 degrees, and the paper's least angles afterwards are larger.
+   angles is at most 30 degrees, and the paper's least angles afterwards are larger. Nor has a corner of the square
+   more faces than its angle in space allows.
 2. A random walk of all vertices on the surface, sides of the square apart. A move is taken unless a face about the
    vertex leans by more than 60 degrees from the surface or an angle falls below the paper's least angle before.
    It ends at the paper's edge SD before.
@@ -193,8 +194,9 @@ def even_out(surface, points, faces, rounds):
     return points, faces
 
 
-def without_threes(surface, points, faces):
-    """Flips an edge opposite each inner vertex with three faces, so that it has four."""
+def without_threes(surface, points, faces, no_more_edges=frozenset()):
+    """Flips an edge opposite each inner vertex with three faces, so that it has four. `no_more_edges`: vertices that
+    get none."""
     faces, on_sides = faces.copy(), surface.on_sides(points)
     for _ in range(20):
         around, face_of = [[] for _ in points], {}
@@ -216,7 +218,7 @@ def without_threes(surface, points, faces):
                 d = next(w for w in faces[g].tolist() if w not in (a, b))
                 pair = np.array([[v, a, d], [v, d, b]])
                 upright = (dot(face_vectors(points, pair), surface.normals(points[[v, v]])) > 1e-13).all()
-                if upright and (v, d) not in face_of and (d, v) not in face_of:
+                if upright and d not in no_more_edges and (v, d) not in face_of and (d, v) not in face_of:
                     options.append((least_angles(points, pair).min(), f, g, pair))
             if options:
                 _, f, g, pair = max(options, key=lambda option: option[0])
@@ -228,12 +230,16 @@ def without_threes(surface, points, faces):
     return faces
 
 
+def corners_of(surface, points):
+    """Of the square."""
+    return np.flatnonzero(surface.on_sides(points) & ((points[:, :2] == 0) | (points[:, :2] == 1)).all(axis=1))
+
+
 def relieve_corners(surface, points, faces, least=.5):
     """Flips edges away from a corner of the square until each of its faces has its share of `least` rad there: on the
     surface a corner is much less than a right angle where both sides climb, and no motion changes that."""
     faces = faces.copy()
-    corners = np.flatnonzero(surface.on_sides(points) & ((points[:, :2] == 0) | (points[:, :2] == 1)).all(axis=1))
-    for v in corners:
+    for v in corners_of(surface, points):
         while True:
             mine = np.flatnonzero((faces == v).any(axis=1))
             rings = [np.roll(faces[f], -faces[f].tolist().index(v)) for f in mine]  # v first
@@ -307,6 +313,7 @@ def make(name, seed):
     rng = np.random.default_rng([seed, *name.encode()])
     points, faces = even_out(surface, *surface.random(rng, count, gap), rounds)
     faces = relieve_corners(surface, points, without_threes(surface, points, faces))
+    faces = without_threes(surface, points, faces, set(corners_of(surface, points).tolist()))
     if boost:  # as directions of light change for a moving observer
         points = np.c_[points[:, :2] * (1 - boost ** 2) ** .5, points[:, 2] + boost] / (1 + boost * points[:, 2:])
     return walk(surface, points, faces, rng, least_angle, deviation), faces
