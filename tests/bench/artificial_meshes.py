@@ -28,11 +28,15 @@ SPHERES = {"S1": 222, "S2": 1146}
 NAMES = [*PLANAR, *SPHERES]
 
 
-def graph_over_square(rng, count, height):
+def graph_over_square(rng, count, height, cut=0):
+    """No inner vertex is in the triangles with two sides of length `cut` at the corners of the square."""
     side = np.linspace(0, 1, round(count ** .5))
     zero, one = np.zeros_like(side), np.ones_like(side)
     rim = np.unique(np.vstack([np.c_[side, zero], np.c_[side, one], np.c_[zero, side], np.c_[one, side]]), axis=0)
-    points = np.vstack([rim, rng.uniform(size=(count - len(rim), 2))])
+    inner = rng.uniform(size=(count - len(rim), 2))
+    while (cut_off := np.minimum(inner, 1 - inner).sum(axis=1) < cut).any():
+        inner[cut_off] = rng.uniform(size=(cut_off.sum(), 2))
+    points = np.vstack([rim, inner])
     faces = Delaunay(points).simplices
     on_one_side = [(points[faces][:, :, axis] == value).all(axis=1) for axis in (0, 1) for value in (0., 1.)]
     faces = faces[~np.any(on_one_side, axis=0)]

@@ -28,7 +28,7 @@ PAPER = {
     "S2": (.0147, .5340, .0501, .0154, .2805),
 }
 KINDS = {"random": artificial_meshes, "near-regular": near_regular_meshes}
-LENGTHS = {("near-regular", "S1"): ".65x"}  # the paper does not state L; fitted, with the recipe, to its figures after
+LENGTHS = {("near-regular", "M1"): "1.03x", ("near-regular", "S1"): ".6x"}  # not stated; fitted to its figures after
 MODES = {
     "letter": ["--paper", "--altitude", "0", "--filter-every", "outer", "--refit", "each"],
     "`--paper`": ["--paper"],
