@@ -223,7 +223,7 @@ void warn_of_shortening(RunRecord& run) {
         {"lengths_shortened",
          fmt::format(
              "{}: {} faces, as edges near {} of {} vertices of {} are shorter than asked; longer ones would "
-             "not keep the narrow parts there; a smaller --length makes all edges alike",
+             "not keep the surface there; a smaller --length makes all edges alike",
              run.output->path, run.after->topology.faces, count, run.before.topology.vertices,
              run.input.path)});
 }
@@ -304,12 +304,25 @@ void warn_of_dropped_creases(RunRecord& run) {
                      run.input.path, c.dropped, c.sharp)});
 }
 
-/// Is the mesh so far from the origin that 32-bit floats are coarser than a millionth of its size?
-bool is_rounded_coarsely(const RunRecord& run) {
+/// Are results rounded to 32-bit floats, and is the mesh so far from the origin that these are coarser than a
+/// millionth of its size?
+bool is_rounded_coarsely(const Settings& s, const RunRecord& run) {
   constexpr double share = 1e-6;
   const Extent& e = run.before.extent;
   const double largest = e.lower.cwiseAbs().cwiseMax(e.upper.cwiseAbs()).maxCoeff();
-  return largest * static_cast<double>(std::numeric_limits<float>::epsilon()) > share * e.diagonal;
+  return s.preservation.has_float_points &&
+         largest * static_cast<double>(std::numeric_limits<float>::epsilon()) > share * e.diagonal;
+}
+
+constexpr const char* for_finer_numbers =
+    "PLY with --preserve off, whose numbers have 64 bits, not 32, or the mesh moved to the origin";
+
+void warn_of_rounding(const Settings& s, RunRecord& run) {
+  if (is_rounded_coarsely(s, run))
+    run.warnings.push_back({"rounded_coarsely",
+                            fmt::format("{}: so far from the origin its numbers are coarser than a millionth "
+                                        "of its size, which may cost angles; try {}",
+                                        run.output->path, for_finer_numbers)});
 }
 
 }  // namespace
@@ -317,12 +330,11 @@ bool is_rounded_coarsely(const RunRecord& run) {
 std::string broken_promises(const Settings& s, const RunRecord& run, BrokenBy cause) {
   const std::string broken = what_is_broken(run);
   if (broken.empty()) return "";
-  const char* const remedy =
-      cause == BrokenBy::rounding || (s.preservation.has_float_points && is_rounded_coarsely(run))
-          ? "PLY with --preserve off, whose numbers have 64 bits, not 32, or the mesh moved to the origin"
-      : s.remesh.connectivity != ConnectivityMode::adapt ? "--feature-noise off"
-      : s.min_length ? "a smaller --length, a shorter --min-length, --connectivity flip"
-                     : "a smaller --length, --min-length for narrow parts, --connectivity flip";
+  const char* const remedy = cause == BrokenBy::rounding || is_rounded_coarsely(s, run) ? for_finer_numbers
+                             : s.remesh.connectivity != ConnectivityMode::adapt ? "--feature-noise off"
+                             : s.min_length
+                                 ? "a smaller --length, a shorter --min-length, --connectivity flip"
+                                 : "a smaller --length, --min-length for narrow parts, --connectivity flip";
   return fmt::format("{}; try {}, or --accept-invalid to write it nevertheless", broken, remedy);
 }
 
@@ -403,6 +415,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   warn_of_shortening(run);
   warn_of_lengths_of_input(run);
   warn_of_held_faces(s, run);
+  warn_of_rounding(s, run);
   warn_of_dropped_creases(run);
   warn_of_count(run);
   warn_of_sizing(s, run);

@@ -8,7 +8,7 @@ folds has the paper's edge SD afterwards as long as its faces are kept. Here con
    area-weighted mean of the circumcentres of its faces: L. Chen and M. Holst, "Efficient mesh optimization schemes
    based on optimal Delaunay triangulations", 2011 }. Then no inner vertex with three faces is left: one of its
    angles is at most 30 degrees, and the paper's least angles afterwards are larger. Nor has a corner of the square
-   more faces than its angle in space allows, or an inner vertex between it and its neighbours on the sides.
+   more faces than its angle in space allows. No point starts between a corner and its neighbours on the sides.
 2. A random walk of all vertices on the surface, sides of the square apart. A move is taken unless a face about the
    vertex leans by more than 60 degrees from the surface or an angle falls below the paper's least angle before.
    It ends at the paper's edge SD before.
@@ -75,7 +75,7 @@ class Graph:
         return ((points[:, :2] == 0) | (points[:, :2] == 1)).any(axis=1)
 
     def random(self, rng, count, gap):
-        """None within the triangle of a corner of the square and its neighbours on the sides: it would stay there."""
+        """No inner one between a corner of the square and its neighbours on the sides, where it would be left."""
         return graph_over_square(rng, count, self.height, cut=1 / (round(count ** .5) - 1))
 
     def delaunay(self, points, faces):

@@ -98,7 +98,6 @@ class Rounding(CommandTest):
         self.run_command("far.off", "-o", "out.off", "-q", "-L", ".05", *gate)
         self.run_command("far.off", "-o", "out.stl", "-q", "-L", ".05", *gate, expect=6)
 
-
     def test_results_are_made_in_the_numbers_of_their_file(self):
         vertices, faces = read_mesh(PATCH)
         to_float = lambda x: struct.unpack("f", struct.pack("f", x))[0]
@@ -106,7 +105,16 @@ class Rounding(CommandTest):
                   faces)
         for mode in ("fixed", "flip", "adapt"):
             run = ("rounded.off", "-o", "out.stl", "-q", "--feature-angle", "off", "--connectivity", mode)
-            self.assertTrue(self.report(*run)["promises"]["kept"])
+            report = self.report(*run)
+            self.assertTrue(report["promises"]["kept"])
+            self.assertIn("rounded_coarsely", [w["code"] for w in report["warnings"]])
+
+    def test_near_the_origin_and_in_64_bits_numbers_are_fine(self):
+        vertices, faces = read_mesh(PATCH)
+        write_off(self.folder / "near.off", [(x + 3, y, z) for x, y, z in vertices], faces)
+        write_off(self.folder / "far.off", [(x + 6e5, y, z) for x, y, z in vertices], faces)
+        for run in (("near.off", "-o", "out.stl"), ("far.off", "-o", "out.ply", "--preserve", "off")):
+            self.assertNotIn("rounded_coarsely", [w["code"] for w in self.report(*run, "-q")["warnings"]])
 
     def test_promises_that_rounding_breaks_are_not_kept(self):
         vertices, faces = read_mesh(PATCH)

@@ -164,7 +164,7 @@ namespace {
 
 constexpr double growth = 1.1;            // factor of epsilon after an accepted step
 constexpr double floor = 1e-9;            // of epsilon; a run below it is jammed
-constexpr int steps_per_lbfgs_step = 20;  // for the test for rest: as many damped steps count as one
+constexpr int steps_per_lbfgs_step = 20;  // in the test for rest
 
 /// Forces at the current positions. The torque is kept apart because it has no potential.
 struct Forces {

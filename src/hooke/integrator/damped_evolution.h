@@ -112,9 +112,9 @@ EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& adjacency,
 /// starts at 1/2, grows by 10% with every accepted step, and is halved when a step is rejected because it
 /// raises the energy by more than the work of the torque. A rejected step also resets the velocities.
 ///
-/// Every candidate step counts toward options.max_steps. The run ends at rest (stalled; over ten times
-/// options.window steps, because these steps are shorter than those of L-BFGS), at the step limit, or jammed
-/// when no time step is accepted. Throws Error if the string tension or the friction is not positive,
+/// Every candidate step counts toward options.max_steps. The run ends at rest (stalled; over twenty
+/// times options.window steps, because these steps are shorter than those of L-BFGS), at the step limit, or
+/// jammed when no time step is accepted. Throws Error if the string tension or the friction is not positive,
 /// NumericalError if the forces at the start are not finite.
 IntegrationResult relax_damped(Relaxation& relaxation, TriMesh& mesh, const IntegrationOptions& options,
                                const DampedOptions& damped, const Observer& observer);

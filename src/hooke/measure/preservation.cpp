@@ -321,8 +321,8 @@ void drop_contacts(const MeasuredSurface& reference, const MeasuredSurface& resu
 }
 
 /// Removes the pairs of faces of the result that cross where faces of the reference do.
-void drop_old(const MeasuredSurface& reference, const MeasuredSurface& result,
-              std::vector<std::array<int, 2>>& crossings) {
+void drop_old_crossings(const MeasuredSurface& reference, const MeasuredSurface& result,
+                        std::vector<std::array<int, 2>>& crossings) {
   const std::vector<std::array<int, 2>>& old = reference.self_intersections();
   if (crossings.empty() || old.empty()) return;
   Mat3X ends(3, 2 * std::ssize(old));
@@ -347,17 +347,12 @@ void drop_old(const MeasuredSurface& reference, const MeasuredSurface& result,
 std::vector<std::array<int, 2>> new_crossings(const MeasuredSurface& reference,
                                               const MeasuredSurface& result) {
   std::vector<std::array<int, 2>> crossings = result.self_intersections();
-  drop_old(reference, result, crossings);
+  drop_old_crossings(reference, result, crossings);
   drop_contacts(reference, result, crossings);  // takes longer
   return crossings;
 }
 
 namespace {
-
-Vec3 centre_of(const MeasuredSurface& surface, int face) {
-  const Triangle& t = surface.adjacency.faces[index_of(face)];
-  return (surface.points.col(t[0]) + surface.points.col(t[1]) + surface.points.col(t[2])) / 3;
-}
 
 std::vector<int> faces_without_area(const MeasuredSurface& surface) {
   const std::vector<Triangle>& faces = surface.adjacency.faces;
@@ -385,6 +380,11 @@ std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const Me
 }
 
 namespace {
+
+Vec3 centre_of(const MeasuredSurface& surface, int face) {
+  const Triangle& t = surface.adjacency.faces[index_of(face)];
+  return (surface.points.col(t[0]) + surface.points.col(t[1]) + surface.points.col(t[2])) / 3;
+}
 
 int face_with_id(const MeasuredSurface& surface, int id) {
   int face = 0;

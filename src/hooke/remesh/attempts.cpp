@@ -102,9 +102,8 @@ void AttemptMaker::allow_for_rounding() {
   least_mean_shape_ = std::min(least_mean_shape_, rounded.shape.mean);
 }
 
-Mat3X AttemptMaker::input_points_as_written() const {
-  return preservation_.has_float_points ? rounded_to_floats(vertex_points(mesh_))
-                                        : Mat3X(vertex_points(mesh_));
+Mat3X AttemptMaker::as_written(const Eigen::Ref<const Mat3X>& points) const {
+  return preservation_.has_float_points ? rounded_to_floats(points) : Mat3X(points);
 }
 
 std::vector<int> AttemptMaker::with_copies(const std::vector<int>& vertices) const {
@@ -179,7 +178,7 @@ Attempt AttemptMaker::run() const {
   set_vertex_values(a.mesh, target_length_property, memory_order_.order.scatter(lengths));
   if (is_mask_) vertex_points(a.mesh) = smoothed_;
   a.result = remesh(a.mesh, memory_order_, options, observer_, stopwatch_);
-  if (preservation_.has_float_points) vertex_points(a.mesh) = rounded_to_floats(vertex_points(a.mesh));
+  vertex_points(a.mesh) = as_written(vertex_points(a.mesh));
   if (is_mask_) {
     a.result.steps_smoothed = smoothed_ != vertex_points(mesh_);
     a.result.creases.sharp = a.result.creases.dropped = steps_;
@@ -227,7 +226,7 @@ MeasuredSurface AttemptMaker::surface_of(const Attempt& a) const {
 
 void AttemptMaker::place(int vertex, const Vec3& exact, Attempt& a) const {
   const int id = a.result.memory_order.order.old_vertex[vertex];
-  const Vec3 point = preservation_.has_float_points ? Vec3(rounded_to_floats(exact)) : exact;
+  const Vec3 point = as_written(exact);
   vertex_points(a.mesh).col(id) = point;
   if (a.result.map.empty()) return;
   const ClosestPoint closest = input_.tree.closest(point);

@@ -54,8 +54,8 @@ class AttemptMaker {
 
   const TriMesh& mesh() const { return mesh_; }
   const MeasuredSurface& input() const { return input_; }
-  /// The points of the input by the caller's id, rounded as those of results are.
-  Mat3X input_points_as_written() const;
+  /// The points, rounded if those of results are.
+  Mat3X as_written(const Eigen::Ref<const Mat3X>& points) const;
   const Quality& input_quality() const { return input_quality_; }
   /// The minimum angle that faces must keep, degrees: that of the input, in mode `flip` up to a thousandth
   /// and 25 at most; 0 in mode `adapt`, and where a sizing asks for other lengths.

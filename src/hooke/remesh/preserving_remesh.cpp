@@ -52,7 +52,7 @@ class PreservingRemesh {
       }
     }
     if (!is_done(best)) leave_as_it_was(best);
-    if (!maker_.adapts() && vertex_points(best.mesh) == maker_.input_points_as_written())
+    if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps_smoothed = false;
     return best;
   }
@@ -169,7 +169,7 @@ class PreservingRemesh {
   /// May these vertices of the input have moved? In mode `adapt` others may stand in their places.
   bool may_have_moved(const std::vector<int>& ids, const Attempt& run) const {
     const auto now = vertex_points(run.mesh);
-    const Mat3X before = maker_.input_points_as_written();
+    const Mat3X before = maker_.as_written(vertex_points(maker_.mesh()));
     return maker_.adapts() || std::ranges::any_of(ids, [&](int id) { return now.col(id) != before.col(id); });
   }
 
@@ -194,7 +194,8 @@ class PreservingRemesh {
   }
 
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces
-  /// of the input where that does not do. These come first where next to nothing is wrong.
+  /// of the input where that does not do, in the end all but some. They come first where next to nothing is
+  /// wrong.
   void keep_narrow_parts(FilterKind filter, Attempt& best) {
     RemeshOptions start = options_;  // with the tips and junctions that are held
     start.filter.kind = filter;
@@ -206,7 +207,7 @@ class PreservingRemesh {
     }
     shorten_lengths(start, best);
     options_ = std::move(start);
-    if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
+    if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best, 1);
   }
 
   /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is, or until
@@ -258,10 +259,10 @@ class PreservingRemesh {
   }
 
   /// Makes attempts in which vertices and faces of the input stay where something was wrong in the last one,
-  /// and ever more around them, until nothing is wrong or they are nearly all of the surface. In mode `fixed`
-  /// putting vertices back there may be enough; in mode `adapt` lengths grow away from the edges that stay.
-  void keep_faces(Attempt last, Attempt& best) {
-    constexpr double max_share = .9;
+  /// and ever more around them, until nothing is wrong or they would be this share of the surface. In mode
+  /// `fixed` putting vertices back there may be enough; in mode `adapt` lengths grow away from the edges that
+  /// stay.
+  void keep_faces(Attempt last, Attempt& best, double max_share = .9) {
     const double faces =
         maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
@@ -283,7 +284,7 @@ class PreservingRemesh {
       if (round == max_rounds) break;
       const std::vector<int> kept_before = kept_rings;
       keep_around(input_vertices_at_flaws(maker_, last), kept_rings);
-      if (kept_rings == kept_before || share_of_area(kept_rings) > max_share) break;
+      if (kept_rings == kept_before || share_of_area(kept_rings) >= max_share) break;
       frozen = frozen_before;
       std::vector<double> longest(c.vertex_count, std::numeric_limits<double>::infinity());
       for (int v = 0; v < c.vertex_count; ++v) {
