@@ -263,6 +263,7 @@ class PreservingRemesh {
   /// `fixed` putting vertices back there may be enough; in mode `adapt` lengths grow away from the edges that
   /// stay.
   void keep_faces(Attempt last, Attempt& best, double max_share = .9) {
+    constexpr int patience = 3;  // rounds, before new places are kept with more rings from the start
     const double faces =
         maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
@@ -283,7 +284,7 @@ class PreservingRemesh {
       }
       if (round == max_rounds) break;
       const std::vector<int> kept_before = kept_rings;
-      keep_around(input_vertices_at_flaws(maker_, last), kept_rings);
+      keep_around(input_vertices_at_flaws(maker_, last), std::max(round - patience, 1), kept_rings);
       if (kept_rings == kept_before || share_of_area(kept_rings) >= max_share) break;
       frozen = frozen_before;
       std::vector<double> longest(c.vertex_count, std::numeric_limits<double>::infinity());
@@ -320,16 +321,16 @@ class PreservingRemesh {
     return count;
   }
 
-  /// Keeps the vertices of the input and a ring around them, or twice as many rings as the last time if they
-  /// or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it was kept
-  /// with, 0: not kept.
-  void keep_around(const std::vector<int>& vertices, std::vector<int>& kept_rings) const {
+  /// Keeps the vertices of the input and as many rings around them as are said, or twice as many as the last
+  /// time if they or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it
+  /// was kept with, 0: not kept.
+  void keep_around(const std::vector<int>& vertices, int least_rings, std::vector<int>& kept_rings) const {
     const Adjacency& c = input_.adjacency;
     std::vector<int> front = maker_.with_copies(vertices), rings(c.vertex_count, 0), left(c.vertex_count, -1);
     for (int v : front) {
       int last = kept_rings[v];
       for (int n : c.vertex_neighbours[v]) last = std::max(last, kept_rings[n]);
-      rings[v] = left[v] = std::max(1, 2 * last);
+      rings[v] = left[v] = std::max(least_rings, 2 * last);
     }
     for (std::size_t i = 0; i < front.size(); ++i) {
       const int v = front[i];
