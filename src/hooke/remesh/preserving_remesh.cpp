@@ -263,10 +263,11 @@ class PreservingRemesh {
   /// `fixed` putting vertices back there may be enough; in mode `adapt` lengths grow away from the edges that
   /// stay.
   void keep_faces(Attempt last, Attempt& best, double max_share = .9) {
-    constexpr int patience = 3;  // rounds, before new places are kept with more rings from the start
     const double faces =
         maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
+    // Rounds, before new places get more rings from the start; in the other modes vertices can be put back.
+    const int patience = maker_.adapts() ? 3 : max_rounds;
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
     const Eigen::VectorXd mean_edges = mean_edge_lengths(input_.points, c);
