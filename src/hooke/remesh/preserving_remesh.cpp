@@ -322,9 +322,9 @@ class PreservingRemesh {
     return count;
   }
 
-  /// Keeps the vertices of the input and as many rings around them as are said, or twice as many as the last
-  /// time if they or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it
-  /// was kept with, 0: not kept.
+  /// Keeps the vertices of the input and `least_rings` around them, or twice as many rings as the last time
+  /// if they or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it was
+  /// kept with, 0: not kept.
   void keep_around(const std::vector<int>& vertices, int least_rings, std::vector<int>& kept_rings) const {
     const Adjacency& c = input_.adjacency;
     std::vector<int> front = maker_.with_copies(vertices), rings(c.vertex_count, 0), left(c.vertex_count, -1);
