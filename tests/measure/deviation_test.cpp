@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
+#include "hooke/geometry/triangle.h"
+#include "support/crease_solids.h"
 #include "support/solids.h"
 
 namespace hooke::deviation_test {
@@ -138,6 +140,64 @@ TEST(Deviation, WhereBodiesCrossNoFaceIsTurnedOverForTheOtherBody) {
     for (Triangle& t : turned.faces) std::swap(t[0], t[1]);
     EXPECT_GT(measure(fine, turned).flipped_faces.size(), .9 * static_cast<double>(turned.faces.size()));
   }
+}
+
+/// A round dish of two sheets, this far apart in the middle, that meet at a sharp rim.
+test::Triangles dish(int around, int rings, double thickness) {
+  std::vector<Vec3> points;
+  std::vector<Triangle> faces;
+  const auto point = [&](double radius, int k, double height) {
+    const double angle = 2 * std::numbers::pi * k / around;
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), height * (1 - radius * radius));
+  };
+  for (int k = 0; k < around; ++k) points.push_back(point(1, k, 0));
+  for (const bool upper : {true, false}) {
+    const double height = upper ? .2 : .2 - thickness;
+    std::vector<int> outer(around), inner(around);
+    for (int k = 0; k < around; ++k) outer[k] = k;
+    const auto add = [&](int a, int b, int c) {
+      faces.push_back(upper ? Triangle{a, b, c} : Triangle{b, a, c});
+    };
+    for (int r = rings - 1; r >= 0; --r) {
+      for (int k = 0; k < around; ++k) {
+        if (r == 0 && k > 0) {
+          inner[k] = inner[0];
+          continue;
+        }
+        inner[k] = static_cast<int>(points.size());
+        points.push_back(point(static_cast<double>(r) / rings, k, height));
+      }
+      for (int k = 0; k < around; ++k) {
+        const int next = (k + 1) % around;
+        add(outer[k], outer[next], inner[k]);
+        if (r > 0) add(outer[next], inner[next], inner[k]);
+      }
+      outer = inner;
+    }
+  }
+  Mat3X columns(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t v = 0; v < points.size(); ++v) columns.col(static_cast<Eigen::Index>(v)) = points[v];
+  return {columns, faces};
+}
+
+TEST(Deviation, AFaceThatCutsDeeperThanAWallIsThickIsNotTurnedOver) {
+  for (const double thickness : {.02, .05, .1})
+    EXPECT_TRUE(measure(dish(48, 24, thickness), dish(6, 1, thickness)).flipped_faces.empty()) << thickness;
+}
+
+TEST(Deviation, AFaceThatFoldsBackOnAThinWallIsTurnedOver) {
+  test::Triangles plate = test::cells(4, 4, 1, [](int, int, int) { return true; });
+  plate.points.row(2) *= .02;
+  Eigen::Index middle = 0;
+  const Vec3 top = plate.points.rowwise().maxCoeff();
+  (plate.points.colwise() - Vec3(top.x() / 2, top.y() / 2, top.z())).colwise().norm().minCoeff(&middle);
+  test::Triangles folded = plate;
+  folded.points.col(middle).x() += .3 * top.x();  // past its neighbour
+  std::size_t turned = 0;
+  for (const Triangle& t : folded.faces)
+    turned += doubled_area_vector(folded.points, t).dot(doubled_area_vector(plate.points, t)) < 0;
+  EXPECT_GT(turned, 0u);
+  EXPECT_EQ(measure(plate, folded).flipped_faces.size(), turned);
 }
 
 TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {

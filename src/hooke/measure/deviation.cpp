@@ -7,6 +7,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/closest_faces.h"
+#include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/wedges.h"
 
@@ -261,16 +262,47 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
   return deviation;
 }
 
-/// Is there no face of the reference about as close to the centre of this face as the closest one, `at`, that
-/// faces the same way? Beside creases and on thin walls there is one. Where bodies cross the closest one may
-/// be of another body: one of its own body is close then by the size of the face. `body`: per vertex of the
-/// reference.
-bool faces_no_like(const MeasuredSurface& reference, const std::vector<int>& body, const Face& face,
+constexpr double across_sheets = .25;  // of an edge
+
+/// Edges as degenerate triangles, the form in which the tree accepts segments.
+template <typename IsMeant>
+std::vector<Triangle> segments_of(const Adjacency& adjacency, const IsMeant& is_meant) {
+  std::vector<Triangle> segments;
+  for (size_t e = 0; e < adjacency.edges.size(); ++e) {
+    const auto [a, b] = adjacency.edges[e];
+    if (is_meant(static_cast<int>(e))) segments.push_back({a, b, b});
+  }
+  return segments;
+}
+
+AabbTree folded_edges(const MeasuredSurface& surface) {
+  return {surface.points, segments_of(surface.adjacency, [&](int e) {
+            return is_folded_edge(surface.points, surface.adjacency, e);
+          })};
+}
+
+/// Is there a fold between this face and a neighbour, where the reference has none?
+bool folds_anew(const MeasuredSurface& surface, int face, const AabbTree& reference_folds) {
+  const Adjacency& c = surface.adjacency;
+  return std::ranges::any_of(c.face_edges[face], [&](int e) {
+    if (!is_folded_edge(surface.points, c, e)) return false;
+    const Vec3 a = surface.points.col(c.edges[e][0]), b = surface.points.col(c.edges[e][1]);
+    const ClosestPoint fold = reference_folds.closest((a + b) / 2);
+    return fold.face < 0 || fold.squared_distance > across_sheets * across_sheets * (b - a).squaredNorm();
+  });
+}
+
+/// Is there no face of the reference about as close to the centre of this face of the result as the closest
+/// one, `at`, that faces the same way? Beside creases and on thin walls there is one. Where bodies cross, or
+/// the face cuts deeper into a rounding than a wall is thick, the closest one may be of another sheet: one of
+/// its own is close then by the size of the face, if the face does not fold back on its neighbours. `body`:
+/// per vertex of the reference.
+bool faces_no_like(const MeasuredSurface& reference, const std::vector<int>& body,
+                   const AabbTree& reference_folds, const MeasuredSurface& result, const Face& face,
                    const Vec3& n, const ClosestFacePoint& at) {
-  constexpr double across_bodies = .25;  // of the longest edge of the face
-  constexpr double as_close = 1.25;      // over the distance of the closest face
-  constexpr double touching = 1e-6;      // of the diagonal
-  constexpr double min_cosine = -.1;     // a face across a right-angled crease is not turned over
+  constexpr double as_close = 1.25;   // over the distance of the closest face
+  constexpr double touching = 1e-6;   // of the diagonal
+  constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
   const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
   const double length = n.norm();
   if (!(length > 0)) return false;
@@ -281,9 +313,10 @@ bool faces_no_like(const MeasuredSurface& reference, const std::vector<int>& bod
   if (like.face < 0) return true;
   double limit = as_close * (centre - at.point).norm() + touching * reference.extent.diagonal;
   if (body[reference.adjacency.faces[like.face][0]] !=
-      body[corners_in_sheet(reference, face_at(reference, at))[0]])
+          body[corners_in_sheet(reference, face_at(reference, at))[0]] ||
+      !folds_anew(result, face.id, reference_folds))
     for (size_t k = 0; k < 3; ++k)
-      limit = std::max(limit, across_bodies * (face.corners[(k + 1) % 3] - face.corners[k]).norm());
+      limit = std::max(limit, across_sheets * (face.corners[(k + 1) % 3] - face.corners[k]).norm());
   return like.squared_distance > limit * limit;
 }
 
@@ -314,6 +347,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
                          const std::vector<ClosestFacePoint>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
   const std::vector<int> body = label_components(reference.adjacency);
+  const AabbTree folds = folded_edges(reference);
   std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
   const std::span<const Face> faces = result.tree.faces();
   parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {
@@ -323,7 +357,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       const Vec3 n = area_vector(faces[k]);
       const Face& there = face_at(reference, closest[k]);
       flipped[f] = n.dot(normal_at(reference, normals, there, closest[k])) < 0 &&
-                   faces_no_like(reference, body, faces[k], n, closest[k]);
+                   faces_no_like(reference, body, folds, result, faces[k], n, closest[k]);
       opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
     }
   });
@@ -333,16 +367,6 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
   }
   std::ranges::sort(deviation.flipped_faces);
   std::ranges::sort(deviation.opposing_faces);
-}
-
-/// Boundary edges as degenerate triangles, the form in which the tree accepts segments.
-std::vector<Triangle> boundary_segments(const Adjacency& adjacency) {
-  std::vector<Triangle> segments;
-  for (size_t e = 0; e < adjacency.edges.size(); ++e) {
-    const auto [a, b] = adjacency.edges[e];
-    if (adjacency.is_boundary_edge(static_cast<int>(e))) segments.push_back({a, b, b});
-  }
-  return segments;
 }
 
 double max_distance(const Mat3X& points, const std::vector<Triangle>& segments, const AabbTree& to) {
@@ -388,8 +412,11 @@ Deviation measure_deviation(const MeasuredSurface& reference, const MeasuredSurf
   d.volume_change = relative_change(reference.extent.volume, result.extent.volume);
 
   const Stage stage(stopwatch, "boundary");
-  const auto reference_boundary = boundary_segments(reference.adjacency);
-  const auto result_boundary = boundary_segments(result.adjacency);
+  const auto boundary_of = [](const Adjacency& c) {
+    return segments_of(c, [&](int e) { return c.is_boundary_edge(e); });
+  };
+  const std::vector<Triangle> reference_boundary = boundary_of(reference.adjacency),
+                              result_boundary = boundary_of(result.adjacency);
   if (!reference_boundary.empty() && !result_boundary.empty()) {
     d.boundary_to_reference =
         max_distance(result.points, result_boundary, AabbTree(reference.points, reference_boundary));

@@ -50,8 +50,9 @@ struct Deviation {
   /// Between the normal of a result face and that of the reference face closest to its centre; rms over the
   /// area.
   MaxRms normal_deviation;
-  /// Ids, ascending, of faces that are turned over: no face of the reference about as close as the closest
-  /// one faces the same way.
+  /// Ids, ascending, of faces that are turned over: they oppose the closest face of the reference, and none
+  /// that faces the same way is about as close, or, where they do not fold back on their neighbours, within a
+  /// quarter of their longest edge: so a face may cut into a rounding deeper than a wall is thick.
   std::vector<int> flipped_faces;
   /// Ids, ascending, of the flipped faces and of faces that oppose the closest face of the reference, which
   /// lie at folds of the reference itself.
