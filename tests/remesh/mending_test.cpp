@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace hooke::mending_test {
 /// A sphere, and a run on it to be damaged.
 class Sphere {
  public:
-  Sphere() : mesh_(test::with_length(t_, test::natural(t_))) {
+  explicit Sphere(std::optional<double> max_distance = {})
+      : mesh_(test::with_length(t_, test::natural(t_))),
+        maker(mesh_, memory_order_, options_, {.max_distance = max_distance}, {}, observer_, nullptr, false) {
     run = maker.run();
     maker.judge(run);
     EXPECT_EQ(run.flaws(), 0u);
@@ -23,6 +26,13 @@ class Sphere {
 
   const Adjacency& connectivity() const { return *run.result.memory_order.adjacency; }
   Mat3X points() const { return run.result.memory_order.order.gather(vertex_points(run.mesh)); }
+
+  /// Moves vertices away from the centre.
+  void raise(const std::vector<int>& vertices, double height) {
+    const Mat3X x = points();
+    for (int v : vertices) maker.place(v, x.col(v) + height * x.col(v).normalized(), run);
+    maker.judge(run);
+  }
 
   /// Moves a vertex beyond its neighbours, so that faces there are turned over.
   void turn_over_at(int vertex) {
@@ -46,7 +56,7 @@ class Sphere {
   Observer observer_;
 
  public:
-  AttemptMaker maker{mesh_, memory_order_, options_, {}, {}, observer_, nullptr, false};
+  AttemptMaker maker;
   Attempt run;
 };
 
@@ -76,6 +86,32 @@ TEST(Mending, TurnsFacesBackAndMovesNothingElse) {
     mend(sphere.maker, sphere.run);
     EXPECT_EQ(sphere.run.flaws(), 0u);
     EXPECT_EQ(moved_far_from(vertex, 4, before, sphere), 0);
+  }
+}
+
+TEST(Mending, FarVerticesComeOnlyAsNearAsTheyMust) {
+  for (int vertex : {5, 60, 200}) {
+    Sphere sphere;
+    const Vec3 there = sphere.points().col(vertex);
+    sphere.raise({vertex}, .3);
+    ASSERT_EQ(sphere.run.preservation().far_vertices.size(), 1u);
+    const FarVertex far = sphere.run.preservation().far_vertices[0];
+    mend(sphere.maker, sphere.run);
+    EXPECT_EQ(sphere.run.flaws(), 0u);
+    const double distance = (sphere.points().col(vertex) - there).norm();
+    EXPECT_LT(distance, far.limit);
+    EXPECT_GT(distance, .8 * far.limit);
+  }
+}
+
+TEST(Mending, UnfoldsRidges) {
+  for (int vertex : {5, 60, 200}) {
+    Sphere sphere(10.);  // no vertex is far
+    const double length = test::natural(test::sphere(3, .2, 1));
+    sphere.raise({vertex, sphere.connectivity().vertex_neighbours[vertex][0]}, 1.5 * length);
+    ASSERT_GT(sphere.run.preservation().new_folds, 0u);
+    mend(sphere.maker, sphere.run);
+    EXPECT_EQ(sphere.run.flaws(), 0u);
   }
 }
 

@@ -20,9 +20,12 @@
 namespace hooke {
 namespace {
 
+constexpr double well_within = .95;  // of a limit of distance
+
 /// Two ways of a round, in turn, as what one does not mend the other may, from where that has led. A lost
-/// vertex of the input is approached by the closest corner of the face closest to it, or by all three;
-/// corners of turned faces move the best first, or in their order.
+/// vertex of the input is approached by the closest corner of the face closest to it, or by all three; far
+/// vertices come as near as they must, or go to the input; corners of turned faces move the best first, or in
+/// their order.
 enum class Approach { corner_best_first, face_in_order };
 
 Approach other(Approach a) {
@@ -68,7 +71,8 @@ class Mending {
   Round this_round() const { return {points_, flaws_at_vertices(run_, points_)}; }
 
   /// Moves in rounds until so many of them have made no fewer flaws than one before. In each region about
-  /// what moves it keeps the round with the fewest flaws there. Returns whether fewer are left.
+  /// what moves it keeps the round with the fewest flaws there. Returns whether so many fewer are left that
+  /// it may be worth going on.
   bool remove_flaws(std::size_t max_in_vain) {
     const std::size_t max_rounds = run_.is_interrupted() ? 2 : 6, flaws_at_start = run_.flaws();
     std::vector<Round> rounds{this_round()};
@@ -95,7 +99,8 @@ class Mending {
         points_ = std::move(rounds[best_round].points);
       }
     }
-    return run_.flaws() < flaws_at_start;
+    constexpr double well_fewer = .9;
+    return static_cast<double>(run_.flaws()) <= well_fewer * static_cast<double>(flaws_at_start);
   }
 
   /// Returns whether there are fewer, and nothing else is worse.
@@ -163,19 +168,24 @@ class Mending {
         way -= weights[k] * points_.col(t[k]);
         may_move = may_move && !is_immovable_[t[k]] && moved.col(t[k]) == points_.col(t[k]);
       }
-      constexpr double well_within = .95;
       const double share = 1 - well_within * tip.limit / way.norm();
       if (!(share > 0) || !may_move) continue;
       for (int k = 0; k < 3; ++k) moved.col(t[k]) += weights[k] / weights.squaredNorm() * share * way;
     }
   }
 
-  /// Moves vertices that are too far to the closest points of the input, and the corners of faces that are
-  /// turned over, chords, folded or intersecting, none on a crease, to better places.
+  /// Moves vertices that are too far towards the closest points of the input, as near as they must be, and
+  /// the corners of faces that are turned over, chords, folded or intersecting, none on a crease, to better
+  /// places.
   void move_to_input(Approach approach, Mat3X& moved) const {
     const auto may_move = [&](int v) { return !is_immovable_[v] && moved.col(v) == points_.col(v); };
-    for (const FarVertex& far : run_.preservation().far_vertices)
-      if (may_move(far.vertex)) moved.col(far.vertex) = on_input(points_.col(far.vertex));
+    for (const FarVertex& far : run_.preservation().far_vertices) {
+      if (!may_move(far.vertex)) continue;
+      const Vec3 way = on_input(points_.col(far.vertex)) - points_.col(far.vertex);
+      const double share =
+          approach == Approach::corner_best_first ? 1 - well_within * far.limit / way.norm() : 1;
+      if (share > 0) moved.col(far.vertex) += share * way;
+    }
     const std::vector<int> corners = corners_of_turned_faces();
     std::vector<Place> places(corners.size());
     parallel_for(corners.size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -192,7 +202,8 @@ class Mending {
         moved.col(v) = on_input(middle_of_neighbours(v, points_));
   }
 
-  /// Or of chords, if there are some to be removed. Ascending.
+  /// Or of chords, if there are some to be removed, and the ends of folds, if there are more than in the
+  /// input. Ascending.
   std::vector<int> corners_of_turned_faces() const {
     const Deviation& deviation = run_.result.measures->deviation;
     const std::vector<int>& turned = run_.chords() > 0 ? deviation.opposing_faces : deviation.flipped_faces;
@@ -200,17 +211,17 @@ class Mending {
     for (std::size_t f = 0; f < c_.faces.size(); ++f)
       if (std::ranges::binary_search(turned, order_.old_face[f]))
         corners.insert(corners.end(), c_.faces[f].begin(), c_.faces[f].end());
+    if (run_.preservation().new_folds > 0)
+      for (const Edge& e : folds_off_creases(run_, points_))
+        corners.insert(corners.end(), e.begin(), e.end());
     return without_repeats(std::move(corners));
   }
 
-  /// And the ends of folds, if there are more than in the input. Ascending.
+  /// Ascending.
   std::vector<int> corners_of_crossing_faces() const {
     std::vector<int> corners;
     for (const auto& pair : run_.preservation().crossings)
       for (int f : pair) corners.insert(corners.end(), c_.faces[f].begin(), c_.faces[f].end());
-    if (run_.preservation().new_folds > 0)
-      for (const Edge& e : folds_off_creases(run_, points_))
-        corners.insert(corners.end(), e.begin(), e.end());
     return without_repeats(std::move(corners));
   }
 
@@ -231,11 +242,11 @@ class Mending {
 
   /// Of the faces around a vertex.
   struct Score {
-    int opposing = 0;                                             // how many oppose the input
+    int wrong = 0;  // how many oppose the input, and how many of their edges fold
     double cotangent = -std::numeric_limits<double>::infinity();  // of their least angle
 
     bool is_better_than(const Score& other) const {
-      return std::pair(opposing, cotangent) < std::pair(other.opposing, other.cotangent);
+      return std::pair(wrong, cotangent) < std::pair(other.wrong, other.cotangent);
     }
   };
 
@@ -245,12 +256,12 @@ class Mending {
     Score score;
   };
 
-  /// The best place of a vertex: its own if no face opposes the input there, else of that and, on the input,
+  /// The best place of a vertex: its own if no face is wrong there, else of that and, on the input,
   /// of those at its own, at the middle of its neighbours, and on the way to each of them.
   Place best_place(int v, const Mat3X& points) const {
     const Vec3 here = points.col(v);
     Place best{v, here, score_of(v, here, points)};
-    if (best.score.opposing == 0) return best;
+    if (best.score.wrong == 0) return best;
     const auto try_place = [&](const Vec3& x) {
       const Vec3 point = on_input(x);
       const Score score = score_of(v, point, points);
@@ -265,17 +276,31 @@ class Mending {
 
   /// With the vertex at x.
   Score score_of(int v, const Vec3& x, const Mat3X& points) const {
-    Score score;
-    for (int f : c_.vertex_faces[v]) {
+    const auto corners_of = [&](int f) {
       std::array<Vec3, 3> p;
       for (int k = 0; k < 3; ++k) p[k] = c_.faces[f][k] == v ? x : Vec3(points.col(c_.faces[f][k]));
-      const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
+      return p;
+    };
+    const auto normal_of = [](const std::array<Vec3, 3>& p) {
+      return Vec3((p[1] - p[0]).cross(p[2] - p[0]));
+    };
+    Score score;
+    for (int f : c_.vertex_faces[v]) {
+      const std::array<Vec3, 3> p = corners_of(f);
+      const Vec3 normal = normal_of(p);
+      for (int e : c_.face_edges[f]) {
+        const auto [left, right] = c_.edge_faces[e];
+        const int other = left == f ? right : left;
+        if (other < 0) continue;
+        const bool at_v = c_.edges[e][0] == v || c_.edges[e][1] == v;
+        score.wrong += (!at_v || other > f) && normal_of(corners_of(other)).dot(normal) < 0;
+      }
       for (int k = 0; k < 3; ++k) {
         const double dot = (p[(k + 1) % 3] - p[k]).dot(p[(k + 2) % 3] - p[k]);
         score.cotangent = std::max(score.cotangent, dot / normal.norm());
       }
       const int closest = input_.tree.closest((p[0] + p[1] + p[2]) / 3).face;
-      score.opposing += normal.dot(doubled_area_vector(input_.points, input_.adjacency.faces[closest])) <= 0;
+      score.wrong += normal.dot(doubled_area_vector(input_.points, input_.adjacency.faces[closest])) <= 0;
     }
     return score;
   }
