@@ -66,12 +66,13 @@ class PreservingRemesh {
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (!best.keeps_promises()) unmended = best;
-    const bool keeps_rest = !best.is_interrupted() && !best.is_good() && may_keep_faces(unmended);
+    const bool keeps_rest =
+        !best.is_interrupted() && !best.is_good() && may_keep_faces(maker_.adapts() ? best : unmended);
     if (keeps_rest) keep_faces(std::move(unmended), best);
-    if (!is_settled(best) && !(keeps_rest && is_done(best))) project_to_faces(best);
+    if (!is_settled(best) && !(keeps_rest && !maker_.adapts() && is_done(best))) project_to_faces(best);
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
-      if (maker_.adapts()) keep_narrow_parts(filter, best);
+      if (maker_.adapts()) keep_narrow_parts(filter, keeps_rest, best);
       if (options_.connectivity == ConnectivityMode::flip) keep_faces(best, best);
     }
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
@@ -79,13 +80,14 @@ class PreservingRemesh {
   }
 
   /// Is so little wrong that what surrounds it may stay as it is in the input, before all vertices leave the
-  /// spline for the faces? Not in mode `adapt`, where shorter edges may do.
+  /// spline for the faces? In mode `adapt`, where shorter edges may do, it must be next to nothing.
   bool may_keep_faces(const Attempt& run) const {
-    if (maker_.adapts() || maker_.smooths_mask() || options_.filter.kind == FilterKind::closest ||
-        run.is_interrupted() || run.keeps_promises() || has_worse_faces(run))
+    if (maker_.smooths_mask() || options_.filter.kind == FilterKind::closest || run.is_interrupted() ||
+        run.keeps_promises() || has_worse_faces(run))
       return false;
     const std::vector<int> wrong = input_vertices_at_flaws(maker_, run);
-    return !wrong.empty() && std::ssize(wrong) < few * input_.adjacency.vertex_count;
+    return !wrong.empty() &&
+           std::ssize(wrong) < (maker_.adapts() ? very_few : few) * input_.adjacency.vertex_count;
   }
 
   /// Is so much wrong that no other attempt with these lengths is of use, in a mesh where it takes long? Not
@@ -195,19 +197,19 @@ class PreservingRemesh {
 
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces
   /// of the input where that does not do, in the end all but some. They come first where next to nothing is
-  /// wrong.
-  void keep_narrow_parts(FilterKind filter, Attempt& best) {
+  /// wrong, if that `was_tried` on no other surface.
+  void keep_narrow_parts(FilterKind filter, bool was_tried, Attempt& best) {
     RemeshOptions start = options_;  // with the tips and junctions that are held
     start.filter.kind = filter;
     const auto wrong = static_cast<double>(input_vertices_at_flaws(maker_, best).size());
-    if (wrong <= very_few * input_.adjacency.vertex_count) {
+    if (!was_tried && wrong <= very_few * input_.adjacency.vertex_count) {
       options_ = start;
       keep_faces(best, best);
       if (best.is_interrupted() || best.keeps_promises()) return;
     }
     shorten_lengths(start, best);
     options_ = std::move(start);
-    if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best, 1);
+    if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
   }
 
   /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is, or until
@@ -259,15 +261,16 @@ class PreservingRemesh {
   }
 
   /// Makes attempts in which vertices and faces of the input stay where something was wrong in the last one,
-  /// and ever more around them, until nothing is wrong or they would be this share of the surface. In mode
-  /// `fixed` putting vertices back there may be enough; in mode `adapt` lengths grow away from the edges that
-  /// stay.
-  void keep_faces(Attempt last, Attempt& best, double max_share = .9) {
+  /// and ever more around them, until nothing is wrong or they would be too much of the surface. In mode
+  /// `fixed` putting vertices back there may be enough; in mode `adapt`, where nothing can be put back,
+  /// lengths grow away from the edges that stay, nearly all may, and late rounds keep more rings at new
+  /// places.
+  void keep_faces(Attempt last, Attempt& best) {
     const double faces =
         maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
-    // Rounds, before new places get more rings from the start; in the other modes vertices can be put back.
-    const int patience = maker_.adapts() ? 3 : max_rounds;
+    const double max_share = maker_.adapts() ? 1 : .9;
+    const int patience = maker_.adapts() ? 3 : max_rounds;  // rounds, before new places get more rings
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
     const Eigen::VectorXd mean_edges = mean_edge_lengths(input_.points, c);
