@@ -252,10 +252,13 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   const auto is_narrow = [&](const WorstFace& f) {
     constexpr double well_below = .5;  // also at a sharp corner, but that is no narrow region
     const auto is_kept = [&](int v) { return limits[v] & VertexLimit::put_back; };
+    const auto is_on_line = [&](int v) {
+      return limits[v] & (limited_by_boundary | limited_by_crease | limited_at_corner);
+    };
+    const auto is_squeezed = [&](int v) { return is_on_line(v) || limits[v] == 0; };  // by springs alone
     return f.min_angle < std::min(small_angle, well_below * f.bound.degrees) &&
-           !std::ranges::all_of(f.vertices, is_kept) && std::ranges::all_of(f.vertices, [&](int v) {
-             return limits[v] & (limited_by_boundary | limited_by_crease | limited_at_corner);
-           });
+           !std::ranges::all_of(f.vertices, is_kept) && std::ranges::all_of(f.vertices, is_squeezed) &&
+           std::ranges::count_if(f.vertices, is_on_line) >= 2;
   };
   const auto is_at_fixed_edge = [&](const WorstFace& f) {
     return f.min_angle < small_angle &&
@@ -285,7 +288,7 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
       fmt::format("it lies between creases{} or boundaries closer than {}{}", has_seams ? ", seams" : "",
                   s.min_length ? "--min-length; use a shorter one"
                                : "the target length; use --min-length, with which edges there may "
-                                 "be shorter",
+                                 "be shorter, or a smaller --length",
                   fewer_seams));
 }
 

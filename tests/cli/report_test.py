@@ -4,7 +4,7 @@ import csv
 import json
 import os
 import unittest
-from math import cos, dist, pi, sin
+from math import cos, dist, pi, sin, tan
 
 from command import DATA, CommandTest, read_fields, read_mesh, write_off
 
@@ -269,6 +269,23 @@ class Report(CommandTest):
         adapted = ("plate.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".4", "--boundary")
         self.assertIn("boundary_holds_angles", codes(*adapted, "fixed"))
         self.assertNotIn("boundary_holds_angles", codes(*adapted, "slide"))
+
+    def test_regions_with_one_row_of_vertices_between_creases_are_narrow_too(self):
+        sides, length, bulge = 6, .52, .04  # of a prism, whose sides are two facets each
+        turn, apothem = pi / sides, length / 2 / tan(pi / sides)
+        radii = (length / 2 / sin(turn), apothem + bulge)
+        ring = [(radii[k % 2] * cos(k * turn), radii[k % 2] * sin(k * turn)) for k in range(2 * sides)]
+        n = len(ring)
+        points = [(x, y, z) for z in (0, 2) for x, y in ring] + [(0, 0, 0), (0, 0, 2)]
+        faces = [f for a, b in ((k, (k + 1) % n) for k in range(n))
+                 for f in ((a, b, n + b), (a, n + b, n + a), (b, a, 2 * n), (n + a, n + b, 2 * n + 1))]
+        write_off(self.folder / "letter.off", points, faces)
+        adapted = ("letter.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".8")
+        plain, finer = self.report(*adapted), self.report(*adapted, "--min-length", ".1")
+        self.assertGreater(plain["after"]["faces_below_20"], 0)
+        self.assertIn("narrow_regions", [w["code"] for w in plain["warnings"]])
+        self.assertEqual(finer["after"]["faces_below_20"], 0)
+        self.assertNotIn("narrow_regions", [w["code"] for w in finer["warnings"]])
 
     def test_narrow_regions_get_shorter_edges_where_they_may(self):
         box = [(x, y, z) for z in (0, 20) for y in (0, .4) for x in (0, 30)]
