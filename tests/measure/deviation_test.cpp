@@ -200,6 +200,35 @@ TEST(Deviation, AFaceThatFoldsBackOnAThinWallIsTurnedOver) {
   EXPECT_EQ(measure(plate, folded).flipped_faces.size(), turned);
 }
 
+test::Triangles plate_of(double thickness) {
+  test::Triangles plate = test::cells(
+      4, 4, 1, [](int, int, int) { return true; }, 0);
+  plate.points.row(2) *= thickness;
+  return plate;
+}
+
+TEST(Deviation, AThinPlateInsideOutIsTurnedOver) {
+  for (const double thickness : {.02, .1, .2}) {
+    const test::Triangles plate = plate_of(thickness);
+    test::Triangles turned = plate;
+    for (Triangle& f : turned.faces) std::swap(f[0], f[1]);
+    test::Triangles swapped = plate;  // its sides, and thereby its rim
+    swapped.points.row(2) = thickness - plate.points.row(2).array();
+    for (const test::Triangles& result : {turned, swapped})
+      EXPECT_GE(measure(plate, result).flipped_faces.size(), 16u) << thickness;  // those off its rim
+  }
+}
+
+TEST(Deviation, WhereTheSidesOfAThinPlateChangePlacesFacesAreTurnedOver) {
+  const double thickness = .1;
+  const test::Triangles plate = plate_of(thickness);
+  test::Triangles swapped = plate;
+  for (Eigen::Index v = 0; v < plate.points.cols(); ++v)
+    if ((plate.points.col(v).head<2>() - Eigen::Vector2d(2, 2)).cwiseAbs().maxCoeff() < 1.5)
+      swapped.points(2, v) = thickness - plate.points(2, v);
+  EXPECT_GE(measure(plate, swapped).flipped_faces.size(), 16u);  // those with no corner elsewhere
+}
+
 TEST(Deviation, FacesAtFoldsOfTheReferenceAreNamed) {
   // Its second face is folded back over the first; the result lies over it, the right way up.
   const auto folded =

@@ -292,33 +292,67 @@ bool folds_anew(const MeasuredSurface& surface, int face, const AabbTree& refere
   });
 }
 
-/// Is there no face of the reference about as close to the centre of this face of the result as the closest
-/// one, `at`, that faces the same way? Beside creases and on thin walls there is one. Where bodies cross, or
-/// the face cuts deeper into a rounding than a wall is thick, the closest one may be of another sheet: one of
-/// its own is close then by the size of the face, if the face does not fold back on its neighbours. `body`:
-/// per vertex of the reference.
-bool faces_no_like(const MeasuredSurface& reference, const std::vector<int>& body,
-                   const AabbTree& reference_folds, const MeasuredSurface& result, const Face& face,
-                   const Vec3& n, const ClosestFacePoint& at) {
-  constexpr double as_close = 1.25;   // over the distance of the closest face
-  constexpr double touching = 1e-6;   // of the diagonal
-  constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
-  const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
-  const double length = n.norm();
-  if (!(length > 0)) return false;
-  const ClosestPoint like = reference.tree.closest(centre, [&](int f) {
-    const Vec3 m = area_vector(reference.points, reference.adjacency.faces[f]);
-    return m.dot(n) >= min_cosine * m.norm() * length;
-  });
-  if (like.face < 0) return true;
-  double limit = as_close * (centre - at.point).norm() + touching * reference.extent.diagonal;
-  if (body[reference.adjacency.faces[like.face][0]] !=
-          body[corners_in_sheet(reference, face_at(reference, at))[0]] ||
-      !folds_anew(result, face.id, reference_folds))
-    for (size_t k = 0; k < 3; ++k)
-      limit = std::max(limit, across_sheets * (face.corners[(k + 1) % 3] - face.corners[k]).norm());
-  return like.squared_distance > limit * limit;
-}
+/// Finds the faces of a result that are turned over.
+class TurnedFaces {
+ public:
+  TurnedFaces(const MeasuredSurface& reference, const MeasuredSurface& result)
+      : reference_(reference),
+        result_(result),
+        body_(label_components(reference.adjacency)),
+        folds_(folded_edges(reference)) {}
+
+  /// Is there no face of the reference about as close to the centre of this face of the result as the closest
+  /// one, `at`, that faces the same way, as `n` does? Beside creases and on thin walls there is one. Where
+  /// bodies cross, or the face cuts deeper into a rounding than a wall is thick, the closest one may be of
+  /// another sheet: one of its own is close then by the size of the face.
+  bool faces_no_like(const Face& face, const Vec3& n, const ClosestFacePoint& at) const {
+    const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
+    if (!(n.norm() > 0)) return false;
+    const ClosestPoint like = closest_like(centre, n);
+    if (like.face < 0) return true;
+    double limit = limit_of_like((centre - at.point).norm());
+    if (like.squared_distance > limit * limit && (is_of_other_body(like, at) || lies_on_like(face, n)))
+      for (size_t k = 0; k < 3; ++k)
+        limit = std::max(limit, across_sheets * (face.corners[(k + 1) % 3] - face.corners[k]).norm());
+    return like.squared_distance > limit * limit;
+  }
+
+ private:
+  ClosestPoint closest_like(const Vec3& x, const Vec3& n) const {
+    constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
+    const double length = n.norm();
+    return reference_.tree.closest(x, [&](int f) {
+      const Vec3 m = area_vector(reference_.points, reference_.adjacency.faces[f]);
+      return m.dot(n) >= min_cosine * m.norm() * length;
+    });
+  }
+
+  /// How far a face that is about as close as the closest one may be.
+  double limit_of_like(double closest) const {
+    constexpr double as_close = 1.25;
+    constexpr double touching = 1e-6;  // of the diagonal
+    return as_close * closest + touching * reference_.extent.diagonal;
+  }
+
+  bool is_of_other_body(const ClosestPoint& like, const ClosestFacePoint& at) const {
+    return body_[reference_.adjacency.faces[like.face][0]] !=
+           body_[corners_in_sheet(reference_, face_at(reference_, at))[0]];
+  }
+
+  /// Is a corner of the face on a sheet that faces the same way, and does it not fold back on neighbours?
+  bool lies_on_like(const Face& face, const Vec3& n) const {
+    const auto is_on_like = [&](const Vec3& x) {
+      const double limit = limit_of_like(std::sqrt(reference_.tree.closest(x).squared_distance));
+      return closest_like(x, n).squared_distance <= limit * limit;
+    };
+    return std::ranges::any_of(face.corners, is_on_like) && !folds_anew(result_, face.id, folds_);
+  }
+
+  const MeasuredSurface& reference_;
+  const MeasuredSurface& result_;
+  const std::vector<int> body_;  // per vertex of the reference
+  const AabbTree folds_;         // of the reference
+};
 
 /// Unit vertex normals, weighted by face area, so that a folded sliver does not turn them.
 Mat3X vertex_normals(const MeasuredSurface& surface) {
@@ -346,8 +380,7 @@ Vec3 normal_at(const MeasuredSurface& reference, const Mat3X& normals, const Fac
 void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
                          const std::vector<ClosestFacePoint>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
-  const std::vector<int> body = label_components(reference.adjacency);
-  const AabbTree folds = folded_edges(reference);
+  const TurnedFaces turned(reference, result);
   std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
   const std::span<const Face> faces = result.tree.faces();
   parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {
@@ -357,7 +390,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       const Vec3 n = area_vector(faces[k]);
       const Face& there = face_at(reference, closest[k]);
       flipped[f] = n.dot(normal_at(reference, normals, there, closest[k])) < 0 &&
-                   faces_no_like(reference, body, folds, result, faces[k], n, closest[k]);
+                   turned.faces_no_like(faces[k], n, closest[k]);
       opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
     }
   });

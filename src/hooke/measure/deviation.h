@@ -51,8 +51,10 @@ struct Deviation {
   /// area.
   MaxRms normal_deviation;
   /// Ids, ascending, of faces that are turned over: they oppose the closest face of the reference, and none
-  /// that faces the same way is about as close, or, where they do not fold back on their neighbours, within a
-  /// quarter of their longest edge: so a face may cut into a rounding deeper than a wall is thick.
+  /// that faces the same way is about as close, or is within a quarter of their longest edge where the face
+  /// may have come nearer to another sheet: of another body, or of a wall thinner than the face is deep in a
+  /// rounding, if a corner of it is on its own sheet and it has no fold with a neighbour but where the
+  /// reference has one.
   std::vector<int> flipped_faces;
   /// Ids, ascending, of the flipped faces and of faces that oppose the closest face of the reference, which
   /// lie at folds of the reference itself.

@@ -9,13 +9,17 @@
 
 namespace hooke {
 
-std::vector<Edge> folds_off_creases(const Attempt& attempt, const Mat3X& points) {
-  const MemoryOrder& memory_order = attempt.result.memory_order;
-  std::vector<Edge> creases = memory_order.order.new_edges(attempt.result.crease_edges);
+std::vector<Edge> sorted_creases(const Attempt& attempt) {
+  std::vector<Edge> creases = attempt.result.memory_order.order.new_edges(attempt.result.crease_edges);
   for (Edge& e : creases) std::ranges::sort(e);
   std::ranges::sort(creases);
+  return creases;
+}
+
+std::vector<Edge> folds_off_creases(const Attempt& attempt, const Mat3X& points) {
+  const std::vector<Edge> creases = sorted_creases(attempt);
   std::vector<Edge> folds;
-  const Adjacency& c = *memory_order.adjacency;
+  const Adjacency& c = *attempt.result.memory_order.adjacency;
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
     if (!is_folded_edge(points, c, static_cast<int>(e))) continue;
     Edge ends = c.edges[e];

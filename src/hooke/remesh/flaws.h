@@ -11,6 +11,9 @@ namespace hooke {
 class AttemptMaker;
 struct Attempt;
 
+/// The crease edges of a result: their ends in memory order, ascending, as are the edges.
+std::vector<Edge> sorted_creases(const Attempt& attempt);
+
 /// The edges of a result, which has these points in memory order, that fold and are no creases: their ends,
 /// ascending.
 std::vector<Edge> folds_off_creases(const Attempt& attempt, const Mat3X& points);

@@ -43,6 +43,7 @@ class Mending {
         adjacency_(run.result.memory_order.adjacency),
         c_(*adjacency_),
         points_(order_.gather(vertex_points(run.mesh))),
+        creases_(sorted_creases(run)),
         is_immovable_(c_.vertex_count, 0) {
     for (int v : find_junctions(c_, joined_vertices(run.mesh, order_)).vertices) is_immovable_[v] = 1;
     for (int v = 0; v < c_.vertex_count; ++v)
@@ -242,7 +243,7 @@ class Mending {
 
   /// Of the faces around a vertex.
   struct Score {
-    int wrong = 0;  // how many oppose the input, and how many of their edges fold
+    int wrong = 0;  // how many oppose the input, and how many of their edges fold off creases
     double cotangent = -std::numeric_limits<double>::infinity();  // of their least angle
 
     bool is_better_than(const Score& other) const {
@@ -274,6 +275,12 @@ class Mending {
     return best;
   }
 
+  bool is_crease(int edge) const {
+    Edge ends = c_.edges[edge];
+    std::ranges::sort(ends);
+    return std::ranges::binary_search(creases_, ends);
+  }
+
   /// With the vertex at x.
   Score score_of(int v, const Vec3& x, const Mat3X& points) const {
     const auto corners_of = [&](int f) {
@@ -293,7 +300,8 @@ class Mending {
         const int other = left == f ? right : left;
         if (other < 0) continue;
         const bool at_v = c_.edges[e][0] == v || c_.edges[e][1] == v;
-        score.wrong += (!at_v || other > f) && normal_of(corners_of(other)).dot(normal) < 0;
+        if (at_v && other < f) continue;  // counted already
+        score.wrong += normal_of(corners_of(other)).dot(normal) < 0 && !is_crease(e);
       }
       for (int k = 0; k < 3; ++k) {
         const double dot = (p[(k + 1) % 3] - p[k]).dot(p[(k + 2) % 3] - p[k]);
@@ -371,6 +379,7 @@ class Mending {
   const std::shared_ptr<const Adjacency> adjacency_;
   const Adjacency& c_;
   Mat3X points_;
+  const std::vector<Edge> creases_;  // see sorted_creases()
   std::vector<char> is_immovable_;
   Approach next_ = Approach::corner_best_first;
   bool is_stopped_ = false;

@@ -7,12 +7,12 @@ class AttemptMaker;
 struct Attempt;
 
 /// Moves vertices of the result in rounds so that fewer flaws, or else fewer chords, are left: those that are
-/// too far towards the closest points of the input and those about lost vertices of the input towards these,
-/// as near as they must be, the corners of faces that are turned over, folded or intersecting to better
-/// places on the input; none that is fixed, at a junction or on the boundary or, for faces, on a crease. A
-/// round may make more flaws at first. Where not everything is mended and flaws are few, each place keeps
-/// what the best round has made of it. If nothing gets better, the result stays as it was. Of an interrupted
-/// run only flaws count, in two rounds; a run during whose mending the observer asks to stop is interrupted.
+/// too far towards the closest points of the input, those about lost vertices of the input towards these, and
+/// the corners of faces that are turned over, folded or intersecting to better places on the input; none that
+/// is fixed, at a junction or on the boundary or, for faces, on a crease. A round may make more flaws at
+/// first. Where not everything is mended and flaws are few, each place keeps what the best round has made of
+/// it. If nothing gets better, the result stays as it was. Of an interrupted run only flaws count, in two
+/// rounds; a run during whose mending the observer asks to stop is interrupted.
 void mend(const AttemptMaker& maker, Attempt& run);
 
 }  // namespace hooke

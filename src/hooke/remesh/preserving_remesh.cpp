@@ -26,7 +26,7 @@ constexpr double gradation = .3;
 
 /// Of the vertices: what is wrong at no more of them may stay as it is in the input.
 constexpr double few = .05;
-/// Likewise, in mode `adapt`: shorter edges, which take more runs for hardly better faces, come last.
+/// Likewise, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after that.
 constexpr double very_few = .005;
 
 /// Attempts and what mends them, until one keeps the input.
