@@ -175,9 +175,8 @@ class Mending {
     }
   }
 
-  /// Moves vertices that are too far towards the closest points of the input, as near as they must be, and
-  /// the corners of faces that are turned over, chords, folded or intersecting, none on a crease, to better
-  /// places.
+  /// Moves vertices that are too far towards the closest points of the input, and the corners of faces that
+  /// are turned over, chords, folded or intersecting, none on a crease, to better places.
   void move_to_input(Approach approach, Mat3X& moved) const {
     const auto may_move = [&](int v) { return !is_immovable_[v] && moved.col(v) == points_.col(v); };
     for (const FarVertex& far : run_.preservation().far_vertices) {
@@ -257,8 +256,8 @@ class Mending {
     Score score;
   };
 
-  /// The best place of a vertex: its own if no face is wrong there, else of that and, on the input,
-  /// of those at its own, at the middle of its neighbours, and on the way to each of them.
+  /// The best place of a vertex: its own if nothing is wrong there, else of that and, on the input, of those
+  /// at its own, at the middle of its neighbours, and on the way to each of them.
   Place best_place(int v, const Mat3X& points) const {
     const Vec3 here = points.col(v);
     Place best{v, here, score_of(v, here, points)};

@@ -197,7 +197,7 @@ class PreservingRemesh {
 
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces
   /// of the input where that does not do, in the end all but some. They come first where next to nothing is
-  /// wrong, if that `was_tried` on no other surface.
+  /// wrong, unless that `was_tried` already.
   void keep_narrow_parts(FilterKind filter, bool was_tried, Attempt& best) {
     RemeshOptions start = options_;  // with the tips and junctions that are held
     start.filter.kind = filter;
@@ -269,7 +269,7 @@ class PreservingRemesh {
     const double faces =
         maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
-    const double max_share = maker_.adapts() ? 1 : .9;
+    const double max_share = maker_.adapts() ? 1 : .9;      // of the surface
     const int patience = maker_.adapts() ? 3 : max_rounds;  // rounds, before new places get more rings
     const Adjacency& c = input_.adjacency;
     const std::vector<double> before = maker_.lengths;
