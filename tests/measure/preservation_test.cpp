@@ -58,6 +58,54 @@ TEST(Preservation, ASpikeThatComesOrGoesBreaksIt) {
   EXPECT_EQ(goes.lost_vertices[0].vertex, tip);
 }
 
+/// A round body, and a flat sheet beside one of its vertices, which faces it and lies outside at this height.
+test::Triangles ball_with_sheet(int vertex, double height) {
+  const test::Triangles ball = test::sphere(2);
+  const Vec3 out = ball.points.col(vertex).normalized(), along = out.unitOrthogonal(),
+             across = out.cross(along);
+  test::Triangles sheet = test::grid(4, test::flat);
+  for (Eigen::Index v = 0; v < sheet.points.cols(); ++v) {
+    const Vec3 p = .2 * (sheet.points.col(v) - Vec3(.5, .5, 0));
+    sheet.points.col(v) = (1 + height) * out + p[1] * along + p[0] * across;
+  }
+  return test::both(ball, sheet);
+}
+
+TEST(Preservation, ABodyIsComparedWithItselfWhereAnotherIsNearer) {
+  constexpr int vertex = 20;
+  const test::Triangles before = ball_with_sheet(vertex, .05);
+  test::Triangles after = before;
+  after.points.col(vertex) *= 1.035;  // nearer to the sheet, which has no sagitta, than to the ball
+  Measured a(before), b(after);
+  const auto far = [&] {
+    return measure_preservation({a.surface, a.quality, {}}, {b.surface, b.quality, {}},
+                                measure_deviation(a.surface, b.surface))
+        .far_vertices;
+  };
+  ASSERT_EQ(far().size(), 1u);
+  EXPECT_EQ(far()[0].vertex, vertex);
+  const Eigen::Index of_ball = test::sphere(2).points.cols();
+  for (Eigen::Index v = 0; v < before.points.cols(); ++v) a.surface.bodies.push_back(v < of_ball ? 0 : 1);
+  b.surface.bodies = a.surface.bodies;
+  EXPECT_TRUE(far().empty());
+  after.points.col(vertex) *= 1.5;  // far from both
+  Measured c(after);
+  c.surface.bodies = a.surface.bodies;
+  EXPECT_EQ(measure_preservation({a.surface, a.quality, {}}, {c.surface, c.quality, {}},
+                                 measure_deviation(a.surface, c.surface))
+                .far_vertices.size(),
+            1u);
+}
+
+TEST(Preservation, SizesMayBeThoseOfTheWhole) {
+  const test::Triangles t = test::sphere(2);
+  test::Triangles after = t;
+  after.points.col(5) *= 1.2;
+  EXPECT_FALSE(compare(t, after).holds());
+  EXPECT_TRUE(compare(t, after, {.scale = ReferenceScale{500, .3}}).holds());
+  EXPECT_FALSE(compare(t, after, {.scale = ReferenceScale{2, .3}}).holds());
+}
+
 TEST(Preservation, CrossingsAreNewOnlyWhereThereWereNone) {
   const auto two = [](int fineness, const Vec3& shift) {
     const test::Triangles a = test::sphere(fineness), b = test::sphere(fineness, .3, 1);

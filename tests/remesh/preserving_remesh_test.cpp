@@ -248,6 +248,33 @@ TEST(PreservingRemesh, ShortensEdgesAtPartsTooThinForThem) {
   }
 }
 
+/// Those of the vertices on the right of x, sorted.
+std::vector<std::array<double, 3>> points_right_of(double x, const Mat3X& points) {
+  std::vector<std::array<double, 3>> all;
+  for (const auto& p : points.colwise())
+    if (p[0] > x) all.push_back({p[0], p[1], p[2]});
+  std::ranges::sort(all);
+  return all;
+}
+
+TEST(PreservingRemesh, WhereABodyIsTooThinOthersStayAsTheyAre) {
+  test::Triangles ball = test::sphere(3, .3, 1);
+  ball.points = (4 * ball.points).colwise() + Vec3(10, 0, 0);
+  const test::Triangles t = test::both(thin_disc(), ball);
+  test::Outcome once, kept;
+  const RemeshOptions options = options_for(ConnectivityMode::adapt);
+  once.mesh = kept.mesh = test::with_length(t, 1.5);
+  once.result = remesh(once.mesh, options);
+  kept.result = preserving_remesh(kept.mesh, find_memory_order(kept.mesh), options);
+  EXPECT_TRUE(kept.result.measures->preservation.holds());
+  EXPECT_GT(kept.result.shortened, 0);
+  EXPECT_NE(Mat3X(vertex_points(kept.mesh)), Mat3X(vertex_points(once.mesh)));
+  EXPECT_EQ(points_right_of(5, vertex_points(kept.mesh)), points_right_of(5, vertex_points(once.mesh)));
+  EXPECT_TRUE(kept.result.map.empty());  // which nobody asked for
+  EXPECT_EQ(kept.result.vertex_limits.size(), kept.mesh.n_vertices());
+  EXPECT_EQ(kept.result.input_points, t.points);
+}
+
 /// Sheet metal of thickness 1, 40 and 27 wide, with a round bend.
 test::Triangles bent_sheet() {
   constexpr int in_bend = 9;

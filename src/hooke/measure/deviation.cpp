@@ -9,6 +9,7 @@
 #include "hooke/geometry/closest_faces.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/surface_point.h"
 #include "hooke/mesh/wedges.h"
 
 namespace hooke {
@@ -295,9 +296,11 @@ bool folds_anew(const MeasuredSurface& surface, int face, const AabbTree& refere
 /// Finds the faces of a result that are turned over.
 class TurnedFaces {
  public:
-  TurnedFaces(const MeasuredSurface& reference, const MeasuredSurface& result)
+  /// `normals`: of the vertices of the reference.
+  TurnedFaces(const MeasuredSurface& reference, const MeasuredSurface& result, const Mat3X& normals)
       : reference_(reference),
         result_(result),
+        normals_(normals),
         body_(label_components(reference.adjacency)),
         folds_(folded_edges(reference)) {}
 
@@ -307,7 +310,7 @@ class TurnedFaces {
   /// another sheet: one of its own is close then by the size of the face.
   bool faces_no_like(const Face& face, const Vec3& n, const ClosestFacePoint& at) const {
     const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
-    if (!(n.norm() > 0)) return false;
+    if (!(n.norm() > 0) || faces_like_own_body(face, centre, n)) return false;
     const ClosestPoint like = closest_like(centre, n);
     if (like.face < 0) return true;
     double limit = limit_of_like((centre - at.point).norm());
@@ -319,9 +322,15 @@ class TurnedFaces {
 
  private:
   ClosestPoint closest_like(const Vec3& x, const Vec3& n) const {
+    return closest_like(x, n, [](int) { return true; });
+  }
+
+  template <typename Accepts>
+  ClosestPoint closest_like(const Vec3& x, const Vec3& n, const Accepts& accepts) const {
     constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
     const double length = n.norm();
     return reference_.tree.closest(x, [&](int f) {
+      if (!accepts(f)) return false;
       const Vec3 m = area_vector(reference_.points, reference_.adjacency.faces[f]);
       return m.dot(n) >= min_cosine * m.norm() * length;
     });
@@ -332,6 +341,23 @@ class TurnedFaces {
     constexpr double as_close = 1.25;
     constexpr double touching = 1e-6;  // of the diagonal
     return as_close * closest + touching * reference_.extent.diagonal;
+  }
+
+  /// Does it face the same way as its own body does where that is closest, or about as close?
+  bool faces_like_own_body(const Face& face, const Vec3& centre, const Vec3& n) const {
+    if (reference_.bodies.empty() || result_.bodies.empty()) return false;
+    const int body = result_.body_of_face(face.id);
+    const ClosestPoint own = reference_.closest_on_body(centre, body);
+    if (own.face < 0) return false;
+    const Vec3 weights = on_face(own, reference_.points, reference_.adjacency).weights;
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      normal += weights[static_cast<Eigen::Index>(k)] * normals_.col(reference_.adjacency.faces[own.face][k]);
+    if (n.dot(normal) >= 0) return true;
+    const double limit = limit_of_like(std::sqrt(own.squared_distance));
+    return closest_like(centre, n, [&](int f) {
+             return reference_.body_of_face(f) == body;
+           }).squared_distance <= limit * limit;
   }
 
   bool is_of_other_body(const ClosestPoint& like, const ClosestFacePoint& at) const {
@@ -350,6 +376,7 @@ class TurnedFaces {
 
   const MeasuredSurface& reference_;
   const MeasuredSurface& result_;
+  const Mat3X& normals_;
   const std::vector<int> body_;  // per vertex of the reference
   const AabbTree folds_;         // of the reference
 };
@@ -380,7 +407,7 @@ Vec3 normal_at(const MeasuredSurface& reference, const Mat3X& normals, const Fac
 void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
                          const std::vector<ClosestFacePoint>& closest, Deviation& deviation) {
   const Mat3X normals = vertex_normals(reference);
-  const TurnedFaces turned(reference, result);
+  const TurnedFaces turned(reference, result, normals);
   std::vector<char> flipped(closest.size(), 0), opposing(closest.size(), 0);
   const std::span<const Face> faces = result.tree.faces();
   parallel_for(faces.size(), deviation_block, [&](size_t begin, size_t end) {

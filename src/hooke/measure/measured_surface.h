@@ -28,6 +28,16 @@ struct MeasuredSurface {
   std::vector<int> joined;
   Extent extent;
   AabbTree tree;  // over the faces, with their vertices joined
+  /// Per vertex: a number for the body that it belongs to, the same ones in a result as in its reference;
+  /// empty where there is one body, or it is not known. Where bodies are close, a result is compared with its
+  /// own.
+  std::vector<int> bodies = {};
+
+  int body_of_face(int face) const { return bodies[adjacency.faces[face][0]]; }
+  /// The closest point on the faces of a body. Pre-condition: bodies are known.
+  ClosestPoint closest_on_body(const Vec3& x, int body) const {
+    return tree.closest(x, [&](int f) { return body_of_face(f) == body; });
+  }
 
   /// find_self_intersections() of the tree, which only the first call looks for. Not thread-safe.
   const std::vector<std::array<int, 2>>& self_intersections() const;

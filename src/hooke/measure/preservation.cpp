@@ -43,17 +43,23 @@ double longest_edge(const MeasuredSurface& surface, int face) {
   return longest;
 }
 
-/// The vertices of the surface that lie beyond the limit from the other one, which limit_at(vertex, closest
-/// face of the other) gives. Updates the greatest excess.
+/// The vertices of the surface that lie beyond the limit from the other one and from their own body there,
+/// which limit_at(vertex, closest face of the other) gives. Updates the greatest excess.
 template <typename LimitAt>
-std::vector<FarVertex> vertices_beyond(const MeasuredSurface& surface, const VertexDistances& to_other,
-                                       const LimitAt& limit_at, Preservation& p) {
+std::vector<FarVertex> vertices_beyond(const MeasuredSurface& surface, const MeasuredSurface& other,
+                                       const VertexDistances& to_other, const LimitAt& limit_at,
+                                       Preservation& p) {
   std::vector<FarVertex> beyond;
+  const bool has_bodies = !surface.bodies.empty() && !other.bodies.empty();
   for (int v = 0; v < surface.adjacency.vertex_count; ++v) {
     const int face = to_other.faces[index_of(v)];
     if (face < 0) continue;
     const double distance = to_other.distances[index_of(v)], limit = limit_at(v, face),
                  excess = distance / limit;
+    if (has_bodies && excess > 1 && other.body_of_face(face) != surface.bodies[index_of(v)]) {
+      const ClosestPoint own = other.closest_on_body(surface.points.col(v), surface.bodies[index_of(v)]);
+      if (own.face >= 0 && std::sqrt(own.squared_distance) <= limit_at(v, own.face)) continue;
+    }
     if (excess > p.excess) {
       p.excess = excess;
       p.distance = distance;
@@ -123,10 +129,10 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
 }
 
 void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& result,
-                       const Deviation& deviation, double mean_edge, const PreservationOptions& o,
+                       const Deviation& deviation, const ReferenceScale& scale, const PreservationOptions& o,
                        Preservation& p) {
-  const double rough = o.faceted ? 0 : max_rough * mean_edge;
-  const double least = min_limit * reference.extent.diagonal;
+  const double rough = o.faceted ? 0 : max_rough * scale.mean_edge;
+  const double least = min_limit * scale.diagonal;
   const std::vector<double> sagittas = vertex_sagittas(
       face_sagittas(smooth_arcs(reference, o.feature_angle), reference.adjacency), reference.adjacency);
   const auto limit_of = [&](double sagitta) {
@@ -143,8 +149,9 @@ void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& 
     if (o.max_distance) return *o.max_distance;
     return std::max(limit_of(sagittas[index_of(v)]), max_chord * longest_edge(result, face));
   };
-  p.far_vertices = vertices_beyond(result, deviation.vertices_to_reference, limit_of_result, p);
-  p.lost_vertices = vertices_beyond(reference, deviation.vertices_from_reference, limit_of_reference, p);
+  p.far_vertices = vertices_beyond(result, reference, deviation.vertices_to_reference, limit_of_result, p);
+  p.lost_vertices =
+      vertices_beyond(reference, result, deviation.vertices_from_reference, limit_of_reference, p);
   if (o.max_distance ? std::isinf(*o.max_distance) : !o.keeps_facets) return;
   const std::vector<double> limits =
       o.max_distance ? std::vector<double>(reference.adjacency.faces.size(), *o.max_distance)
@@ -398,15 +405,18 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
                                   const Deviation& deviation, const PreservationOptions& options) {
   Preservation p;
   p.flipped_faces = deviation.flipped_faces.size();
-  measure_distances(reference.surface, result.surface, deviation, result.quality.edge_length.mean, options,
-                    p);
+  const ReferenceScale scale = options.scale.value_or(
+      ReferenceScale{reference.surface.extent.diagonal, result.quality.edge_length.mean});
+  measure_distances(reference.surface, result.surface, deviation, scale, options, p);
   const auto excess_of = [](std::size_t after, std::size_t before) {
     return after - std::min(after, before);
   };
   p.new_folds = excess_of(result.quality.folded_edges, reference.quality.folded_edges);
   p.new_degenerate_faces = excess_of(result.quality.degenerate_faces, reference.quality.degenerate_faces);
-  p.new_crossings = excess_of(result.quality.self_intersections.value_or(0),
-                              reference.quality.self_intersections.value_or(0));
+  const std::size_t crossings = result.quality.self_intersections.value_or(0);
+  p.new_crossings = options.counts_all_crossings
+                        ? crossings
+                        : excess_of(crossings, reference.quality.self_intersections.value_or(0));
   std::optional<int> wrong;  // a face
   if (p.flipped_faces > 0) wrong = face_with_id(result.surface, deviation.flipped_faces.front());
   if (p.new_crossings > 0) {
@@ -427,7 +437,7 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   if (options.keeps_facets)
     measure_sharp_edges(reference.surface, result.surface, options.feature_angle, p);
   else
-    measure_creases(reference, result, min_limit * reference.surface.extent.diagonal, p);
+    measure_creases(reference, result, min_limit * scale.diagonal, p);
   return p;
 }
 

@@ -13,6 +13,12 @@
 
 namespace hooke {
 
+/// The sizes that limits are shares of.
+struct ReferenceScale {
+  double diagonal;   // of the bounding box of the reference
+  double mean_edge;  // of a result
+};
+
 struct PreservationOptions {
   /// Maximum distance between the surfaces, both ways and at all samples, in file units. None: of the
   /// result's vertices from the reference 12 local sagittas (see mesh/sagitta.h), but no more than 2 and half
@@ -24,6 +30,11 @@ struct PreservationOptions {
   /// Also limits the distances between faces and between creases, at samples, to 2 local sagittas or 1e-3 (on
   /// creases 1e-6) of the diagonal: for results with the vertices of a reference whose facets are meant.
   bool keeps_facets = false;
+  /// Those of the whole for a part of it, and of the first result for others; none: those of the surfaces.
+  std::optional<ReferenceScale> scale = {};
+  /// Do crossings where the reference has none break a promise even if there are no more than in the
+  /// reference?
+  bool counts_all_crossings = false;
   /// Are the points of results rounded to 32-bit floats, as in the file that they are for? They are judged as
   /// they stand there.
   bool has_float_points = false;

@@ -1,6 +1,8 @@
 #include "hooke/remesh/attempts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -18,6 +20,7 @@
 #include "hooke/mesh/surface_point.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/run_options.h"
+#include "hooke/remesh/shells.h"
 #include "hooke/springs/sizing.h"
 #include "hooke/springs/target_lengths.h"
 
@@ -73,6 +76,14 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
       throw Error("known polygons; expected connectivity fixed, where faces stay");
     polygon_deviation_ = deviation_of(mesh, *polygons_);
   }
+  if (adapts()) {
+    input_.bodies = shells_of_vertices(input_.adjacency, input_.joined);
+    if (std::ranges::adjacent_find(input_.bodies, std::not_equal_to()) == input_.bodies.end())
+      input_.bodies.clear();
+    body_of_face_.resize(input_.bodies.empty() ? 0 : input_.adjacency.faces.size());
+    for (std::size_t f = 0; f < body_of_face_.size(); ++f)
+      body_of_face_[memory_order_.order.old_face[f]] = input_.body_of_face(static_cast<int>(f));
+  }
   is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
              options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
   const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&
@@ -92,6 +103,27 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
         least_angle_, NearRegularOptions().share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
   preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
   preservation_.keeps_facets = preservation_.faceted && !adapts();
+}
+
+void AttemptMaker::judge_by_scale_of(const Attempt& a) {
+  preservation_.scale = {input_.extent.diagonal, a.result.measures->quality.edge_length.mean};
+  preservation_.counts_all_crossings = a.preservation().new_crossings > 0;
+}
+
+AttemptMaker AttemptMaker::for_part(const PartOfMesh& part, const MemoryOrder& part_order) const {
+  RemeshOptions of_part = options;
+  of_part.constraints = part.constraints_of(options.constraints);
+  of_part.map = true;
+  AttemptMaker maker(part.mesh, part_order, of_part, preservation_, {}, observer_, stopwatch_, false);
+  maker.share_of_whole_ = static_cast<double>(part.faces.size()) / static_cast<double>(mesh_.n_faces());
+  return maker;
+}
+
+Attempt AttemptMaker::restricted(const Attempt& whole, const PartOfMesh& part) {
+  Attempt a;
+  a.result = whole.result;
+  a.mesh = restrict_to_part(part, whole.mesh, a.result);
+  return a;
 }
 
 /// What stands still or is put back is rounded too.
@@ -177,7 +209,11 @@ Attempt AttemptMaker::run() const {
   a.mesh = mesh_;
   set_vertex_values(a.mesh, target_length_property, memory_order_.order.scatter(lengths));
   if (is_mask_) vertex_points(a.mesh) = smoothed_;
-  a.result = remesh(a.mesh, memory_order_, options, observer_, stopwatch_);
+  RunOptions of_run(options);
+  of_run.chosen.map = options.map || !input_.bodies.empty();  // tells which body a vertex is on
+  int& tested = of_run.slivers.pass.min_in_all;
+  tested = static_cast<int>(std::ceil(share_of_whole_ * tested));
+  a.result = run_remesh(a.mesh, memory_order_, of_run, observer_, stopwatch_);
   vertex_points(a.mesh) = as_written(vertex_points(a.mesh));
   if (is_mask_) {
     a.result.steps_smoothed = smoothed_ != vertex_points(mesh_);
@@ -219,9 +255,28 @@ MeasuredSurface AttemptMaker::surface_of(const Attempt& a) const {
   const MemoryOrder& memory_order = a.result.memory_order;
   const bool same_faces = memory_order.adjacency->faces.size() == input_.adjacency.faces.size() &&
                           options.connectivity == ConnectivityMode::fixed;
-  return {memory_order.order.gather(vertex_points(a.mesh)), *memory_order.adjacency,
-          memory_order.order.old_ids(), same_faces ? input_.tree.order() : std::vector<int>(),
-          joined_vertices(a.mesh, memory_order.order)};
+  MeasuredSurface surface(memory_order.order.gather(vertex_points(a.mesh)), *memory_order.adjacency,
+                          memory_order.order.old_ids(), same_faces ? input_.tree.order() : std::vector<int>(),
+                          joined_vertices(a.mesh, memory_order.order));
+  if (!input_.bodies.empty())
+    for (int id : memory_order.order.old_vertex) surface.bodies.push_back(body_at(a.result.map[id]));
+  return surface;
+}
+
+int AttemptMaker::body_of(int face, const Attempt& a) const {
+  const int corner = a.result.memory_order.adjacency->faces[face][0];
+  return body_at(a.result.map[a.result.memory_order.order.old_vertex[corner]]);
+}
+
+ClosestPoint AttemptMaker::closest_on_input(int vertex, const Vec3& x, const Attempt& a) const {
+  const int id = a.result.memory_order.order.old_vertex[vertex];
+  const int body = input_.bodies.empty() ? -1 : body_at(a.result.map[id]);
+  return body < 0 ? input_.tree.closest(x) : input_.closest_on_body(x, body);
+}
+
+/// The body of the input that the place is on; -1 for none.
+int AttemptMaker::body_at(const MapEntry& place) const {
+  return place.position.face < 0 ? -1 : body_of_face_[place.position.face];
 }
 
 void AttemptMaker::place(int vertex, const Vec3& exact, Attempt& a) const {
@@ -229,7 +284,7 @@ void AttemptMaker::place(int vertex, const Vec3& exact, Attempt& a) const {
   const Vec3 point = as_written(exact);
   vertex_points(a.mesh).col(id) = point;
   if (a.result.map.empty()) return;
-  const ClosestPoint closest = input_.tree.closest(point);
+  const ClosestPoint closest = closest_on_input(vertex, point, a);
   if (closest.face < 0) return;
   a.result.map[id].position = {memory_order_.order.old_face[closest.face],
                                on_face(closest, input_.points, input_.adjacency).weights};

@@ -9,6 +9,8 @@
 
 namespace hooke {
 
+struct PartOfMesh;
+
 /// The result of an attempt, with its judgement.
 struct Attempt {
   TriMesh mesh;
@@ -50,6 +52,15 @@ class AttemptMaker {
   RemeshOptions options;        // of the attempts to come; adapt them between these
   std::vector<double> lengths;  // their target lengths, by vertex
 
+  /// Lets all attempts be judged by the sizes of this one.
+  void judge_by_scale_of(const Attempt& attempt);
+
+  /// Makes attempts for a part of the input, which must outlive it, with its memory order, as does this.
+  AttemptMaker for_part(const PartOfMesh& part, const MemoryOrder& part_order) const;
+
+  /// What of an attempt for the whole is on a part, not judged.
+  static Attempt restricted(const Attempt& whole, const PartOfMesh& part);
+
   bool adapts() const { return options.connectivity == ConnectivityMode::adapt; }
 
   const TriMesh& mesh() const { return mesh_; }
@@ -64,6 +75,12 @@ class AttemptMaker {
   bool smooths_mask() const { return is_mask_; }
   /// The id that the caller knows the vertex by.
   int id_of(int vertex) const { return memory_order_.order.old_vertex[vertex]; }
+  /// The body of the input, by one of its vertices, that a face of the result is on. Pre-condition: the input
+  /// has several.
+  int body_of(int face, const Attempt& attempt) const;
+  /// The point of the input that is closest to x: of the body that the vertex of the result is on, in memory
+  /// order, if the input has several.
+  ClosestPoint closest_on_input(int vertex, const Vec3& x, const Attempt& attempt) const;
   /// The vertices with all copies of those at junctions.
   std::vector<int> with_copies(const std::vector<int>& vertices) const;
 
@@ -96,13 +113,14 @@ class AttemptMaker {
  private:
   bool is_marched_mask_at_lengths() const;
   void smooth_steps();
+  int body_at(const MapEntry& place) const;
   void allow_for_rounding();
 
   const TriMesh& mesh_;
   const MemoryOrder& memory_order_;
   const Observer& observer_;
   Stopwatch* stopwatch_;
-  const MeasuredSurface input_;
+  MeasuredSurface input_;
   PreservationOptions preservation_;
   const Quality input_quality_;
   double least_angle_ = 0;
@@ -110,8 +128,10 @@ class AttemptMaker {
   const IntLists* polygons_;
   double polygon_deviation_ = 0;  // of the input, degrees
   bool is_mask_ = false;
-  Mat3X smoothed_;  // of a mask: the points that attempts start from, by the caller's id
-  int steps_ = 0;   // sharp edges of a mask
+  Mat3X smoothed_;                 // of a mask: the points that attempts start from, by the caller's id
+  int steps_ = 0;                  // sharp edges of a mask
+  double share_of_whole_ = 1;      // of the faces, where the input is a part
+  std::vector<int> body_of_face_;  // of the input, by the caller's id; see MeasuredSurface::bodies
 };
 
 }  // namespace hooke

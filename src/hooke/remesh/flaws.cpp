@@ -108,9 +108,12 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
     for (int v : vertices_at_folds(attempt, surface)) is_wrong[v] = 1;
   const Mat3X normals = vertex_normals(surface.points, surface.adjacency),
               input_normals = face_normals(input.points, c);
-  for (std::size_t v = 0; v < is_wrong.size(); ++v)  // on the same side of the surface
+  for (std::size_t v = 0; v < is_wrong.size(); ++v)  // of its own body, on the same side
     if (is_wrong[v])
-      add_closest(surface.points.col(v), [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
+      add_closest(surface.points.col(v), [&](int f) {
+        return input_normals.col(f).dot(normals.col(v)) > 0 &&
+               (surface.bodies.empty() || input.body_of_face(f) == surface.bodies[v]);
+      });
   for (const Edge& lost : p.lost_creases)
     for (int v : lost) is_near[v] = 1;
   if (!p.within_max_distance) add_closest(p.place, [](int) { return true; });

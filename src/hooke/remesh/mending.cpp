@@ -181,7 +181,7 @@ class Mending {
     const auto may_move = [&](int v) { return !is_immovable_[v] && moved.col(v) == points_.col(v); };
     for (const FarVertex& far : run_.preservation().far_vertices) {
       if (!may_move(far.vertex)) continue;
-      const Vec3 way = on_input(points_.col(far.vertex)) - points_.col(far.vertex);
+      const Vec3 way = on_input(far.vertex, points_.col(far.vertex)) - points_.col(far.vertex);
       const double share =
           approach == Approach::corner_best_first ? 1 - well_within * far.limit / way.norm() : 1;
       if (share > 0) moved.col(far.vertex) += share * way;
@@ -199,7 +199,7 @@ class Mending {
         moved.col(place.vertex) = best_place(place.vertex, moved).point;
     for (int v : corners_of_crossing_faces())
       if (!is_limited(v, limited_by_crease) && may_move(v))
-        moved.col(v) = on_input(middle_of_neighbours(v, points_));
+        moved.col(v) = on_input(v, middle_of_neighbours(v, points_));
   }
 
   /// Or of chords, if there are some to be removed, and the ends of folds, if there are more than in the
@@ -232,7 +232,7 @@ class Mending {
     return vertices;
   }
 
-  Vec3 on_input(const Vec3& x) const { return input_.tree.closest(x).point; }
+  Vec3 on_input(int v, const Vec3& x) const { return maker_.closest_on_input(v, x, run_).point; }
 
   Vec3 middle_of_neighbours(int v, const Mat3X& points) const {
     Vec3 sum = Vec3::Zero();
@@ -263,7 +263,7 @@ class Mending {
     Place best{v, here, score_of(v, here, points)};
     if (best.score.wrong == 0) return best;
     const auto try_place = [&](const Vec3& x) {
-      const Vec3 point = on_input(x);
+      const Vec3 point = on_input(v, x);
       const Score score = score_of(v, point, points);
       if (score.is_better_than(best.score)) best = {v, point, score};
     };
@@ -306,7 +306,7 @@ class Mending {
         const double dot = (p[(k + 1) % 3] - p[k]).dot(p[(k + 2) % 3] - p[k]);
         score.cotangent = std::max(score.cotangent, dot / normal.norm());
       }
-      const int closest = input_.tree.closest((p[0] + p[1] + p[2]) / 3).face;
+      const int closest = maker_.closest_on_input(v, (p[0] + p[1] + p[2]) / 3, run_).face;
       score.wrong += normal.dot(doubled_area_vector(input_.points, input_.adjacency.faces[closest])) <= 0;
     }
     return score;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/disjoint_sets.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -16,6 +18,7 @@
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/mending.h"
 #include "hooke/remesh/remesh.h"
+#include "hooke/remesh/shells.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {
@@ -34,6 +37,16 @@ class PreservingRemesh {
  public:
   explicit PreservingRemesh(AttemptMaker& maker)
       : maker_(maker), input_(maker.input()), options_(maker.options), asked_(maker.lengths) {}
+
+  /// For some shells of a mesh: `first` is the first attempt for these, `max_growth` by how much shorter
+  /// lengths may multiply the number of faces, and `keeps_first` whether faces are kept before anything else
+  /// is tried.
+  PreservingRemesh(AttemptMaker& maker, Attempt first, double max_growth, bool keeps_first)
+      : PreservingRemesh(maker) {
+    first_ = std::move(first);
+    max_growth_ = max_growth;
+    keeps_first_ = keeps_first;
+  }
 
   Attempt best() {
     const RemeshOptions start = options_;
@@ -61,10 +74,11 @@ class PreservingRemesh {
   /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input.
   Attempt best_with_lengths() {
     Attempt unmended;
-    Attempt best = attempt(maker_.adapts() ? nullptr : &unmended);
+    Attempt best = attempt(maker_.adapts() && input_.bodies.empty() ? nullptr : &unmended);
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
+    if (maker_.adapts()) remesh_shells(unmended, best);
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest =
         !best.is_interrupted() && !best.is_good() && may_keep_faces(maker_.adapts() ? best : unmended);
@@ -73,6 +87,7 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, keeps_rest, best);
+      if (maker_.adapts() && is_of_part() && !best.is_interrupted() && !best.keeps_promises()) keep_all(best);
       if (options_.connectivity == ConnectivityMode::flip) keep_faces(best, best);
     }
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
@@ -86,8 +101,8 @@ class PreservingRemesh {
         run.keeps_promises() || has_worse_faces(run))
       return false;
     const std::vector<int> wrong = input_vertices_at_flaws(maker_, run);
-    return !wrong.empty() &&
-           std::ssize(wrong) < (maker_.adapts() ? very_few : few) * input_.adjacency.vertex_count;
+    return !wrong.empty() && (keeps_first_ || std::ssize(wrong) < (maker_.adapts() ? very_few : few) *
+                                                                      input_.adjacency.vertex_count);
   }
 
   /// Is so much wrong that no other attempt with these lengths is of use, in a mesh where it takes long? Not
@@ -121,7 +136,7 @@ class PreservingRemesh {
   /// vertices of the input are lost in spite of that, or angles get small, but nothing else is wrong, there
   /// is a second run with these held; it is discarded if it is interrupted.
   Attempt attempt(Attempt* unmended = nullptr) {
-    Attempt run = maker_.run();
+    Attempt run = first_ ? *std::exchange(first_, std::nullopt) : maker_.run();
     maker_.judge(run);
     if (unmended != nullptr) *unmended = run;
     if (!run.result.measures || run.is_interrupted()) return run;
@@ -195,6 +210,77 @@ class PreservingRemesh {
     if (next.is_better_than(best)) best = std::move(next);
   }
 
+  /// Per vertex of the input, by id: a number for its shell if something is wrong there, the same one for
+  /// shells whose results cross; else -1.
+  std::vector<int> shells_at_flaws(const Attempt& run) const {
+    std::vector<int> shell = input_.bodies;
+    DisjointSets sets(shell.size());
+    for (const auto& [f, g] : run.preservation().crossings)
+      sets.join({maker_.body_of(f, run), maker_.body_of(g, run)});
+    for (int& s : shell) s = sets.root(s);
+    std::vector<int> number(shell.size(), -1), numbers(shell.size(), -1);
+    for (int v : input_vertices_at_flaws(maker_, run)) number[shell[v]] = 0;
+    int count = 0;
+    for (int& n : number)
+      if (n == 0) n = count++;
+    for (std::size_t v = 0; v < shell.size(); ++v)
+      numbers[maker_.id_of(static_cast<int>(v))] = number[shell[v]];
+    return numbers;
+  }
+
+  /// If only some shells are wrong, or several are, remeshes each of these by itself, with all that mends it;
+  /// where nothing does, it stays as it is in the input. Shells that then cross are remeshed together.
+  void remesh_shells(const Attempt& unmended, Attempt& best) {
+    if (is_of_part() || input_.bodies.empty() || best.is_interrupted() || best.keeps_promises() ||
+        maker_.smooths_mask())
+      return;
+    constexpr int max_rounds = 3;
+    const bool keeps_first = may_keep_faces(best);
+    maker_.judge_by_scale_of(best);
+    Attempt last = best;
+    std::vector<int> before;
+    for (int round = 0; round < max_rounds && !last.keeps_promises(); ++round) {
+      const std::vector<int> shells = shells_at_flaws(last);
+      if (shells == before || std::ranges::all_of(shells, [](int s) { return s == 0; })) return;
+      const std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), shells);
+      const std::vector<Attempt> attempts = attempts_for(parts, unmended, keeps_first);
+      if (attempts.size() < parts.size()) {
+        best.result.reason = StopReason::interrupted;
+        return;
+      }
+      std::vector<RemeshedMesh> results;
+      for (const Attempt& a : attempts) results.push_back({a.mesh, a.result});
+      replace_parts(parts, results, last.mesh, last.result);
+      maker_.judge(last);
+      if (last.is_better_than(best)) best = last;
+      before = shells;
+    }
+  }
+
+  /// The best attempts for parts of the input; fewer if the work is interrupted.
+  std::vector<Attempt> attempts_for(const std::vector<PartOfMesh>& parts, const Attempt& whole,
+                                    bool keeps_first) const {
+    std::vector<Attempt> attempts;
+    const double growth = max_faces(whole) / whole.result.adaptation.target_faces;
+    for (const PartOfMesh& part : parts) {
+      const MemoryOrder order = find_memory_order(part.mesh);
+      AttemptMaker maker = maker_.for_part(part, order);
+      Attempt best =
+          PreservingRemesh(maker, AttemptMaker::restricted(whole, part), growth, keeps_first).best();
+      if (best.is_interrupted()) break;
+      attempts.push_back(std::move(best));
+    }
+    return attempts;
+  }
+
+  bool is_of_part() const { return max_growth_.has_value(); }
+
+  /// The most faces that shorter lengths may take.
+  double max_faces(const Attempt& run) const {
+    const double faces = run.result.adaptation.target_faces;
+    return max_growth_ ? *max_growth_ * faces : std::max(std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces);
+  }
+
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces
   /// of the input where that does not do, in the end all but some. They come first where next to nothing is
   /// wrong, unless that `was_tried` already.
@@ -218,7 +304,6 @@ class PreservingRemesh {
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
     constexpr double max_faces_in_vain = 1e4;
     const double faces = best.result.adaptation.target_faces;
-    const double max_faces = std::max(std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces);
     const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
     const auto covering = [&](const std::vector<double>& lengths) {
@@ -234,7 +319,8 @@ class PreservingRemesh {
       limit_gradation(input_.points, c, gradation, longest);
       const std::vector<double> before = lengths;
       for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked_[v], longest[v]);
-      if (lengths == before || faces * std::pow(covering(asked_) / covering(lengths), 2) > max_faces) break;
+      if (lengths == before || faces * std::pow(covering(asked_) / covering(lengths), 2) > max_faces(best))
+        break;
       maker_.lengths = lengths;
       options_ = start;
       const bool projects = last.result.rescue == Rescue::closest;
@@ -316,6 +402,21 @@ class PreservingRemesh {
       last = std::move(next);
     }
     frozen = frozen_before;
+  }
+
+  /// Leaves all faces of the input.
+  void keep_all(Attempt& best) {
+    std::vector<int>& frozen = options_.constraints.frozen_vertices;
+    frozen.resize(input_.adjacency.vertex_count);
+    std::iota(frozen.begin(), frozen.end(), 0);
+    Attempt next = maker_.run();
+    if (next.is_interrupted()) {
+      best.result.reason = StopReason::interrupted;
+      return;
+    }
+    maker_.judge(next);
+    next.result.rescue = Rescue::kept_faces;
+    if (next.is_better_than(best)) best = std::move(next);
   }
 
   /// The vertices with half of the length asked for or less.
@@ -467,8 +568,11 @@ class PreservingRemesh {
 
   AttemptMaker& maker_;
   const MeasuredSurface& input_;
-  RemeshOptions& options_;           // of the attempts to come
-  const std::vector<double> asked_;  // target lengths, by vertex of the input in memory order
+  RemeshOptions& options_;            // of the attempts to come
+  const std::vector<double> asked_;   // target lengths, by vertex of the input in memory order
+  std::optional<Attempt> first_;      // that is at hand
+  std::optional<double> max_growth_;  // of the number of faces, by shorter lengths, in a part
+  bool keeps_first_ = false;
 };
 
 }  // namespace
@@ -483,6 +587,7 @@ RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const Re
   Attempt best = best_attempt(true);
   if (best.result.steps_smoothed && best.result.measures && !best.is_interrupted() && !best.keeps_promises())
     best = best_attempt(false);
+  if (!options.map) best.result.map.clear();
   mesh = std::move(best.mesh);
   if (vertex_points(mesh).allFinite())  // vertices may have been put back since
     set_residual_forces(mesh, best.result.memory_order, options.altitude);

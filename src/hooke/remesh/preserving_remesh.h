@@ -34,7 +34,9 @@ struct KnownInput {
 /// input, unless so much is wrong in a large mesh that this is of no use; after that again with what
 /// surrounds the rest, and in mode `flip` with all faces of the input. Where one length is asked for all
 /// edges and faces get worse on average, or nothing keeps the input, all is tried with the lengths of the
-/// input, see RemeshResult::has_lengths_of_input; at last all vertices go back. In mode `adapt`, only
+/// input, see RemeshResult::has_lengths_of_input; at last all vertices go back. In mode `adapt` each of
+/// several shells at which something is wrong is remeshed by itself, those that cross together, and stays as
+/// it is in the input where nothing else does; the other shells stay as they are in the first run. Only
 /// where something is wrong, target lengths get shorter about it, see RemeshResult::shortened, and where that
 /// does not do, or first where next to nothing is wrong, the faces of the input stay, unless that were all of
 /// the surface. Of a result that is made anew it keeps one with fewer flaws or, with as many, with a larger

@@ -285,7 +285,7 @@ class OuterIterations {
   void conclude() {
     result_.folded_faces = faces_of_result(work_, guards_.folded_faces(work_.vertices.positions));
     result_.vertex_limits = vertex_limits_of_result(work_, guards_, options_.chosen.constraints);
-    result_.creases = count_creases(work_);
+    result_.creases = count_creases(*work_.adjacency, work_.order, result_.vertex_limits);
     result_.crease_edges = crease_edges(*work_.adjacency);
     for (Edge& e : result_.crease_edges)
       for (int& v : e) v = work_.order.old_vertex[v];

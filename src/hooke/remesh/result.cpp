@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hooke/constraints/constraints.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/disjoint_sets.h"
+#include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/remesh/limiting_factors.h"
 #include "hooke/working_mesh/workspace.h"
 
 namespace hooke {
@@ -28,23 +30,30 @@ IterationRecord iteration_record(const Workspace& work, const char* stage, const
   return record;
 }
 
-CreaseCounts count_creases(const Workspace& work) {
-  const Constraints& constraints = work.vertices.constraints;
+CreaseCounts count_creases(const Adjacency& c, const Permutation& order,
+                           const std::vector<unsigned char>& vertex_limits) {
+  constexpr unsigned char fixed = limited_at_corner | limited_by_request | put_back;
   CreaseCounts counts;
-  if (constraints.creases.empty()) return counts;
-  counts.curves = constraints.crease_curves;
-  counts.edges = static_cast<int>(constraints.creases.size());
-  counts.kept = static_cast<int>(crease_edges(*work.adjacency).size());
-  counts.charts = work.chart_count();
-  std::vector<int> ends;
-  for (const Edge& e : constraints.creases) ends.insert(ends.end(), e.begin(), e.end());
-  std::ranges::sort(ends);
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  for (int v : ends) {
-    const bool inner = constraints.freedom[v] == Freedom::curve || constraints.at_bend(v) ||
-                       constraints.slides_with_copies(v);
-    ++(inner ? counts.curve_vertices : counts.corners);
-  }
+  const std::vector<Edge> edges = crease_edges(c);
+  if (edges.empty()) return counts;
+  counts.edges = counts.kept = static_cast<int>(edges.size());
+  counts.charts = measure_topology(cut_open(c)).components;
+  std::vector<int> crease_at(c.vertex_count, -1);  // one of those at the vertex
+  std::vector<char> is_corner(c.vertex_count, 0);
+  DisjointSets curves(edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (int v : edges[e]) {
+      const bool is_first = crease_at[v] < 0;
+      if (is_first) {
+        crease_at[v] = static_cast<int>(e);
+        is_corner[v] = (vertex_limits[order.old_vertex[v]] & fixed) != 0;
+        ++(is_corner[v] ? counts.corners : counts.curve_vertices);
+      } else if (!is_corner[v]) {
+        curves.join({crease_at[v], static_cast<int>(e)});
+      }
+    }
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    counts.curves += curves.root(static_cast<int>(e)) == static_cast<int>(e);
   return counts;
 }
 

@@ -46,8 +46,10 @@ struct CreaseCounts {
   int dropped = 0;         // those of them that were taken for noise
 };
 
-/// The counts for the creases of the workspace.
-CreaseCounts count_creases(const Workspace& work);
+/// The counts for the creases of a result. `order`: from its ids to the adjacency; `vertex_limits`: by these
+/// ids, see limiting_factors.h.
+CreaseCounts count_creases(const Adjacency& adjacency, const Permutation& order,
+                           const std::vector<unsigned char>& vertex_limits);
 
 /// How a result came to keep what it must keep of the input, where the first run did not.
 enum class Rescue {

@@ -164,11 +164,6 @@ SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points,
                       has_creases ? label_components(*cut) : std::vector<int>(), lengths);
 }
 
-int Workspace::chart_count() const {
-  const Adjacency cut = cut_open(*adjacency);
-  return measure_topology(cut).components;
-}
-
 void Workspace::refit() {
   const Stage stage(stopwatch, "fit");
   refitted_ = true;

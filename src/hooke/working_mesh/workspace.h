@@ -110,9 +110,6 @@ struct Workspace {
   /// A mark for each vertex at a junction; empty without any.
   std::vector<char> junction_marks() const;
 
-  /// Number of smooth charts: the connected components of the mesh cut open along its creases.
-  int chart_count() const;
-
   Stopwatch* stopwatch;
   Normalisation normalisation;
   Permutation order;  // to the ids of the result, those of the input until replace_mesh(); `faces` is empty

@@ -1,0 +1,268 @@
+#include "hooke/remesh/shells.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "hooke/mesh/disjoint_sets.h"
+#include "hooke/mesh/junctions.h"
+#include "hooke/mesh/wedges.h"
+#include "hooke/remesh/result.h"
+
+namespace hooke {
+namespace {
+
+/// The index of the number in a sorted list; -1 if it is not there.
+int index_in(const std::vector<int>& sorted, int number) {
+  const auto found = std::ranges::lower_bound(sorted, number);
+  return found != sorted.end() && *found == number ? static_cast<int>(found - sorted.begin()) : -1;
+}
+
+/// The list `joined` for vertices of which `copies_of` names those that are copies of each other.
+std::vector<int> first_copies(const std::vector<int>& copies_of) {
+  std::vector<int> first(copies_of.size(), -1), joined;
+  for (std::size_t v = 0; v < copies_of.size(); ++v) {
+    int& known = first[copies_of[v]];
+    if (known < 0) known = static_cast<int>(v);
+    joined.push_back(known);
+  }
+  return joined;
+}
+
+/// What of a result goes into another one. `map`: per vertex of the result, in ids of the input of the other.
+struct Piece {
+  const TriMesh& mesh;
+  const RemeshResult& result;
+  std::vector<MapEntry> map;
+  std::vector<int> vertices = {};  // ids in the mesh, ascending
+  std::vector<int> id = {};        // per vertex of the mesh: its id in the other one, or -1
+};
+
+Piece piece_of(const PartOfMesh& part, const RemeshedMesh& remeshed) {
+  Piece piece{remeshed.mesh, remeshed.result, remeshed.result.map};
+  for (MapEntry& e : piece.map) {
+    if (e.vertex >= 0) e.vertex = part.vertices[e.vertex];
+    if (e.position.face >= 0) e.position.face = part.faces[e.position.face];
+  }
+  piece.vertices.resize(piece.map.size());
+  std::iota(piece.vertices.begin(), piece.vertices.end(), 0);
+  return piece;
+}
+
+/// The components of a result that lie on these faces of the input, which are sorted, or those that do not.
+Piece piece_on(const RemeshedMesh& remeshed, const std::vector<int>& faces, bool on_faces) {
+  Piece piece{remeshed.mesh, remeshed.result, remeshed.result.map};
+  const MemoryOrder& order = piece.result.memory_order;
+  const std::vector<int> shells = shells_of_vertices(*order.adjacency, {});
+  std::vector<char> is_on(shells.size(), 0);
+  for (std::size_t v = 0; v < shells.size(); ++v)
+    if (std::ranges::binary_search(faces, piece.map[order.order.old_vertex[v]].position.face))
+      is_on[shells[v]] = 1;
+  for (std::size_t v = 0; v < shells.size(); ++v)
+    if ((is_on[shells[v]] != 0) == on_faces) piece.vertices.push_back(order.order.old_vertex[v]);
+  std::ranges::sort(piece.vertices);
+  return piece;
+}
+
+/// Numbers the vertices of the pieces: those of the input in their order, then the new ones. Returns how many
+/// there are.
+int number_vertices(std::vector<Piece>& pieces) {
+  struct Vertex {
+    int origin;
+    std::size_t piece;
+    int id;
+  };
+  std::vector<Vertex> old, fresh;
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    for (int v : pieces[p].vertices) {
+      const int origin = pieces[p].map[v].vertex;
+      (origin >= 0 ? old : fresh).push_back({origin, p, v});
+    }
+  std::ranges::sort(old, {}, &Vertex::origin);
+  for (Piece& piece : pieces) piece.id.assign(piece.map.size(), -1);
+  int count = 0;
+  for (const auto* vertices : {&old, &fresh})
+    for (const Vertex& v : *vertices) pieces[v.piece].id[v.id] = count++;
+  return count;
+}
+
+/// Makes a mesh of the pieces, and sets what the result tells of its vertices, faces and edges.
+TriMesh assemble(std::vector<Piece> pieces, RemeshResult& result) {
+  const int count = number_vertices(pieces);
+  Mat3X points(3, count);
+  std::vector<double> lengths(count);
+  std::vector<int> copies_of(count);
+  std::vector<Triangle> faces;
+  std::vector<MapEntry> map(count);
+  std::vector<unsigned char> limits(count);
+  std::vector<int> folded;
+  std::vector<Edge> creases;
+  bool has_junctions = false;
+  for (const Piece& piece : pieces) {
+    const auto piece_points = vertex_points(piece.mesh);
+    const std::vector<double> piece_lengths = vertex_values(piece.mesh, target_length_property);
+    const std::vector<int> joined = joined_vertices(piece.mesh);
+    has_junctions = has_junctions || !joined.empty();
+    for (int v : piece.vertices) {
+      const int id = piece.id[v];
+      points.col(id) = piece_points.col(v);
+      lengths[id] = piece_lengths[v];
+      copies_of[id] = joined.empty() ? id : piece.id[joined[v]];
+      map[id] = piece.map[v];
+      limits[id] = piece.result.vertex_limits[v];
+    }
+    const std::vector<Triangle> triangles = triangles_of(piece.mesh);
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      if (piece.id[triangles[f][0]] < 0) continue;
+      if (std::ranges::binary_search(piece.result.folded_faces, static_cast<int>(f)))
+        folded.push_back(static_cast<int>(faces.size()));
+      faces.push_back(triangles[f]);
+      for (int& v : faces.back()) v = piece.id[v];
+    }
+    for (const auto& [a, b] : piece.result.crease_edges)
+      if (piece.id[a] >= 0) creases.push_back({piece.id[a], piece.id[b]});
+  }
+  result.map = std::move(map);
+  result.vertex_limits = std::move(limits);
+  result.folded_faces = std::move(folded);
+  result.crease_edges = std::move(creases);
+  result.memory_order = find_memory_order(count, faces);
+  const Permutation& order = result.memory_order.order;
+  Adjacency creased = *result.memory_order.adjacency;
+  split_wedges(creased, order.new_edges(result.crease_edges));
+  const CreaseCounts of_input = result.creases;
+  result.creases = count_creases(creased, order, result.vertex_limits);
+  result.creases.sharp = of_input.sharp;
+  result.creases.dropped = of_input.dropped;
+  TriMesh mesh = build_mesh(points, *result.memory_order.adjacency, order.old_ids());
+  set_vertex_values(mesh, target_length_property, lengths);
+  if (has_junctions) set_joined_vertices(mesh, first_copies(copies_of));
+  return mesh;
+}
+
+void add_counts(const RemeshResult& part, RemeshResult& result) {
+  result.iterations.insert(result.iterations.end(), part.iterations.begin(), part.iterations.end());
+  result.flips.flow_rounds += part.flips.flow_rounds;
+  result.flips.spring_rounds += part.flips.spring_rounds;
+  result.flips.flips += part.flips.flips;
+  result.flips.passes += part.flips.passes;
+  result.flips.evaluations += part.flips.evaluations;
+  result.adaptation.rounds += part.adaptation.rounds;
+  result.adaptation.count_rounds += part.adaptation.count_rounds;
+  result.adaptation.splits += part.adaptation.splits;
+  result.adaptation.collapses += part.adaptation.collapses;
+  result.adaptation.flips += part.adaptation.flips;
+  result.unprojected += part.unprojected;
+  result.projection += part.projection;
+  result.limited_steps += part.limited_steps;
+  result.rescue = std::max(result.rescue, part.rescue);
+  result.shortened += part.shortened;
+}
+
+}  // namespace
+
+std::vector<int> shells_of_vertices(const Adjacency& adjacency, const std::vector<int>& joined) {
+  DisjointSets shells(adjacency.vertex_count);
+  for (const Edge& e : adjacency.edges) shells.join(e);
+  for (std::size_t v = 0; v < joined.size(); ++v) shells.join({static_cast<int>(v), joined[v]});
+  std::vector<int> shell(adjacency.vertex_count);
+  for (std::size_t v = 0; v < shell.size(); ++v) shell[v] = shells.root(static_cast<int>(v));
+  return shell;
+}
+
+std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const std::vector<int>& part_of_vertex) {
+  std::vector<PartOfMesh> parts;
+  std::vector<int> id;  // in its part
+  for (std::size_t v = 0; v < part_of_vertex.size(); ++v) {
+    const int number = part_of_vertex[v];
+    if (number >= std::ssize(parts)) parts.resize(number + 1);
+    id.push_back(number < 0 ? -1 : static_cast<int>(parts[number].vertices.size()));
+    if (number >= 0) parts[number].vertices.push_back(static_cast<int>(v));
+  }
+  std::vector<std::vector<Triangle>> triangles(parts.size());
+  const std::vector<Triangle> all = triangles_of(whole);
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    const int number = part_of_vertex[all[f][0]];
+    if (number < 0) continue;
+    parts[number].faces.push_back(static_cast<int>(f));
+    triangles[number].push_back({id[all[f][0]], id[all[f][1]], id[all[f][2]]});
+  }
+  const auto points = vertex_points(whole);
+  const std::vector<double> lengths = vertex_values(whole, target_length_property);
+  const std::vector<int> joined = joined_vertices(whole);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    PartOfMesh& part = parts[p];
+    const MemoryOrder order = find_memory_order(static_cast<int>(part.vertices.size()), triangles[p]);
+    part.mesh = build_mesh(points(Eigen::all, part.vertices), *order.adjacency, order.order.old_ids());
+    std::vector<double> part_lengths;
+    std::vector<int> part_joined;
+    for (int v : part.vertices) {
+      part_lengths.push_back(lengths[v]);
+      if (!joined.empty()) part_joined.push_back(id[joined[v]]);
+    }
+    set_vertex_values(part.mesh, target_length_property, part_lengths);
+    if (!joined.empty()) set_joined_vertices(part.mesh, part_joined);
+  }
+  return parts;
+}
+
+int PartOfMesh::vertex_of(int v) const {
+  return index_in(vertices, v);
+}
+
+ConstraintOptions PartOfMesh::constraints_of(const ConstraintOptions& whole) const {
+  ConstraintOptions part = whole;
+  for (std::vector<int>* list : {&part.fixed_vertices, &part.frozen_vertices}) {
+    for (int& v : *list) v = vertex_of(v);
+    std::erase(*list, -1);
+  }
+  for (std::vector<Edge>* list : {&part.seams, &part.junction_edges, &part.hard_edges}) {
+    for (Edge& e : *list) e = {vertex_of(e[0]), vertex_of(e[1])};
+    std::erase_if(*list, [](const Edge& e) { return e[0] < 0 || e[1] < 0; });
+  }
+  return part;
+}
+
+TriMesh restrict_to_part(const PartOfMesh& part, const TriMesh& mesh, RemeshResult& result) {
+  Piece piece = piece_on({mesh, result}, part.faces, true);
+  for (int v : piece.vertices) {
+    MapEntry& e = piece.map[v];
+    if (e.vertex >= 0) e.vertex = part.vertex_of(e.vertex);
+    if (e.position.face >= 0) e.position.face = index_in(part.faces, e.position.face);
+  }
+  RemeshResult of_part;
+  of_part.reason = result.reason;
+  of_part.rescue = result.rescue;
+  of_part.input_points = result.input_points(Eigen::all, part.vertices);
+  for (const auto& [a, b] : result.input_creases)
+    if (const Edge e = {part.vertex_of(a), part.vertex_of(b)}; e[0] >= 0) of_part.input_creases.push_back(e);
+  TriMesh restricted = assemble({std::move(piece)}, of_part);
+  of_part.adaptation.target_faces = static_cast<double>(restricted.n_faces());
+  result = std::move(of_part);
+  return restricted;
+}
+
+void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<RemeshedMesh>& of_parts,
+                   TriMesh& mesh, RemeshResult& result) {
+  std::vector<int> replaced;                                     // faces of the input
+  std::vector<char> is_replaced(result.input_points.cols(), 0);  // by vertex of the input
+  for (const PartOfMesh& part : parts) {
+    replaced.insert(replaced.end(), part.faces.begin(), part.faces.end());
+    for (int v : part.vertices) is_replaced[v] = 1;
+  }
+  std::ranges::sort(replaced);
+  RemeshResult all = result;
+  std::erase_if(all.input_creases, [&](const Edge& e) { return is_replaced[e[0]] != 0; });
+  std::vector<Piece> pieces = {piece_on({mesh, result}, replaced, false)};
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    pieces.push_back(piece_of(parts[p], of_parts[p]));
+    for (const auto& [a, b] : of_parts[p].result.input_creases)
+      all.input_creases.push_back({parts[p].vertices[a], parts[p].vertices[b]});
+    add_counts(of_parts[p].result, all);
+  }
+  TriMesh assembled = assemble(std::move(pieces), all);
+  mesh = std::move(assembled);
+  result = std::move(all);
+}
+
+}  // namespace hooke

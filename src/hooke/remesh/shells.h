@@ -1,0 +1,50 @@
+// Shells: the connected parts of a mesh, each with all sheets that meet at its junctions. They can be
+// remeshed one by one.
+#pragma once
+
+#include <vector>
+
+#include "hooke/constraints/constraint_options.h"
+#include "hooke/mesh/mesh.h"
+
+namespace hooke {
+
+struct RemeshResult;
+
+/// Per vertex, in the order of the adjacency: a vertex that stands for its shell. `joined` as in
+/// mesh/junctions.h.
+std::vector<int> shells_of_vertices(const Adjacency& adjacency, const std::vector<int>& joined);
+
+/// Some shells of a mesh, as a mesh of their own.
+struct PartOfMesh {
+  std::vector<int> vertices, faces;  // their ids in the whole mesh, ascending
+  TriMesh mesh;                      // with target lengths and junctions
+
+  /// The id in the part of a vertex of the whole; -1 if it is of another one.
+  int vertex_of(int whole) const;
+
+  /// The constraints of a remeshing of the whole that are about the part.
+  ConstraintOptions constraints_of(const ConstraintOptions& whole) const;
+};
+
+/// The parts of a mesh. `part_of_vertex`: by id the number of its part, from 0, or -1 for none; the same for
+/// all vertices of a shell.
+std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const std::vector<int>& part_of_vertex);
+
+/// A result of mode `adapt`, without its measures.
+struct RemeshedMesh {
+  const TriMesh& mesh;
+  const RemeshResult& result;  // with its map
+};
+
+/// Makes of a result of the whole mesh one of the part, whose vertices and faces are the only ones that it
+/// knows of, without the counts of what was done; returns its mesh. Pre-condition: it has a map.
+TriMesh restrict_to_part(const PartOfMesh& part, const TriMesh& mesh, RemeshResult& result);
+
+/// Puts the results of some parts in the places of these in a result of the whole mesh. Vertices of the input
+/// come in their order, new ones follow. The counts of what was done are those of all these results.
+/// Pre-conditions: both have maps; no two parts have a vertex in common.
+void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<RemeshedMesh>& of_parts,
+                   TriMesh& mesh, RemeshResult& result);
+
+}  // namespace hooke
