@@ -413,10 +413,11 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
   };
   p.new_folds = excess_of(result.quality.folded_edges, reference.quality.folded_edges);
   p.new_degenerate_faces = excess_of(result.quality.degenerate_faces, reference.quality.degenerate_faces);
-  const std::size_t crossings = result.quality.self_intersections.value_or(0);
-  p.new_crossings = options.counts_all_crossings
-                        ? crossings
-                        : excess_of(crossings, reference.quality.self_intersections.value_or(0));
+  const auto crossings = static_cast<long long>(result.quality.self_intersections.value_or(0)),
+             allowed = std::max(static_cast<long long>(reference.quality.self_intersections.value_or(0)) +
+                                    options.more_crossings,
+                                0LL);
+  p.new_crossings = static_cast<std::size_t>(std::max(crossings - allowed, 0LL));
   std::optional<int> wrong;  // a face
   if (p.flipped_faces > 0) wrong = face_with_id(result.surface, deviation.flipped_faces.front());
   if (p.new_crossings > 0) {

@@ -32,9 +32,9 @@ struct PreservationOptions {
   bool keeps_facets = false;
   /// Those of the whole for a part of it, and of the first result for others; none: those of the surfaces.
   std::optional<ReferenceScale> scale = {};
-  /// Do crossings where the reference has none break a promise even if there are no more than in the
-  /// reference?
-  bool counts_all_crossings = false;
+  /// How many self-intersections more than the reference a result may have, or fewer; crossings where the
+  /// reference has none break a promise only beyond that. For a part: what other parts leave to it.
+  long long more_crossings = 0;
   /// Are the points of results rounded to 32-bit floats, as in the file that they are for? They are judged as
   /// they stand there.
   bool has_float_points = false;

@@ -107,14 +107,20 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
 
 void AttemptMaker::judge_by_scale_of(const Attempt& a) {
   preservation_.scale = {input_.extent.diagonal, a.result.measures->quality.edge_length.mean};
-  preservation_.counts_all_crossings = a.preservation().new_crossings > 0;
 }
 
-AttemptMaker AttemptMaker::for_part(const PartOfMesh& part, const MemoryOrder& part_order) const {
+AttemptMaker AttemptMaker::for_part(const PartOfMesh& part, const MemoryOrder& part_order,
+                                    const Attempt& whole) const {
   RemeshOptions of_part = options;
   of_part.constraints = part.constraints_of(options.constraints);
   of_part.map = true;
+  const auto crossings = [](const Quality& q) {
+    return static_cast<long long>(q.self_intersections.value_or(0));
+  };
+  const long long before = crossings(input_quality_), after = crossings(whole.result.measures->quality);
   AttemptMaker maker(part.mesh, part_order, of_part, preservation_, {}, observer_, stopwatch_, false);
+  maker.preservation_ = preservation_;  // faceted and rough as the whole
+  maker.preservation_.more_crossings = after > before ? -before : before - after;
   maker.share_of_whole_ = static_cast<double>(part.faces.size()) / static_cast<double>(mesh_.n_faces());
   return maker;
 }

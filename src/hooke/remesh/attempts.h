@@ -55,8 +55,9 @@ class AttemptMaker {
   /// Lets all attempts be judged by the sizes of this one.
   void judge_by_scale_of(const Attempt& attempt);
 
-  /// Makes attempts for a part of the input, which must outlive it, with its memory order, as does this.
-  AttemptMaker for_part(const PartOfMesh& part, const MemoryOrder& part_order) const;
+  /// Makes attempts for a part of the input, which must outlive it, with its memory order, as does this. They
+  /// are to mend the part in this attempt for the whole.
+  AttemptMaker for_part(const PartOfMesh& part, const MemoryOrder& part_order, const Attempt& whole) const;
 
   /// What of an attempt for the whole is on a part, not judged.
   static Attempt restricted(const Attempt& whole, const PartOfMesh& part);

@@ -87,7 +87,7 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) hold_junctions(filter, best);
     if (!best.is_interrupted() && !best.keeps_promises() && !maker_.smooths_mask()) {
       if (maker_.adapts()) keep_narrow_parts(filter, keeps_rest, best);
-      if (maker_.adapts() && is_of_part() && !best.is_interrupted() && !best.keeps_promises()) keep_all(best);
+      if (is_of_part() && !best.is_interrupted() && !best.keeps_promises()) best = unchanged();
       if (options_.connectivity == ConnectivityMode::flip) keep_faces(best, best);
     }
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
@@ -229,7 +229,8 @@ class PreservingRemesh {
   }
 
   /// If only some shells are wrong, or several are, remeshes each of these by itself, with all that mends it;
-  /// where nothing does, it stays as it is in the input. Shells that then cross are remeshed together.
+  /// where nothing does, it stays as it is in the input. Shells that then cross are remeshed together, and
+  /// few that are still wrong at last stay as they are.
   void remesh_shells(const Attempt& unmended, Attempt& best) {
     if (is_of_part() || input_.bodies.empty() || best.is_interrupted() || best.keeps_promises() ||
         maker_.smooths_mask())
@@ -239,12 +240,21 @@ class PreservingRemesh {
     maker_.judge_by_scale_of(best);
     Attempt last = best;
     std::vector<int> before;
-    for (int round = 0; round < max_rounds && !last.keeps_promises(); ++round) {
+    for (int round = 0; round <= max_rounds && !last.keeps_promises(); ++round) {
       const std::vector<int> shells = shells_at_flaws(last);
-      if (shells == before || std::ranges::all_of(shells, [](int s) { return s == 0; })) return;
+      if (std::ranges::all_of(shells, [](int s) { return s == 0; })) return;
+      const bool is_last = round == max_rounds || shells == before;
+      const auto wrong = std::ssize(shells) - std::ranges::count(shells, -1);
+      if (is_last && static_cast<double>(wrong) > few * input_.adjacency.vertex_count) return;
       const std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), shells);
-      const std::vector<Attempt> attempts = attempts_for(parts, unmended, keeps_first);
-      if (attempts.size() < parts.size()) {
+      std::vector<Attempt> attempts;
+      for (const PartOfMesh& part : parts) {
+        const MemoryOrder order = find_memory_order(part.mesh);
+        AttemptMaker maker = maker_.for_part(part, order, last);
+        PreservingRemesh of_part(maker, AttemptMaker::restricted(unmended, part),
+                                 max_faces(unmended) / unmended.result.adaptation.target_faces, keeps_first);
+        attempts.push_back(is_last ? of_part.unchanged() : of_part.best());
+        if (!attempts.back().is_interrupted()) continue;
         best.result.reason = StopReason::interrupted;
         return;
       }
@@ -253,24 +263,9 @@ class PreservingRemesh {
       replace_parts(parts, results, last.mesh, last.result);
       maker_.judge(last);
       if (last.is_better_than(best)) best = last;
+      if (is_last) return;
       before = shells;
     }
-  }
-
-  /// The best attempts for parts of the input; fewer if the work is interrupted.
-  std::vector<Attempt> attempts_for(const std::vector<PartOfMesh>& parts, const Attempt& whole,
-                                    bool keeps_first) const {
-    std::vector<Attempt> attempts;
-    const double growth = max_faces(whole) / whole.result.adaptation.target_faces;
-    for (const PartOfMesh& part : parts) {
-      const MemoryOrder order = find_memory_order(part.mesh);
-      AttemptMaker maker = maker_.for_part(part, order);
-      Attempt best =
-          PreservingRemesh(maker, AttemptMaker::restricted(whole, part), growth, keeps_first).best();
-      if (best.is_interrupted()) break;
-      attempts.push_back(std::move(best));
-    }
-    return attempts;
   }
 
   bool is_of_part() const { return max_growth_.has_value(); }
@@ -404,19 +399,15 @@ class PreservingRemesh {
     frozen = frozen_before;
   }
 
-  /// Leaves all faces of the input.
-  void keep_all(Attempt& best) {
+  /// An attempt in which all faces of the input stay.
+  Attempt unchanged() {
     std::vector<int>& frozen = options_.constraints.frozen_vertices;
     frozen.resize(input_.adjacency.vertex_count);
     std::iota(frozen.begin(), frozen.end(), 0);
-    Attempt next = maker_.run();
-    if (next.is_interrupted()) {
-      best.result.reason = StopReason::interrupted;
-      return;
-    }
-    maker_.judge(next);
-    next.result.rescue = Rescue::kept_faces;
-    if (next.is_better_than(best)) best = std::move(next);
+    Attempt run = maker_.run();
+    maker_.judge(run);
+    run.result.rescue = Rescue::kept_faces;
+    return run;
   }
 
   /// The vertices with half of the length asked for or less.
