@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -242,21 +243,16 @@ class PreservingRemesh {
     std::vector<int> before;
     for (int round = 0; round <= max_rounds && !last.keeps_promises(); ++round) {
       const std::vector<int> shells = shells_at_flaws(last);
-      if (std::ranges::all_of(shells, [](int s) { return s == 0; })) return;
+      if (std::ranges::adjacent_find(shells, std::not_equal_to()) == shells.end()) return;  // all or none
       const bool is_last = round == max_rounds || shells == before;
       const auto wrong = std::ssize(shells) - std::ranges::count(shells, -1);
       if (is_last && static_cast<double>(wrong) > few * input_.adjacency.vertex_count) return;
       const std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), shells);
       std::vector<Attempt> attempts;
       for (const PartOfMesh& part : parts) {
-        const MemoryOrder order = find_memory_order(part.mesh);
-        AttemptMaker maker = maker_.for_part(part, order, last);
-        PreservingRemesh of_part(maker, AttemptMaker::restricted(unmended, part),
-                                 max_faces(unmended) / unmended.result.adaptation.target_faces, keeps_first);
-        attempts.push_back(is_last ? of_part.unchanged() : of_part.best());
-        if (!attempts.back().is_interrupted()) continue;
-        best.result.reason = StopReason::interrupted;
-        return;
+        attempts.push_back(attempt_for(part, unmended, last, is_last, keeps_first));
+        if (attempts.back().is_interrupted()) best.result.reason = StopReason::interrupted;
+        if (attempts.back().is_interrupted() || !attempts.back().result.measures) return;
       }
       std::vector<RemeshedMesh> results;
       for (const Attempt& a : attempts) results.push_back({a.mesh, a.result});
@@ -266,6 +262,17 @@ class PreservingRemesh {
       if (is_last) return;
       before = shells;
     }
+  }
+
+  /// The best attempt for a part of the input that is wrong in `last`; it starts from what the first run has
+  /// made of it, or leaves it as it is.
+  Attempt attempt_for(const PartOfMesh& part, const Attempt& first, const Attempt& last, bool leaves_it,
+                      bool keeps_first) const {
+    const MemoryOrder order = find_memory_order(part.mesh);
+    AttemptMaker maker = maker_.for_part(part, order, last);
+    const double max_growth = max_faces(first) / first.result.adaptation.target_faces;
+    PreservingRemesh of_part(maker, AttemptMaker::restricted(first, part), max_growth, keeps_first);
+    return leaves_it ? of_part.unchanged() : of_part.best();
   }
 
   bool is_of_part() const { return max_growth_.has_value(); }
