@@ -109,10 +109,7 @@ TEST(Shells, TheirResultsMakeTheWholeOneAgain) {
   const test::Triangles t = assembly();
   const Adapted whole = adapted(test::with_length(t, .4));
   const std::vector<PartOfMesh> parts = parts_of_mesh(whole.input, numbers_of(test::connect(t)));
-  std::vector<TriMesh> meshes;
-  std::vector<RemeshResult> results(parts.size(), whole.result);
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    meshes.push_back(restrict_to_part(parts[p], whole.mesh, results[p]));
+  const std::vector<PartOfResult> results = parts_of_result(parts, whole.mesh, whole.result);
   for (const std::vector<int>& chosen : {std::vector<int>{1}, {0, 2}, {0, 1, 2}}) {
     TriMesh mesh = whole.mesh;
     RemeshResult result = whole.result;
@@ -120,7 +117,7 @@ TEST(Shells, TheirResultsMakeTheWholeOneAgain) {
     std::vector<RemeshedMesh> of_some;
     for (int p : chosen) {
       some.push_back(parts[p]);
-      of_some.push_back({meshes[p], results[p]});
+      of_some.push_back({results[p].mesh, results[p].result});
     }
     replace_parts(some, of_some, mesh, result);
     EXPECT_EQ(corners(mesh), corners(whole.mesh));

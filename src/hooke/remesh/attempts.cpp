@@ -125,13 +125,6 @@ AttemptMaker AttemptMaker::for_part(const PartOfMesh& part, const MemoryOrder& p
   return maker;
 }
 
-Attempt AttemptMaker::restricted(const Attempt& whole, const PartOfMesh& part) {
-  Attempt a;
-  a.result = whole.result;
-  a.mesh = restrict_to_part(part, whole.mesh, a.result);
-  return a;
-}
-
 /// What stands still or is put back is rounded too.
 void AttemptMaker::allow_for_rounding() {
   const Quality rounded = measure_quality(rounded_to_floats(input_.points), input_.adjacency, {},

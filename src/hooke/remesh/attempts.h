@@ -59,9 +59,6 @@ class AttemptMaker {
   /// are to mend the part in this attempt for the whole.
   AttemptMaker for_part(const PartOfMesh& part, const MemoryOrder& part_order, const Attempt& whole) const;
 
-  /// What of an attempt for the whole is on a part, not judged.
-  static Attempt restricted(const Attempt& whole, const PartOfMesh& part);
-
   bool adapts() const { return options.connectivity == ConnectivityMode::adapt; }
 
   const TriMesh& mesh() const { return mesh_; }

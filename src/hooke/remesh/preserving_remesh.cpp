@@ -249,8 +249,9 @@ class PreservingRemesh {
       if (is_last && static_cast<double>(wrong) > few * input_.adjacency.vertex_count) return;
       const std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), shells);
       std::vector<Attempt> attempts;
-      for (const PartOfMesh& part : parts) {
-        attempts.push_back(attempt_for(part, unmended, last, is_last, keeps_first));
+      std::vector<PartOfResult> first = parts_of_result(parts, unmended.mesh, unmended.result);
+      for (std::size_t p = 0; p < parts.size(); ++p) {
+        attempts.push_back(attempt_for(parts[p], std::move(first[p]), last, is_last, keeps_first));
         if (attempts.back().is_interrupted()) best.result.reason = StopReason::interrupted;
         if (attempts.back().is_interrupted() || !attempts.back().result.measures) return;
       }
@@ -266,12 +267,15 @@ class PreservingRemesh {
 
   /// The best attempt for a part of the input that is wrong in `last`; it starts from what the first run has
   /// made of it, or leaves it as it is.
-  Attempt attempt_for(const PartOfMesh& part, const Attempt& first, const Attempt& last, bool leaves_it,
+  Attempt attempt_for(const PartOfMesh& part, PartOfResult of_first, const Attempt& last, bool leaves_it,
                       bool keeps_first) const {
     const MemoryOrder order = find_memory_order(part.mesh);
     AttemptMaker maker = maker_.for_part(part, order, last);
-    const double max_growth = max_faces(first) / first.result.adaptation.target_faces;
-    PreservingRemesh of_part(maker, AttemptMaker::restricted(first, part), max_growth, keeps_first);
+    const double max_growth = max_faces(last) / last.result.adaptation.target_faces;
+    Attempt first;
+    first.mesh = std::move(of_first.mesh);
+    first.result = std::move(of_first.result);
+    PreservingRemesh of_part(maker, std::move(first), max_growth, keeps_first);
     return leaves_it ? of_part.unchanged() : of_part.best();
   }
 

@@ -49,8 +49,8 @@ Piece piece_of(const PartOfMesh& part, const RemeshedMesh& remeshed) {
   return piece;
 }
 
-/// The components of a result that lie on these faces of the input, which are sorted, or those that do not.
-Piece piece_on(const RemeshedMesh& remeshed, const std::vector<int>& faces, bool on_faces) {
+/// The components of a result that do not lie on these faces of the input, which are sorted.
+Piece piece_beside(const RemeshedMesh& remeshed, const std::vector<int>& faces) {
   Piece piece{remeshed.mesh, remeshed.result, remeshed.result.map};
   const MemoryOrder& order = piece.result.memory_order;
   const std::vector<int> shells = shells_of_vertices(*order.adjacency, {});
@@ -59,7 +59,7 @@ Piece piece_on(const RemeshedMesh& remeshed, const std::vector<int>& faces, bool
     if (std::ranges::binary_search(faces, piece.map[order.order.old_vertex[v]].position.face))
       is_on[shells[v]] = 1;
   for (std::size_t v = 0; v < shells.size(); ++v)
-    if ((is_on[shells[v]] != 0) == on_faces) piece.vertices.push_back(order.order.old_vertex[v]);
+    if (!is_on[shells[v]]) piece.vertices.push_back(order.order.old_vertex[v]);
   std::ranges::sort(piece.vertices);
   return piece;
 }
@@ -84,6 +84,24 @@ int number_vertices(std::vector<Piece>& pieces) {
   for (const auto* vertices : {&old, &fresh})
     for (const Vertex& v : *vertices) pieces[v.piece].id[v.id] = count++;
   return count;
+}
+
+/// Builds the mesh of a result, and completes what the result tells of it. `joined`: empty without junctions.
+TriMesh build_result(const Mat3X& points, const std::vector<Triangle>& faces,
+                     const std::vector<double>& lengths, const std::vector<int>& joined,
+                     RemeshResult& result) {
+  result.memory_order = find_memory_order(static_cast<int>(points.cols()), faces);
+  const Permutation& order = result.memory_order.order;
+  Adjacency creased = *result.memory_order.adjacency;
+  split_wedges(creased, order.new_edges(result.crease_edges));
+  const CreaseCounts of_input = result.creases;
+  result.creases = count_creases(creased, order, result.vertex_limits);
+  result.creases.sharp = of_input.sharp;
+  result.creases.dropped = of_input.dropped;
+  TriMesh mesh = build_mesh(points, *result.memory_order.adjacency, order.old_ids());
+  set_vertex_values(mesh, target_length_property, lengths);
+  if (!joined.empty()) set_joined_vertices(mesh, joined);
+  return mesh;
 }
 
 /// Makes a mesh of the pieces, and sets what the result tells of its vertices, faces and edges.
@@ -126,18 +144,8 @@ TriMesh assemble(std::vector<Piece> pieces, RemeshResult& result) {
   result.vertex_limits = std::move(limits);
   result.folded_faces = std::move(folded);
   result.crease_edges = std::move(creases);
-  result.memory_order = find_memory_order(count, faces);
-  const Permutation& order = result.memory_order.order;
-  Adjacency creased = *result.memory_order.adjacency;
-  split_wedges(creased, order.new_edges(result.crease_edges));
-  const CreaseCounts of_input = result.creases;
-  result.creases = count_creases(creased, order, result.vertex_limits);
-  result.creases.sharp = of_input.sharp;
-  result.creases.dropped = of_input.dropped;
-  TriMesh mesh = build_mesh(points, *result.memory_order.adjacency, order.old_ids());
-  set_vertex_values(mesh, target_length_property, lengths);
-  if (has_junctions) set_joined_vertices(mesh, first_copies(copies_of));
-  return mesh;
+  return build_result(points, faces, lengths, has_junctions ? first_copies(copies_of) : std::vector<int>(),
+                      result);
 }
 
 void add_counts(const RemeshResult& part, RemeshResult& result) {
@@ -223,23 +231,83 @@ ConstraintOptions PartOfMesh::constraints_of(const ConstraintOptions& whole) con
   return part;
 }
 
-TriMesh restrict_to_part(const PartOfMesh& part, const TriMesh& mesh, RemeshResult& result) {
-  Piece piece = piece_on({mesh, result}, part.faces, true);
-  for (int v : piece.vertices) {
-    MapEntry& e = piece.map[v];
-    if (e.vertex >= 0) e.vertex = part.vertex_of(e.vertex);
-    if (e.position.face >= 0) e.position.face = index_in(part.faces, e.position.face);
+std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, const TriMesh& mesh,
+                                          const RemeshResult& result) {
+  std::vector<int> part_of_face, id_of_face, part_of_origin(result.input_points.cols(), -1),
+      id_of_origin(part_of_origin);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto count = static_cast<std::size_t>(parts[p].faces.empty() ? 0 : parts[p].faces.back() + 1);
+    part_of_face.resize(std::max(part_of_face.size(), count), -1);
+    id_of_face.resize(part_of_face.size(), -1);
+    for (std::size_t f = 0; f < parts[p].faces.size(); ++f) {
+      part_of_face[parts[p].faces[f]] = static_cast<int>(p);
+      id_of_face[parts[p].faces[f]] = static_cast<int>(f);
+    }
+    for (std::size_t v = 0; v < parts[p].vertices.size(); ++v) {
+      part_of_origin[parts[p].vertices[v]] = static_cast<int>(p);
+      id_of_origin[parts[p].vertices[v]] = static_cast<int>(v);
+    }
   }
-  RemeshResult of_part;
-  of_part.reason = result.reason;
-  of_part.rescue = result.rescue;
-  of_part.input_points = result.input_points(Eigen::all, part.vertices);
+  const MemoryOrder& order = result.memory_order;
+  const std::vector<int> shells = shells_of_vertices(*order.adjacency, {});
+  std::vector<int> part_of_shell(shells.size(), -1), part_of(shells.size()), id(shells.size(), -1);
+  for (std::size_t v = 0; v < shells.size(); ++v) {
+    const int face = result.map[order.order.old_vertex[v]].position.face;
+    if (face >= 0 && face < std::ssize(part_of_face) && part_of_face[face] >= 0)
+      part_of_shell[shells[v]] = part_of_face[face];
+  }
+  for (std::size_t v = 0; v < shells.size(); ++v)
+    part_of[order.order.old_vertex[v]] = part_of_shell[shells[v]];
+
+  struct Lists {
+    std::vector<int> vertices;
+    std::vector<Triangle> faces;
+    std::vector<double> lengths;
+    std::vector<int> joined;
+  };
+  std::vector<Lists> lists(parts.size());
+  std::vector<PartOfResult> results(parts.size());
+  const std::vector<double> lengths = vertex_values(mesh, target_length_property);
+  const std::vector<int> joined = joined_vertices(mesh);
+  for (std::size_t v = 0; v < part_of.size(); ++v) {
+    if (part_of[v] < 0) continue;
+    Lists& list = lists[part_of[v]];
+    RemeshResult& of_part = results[part_of[v]].result;
+    id[v] = static_cast<int>(list.vertices.size());
+    list.vertices.push_back(static_cast<int>(v));
+    list.lengths.push_back(lengths[v]);
+    if (!joined.empty()) list.joined.push_back(id[joined[v]]);  // an earlier one, or itself
+    MapEntry entry = result.map[v];
+    if (entry.vertex >= 0) entry.vertex = id_of_origin[entry.vertex];
+    if (entry.position.face >= 0) entry.position.face = id_of_face[entry.position.face];
+    of_part.map.push_back(entry);
+    of_part.vertex_limits.push_back(result.vertex_limits[v]);
+  }
+  const std::vector<Triangle> triangles = triangles_of(mesh);
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    const auto& [a, b, c] = triangles[f];
+    if (part_of[a] < 0) continue;
+    std::vector<Triangle>& faces = lists[part_of[a]].faces;
+    if (std::ranges::binary_search(result.folded_faces, static_cast<int>(f)))
+      results[part_of[a]].result.folded_faces.push_back(static_cast<int>(faces.size()));
+    faces.push_back({id[a], id[b], id[c]});
+  }
+  for (const auto& [a, b] : result.crease_edges)
+    if (part_of[a] >= 0) results[part_of[a]].result.crease_edges.push_back({id[a], id[b]});
   for (const auto& [a, b] : result.input_creases)
-    if (const Edge e = {part.vertex_of(a), part.vertex_of(b)}; e[0] >= 0) of_part.input_creases.push_back(e);
-  TriMesh restricted = assemble({std::move(piece)}, of_part);
-  of_part.adaptation.target_faces = static_cast<double>(restricted.n_faces());
-  result = std::move(of_part);
-  return restricted;
+    if (part_of_origin[a] >= 0)
+      results[part_of_origin[a]].result.input_creases.push_back({id_of_origin[a], id_of_origin[b]});
+  const auto points = vertex_points(mesh);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    RemeshResult& of_part = results[p].result;
+    of_part.reason = result.reason;
+    of_part.rescue = result.rescue;
+    of_part.input_points = result.input_points(Eigen::all, parts[p].vertices);
+    of_part.adaptation.target_faces = static_cast<double>(lists[p].faces.size());
+    results[p].mesh = build_result(points(Eigen::all, lists[p].vertices), lists[p].faces, lists[p].lengths,
+                                   lists[p].joined, of_part);
+  }
+  return results;
 }
 
 void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<RemeshedMesh>& of_parts,
@@ -253,7 +321,7 @@ void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<Remes
   std::ranges::sort(replaced);
   RemeshResult all = result;
   std::erase_if(all.input_creases, [&](const Edge& e) { return is_replaced[e[0]] != 0; });
-  std::vector<Piece> pieces = {piece_on({mesh, result}, replaced, false)};
+  std::vector<Piece> pieces = {piece_beside({mesh, result}, replaced)};
   for (std::size_t p = 0; p < parts.size(); ++p) {
     pieces.push_back(piece_of(parts[p], of_parts[p]));
     for (const auto& [a, b] : of_parts[p].result.input_creases)

@@ -6,10 +6,9 @@
 
 #include "hooke/constraints/constraint_options.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/remesh/result.h"
 
 namespace hooke {
-
-struct RemeshResult;
 
 /// Per vertex, in the order of the adjacency: a vertex that stands for its shell. `joined` as in
 /// mesh/junctions.h.
@@ -37,9 +36,15 @@ struct RemeshedMesh {
   const RemeshResult& result;  // with its map
 };
 
-/// Makes of a result of the whole mesh one of the part, whose vertices and faces are the only ones that it
-/// knows of, without the counts of what was done; returns its mesh. Pre-condition: it has a map.
-TriMesh restrict_to_part(const PartOfMesh& part, const TriMesh& mesh, RemeshResult& result);
+/// A result of a part, with ids of its vertices and faces, without counts of what was done.
+struct PartOfResult {
+  TriMesh mesh;
+  RemeshResult result;
+};
+
+/// What a result of the whole mesh, which has a map, tells of each part.
+std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, const TriMesh& mesh,
+                                          const RemeshResult& result);
 
 /// Puts the results of some parts in the places of these in a result of the whole mesh. Vertices of the input
 /// come in their order, new ones follow. The counts of what was done are those of all these results.
