@@ -59,19 +59,19 @@ TEST(Preservation, ASpikeThatComesOrGoesBreaksIt) {
 }
 
 /// A round body, and a flat sheet beside one of its vertices, which faces it and lies outside at this height.
-test::Triangles ball_with_sheet(int vertex, double height) {
+test::Triangles ball_with_sheet(int vertex, double height, double size = .2) {
   const test::Triangles ball = test::sphere(2);
   const Vec3 out = ball.points.col(vertex).normalized(), along = out.unitOrthogonal(),
              across = out.cross(along);
   test::Triangles sheet = test::grid(4, test::flat);
   for (Eigen::Index v = 0; v < sheet.points.cols(); ++v) {
-    const Vec3 p = .2 * (sheet.points.col(v) - Vec3(.5, .5, 0));
+    const Vec3 p = size * (sheet.points.col(v) - Vec3(.5, .5, 0));
     sheet.points.col(v) = (1 + height) * out + p[1] * along + p[0] * across;
   }
   return test::both(ball, sheet);
 }
 
-TEST(Preservation, ABodyIsComparedWithItselfWhereAnotherIsNearer) {
+TEST(Preservation, AShellIsComparedWithItselfWhereAnotherIsNearer) {
   constexpr int vertex = 20;
   const test::Triangles before = ball_with_sheet(vertex, .05);
   test::Triangles after = before;
@@ -85,16 +85,39 @@ TEST(Preservation, ABodyIsComparedWithItselfWhereAnotherIsNearer) {
   ASSERT_EQ(far().size(), 1u);
   EXPECT_EQ(far()[0].vertex, vertex);
   const Eigen::Index of_ball = test::sphere(2).points.cols();
-  for (Eigen::Index v = 0; v < before.points.cols(); ++v) a.surface.bodies.push_back(v < of_ball ? 0 : 1);
-  b.surface.bodies = a.surface.bodies;
+  std::vector<int> shells;
+  for (Eigen::Index v = 0; v < before.points.cols(); ++v) shells.push_back(v < of_ball ? 0 : 1);
+  a.surface.set_shells(shells, 2);
+  b.surface.set_shells(shells, 2);
   EXPECT_TRUE(far().empty());
   after.points.col(vertex) *= 1.5;  // far from both
   Measured c(after);
-  c.surface.bodies = a.surface.bodies;
+  c.surface.set_shells(shells, 2);
   EXPECT_EQ(measure_preservation({a.surface, a.quality, {}}, {c.surface, c.quality, {}},
                                  measure_deviation(a.surface, c.surface))
                 .far_vertices.size(),
             1u);
+}
+
+TEST(Preservation, AFaceOpposesAnotherShellOnlyWhereItOpposesItsOwn) {
+  constexpr int vertex = 20;
+  const test::Triangles before = ball_with_sheet(vertex, .05, .8);
+  test::Triangles after = before;
+  const Eigen::Index of_ball = test::sphere(2).points.cols();
+  std::vector<int> shells(before.points.cols(), 1);
+  for (Eigen::Index v = 0; v < of_ball; ++v) {
+    shells[v] = 0;
+    if ((before.points.col(v) - before.points.col(vertex)).norm() < .5) after.points.col(v) *= 1.047;
+  }
+  Measured a(before), b(after);
+  EXPECT_FALSE(measure_deviation(a.surface, b.surface).opposing_faces.empty());
+  a.surface.set_shells(shells, 2);
+  b.surface.set_shells(shells, 2);
+  EXPECT_TRUE(measure_deviation(a.surface, b.surface).opposing_faces.empty());
+  std::swap(b.adjacency.faces[0][0], b.adjacency.faces[0][1]);  // turned over, of the ball
+  Measured c({after.points, b.adjacency.faces});
+  c.surface.set_shells(shells, 2);
+  EXPECT_EQ(measure_deviation(a.surface, c.surface).opposing_faces, std::vector<int>{0});
 }
 
 TEST(Preservation, SizesMayBeThoseOfTheWhole) {

@@ -22,33 +22,21 @@ test::Triangles assembly() {
   return test::both(test::both(test::cube(), ball), sheet);
 }
 
-/// Per vertex: the number of its shell in the order of their first vertices.
-std::vector<int> numbers_of(const Adjacency& c, const std::vector<int>& joined = {}) {
-  const std::vector<int> shells = shells_of_vertices(c, joined);
-  std::vector<int> roots, numbers;
-  for (int root : shells) {
-    auto found = std::ranges::find(roots, root);
-    if (found == roots.end()) found = roots.insert(roots.end(), root);
-    numbers.push_back(static_cast<int>(found - roots.begin()));
-  }
-  return numbers;
-}
-
 TEST(Shells, AreConnectedOverEdgesAndJunctions) {
   const test::Triangles t = test::both(test::cube(), test::tetrahedron());
   const auto n = static_cast<int>(test::cube().points.cols()), m = static_cast<int>(t.points.cols());
   const Adjacency c = test::connect(t);
   std::vector<int> apart(m, 0), joined;
   std::fill(apart.begin() + n, apart.end(), 1);
-  EXPECT_EQ(numbers_of(c), apart);
+  EXPECT_EQ(label_shells(c, {}), apart);
   for (int v = 0; v < m; ++v) joined.push_back(v == n ? 0 : v);
-  EXPECT_EQ(numbers_of(c, joined), std::vector<int>(m, 0));
+  EXPECT_EQ(label_shells(c, joined), std::vector<int>(m, 0));
 }
 
 TEST(Shells, PartsHaveWhatTheWholeSaysOfThem) {
   const test::Triangles t = assembly();
   const TriMesh whole = test::with_length(t, .4);
-  const std::vector<int> numbers = numbers_of(test::connect(t));
+  const std::vector<int> numbers = label_shells(test::connect(t), {});
   std::vector<int> part_of_vertex;
   for (int n : numbers) part_of_vertex.push_back(n - 1);  // not the cube
   const std::vector<PartOfMesh> parts = parts_of_mesh(whole, part_of_vertex);
@@ -108,7 +96,7 @@ std::vector<std::array<std::array<double, 3>, 3>> corners(const TriMesh& mesh) {
 TEST(Shells, TheirResultsMakeTheWholeOneAgain) {
   const test::Triangles t = assembly();
   const Adapted whole = adapted(test::with_length(t, .4));
-  const std::vector<PartOfMesh> parts = parts_of_mesh(whole.input, numbers_of(test::connect(t)));
+  const std::vector<PartOfMesh> parts = parts_of_mesh(whole.input, label_shells(test::connect(t), {}));
   const std::vector<PartOfResult> results = parts_of_result(parts, whole.mesh, whole.result);
   for (const std::vector<int>& chosen : {std::vector<int>{1}, {0, 2}, {0, 1, 2}}) {
     TriMesh mesh = whole.mesh;

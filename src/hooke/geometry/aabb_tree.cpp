@@ -90,15 +90,15 @@ std::vector<Vec3> centres(const Mat3X& points, const std::vector<Triangle>& face
 }  // namespace
 
 AabbTree::AabbTree(const Mat3X& points, const std::vector<Triangle>& faces,
-                   const std::vector<int>& given_order)
-    : faces_(faces.size()) {
+                   const std::vector<int>& given_order) {
   const std::vector<int> own_order =
       given_order.empty() ? spatial_order(centres(points, faces)) : std::vector<int>();
   const std::vector<int>& order = given_order.empty() ? own_order : given_order;
-  parallel_for(faces.size(), tree_block, [&](size_t begin, size_t end) {
+  faces_.resize(order.size());
+  parallel_for(order.size(), tree_block, [&](size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) faces_[k] = face_of(points, faces, static_cast<size_t>(order[k]));
   });
-  while (faces.size() > leaf_size << depth_) ++depth_;
+  while (order.size() > leaf_size << depth_) ++depth_;
   boxes_.resize(size_t{2} << depth_);
   boxes_[0] = Box();
   compute_boxes(1, 0);

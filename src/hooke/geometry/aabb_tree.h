@@ -108,7 +108,7 @@ class AabbTree {
   static constexpr int max_depth = 32;
 
   /// A triangle may repeat a vertex id and then stands for a segment. `order`, if given, becomes the order of
-  /// faces(): faces close in it should be close in space.
+  /// faces(): faces close in it should be close in space. It may leave faces out.
   AabbTree(const Mat3X& points, const std::vector<Triangle>& faces, const std::vector<int>& order = {});
 
   bool empty() const { return faces_.empty(); }

@@ -9,8 +9,8 @@
 #include "hooke/geometry/closest_faces.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/surface_point.h"
-#include "hooke/mesh/wedges.h"
 
 namespace hooke {
 namespace {
@@ -24,6 +24,10 @@ double area_of(const Face& face) {
   return .5 * (b - a).cross(c - a).norm();
 }
 
+Vec3 middle_of(const Face& face) {
+  return (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
+}
+
 /// The samples of a few faces. Those shared by faces occur once; those inside a face are consecutive.
 class Samples {
  public:
@@ -31,7 +35,7 @@ class Samples {
 
   explicit Samples(std::span<const Face> faces) {
     for (const Face& face : faces) {
-      const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
+      const Vec3 centre = middle_of(face);
       add(centre);
       for (const Vec3& corner : face.corners) add(.5 * (corner + centre));
     }
@@ -211,14 +215,16 @@ const Triangle& corners_in_sheet(const MeasuredSurface& surface, const Face& fac
   return surface.adjacency.faces[face.id];
 }
 
-/// Does a face with this area vector oppose one of the reference's folded faces at the closest point? On an
-/// edge or a vertex this is the closest point of several faces.
-bool opposes_at_fold(const MeasuredSurface& reference, const ClosestFacePoint& at, const Vec3& n) {
+/// Does a face with this area vector oppose the reference at the closest point, which is on `there`, or one
+/// of its folded faces? On an edge or a vertex this is the closest point of several faces.
+bool opposes(const MeasuredSurface& reference, int there, const Vec3& point, const Vec3& n) {
   constexpr double on_side = 1e-9;  // of a barycentric weight
   constexpr double fold = -.1;      // cosine; a right-angled crease is no fold
-  const Face& face = face_at(reference, at);
-  const Triangle& t = corners_in_sheet(reference, face);
-  const Vec3 weights = weights_at(face, at);
+  const Triangle& t = reference.adjacency.faces[there];
+  const Vec3 of_face = area_vector(reference.points, t);
+  if (n.dot(of_face) < 0) return true;
+  const Vec3 weights =
+      barycentric(point, reference.points.col(t[0]), reference.points.col(t[1]), reference.points.col(t[2]));
   const auto touches = [&](const Triangle& other) {
     for (size_t k = 0; k < 3; ++k)
       if (weights[static_cast<Eigen::Index>(k)] > on_side && std::ranges::find(other, t[k]) == other.end())
@@ -226,7 +232,7 @@ bool opposes_at_fold(const MeasuredSurface& reference, const ClosestFacePoint& a
     return true;
   };
   if (weights.minCoeff() > on_side) return false;
-  const Vec3 own = area_vector(face).normalized();
+  const Vec3 own = of_face.normalized();
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
   for (int f : reference.adjacency.vertex_faces[t[corner]]) {
@@ -301,20 +307,20 @@ class TurnedFaces {
       : reference_(reference),
         result_(result),
         normals_(normals),
-        body_(label_components(reference.adjacency)),
+        shell_(label_shells(reference.adjacency, reference.joined)),
         folds_(folded_edges(reference)) {}
 
   /// Is there no face of the reference about as close to the centre of this face of the result as the closest
   /// one, `at`, that faces the same way, as `n` does? Beside creases and on thin walls there is one. Where
-  /// bodies cross, or the face cuts deeper into a rounding than a wall is thick, the closest one may be of
+  /// shells cross, or the face cuts deeper into a rounding than a wall is thick, the closest one may be of
   /// another sheet: one of its own is close then by the size of the face.
   bool faces_no_like(const Face& face, const Vec3& n, const ClosestFacePoint& at) const {
-    const Vec3 centre = (face.corners[0] + face.corners[1] + face.corners[2]) / 3;
-    if (!(n.norm() > 0) || faces_like_own_body(face, centre, n)) return false;
+    const Vec3 centre = middle_of(face);
+    if (!(n.norm() > 0) || faces_like_own_shell(face, centre, n)) return false;
     const ClosestPoint like = closest_like(centre, n);
     if (like.face < 0) return true;
     double limit = limit_of_like((centre - at.point).norm());
-    if (like.squared_distance > limit * limit && (is_of_other_body(like, at) || lies_on_like(face, n)))
+    if (like.squared_distance > limit * limit && (is_of_other_shell(like, at) || lies_on_like(face, n)))
       for (size_t k = 0; k < 3; ++k)
         limit = std::max(limit, across_sheets * (face.corners[(k + 1) % 3] - face.corners[k]).norm());
     return like.squared_distance > limit * limit;
@@ -322,15 +328,13 @@ class TurnedFaces {
 
  private:
   ClosestPoint closest_like(const Vec3& x, const Vec3& n) const {
-    return closest_like(x, n, [](int) { return true; });
+    return closest_like(x, n, reference_.tree);
   }
 
-  template <typename Accepts>
-  ClosestPoint closest_like(const Vec3& x, const Vec3& n, const Accepts& accepts) const {
+  ClosestPoint closest_like(const Vec3& x, const Vec3& n, const AabbTree& tree) const {
     constexpr double min_cosine = -.1;  // a face across a right-angled crease is not turned over
     const double length = n.norm();
-    return reference_.tree.closest(x, [&](int f) {
-      if (!accepts(f)) return false;
+    return tree.closest(x, [&](int f) {
       const Vec3 m = area_vector(reference_.points, reference_.adjacency.faces[f]);
       return m.dot(n) >= min_cosine * m.norm() * length;
     });
@@ -343,11 +347,12 @@ class TurnedFaces {
     return as_close * closest + touching * reference_.extent.diagonal;
   }
 
-  /// Does it face the same way as its own body does where that is closest, or about as close?
-  bool faces_like_own_body(const Face& face, const Vec3& centre, const Vec3& n) const {
-    if (reference_.bodies.empty() || result_.bodies.empty()) return false;
-    const int body = result_.body_of_face(face.id);
-    const ClosestPoint own = reference_.closest_on_body(centre, body);
+  /// Does it face the same way as its own shell does where that is closest, or about as close?
+  bool faces_like_own_shell(const Face& face, const Vec3& centre, const Vec3& n) const {
+    const int shell = result_.shell_of_face(face.id);
+    if (shell < 0) return false;
+    const AabbTree& tree = reference_.tree_of(shell);
+    const ClosestPoint own = tree.closest(centre);
     if (own.face < 0) return false;
     const Vec3 weights = on_face(own, reference_.points, reference_.adjacency).weights;
     Vec3 normal = Vec3::Zero();
@@ -355,14 +360,12 @@ class TurnedFaces {
       normal += weights[static_cast<Eigen::Index>(k)] * normals_.col(reference_.adjacency.faces[own.face][k]);
     if (n.dot(normal) >= 0) return true;
     const double limit = limit_of_like(std::sqrt(own.squared_distance));
-    return closest_like(centre, n, [&](int f) {
-             return reference_.body_of_face(f) == body;
-           }).squared_distance <= limit * limit;
+    return closest_like(centre, n, tree).squared_distance <= limit * limit;
   }
 
-  bool is_of_other_body(const ClosestPoint& like, const ClosestFacePoint& at) const {
-    return body_[reference_.adjacency.faces[like.face][0]] !=
-           body_[corners_in_sheet(reference_, face_at(reference_, at))[0]];
+  bool is_of_other_shell(const ClosestPoint& like, const ClosestFacePoint& at) const {
+    return shell_[reference_.adjacency.faces[like.face][0]] !=
+           shell_[corners_in_sheet(reference_, face_at(reference_, at))[0]];
   }
 
   /// Is a corner of the face on a sheet that faces the same way, and does it not fold back on neighbours?
@@ -377,8 +380,8 @@ class TurnedFaces {
   const MeasuredSurface& reference_;
   const MeasuredSurface& result_;
   const Mat3X& normals_;
-  const std::vector<int> body_;  // per vertex of the reference
-  const AabbTree folds_;         // of the reference
+  const std::vector<int> shell_;  // per vertex of the reference
+  const AabbTree folds_;          // of the reference
 };
 
 /// Unit vertex normals, weighted by face area, so that a folded sliver does not turn them.
@@ -403,6 +406,18 @@ Vec3 normal_at(const MeasuredSurface& reference, const Mat3X& normals, const Fac
   return weights[0] * normals.col(t[0]) + weights[1] * normals.col(t[1]) + weights[2] * normals.col(t[2]);
 }
 
+/// Does a face of the result, with this area vector, oppose the reference where that is closest, and its own
+/// shell too if that is another one there?
+bool opposes_own_shell(const MeasuredSurface& reference, const MeasuredSurface& result, const Face& face,
+                       const Vec3& n, const ClosestFacePoint& at) {
+  const int there = face_at(reference, at).id;
+  if (!opposes(reference, there, at.point, n)) return false;
+  const int shell = result.shell_of_face(face.id);
+  if (shell < 0 || shell == reference.shell_of_face(there)) return true;
+  const ClosestPoint own = reference.tree_of(shell).closest(middle_of(face));
+  return own.face < 0 || opposes(reference, own.face, own.point, n);
+}
+
 /// `closest` has one entry per face centre of the result, in the order of its tree.
 void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface& result,
                          const std::vector<ClosestFacePoint>& closest, Deviation& deviation) {
@@ -418,7 +433,7 @@ void find_opposing_faces(const MeasuredSurface& reference, const MeasuredSurface
       const Face& there = face_at(reference, closest[k]);
       flipped[f] = n.dot(normal_at(reference, normals, there, closest[k])) < 0 &&
                    turned.faces_no_like(faces[k], n, closest[k]);
-      opposing[f] = flipped[f] || n.dot(area_vector(there)) < 0 || opposes_at_fold(reference, closest[k], n);
+      opposing[f] = flipped[f] || opposes_own_shell(reference, result, faces[k], n, closest[k]);
     }
   });
   for (size_t f = 0; f < opposing.size(); ++f) {

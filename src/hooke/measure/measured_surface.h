@@ -28,21 +28,25 @@ struct MeasuredSurface {
   std::vector<int> joined;
   Extent extent;
   AabbTree tree;  // over the faces, with their vertices joined
-  /// Per vertex: a number for the body that it belongs to, the same ones in a result as in its reference;
-  /// empty where there is one body, or it is not known. Where bodies are close, a result is compared with its
-  /// own.
-  std::vector<int> bodies = {};
 
-  int body_of_face(int face) const { return bodies[adjacency.faces[face][0]]; }
-  /// The closest point on the faces of a body. Pre-condition: bodies are known.
-  ClosestPoint closest_on_body(const Vec3& x, int body) const {
-    return tree.closest(x, [&](int f) { return body_of_face(f) == body; });
-  }
+  /// Tells which shell (see mesh/junctions.h) each vertex is of, by numbers of [0, count): the same ones in a
+  /// result and its reference, either of which knows them or neither. Measures compare a vertex or a face
+  /// that seems wrong with its own shell where another one is nearer.
+  void set_shells(std::vector<int> of_vertices, int count);
+  /// 0 where they are not known.
+  int shell_count() const { return static_cast<int>(shell_trees_.size()); }
+  /// Of both: -1 where it is not known.
+  int shell_of_vertex(int vertex) const { return shells_.empty() ? -1 : shells_[vertex]; }
+  int shell_of_face(int face) const { return shell_of_vertex(adjacency.faces[face][0]); }
+  /// The tree of the faces of a shell, with the ids that they have in the whole; of all faces for -1.
+  const AabbTree& tree_of(int shell) const { return shell < 0 ? tree : shell_trees_[shell]; }
 
   /// find_self_intersections() of the tree, which only the first call looks for. Not thread-safe.
   const std::vector<std::array<int, 2>>& self_intersections() const;
 
  private:
+  std::vector<int> shells_;  // per vertex
+  std::vector<AabbTree> shell_trees_;
   mutable std::optional<std::vector<std::array<int, 2>>> self_intersections_;
 };
 

@@ -43,21 +43,21 @@ double longest_edge(const MeasuredSurface& surface, int face) {
   return longest;
 }
 
-/// The vertices of the surface that lie beyond the limit from the other one and from their own body there,
-/// which limit_at(vertex, closest face of the other) gives. Updates the greatest excess.
+/// The vertices of the surface that lie beyond the limit from the other one, which limit_at(vertex, closest
+/// face of the other) gives; where that face is of another shell, from their own shell too. Updates the
+/// greatest excess.
 template <typename LimitAt>
 std::vector<FarVertex> vertices_beyond(const MeasuredSurface& surface, const MeasuredSurface& other,
                                        const VertexDistances& to_other, const LimitAt& limit_at,
                                        Preservation& p) {
   std::vector<FarVertex> beyond;
-  const bool has_bodies = !surface.bodies.empty() && !other.bodies.empty();
   for (int v = 0; v < surface.adjacency.vertex_count; ++v) {
     const int face = to_other.faces[index_of(v)];
     if (face < 0) continue;
     const double distance = to_other.distances[index_of(v)], limit = limit_at(v, face),
                  excess = distance / limit;
-    if (has_bodies && excess > 1 && other.body_of_face(face) != surface.bodies[index_of(v)]) {
-      const ClosestPoint own = other.closest_on_body(surface.points.col(v), surface.bodies[index_of(v)]);
+    if (excess > 1 && other.shell_of_face(face) != surface.shell_of_vertex(v)) {
+      const ClosestPoint own = other.tree_of(surface.shell_of_vertex(v)).closest(surface.points.col(v));
       if (own.face >= 0 && std::sqrt(own.squared_distance) <= limit_at(v, own.face)) continue;
     }
     if (excess > p.excess) {
@@ -301,29 +301,30 @@ std::array<Vec3, 2> crossing_segment_of(const MeasuredSurface& surface, const st
   return crossing_segment(corners(pair[0]), corners(pair[1]));
 }
 
-/// Does another body touch the surface at the point of it that is closest to x, no farther than `reach` away?
-/// `body`: per vertex.
-bool bodies_touch(const MeasuredSurface& surface, const std::vector<int>& body, const Vec3& x, double reach) {
+/// Does another shell touch the surface at the point of it that is closest to x, no farther than `reach`
+/// away? `shell`: per vertex.
+bool shells_touch(const MeasuredSurface& surface, const std::vector<int>& shell, const Vec3& x,
+                  double reach) {
   constexpr double touching = 1e-6;  // of the diagonal
-  const auto body_of = [&](int f) { return body[index_of(surface.adjacency.faces[index_of(f)][0])]; };
+  const auto shell_of = [&](int f) { return shell[index_of(surface.adjacency.faces[index_of(f)][0])]; };
   const ClosestPoint here = surface.tree.closest(x);
   if (here.face < 0 || here.squared_distance > reach * reach) return false;
   return surface.tree.has_face_within(touching * surface.extent.diagonal, here.point,
-                                      [&](int f) { return body_of(f) != body_of(here.face); });
+                                      [&](int f) { return shell_of(f) != shell_of(here.face); });
 }
 
-/// Removes the pairs of faces of two bodies of the result that cross where bodies of the reference touch.
+/// Removes the pairs of faces of two shells of the result that cross where shells of the reference touch.
 void drop_contacts(const MeasuredSurface& reference, const MeasuredSurface& result,
                    std::vector<std::array<int, 2>>& crossings) {
   if (crossings.empty() || !reference.joined.empty()) return;
   const std::vector<int> before = label_components(reference.adjacency),
                          after = label_components(result.adjacency);
   std::erase_if(crossings, [&](const std::array<int, 2>& pair) {
-    const auto body = [&](int f) { return after[index_of(result.adjacency.faces[index_of(f)][0])]; };
-    if (body(pair[0]) == body(pair[1])) return false;
+    const auto shell = [&](int f) { return after[index_of(result.adjacency.faces[index_of(f)][0])]; };
+    if (shell(pair[0]) == shell(pair[1])) return false;
     const auto [from, to] = crossing_segment_of(result, pair);
     const double reach = std::max(longest_edge(result, pair[0]), longest_edge(result, pair[1]));
-    return bodies_touch(reference, before, (from + to) / 2, reach);
+    return shells_touch(reference, before, (from + to) / 2, reach);
   });
 }
 

@@ -74,6 +74,20 @@ int face_count(const Adjacency& c, auto begin, auto end) {
 
 }  // namespace
 
+std::vector<int> label_shells(const Adjacency& c, const std::vector<int>& joined) {
+  DisjointSets shells(c.vertex_count);
+  for (const Edge& e : c.edges) shells.join(e);
+  for (std::size_t v = 0; v < joined.size(); ++v) shells.join({static_cast<int>(v), joined[v]});
+  std::vector<int> number(c.vertex_count, -1), labels;
+  int count = 0;
+  for (int v = 0; v < c.vertex_count; ++v) {
+    int& of_shell = number[shells.root(v)];
+    if (of_shell < 0) of_shell = count++;
+    labels.push_back(of_shell);
+  }
+  return labels;
+}
+
 Junctions find_junctions(const Adjacency& c, const std::vector<int>& joined) {
   Junctions junctions;
   if (joined.empty()) return junctions;

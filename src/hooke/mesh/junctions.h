@@ -32,6 +32,10 @@ std::vector<int> joined_vertices(const TriMesh& mesh, const Permutation& order);
 /// The faces with the copies of each vertex joined.
 std::vector<Triangle> join_faces(std::vector<Triangle> faces, const std::vector<int>& joined);
 
+/// Per vertex: the number of its shell, in the order of their first vertices. A shell is a connected part of
+/// the joined mesh, with all its sheets.
+std::vector<int> label_shells(const Adjacency& sheets, const std::vector<int>& joined);
+
 struct Junctions {
   std::vector<Edge> edges;    // of the sheets, of which several are the same edge of the joined mesh; sorted,
                               // smaller end first

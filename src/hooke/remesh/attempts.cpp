@@ -77,12 +77,14 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
     polygon_deviation_ = deviation_of(mesh, *polygons_);
   }
   if (adapts()) {
-    input_.bodies = shells_of_vertices(input_.adjacency, input_.joined);
-    if (std::ranges::adjacent_find(input_.bodies, std::not_equal_to()) == input_.bodies.end())
-      input_.bodies.clear();
-    body_of_face_.resize(input_.bodies.empty() ? 0 : input_.adjacency.faces.size());
-    for (std::size_t f = 0; f < body_of_face_.size(); ++f)
-      body_of_face_[memory_order_.order.old_face[f]] = input_.body_of_face(static_cast<int>(f));
+    std::vector<int> shells = label_shells(input_.adjacency, input_.joined);
+    const int count = shells.empty() ? 0 : std::ranges::max(shells) + 1;
+    if (count > 1) {
+      input_.set_shells(std::move(shells), count);
+      shell_of_face_.resize(input_.adjacency.faces.size());
+      for (std::size_t f = 0; f < shell_of_face_.size(); ++f)
+        shell_of_face_[memory_order_.order.old_face[f]] = input_.shell_of_face(static_cast<int>(f));
+    }
   }
   is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
              options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
@@ -209,7 +211,7 @@ Attempt AttemptMaker::run() const {
   set_vertex_values(a.mesh, target_length_property, memory_order_.order.scatter(lengths));
   if (is_mask_) vertex_points(a.mesh) = smoothed_;
   RunOptions of_run(options);
-  of_run.chosen.map = options.map || !input_.bodies.empty();  // tells which body a vertex is on
+  of_run.chosen.map = options.map || input_.shell_count() > 0;  // tells which shell a vertex is on
   int& tested = of_run.slivers.pass.min_in_all;
   tested = static_cast<int>(std::ceil(share_of_whole_ * tested));
   a.result = run_remesh(a.mesh, memory_order_, of_run, observer_, stopwatch_);
@@ -257,25 +259,22 @@ MeasuredSurface AttemptMaker::surface_of(const Attempt& a) const {
   MeasuredSurface surface(memory_order.order.gather(vertex_points(a.mesh)), *memory_order.adjacency,
                           memory_order.order.old_ids(), same_faces ? input_.tree.order() : std::vector<int>(),
                           joined_vertices(a.mesh, memory_order.order));
-  if (!input_.bodies.empty())
-    for (int id : memory_order.order.old_vertex) surface.bodies.push_back(body_at(a.result.map[id]));
+  if (input_.shell_count() > 0) {
+    std::vector<int> shells;
+    for (int v = 0; v < surface.adjacency.vertex_count; ++v) shells.push_back(shell_of_vertex(v, a));
+    surface.set_shells(std::move(shells), input_.shell_count());
+  }
   return surface;
 }
 
-int AttemptMaker::body_of(int face, const Attempt& a) const {
-  const int corner = a.result.memory_order.adjacency->faces[face][0];
-  return body_at(a.result.map[a.result.memory_order.order.old_vertex[corner]]);
+int AttemptMaker::shell_of_vertex(int vertex, const Attempt& a) const {
+  if (input_.shell_count() == 0) return -1;
+  const int face = a.result.map[a.result.memory_order.order.old_vertex[vertex]].position.face;
+  return face < 0 ? -1 : shell_of_face_[face];
 }
 
 ClosestPoint AttemptMaker::closest_on_input(int vertex, const Vec3& x, const Attempt& a) const {
-  const int id = a.result.memory_order.order.old_vertex[vertex];
-  const int body = input_.bodies.empty() ? -1 : body_at(a.result.map[id]);
-  return body < 0 ? input_.tree.closest(x) : input_.closest_on_body(x, body);
-}
-
-/// The body of the input that the place is on; -1 for none.
-int AttemptMaker::body_at(const MapEntry& place) const {
-  return place.position.face < 0 ? -1 : body_of_face_[place.position.face];
+  return input_.tree_of(shell_of_vertex(vertex, a)).closest(x);
 }
 
 void AttemptMaker::place(int vertex, const Vec3& exact, Attempt& a) const {

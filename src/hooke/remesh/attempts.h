@@ -73,11 +73,10 @@ class AttemptMaker {
   bool smooths_mask() const { return is_mask_; }
   /// The id that the caller knows the vertex by.
   int id_of(int vertex) const { return memory_order_.order.old_vertex[vertex]; }
-  /// The body of the input, by one of its vertices, that a face of the result is on. Pre-condition: the input
-  /// has several.
-  int body_of(int face, const Attempt& attempt) const;
-  /// The point of the input that is closest to x: of the body that the vertex of the result is on, in memory
-  /// order, if the input has several.
+  /// The shell of the input that a vertex of the result, in memory order, is on; -1 if there is one shell
+  /// only.
+  int shell_of_vertex(int vertex, const Attempt& attempt) const;
+  /// The point of the input, of the shell that the vertex of the result is on, that is closest to x.
   ClosestPoint closest_on_input(int vertex, const Vec3& x, const Attempt& attempt) const;
   /// The vertices with all copies of those at junctions.
   std::vector<int> with_copies(const std::vector<int>& vertices) const;
@@ -111,7 +110,6 @@ class AttemptMaker {
  private:
   bool is_marched_mask_at_lengths() const;
   void smooth_steps();
-  int body_at(const MapEntry& place) const;
   void allow_for_rounding();
 
   const TriMesh& mesh_;
@@ -126,10 +124,10 @@ class AttemptMaker {
   const IntLists* polygons_;
   double polygon_deviation_ = 0;  // of the input, degrees
   bool is_mask_ = false;
-  Mat3X smoothed_;                 // of a mask: the points that attempts start from, by the caller's id
-  int steps_ = 0;                  // sharp edges of a mask
-  double share_of_whole_ = 1;      // of the faces, where the input is a part
-  std::vector<int> body_of_face_;  // of the input, by the caller's id; see MeasuredSurface::bodies
+  Mat3X smoothed_;                  // of a mask: the points that attempts start from, by the caller's id
+  int steps_ = 0;                   // sharp edges of a mask
+  double share_of_whole_ = 1;       // of the faces, where the input is a part
+  std::vector<int> shell_of_face_;  // of the input, by the caller's id; empty if there is one
 };
 
 }  // namespace hooke

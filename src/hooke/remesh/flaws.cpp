@@ -98,8 +98,8 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
   const Adjacency& c = input.adjacency;
   std::vector<char> is_near(c.vertex_count, 0);
   for (const FarVertex& lost : p.lost_vertices) is_near[lost.vertex] = 1;
-  const auto add_closest = [&](const Vec3& x, const auto& is_meant) {
-    const int face = input.tree.closest(x, is_meant).face;
+  const auto add_closest = [&](const Vec3& x, const AabbTree& tree, const auto& is_meant) {
+    const int face = tree.closest(x, is_meant).face;
     if (face < 0) return;
     for (int v : c.faces[face]) is_near[v] = 1;
   };
@@ -108,15 +108,13 @@ std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attemp
     for (int v : vertices_at_folds(attempt, surface)) is_wrong[v] = 1;
   const Mat3X normals = vertex_normals(surface.points, surface.adjacency),
               input_normals = face_normals(input.points, c);
-  for (std::size_t v = 0; v < is_wrong.size(); ++v)  // of its own body, on the same side
+  for (int v = 0; v < surface.adjacency.vertex_count; ++v)  // of its own shell, on the same side
     if (is_wrong[v])
-      add_closest(surface.points.col(v), [&](int f) {
-        return input_normals.col(f).dot(normals.col(v)) > 0 &&
-               (surface.bodies.empty() || input.body_of_face(f) == surface.bodies[v]);
-      });
+      add_closest(surface.points.col(v), input.tree_of(surface.shell_of_vertex(v)),
+                  [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
   for (const Edge& lost : p.lost_creases)
     for (int v : lost) is_near[v] = 1;
-  if (!p.within_max_distance) add_closest(p.place, [](int) { return true; });
+  if (!p.within_max_distance) add_closest(p.place, input.tree, [](int) { return true; });
   std::vector<int> near;
   for (int v = 0; v < c.vertex_count; ++v)
     if (is_near[v]) near.push_back(v);

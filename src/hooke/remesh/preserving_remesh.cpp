@@ -75,7 +75,7 @@ class PreservingRemesh {
   /// The best attempt with the lengths at hand. If it breaks promises still, it has the faces of the input.
   Attempt best_with_lengths() {
     Attempt unmended;
-    Attempt best = attempt(maker_.adapts() && input_.bodies.empty() ? nullptr : &unmended);
+    Attempt best = attempt(maker_.adapts() && input_.shell_count() == 0 ? nullptr : &unmended);
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
@@ -214,18 +214,17 @@ class PreservingRemesh {
   /// Per vertex of the input, by id: a number for its shell if something is wrong there, the same one for
   /// shells whose results cross; else -1.
   std::vector<int> shells_at_flaws(const Attempt& run) const {
-    std::vector<int> shell = input_.bodies;
-    DisjointSets sets(shell.size());
+    DisjointSets groups(input_.shell_count());
+    const std::vector<Triangle>& faces = run.result.memory_order.adjacency->faces;
     for (const auto& [f, g] : run.preservation().crossings)
-      sets.join({maker_.body_of(f, run), maker_.body_of(g, run)});
-    for (int& s : shell) s = sets.root(s);
-    std::vector<int> number(shell.size(), -1), numbers(shell.size(), -1);
-    for (int v : input_vertices_at_flaws(maker_, run)) number[shell[v]] = 0;
+      groups.join({maker_.shell_of_vertex(faces[f][0], run), maker_.shell_of_vertex(faces[g][0], run)});
+    const auto group_of = [&](int v) { return groups.root(input_.shell_of_vertex(v)); };
+    std::vector<int> number(input_.shell_count(), -1), numbers(input_.adjacency.vertex_count);
+    for (int v : input_vertices_at_flaws(maker_, run)) number[group_of(v)] = 0;
     int count = 0;
     for (int& n : number)
       if (n == 0) n = count++;
-    for (std::size_t v = 0; v < shell.size(); ++v)
-      numbers[maker_.id_of(static_cast<int>(v))] = number[shell[v]];
+    for (int v = 0; v < input_.adjacency.vertex_count; ++v) numbers[maker_.id_of(v)] = number[group_of(v)];
     return numbers;
   }
 
@@ -233,7 +232,7 @@ class PreservingRemesh {
   /// where nothing does, it stays as it is in the input. Shells that then cross are remeshed together, and
   /// few that are still wrong at last stay as they are.
   void remesh_shells(const Attempt& unmended, Attempt& best) {
-    if (is_of_part() || input_.bodies.empty() || best.is_interrupted() || best.keeps_promises() ||
+    if (is_of_part() || input_.shell_count() == 0 || best.is_interrupted() || best.keeps_promises() ||
         maker_.smooths_mask())
       return;
     constexpr int max_rounds = 3;

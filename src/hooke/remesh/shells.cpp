@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "hooke/mesh/disjoint_sets.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/remesh/result.h"
@@ -53,7 +52,7 @@ Piece piece_of(const PartOfMesh& part, const RemeshedMesh& remeshed) {
 Piece piece_beside(const RemeshedMesh& remeshed, const std::vector<int>& faces) {
   Piece piece{remeshed.mesh, remeshed.result, remeshed.result.map};
   const MemoryOrder& order = piece.result.memory_order;
-  const std::vector<int> shells = shells_of_vertices(*order.adjacency, {});
+  const std::vector<int> shells = label_shells(*order.adjacency, {});
   std::vector<char> is_on(shells.size(), 0);
   for (std::size_t v = 0; v < shells.size(); ++v)
     if (std::ranges::binary_search(faces, piece.map[order.order.old_vertex[v]].position.face))
@@ -169,15 +168,6 @@ void add_counts(const RemeshResult& part, RemeshResult& result) {
 
 }  // namespace
 
-std::vector<int> shells_of_vertices(const Adjacency& adjacency, const std::vector<int>& joined) {
-  DisjointSets shells(adjacency.vertex_count);
-  for (const Edge& e : adjacency.edges) shells.join(e);
-  for (std::size_t v = 0; v < joined.size(); ++v) shells.join({static_cast<int>(v), joined[v]});
-  std::vector<int> shell(adjacency.vertex_count);
-  for (std::size_t v = 0; v < shell.size(); ++v) shell[v] = shells.root(static_cast<int>(v));
-  return shell;
-}
-
 std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const std::vector<int>& part_of_vertex) {
   std::vector<PartOfMesh> parts;
   std::vector<int> id;  // in its part
@@ -249,7 +239,7 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
     }
   }
   const MemoryOrder& order = result.memory_order;
-  const std::vector<int> shells = shells_of_vertices(*order.adjacency, {});
+  const std::vector<int> shells = label_shells(*order.adjacency, {});
   std::vector<int> part_of_shell(shells.size(), -1), part_of(shells.size()), id(shells.size(), -1);
   for (std::size_t v = 0; v < shells.size(); ++v) {
     const int face = result.map[order.order.old_vertex[v]].position.face;

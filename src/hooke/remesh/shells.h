@@ -1,5 +1,4 @@
-// Shells: the connected parts of a mesh, each with all sheets that meet at its junctions. They can be
-// remeshed one by one.
+// Parts of a mesh that can be remeshed by themselves: some of its shells (see mesh/junctions.h).
 #pragma once
 
 #include <vector>
@@ -9,10 +8,6 @@
 #include "hooke/remesh/result.h"
 
 namespace hooke {
-
-/// Per vertex, in the order of the adjacency: a vertex that stands for its shell. `joined` as in
-/// mesh/junctions.h.
-std::vector<int> shells_of_vertices(const Adjacency& adjacency, const std::vector<int>& joined);
 
 /// Some shells of a mesh, as a mesh of their own.
 struct PartOfMesh {
