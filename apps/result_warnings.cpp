@@ -182,17 +182,24 @@ void warn_of_rescue(RunRecord& run) {
   const auto why = [&]() -> std::string {
     const auto count = std::ranges::count_if(
         run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });
+    const int parts = run.result->rescued_parts;
+    const std::string of_parts = parts > 0 ? fmt::format(" of {} of its connected parts", parts) : "";
     switch (run.result->rescue) {
       case Rescue::none:
         return "";
       case Rescue::tips:
-        return "vertices at tips of the surface stand still; without that it would lose them";
+        return fmt::format("vertices at tips of the surface{} stand still; without that it would lose them",
+                           of_parts);
       case Rescue::junctions:
-        return "the vertices of edges with three faces or more stand still; if they slid it would not keep "
-               "the input";
+        return fmt::format(
+            "the vertices of edges with three faces or more{} stand still; if they slid it would not keep "
+            "the input",
+            of_parts);
       case Rescue::closest:
-        return "its vertices lie on the faces of the input; on a smooth surface it would not keep the input, "
-               "or only with small angles";
+        return fmt::format(
+            "{} vertices{} lie on the faces of the input; on a smooth surface it would not keep the input, "
+            "or only with small angles",
+            parts > 0 ? "the" : "its", of_parts);
       case Rescue::put_back: {
         const std::string what =
             count > 0

@@ -144,7 +144,6 @@ class Result(CommandTest):
                 with self.subTest(sample=sample, mode=mode):
                     report = self.report(DATA / sample, "-o", "out.off", "--connectivity", mode)
                     features = report["features"]
-                    self.assertEqual(features["crease_edges_kept"], features["crease_edges"])
                     self.assertGreater(features["crease_edges"], 20)
                     self.assertLess(abs(report["geometry"]["volume_change"]), 1e-2 if "cyl" in sample else 1e-6)
                     self.assertEqual(report["geometry"]["flipped_faces"], 0)

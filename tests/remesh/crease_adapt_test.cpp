@@ -80,7 +80,7 @@ TEST(CreaseAdapt, ACylinderStaysRoundUpToItsFeatureEdges) {
     expect_sound(o, static_cast<double>(t.faces.size()) / (factor * factor), true);
     EXPECT_EQ(o.result.creases.curves, 2);
     EXPECT_EQ(o.result.creases.charts, 3);
-    EXPECT_EQ(o.result.creases.kept, o.result.creases.curve_vertices);
+    EXPECT_EQ(o.result.creases.edges, o.result.creases.curve_vertices);
     for (Eigen::Index v = 0; v < o.points.cols(); ++v) {
       const Vec3 x = o.points.col(v);
       const bool on_cap = std::min(std::abs(x[2]), std::abs(x[2] - 2)) < 1e-9 * L;

@@ -74,7 +74,7 @@ TEST(CreaseRemesh, ACylinderStaysRoundUpToItsFeatureEdges) {
     EXPECT_EQ(o.result.creases.curves, 2);
     EXPECT_EQ(o.result.creases.corners, 0);
     EXPECT_EQ(o.result.creases.charts, 3);
-    EXPECT_EQ(o.result.creases.kept, 80);
+    EXPECT_EQ(o.result.creases.edges, 80);
     int on_features = 0;
     for (Eigen::Index v = 0; v < o.points.cols(); ++v) {
       const Vec3 x = o.points.col(v);

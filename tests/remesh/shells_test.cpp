@@ -39,7 +39,7 @@ TEST(Shells, PartsHaveWhatTheWholeSaysOfThem) {
   const std::vector<int> numbers = label_shells(test::connect(t), {});
   std::vector<int> part_of_vertex;
   for (int n : numbers) part_of_vertex.push_back(n - 1);  // not the cube
-  const std::vector<PartOfMesh> parts = parts_of_mesh(whole, part_of_vertex);
+  const std::vector<PartOfMesh> parts = parts_of_mesh(whole, {}, part_of_vertex);
   ASSERT_EQ(parts.size(), 2u);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const PartOfMesh& part = parts[p];
@@ -59,7 +59,7 @@ TEST(Shells, PartsHaveWhatTheWholeSaysOfThem) {
   all.fixed_vertices = {0, first};
   all.frozen_vertices = {second, 1};
   all.seams = {{0, 1}, {first, second}};
-  const ConstraintOptions of_ball = ball.constraints_of(all);
+  const ConstraintOptions of_ball = parts_of_mesh(whole, all, part_of_vertex)[0].constraints;
   EXPECT_EQ(of_ball.fixed_vertices, std::vector<int>{0});
   EXPECT_EQ(of_ball.frozen_vertices, std::vector<int>{1});
   EXPECT_EQ(of_ball.seams, (std::vector<Edge>{{0, 1}}));
@@ -96,7 +96,7 @@ std::vector<std::array<std::array<double, 3>, 3>> corners(const TriMesh& mesh) {
 TEST(Shells, TheirResultsMakeTheWholeOneAgain) {
   const test::Triangles t = assembly();
   const Adapted whole = adapted(test::with_length(t, .4));
-  const std::vector<PartOfMesh> parts = parts_of_mesh(whole.input, label_shells(test::connect(t), {}));
+  const std::vector<PartOfMesh> parts = parts_of_mesh(whole.input, {}, label_shells(test::connect(t), {}));
   const std::vector<PartOfResult> results = parts_of_result(parts, whole.mesh, whole.result);
   for (const std::vector<int>& chosen : {std::vector<int>{1}, {0, 2}, {0, 1, 2}}) {
     TriMesh mesh = whole.mesh;
@@ -144,7 +144,7 @@ TEST(Shells, JunctionsStayJoined) {
   TriMesh input = test::with_length(t, .4);
   set_joined_vertices(input, joined);
   const std::vector<PartOfMesh> parts =
-      parts_of_mesh(input, std::vector<int>(static_cast<std::size_t>(t.points.cols()), 0));
+      parts_of_mesh(input, {}, std::vector<int>(static_cast<std::size_t>(t.points.cols()), 0));
   EXPECT_EQ(joined_vertices(parts[0].mesh), joined);
 }
 

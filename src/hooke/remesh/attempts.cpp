@@ -114,7 +114,7 @@ void AttemptMaker::judge_by_scale_of(const Attempt& a) {
 AttemptMaker AttemptMaker::for_part(const PartOfMesh& part, const MemoryOrder& part_order,
                                     const Attempt& whole) const {
   RemeshOptions of_part = options;
-  of_part.constraints = part.constraints_of(options.constraints);
+  of_part.constraints = part.constraints;
   of_part.map = true;
   const auto crossings = [](const Quality& q) {
     return static_cast<long long>(q.self_intersections.value_or(0));

@@ -240,26 +240,35 @@ class PreservingRemesh {
     maker_.judge_by_scale_of(best);
     Attempt last = best;
     std::vector<int> before;
+    bool was_interrupted = false;
     for (int round = 0; round <= max_rounds && !last.keeps_promises(); ++round) {
       const std::vector<int> shells = shells_at_flaws(last);
       if (std::ranges::adjacent_find(shells, std::not_equal_to()) == shells.end()) return;  // all or none
       const bool is_last = round == max_rounds || shells == before;
       const auto wrong = std::ssize(shells) - std::ranges::count(shells, -1);
       if (is_last && static_cast<double>(wrong) > few * input_.adjacency.vertex_count) return;
-      const std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), shells);
+      const std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), options_.constraints, shells);
+      std::vector<PartOfMesh> replaced;
       std::vector<Attempt> attempts;
       std::vector<PartOfResult> first = parts_of_result(parts, unmended.mesh, unmended.result);
+      double faces_of_parts = 0;
+      for (const PartOfResult& of_part : first) faces_of_parts += of_part.result.adaptation.target_faces;
+      const double growth = 1 + (max_faces(best) - best.result.adaptation.target_faces) / faces_of_parts;
       for (std::size_t p = 0; p < parts.size(); ++p) {
-        attempts.push_back(attempt_for(parts[p], std::move(first[p]), last, is_last, keeps_first));
-        if (attempts.back().is_interrupted()) best.result.reason = StopReason::interrupted;
-        if (attempts.back().is_interrupted() || !attempts.back().result.measures) return;
+        Attempt next = attempt_for(parts[p], std::move(first[p]), last, is_last, growth, keeps_first);
+        was_interrupted = next.is_interrupted();
+        if (was_interrupted) break;
+        if (!next.result.measures) continue;  // not finite
+        replaced.push_back(parts[p]);
+        attempts.push_back(std::move(next));
       }
       std::vector<RemeshedMesh> results;
       for (const Attempt& a : attempts) results.push_back({a.mesh, a.result});
-      replace_parts(parts, results, last.mesh, last.result);
+      if (!results.empty()) replace_parts(replaced, results, last.mesh, last.result);
       maker_.judge(last);
       if (last.is_better_than(best)) best = last;
-      if (is_last) return;
+      if (was_interrupted) best.result.reason = StopReason::interrupted;
+      if (is_last || was_interrupted || results.empty()) return;
       before = shells;
     }
   }
@@ -267,10 +276,9 @@ class PreservingRemesh {
   /// The best attempt for a part of the input that is wrong in `last`; it starts from what the first run has
   /// made of it, or leaves it as it is.
   Attempt attempt_for(const PartOfMesh& part, PartOfResult of_first, const Attempt& last, bool leaves_it,
-                      bool keeps_first) const {
+                      double max_growth, bool keeps_first) const {
     const MemoryOrder order = find_memory_order(part.mesh);
     AttemptMaker maker = maker_.for_part(part, order, last);
-    const double max_growth = max_faces(last) / last.result.adaptation.target_faces;
     Attempt first;
     first.mesh = std::move(of_first.mesh);
     first.result = std::move(of_first.result);
@@ -283,7 +291,8 @@ class PreservingRemesh {
   /// The most faces that shorter lengths may take.
   double max_faces(const Attempt& run) const {
     const double faces = run.result.adaptation.target_faces;
-    return max_growth_ ? *max_growth_ * faces : std::max(std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces);
+    const double alone = std::max(std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces);
+    return is_of_part() ? std::min(*max_growth_ * faces, alone) : alone;
   }
 
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces

@@ -240,20 +240,21 @@ class OuterIterations {
   void raise_angles() {
     const Stage stage(work_.stopwatch, "polish");
     if (refits()) projection_.refit();
+    AngleSpringResult raised;
     {
       Relaxation r = relaxation();
       const AngleSpringOptions& options = options_.chosen.connectivity == ConnectivityMode::fixed
                                               ? options_.angle_springs
                                               : options_.flips.angle_springs;
-      result_.angle_springs = hooke::raise_angles(r, work_.targets, options, watch("polish"));
+      raised = hooke::raise_angles(r, work_.targets, options, watch("polish"));
     }
-    if (result_.angle_springs.interrupted) {
+    if (raised.interrupted) {
       result_.reason = StopReason::interrupted;
       project_to_input();
     } else {
       search();
     }
-    record("polish", {.steps = result_.angle_springs.sweeps, .energy = present_energy()});
+    record("polish", {.steps = raised.sweeps, .energy = present_energy()});
   }
 
   /// Searches on the field fitted last, where vertices can move that the final projection would revert, and

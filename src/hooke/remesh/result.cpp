@@ -36,7 +36,7 @@ CreaseCounts count_creases(const Adjacency& c, const Permutation& order,
   CreaseCounts counts;
   const std::vector<Edge> edges = crease_edges(c);
   if (edges.empty()) return counts;
-  counts.edges = counts.kept = static_cast<int>(edges.size());
+  counts.edges = static_cast<int>(edges.size());
   counts.charts = measure_topology(cut_open(c)).components;
   std::vector<int> crease_at(c.vertex_count, -1);  // one of those at the vertex
   std::vector<char> is_corner(c.vertex_count, 0);

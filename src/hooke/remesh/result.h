@@ -38,7 +38,6 @@ IterationRecord iteration_record(const Workspace& work, const char* stage, const
 struct CreaseCounts {
   int curves = 0;  // from corner to corner, or closed
   int edges = 0;
-  int kept = 0;            // edges that are creases of the result
   int corners = 0;         // fixed vertices where curves end
   int curve_vertices = 0;  // all other vertices on creases: they slide along, or stay at bends
   int charts = 1;          // smooth pieces between creases
@@ -51,7 +50,8 @@ struct CreaseCounts {
 CreaseCounts count_creases(const Adjacency& adjacency, const Permutation& order,
                            const std::vector<unsigned char>& vertex_limits);
 
-/// How a result came to keep what it must keep of the input, where the first run did not.
+/// How a result came to keep what it must keep of the input, where the first run did not; of several ways the
+/// last one here is told.
 enum class Rescue {
   none,
   tips,        // the vertices that were lost stand still
@@ -79,12 +79,12 @@ struct RemeshResult {
   std::vector<unsigned char> vertex_limits;  // per vertex of the result, see limiting_factors.h
   /// Number of vertices left off the field of the input, because their projection would fold a face.
   int unprojected = 0;
-  AngleSpringResult angle_springs;
   ProjectionCounts projection;
   long long limited_steps = 0;  // vertex steps shortened by the guards
   /// Of preserving_remesh(), null if not measured; copies of the result share them.
   std::shared_ptr<ResultMeasures> measures;
   Rescue rescue = Rescue::none;
+  int rescued_parts = 0;  // connected parts, remeshed by themselves, that it holds for; 0: for the whole
   /// Vertices of the input to which preserving_remesh() gave half of their target length or less.
   int shortened = 0;
   /// Did preserving_remesh() take the lengths that the input has for target lengths?

@@ -11,12 +11,6 @@
 namespace hooke {
 namespace {
 
-/// The index of the number in a sorted list; -1 if it is not there.
-int index_in(const std::vector<int>& sorted, int number) {
-  const auto found = std::ranges::lower_bound(sorted, number);
-  return found != sorted.end() && *found == number ? static_cast<int>(found - sorted.begin()) : -1;
-}
-
 /// The list `joined` for vertices of which `copies_of` names those that are copies of each other.
 std::vector<int> first_copies(const std::vector<int>& copies_of) {
   std::vector<int> first(copies_of.size(), -1), joined;
@@ -147,13 +141,37 @@ TriMesh assemble(std::vector<Piece> pieces, RemeshResult& result) {
                       result);
 }
 
+/// Gives each part the constraints that are about it. Per vertex of the whole: `part_of_vertex`, as in
+/// parts_of_mesh(), and its id in the part.
+void share_constraints(const ConstraintOptions& whole, const std::vector<int>& part_of_vertex,
+                       const std::vector<int>& id, std::vector<PartOfMesh>& parts) {
+  const auto vertex_lists = {&ConstraintOptions::fixed_vertices, &ConstraintOptions::frozen_vertices};
+  const auto edge_lists = {&ConstraintOptions::seams, &ConstraintOptions::junction_edges,
+                               &ConstraintOptions::hard_edges};
+  ConstraintOptions of_each = whole;
+  for (const auto list : vertex_lists) (of_each.*list).clear();
+  for (const auto list : edge_lists) (of_each.*list).clear();
+  for (PartOfMesh& part : parts) part.constraints = of_each;
+  for (const auto list : vertex_lists)
+    for (int v : whole.*list)
+      if (part_of_vertex[v] >= 0) (parts[part_of_vertex[v]].constraints.*list).push_back(id[v]);
+  for (const auto list : edge_lists)
+    for (const auto& [a, b] : whole.*list)
+      if (part_of_vertex[a] >= 0 && part_of_vertex[a] == part_of_vertex[b])
+        (parts[part_of_vertex[a]].constraints.*list).push_back({id[a], id[b]});
+}
+
 void add_counts(const RemeshResult& part, RemeshResult& result) {
-  result.iterations.insert(result.iterations.end(), part.iterations.begin(), part.iterations.end());
+  result.folded_before += part.folded_before;
   result.flips.flow_rounds += part.flips.flow_rounds;
   result.flips.spring_rounds += part.flips.spring_rounds;
   result.flips.flips += part.flips.flips;
   result.flips.passes += part.flips.passes;
   result.flips.evaluations += part.flips.evaluations;
+  result.flips.folded_before += part.flips.folded_before;
+  result.adaptation.folded_before += part.adaptation.folded_before;
+  result.adaptation.levels = std::max(result.adaptation.levels, part.adaptation.levels);
+  result.adaptation.target_faces += part.adaptation.target_faces;
   result.adaptation.rounds += part.adaptation.rounds;
   result.adaptation.count_rounds += part.adaptation.count_rounds;
   result.adaptation.splits += part.adaptation.splits;
@@ -162,13 +180,17 @@ void add_counts(const RemeshResult& part, RemeshResult& result) {
   result.unprojected += part.unprojected;
   result.projection += part.projection;
   result.limited_steps += part.limited_steps;
-  result.rescue = std::max(result.rescue, part.rescue);
   result.shortened += part.shortened;
+  if (part.rescue == Rescue::none || part.rescue < result.rescue) return;
+  if (part.rescue > result.rescue) result.rescued_parts = 0;
+  result.rescue = part.rescue;
+  ++result.rescued_parts;
 }
 
 }  // namespace
 
-std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const std::vector<int>& part_of_vertex) {
+std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const ConstraintOptions& constraints,
+                                      const std::vector<int>& part_of_vertex) {
   std::vector<PartOfMesh> parts;
   std::vector<int> id;  // in its part
   for (std::size_t v = 0; v < part_of_vertex.size(); ++v) {
@@ -201,24 +223,8 @@ std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const std::vector<in
     set_vertex_values(part.mesh, target_length_property, part_lengths);
     if (!joined.empty()) set_joined_vertices(part.mesh, part_joined);
   }
+  share_constraints(constraints, part_of_vertex, id, parts);
   return parts;
-}
-
-int PartOfMesh::vertex_of(int v) const {
-  return index_in(vertices, v);
-}
-
-ConstraintOptions PartOfMesh::constraints_of(const ConstraintOptions& whole) const {
-  ConstraintOptions part = whole;
-  for (std::vector<int>* list : {&part.fixed_vertices, &part.frozen_vertices}) {
-    for (int& v : *list) v = vertex_of(v);
-    std::erase(*list, -1);
-  }
-  for (std::vector<Edge>* list : {&part.seams, &part.junction_edges, &part.hard_edges}) {
-    for (Edge& e : *list) e = {vertex_of(e[0]), vertex_of(e[1])};
-    std::erase_if(*list, [](const Edge& e) { return e[0] < 0 || e[1] < 0; });
-  }
-  return part;
 }
 
 std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, const TriMesh& mesh,
@@ -312,6 +318,8 @@ void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<Remes
   RemeshResult all = result;
   std::erase_if(all.input_creases, [&](const Edge& e) { return is_replaced[e[0]] != 0; });
   std::vector<Piece> pieces = {piece_beside({mesh, result}, replaced)};
+  all.adaptation.target_faces *=
+      static_cast<double>(pieces.front().vertices.size()) / static_cast<double>(mesh.n_vertices());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     pieces.push_back(piece_of(parts[p], of_parts[p]));
     for (const auto& [a, b] : of_parts[p].result.input_creases)

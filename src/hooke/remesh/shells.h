@@ -13,17 +13,13 @@ namespace hooke {
 struct PartOfMesh {
   std::vector<int> vertices, faces;  // their ids in the whole mesh, ascending
   TriMesh mesh;                      // with target lengths and junctions
-
-  /// The id in the part of a vertex of the whole; -1 if it is of another one.
-  int vertex_of(int whole) const;
-
-  /// The constraints of a remeshing of the whole that are about the part.
-  ConstraintOptions constraints_of(const ConstraintOptions& whole) const;
+  ConstraintOptions constraints;     // those of the whole that are about the part
 };
 
 /// The parts of a mesh. `part_of_vertex`: by id the number of its part, from 0, or -1 for none; the same for
 /// all vertices of a shell.
-std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const std::vector<int>& part_of_vertex);
+std::vector<PartOfMesh> parts_of_mesh(const TriMesh& whole, const ConstraintOptions& constraints,
+                                      const std::vector<int>& part_of_vertex);
 
 /// A result of mode `adapt`, without its measures.
 struct RemeshedMesh {
@@ -42,7 +38,8 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
                                           const RemeshResult& result);
 
 /// Puts the results of some parts in the places of these in a result of the whole mesh. Vertices of the input
-/// come in their order, new ones follow. The counts of what was done are those of all these results.
+/// come in their order, new ones follow. What was done is counted together; the records of iterations stay
+/// those of the whole.
 /// Pre-conditions: both have maps; no two parts have a vertex in common.
 void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<RemeshedMesh>& of_parts,
                    TriMesh& mesh, RemeshResult& result);

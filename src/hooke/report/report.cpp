@@ -194,6 +194,7 @@ Json promises_json(const RunRecord& run) {
           {"distance_over_limit", number(p.excess)},
           {"place", vector(p.place)},
           {"rescue", rescues[static_cast<int>(run.result->rescue)]},
+          {"rescued_parts", run.result->rescued_parts},
           {"shortened_vertices", run.result->shortened},
           {"lengths_of_input", run.result->has_lengths_of_input}};
 }
@@ -202,10 +203,13 @@ Json promises_json(const RunRecord& run) {
 Json creases_json(const RunRecord& run) {
   if (!run.result || run.result->creases.edges == 0) return nullptr;
   const CreaseCounts& c = run.result->creases;
-  return {{"chains", c.curves},          {"crease_edges", c.edges},
-          {"crease_edges_kept", c.kept}, {"seam_edges", run.seam_edges},
-          {"sharp_edges", c.sharp},      {"sharp_edges_dropped", c.dropped},
-          {"corners", c.corners},        {"curve_vertices", c.curve_vertices},
+  return {{"chains", c.curves},
+          {"crease_edges", c.edges},
+          {"seam_edges", run.seam_edges},
+          {"sharp_edges", c.sharp},
+          {"sharp_edges_dropped", c.dropped},
+          {"corners", c.corners},
+          {"curve_vertices", c.curve_vertices},
           {"charts", c.charts}};
 }
 

@@ -270,6 +270,8 @@ constexpr Row promises[] = {
      "how the result came to keep it: none; tips = made again with lost vertices held; junctions = with "
      "those of edges of three faces or more held; closest = on the input's faces; put_back = vertices went "
      "back or were held where they were; kept_faces = faces of the input stay"},
+    {"promises.rescued_parts", integer, none, neither,
+     "connected parts, remeshed by themselves, of which that tells; 0: of the whole"},
     {"promises.shortened_vertices", integer, none, neither,
      "vertices of the input to which mode adapt gave half of their target length or less, to keep thin "
      "parts"},
@@ -389,7 +391,6 @@ constexpr Row course[] = {
     {"features", or_null(object), none, neither, "creases; null if there are none"},
     {"features.chains", integer, none, neither, "creases, from corner to corner or closed"},
     {"features.crease_edges", integer, none, neither, "edges on them"},
-    {"features.crease_edges_kept", integer, none, neither, "of these, creases of the result"},
     {"features.seam_edges", integer, none, neither,
      "edges of the input across which texture coordinates, normals, materials, groups or labels change"},
     {"features.sharp_edges", integer, none, neither, "edges of the input sharper than the feature angle"},
