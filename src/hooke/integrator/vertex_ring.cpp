@@ -226,27 +226,28 @@ RingModel VertexRing::unfold(const RingShape& shape, const RingTerms& terms, con
   return model;
 }
 
-RingMeasures VertexRing::measures(const RingShape& shape) const {
+/// Of the face of this entry with the surface; 1 if there is none, 0 if it has no area.
+double VertexRing::alignment(const RingShape& shape, std::size_t i) const {
+  if (entries()[i].face < 0) return 1;
+  const Vec3 n = get(shape.columns.data() + area_vector * stride_ + i, stride_);
+  const Vec3 r = get(columns_.data() + normal_sums * stride_ + i, stride_) + shape.normal;
+  return n.isZero(0) || r.isZero(0) ? 0 : cosine_between(n, r);
+}
+
+RingMeasures VertexRing::measures(const RingShape& shape, std::size_t i) const {
   const std::size_t S = stride_;
-  const double* const data = shape.columns.data();
-  const auto cosine = [](const Vec3& a, const Vec3& b) {
-    const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
-    return lengths > 0 ? a.dot(b) / lengths : 1;
-  };
-  RingMeasures m;
-  for (std::size_t i = 0; i < entries().size(); ++i) {
-    const Vec3 n = get(data + area_vector * S + i, S);
-    const Vec3 r = get(columns_.data() + normal_sums * S + i, S) + shape.normal;
-    const double c = std::clamp(get(columns_.data() + edge_normal * S + i, S).dot(shape.normal), -1., 1.);
-    const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
-    const bool face = entries()[i].face >= 0;
-    m.area.push_back(face ? .5 * data[doubled_area * S + i] : 0);
-    m.cotangent.push_back(face ? cotangent_of_min_angle(data + i, S) : 0);
-    m.alignment.push_back(!face ? 1 : n.isZero(0) || r.isZero(0) ? 0 : cosine(n, r));
-    m.sagitta.push_back(.5 * data[near_length * S + i] * tan_quarter);
-    m.fold.push_back(face ? cosine(n, get(data + previous_vector * S + i, S)) : 1);
-    m.far_fold.push_back(face ? cosine(n, get(columns_.data() + beyond * S + i, S)) : 1);
-  }
+  const double* const moving = shape.columns.data() + i;
+  const double* const fixed = columns_.data() + i;
+  const double c = std::clamp(get(fixed + edge_normal * S, S).dot(shape.normal), -1., 1.);
+  const double tan_quarter = std::sqrt(.5 * (1 - c)) / (1 + std::sqrt(.5 * (1 + c)));
+  RingMeasures m{.sagitta = .5 * moving[near_length * S] * tan_quarter};
+  if (entries()[i].face < 0) return m;
+  const Vec3 n = get(moving + area_vector * S, S);
+  m.area = .5 * moving[doubled_area * S];
+  m.alignment = alignment(shape, i);
+  m.cotangent = cotangent_of_min_angle(moving, S);
+  m.fold = cosine_between(n, get(moving + previous_vector * S, S));
+  m.far_fold = cosine_between(n, get(fixed + beyond * S, S));
   return m;
 }
 
@@ -259,8 +260,9 @@ double VertexRing::max_cotangent(const RingShape& shape) const {
 }
 
 int VertexRing::folded_faces(const RingShape& shape, double limit) const {
-  return static_cast<int>(
-      std::ranges::count_if(measures(shape).alignment, [limit](double a) { return a < limit; }));
+  int count = 0;
+  for (std::size_t i = 0; i < entries().size(); ++i) count += alignment(shape, i) < limit;
+  return count;
 }
 
 bool VertexRing::fold_breaks(const ShapeLimits& limits, std::size_t i, const RingMeasures& b,
@@ -270,19 +272,20 @@ bool VertexRing::fold_breaks(const ShapeLimits& limits, std::size_t i, const Rin
   };
   const auto item = static_cast<std::size_t>(rings_.first[wedge_]) + i;
   const bool far_crease = !rings_.far_crease.empty() && rings_.far_crease[item];
-  return breaks(i == 0 && begins_at_crease(), b.fold[i], a.fold[i]) ||
-         breaks(far_crease, b.far_fold[i], a.far_fold[i]);
+  return breaks(i == 0 && begins_at_crease(), b.fold, a.fold) ||
+         breaks(far_crease, b.far_fold, a.far_fold);
 }
 
 bool VertexRing::obeys(const RingShape& before, const RingShape& after, const ShapeLimits& limits) const {
   if (within_limits(view(before), view(after), limits)) return true;
-  const RingMeasures b = measures(before), a = measures(after);
-  for (std::size_t i = 0; i < entries().size(); ++i)
-    if (face_breaks(limits, b.area[i], a.area[i], b.alignment[i], a.alignment[i]) ||
-        angle_breaks(limits, b.alignment[i], b.cotangent[i], a.cotangent[i]) ||
-        sagitta_breaks(limits, columns_[edge_target * stride_ + i], b.sagitta[i], a.sagitta[i]) ||
+  for (std::size_t i = 0; i < entries().size(); ++i) {
+    const RingMeasures b = measures(before, i), a = measures(after, i);
+    if (face_breaks(limits, b.area, a.area, b.alignment, a.alignment) ||
+        angle_breaks(limits, b.alignment, b.cotangent, a.cotangent) ||
+        sagitta_breaks(limits, columns_[edge_target * stride_ + i], b.sagitta, a.sagitta) ||
         fold_breaks(limits, i, b, a))
       return false;
+  }
   return true;
 }
 

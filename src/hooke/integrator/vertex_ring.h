@@ -16,13 +16,13 @@ struct RingShape {
   std::vector<double> columns;
 };
 
-/// The measures that the guards limit, one value per ring entry.
+/// What the guards limit at one entry of a ring.
 struct RingMeasures {
-  std::vector<double> area, alignment;  // of the face
-  std::vector<double> cotangent;        // of its smallest angle
-  std::vector<double> sagitta;          // of the edge
-  std::vector<double> fold;             // cosine between the faces on both sides of the edge
-  std::vector<double> far_fold;         // the same across the face's far edge
+  double area = 0, alignment = 1;  // of the face
+  double cotangent = 0;            // of its smallest angle
+  double sagitta = 0;              // of the edge
+  double fold = 1;                 // cosine between the faces on both sides of the edge
+  double far_fold = 1;             // the same across the face's far edge
 };
 
 /// Holds one ring at a time; reused for many vertices to save allocations. On a crease each wedge of the
@@ -49,8 +49,6 @@ class VertexRing {
   /// Do the guards allow the displacement of the vertex from `before` to `after`?
   bool obeys(const RingShape& before, const RingShape& after, const ShapeLimits& limits) const;
 
-  RingMeasures measures(const RingShape& shape) const;
-
   /// The maximum cotangent of the faces' smallest angles, at least 0.
   double max_cotangent(const RingShape& shape) const;
 
@@ -62,6 +60,8 @@ class VertexRing {
   RingView view(const RingShape& s) const { return {columns_.data(), s.columns.data(), stride_, s.normal}; }
   RingModel unfold(const RingShape& shape, const RingTerms& terms, const Vec3& u, const Vec3& v,
                    std::vector<double>& face_mask) const;
+  double alignment(const RingShape& shape, std::size_t entry) const;
+  RingMeasures measures(const RingShape& shape, std::size_t entry) const;
 
   const VertexRings& rings_;
   const TargetLengths& targets_;
