@@ -65,6 +65,17 @@ TEST(LocalNewton, SweepsLowerTheEnergyOfAllAndKeepTheGuards) {
   }
 }
 
+TEST(LocalNewton, VerticesThatWereHeldMoveAsSoonAsTheyCan) {
+  test::Scene s = test::sphere_scene(.25);
+  Relaxation r = s.relaxation();
+  local_newton_sweep(r, {}, {});
+  std::ranges::fill(r.is_held, 1);
+  const double energy = s.energy(s.positions.points, s.positions.normals, nullptr);
+  local_newton_sweep(r, {}, {});
+  EXPECT_LT(s.energy(s.positions.points, s.positions.normals, nullptr), energy);
+  EXPECT_LT(std::ranges::count(r.is_held, 1), s.adjacency.vertex_count / 10);
+}
+
 TEST(LocalNewton, FindsTheMinimumAroundAVertexInAFewSteps) {
   test::Scene sphere = test::sphere_scene(.2), ground = test::ground_scene(.2);
   const std::pair<test::Scene*, int> cases[] = {{&sphere, 50}, {&ground, 30}, {&ground, 3}};  // 3 slides

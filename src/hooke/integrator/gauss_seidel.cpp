@@ -148,7 +148,10 @@ double LocalNewton::improve(std::span<const int> copies, const LocalNewtonOption
   if (!(size > options.rest * length)) return 0;
   if (size > cap) step *= cap / size;
 
+  char& is_held = r_.is_held[first];
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
+    const bool tries = !is_held || halvings == 0 || halvings == options.max_halvings;
+    if (!tries) continue;  // a vertex that is held mostly stays so
     candidates_.clear();
     for (const int v : copies)
       candidates_.push_back(slides ? r_.retraction.slid(at, v, first, step)
@@ -156,8 +159,10 @@ double LocalNewton::improve(std::span<const int> copies, const LocalNewtonOption
     if (!may_move(candidates_)) continue;
     const double distance = (candidates_.front().point - at.points.col(first)).norm();
     for (std::size_t i = 0; i < copies.size(); ++i) candidates_[i].write_to(at, copies[i]);
+    is_held = 0;
     return distance / length;
   }
+  is_held = 1;
   return 0;
 }
 

@@ -272,8 +272,7 @@ bool VertexRing::fold_breaks(const ShapeLimits& limits, std::size_t i, const Rin
   };
   const auto item = static_cast<std::size_t>(rings_.first[wedge_]) + i;
   const bool far_crease = !rings_.far_crease.empty() && rings_.far_crease[item];
-  return breaks(i == 0 && begins_at_crease(), b.fold, a.fold) ||
-         breaks(far_crease, b.far_fold, a.far_fold);
+  return breaks(i == 0 && begins_at_crease(), b.fold, a.fold) || breaks(far_crease, b.far_fold, a.far_fold);
 }
 
 bool VertexRing::obeys(const RingShape& before, const RingShape& after, const ShapeLimits& limits) const {
