@@ -182,7 +182,7 @@ void warn_of_rescue(RunRecord& run) {
   const auto why = [&]() -> std::string {
     const auto count = std::ranges::count_if(
         run.result->vertex_limits, [](unsigned char limits) { return limits & VertexLimit::put_back; });
-    const int parts = run.result->rescued_parts;
+    const int parts = run.result->rescued_shells;
     const std::string of_parts = parts > 0 ? fmt::format(" of {} of its connected parts", parts) : "";
     switch (run.result->rescue) {
       case Rescue::none:

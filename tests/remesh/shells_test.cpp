@@ -31,6 +31,8 @@ TEST(Shells, AreConnectedOverEdgesAndJunctions) {
   EXPECT_EQ(label_shells(c, {}), apart);
   for (int v = 0; v < m; ++v) joined.push_back(v == n ? 0 : v);
   EXPECT_EQ(label_shells(c, joined), std::vector<int>(m, 0));
+  const std::vector<int> first_is_loose = label_shells(make_adjacency(4, {{1, 2, 3}}), {});
+  EXPECT_EQ(first_is_loose, (std::vector<int>{-1, 0, 0, 0}));
 }
 
 TEST(Shells, PartsHaveWhatTheWholeSaysOfThem) {

@@ -64,15 +64,31 @@ std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count
 
 }  // namespace
 
+namespace {
+
+/// The number of equilateral faces with its target lengths that a face has the area of.
+double target_face_count(const Mat3X& points, const std::vector<double>& vertex_length,
+                         const Triangle& face) {
+  double length = 0;
+  for (int v : face) length += vertex_length[v] / 3;
+  return 4 * face_shape(points, face).area / (std::sqrt(3.) * length * length);
+}
+
+}  // namespace
+
+double target_face_count(const Mat3X& points, const std::vector<double>& vertex_length,
+                         const std::vector<Triangle>& faces) {
+  double count = 0;
+  for (const Triangle& t : faces) count += target_face_count(points, vertex_length, t);
+  return count;
+}
+
 double target_face_count(const VertexTable& vertices, const std::vector<Triangle>& faces) {
   double count = 0;
-  for (const Triangle& t : faces) {
-    double length = 0;
-    for (int v : t) length += vertices.vertex_length[v] / 3;
+  for (const Triangle& t : faces)
     count += vertices.constraints.is_frozen(t)
                  ? 1
-                 : 4 * face_shape(vertices.positions.points, t).area / (std::sqrt(3.) * length * length);
-  }
+                 : target_face_count(vertices.positions.points, vertices.vertex_length, t);
   return count;
 }
 

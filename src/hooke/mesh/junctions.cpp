@@ -82,8 +82,9 @@ std::vector<int> label_shells(const Adjacency& c, const std::vector<int>& joined
   int count = 0;
   for (int v = 0; v < c.vertex_count; ++v) {
     int& of_shell = number[shells.root(v)];
-    if (of_shell < 0) of_shell = count++;
-    labels.push_back(of_shell);
+    const bool has_faces = !c.vertex_faces[v].empty();
+    if (of_shell < 0 && has_faces) of_shell = count++;
+    labels.push_back(has_faces ? of_shell : -1);
   }
   return labels;
 }

@@ -32,8 +32,8 @@ std::vector<int> joined_vertices(const TriMesh& mesh, const Permutation& order);
 /// The faces with the copies of each vertex joined.
 std::vector<Triangle> join_faces(std::vector<Triangle> faces, const std::vector<int>& joined);
 
-/// Per vertex: the number of its shell, in the order of their first vertices. A shell is a connected part of
-/// the joined mesh, with all its sheets.
+/// Per vertex: the number of its shell, in the order of their first vertices; -1 for a vertex without faces.
+/// A shell is a connected part of the joined mesh, with all its sheets.
 std::vector<int> label_shells(const Adjacency& sheets, const std::vector<int>& joined);
 
 struct Junctions {

@@ -33,19 +33,50 @@ constexpr double few = .05;
 /// Likewise, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after that.
 constexpr double very_few = .005;
 
+/// What became of the shells of the input that were remeshed by themselves.
+class ShellOutcomes {
+ public:
+  ShellOutcomes(int shell_count, const RemeshResult& whole)
+      : rescue_of_whole_(whole.rescue),
+        shortened_in_whole_(whole.shortened),
+        rescues_(shell_count, Rescue::none),
+        shortened_(shell_count, 0) {}
+
+  /// `shells`: those that were remeshed together, with this result.
+  void note(const std::vector<int>& shells, const RemeshResult& result) {
+    for (int s : shells) {
+      rescues_[s] = result.rescue;
+      shortened_[s] = 0;
+    }
+    shortened_[shells.front()] = result.shortened;
+  }
+
+  void tell(RemeshResult& whole) const {
+    const Rescue last = std::ranges::max(rescues_);
+    whole.rescue = std::max(rescue_of_whole_, last);
+    whole.rescued_shells = last > rescue_of_whole_ ? static_cast<int>(std::ranges::count(rescues_, last)) : 0;
+    whole.shortened = std::accumulate(shortened_.begin(), shortened_.end(), shortened_in_whole_);
+  }
+
+ private:
+  Rescue rescue_of_whole_;
+  int shortened_in_whole_;
+  std::vector<Rescue> rescues_;  // by shell
+  std::vector<int> shortened_;   // vertices; those of shells that were remeshed together are with the first
+};
+
 /// Attempts and what mends them, until one keeps the input.
 class PreservingRemesh {
  public:
   explicit PreservingRemesh(AttemptMaker& maker)
       : maker_(maker), input_(maker.input()), options_(maker.options), asked_(maker.lengths) {}
 
-  /// For some shells of a mesh: `first` is the first attempt for these, `max_growth` by how much shorter
-  /// lengths may multiply the number of faces, and `keeps_first` whether faces are kept before anything else
-  /// is tried.
-  PreservingRemesh(AttemptMaker& maker, Attempt first, double max_growth, bool keeps_first)
+  /// For some shells of a mesh: `first` is the first attempt for these, `max_faces` the most faces that they
+  /// may have with shorter lengths, and `keeps_first` whether faces are kept before anything else is tried.
+  PreservingRemesh(AttemptMaker& maker, Attempt first, double max_faces, bool keeps_first)
       : PreservingRemesh(maker) {
     first_ = std::move(first);
-    max_growth_ = max_growth;
+    max_faces_of_part_ = max_faces;
     keeps_first_ = keeps_first;
   }
 
@@ -211,21 +242,29 @@ class PreservingRemesh {
     if (next.is_better_than(best)) best = std::move(next);
   }
 
-  /// Per vertex of the input, by id: a number for its shell if something is wrong there, the same one for
+  /// Per shell of the input: the number of a part that it is of if something is wrong there, the same one for
   /// shells whose results cross; else -1.
-  std::vector<int> shells_at_flaws(const Attempt& run) const {
+  std::vector<int> parts_at_flaws(const Attempt& run) const {
     DisjointSets groups(input_.shell_count());
     const std::vector<Triangle>& faces = run.result.memory_order.adjacency->faces;
     for (const auto& [f, g] : run.preservation().crossings)
       groups.join({maker_.shell_of_vertex(faces[f][0], run), maker_.shell_of_vertex(faces[g][0], run)});
-    const auto group_of = [&](int v) { return groups.root(input_.shell_of_vertex(v)); };
-    std::vector<int> number(input_.shell_count(), -1), numbers(input_.adjacency.vertex_count);
-    for (int v : input_vertices_at_flaws(maker_, run)) number[group_of(v)] = 0;
+    std::vector<int> of_group(input_.shell_count(), -1), part_of_shell;
+    for (int v : input_vertices_at_flaws(maker_, run)) of_group[groups.root(input_.shell_of_vertex(v))] = 0;
     int count = 0;
-    for (int& n : number)
-      if (n == 0) n = count++;
-    for (int v = 0; v < input_.adjacency.vertex_count; ++v) numbers[maker_.id_of(v)] = number[group_of(v)];
-    return numbers;
+    for (int& number : of_group)
+      if (number == 0) number = count++;
+    for (int s = 0; s < input_.shell_count(); ++s) part_of_shell.push_back(of_group[groups.root(s)]);
+    return part_of_shell;
+  }
+
+  /// By id.
+  std::vector<int> parts_of_vertices(const std::vector<int>& part_of_shell) const {
+    std::vector<int> parts(input_.adjacency.vertex_count, -1);
+    for (int v = 0; v < input_.adjacency.vertex_count; ++v)
+      if (const int shell = input_.shell_of_vertex(v); shell >= 0)
+        parts[maker_.id_of(v)] = part_of_shell[shell];
+    return parts;
   }
 
   /// If only some shells are wrong, or several are, remeshes each of these by itself, with all that mends it;
@@ -239,60 +278,79 @@ class PreservingRemesh {
     const bool keeps_first = may_keep_faces(best);
     maker_.judge_by_scale_of(best);
     Attempt last = best;
+    ShellOutcomes outcomes(input_.shell_count(), best.result);
     std::vector<int> before;
     bool was_interrupted = false;
     for (int round = 0; round <= max_rounds && !last.keeps_promises(); ++round) {
-      const std::vector<int> shells = shells_at_flaws(last);
-      if (std::ranges::adjacent_find(shells, std::not_equal_to()) == shells.end()) return;  // all or none
-      const bool is_last = round == max_rounds || shells == before;
-      const auto wrong = std::ssize(shells) - std::ranges::count(shells, -1);
+      const std::vector<int> part_of_shell = parts_at_flaws(last);
+      if (std::ranges::adjacent_find(part_of_shell, std::not_equal_to()) == part_of_shell.end()) return;
+      const bool is_last = round == max_rounds || part_of_shell == before;
+      const std::vector<int> part_of_vertex = parts_of_vertices(part_of_shell);
+      const auto wrong = std::ssize(part_of_vertex) - std::ranges::count(part_of_vertex, -1);
       if (is_last && static_cast<double>(wrong) > few * input_.adjacency.vertex_count) return;
-      const std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), options_.constraints, shells);
+      std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), options_.constraints, part_of_vertex);
       std::vector<PartOfMesh> replaced;
       std::vector<Attempt> attempts;
       std::vector<PartOfResult> first = parts_of_result(parts, unmended.mesh, unmended.result);
-      double faces_of_parts = 0;
-      for (const PartOfResult& of_part : first) faces_of_parts += of_part.result.adaptation.target_faces;
-      const double growth = 1 + (max_faces(best) - best.result.adaptation.target_faces) / faces_of_parts;
+      const double growth = growth_of_parts(best, first);
       for (std::size_t p = 0; p < parts.size(); ++p) {
         Attempt next = attempt_for(parts[p], std::move(first[p]), last, is_last, growth, keeps_first);
         was_interrupted = next.is_interrupted();
         if (was_interrupted) break;
         if (!next.result.measures) continue;  // not finite
-        replaced.push_back(parts[p]);
+        outcomes.note(shells_of_part(static_cast<int>(p), part_of_shell), next.result);
+        replaced.push_back(std::move(parts[p]));
         attempts.push_back(std::move(next));
       }
+      if (was_interrupted) best.result.reason = last.result.reason = StopReason::interrupted;
+      if (attempts.empty()) return;
       std::vector<RemeshedMesh> results;
       for (const Attempt& a : attempts) results.push_back({a.mesh, a.result});
-      if (!results.empty()) replace_parts(replaced, results, last.mesh, last.result);
+      replace_parts(replaced, results, last.mesh, last.result);
+      outcomes.tell(last.result);
       maker_.judge(last);
       if (last.is_better_than(best)) best = last;
-      if (was_interrupted) best.result.reason = StopReason::interrupted;
-      if (is_last || was_interrupted || results.empty()) return;
-      before = shells;
+      if (is_last || was_interrupted) return;
+      before = part_of_shell;
     }
+  }
+
+  static std::vector<int> shells_of_part(int part, const std::vector<int>& part_of_shell) {
+    std::vector<int> shells;
+    for (std::size_t s = 0; s < part_of_shell.size(); ++s)
+      if (part_of_shell[s] == part) shells.push_back(static_cast<int>(s));
+    return shells;
+  }
+
+  /// By how much the parts may multiply the numbers of faces that they should have, so that together they add
+  /// no more than the whole may.
+  double growth_of_parts(const Attempt& whole, const std::vector<PartOfResult>& parts) const {
+    double faces = 0;
+    for (const PartOfResult& part : parts) faces += part.result.adaptation.target_faces;
+    return 1 + (max_faces(whole) - whole.result.adaptation.target_faces) / faces;
   }
 
   /// The best attempt for a part of the input that is wrong in `last`; it starts from what the first run has
   /// made of it, or leaves it as it is.
   Attempt attempt_for(const PartOfMesh& part, PartOfResult of_first, const Attempt& last, bool leaves_it,
-                      double max_growth, bool keeps_first) const {
+                      double growth, bool keeps_first) const {
     const MemoryOrder order = find_memory_order(part.mesh);
     AttemptMaker maker = maker_.for_part(part, order, last);
+    const double max_faces = growth * of_first.result.adaptation.target_faces;
     Attempt first;
     first.mesh = std::move(of_first.mesh);
     first.result = std::move(of_first.result);
-    PreservingRemesh of_part(maker, std::move(first), max_growth, keeps_first);
+    PreservingRemesh of_part(maker, std::move(first), max_faces, keeps_first);
     return leaves_it ? of_part.unchanged() : of_part.best();
   }
 
-  bool is_of_part() const { return max_growth_.has_value(); }
+  bool is_of_part() const { return max_faces_of_part_.has_value(); }
 
   /// The most faces that shorter lengths may take.
   double max_faces(const Attempt& run) const {
     const double faces = run.result.adaptation.target_faces;
     const double alone = std::max(std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces);
-    return is_of_part() ? std::min(*max_growth_ * faces, alone) : alone;
+    return is_of_part() ? std::min(*max_faces_of_part_, alone) : alone;
   }
 
   /// In mode `adapt`, where long edges do not keep narrow parts: shortens lengths there, and keeps the faces
@@ -578,10 +636,10 @@ class PreservingRemesh {
 
   AttemptMaker& maker_;
   const MeasuredSurface& input_;
-  RemeshOptions& options_;            // of the attempts to come
-  const std::vector<double> asked_;   // target lengths, by vertex of the input in memory order
-  std::optional<Attempt> first_;      // that is at hand
-  std::optional<double> max_growth_;  // of the number of faces, by shorter lengths, in a part
+  RemeshOptions& options_;           // of the attempts to come
+  const std::vector<double> asked_;  // target lengths, by vertex of the input in memory order
+  std::optional<Attempt> first_;     // that is at hand
+  std::optional<double> max_faces_of_part_;
   bool keeps_first_ = false;
 };
 

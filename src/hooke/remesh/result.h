@@ -84,7 +84,7 @@ struct RemeshResult {
   /// Of preserving_remesh(), null if not measured; copies of the result share them.
   std::shared_ptr<ResultMeasures> measures;
   Rescue rescue = Rescue::none;
-  int rescued_parts = 0;  // connected parts, remeshed by themselves, that it holds for; 0: for the whole
+  int rescued_shells = 0;  // that were remeshed by themselves and for which that holds; 0: for the whole
   /// Vertices of the input to which preserving_remesh() gave half of their target length or less.
   int shortened = 0;
   /// Did preserving_remesh() take the lengths that the input has for target lengths?

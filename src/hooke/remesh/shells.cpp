@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "hooke/connectivity/face_count.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/remesh/result.h"
@@ -46,7 +47,7 @@ Piece piece_of(const PartOfMesh& part, const RemeshedMesh& remeshed) {
 Piece piece_beside(const RemeshedMesh& remeshed, const std::vector<int>& faces) {
   Piece piece{remeshed.mesh, remeshed.result, remeshed.result.map};
   const MemoryOrder& order = piece.result.memory_order;
-  const std::vector<int> shells = label_shells(*order.adjacency, {});
+  const std::vector<int> shells = label_components(*order.adjacency);
   std::vector<char> is_on(shells.size(), 0);
   for (std::size_t v = 0; v < shells.size(); ++v)
     if (std::ranges::binary_search(faces, piece.map[order.order.old_vertex[v]].position.face))
@@ -147,7 +148,7 @@ void share_constraints(const ConstraintOptions& whole, const std::vector<int>& p
                        const std::vector<int>& id, std::vector<PartOfMesh>& parts) {
   const auto vertex_lists = {&ConstraintOptions::fixed_vertices, &ConstraintOptions::frozen_vertices};
   const auto edge_lists = {&ConstraintOptions::seams, &ConstraintOptions::junction_edges,
-                               &ConstraintOptions::hard_edges};
+                           &ConstraintOptions::hard_edges};
   ConstraintOptions of_each = whole;
   for (const auto list : vertex_lists) (of_each.*list).clear();
   for (const auto list : edge_lists) (of_each.*list).clear();
@@ -171,7 +172,6 @@ void add_counts(const RemeshResult& part, RemeshResult& result) {
   result.flips.folded_before += part.flips.folded_before;
   result.adaptation.folded_before += part.adaptation.folded_before;
   result.adaptation.levels = std::max(result.adaptation.levels, part.adaptation.levels);
-  result.adaptation.target_faces += part.adaptation.target_faces;
   result.adaptation.rounds += part.adaptation.rounds;
   result.adaptation.count_rounds += part.adaptation.count_rounds;
   result.adaptation.splits += part.adaptation.splits;
@@ -180,11 +180,6 @@ void add_counts(const RemeshResult& part, RemeshResult& result) {
   result.unprojected += part.unprojected;
   result.projection += part.projection;
   result.limited_steps += part.limited_steps;
-  result.shortened += part.shortened;
-  if (part.rescue == Rescue::none || part.rescue < result.rescue) return;
-  if (part.rescue > result.rescue) result.rescued_parts = 0;
-  result.rescue = part.rescue;
-  ++result.rescued_parts;
 }
 
 }  // namespace
@@ -245,7 +240,7 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
     }
   }
   const MemoryOrder& order = result.memory_order;
-  const std::vector<int> shells = label_shells(*order.adjacency, {});
+  const std::vector<int> shells = label_components(*order.adjacency);
   std::vector<int> part_of_shell(shells.size(), -1), part_of(shells.size()), id(shells.size(), -1);
   for (std::size_t v = 0; v < shells.size(); ++v) {
     const int face = result.map[order.order.old_vertex[v]].position.face;
@@ -299,9 +294,9 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
     of_part.reason = result.reason;
     of_part.rescue = result.rescue;
     of_part.input_points = result.input_points(Eigen::all, parts[p].vertices);
-    of_part.adaptation.target_faces = static_cast<double>(lists[p].faces.size());
-    results[p].mesh = build_result(points(Eigen::all, lists[p].vertices), lists[p].faces, lists[p].lengths,
-                                   lists[p].joined, of_part);
+    const Mat3X part_points = points(Eigen::all, lists[p].vertices);
+    of_part.adaptation.target_faces = target_face_count(part_points, lists[p].lengths, lists[p].faces);
+    results[p].mesh = build_result(part_points, lists[p].faces, lists[p].lengths, lists[p].joined, of_part);
   }
   return results;
 }
@@ -318,8 +313,6 @@ void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<Remes
   RemeshResult all = result;
   std::erase_if(all.input_creases, [&](const Edge& e) { return is_replaced[e[0]] != 0; });
   std::vector<Piece> pieces = {piece_beside({mesh, result}, replaced)};
-  all.adaptation.target_faces *=
-      static_cast<double>(pieces.front().vertices.size()) / static_cast<double>(mesh.n_vertices());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     pieces.push_back(piece_of(parts[p], of_parts[p]));
     for (const auto& [a, b] : of_parts[p].result.input_creases)

@@ -38,8 +38,8 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
                                           const RemeshResult& result);
 
 /// Puts the results of some parts in the places of these in a result of the whole mesh. Vertices of the input
-/// come in their order, new ones follow. What was done is counted together; the records of iterations stay
-/// those of the whole.
+/// come in their order, new ones follow. What was done is counted together; the records of iterations, the
+/// rescue and the target number of faces stay those of the whole.
 /// Pre-conditions: both have maps; no two parts have a vertex in common.
 void replace_parts(const std::vector<PartOfMesh>& parts, const std::vector<RemeshedMesh>& of_parts,
                    TriMesh& mesh, RemeshResult& result);

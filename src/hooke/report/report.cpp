@@ -194,7 +194,7 @@ Json promises_json(const RunRecord& run) {
           {"distance_over_limit", number(p.excess)},
           {"place", vector(p.place)},
           {"rescue", rescues[static_cast<int>(run.result->rescue)]},
-          {"rescued_parts", run.result->rescued_parts},
+          {"rescued_parts", run.result->rescued_shells},
           {"shortened_vertices", run.result->shortened},
           {"lengths_of_input", run.result->has_lengths_of_input}};
 }

@@ -413,7 +413,8 @@ constexpr Row course[] = {
     {"adaptation.splits", integer, none, neither, "edges split"},
     {"adaptation.collapses", integer, none, neither, "edges collapsed"},
     {"adaptation.flips", integer, none, neither, "edges flipped"},
-    {"adaptation.wanted_faces", or_null(number), none, neither, "faces that the target lengths ask for"},
+    {"adaptation.wanted_faces", or_null(number), none, neither,
+     "faces that the target lengths ask for, before those of parts by themselves are shortened"},
 };
 
 constexpr Row messages[] = {
