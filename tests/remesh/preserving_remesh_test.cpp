@@ -278,6 +278,31 @@ TEST(PreservingRemesh, WhereABodyIsTooThinOthersStayAsTheyAre) {
   EXPECT_EQ(kept.result.input_points, t.points);
 }
 
+TEST(PreservingRemesh, StoppedAtOneShellItKeepsWhatIsDoneOfOthers) {
+  test::Triangles disc = thin_disc(), ball = test::sphere(3, .3, 1);
+  disc.points.colwise() += Vec3(-10, 0, 0);
+  ball.points = (4 * ball.points).colwise() + Vec3(10, 0, 0);
+  const test::Triangles t = test::both(test::both(thin_disc(), disc), ball);
+  int calls = 0, last_call = 0;
+  const auto run = [&] {
+    calls = 0;
+    test::Outcome o;
+    o.mesh = test::with_length(t, 1.5);
+    o.result = preserving_remesh(o.mesh, find_memory_order(o.mesh), options_for(ConnectivityMode::adapt), {},
+                                 {}, [&](const Progress&) { return ++calls != last_call; });
+    o.points = vertex_points(o.mesh);
+    return o;
+  };
+  const test::Outcome all = run();
+  last_call = calls - 1;
+  const test::Outcome some = run();
+  EXPECT_EQ(some.result.reason, StopReason::interrupted);
+  EXPECT_GT(some.result.shortened, 0);
+  EXPECT_LT(some.result.shortened, all.result.shortened);
+  EXPECT_EQ(points_right_of(-5, some.points), points_right_of(-5, all.points));
+  EXPECT_NE(some.points, all.points);
+}
+
 /// Sheet metal of thickness 1, 40 and 27 wide, with a round bend.
 test::Triangles bent_sheet() {
   constexpr int in_bend = 9;
