@@ -292,13 +292,14 @@ class PreservingRemesh {
       std::vector<PartOfMesh> replaced;
       std::vector<Attempt> attempts;
       std::vector<PartOfResult> first = parts_of_result(parts, unmended.mesh, unmended.result);
+      const std::vector<std::vector<int>> shells_of = shells_of_parts(parts.size(), part_of_shell);
       const double growth = growth_of_parts(best, first);
       for (std::size_t p = 0; p < parts.size(); ++p) {
         Attempt next = attempt_for(parts[p], std::move(first[p]), last, is_last, growth, keeps_first);
         was_interrupted = next.is_interrupted();
         if (was_interrupted) break;
         if (!next.result.measures) continue;  // not finite
-        outcomes.note(shells_of_part(static_cast<int>(p), part_of_shell), next.result);
+        outcomes.note(shells_of[p], next.result);
         replaced.push_back(std::move(parts[p]));
         attempts.push_back(std::move(next));
       }
@@ -315,10 +316,11 @@ class PreservingRemesh {
     }
   }
 
-  static std::vector<int> shells_of_part(int part, const std::vector<int>& part_of_shell) {
-    std::vector<int> shells;
+  static std::vector<std::vector<int>> shells_of_parts(std::size_t parts,
+                                                       const std::vector<int>& part_of_shell) {
+    std::vector<std::vector<int>> shells(parts);
     for (std::size_t s = 0; s < part_of_shell.size(); ++s)
-      if (part_of_shell[s] == part) shells.push_back(static_cast<int>(s));
+      if (part_of_shell[s] >= 0) shells[part_of_shell[s]].push_back(static_cast<int>(s));
     return shells;
   }
 
