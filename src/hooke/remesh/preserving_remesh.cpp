@@ -283,7 +283,9 @@ class PreservingRemesh {
     bool was_interrupted = false;
     for (int round = 0; round <= max_rounds && !last.keeps_promises(); ++round) {
       const std::vector<int> part_of_shell = parts_at_flaws(last);
-      if (std::ranges::adjacent_find(part_of_shell, std::not_equal_to()) == part_of_shell.end()) return;
+      const bool is_all_or_none =
+          std::ranges::adjacent_find(part_of_shell, std::not_equal_to()) == part_of_shell.end();
+      if (is_all_or_none) return;
       const bool is_last = round == max_rounds || part_of_shell == before;
       const std::vector<int> part_of_vertex = parts_of_vertices(part_of_shell);
       const auto wrong = std::ssize(part_of_vertex) - std::ranges::count(part_of_vertex, -1);
