@@ -62,10 +62,6 @@ std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count
   return edges;
 }
 
-}  // namespace
-
-namespace {
-
 /// The number of equilateral faces with its target lengths that a face has the area of.
 double target_face_count(const Mat3X& points, const std::vector<double>& vertex_length,
                          const Triangle& face) {

@@ -13,7 +13,7 @@ struct WorkingMesh;
 /// 4 A / (sqrt 3 L^2), or of 1 for a frozen one.
 double target_face_count(const VertexTable& vertices, const std::vector<Triangle>& faces);
 
-/// The same without frozen faces.
+/// The same as if no face were frozen.
 double target_face_count(const Mat3X& points, const std::vector<double>& vertex_length,
                          const std::vector<Triangle>& faces);
 

@@ -32,7 +32,7 @@ struct Relaxation {
   Guards guards;
   SurfacePositions& positions;
   Stopwatch* stopwatch;
-  std::vector<char> is_held;  // per vertex: did it find no step when it was moved by itself last?
+  std::vector<char> is_held;  // per vertex: was no step allowed when LocalNewton tried last?
 
   /// At the present positions.
   double present_energy();

@@ -47,13 +47,13 @@ Piece piece_of(const PartOfMesh& part, const RemeshedMesh& remeshed) {
 Piece piece_beside(const RemeshedMesh& remeshed, const std::vector<int>& faces) {
   Piece piece{remeshed.mesh, remeshed.result, remeshed.result.map};
   const MemoryOrder& order = piece.result.memory_order;
-  const std::vector<int> shells = label_components(*order.adjacency);
-  std::vector<char> is_on(shells.size(), 0);
-  for (std::size_t v = 0; v < shells.size(); ++v)
+  const std::vector<int> components = label_components(*order.adjacency);
+  std::vector<char> is_on(components.size(), 0);
+  for (std::size_t v = 0; v < components.size(); ++v)
     if (std::ranges::binary_search(faces, piece.map[order.order.old_vertex[v]].position.face))
-      is_on[shells[v]] = 1;
-  for (std::size_t v = 0; v < shells.size(); ++v)
-    if (!is_on[shells[v]]) piece.vertices.push_back(order.order.old_vertex[v]);
+      is_on[components[v]] = 1;
+  for (std::size_t v = 0; v < components.size(); ++v)
+    if (!is_on[components[v]]) piece.vertices.push_back(order.order.old_vertex[v]);
   std::ranges::sort(piece.vertices);
   return piece;
 }
@@ -240,15 +240,16 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
     }
   }
   const MemoryOrder& order = result.memory_order;
-  const std::vector<int> shells = label_components(*order.adjacency);
-  std::vector<int> part_of_shell(shells.size(), -1), part_of(shells.size()), id(shells.size(), -1);
-  for (std::size_t v = 0; v < shells.size(); ++v) {
+  const std::vector<int> components = label_components(*order.adjacency);
+  std::vector<int> part_of_component(components.size(), -1), part_of(components.size()),
+      id(components.size(), -1);
+  for (std::size_t v = 0; v < components.size(); ++v) {
     const int face = result.map[order.order.old_vertex[v]].position.face;
     if (face >= 0 && face < std::ssize(part_of_face) && part_of_face[face] >= 0)
-      part_of_shell[shells[v]] = part_of_face[face];
+      part_of_component[components[v]] = part_of_face[face];
   }
-  for (std::size_t v = 0; v < shells.size(); ++v)
-    part_of[order.order.old_vertex[v]] = part_of_shell[shells[v]];
+  for (std::size_t v = 0; v < components.size(); ++v)
+    part_of[order.order.old_vertex[v]] = part_of_component[components[v]];
 
   struct Lists {
     std::vector<int> vertices;
