@@ -134,6 +134,7 @@ LocalCurvature LocalNewton::curvature(std::span<const int> copies) {
 }
 
 double LocalNewton::improve(int vertex, const LocalNewtonOptions& options) {
+  was_refused_ = false;
   return stays(vertex) ? 0 : improve({&vertex, 1}, options);
 }
 
@@ -145,13 +146,12 @@ double LocalNewton::improve(std::span<const int> copies, const LocalNewtonOption
   const double length = r_.vertex_length[first];
   Vec3 step = -options.over_relaxation * (curvature_of(model_, basis_).inverse * (basis_ * model_.gradient));
   const double size = step.norm(), cap = options.max_move * length;
-  if (!(size > options.rest * length)) return 0;
+  was_refused_ = size > options.rest * length;
+  if (!was_refused_) return 0;
   if (size > cap) step *= cap / size;
 
-  char& is_held = r_.is_held[first];
   for (int halvings = 0; halvings <= options.max_halvings; ++halvings, step *= .5) {
-    const bool tries = !is_held || halvings == 0 || halvings == options.max_halvings;
-    if (!tries) continue;  // a vertex that is held mostly stays so
+    if (options.skips_middle_steps && halvings > 0 && halvings < options.max_halvings) continue;
     candidates_.clear();
     for (const int v : copies)
       candidates_.push_back(slides ? r_.retraction.slid(at, v, first, step)
@@ -159,10 +159,9 @@ double LocalNewton::improve(std::span<const int> copies, const LocalNewtonOption
     if (!may_move(candidates_)) continue;
     const double distance = (candidates_.front().point - at.points.col(first)).norm();
     for (std::size_t i = 0; i < copies.size(); ++i) candidates_[i].write_to(at, copies[i]);
-    is_held = 0;
+    was_refused_ = false;
     return distance / length;
   }
-  is_held = 1;
   return 0;
 }
 
@@ -221,7 +220,8 @@ LocalRelaxationResult relax_locally(Relaxation& r, std::vector<int> vertices, co
   const LocalNewtonOptions newton{.over_relaxation = o.over_relaxation, .rest = min_step_factor * o.rest};
   LocalRelaxationResult result;
   std::ranges::sort(vertices);
-  std::vector<char> active(r.adjacency.vertex_count, 0), moved(r.adjacency.vertex_count, 0);
+  const std::vector<char> none(r.adjacency.vertex_count, 0);
+  std::vector<char> active = none, moved = none, refused = none;
   for (int v : vertices) active[v] = 1;
   bool any_moved = !vertices.empty();
   while (any_moved && result.sweeps < o.sweeps && !result.interrupted) {
@@ -229,7 +229,12 @@ LocalRelaxationResult relax_locally(Relaxation& r, std::vector<int> vertices, co
         r.coloring, vertices, [&] { return LocalNewton(r); },
         [&](LocalNewton& local, size_t i) {
           const int v = vertices[i];
-          moved[v] = active[v] && local.improve(v, newton) > o.rest;
+          moved[v] = 0;
+          if (!active[v]) return;
+          LocalNewtonOptions options = newton;
+          options.skips_middle_steps = refused[v];  // what was refused mostly is again
+          moved[v] = local.improve(v, options) > o.rest;
+          refused[v] = local.was_refused();
         });
     if (o.slides_copies)
       slide_junctions(r, active, newton, [&](int v, double distance) { moved[v] = distance > o.rest; });

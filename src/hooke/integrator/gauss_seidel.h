@@ -23,6 +23,7 @@ struct LocalNewtonOptions {
   double over_relaxation = 1;
   static constexpr int max_halvings = 5;  // of a step that breaks a guard or raises the energy
   double rest = 0;                        // in target lengths; a vertex with a shorter step stays
+  bool skips_middle_steps = false;        // try only the longest and the shortest
 };
 
 /// Works on one vertex at a time; reused for many vertices to save allocations. Keeps a reference to the
@@ -45,6 +46,9 @@ class LocalNewton {
   /// The same for copies of a junction vertex that slide together, by the energy around all of them.
   double improve(std::span<const int> copies, const LocalNewtonOptions& options);
 
+  /// Was no step allowed when improve() was called last?
+  bool was_refused() const { return was_refused_; }
+
  private:
   /// The ring of one wedge of the vertex, at the current position and at the candidate.
   struct Wedge {
@@ -63,6 +67,7 @@ class LocalNewton {
   std::vector<SurfacePosition> candidates_;
   Mat32 basis_ = Mat32::Zero();
   RingModel model_;
+  bool was_refused_ = false;
 };
 
 /// One sweep over all vertices, then over those of junctions that slide with their copies; those with

@@ -17,8 +17,7 @@ Relaxation::Relaxation(const Adjacency& c, const VertexColoring& colors, const T
       retraction(field),
       guards(c, targets, limits),
       positions(vertices.positions),
-      stopwatch(watch),
-      is_held(c.vertex_count, 0) {}
+      stopwatch(watch) {}
 
 Relaxation::Relaxation(Workspace& work, const EnergyTerms& weights, const ShapeLimits& limits)
     : Relaxation(*work.adjacency, work.coloring, work.targets, work.vertices, *work.retraction, weights,

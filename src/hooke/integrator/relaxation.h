@@ -32,7 +32,6 @@ struct Relaxation {
   Guards guards;
   SurfacePositions& positions;
   Stopwatch* stopwatch;
-  std::vector<char> is_held;  // per vertex: was no step allowed when LocalNewton tried last?
 
   /// At the present positions.
   double present_energy();
