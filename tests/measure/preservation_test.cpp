@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hooke/geometry/self_intersection.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
@@ -41,6 +42,28 @@ TEST(Preservation, HoldsForTheMeshItself) {
     EXPECT_TRUE(compare(t, t).holds());
     EXPECT_TRUE(compare(t, t, {.keeps_facets = true}).holds());
     EXPECT_TRUE(compare(t, t, {.max_distance = 1e-12}).holds());
+  }
+}
+
+TEST(Preservation, WhereVerticesAreNearItKnowsWhichSamplesAreNot) {
+  const test::Triangles coarse = test::sphere(2), fine = test::sphere(3);  // has the vertices of the coarse
+  constexpr double limit = .01;
+  for (const bool becomes_fine : {false, true}) {
+    const test::Triangles& result = becomes_fine ? fine : coarse;
+    const Preservation p = compare(becomes_fine ? coarse : fine, result, {.max_distance = limit});
+    ASSERT_FALSE(p.far_samples.empty());
+    double farthest = 0;
+    for (const FarSample& s : p.far_samples) {
+      const double distance = (s.on_result - s.on_reference).norm();
+      EXPECT_GT(distance, limit);
+      EXPECT_EQ(s.limit, limit);
+      farthest = std::max(farthest, distance);
+      const Triangle& t = result.faces[static_cast<std::size_t>(s.face)];
+      const ClosestPoint on_face = closest_point(s.on_result, result.points.col(t[0]),
+                                                 result.points.col(t[1]), result.points.col(t[2]));
+      EXPECT_LT(on_face.squared_distance, 1e-24);
+    }
+    EXPECT_NEAR(farthest, p.distance, .1 * p.distance);  // other samples count too
   }
 }
 

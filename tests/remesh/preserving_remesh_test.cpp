@@ -569,6 +569,22 @@ TEST(PreservingRemesh, StoppedWithLengthsOfTheInputItKeepsTheResultIfItIsGood) {
   EXPECT_TRUE(o.points != graded_disc().points);
 }
 
+TEST(PreservingRemesh, EdgesAreAsLongAsAskedDistancesAllow) {
+  const test::Triangles t = test::sphere(4, .2, 1);
+  std::size_t faces_before = 0;
+  for (const double max_distance : {.05, .02, .008}) {  // of a radius of 1
+    TriMesh mesh = test::with_length(t, 5 * test::natural(t));
+    const RemeshResult result = preserving_remesh(
+        mesh, find_memory_order(mesh), options_for(ConnectivityMode::adapt), {.max_distance = max_distance});
+    EXPECT_TRUE(result.measures->preservation.holds()) << max_distance;
+    EXPECT_LE(result.rescue, Rescue::tips) << max_distance;
+    EXPECT_GT(result.measures->quality.min_angle.min, 15) << max_distance;
+    EXPECT_GT(mesh.n_faces(), faces_before) << max_distance;
+    EXPECT_LT(mesh.n_faces(), t.faces.size()) << max_distance;
+    faces_before = mesh.n_faces();
+  }
+}
+
 TEST(PreservingRemesh, FarFromKeptFacesLengthsAreAsAsked) {
   TriMesh mesh = test::to_mesh(bumped_plane());
   std::vector<double> lengths;

@@ -86,14 +86,15 @@ bool has_same_face(const MeasuredSurface& surface, const MeasuredSurface& other,
          std::ranges::all_of(t, [&](int v) { return surface.points.col(v) == other.points.col(v); });
 }
 
-/// The corners of the faces of `from` with a sample beyond the limit from `to`. `limits`: per face of the
-/// reference, which is `to` or, if `is_reference`, `from`.
+/// The corners of the faces of `from` with a sample beyond the limit from `to`, and the worst of these.
+/// `limits`: per face of the reference, which is `to` or, if `is_reference`, `from`.
 void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
                       const std::vector<double>& limits, bool is_reference, std::vector<FarVertex>& far,
                       Preservation& p) {
   const Adjacency& c = from.adjacency;
   const auto any_face = [](int) { return true; };
-  std::vector<double> excess(c.faces.size(), 0), distances(excess);
+  std::vector<double> excess(c.faces.size(), 0);
+  std::vector<FarSample> worst(c.faces.size());
   parallel_for(c.faces.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       if (has_same_face(from, to, f)) continue;
@@ -109,8 +110,10 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
         near = closest.face;
         const double distance = std::sqrt(closest.squared_distance),
                      limit = limits[is_reference ? f : index_of(closest.face)];
-        distances[f] = std::max(distances[f], distance);
-        excess[f] = std::max(excess[f], distance / limit);
+        if (distance / limit <= excess[f]) return;
+        excess[f] = distance / limit;
+        worst[f] = {is_reference ? near : static_cast<int>(f), is_reference ? closest.point : x,
+                    is_reference ? x : closest.point, limit};
       };
       sample((corner(0) + corner(1) + corner(2)) / 3);
       for (std::size_t k = 0; k < 3; ++k)
@@ -118,13 +121,15 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
     }
   });
   for (std::size_t f = 0; f < excess.size(); ++f) {
+    const double distance = excess[f] * worst[f].limit;
     if (excess[f] > p.excess) {
       p.excess = excess[f];
-      p.distance = distances[f];
+      p.distance = distance;
       p.place = from.points.col(c.faces[f][0]);
     }
-    if (excess[f] > 1)
-      for (int v : c.faces[f]) far.push_back({v, distances[f], distances[f] / excess[f]});
+    if (!(excess[f] > 1)) continue;
+    for (int v : c.faces[f]) far.push_back({v, distance, worst[f].limit});
+    p.far_samples.push_back(worst[f]);
   }
 }
 

@@ -47,11 +47,20 @@ struct FarVertex {
   double limit;  // of the distance
 };
 
+/// Points of both surfaces that are too far apart: the worst sample of a face, which may lie between vertices
+/// that are near, and what is closest to it.
+struct FarSample {
+  int face;  // of the result
+  Vec3 on_result, on_reference;
+  double limit;  // of their distance
+};
+
 /// Ids are those of the adjacencies; places and lengths are in file units.
 struct Preservation {
   std::size_t flipped_faces = 0;         // of the result, see Deviation
   std::vector<FarVertex> far_vertices;   // of the result: beyond the limit from the reference
   std::vector<FarVertex> lost_vertices;  // of the reference: beyond the limit from the result
+  std::vector<FarSample> far_samples;    // at most one for each face of these, whose corners are above
   bool within_max_distance = true;       // are the surfaces, by the samples of the Deviation?
   double excess = 0;                     // the greatest distance of these vertices over its limit
   double distance = 0;                   // the distance there

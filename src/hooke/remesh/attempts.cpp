@@ -86,6 +86,7 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
         shell_of_face_[memory_order_.order.old_face[f]] = input_.shell_of_face(static_cast<int>(f));
     }
   }
+  if (preservation_.max_distance) options.filter.max_distance = *preservation_.max_distance;
   is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
              options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
   const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&

@@ -1,6 +1,7 @@
 #include "hooke/remesh/flaws.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
@@ -70,13 +71,29 @@ std::vector<int> corners_at_deeper_folds(const MeasuredSurface& input, const Mat
   return corners;
 }
 
-/// Per vertex of the result: is it too far, or at a face that is wrong, apart from folds?
-std::vector<char> at_flaws(const Attempt& attempt, const MeasuredSurface& surface) {
+constexpr double beyond_measure = std::numeric_limits<double>::infinity();
+
+void add_excess(const std::vector<FarVertex>& vertices, std::vector<double>& excess) {
+  for (const FarVertex& far : vertices)
+    excess[far.vertex] = std::max(excess[far.vertex], far.distance / far.limit);
+}
+
+std::vector<int> positive(const std::vector<double>& excess) {
+  std::vector<int> vertices;
+  for (std::size_t v = 0; v < excess.size(); ++v)
+    if (excess[v] > 0) vertices.push_back(static_cast<int>(v));
+  return vertices;
+}
+
+/// Per vertex of the result: its distance over the limit of this if it is too far, infinite at a face that is
+/// wrong, apart from folds, else 0.
+std::vector<double> excess_at_flaws(const Attempt& attempt, const MeasuredSurface& surface) {
   const Adjacency& c = surface.adjacency;
   const Preservation& p = attempt.preservation();
-  std::vector<char> is_wrong(c.vertex_count, 0);
+  std::vector<double> excess(c.vertex_count, 0);
+  add_excess(p.far_vertices, excess);
   const auto add = [&](const auto& vertices) {
-    for (int v : vertices) is_wrong[v] = 1;
+    for (int v : vertices) excess[v] = beyond_measure;
   };
   const std::vector<char> wrong = wrong_faces(attempt);
   for (std::size_t f = 0; f < wrong.size(); ++f)
@@ -85,40 +102,40 @@ std::vector<char> at_flaws(const Attempt& attempt, const MeasuredSurface& surfac
   if (attempt.lost_angle)
     for (const Triangle& t : c.faces)
       if (min_angle(surface.points, {t}) < attempt.least_angle) add(t);
-  for (const FarVertex& far : p.far_vertices) is_wrong[far.vertex] = 1;
-  return is_wrong;
+  return excess;
 }
 
 }  // namespace
 
-std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt) {
+std::vector<double> excess_at_input(const AttemptMaker& maker, const Attempt& attempt) {
   const MeasuredSurface& input = maker.input();
   const MeasuredSurface surface = maker.surface_of(attempt);
   const Preservation& p = attempt.preservation();
   const Adjacency& c = input.adjacency;
-  std::vector<char> is_near(c.vertex_count, 0);
-  for (const FarVertex& lost : p.lost_vertices) is_near[lost.vertex] = 1;
-  const auto add_closest = [&](const Vec3& x, const AabbTree& tree, const auto& is_meant) {
+  std::vector<double> at_input(c.vertex_count, 0);
+  add_excess(p.lost_vertices, at_input);
+  const auto add_closest = [&](const Vec3& x, double excess, const AabbTree& tree, const auto& is_meant) {
     const int face = tree.closest(x, is_meant).face;
     if (face < 0) return;
-    for (int v : c.faces[face]) is_near[v] = 1;
+    for (int v : c.faces[face]) at_input[v] = std::max(at_input[v], excess);
   };
-  std::vector<char> is_wrong = at_flaws(attempt, surface);
+  std::vector<double> excess = excess_at_flaws(attempt, surface);
   if (p.new_folds > 0)
-    for (int v : vertices_at_folds(attempt, surface)) is_wrong[v] = 1;
+    for (int v : vertices_at_folds(attempt, surface)) excess[v] = beyond_measure;
   const Mat3X normals = vertex_normals(surface.points, surface.adjacency),
               input_normals = face_normals(input.points, c);
   for (int v = 0; v < surface.adjacency.vertex_count; ++v)  // of its own shell, on the same side
-    if (is_wrong[v])
-      add_closest(surface.points.col(v), input.tree_of(surface.shell_of_vertex(v)),
+    if (excess[v] > 0)
+      add_closest(surface.points.col(v), excess[v], input.tree_of(surface.shell_of_vertex(v)),
                   [&](int f) { return input_normals.col(f).dot(normals.col(v)) > 0; });
   for (const Edge& lost : p.lost_creases)
-    for (int v : lost) is_near[v] = 1;
-  if (!p.within_max_distance) add_closest(p.place, input.tree, [](int) { return true; });
-  std::vector<int> near;
-  for (int v = 0; v < c.vertex_count; ++v)
-    if (is_near[v]) near.push_back(v);
-  return near;
+    for (int v : lost) at_input[v] = beyond_measure;
+  if (!p.within_max_distance) add_closest(p.place, p.excess, input.tree, [](int) { return true; });
+  return at_input;
+}
+
+std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt) {
+  return positive(excess_at_input(maker, attempt));
 }
 
 std::vector<int> flaws_at_vertices(const Attempt& attempt, const Mat3X& points) {
@@ -141,16 +158,13 @@ std::vector<int> flaws_at_vertices(const Attempt& attempt, const Mat3X& points) 
 std::vector<int> vertices_to_put_back(const AttemptMaker& maker, const Attempt& attempt) {
   const MeasuredSurface surface = maker.surface_of(attempt);
   const Preservation& p = attempt.preservation();
-  std::vector<char> is_wrong = at_flaws(attempt, surface);
+  std::vector<double> excess = excess_at_flaws(attempt, surface);
   if (p.new_folds > 0)
-    for (int v : corners_at_deeper_folds(maker.input(), surface.points)) is_wrong[v] = 1;
-  for (const FarVertex& lost : p.lost_vertices) is_wrong[lost.vertex] = 1;
+    for (int v : corners_at_deeper_folds(maker.input(), surface.points)) excess[v] = beyond_measure;
+  add_excess(p.lost_vertices, excess);
   for (const Edge& lost : p.lost_creases)
-    for (int v : lost) is_wrong[v] = 1;
-  std::vector<int> wrong;
-  for (std::size_t v = 0; v < is_wrong.size(); ++v)
-    if (is_wrong[v]) wrong.push_back(static_cast<int>(v));
-  return wrong;
+    for (int v : lost) excess[v] = beyond_measure;
+  return positive(excess);
 }
 
 }  // namespace hooke

@@ -23,9 +23,13 @@ std::vector<Edge> folds_off_creases(const Attempt& attempt, const Mat3X& points)
 /// the input does not or has no area, and each fold that is no crease, at one of its corners.
 std::vector<int> flaws_at_vertices(const Attempt& attempt, const Mat3X& points);
 
-/// The vertices of the input whose surface a result does not keep: those it lost, the ends of lost creases,
-/// and the corners of the faces closest to its own vertices that are too far, at folds, or at faces that are
-/// turned over, intersect, or have no area or too small angles. Ascending, in memory order.
+/// Per vertex of the input in memory order, how much the result does not keep its surface there: the distance
+/// over its limit at vertices that are lost and at the corners of the faces closest to its own vertices that
+/// are too far; infinite at the ends of lost creases and at the faces closest to its folds or to faces that
+/// are turned over, intersect, or have no area or too small angles; 0 where nothing is wrong.
+std::vector<double> excess_at_input(const AttemptMaker& maker, const Attempt& attempt);
+
+/// The vertices of the input where this is not 0. Ascending, in memory order.
 std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt);
 
 /// The vertices of a result with the faces of its input that are too far, lost, at lost creases, or at faces

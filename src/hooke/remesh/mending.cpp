@@ -126,6 +126,7 @@ class Mending {
     if (is_stopped_) return false;
     Mat3X moved = points_;
     approach_lost_vertices(approach, moved);
+    join_far_samples(moved);
     move_to_input(approach, moved);
     take_back_needles(moved);
     if (moved == points_ || !moved.allFinite()) return false;
@@ -171,6 +172,29 @@ class Mending {
       }
       const double share = 1 - well_within * tip.limit / way.norm();
       if (!(share > 0) || !may_move) continue;
+      for (int k = 0; k < 3; ++k) moved.col(t[k]) += weights[k] / weights.squaredNorm() * share * way;
+    }
+  }
+
+  /// Moves the corners of faces so that the points on them come as near as they must to those of the input,
+  /// where that is not far: chords of more than that are for shorter edges, or faces of the input.
+  void join_far_samples(Mat3X& moved) const {
+    constexpr double max_excess = 4;
+    std::vector<FarSample> samples = run_.preservation().far_samples;
+    const auto distance = [](const FarSample& s) { return (s.on_reference - s.on_result).norm(); };
+    std::ranges::stable_sort(samples, std::greater(), distance);
+    for (const FarSample& s : samples) {
+      const Triangle& t = c_.faces[s.face];
+      ClosestPoint on_result =
+          closest_point(s.on_result, points_.col(t[0]), points_.col(t[1]), points_.col(t[2]));
+      on_result.face = s.face;
+      Vec3 weights = on_face(on_result, points_, c_).weights, way = s.on_reference;
+      for (int k = 0; k < 3; ++k) {
+        way -= weights[k] * moved.col(t[k]);
+        if (is_immovable_[t[k]]) weights[k] = 0;
+      }
+      const double share = 1 - well_within * s.limit / way.norm();
+      if (!(share > 0) || distance(s) > max_excess * s.limit || weights.isZero(0)) continue;
       for (int k = 0; k < 3; ++k) moved.col(t[k]) += weights[k] / weights.squaredNorm() * share * way;
     }
   }

@@ -353,7 +353,7 @@ class PreservingRemesh {
   /// The most faces that shorter lengths may take.
   double max_faces(const Attempt& run) const {
     const double faces = run.result.adaptation.target_faces;
-    const double alone = std::max(std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces);
+    const double alone = std::max({std::clamp(25 * faces, 1e4, 5e4), 1.5 * faces, max_faces_for_tolerance()});
     return is_of_part() ? std::min(*max_faces_of_part_, alone) : alone;
   }
 
@@ -374,11 +374,26 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
   }
 
-  /// Halves the target lengths about what is wrong, and makes attempts with these until nothing is, or until
-  /// they had too many faces since one that halved what is wrong. Keeps the best lengths. Ends where it would
-  /// take too many faces, or after some rounds.
+  /// By how much to shorten lengths where a distance is `excess` times its limit. Where a limit is asked for
+  /// it tells: distances of chords grow with the square of lengths.
+  double shortening(double excess) const {
+    constexpr double margin = .7, least = .25;
+    return has_tolerance() && std::isfinite(excess) ? std::clamp(margin / std::sqrt(excess), least, margin)
+                                                    : .5;
+  }
+
+  bool has_tolerance() const { return std::isfinite(options_.filter.max_distance); }
+
+  /// 0 if no limit of distances is asked for.
+  double max_faces_for_tolerance() const {
+    return has_tolerance() ? 12 * static_cast<double>(input_.adjacency.faces.size()) : 0;
+  }
+
+  /// Shortens the target lengths about what is wrong, and makes attempts with these until nothing is, or
+  /// until they had too many faces since one that halved what is wrong. Keeps the best lengths. Ends where it
+  /// would take too many faces, or after some rounds.
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
-    constexpr double max_faces_in_vain = 1e4;
+    const double max_faces_in_vain = std::max(1e4, max_faces_for_tolerance());
     const double faces = best.result.adaptation.target_faces;
     const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
     const Adjacency& c = input_.adjacency;
@@ -391,7 +406,9 @@ class PreservingRemesh {
     std::size_t flaws_to_halve = best.flaws();
     Attempt last = best;
     for (int round = 0; round < max_rounds && !best.keeps_promises(); ++round) {
-      for (int v : input_vertices_at_flaws(maker_, last)) longest[v] = lengths[v] / 2;
+      const std::vector<double> excess = excess_at_input(maker_, last);
+      for (std::size_t v = 0; v < excess.size(); ++v)
+        if (excess[v] > 0) longest[v] = lengths[v] * shortening(excess[v]);
       limit_gradation(input_.points, c, gradation, longest);
       const std::vector<double> before = lengths;
       for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked_[v], longest[v]);

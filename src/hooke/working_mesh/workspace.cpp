@@ -63,6 +63,7 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   const std::vector<double> length = vertex_values(source, target_length_property);
   normalisation = normalisation_of(vertex_points(source), length);
   if (filter_.offset_unit == OffsetUnit::file) filter_.offset /= normalisation.unit;
+  filter_.max_distance /= normalisation.unit;
 
   Mat3X points = order.gather(vertex_points(source));
   for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
@@ -160,6 +161,9 @@ SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points,
       lengths[wedge] = faceted_ ? rise : std::max(lengths[wedge], rise);
     }
   }
+  constexpr double share = .7;  // of the distance: chords take some
+  for (double& length : lengths)
+    length = std::min(length, share * filter_.max_distance / filter_.max_deviation);
   return SurfaceField(std::move(points), cut, filter_,
                       has_creases ? label_components(*cut) : std::vector<int>(), lengths);
 }
