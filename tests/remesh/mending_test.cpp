@@ -174,4 +174,27 @@ TEST(Mending, LeavesAResultThatKeepsItsInput) {
   EXPECT_TRUE(sphere.points() == before);
 }
 
+TEST(Mending, WhatStandsStillDoesNotKeepItsNeighboursFromBeingMended) {
+  constexpr double limit = .05;
+  Sphere s(limit);
+  const Adjacency& c = s.connectivity();
+  constexpr int edge = 70;
+  const Edge held = c.edges[edge];
+  const Triangle& t = c.faces[c.edge_faces[edge][0]];
+  const int third = *std::ranges::find_if(t, [&](int v) { return v != held[0] && v != held[1]; });
+  const auto is_apart = [&](int v) {
+    const auto neighbours = c.vertex_neighbours[v];
+    return std::ranges::none_of(held, [&](int h) { return h == v || std::ranges::count(neighbours, h) > 0; });
+  };
+  const auto neighbours = c.vertex_neighbours[third];
+  const auto apart = std::ranges::find_if(neighbours, is_apart);
+  ASSERT_NE(apart, neighbours.end());
+  s.raise({held[0], held[1], *apart}, 1.3 * limit);
+  for (int v : held) s.hold(v);
+  mend(s.maker, s.run);
+  const Mat3X x = s.points();
+  for (int v : held) EXPECT_GT(x.col(v).norm(), 1 + limit);
+  EXPECT_LT(x.col(*apart).norm(), 1 + limit);
+}
+
 }  // namespace hooke::mending_test

@@ -180,6 +180,7 @@ class Mending {
   /// where that is not far: chords of more than that are for shorter edges, or faces of the input.
   void join_far_samples(Mat3X& moved) const {
     constexpr double max_excess = 4;
+    constexpr double least_weight = .2;  // of a corner that may move: it moves by 1 / weight of the way
     std::vector<FarSample> samples = run_.preservation().far_samples;
     const auto distance = [](const FarSample& s) { return (s.on_reference - s.on_result).norm(); };
     std::ranges::stable_sort(samples, std::greater(), distance);
@@ -194,7 +195,7 @@ class Mending {
         if (is_immovable_[t[k]]) weights[k] = 0;
       }
       const double share = 1 - well_within * s.limit / way.norm();
-      if (!(share > 0) || distance(s) > max_excess * s.limit || weights.isZero(0)) continue;
+      if (!(share > 0) || distance(s) > max_excess * s.limit || weights.maxCoeff() < least_weight) continue;
       for (int k = 0; k < 3; ++k) moved.col(t[k]) += weights[k] / weights.squaredNorm() * share * way;
     }
   }
