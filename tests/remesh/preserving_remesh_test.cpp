@@ -581,6 +581,7 @@ TEST(PreservingRemesh, EdgesAreAsLongAsAskedDistancesAllow) {
     EXPECT_GT(result.measures->quality.min_angle.min, 15) << max_distance;
     EXPECT_GT(mesh.n_faces(), faces_before) << max_distance;
     EXPECT_LT(mesh.n_faces(), t.faces.size()) << max_distance;
+    EXPECT_EQ(result.shortened > 0, max_distance < .05) << max_distance;
     faces_before = mesh.n_faces();
   }
 }

@@ -41,7 +41,7 @@ struct FilterOptions {
   /// Maximum distance of the surface from the faces, in vertex lengths, where splines may overshoot: near
   /// long edges along which the normals turn.
   double max_deviation = std::numeric_limits<double>::infinity();
-  double max_distance = std::numeric_limits<double>::infinity();  // there, in the unit of the points
+  double max_distance = std::numeric_limits<double>::infinity();  // likewise, in the unit of the points
 };
 
 }  // namespace hooke

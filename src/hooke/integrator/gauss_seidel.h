@@ -46,7 +46,7 @@ class LocalNewton {
   /// The same for copies of a junction vertex that slide together, by the energy around all of them.
   double improve(std::span<const int> copies, const LocalNewtonOptions& options);
 
-  /// Was no step allowed when improve() was called last?
+  /// Were all steps that improve() tried last refused? False if it tried none.
   bool was_refused() const { return was_refused_; }
 
  private:

@@ -375,12 +375,15 @@ class PreservingRemesh {
   }
 
   /// By how much to shorten lengths where a distance is `excess` times its limit. Where a limit is asked for
-  /// it tells: distances of chords grow with the square of lengths.
+  /// it tells: distances of chords of a smooth surface grow with the square of lengths.
   double shortening(double excess) const {
-    constexpr double margin = .7, least = .25;
-    return has_tolerance() && std::isfinite(excess) ? std::clamp(margin / std::sqrt(excess), least, margin)
-                                                    : .5;
+    constexpr double least = .25;
+    return has_tolerance() && std::isfinite(excess)
+               ? std::clamp(least_shortening() / std::sqrt(excess), least, least_shortening())
+               : .5;
   }
+
+  double least_shortening() const { return has_tolerance() ? .7 : .5; }
 
   bool has_tolerance() const { return std::isfinite(options_.filter.max_distance); }
 
@@ -508,10 +511,11 @@ class PreservingRemesh {
     return run;
   }
 
-  /// The vertices with half of the length asked for or less.
+  /// The vertices with lengths that were shortened, not only limited by those around.
   int count_shortened() const {
     int count = 0;
-    for (std::size_t v = 0; v < asked_.size(); ++v) count += 2 * maker_.lengths[v] <= asked_[v];
+    for (std::size_t v = 0; v < asked_.size(); ++v)
+      count += maker_.lengths[v] <= least_shortening() * asked_[v];
     return count;
   }
 
