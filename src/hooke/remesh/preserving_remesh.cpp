@@ -10,7 +10,6 @@
 
 #include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
-#include "hooke/mesh/disjoint_sets.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -19,7 +18,7 @@
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/mending.h"
 #include "hooke/remesh/remesh.h"
-#include "hooke/remesh/shells.h"
+#include "hooke/remesh/shell_attempts.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {
@@ -28,42 +27,8 @@ namespace {
 /// Of target lengths, away from where they are shorter than asked.
 constexpr double gradation = .3;
 
-/// Of the vertices: what is wrong at no more of them may stay as it is in the input.
-constexpr double few = .05;
-/// Likewise, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after that.
+/// As `few`, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after that.
 constexpr double very_few = .005;
-
-/// What became of the shells of the input that were remeshed by themselves.
-class ShellOutcomes {
- public:
-  ShellOutcomes(int shell_count, const RemeshResult& whole)
-      : rescue_of_whole_(whole.rescue),
-        shortened_in_whole_(whole.shortened),
-        rescues_(shell_count, Rescue::none),
-        shortened_(shell_count, 0) {}
-
-  /// `shells`: those that were remeshed together, with this result.
-  void note(const std::vector<int>& shells, const RemeshResult& result) {
-    for (int s : shells) {
-      rescues_[s] = result.rescue;
-      shortened_[s] = 0;
-    }
-    shortened_[shells.front()] = result.shortened;
-  }
-
-  void tell(RemeshResult& whole) const {
-    const Rescue last = std::ranges::max(rescues_);
-    whole.rescue = std::max(rescue_of_whole_, last);
-    whole.rescued_shells = last > rescue_of_whole_ ? static_cast<int>(std::ranges::count(rescues_, last)) : 0;
-    whole.shortened = std::accumulate(shortened_.begin(), shortened_.end(), shortened_in_whole_);
-  }
-
- private:
-  Rescue rescue_of_whole_;
-  int shortened_in_whole_;
-  std::vector<Rescue> rescues_;  // by shell
-  std::vector<int> shortened_;   // vertices; those of shells that were remeshed together are with the first
-};
 
 /// Attempts and what mends them, until one keeps the input.
 class PreservingRemesh {
@@ -110,7 +75,7 @@ class PreservingRemesh {
     if (!best.result.measures) return best;  // not finite
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
-    if (maker_.adapts()) remesh_shells(unmended, best);
+    if (maker_.adapts()) remesh_wrong_shells(unmended, best);
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest =
         !best.is_interrupted() && !best.is_good() && may_keep_faces(maker_.adapts() ? best : unmended);
@@ -242,110 +207,16 @@ class PreservingRemesh {
     if (next.is_better_than(best)) best = std::move(next);
   }
 
-  /// Per shell of the input: the number of a part that it is of if something is wrong there, the same one for
-  /// shells whose results cross; else -1.
-  std::vector<int> parts_at_flaws(const Attempt& run) const {
-    DisjointSets groups(input_.shell_count());
-    const std::vector<Triangle>& faces = run.result.memory_order.adjacency->faces;
-    for (const auto& [f, g] : run.preservation().crossings)
-      groups.join({maker_.shell_of_vertex(faces[f][0], run), maker_.shell_of_vertex(faces[g][0], run)});
-    std::vector<int> of_group(input_.shell_count(), -1), part_of_shell;
-    for (int v : input_vertices_at_flaws(maker_, run)) of_group[groups.root(input_.shell_of_vertex(v))] = 0;
-    int count = 0;
-    for (int& number : of_group)
-      if (number == 0) number = count++;
-    for (int s = 0; s < input_.shell_count(); ++s) part_of_shell.push_back(of_group[groups.root(s)]);
-    return part_of_shell;
-  }
-
-  /// By id.
-  std::vector<int> parts_of_vertices(const std::vector<int>& part_of_shell) const {
-    std::vector<int> parts(input_.adjacency.vertex_count, -1);
-    for (int v = 0; v < input_.adjacency.vertex_count; ++v)
-      if (const int shell = input_.shell_of_vertex(v); shell >= 0)
-        parts[maker_.id_of(v)] = part_of_shell[shell];
-    return parts;
-  }
-
-  /// If only some shells are wrong, or several are, remeshes each of these by itself, with all that mends it;
-  /// where nothing does, it stays as it is in the input. Shells that then cross are remeshed together, and
-  /// few that are still wrong at last stay as they are.
-  void remesh_shells(const Attempt& unmended, Attempt& best) {
+  void remesh_wrong_shells(const Attempt& unmended, Attempt& best) {
     if (is_of_part() || input_.shell_count() == 0 || best.is_interrupted() || best.keeps_promises() ||
         maker_.smooths_mask())
       return;
-    constexpr int max_rounds = 3;
-    const bool keeps_first = may_keep_faces(best);
-    maker_.judge_by_scale_of(best);
-    Attempt last = best;
-    ShellOutcomes outcomes(input_.shell_count(), best.result);
-    std::vector<int> before;
-    bool was_interrupted = false;
-    for (int round = 0; round <= max_rounds && !last.keeps_promises(); ++round) {
-      const std::vector<int> part_of_shell = parts_at_flaws(last);
-      const bool is_all_or_none =
-          std::ranges::adjacent_find(part_of_shell, std::not_equal_to()) == part_of_shell.end();
-      if (is_all_or_none) return;
-      const bool is_last = round == max_rounds || part_of_shell == before;
-      const std::vector<int> part_of_vertex = parts_of_vertices(part_of_shell);
-      const auto wrong = std::ssize(part_of_vertex) - std::ranges::count(part_of_vertex, -1);
-      if (is_last && static_cast<double>(wrong) > few * input_.adjacency.vertex_count) return;
-      std::vector<PartOfMesh> parts = parts_of_mesh(maker_.mesh(), options_.constraints, part_of_vertex);
-      std::vector<PartOfMesh> replaced;
-      std::vector<Attempt> attempts;
-      std::vector<PartOfResult> first = parts_of_result(parts, unmended.mesh, unmended.result);
-      const std::vector<std::vector<int>> shells_of = shells_of_parts(parts.size(), part_of_shell);
-      const double growth = growth_of_parts(best, first);
-      for (std::size_t p = 0; p < parts.size(); ++p) {
-        Attempt next = attempt_for(parts[p], std::move(first[p]), last, is_last, growth, keeps_first);
-        was_interrupted = next.is_interrupted();
-        if (was_interrupted) break;
-        if (!next.result.measures) continue;  // not finite
-        outcomes.note(shells_of[p], next.result);
-        replaced.push_back(std::move(parts[p]));
-        attempts.push_back(std::move(next));
-      }
-      if (was_interrupted) best.result.reason = last.result.reason = StopReason::interrupted;
-      if (attempts.empty()) return;
-      std::vector<RemeshedMesh> results;
-      for (const Attempt& a : attempts) results.push_back({a.mesh, a.result});
-      replace_parts(replaced, results, last.mesh, last.result);
-      outcomes.tell(last.result);
-      maker_.judge(last);
-      if (last.is_better_than(best)) best = last;
-      if (is_last || was_interrupted) return;
-      before = part_of_shell;
-    }
-  }
-
-  static std::vector<std::vector<int>> shells_of_parts(std::size_t parts,
-                                                       const std::vector<int>& part_of_shell) {
-    std::vector<std::vector<int>> shells(parts);
-    for (std::size_t s = 0; s < part_of_shell.size(); ++s)
-      if (part_of_shell[s] >= 0) shells[part_of_shell[s]].push_back(static_cast<int>(s));
-    return shells;
-  }
-
-  /// By how much the parts may multiply the numbers of faces that they should have, so that together they add
-  /// no more than the whole may.
-  double growth_of_parts(const Attempt& whole, const std::vector<PartOfResult>& parts) const {
-    double faces = 0;
-    for (const PartOfResult& part : parts) faces += part.result.adaptation.target_faces;
-    return 1 + (max_faces(whole) - whole.result.adaptation.target_faces) / faces;
-  }
-
-  /// The best attempt for a part of the input that is wrong in `last`; it starts from what the first run has
-  /// made of it, or leaves it as it is.
-  Attempt attempt_for(const PartOfMesh& part, PartOfResult of_first, const Attempt& last, bool leaves_it,
-                      double growth, bool keeps_first) const {
-    const MemoryOrder order = find_memory_order(part.mesh);
-    AttemptMaker maker = maker_.for_part(part, order, last);
-    const double max_faces = growth * of_first.result.adaptation.target_faces;
-    Attempt first;
-    first.mesh = std::move(of_first.mesh);
-    first.result = std::move(of_first.result);
-    PreservingRemesh of_part(maker, std::move(first), max_faces, keeps_first);
-    return leaves_it ? of_part.unchanged() : of_part.best();
+    const auto best_of_part = [keeps_first = may_keep_faces(best)](AttemptMaker& maker, Attempt first,
+                                                                   double max_faces, bool leaves_it) {
+      PreservingRemesh of_part(maker, std::move(first), max_faces, keeps_first);
+      return leaves_it ? of_part.unchanged() : of_part.best();
+    };
+    remesh_shells(maker_, unmended, max_faces(best), best_of_part, best);
   }
 
   bool is_of_part() const { return max_faces_of_part_.has_value(); }
