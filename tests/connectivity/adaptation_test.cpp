@@ -21,7 +21,7 @@
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
-#include "hooke/remesh/run_options.h"
+#include "hooke/remesh/run.h"
 #include "hooke/working_mesh/working_mesh.h"
 #include "support/crease_solids.h"
 #include "support/remeshed.h"
@@ -66,7 +66,7 @@ Outcome adapted(const test::Triangles& t, const RunOptions& options, const std::
   auto length = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, target_length_property);
   for (const auto v : mesh.vertices()) length[v] = lengths[static_cast<size_t>(v.idx())];
   Outcome o;
-  o.result = run_remesh(mesh, find_memory_order(mesh), options, observer);
+  o.result = Run(mesh, find_memory_order(mesh), options, observer, nullptr).remesh(mesh);
   o.points = vertex_points(mesh);
   o.adjacency = make_adjacency(static_cast<int>(mesh.n_vertices()), triangles_of(mesh));
   return o;

@@ -63,7 +63,25 @@ TEST(Preservation, WhereVerticesAreNearItKnowsWhichSamplesAreNot) {
                                                  result.points.col(t[1]), result.points.col(t[2]));
       EXPECT_LT(on_face.squared_distance, 1e-24);
     }
-    EXPECT_NEAR(farthest, p.distance, .1 * p.distance);  // other samples count too
+    EXPECT_NEAR(farthest, p.distance, .1 * p.distance);  // vertices count too
+  }
+}
+
+TEST(Preservation, WhateverIsTooFarIsListed) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const test::Triangles before = test::sphere(2, .3, seed), after = test::sphere(2, .3, seed + 100);
+    const double farthest = compare(before, after, {.max_distance = 1}).distance;
+    ASSERT_GT(farthest, .01);
+    const Preservation p = compare(before, after, {.max_distance = (1 - 1e-6) * farthest});
+    EXPECT_FALSE(p.within_max_distance);
+    double listed = 0;
+    for (const auto* list : {&p.far_vertices, &p.lost_vertices})
+      for (const FarVertex& far : *list) listed = std::max(listed, far.distance);
+    EXPECT_NEAR(listed, farthest, 1e-9) << seed;
+    const Measured a(before), b(after);
+    const double at_place = std::max(std::sqrt(a.surface.tree.closest(p.place).squared_distance),
+                                     std::sqrt(b.surface.tree.closest(p.place).squared_distance));
+    EXPECT_NEAR(at_place, farthest, 1e-9) << seed;
   }
 }
 

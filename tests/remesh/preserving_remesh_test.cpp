@@ -586,6 +586,18 @@ TEST(PreservingRemesh, EdgesAreAsLongAsAskedDistancesAllow) {
   }
 }
 
+TEST(PreservingRemesh, DistancesBelowThoseOfItsFacetsAreKeptByMoreFaces) {
+  for (const unsigned seed : {1u, 2u}) {
+    const test::Triangles t = test::sphere(3, .3, seed);
+    TriMesh mesh = test::with_length(t, 2 * test::natural(t));
+    const RemeshResult result = preserving_remesh(
+        mesh, find_memory_order(mesh), options_for(ConnectivityMode::adapt), {.max_distance = 2e-3});
+    EXPECT_TRUE(result.measures->preservation.holds()) << seed;
+    EXPECT_NE(result.rescue, Rescue::kept_faces) << seed;
+    EXPECT_GT(result.measures->quality.min_angle.p05, 30) << seed;
+  }
+}
+
 TEST(PreservingRemesh, FarFromKeptFacesLengthsAreAsAsked) {
   TriMesh mesh = test::to_mesh(bumped_plane());
   std::vector<double> lengths;

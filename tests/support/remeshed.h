@@ -7,7 +7,7 @@
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
-#include "hooke/remesh/run_options.h"
+#include "hooke/remesh/run.h"
 #include "support/meshes.h"
 
 namespace hooke::test {
@@ -34,7 +34,7 @@ inline Outcome remeshed(const Triangles& t, double length, const RunOptions& opt
                         const Observer& observer = nullptr) {
   Outcome o;
   o.mesh = with_length(t, length);
-  o.result = run_remesh(o.mesh, find_memory_order(o.mesh), options, observer);
+  o.result = Run(o.mesh, find_memory_order(o.mesh), options, observer, nullptr).remesh(o.mesh);
   o.points = vertex_points(o.mesh);
   o.faces = triangles_of(o.mesh);
   return o;

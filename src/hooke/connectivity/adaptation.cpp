@@ -357,18 +357,14 @@ class Adaptation {
              const ShapeLimits& limits, double corner_angle, const Observer& observer)
       : options_(options),
         observer_(observer),
+        goes_on_(work.has_held_vertices()),
         steps_(work, options.steps, terms, limits, corner_angle, watch()) {
     result_.target_faces = target_face_count(work.vertices, work.adjacency->faces);
   }
 
   /// `folded`: are there folded faces? Splits and collapses remove them, whereas Lloyd flow would keep them.
   AdaptResult run(bool folded) {
-    steps_.release_bends();
-    steps_.match_junctions();
-    // After the bends and junctions of the input: long edges do not show lengths that vary along them.
-    fits_regions_ =
-        options_.min_length > 0 && steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
-    if (!fits_regions_) result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
+    if (!goes_on_) begin();
     if (result_.levels > 0)
       refine_coarse_mesh();
     else
@@ -382,6 +378,15 @@ class Adaptation {
   }
 
  private:
+  void begin() {
+    steps_.release_bends();
+    steps_.match_junctions();
+    // After the bends and junctions of the input: long edges do not show lengths that vary along them.
+    fits_regions_ =
+        options_.min_length > 0 && steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
+    if (!fits_regions_) result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
+  }
+
   /// Without a coarser mesh.
   void adapt_at_once(bool folded) {
     if (!folded) steps_.lloyd_flow(options_.first_flow);
@@ -435,6 +440,7 @@ class Adaptation {
 
   const AdaptOptions& options_;
   const Observer& observer_;
+  const bool goes_on_;
   AdaptationSteps steps_;
   bool fits_regions_ = false;  // do lengths follow narrow regions?
   AdaptResult result_;

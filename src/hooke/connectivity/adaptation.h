@@ -79,7 +79,9 @@ struct AdaptOptions {
 AdaptOptions adapt_options(Effort effort);
 
 /// Replaces the mesh of the workspace. The topology, boundary loops, creases, corners and fixed vertices are
-/// kept. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.
+/// kept. Where vertices are held, as the mesh was adapted before, no coarser mesh comes first, and what is
+/// known of bends, junctions and narrow regions stays. `corner_angle`: degrees, see corner_valences().
+/// Pre-condition: the vertices are tracked on the field of the input.
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
                   const ShapeLimits& limits, double corner_angle, const Observer& observer);
 

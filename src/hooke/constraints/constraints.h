@@ -2,6 +2,7 @@
 // the input, or stand still, and the target valences of corners.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hooke/constraints/constraint_options.h"
@@ -33,6 +34,9 @@ struct Constraints {
   std::vector<int> curve;        // per vertex: index into curves, -1 without one
   std::vector<int> segment;      // per vertex: segment of its curve on which it starts; not kept up to date
   std::vector<char> frozen;  // per vertex: do its edges to other such vertices stay? empty if there are none
+  /// Per vertex what it may do again when it is released, see Workspace::hold_others(); none for one that is
+  /// not held. Empty if none is.
+  std::vector<std::optional<Freedom>> held;
   std::vector<Curve> curves;
   std::vector<Edge> creases;      // crease edges, by their vertices, which no change of the faces may lose
   std::vector<int> extra_wedges;  // vertex of each extra wedge at creases, see mesh/adjacency.h

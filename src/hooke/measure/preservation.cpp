@@ -116,8 +116,10 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
                     is_reference ? x : closest.point, limit};
       };
       sample((corner(0) + corner(1) + corner(2)) / 3);
-      for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t k = 0; k < 3; ++k) {
+        sample((4 * corner(k) + corner(k + 1) + corner(k + 2)) / 6);  // as the Deviation has them
         for (double t : {.25, .5, .75}) sample(corner(k) + t * (corner(k + 1) - corner(k)));
+      }
     }
   });
   for (std::size_t f = 0; f < excess.size(); ++f) {
@@ -125,7 +127,7 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
     if (excess[f] > p.excess) {
       p.excess = excess[f];
       p.distance = distance;
-      p.place = from.points.col(c.faces[f][0]);
+      p.place = is_reference ? worst[f].on_reference : worst[f].on_result;
     }
     if (!(excess[f] > 1)) continue;
     for (int v : c.faces[f]) far.push_back({v, distance, worst[f].limit});

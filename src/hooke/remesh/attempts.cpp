@@ -19,6 +19,7 @@
 #include "hooke/mesh/staircase.h"
 #include "hooke/mesh/surface_point.h"
 #include "hooke/remesh/remesh.h"
+#include "hooke/remesh/run.h"
 #include "hooke/remesh/run_options.h"
 #include "hooke/remesh/shells.h"
 #include "hooke/springs/sizing.h"
@@ -215,7 +216,11 @@ Attempt AttemptMaker::run() const {
   of_run.chosen.map = options.map || input_.shell_count() > 0;  // tells which shell a vertex is on
   int& tested = of_run.slivers.pass.min_in_all;
   tested = static_cast<int>(std::ceil(share_of_whole_ * tested));
-  a.result = run_remesh(a.mesh, memory_order_, of_run, observer_, stopwatch_);
+  a.run = std::make_shared<Run>(a.mesh, memory_order_, of_run, observer_, stopwatch_);
+  a.result = a.run->remesh(a.mesh);
+  a.result_of_run = a.run->results();
+  if (!adapts()) a.run.reset();
+  a.made_faces = static_cast<double>(a.mesh.n_faces());
   vertex_points(a.mesh) = as_written(vertex_points(a.mesh));
   if (is_mask_) {
     a.result.steps_smoothed = smoothed_ != vertex_points(mesh_);
@@ -223,6 +228,24 @@ Attempt AttemptMaker::run() const {
     a.result.input_points = vertex_points(mesh_);
   }
   return a;
+}
+
+std::optional<Attempt> AttemptMaker::go_on(const Attempt& last) const {
+  if (!last.run || last.run->results() != last.result_of_run || is_mask_) return std::nullopt;
+  const Mat3X points = vertex_points(last.mesh), before = as_written(last.run->points(mesh_));
+  std::vector<int> placed;
+  for (int v = 0; v < points.cols(); ++v)
+    if (points.col(v) != before.col(v)) placed.push_back(v);
+  Attempt next;
+  next.mesh = mesh_;
+  next.run = last.run;
+  std::optional<RemeshResult> result = next.run->go_on(next.mesh, last.result, placed, points, lengths);
+  if (!result) return std::nullopt;
+  next.result = std::move(*result);
+  vertex_points(next.mesh) = as_written(vertex_points(next.mesh));
+  next.result_of_run = next.run->results();
+  next.made_faces = next.run->share_of_last() * static_cast<double>(next.mesh.n_faces());
+  return next;
 }
 
 void AttemptMaker::judge(Attempt& a) const {

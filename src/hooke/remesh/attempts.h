@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "hooke/measure/measured_surface.h"
@@ -10,6 +12,7 @@
 namespace hooke {
 
 struct PartOfMesh;
+class Run;
 
 /// The result of an attempt, with its judgement.
 struct Attempt {
@@ -18,7 +21,10 @@ struct Attempt {
   double angle = 0;           // minimum angle, degrees
   double unmended_angle = 0;  // at the first judgement, before vertices are moved to the input
   double least_angle = 0;  // that it must keep: AttemptMaker::least_angle(), or what unfolding has left of it
-  bool lost_angle = false;  // is it less?
+  bool lost_angle = false;   // is it less?
+  double made_faces = 0;     // of its faces, those that were made anew for it, about
+  std::shared_ptr<Run> run;  // that it is from, in mode `adapt`; copies share it
+  int result_of_run = 0;     // its number among the results of the run
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -93,6 +99,11 @@ class AttemptMaker {
 
   /// One run, not judged yet.
   Attempt run() const;
+
+  /// Goes on from this attempt with the present lengths: only what is near those that have become shorter is
+  /// made anew. It is not judged yet. None if its run has gone on already, where Run::go_on() does not, and
+  /// of a mask.
+  std::optional<Attempt> go_on(const Attempt& last) const;
 
   /// Measures the result and compares it with the input.
   void judge(Attempt& attempt) const;

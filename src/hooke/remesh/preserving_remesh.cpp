@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -76,6 +77,7 @@ class PreservingRemesh {
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (maker_.adapts()) remesh_wrong_shells(unmended, best);
+    if (has_tolerance() && may_redo_flaws(best)) redo_flaws(best, best);
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest =
         !best.is_interrupted() && !best.is_good() && may_keep_faces(maker_.adapts() ? best : unmended);
@@ -100,6 +102,12 @@ class PreservingRemesh {
     const std::vector<int> wrong = input_vertices_at_flaws(maker_, run);
     return !wrong.empty() && (keeps_first_ || std::ssize(wrong) < (maker_.adapts() ? very_few : few) *
                                                                       input_.adjacency.vertex_count);
+  }
+
+  /// Is so little wrong in mode `adapt` that it may be made anew by itself?
+  bool may_redo_flaws(const Attempt& run) const {
+    return maker_.adapts() && !maker_.smooths_mask() && !run.is_interrupted() && !run.keeps_promises() &&
+           std::ssize(input_vertices_at_flaws(maker_, run)) < few * input_.adjacency.vertex_count;
   }
 
   /// Is so much wrong that no other attempt with these lengths is of use, in a mesh where it takes long? Not
@@ -263,52 +271,82 @@ class PreservingRemesh {
     return has_tolerance() ? 12 * static_cast<double>(input_.adjacency.faces.size()) : 0;
   }
 
-  /// Shortens the target lengths about what is wrong, and makes attempts with these until nothing is, or
-  /// until they had too many faces since one that halved what is wrong. Keeps the best lengths. Ends where it
-  /// would take too many faces, or after some rounds.
+  /// Shortens the lengths asked for about what is wrong, and makes attempts with these.
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
-    const double max_faces_in_vain = std::max(1e4, max_faces_for_tolerance());
-    const double faces = best.result.adaptation.target_faces;
-    const int max_rounds = std::clamp(static_cast<int>(2e5 / faces), 3, 10);
-    const Adjacency& c = input_.adjacency;
-    const auto covering = [&](const std::vector<double>& lengths) {
-      return covering_length(input_.points, c, spread_target_lengths(c, lengths));
-    };
-    std::vector<double> lengths = asked_, longest(asked_.size(), std::numeric_limits<double>::infinity());
-    std::vector<double> best_lengths = maker_.lengths;
-    double faces_in_vain = 0;
-    std::size_t flaws_to_halve = best.flaws();
-    Attempt last = best;
-    for (int round = 0; round < max_rounds && !best.keeps_promises(); ++round) {
-      const std::vector<double> excess = excess_at_input(maker_, last);
-      for (std::size_t v = 0; v < excess.size(); ++v)
-        if (excess[v] > 0) longest[v] = lengths[v] * shortening(excess[v]);
-      limit_gradation(input_.points, c, gradation, longest);
-      const std::vector<double> before = lengths;
-      for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = std::min(asked_[v], longest[v]);
-      if (lengths == before || faces * std::pow(covering(asked_) / covering(lengths), 2) > max_faces(best))
-        break;
-      maker_.lengths = lengths;
+    maker_.lengths = asked_;
+    shorten_about_flaws(best, best, [&](const Attempt& last) {
       options_ = start;
       const bool projects = last.result.rescue == Rescue::closest;
       if (projects) options_.filter.kind = FilterKind::closest;
       Attempt next = attempt();
       if (projects) next.result.rescue = Rescue::closest;
-      if (next.is_interrupted()) {
+      return next;
+    });
+  }
+
+  /// The same where little is wrong with a result, and goes on from it: the rest stays.
+  void redo_flaws(const Attempt& last, Attempt& best) { shorten_about_flaws(last, best, nullptr); }
+
+  /// The number of faces that these lengths take.
+  double faces_of(const std::vector<double>& lengths) const {
+    const Adjacency& c = input_.adjacency;
+    const double length = covering_length(input_.points, c, spread_target_lengths(c, lengths));
+    return total_area(input_.points, c.faces) / (std::numbers::sqrt3 / 4 * length * length);
+  }
+
+  /// Shortens the target lengths where something is wrong in this attempt. Returns whether they are shorter
+  /// for it.
+  bool shorten(const Attempt& last) {
+    std::vector<double> longest = excess_at_input(maker_, last);
+    for (std::size_t v = 0; v < longest.size(); ++v)
+      longest[v] = longest[v] > 0 ? maker_.lengths[v] * shortening(longest[v])
+                                  : std::numeric_limits<double>::infinity();
+    limit_gradation(input_.points, input_.adjacency, gradation, longest);
+    const std::vector<double> before = maker_.lengths;
+    for (std::size_t v = 0; v < longest.size(); ++v) maker_.lengths[v] = std::min(before[v], longest[v]);
+    return maker_.lengths != before;
+  }
+
+  /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
+  /// these until nothing is, or until they made too many faces since one that halved what is wrong. Where
+  /// much of the last one may stay the next goes on from it; else it is made `anew`, or it ends there if that
+  /// is null. Keeps the best lengths. Ends where it would take too many faces, or after some rounds.
+  void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
+    constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
+    const double max_in_vain = std::max(1e4, max_faces_for_tolerance());
+    const double max_rounds = std::clamp(2e5 / faces_of(asked_), 3., 10.);
+    std::vector<double> best_lengths = maker_.lengths;
+    double in_vain = 0, rounds = 0;
+    std::size_t flaws_to_halve = last.flaws();
+    while (rounds < max_rounds && in_vain <= max_in_vain && !last.keeps_promises()) {
+      if (!shorten(last) || faces_of(maker_.lengths) > max_faces(best)) break;
+      std::optional<Attempt> next = maker_.go_on(last);
+      if (next) {
+        maker_.judge(*next);
+        mend(maker_, *next);
+        next->result.rescue = last.result.rescue;
+      } else if (anew) {
+        next = anew(last);
+      } else {
+        break;
+      }
+      if (next->is_interrupted()) {
         best.result.reason = StopReason::interrupted;
         break;
       }
-      if (!next.result.measures) break;  // not finite
-      next.result.shortened = count_shortened();
-      const bool halves = 2 * next.flaws() <= flaws_to_halve;
-      if (halves || next.flaws() < best.flaws()) {
-        best = next;
-        best_lengths = lengths;
+      if (!next->result.measures) break;  // not finite
+      next->result.shortened = count_shortened();
+      if (next->is_better_than(best)) {
+        best = *next;
+        best_lengths = maker_.lengths;
       }
-      faces_in_vain = halves ? 0 : faces_in_vain + static_cast<double>(next.mesh.n_faces());
-      if (halves) flaws_to_halve = next.flaws();
-      last = std::move(next);
-      if (faces_in_vain > max_faces_in_vain) break;
+      const auto faces = static_cast<double>(next->mesh.n_faces());
+      const double cost = std::max(least_cost * faces, next->made_faces);
+      const bool halves = 2 * next->flaws() <= flaws_to_halve;
+      rounds += cost / faces;
+      in_vain = halves ? 0 : in_vain + cost;
+      if (halves) flaws_to_halve = next->flaws();
+      last = std::move(*next);
     }
     maker_.lengths = std::move(best_lengths);
   }
@@ -366,6 +404,8 @@ class PreservingRemesh {
           options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
       if (maker_.adapts()) next.result.shortened = count_shortened();
       if (next.is_better_than(best)) best = next;
+      if (has_tolerance() && may_redo_flaws(next)) redo_flaws(next, best);
+      if (best.keeps_promises()) break;
       last = std::move(next);
     }
     frozen = frozen_before;

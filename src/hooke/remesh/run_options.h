@@ -56,8 +56,4 @@ struct RunOptions {
 /// Pre-condition: no vertex has moved.
 bool keep_near_regular(Workspace& work, const NearRegularOptions& options, ShapeLimits& limits);
 
-/// remesh() with options for each step, see remesh.h.
-RemeshResult run_remesh(TriMesh& mesh, MemoryOrder memory_order, const RunOptions& options,
-                        const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);
-
 }  // namespace hooke

@@ -20,6 +20,7 @@ void for_each_column(const auto& use) {
   use(RowOf::vertex, Freedom::fixed, [](auto& t) { return &t.constraints.freedom; });
   use(RowOf::vertex, -1, [](auto& t) { return &t.constraints.curve; });
   use(RowOf::vertex, char{0}, [](auto& t) { return &t.constraints.frozen; });
+  use(RowOf::vertex, std::optional<Freedom>(), [](auto& t) { return &t.constraints.held; });
   use(RowOf::vertex, -1, [](auto& t) { return &t.constraints.junction; });
   use(RowOf::vertex, 0., [](auto& t) { return &t.vertex_length; });
   use(RowOf::vertex, -1, [](auto& t) { return &t.origins; });

@@ -274,6 +274,35 @@ bool Workspace::shorten_in_narrow_regions(double shortest, double gradation) {
   return !narrow_regions_.empty();
 }
 
+void Workspace::set_lengths(const std::vector<double>& of_input) {
+  std::vector<double> lengths = of_input;
+  for (double& length : lengths) length /= normalisation.unit;
+  start_length_ = std::move(lengths);
+  resample_lengths();
+}
+
+void Workspace::hold_others(const std::vector<char>& may_move) {
+  Constraints& c = vertices.constraints;
+  c.held.resize(may_move.size());
+  c.frozen.resize(may_move.size(), 0);
+  for (size_t v = 0; v < may_move.size(); ++v) {
+    if (may_move[v] || c.frozen[v]) continue;
+    c.held[v] = std::exchange(c.freedom[v], Freedom::fixed);
+    c.frozen[v] = 1;
+  }
+}
+
+void Workspace::release() {
+  Constraints& c = vertices.constraints;
+  for (size_t v = 0; v < c.held.size(); ++v) {
+    if (!c.held[v]) continue;
+    c.freedom[v] = *c.held[v];
+    c.frozen[v] = 0;
+  }
+  c.held.clear();
+  if (std::ranges::find(c.frozen, char{1}) == c.frozen.end()) c.frozen.clear();
+}
+
 bool Workspace::has_varying_lengths() const {
   return edge_by_edge_ || start_length_.is_varying() || !narrow_regions_.empty();
 }
@@ -314,19 +343,33 @@ std::vector<MapEntry> Workspace::map() const {
   return entries;
 }
 
-Mat3X Workspace::copy_back(TriMesh& target) const {
-  Mat3X input = vertex_points(target);
+Mat3X Workspace::points_of_result(const Mat3X& input) const {
   Mat3X points(3, vertices.positions.points.cols());
-  std::vector<double> lengths(vertices.vertex_length.size());
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    const size_t id = order.old_vertex[v];
     const int origin = vertices.origins[v];
     const bool stayed = origin >= 0 && vertices.positions.points.col(v) == start->col(origin);
-    points.col(static_cast<Eigen::Index>(id)) =
+    points.col(order.old_vertex[v]) =
         stayed ? Vec3(input.col(input_order().old_vertex[origin]))
                : Vec3(normalisation.centre + normalisation.unit * vertices.positions.points.col(v));
-    lengths[id] = normalisation.unit * vertices.vertex_length[v];
   }
+  return points;
+}
+
+void Workspace::place(const std::vector<int>& ids, const Mat3X& points) {
+  for (int v : order.new_vertices(ids)) {
+    SurfacePositions& p = vertices.positions;
+    const Vec3 point = (points.col(order.old_vertex[v]) - normalisation.centre) / normalisation.unit;
+    p.drift[v] += (point - p.points.col(v)).norm();
+    p.points.col(v) = point;
+  }
+}
+
+Mat3X Workspace::copy_back(TriMesh& target) const {
+  Mat3X input = vertex_points(target);
+  const Mat3X points = points_of_result(input);
+  std::vector<double> lengths(vertices.vertex_length.size());
+  for (size_t v = 0; v < lengths.size(); ++v)
+    lengths[order.old_vertex[v]] = normalisation.unit * vertices.vertex_length[v];
   if (vertices_replaced_)
     target = build_mesh(points, *adjacency, order.old_ids());
   else if (faces_replaced_)

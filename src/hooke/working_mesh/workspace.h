@@ -70,6 +70,16 @@ struct Workspace {
   /// replace_mesh() were not called yet.
   bool shorten_in_narrow_regions(double shortest, double gradation);
 
+  /// Sets other target lengths of the input, in its memory order and in the unit of the points that the
+  /// workspace was made from.
+  void set_lengths(const std::vector<double>& of_input);
+
+  /// Lets all vertices but those that `may_move`, by a mark for each, stand still, and the edges between them
+  /// stay, until release(). Pre-condition: there are no junctions.
+  void hold_others(const std::vector<char>& may_move);
+  void release();
+  bool has_held_vertices() const { return !vertices.constraints.held.empty(); }
+
   /// Do the target lengths vary?
   bool has_varying_lengths() const;
 
@@ -89,6 +99,13 @@ struct Workspace {
   /// Updates varying target lengths to the current positions of the vertices, unless each edge has its own.
   /// References to the targets stay valid.
   void resample_lengths();
+
+  /// The points of the result, by its ids. `input`: those of the mesh that the workspace was made from, which
+  /// vertices that did not move keep.
+  Mat3X points_of_result(const Mat3X& input) const;
+
+  /// Moves these vertices, by their ids in the result, to other points near the surface, given by these ids.
+  void place(const std::vector<int>& ids, const Mat3X& points);
 
   /// Writes the points to `target`, the mesh that the workspace was made from; vertices that did not move
   /// keep their coordinates. Also writes v:target_length where it varies, and the new faces, or a new mesh if

@@ -1,0 +1,137 @@
+// Runs that go on from their results: only what is near shorter target lengths is made anew.
+#include "hooke/remesh/run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/memory_order.h"
+#include "hooke/mesh/topology.h"
+#include "support/remeshed.h"
+#include "support/solids.h"
+
+namespace hooke::run_test {
+
+const Vec3 pole(0, 0, 1);
+
+/// A sphere, adapted, of which the run goes on with shorter lengths near the pole.
+class GoesOn : public testing::Test {
+ protected:
+  static RunOptions options() {
+    RemeshOptions options;
+    options.connectivity = ConnectivityMode::adapt;
+    options.effort = Effort::fast;
+    options.map = true;
+    return RunOptions(options);
+  }
+
+  void SetUp() override {
+    mesh_ = input_;
+    before_ = run_.remesh(mesh_);
+    points_ = vertex_points(mesh_);
+  }
+
+  /// Of the vertices of the input in memory order: a share of their lengths within the distance of the pole.
+  std::vector<double> shorter(double share, double distance) const {
+    const Mat3X points = order_.order.gather(vertex_points(input_));
+    std::vector<double> lengths(static_cast<std::size_t>(points.cols()), length_);
+    for (Eigen::Index v = 0; v < points.cols(); ++v)
+      if ((points.col(v) - pole).norm() < distance) lengths[static_cast<std::size_t>(v)] *= share;
+    return lengths;
+  }
+
+  const test::Triangles t_ = test::sphere(3, .2);
+  const double length_ = test::natural(t_);
+  const TriMesh input_ = test::with_length(t_, length_);
+  const MemoryOrder order_ = find_memory_order(input_);
+  const Observer observer_;
+  hooke::Run run_{input_, order_, options(), observer_, nullptr};
+  TriMesh mesh_;
+  RemeshResult before_;
+  Mat3X points_;
+};
+
+TEST_F(GoesOn, OnlyNearShorterLengths) {
+  TriMesh next = input_;
+  const auto result = run_.go_on(next, before_, {}, points_, shorter(.5, .4));
+  ASSERT_TRUE(result);
+  EXPECT_LT(run_.share_of_last(), .5);
+  const Mat3X after = vertex_points(next);
+  std::set<std::array<double, 3>> places;
+  for (const auto& x : after.colwise()) places.insert({x[0], x[1], x[2]});
+  int stay = 0, far = 0;
+  for (const auto& x : points_.colwise()) {
+    if (x[2] > 0) continue;
+    ++far;
+    stay += static_cast<int>(places.contains({x[0], x[1], x[2]}));
+  }
+  EXPECT_EQ(stay, far);
+  EXPECT_GT(far, 100);
+  EXPECT_GT(next.n_faces(), mesh_.n_faces());
+  EXPECT_GT(min_angle(after, triangles_of(next)), 25);
+  const auto near_pole = [](const TriMesh& mesh) {
+    const Mat3X points = vertex_points(mesh);
+    double sum = 0, count = 0;
+    for (const auto e : mesh.edges()) {
+      const Vec3 a = points.col(e.v0().idx()), b = points.col(e.v1().idx());
+      if (((a + b) / 2 - pole).norm() > .3) continue;
+      sum += (a - b).norm();
+      ++count;
+    }
+    return sum / count;
+  };
+  EXPECT_NEAR(near_pole(next) / near_pole(mesh_), .5, .1);
+}
+
+TEST_F(GoesOn, TellsAllThatWasDone) {
+  TriMesh next = input_;
+  const auto result = run_.go_on(next, before_, {}, points_, shorter(.5, .4));
+  ASSERT_TRUE(result);
+  EXPECT_GT(result->adaptation.splits, before_.adaptation.splits);
+  EXPECT_EQ(result->adaptation.levels, before_.adaptation.levels);
+  ASSERT_GT(result->iterations.size(), before_.iterations.size());
+  EXPECT_TRUE(std::ranges::is_sorted(result->iterations, {}, &IterationRecord::seconds));
+  EXPECT_EQ(result->map.size(), next.n_vertices());
+  // No vertex is said to be limited by more than a free one on a sphere may be.
+  EXPECT_TRUE(
+      std::ranges::none_of(result->vertex_limits, [](unsigned char limits) { return (limits & 0x0f) != 0; }));
+  EXPECT_EQ(run_.results(), 2);
+}
+
+TEST_F(GoesOn, FromWhereVerticesWerePlacedSince) {
+  Eigen::Index far = 0;
+  points_.row(2).minCoeff(&far);
+  points_.col(far) *= 1.001;
+  TriMesh next = input_;
+  ASSERT_TRUE(run_.go_on(next, before_, {static_cast<int>(far)}, points_, shorter(.5, .4)));
+  const Mat3X after = vertex_points(next);
+  double nearest = 1;
+  for (const auto& x : after.colwise()) nearest = std::min(nearest, (x - points_.col(far)).norm());
+  EXPECT_LT(nearest, 1e-12);
+}
+
+TEST_F(GoesOn, AgainAndAgain) {
+  RemeshResult result = before_;
+  std::size_t faces = mesh_.n_faces();
+  for (const double share : {.7, .5, .35}) {
+    TriMesh next = input_;
+    auto further = run_.go_on(next, result, {}, points_, shorter(share, .4));
+    ASSERT_TRUE(further) << share;
+    EXPECT_GT(next.n_faces(), faces) << share;
+    EXPECT_GT(min_angle(vertex_points(next), triangles_of(next)), 20) << share;
+    faces = next.n_faces();
+    points_ = vertex_points(next);
+    result = std::move(*further);
+  }
+}
+
+TEST_F(GoesOn, NotWhereNothingOrMostWouldChange) {
+  TriMesh next = input_;
+  EXPECT_FALSE(run_.go_on(next, before_, {}, points_, shorter(1, 4)));
+  EXPECT_FALSE(run_.go_on(next, before_, {}, points_, shorter(.5, 4)));
+}
+
+}  // namespace hooke::run_test
