@@ -67,6 +67,37 @@ TEST(Preservation, WhereVerticesAreNearItKnowsWhichSamplesAreNot) {
   }
 }
 
+/// One face, and the same with a hole about one of its points.
+std::array<test::Triangles, 2> face_and_holed(const Vec3& weights) {
+  test::Triangles face;
+  face.points.resize(3, 3);
+  face.points << 0, 3, 0, 0, 0, 3, 0, 0, 0;
+  face.faces = {{0, 1, 2}};
+  test::Triangles holed;
+  holed.points.resize(3, 6);
+  const Vec3 middle = face.points * weights;
+  for (int k = 0; k < 3; ++k) {
+    holed.points.col(k) = face.points.col(k);
+    holed.points.col(k + 3) = middle + .1 * (face.points.col(k) - face.points.rowwise().mean());
+  }
+  holed.faces = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  return {face, holed};
+}
+
+TEST(Preservation, AllSamplesOfTheDeviationAreListedIfTheyAreTooFar) {
+  for (const Vec3& weights : {Vec3(4, 1, 1), Vec3(1, 4, 1), Vec3(1, 1, 4), Vec3(2, 2, 2)}) {
+    const auto [face, holed] = face_and_holed(weights / 6);
+    const double distance = compare(face, holed, {.max_distance = 1}).distance;
+    ASSERT_GT(distance, .05);
+    const Preservation p = compare(face, holed, {.max_distance = .99 * distance});
+    EXPECT_FALSE(p.within_max_distance);
+    ASSERT_EQ(p.far_samples.size(), 1u) << weights.transpose();
+    EXPECT_LT((p.far_samples[0].on_reference - face.points * weights / 6).norm(), 1e-12);
+    EXPECT_EQ(p.place, p.far_samples[0].on_reference);
+    EXPECT_EQ(p.lost_vertices.size(), 3u);
+  }
+}
+
 TEST(Preservation, WhateverIsTooFarIsListed) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const test::Triangles before = test::sphere(2, .3, seed), after = test::sphere(2, .3, seed + 100);
