@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -338,9 +339,10 @@ class Mending {
   }
 
   /// Takes back what was moved at faces that would lose nearly all of their angle, as where two corners go to
-  /// the same place, until there are none.
+  /// the same place, until there are none. With a maximum distance half of it is too much: there shorter
+  /// edges do it.
   void take_back_needles(Mat3X& moved) const {
-    constexpr double kept_share = .05;
+    const double kept_share = std::isfinite(maker_.options.filter.max_distance) ? .5 : .05;
     for (bool changed = true; changed;) {
       changed = false;
       for (const Triangle& t : c_.faces) {

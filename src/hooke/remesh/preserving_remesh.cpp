@@ -284,8 +284,13 @@ class PreservingRemesh {
     });
   }
 
-  /// The same where little is wrong with a result, and goes on from it: the rest stays.
-  void redo_flaws(const Attempt& last, Attempt& best) { shorten_about_flaws(last, best, nullptr); }
+  /// Where little is wrong with a result, goes on from it with shorter lengths there. If that does not do,
+  /// the next attempts have the lengths before.
+  void redo_flaws(const Attempt& last, Attempt& best) {
+    const std::vector<double> before = maker_.lengths;
+    shorten_about_flaws(last, best, nullptr);
+    if (!best.keeps_promises()) maker_.lengths = before;
+  }
 
   /// The number of faces that these lengths take.
   double faces_of(const std::vector<double>& lengths) const {
