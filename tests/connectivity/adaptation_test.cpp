@@ -22,6 +22,7 @@
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
 #include "hooke/remesh/run.h"
+#include "hooke/remesh/run_options.h"
 #include "hooke/working_mesh/working_mesh.h"
 #include "support/crease_solids.h"
 #include "support/remeshed.h"

@@ -1,5 +1,6 @@
 // Runs that go on from their results: only what is near shorter target lengths is made anew.
 #include "hooke/remesh/run.h"
+#include "hooke/remesh/run_options.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/result.h"
 #include "hooke/remesh/run.h"
+#include "hooke/remesh/run_options.h"
 #include "support/meshes.h"
 
 namespace hooke::test {

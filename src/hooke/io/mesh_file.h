@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "hooke/core/lists.h"
 #include "hooke/io/mesh_format.h"
 #include "hooke/mesh/attributes.h"
 #include "hooke/mesh/face_data.h"

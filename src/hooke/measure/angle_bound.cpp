@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hooke/measure/measured_surface.h"
 #include "hooke/mesh/wedges.h"
 
 namespace hooke {

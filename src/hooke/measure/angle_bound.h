@@ -1,10 +1,11 @@
 // Upper bound of the smallest angle around a face when the connectivity is fixed and only vertices move.
 #pragma once
 
-#include "hooke/measure/measured_surface.h"
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {
+
+struct MeasuredSurface;
 
 /// An upper bound of the smallest angle, and the vertices that determine it.
 struct AngleBound {

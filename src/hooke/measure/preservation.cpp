@@ -7,6 +7,8 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/self_intersection.h"
+#include "hooke/measure/deviation.h"
+#include "hooke/measure/quality.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"
 #include "hooke/mesh/wedges.h"

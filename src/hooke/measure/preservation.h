@@ -8,10 +8,13 @@
 #include <optional>
 #include <vector>
 
-#include "hooke/measure/deviation.h"
-#include "hooke/measure/quality.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
+
+struct Deviation;
+struct MeasuredSurface;
+struct Quality;
 
 /// The sizes that limits are shares of.
 struct ReferenceScale {

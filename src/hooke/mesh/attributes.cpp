@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/surface_point.h"
 
 namespace hooke {
 namespace {

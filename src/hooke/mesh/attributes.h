@@ -5,9 +5,11 @@
 #include <span>
 #include <string>
 
-#include "hooke/mesh/surface_point.h"
+#include "hooke/core/types.h"
 
 namespace hooke {
+
+struct MapEntry;
 
 /// How a number is stored in a file.
 enum class NumberType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };

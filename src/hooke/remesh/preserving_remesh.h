@@ -3,7 +3,10 @@
 #pragma once
 
 #include "hooke/core/lists.h"
+#include "hooke/core/stopwatch.h"
+#include "hooke/measure/deviation.h"
 #include "hooke/measure/preservation.h"
+#include "hooke/measure/quality.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/result.h"
 

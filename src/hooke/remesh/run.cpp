@@ -386,7 +386,7 @@ void add(const RemeshResult& before, RemeshResult& result) {
 
 Run::Run(const TriMesh& mesh, MemoryOrder memory_order, const RunOptions& options, const Observer& observer,
          Stopwatch* stopwatch)
-    : options_(options),
+    : options_(std::make_unique<const RunOptions>(options)),
       observer_(observer),
       work_(std::make_unique<Workspace>(mesh, std::move(memory_order), options.chosen.constraints,
                                         options.chosen.filter, options.retraction, stopwatch)) {
@@ -400,7 +400,7 @@ Run::~Run() = default;
 RemeshResult Run::remesh(TriMesh& mesh) {
   ++results_;
   RemeshResult input;
-  count_input_creases(*work_, options_.chosen.constraints.features, input);
+  count_input_creases(*work_, options_->chosen.constraints.features, input);
   RemeshResult result = change(mesh);
   result.input_creases = std::move(input.input_creases);
   result.creases.sharp = input.creases.sharp;
@@ -418,7 +418,7 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
   constexpr double max_share = .5;   // of the vertices; more are better distributed anew
   constexpr double rounding = 1e-9;  // of lengths
   constexpr int rings = 3;           // around shorter lengths, for faces of lengths between
-  if (!work_->vertices.constraints.junction.empty() || options_.adaptation.min_length > 0)
+  if (!work_->vertices.constraints.junction.empty() || options_->adaptation.min_length > 0)
     return std::nullopt;
   ++results_;
   const std::vector<double> lengths_before = work_->vertices.vertex_length;
@@ -443,42 +443,42 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
 RemeshResult Run::change(TriMesh& mesh) {
   Workspace& work = *work_;
   const bool goes_on = work.has_held_vertices();
-  const EnergyTerms terms{.altitude = options_.chosen.altitude};
-  const double corner_angle = options_.chosen.constraints.corner_angle;
+  const EnergyTerms terms{.altitude = options_->chosen.altitude};
+  const double corner_angle = options_->chosen.constraints.corner_angle;
   AdaptResult adapted;
   FlipResult flips;
-  if (options_.chosen.connectivity == ConnectivityMode::adapt)
+  if (options_->chosen.connectivity == ConnectivityMode::adapt)
     adapted = timed(work.stopwatch, "adapt", [&] {
-      return adapt(work, options_.adaptation, terms, options_.limits, corner_angle, observer_);
+      return adapt(work, options_->adaptation, terms, options_->limits, corner_angle, observer_);
     });
   flips.interrupted = adapted.interrupted;
-  if (options_.chosen.connectivity != ConnectivityMode::fixed && !flips.interrupted)
+  if (options_->chosen.connectivity != ConnectivityMode::fixed && !flips.interrupted)
     flips = timed(work.stopwatch, "flip", [&] {
-      const FlipOptions then = flips_after(adapted, options_.adaptation, options_.flips);
-      return run_flip_mode(work, then, terms, options_.limits, corner_angle, observer_);
+      const FlipOptions then = flips_after(adapted, options_->adaptation, options_->flips);
+      return run_flip_mode(work, then, terms, options_->limits, corner_angle, observer_);
     });
-  RunOptions then = options_;
-  const bool near_regular = options_.chosen.connectivity == ConnectivityMode::fixed &&
+  RunOptions then = *options_;
+  const bool near_regular = options_->chosen.connectivity == ConnectivityMode::fixed &&
                             !work.has_edge_lengths() &&
-                            keep_near_regular(work, options_.near_regular, then.limits);
+                            keep_near_regular(work, options_->near_regular, then.limits);
   const bool is_near_rest = adapted.levels > 0 || goes_on;
-  if (is_near_rest && options_.chosen.polish_angles) then = with_fewer_iterations(std::move(then));
+  if (is_near_rest && options_->chosen.polish_angles) then = with_fewer_iterations(std::move(then));
   OuterIterations iterations(work, then, observer_);
   RemeshResult result = iterations.run(flips);
   const Mat3X velocities = iterations.velocities();
   result.near_regular = near_regular;
   result.adaptation = adapted;
-  switch (options_.chosen.connectivity) {
+  switch (options_->chosen.connectivity) {
     case ConnectivityMode::fixed:
       break;
     case ConnectivityMode::flip:
       result.folded_before = flips.folded_before;
-      remove_slivers_in_passes(work, options_, observer_, result);
+      remove_slivers_in_passes(work, *options_, observer_, result);
       measure_travel(work, result.flips);
       break;
     case ConnectivityMode::adapt:
       result.folded_before = adapted.folded_before;
-      remove_slivers_in_passes(work, options_, observer_, result);
+      remove_slivers_in_passes(work, *options_, observer_, result);
       break;
   }
   if (goes_on) {
@@ -486,15 +486,15 @@ RemeshResult Run::change(TriMesh& mesh) {
     result.adaptation.target_faces = target_face_count(work.vertices, work.adjacency->faces);
   }
   describe(work, then, result);
-  if (options_.chosen.map) result.map = work.map();
+  if (options_->chosen.map) result.map = work.map();
   result.input_points = work.copy_back(mesh);
   result.memory_order = work.memory_order();
-  const bool has_velocities = velocities.cols() > 0 && options_.chosen.connectivity !=
+  const bool has_velocities = velocities.cols() > 0 && options_->chosen.connectivity !=
                                                            ConnectivityMode::adapt;  // by the same vertices
   set_vertex_vectors(mesh, velocity_property,
                      has_velocities ? result.memory_order.order.scatter(velocities)
                                     : Mat3X(Mat3X::Zero(3, vertex_points(mesh).cols())));
-  set_residual_forces(mesh, result.memory_order, options_.chosen.altitude);
+  set_residual_forces(mesh, result.memory_order, options_->chosen.altitude);
   return result;
 }
 

@@ -5,11 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "hooke/core/stopwatch.h"
 #include "hooke/remesh/result.h"
-#include "hooke/remesh/run_options.h"
 
 namespace hooke {
 
+struct RunOptions;
 struct Workspace;
 
 /// Keeps the workspace with the surface of the input and the present mesh. The observer must outlive it.
@@ -43,7 +44,7 @@ class Run {
  private:
   RemeshResult change(TriMesh& mesh);
 
-  const RunOptions options_;
+  const std::unique_ptr<const RunOptions> options_;
   const Observer& observer_;
   std::unique_ptr<Workspace> work_;
   int results_ = 0;
