@@ -599,6 +599,29 @@ TEST(PreservingRemesh, DistancesBelowThoseOfItsFacetsAreKeptByMoreFaces) {
   }
 }
 
+/// Two spheres, one close within the other, which has furrows at one place.
+test::Triangles furrowed_in_sphere(unsigned seed) {
+  const test::Triangles outer = test::sphere(4, .2, seed);
+  test::Triangles inner = test::sphere(4, .2, seed + 100);
+  const Vec3 place(.6, .48, .64), across(.48, -.6, 0);
+  for (auto x : inner.points.colwise()) {
+    const double share = std::clamp((.35 - (x - place).norm()) / .1, 0., 1.);
+    x *= 1 - .023 + .02 * share * std::sin(x.dot(across) * 2 * std::numbers::pi / .15);
+  }
+  return test::both(outer, inner);
+}
+
+TEST(PreservingRemesh, ShellsThatAreMadeAgainKeepAMaximumDistance) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+    const test::Triangles t = furrowed_in_sphere(seed);
+    TriMesh mesh = test::with_length(t, .18);
+    const RemeshResult result = preserving_remesh(
+        mesh, find_memory_order(mesh), options_for(ConnectivityMode::adapt), {.max_distance = .011});
+    EXPECT_TRUE(result.measures->preservation.holds()) << seed;
+    EXPECT_TRUE(vertex_points(mesh).allFinite()) << seed;
+  }
+}
+
 TEST(PreservingRemesh, FarFromKeptFacesLengthsAreAsAsked) {
   TriMesh mesh = test::to_mesh(bumped_plane());
   std::vector<double> lengths;

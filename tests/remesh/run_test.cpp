@@ -132,7 +132,10 @@ TEST_F(GoesOn, AgainAndAgain) {
 TEST_F(GoesOn, NotWhereNothingOrMostWouldChange) {
   TriMesh next = input_;
   EXPECT_FALSE(run_.go_on(next, before_, {}, points_, shorter(1, 4)));
-  EXPECT_FALSE(run_.go_on(next, before_, {}, points_, shorter(.5, 4)));
+  hooke::Run other(input_, order_, options(), observer_, nullptr);
+  TriMesh mesh = input_;
+  const RemeshResult before = other.remesh(mesh);
+  EXPECT_FALSE(other.go_on(next, before, {}, vertex_points(mesh), shorter(.5, 4)));
 }
 
 }  // namespace hooke::run_test

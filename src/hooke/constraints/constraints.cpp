@@ -213,8 +213,7 @@ std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const 
     if (c.is_feature_edge(static_cast<int>(e)))
       for (int v : c.edges[e]) ++feature_edge_count[v];
   const auto is_corner = [&](int v) {
-    return feature_edge_count[v] >= 2 && constraints.freedom[v] == Freedom::fixed &&
-           !constraints.slides_with_copies(v);
+    return feature_edge_count[v] >= 2 && constraints.is_fixed(v) && !constraints.slides_with_copies(v);
   };
   std::vector<double> angles(c.wedge_count(), 0);  // degrees
   for (size_t f = 0; f < c.faces.size(); ++f) {

@@ -35,7 +35,7 @@ struct Constraints {
   std::vector<int> segment;      // per vertex: segment of its curve on which it starts; not kept up to date
   std::vector<char> frozen;  // per vertex: do its edges to other such vertices stay? empty if there are none
   /// Per vertex what it may do again when it is released, see Workspace::hold_others(); none for one that is
-  /// not held. Empty if none is.
+  /// not held. Empty if none is. Held ones are fixed and frozen.
   std::vector<std::optional<Freedom>> held;
   std::vector<Curve> curves;
   std::vector<Edge> creases;      // crease edges, by their vertices, which no change of the faces may lose
@@ -53,18 +53,21 @@ struct Constraints {
   Mat3X rest_position;
   std::vector<double> max_travel;
 
-  /// Whether the vertex stands still at a bend of the curve that it is on.
-  bool at_bend(int vertex) const {
+  /// Whether the vertex stands still, and would if it were not held.
+  bool is_fixed(int vertex) const {
     const size_t v = vertex;
-    return freedom[v] == Freedom::fixed && curve[v] >= 0;
+    return (held.empty() ? freedom[v] : held[v].value_or(freedom[v])) == Freedom::fixed;
   }
+
+  /// Whether the vertex stands still at a bend of the curve that it is on.
+  bool at_bend(int vertex) const { return is_fixed(vertex) && curve[static_cast<size_t>(vertex)] >= 0; }
 
   /// Whether the edge between the vertices is neither flipped nor split. None of its ends is removed.
   bool is_frozen(int v, int w) const {
     return !frozen.empty() && frozen[static_cast<size_t>(v)] && frozen[static_cast<size_t>(w)];
   }
 
-  /// Whether the face is one of the input that stays.
+  /// Whether the face stays: one of the input, or one between held vertices.
   bool is_frozen(const Triangle& t) const { return is_frozen(t[0], t[1]) && is_frozen(t[1], t[2]); }
 
   /// What the vertex shares with its copies; null off junctions.

@@ -219,7 +219,8 @@ Attempt AttemptMaker::run() const {
   a.run = std::make_shared<Run>(a.mesh, memory_order_, of_run, observer_, stopwatch_);
   a.result = a.run->remesh(a.mesh);
   a.result_of_run = a.run->results();
-  if (!adapts()) a.run.reset();
+  if (!adapts() || !has_tolerance()) a.run.reset();
+  a.lengths = lengths;
   a.made_faces = static_cast<double>(a.mesh.n_faces());
   vertex_points(a.mesh) = as_written(vertex_points(a.mesh));
   if (is_mask_) {
@@ -228,6 +229,10 @@ Attempt AttemptMaker::run() const {
     a.result.input_points = vertex_points(mesh_);
   }
   return a;
+}
+
+bool AttemptMaker::has_tolerance() const {
+  return std::isfinite(options.filter.max_distance);
 }
 
 std::optional<Attempt> AttemptMaker::go_on(const Attempt& last) const {
@@ -243,6 +248,7 @@ std::optional<Attempt> AttemptMaker::go_on(const Attempt& last) const {
   if (!result) return std::nullopt;
   next.result = std::move(*result);
   vertex_points(next.mesh) = as_written(vertex_points(next.mesh));
+  next.lengths = lengths;
   next.result_of_run = next.run->results();
   next.made_faces = next.run->share_of_last() * static_cast<double>(next.mesh.n_faces());
   return next;

@@ -21,10 +21,12 @@ struct Attempt {
   double angle = 0;           // minimum angle, degrees
   double unmended_angle = 0;  // at the first judgement, before vertices are moved to the input
   double least_angle = 0;  // that it must keep: AttemptMaker::least_angle(), or what unfolding has left of it
-  bool lost_angle = false;   // is it less?
-  double made_faces = 0;     // of its faces, those that were made anew for it, about
-  std::shared_ptr<Run> run;  // that it is from, in mode `adapt`; copies share it
-  int result_of_run = 0;     // its number among the results of the run
+  bool lost_angle = false;      // is it less?
+  double made_faces = 0;        // of its faces, those that were made anew for it, about
+  std::vector<double> lengths;  // target lengths that it was made with, by vertex of the input
+  /// That it is from, and can be gone on from: in mode `adapt` with a maximum distance. Copies share it.
+  std::shared_ptr<Run> run;
+  int result_of_run = 0;  // its number among the results of the run
 
   bool is_interrupted() const { return result.reason == StopReason::interrupted; }
 
@@ -100,9 +102,12 @@ class AttemptMaker {
   /// One run, not judged yet.
   Attempt run() const;
 
+  /// Is a maximum distance asked for?
+  bool has_tolerance() const;
+
   /// Goes on from this attempt with the present lengths: only what is near those that have become shorter is
-  /// made anew. It is not judged yet. None if its run has gone on already, where Run::go_on() does not, and
-  /// of a mask.
+  /// made anew. It is not judged yet. None if its run is not at hand or has gone on already, where
+  /// Run::go_on() does not, and of a mask.
   std::optional<Attempt> go_on(const Attempt& last) const;
 
   /// Measures the result and compares it with the input.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -342,7 +341,7 @@ class Mending {
   /// the same place, until there are none. With a maximum distance half of it is too much: there shorter
   /// edges do it.
   void take_back_needles(Mat3X& moved) const {
-    const double kept_share = std::isfinite(maker_.options.filter.max_distance) ? .5 : .05;
+    const double kept_share = maker_.has_tolerance() ? .5 : .05;
     for (bool changed = true; changed;) {
       changed = false;
       for (const Triangle& t : c_.faces) {

@@ -77,7 +77,7 @@ class PreservingRemesh {
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (maker_.adapts()) remesh_wrong_shells(unmended, best);
-    if (has_tolerance() && may_redo_flaws(best)) redo_flaws(best, best);
+    if (maker_.has_tolerance() && may_redo_flaws(best)) redo_flaws(best, best);
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest =
         !best.is_interrupted() && !best.is_good() && may_keep_faces(maker_.adapts() ? best : unmended);
@@ -257,26 +257,26 @@ class PreservingRemesh {
   /// it tells: distances of chords of a smooth surface grow with the square of lengths.
   double shortening(double excess) const {
     constexpr double least = .25;
-    return has_tolerance() && std::isfinite(excess)
+    return maker_.has_tolerance() && std::isfinite(excess)
                ? std::clamp(least_shortening() / std::sqrt(excess), least, least_shortening())
                : .5;
   }
 
-  double least_shortening() const { return has_tolerance() ? .7 : .5; }
-
-  bool has_tolerance() const { return std::isfinite(options_.filter.max_distance); }
+  double least_shortening() const { return maker_.has_tolerance() ? .7 : .5; }
 
   /// 0 if no limit of distances is asked for.
   double max_faces_for_tolerance() const {
-    return has_tolerance() ? 12 * static_cast<double>(input_.adjacency.faces.size()) : 0;
+    return maker_.has_tolerance() ? 12 * static_cast<double>(input_.adjacency.faces.size()) : 0;
   }
 
   /// Shortens the lengths asked for about what is wrong, and makes attempts with these.
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
-    maker_.lengths = asked_;
-    shorten_about_flaws(best, best, [&](const Attempt& last) {
+    Attempt last = best;
+    if (last.result.rescue == Rescue::kept_faces) last.run.reset();  // there lengths fit the kept faces
+    maker_.lengths = last.run ? last.lengths : asked_;
+    shorten_about_flaws(std::move(last), best, [&](const Attempt& before) {
       options_ = start;
-      const bool projects = last.result.rescue == Rescue::closest;
+      const bool projects = before.result.rescue == Rescue::closest;
       if (projects) options_.filter.kind = FilterKind::closest;
       Attempt next = attempt();
       if (projects) next.result.rescue = Rescue::closest;
@@ -318,26 +318,28 @@ class PreservingRemesh {
   /// is null. Keeps the best lengths. Ends where it would take too many faces, or after some rounds.
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
+    constexpr int max_going_on_in_vain = 2;
     const double max_in_vain = std::max(1e4, max_faces_for_tolerance());
     const double max_rounds = std::clamp(2e5 / faces_of(asked_), 3., 10.);
     std::vector<double> best_lengths = maker_.lengths;
     double in_vain = 0, rounds = 0;
+    int going_on_in_vain = 0;
     std::size_t flaws_to_halve = last.flaws();
     while (rounds < max_rounds && in_vain <= max_in_vain && !last.keeps_promises()) {
       if (!shorten(last) || faces_of(maker_.lengths) > max_faces(best)) break;
-      std::optional<Attempt> next = maker_.go_on(last);
-      if (next) {
-        maker_.judge(*next);
-        mend(maker_, *next);
-        next->result.rescue = last.result.rescue;
-      } else if (anew) {
-        next = anew(last);
-      } else {
-        break;
-      }
+      std::optional<Attempt> next;
+      if (going_on_in_vain < max_going_on_in_vain) next = maker_.go_on(last);
+      const bool goes_on = next.has_value();
+      if (!goes_on && anew) next = anew(last);
+      if (!next) break;
       if (next->is_interrupted()) {
         best.result.reason = StopReason::interrupted;
         break;
+      }
+      if (goes_on) {
+        maker_.judge(*next);
+        mend(maker_, *next);
+        next->result.rescue = last.result.rescue;
       }
       if (!next->result.measures) break;  // not finite
       next->result.shortened = count_shortened();
@@ -350,6 +352,7 @@ class PreservingRemesh {
       const bool halves = 2 * next->flaws() <= flaws_to_halve;
       rounds += cost / faces;
       in_vain = halves ? 0 : in_vain + cost;
+      going_on_in_vain = halves || !goes_on ? 0 : going_on_in_vain + 1;
       if (halves) flaws_to_halve = next->flaws();
       last = std::move(*next);
     }
@@ -409,8 +412,8 @@ class PreservingRemesh {
           options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
       if (maker_.adapts()) next.result.shortened = count_shortened();
       if (next.is_better_than(best)) best = next;
-      if (has_tolerance() && may_redo_flaws(next)) redo_flaws(next, best);
-      if (best.keeps_promises()) break;
+      if (maker_.has_tolerance() && may_redo_flaws(next)) redo_flaws(next, best);
+      if (best.is_interrupted() || best.keeps_promises()) break;
       last = std::move(next);
     }
     frozen = frozen_before;

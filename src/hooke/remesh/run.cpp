@@ -370,7 +370,13 @@ void add(const RemeshResult& before, RemeshResult& result) {
   result.creases.dropped = before.creases.dropped;
   result.folded_before = before.folded_before;
   result.limited_steps += before.limited_steps;
-  for (IterationRecord& record : result.iterations) record.seconds += before.iterations.back().seconds;
+  result.unprojected = std::max(result.unprojected, before.unprojected);
+  int outer = 0;
+  for (const IterationRecord& record : before.iterations) outer = std::max(outer, record.outer);
+  for (IterationRecord& record : result.iterations) {
+    if (!before.iterations.empty()) record.seconds += before.iterations.back().seconds;
+    if (record.outer > 0) record.outer += outer;
+  }
   result.iterations.insert(result.iterations.begin(), before.iterations.begin(), before.iterations.end());
   const AdaptResult& a = before.adaptation;
   result.adaptation.levels = a.levels;
@@ -379,7 +385,12 @@ void add(const RemeshResult& before, RemeshResult& result) {
   result.adaptation.splits += a.splits;
   result.adaptation.collapses += a.collapses;
   result.adaptation.flips += a.flips;
-  result.flips.flips += before.flips.flips;
+  const FlipResult& f = before.flips;
+  result.flips.flips += f.flips;
+  result.flips.flow_rounds += f.flow_rounds;
+  result.flips.spring_rounds += f.spring_rounds;
+  result.flips.passes += f.passes;
+  result.flips.evaluations += f.evaluations;
 }
 
 }  // namespace
@@ -421,6 +432,7 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
   if (!work_->vertices.constraints.junction.empty() || options_->adaptation.min_length > 0)
     return std::nullopt;
   ++results_;
+  work_->place(placed, points);
   const std::vector<double> lengths_before = work_->vertices.vertex_length;
   work_->set_lengths(lengths);
   std::vector<int> shorter;
@@ -432,7 +444,6 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
   if (movable.empty() || share_of_last_ > max_share) return std::nullopt;
   std::vector<char> may_move(lengths_before.size(), 0);
   for (int v : movable) may_move[v] = 1;
-  work_->place(placed, points);
   work_->hold_others(may_move);
   RemeshResult result = change(mesh);
   add(before, result);

@@ -30,8 +30,8 @@ class Run {
   /// In mode `adapt`, after a result: replaces `mesh`, again that which the run was made for, by one in which
   /// only what is near shorter target lengths is made anew. The rest stays, in the places in which it is now:
   /// `placed` are vertices that have moved since, by ids of the result `before`, to these points. `lengths`:
-  /// of the vertices of the input in its memory order. None if that would be most of the mesh or nothing of
-  /// it, or if there are junctions or a minimum length; the run is of no use then.
+  /// of the vertices of the input in its memory order. None if there are junctions or a minimum length, or if
+  /// that would be most of the mesh or nothing of it; the run is of no use then.
   std::optional<RemeshResult> go_on(TriMesh& mesh, const RemeshResult& before, const std::vector<int>& placed,
                                     const Mat3X& points, const std::vector<double>& lengths);
 

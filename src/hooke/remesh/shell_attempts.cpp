@@ -140,6 +140,7 @@ void remesh_shells(AttemptMaker& maker, const Attempt& unmended, double max_face
     std::vector<RemeshedMesh> results;
     for (const Attempt& a : attempts) results.push_back({a.mesh, a.result});
     replace_parts(replaced, results, last.mesh, last.result);
+    last.run.reset();  // which made another mesh
     outcomes.tell(last.result);
     maker.judge(last);
     if (last.is_better_than(best)) best = last;
