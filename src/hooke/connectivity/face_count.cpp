@@ -48,7 +48,7 @@ std::vector<Candidate> candidates(const WorkingMesh& m, bool split, size_t count
   const HalfedgeMesh& t = m.halfedges;
   std::vector<Candidate> edges;
   for (int h = 0; h < t.half_edge_count(); ++h) {
-    if (t.is_removed(h / 3) || t.is_feature_edge(h) || t.twin(h) > h || is_frozen_edge(m, h)) continue;
+    if (t.is_removed(h / 3) || t.is_feature_edge(h) || t.twin(h) > h) continue;
     const int twin = t.twin(h);
     const int ends = valence_excess(m, h) + valence_excess(m, twin);
     const int opposite =

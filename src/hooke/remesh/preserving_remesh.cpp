@@ -318,17 +318,14 @@ class PreservingRemesh {
   /// is null. Keeps the best lengths. Ends where it would take too many faces, or after some rounds.
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
-    constexpr int max_going_on_in_vain = 2;
     const double max_in_vain = std::max(1e4, max_faces_for_tolerance());
     const double max_rounds = std::clamp(2e5 / faces_of(asked_), 3., 10.);
     std::vector<double> best_lengths = maker_.lengths;
     double in_vain = 0, rounds = 0;
-    int going_on_in_vain = 0;
     std::size_t flaws_to_halve = last.flaws();
     while (rounds < max_rounds && in_vain <= max_in_vain && !last.keeps_promises()) {
       if (!shorten(last) || faces_of(maker_.lengths) > max_faces(best)) break;
-      std::optional<Attempt> next;
-      if (going_on_in_vain < max_going_on_in_vain) next = maker_.go_on(last);
+      std::optional<Attempt> next = maker_.go_on(last);
       const bool goes_on = next.has_value();
       if (!goes_on && anew) next = anew(last);
       if (!next) break;
@@ -352,7 +349,6 @@ class PreservingRemesh {
       const bool halves = 2 * next->flaws() <= flaws_to_halve;
       rounds += cost / faces;
       in_vain = halves ? 0 : in_vain + cost;
-      going_on_in_vain = halves || !goes_on ? 0 : going_on_in_vain + 1;
       if (halves) flaws_to_halve = next->flaws();
       last = std::move(*next);
     }

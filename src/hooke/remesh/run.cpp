@@ -432,7 +432,6 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
   if (!work_->vertices.constraints.junction.empty() || options_->adaptation.min_length > 0)
     return std::nullopt;
   ++results_;
-  work_->place(placed, points);
   const std::vector<double> lengths_before = work_->vertices.vertex_length;
   work_->set_lengths(lengths);
   std::vector<int> shorter;
@@ -444,6 +443,7 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
   if (movable.empty() || share_of_last_ > max_share) return std::nullopt;
   std::vector<char> may_move(lengths_before.size(), 0);
   for (int v : movable) may_move[v] = 1;
+  work_->place(placed, points);  // last: elsewhere lengths are others, which are not shorter for it
   work_->hold_others(may_move);
   RemeshResult result = change(mesh);
   add(before, result);
