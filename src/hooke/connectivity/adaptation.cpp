@@ -364,7 +364,7 @@ class Adaptation {
 
   /// `folded`: are there folded faces? Splits and collapses remove them, whereas Lloyd flow would keep them.
   AdaptResult run(bool folded) {
-    if (!goes_on_) begin();
+    if (!goes_on_) start_from_input();
     if (result_.levels > 0)
       refine_coarse_mesh();
     else
@@ -378,7 +378,7 @@ class Adaptation {
   }
 
  private:
-  void begin() {
+  void start_from_input() {
     steps_.release_bends();
     steps_.match_junctions();
     // After the bends and junctions of the input: long edges do not show lengths that vary along them.

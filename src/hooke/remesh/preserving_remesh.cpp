@@ -77,7 +77,7 @@ class PreservingRemesh {
     const FilterKind filter = options_.filter.kind;
     if (best.is_interrupted() && maker_.adapts()) mend(maker_, best);
     if (maker_.adapts()) remesh_wrong_shells(unmended, best);
-    if (maker_.has_tolerance() && may_redo_flaws(best)) redo_flaws(best, best);
+    if (may_redo_flaws(best)) redo_flaws(best, best);
     if (!best.keeps_promises()) unmended = best;
     const bool keeps_rest =
         !best.is_interrupted() && !best.is_good() && may_keep_faces(maker_.adapts() ? best : unmended);
@@ -104,9 +104,11 @@ class PreservingRemesh {
                                                                       input_.adjacency.vertex_count);
   }
 
-  /// Is so little wrong in mode `adapt` that it may be made anew by itself?
+  /// Is so little wrong in mode `adapt` that it may be made anew by itself? Only with a maximum distance, as
+  /// runs are not kept without.
   bool may_redo_flaws(const Attempt& run) const {
-    return maker_.adapts() && !maker_.smooths_mask() && !run.is_interrupted() && !run.keeps_promises() &&
+    return maker_.adapts() && maker_.has_tolerance() && !maker_.smooths_mask() && !run.is_interrupted() &&
+           !run.keeps_promises() &&
            std::ssize(input_vertices_at_flaws(maker_, run)) < few * input_.adjacency.vertex_count;
   }
 
@@ -408,7 +410,7 @@ class PreservingRemesh {
           options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
       if (maker_.adapts()) next.result.shortened = count_shortened();
       if (next.is_better_than(best)) best = next;
-      if (maker_.has_tolerance() && may_redo_flaws(next)) redo_flaws(next, best);
+      if (may_redo_flaws(next)) redo_flaws(next, best);
       if (best.is_interrupted() || best.keeps_promises()) break;
       last = std::move(next);
     }

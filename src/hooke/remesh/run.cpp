@@ -339,23 +339,27 @@ void remove_slivers_in_passes(Workspace& work, const RunOptions& options, const 
               remove_slivers_once(work, options, observer, tested, result);
 }
 
+/// By the ids of the result, those of the input before anything is changed.
+std::vector<Edge> crease_edges_by_id(const Workspace& work) {
+  std::vector<Edge> edges = crease_edges(*work.adjacency);
+  for (Edge& e : edges)
+    for (int& v : e) v = work.order.old_vertex[v];
+  return edges;
+}
+
 /// What a result says of its vertices and creases, once they are where they stay.
 void describe(const Workspace& work, const RunOptions& options, RemeshResult& result) {
   const Guards guards(*work.adjacency, work.targets, options.limits);
   result.folded_faces = faces_of_result(work, guards.folded_faces(work.vertices.positions));
   result.vertex_limits = vertex_limits_of_result(work, guards, options.chosen.constraints);
   result.creases = count_creases(*work.adjacency, work.order, result.vertex_limits);
-  result.crease_edges = crease_edges(*work.adjacency);
-  for (Edge& e : result.crease_edges)
-    for (int& v : e) v = work.order.old_vertex[v];
+  result.crease_edges = crease_edges_by_id(work);
   result.projection = work.projection_counts();
 }
 
 /// Before anything is changed.
 void count_input_creases(const Workspace& work, const CreaseOptions& options, RemeshResult& result) {
-  result.input_creases = crease_edges(*work.adjacency);
-  for (Edge& e : result.input_creases)
-    for (int& v : e) v = work.order.old_vertex[v];
+  result.input_creases = crease_edges_by_id(work);
   if (options.angle >= 180) return;
   for (int e : sharp_edges(*work.start, *work.adjacency, options.angle)) {
     ++result.creases.sharp;
@@ -363,8 +367,8 @@ void count_input_creases(const Workspace& work, const CreaseOptions& options, Re
   }
 }
 
-/// Adds what was done before it.
-void add(const RemeshResult& before, RemeshResult& result) {
+/// Lets a result tell also what was done for the one that it goes on from.
+void add_earlier(const RemeshResult& before, RemeshResult& result) {
   result.input_creases = before.input_creases;
   result.creases.sharp = before.creases.sharp;
   result.creases.dropped = before.creases.dropped;
@@ -446,7 +450,7 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
   work_->place(placed, points);  // last: elsewhere lengths are others, which are not shorter for it
   work_->hold_others(may_move);
   RemeshResult result = change(mesh);
-  add(before, result);
+  add_earlier(before, result);
   return result;
 }
 
