@@ -229,10 +229,9 @@ void warn_of_shortening(RunRecord& run) {
     run.warnings.push_back(
         {"lengths_shortened",
          fmt::format(
-             "{}: {} faces, as edges near {} of {} vertices of {} are shorter than asked; longer ones would "
-             "not keep the surface there; a smaller --length makes all edges alike",
-             run.output->path, run.after->topology.faces, count, run.before.topology.vertices,
-             run.input.path)});
+             "{}: {} faces, as edges at {} of its {} vertices are shorter than asked; longer ones would not "
+             "keep the surface there; a smaller --length makes all edges alike",
+             run.output->path, run.after->topology.faces, count, run.after->topology.vertices)});
 }
 
 /// Tells that edges are not even.

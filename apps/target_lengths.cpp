@@ -226,7 +226,8 @@ void set_min_length(Settings& s, const TriMesh& mesh, const MemoryOrder& memory_
   const std::vector<Edge> seams = memory_order.order.new_edges(kept.seams);
   creases.insert(creases.end(), seams.begin(), seams.end());
   split_wedges(creased, creases);
-  record.target.faces = NarrowRegions(points, creased, lengths, shortest, s.remesh.gradation)
+  const std::vector<PlacedLength> widths = lengths_of_narrow_regions(points, creased, lengths, shortest);
+  record.target.faces = PlacedLengths(widths, shortest, s.remesh.gradation)
                             .covering_faces(points, c.faces, lengths, most_faces(s));
 }
 

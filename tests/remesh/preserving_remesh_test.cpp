@@ -757,4 +757,26 @@ TEST(PreservingRemesh, DiscardsAnInterruptedRunButTheFirst) {
   EXPECT_GE(tried, 1);
 }
 
+TEST(PreservingRemesh, EdgesGetShorterWithinAFacetOnlyWhereTheyMust) {
+  constexpr double length = .3;
+  TriMesh mesh = test::with_length(test::drum(24, 1), length);  // no vertices within its caps
+  const RemeshResult result =
+      preserving_remesh(mesh, find_memory_order(mesh), options_for(ConnectivityMode::adapt),
+                        {.max_distance = 4e-3});  // of its rims, from chords of 24 sides
+  EXPECT_TRUE(result.measures->preservation.holds());
+  EXPECT_GT(result.shortened, 0);
+  const Mat3X points = vertex_points(mesh);
+  double in_middle = 0, count = 0, shortest = length;
+  for (const auto e : mesh.edges()) {
+    const Vec3 a = points.col(e.v0().idx()), b = points.col(e.v1().idx()), middle = .5 * (a + b);
+    shortest = std::min(shortest, (a - b).norm());
+    if (middle.head<2>().norm() > .3) continue;
+    in_middle += (a - b).norm();
+    ++count;
+  }
+  ASSERT_GT(count, 0);
+  EXPECT_GT(in_middle / count, .85 * length);
+  EXPECT_LT(shortest, .7 * length);
+}
+
 }  // namespace hooke::preserving_remesh_test

@@ -140,4 +140,72 @@ TEST_F(GoesOn, NotWhereNothingOrMostWouldChange) {
   EXPECT_FALSE(other.go_on(next, before, {}, vertex_points(mesh), shorter(.5, 4)));
 }
 
+TEST_F(GoesOn, NearShorterLengthsWithinFaces) {
+  TriMesh next = input_;
+  const auto result = run_.go_on(next, before_, {}, points_, shorter(1, 1), {{pole, pole, .4 * length_}});
+  ASSERT_TRUE(result);
+  EXPECT_LT(run_.share_of_last(), .2);
+  double nearest = 4;
+  for (const auto e : next.edges()) {
+    const Vec3 a = vertex_points(next).col(e.v0().idx()), b = vertex_points(next).col(e.v1().idx());
+    if ((.5 * (a + b) - pole).norm() < .5 * length_) nearest = std::min(nearest, (a - b).norm());
+  }
+  EXPECT_LT(nearest, .6 * length_);
+  EXPECT_GT(min_angle(vertex_points(next), triangles_of(next)), 20);
+}
+
+/// A drum of long facets, with creases around its caps, open or closed.
+test::Triangles drum(bool is_open) {
+  test::Triangles t = test::drum(16, 1);
+  if (is_open) t.faces.resize(32);  // its sides
+  return t;
+}
+
+TEST(GoesOnBesideCreases, WhichStayAsTheyAre) {
+  constexpr double length = .25;
+  const Observer observer;
+  for (const bool is_open : {false, true}) {
+    const TriMesh input = test::with_length(drum(is_open), length);
+    const MemoryOrder order = find_memory_order(input);
+    RemeshOptions options;
+    options.connectivity = ConnectivityMode::adapt;
+    options.effort = Effort::fast;
+    hooke::Run run(input, order, RunOptions(options), observer, nullptr);
+    TriMesh mesh = input, next = input;
+    const RemeshResult before = run.remesh(mesh);
+    const Vec3 rim(1, 0, 0);
+    const auto result = run.go_on(next, before, {}, vertex_points(mesh),
+                                  std::vector<double>(input.n_vertices(), length), {{rim, rim, .3 * length}});
+    ASSERT_TRUE(result) << is_open;
+    EXPECT_GT(next.n_faces(), mesh.n_faces()) << is_open;
+    EXPECT_EQ(result->creases.sharp, before.creases.sharp) << is_open;
+    EXPECT_EQ(result->crease_edges.empty(), is_open);
+    EXPECT_GE(result->crease_edges.size(), before.crease_edges.size()) << is_open;
+    EXPECT_GT(min_angle(vertex_points(next), triangles_of(next)), 15) << is_open;
+    const auto rims = [](const TriMesh& m, const RemeshResult& r) {
+      const Mat3X points = vertex_points(m);
+      double sum = 0;
+      for (const auto& [a, b] : r.crease_edges) sum += (points.col(a) - points.col(b)).norm();
+      for (const auto e : m.edges())
+        if (e.is_boundary()) sum += (points.col(e.v0().idx()) - points.col(e.v1().idx())).norm();
+      return sum;
+    };
+    EXPECT_NEAR(rims(next, *result), rims(mesh, before), .02 * rims(mesh, before)) << is_open;
+  }
+}
+
+TEST_F(GoesOn, UntilItIsStopped) {
+  int calls = 0, last_call = 1 << 30;
+  const Observer observer = [&](const Progress&) { return ++calls < last_call; };
+  hooke::Run run(input_, order_, options(), observer, nullptr);
+  TriMesh mesh = input_, next = input_;
+  const RemeshResult before = run.remesh(mesh);
+  last_call = calls + 2;
+  const auto result = run.go_on(next, before, {}, vertex_points(mesh), shorter(.5, .4));
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->reason, StopReason::interrupted);
+  EXPECT_TRUE(vertex_points(next).allFinite());
+  EXPECT_EQ(result->map.size(), next.n_vertices());
+}
+
 }  // namespace hooke::run_test

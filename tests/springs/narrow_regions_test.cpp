@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <numbers>
 #include <random>
 
@@ -14,15 +13,16 @@ namespace hooke::narrow_regions_test {
 
 using test::Triangles;
 
-constexpr double rounded_down = 1 / 1.25, no_limit = std::numeric_limits<double>::infinity();
+constexpr double rounded_down = 1 / 1.25;
 
 /// All sharp edges are creases.
-NarrowRegions regions_of(const Triangles& t, double asked, double shortest, double gradation = .3) {
+PlacedLengths regions_of(const Triangles& t, double asked, double shortest, double gradation = .3) {
   Adjacency c = test::connect(t);
   std::vector<Edge> creases;
   for (int e : sharp_edges(t.points, c, 40)) creases.push_back(c.edges[e]);
   split_wedges(c, creases);
-  return {t.points, c, std::vector<double>(c.vertex_count, asked), shortest, gradation};
+  const std::vector<double> lengths(c.vertex_count, asked);
+  return {lengths_of_narrow_regions(t.points, c, lengths, shortest), shortest, gradation};
 }
 
 /// In the plane, with this many edges on both long sides.
@@ -59,7 +59,7 @@ Triangles box(double x, double y, double z) {
 
 TEST(NarrowRegions, EdgesFitAcrossAStripHoweverItIsCut) {
   for (int pieces : {1, 7, 60}) {
-    const NarrowRegions regions = regions_of(strip(40, 1, pieces), 5, .01);
+    const PlacedLengths regions = regions_of(strip(40, 1, pieces), 5, .01);
     for (double x : {4., 11.3, 20., 33.})
       for (double y : {0., 1.}) {
         EXPECT_LE(regions.length_at({x, y, 0}, 5), 1) << pieces << ' ' << x;
@@ -69,31 +69,16 @@ TEST(NarrowRegions, EdgesFitAcrossAStripHoweverItIsCut) {
 }
 
 TEST(NarrowRegions, NoLengthIsBelowTheShortest) {
-  const NarrowRegions regions = regions_of(strip(40, 1, 3), 5, 2);
+  const PlacedLengths regions = regions_of(strip(40, 1, 3), 5, 2);
   EXPECT_EQ(regions.length_at({20, 0, 0}, 5), 2);
 }
 
 TEST(NarrowRegions, CreasesBoundRegionsAsBoundariesDo) {
-  const NarrowRegions regions = regions_of(box(40, 1, 30), 5, .01);
+  const PlacedLengths regions = regions_of(box(40, 1, 30), 5, .01);
   for (const Vec3& on_narrow_side : {Vec3(20, .5, 0), Vec3(0, .5, 15), Vec3(20, 0, 30)})
     EXPECT_NEAR(regions.length_at(on_narrow_side, 5), 1 - .5 * (1 - rounded_down),
                 .5 * (1 - rounded_down) + .15);
   EXPECT_EQ(regions.length_at({20, 0, 15}, 5), 5);
-}
-
-TEST(NarrowRegions, LengthsGrowAsTheGradationSays) {
-  const Triangles t = box(40, 1, 30);
-  for (double gradation : {.1, .3, 1.}) {
-    const NarrowRegions regions = regions_of(t, 5, .01, gradation);
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> x(0, 40), z(0, 30);
-    for (int i = 0; i < 200; ++i) {
-      const Vec3 a(x(random), 0, z(random)), b(x(random), 0, z(random));
-      const double difference = std::abs(regions.length_at(a, 5) - regions.length_at(b, 5));
-      EXPECT_LE(difference, gradation * (a - b).norm() + 1e-12);
-    }
-    EXPECT_NEAR(regions.length_at({20, 0, 2}, 5) - regions.length_at({20, 0, 1}, 5), gradation, 1e-12);
-  }
 }
 
 TEST(NarrowRegions, CornersAndDiscsAreNone) {
@@ -101,11 +86,10 @@ TEST(NarrowRegions, CornersAndDiscsAreNone) {
   EXPECT_TRUE(regions_of(box(6, 6, 6), 5, .01).empty());
   EXPECT_TRUE(regions_of(disc(60, 6), 5, .01).empty());
   EXPECT_TRUE(regions_of(test::sphere(2), 5, .01).empty());  // no rims at all
-  EXPECT_EQ(NarrowRegions().length_at(Vec3::Zero(), 5), 5);
 }
 
 TEST(NarrowRegions, ASmallDiscIsAsWideAsItsRadius) {
-  const NarrowRegions regions = regions_of(disc(60, 2), 5, .01);
+  const PlacedLengths regions = regions_of(disc(60, 2), 5, .01);
   EXPECT_LE(regions.length_at({2, 0, 0}, 5), 2);
   EXPECT_GE(regions.length_at({2, 0, 0}, 5), rounded_down * 1.99);
 }
@@ -129,23 +113,9 @@ TEST(NarrowRegions, LengthsScaleWithTheMesh) {
   const Triangles t = box(40, 1, 30);
   Triangles twice = t;
   twice.points *= 2;
-  const NarrowRegions regions = regions_of(t, 5, .01), larger = regions_of(twice, 10, .02);
+  const PlacedLengths regions = regions_of(t, 5, .01), larger = regions_of(twice, 10, .02);
   for (double z = 0; z < 10; z += .37)
     EXPECT_EQ(larger.length_at({40, 0, 2 * z}, 10), 2 * regions.length_at({20, 0, z}, 5)) << z;
-}
-
-TEST(NarrowRegions, FacesAreCountedAsTheirLengthsAsk) {
-  const Triangles t = strip(40, 1, 5);
-  const std::vector<double> asked(t.points.cols(), .25);
-  const double uniform = NarrowRegions().covering_faces(t.points, t.faces, asked, no_limit);
-  EXPECT_NEAR(uniform, 40 * 4 / (std::sqrt(3.) * .25 * .25), 1e-6 * uniform);
-  const std::vector<double> longer(t.points.cols(), 5);
-  const NarrowRegions regions = regions_of(t, 5, .01);
-  const double fitting = regions.covering_faces(t.points, t.faces, longer, no_limit);
-  EXPECT_GT(fitting, 40 * 4 / std::sqrt(3.) / std::pow(1.15, 2));  // of the length 1, grown by half a width
-  EXPECT_LT(fitting, 40 * 4 / std::sqrt(3.) / std::pow(rounded_down, 2));
-  EXPECT_LT(regions.covering_faces(t.points, t.faces, longer, 10), fitting);
-  EXPECT_GT(regions.covering_faces(t.points, t.faces, longer, 10), 10);
 }
 
 }  // namespace hooke::narrow_regions_test

@@ -65,6 +65,7 @@ class AdaptationSteps {
 
   /// Lets target lengths be as short as this in narrow regions, see Workspace. Returns whether there are any.
   bool shorten_in_narrow_regions(double shortest, double gradation);
+  bool has_placed_lengths() const { return work_.has_placed_lengths(); }
 
   /// 1-to-4 subdivision; also halves the target lengths.
   void subdivide();
@@ -83,6 +84,7 @@ class AdaptationSteps {
   void compact_ids();
   void relax_springs();
   int pass_over_irregular(std::vector<char>& lately_changed);
+  void sample_lengths_at_vertices();
   void resample_lengths();
   void add(const CountChanges& changes);
 
@@ -199,6 +201,7 @@ AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options, co
       observer_(std::move(observer)),
       m_(work) {
   work.set_corner_valences(corner_angle);
+  if (work.has_placed_lengths()) sample_lengths_at_vertices();
 }
 
 void AdaptationSteps::release_bends() {
@@ -333,9 +336,13 @@ void AdaptationSteps::relax_springs() {
 
 bool AdaptationSteps::shorten_in_narrow_regions(double shortest, double gradation) {
   if (!work_.shorten_in_narrow_regions(shortest, gradation)) return false;
-  m_.length_at = [this](int v) { return work_.input_length(v); };
+  sample_lengths_at_vertices();
   resample_lengths();
   return true;
+}
+
+void AdaptationSteps::sample_lengths_at_vertices() {
+  m_.length_at = [this](int v) { return std::ldexp(work_.input_length(v), level_); };
 }
 
 void AdaptationSteps::resample_lengths() {
@@ -382,16 +389,16 @@ class Adaptation {
     steps_.release_bends();
     steps_.match_junctions();
     // After the bends and junctions of the input: long edges do not show lengths that vary along them.
-    fits_regions_ =
+    const bool fits_regions =
         options_.min_length > 0 && steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
-    if (!fits_regions_) result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
+    if (!fits_regions) result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
   }
 
   /// Without a coarser mesh.
   void adapt_at_once(bool folded) {
     if (!folded) steps_.lloyd_flow(options_.first_flow);
     adapt_lengths(options_.rounds, options_.flow_rounds);
-    if (fits_regions_) result_.target_faces = steps_.wanted_faces();
+    if (steps_.has_placed_lengths()) result_.target_faces = steps_.wanted_faces();
     approach(result_.target_faces, options_.count_slack);
   }
 
@@ -442,7 +449,6 @@ class Adaptation {
   const Observer& observer_;
   const bool goes_on_;
   AdaptationSteps steps_;
-  bool fits_regions_ = false;  // do lengths follow narrow regions?
   AdaptResult result_;
 };
 

@@ -62,7 +62,7 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
                            const KnownInput& known, const Observer& observer, Stopwatch* stopwatch,
                            bool smooths_steps)
     : options(remesh_options),
-      lengths(memory_order.order.gather(vertex_values(mesh, target_length_property))),
+      lengths{memory_order.order.gather(vertex_values(mesh, target_length_property)), {}},
       mesh_(mesh),
       memory_order_(memory_order),
       observer_(observer),
@@ -91,14 +91,14 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   is_mask_ = smooths_steps && options.constraints.features.drops_noise &&
              options.constraints.hard_edges.empty() && is_marched_mask_at_lengths();
   const bool is_noise = is_mask_ || (options.constraints.features.drops_noise &&
-                                     is_staircase(input_.points, input_.adjacency, lengths));
+                                     is_staircase(input_.points, input_.adjacency, lengths.of_vertices));
   if (is_noise) preservation_.feature_angle = 180;
   if (is_mask_) smooth_steps();
   const TargetLengths targets = target_lengths_of(mesh, memory_order.order, input_.adjacency);
   OpenMesh::EPropHandleT<double> ratios;
   const bool has_rest_ratios = mesh.get_property_handle(ratios, rest_ratio_property);
   const bool has_one_length =
-      has_rest_ratios ? UniformVector::are_equal(lengths) : !targets.edge.is_varying();
+      has_rest_ratios ? UniformVector::are_equal(lengths.of_vertices) : !targets.edge.is_varying();
   if (has_one_length) least_angle_ = (1 - angle_rounding) * input_quality_.min_angle.min;
   least_mean_shape_ = input_quality_.shape.mean;
   if (preservation_.has_float_points) allow_for_rounding();
@@ -183,8 +183,8 @@ std::vector<int> AttemptMaker::vertices_of_worse_polygons(const Attempt& a, doub
 /// Is the input made of a binary mask? Without creases no length resolves its steps.
 bool AttemptMaker::is_marched_mask_at_lengths() const {
   if (options.constraints.features.angle < 180)
-    return is_marched_mask(input_.points, input_.adjacency, lengths);
-  const std::vector<double> any(lengths.size(), std::numeric_limits<double>::infinity());
+    return is_marched_mask(input_.points, input_.adjacency, lengths.of_vertices);
+  const std::vector<double> any(lengths.of_vertices.size(), std::numeric_limits<double>::infinity());
   return is_marched_mask(input_.points, input_.adjacency, any);
 }
 
@@ -210,13 +210,13 @@ void AttemptMaker::smooth_steps() {
 Attempt AttemptMaker::run() const {
   Attempt a;
   a.mesh = mesh_;
-  set_vertex_values(a.mesh, target_length_property, memory_order_.order.scatter(lengths));
+  set_vertex_values(a.mesh, target_length_property, memory_order_.order.scatter(lengths.of_vertices));
   if (is_mask_) vertex_points(a.mesh) = smoothed_;
   RunOptions of_run(options);
   of_run.chosen.map = options.map || input_.shell_count() > 0;  // tells which shell a vertex is on
   int& tested = of_run.slivers.pass.min_in_all;
   tested = static_cast<int>(std::ceil(share_of_whole_ * tested));
-  a.run = std::make_shared<Run>(a.mesh, memory_order_, of_run, observer_, stopwatch_);
+  a.run = std::make_shared<Run>(a.mesh, memory_order_, of_run, observer_, stopwatch_, lengths.shorter);
   a.result = a.run->remesh(a.mesh);
   a.result_of_run = a.run->results();
   if (!adapts() || !has_tolerance()) a.run.reset();
@@ -244,7 +244,8 @@ std::optional<Attempt> AttemptMaker::go_on(const Attempt& last) const {
   Attempt next;
   next.mesh = mesh_;
   next.run = last.run;
-  std::optional<RemeshResult> result = next.run->go_on(next.mesh, last.result, placed, points, lengths);
+  std::optional<RemeshResult> result =
+      next.run->go_on(next.mesh, last.result, placed, points, lengths.of_vertices, lengths.shorter);
   if (!result) return std::nullopt;
   next.result = std::move(*result);
   vertex_points(next.mesh) = as_written(vertex_points(next.mesh));

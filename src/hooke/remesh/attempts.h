@@ -8,11 +8,18 @@
 
 #include "hooke/measure/measured_surface.h"
 #include "hooke/remesh/preserving_remesh.h"
+#include "hooke/springs/placed_lengths.h"
 
 namespace hooke {
 
 struct PartOfMesh;
 class Run;
+
+/// Target lengths to make an attempt with.
+struct AskedLengths {
+  std::vector<double> of_vertices;    // of the input in memory order
+  std::vector<PlacedLength> shorter;  // than between these
+};
 
 /// The result of an attempt, with its judgement.
 struct Attempt {
@@ -21,9 +28,9 @@ struct Attempt {
   double angle = 0;           // minimum angle, degrees
   double unmended_angle = 0;  // at the first judgement, before vertices are moved to the input
   double least_angle = 0;  // that it must keep: AttemptMaker::least_angle(), or what unfolding has left of it
-  bool lost_angle = false;      // is it less?
-  double made_faces = 0;        // of its faces, those that were made anew for it, about
-  std::vector<double> lengths;  // target lengths that it was made with, by vertex of the input
+  bool lost_angle = false;  // is it less?
+  double made_faces = 0;    // of its faces, those that were made anew for it, about
+  AskedLengths lengths;     // that it was made with
   /// That it is from, and can be gone on from: in mode `adapt` with a maximum distance. Copies share it.
   std::shared_ptr<Run> run;
   int result_of_run = 0;  // its number among the results of the run
@@ -57,8 +64,8 @@ class AttemptMaker {
                const PreservationOptions& preservation, const KnownInput& known, const Observer& observer,
                Stopwatch* stopwatch, bool smooths_steps);
 
-  RemeshOptions options;        // of the attempts to come; adapt them between these
-  std::vector<double> lengths;  // their target lengths, by vertex
+  RemeshOptions options;  // of the attempts to come; adapt them between these
+  AskedLengths lengths;   // likewise
 
   /// Lets all attempts be judged by the sizes of this one.
   void judge_by_scale_of(const Attempt& attempt);

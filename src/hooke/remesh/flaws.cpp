@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/remesh/attempts.h"
 #include "hooke/remesh/limiting_factors.h"
@@ -105,6 +106,14 @@ std::vector<double> excess_at_flaws(const Attempt& attempt, const MeasuredSurfac
   return excess;
 }
 
+/// The same, with folds.
+std::vector<double> excess_at_vertices(const Attempt& attempt, const MeasuredSurface& surface) {
+  std::vector<double> excess = excess_at_flaws(attempt, surface);
+  if (attempt.preservation().new_folds > 0)
+    for (int v : vertices_at_folds(attempt, surface)) excess[v] = beyond_measure;
+  return excess;
+}
+
 }  // namespace
 
 std::vector<double> excess_at_input(const AttemptMaker& maker, const Attempt& attempt) {
@@ -119,9 +128,7 @@ std::vector<double> excess_at_input(const AttemptMaker& maker, const Attempt& at
     if (face < 0) return;
     for (int v : c.faces[face]) at_input[v] = std::max(at_input[v], excess);
   };
-  std::vector<double> excess = excess_at_flaws(attempt, surface);
-  if (p.new_folds > 0)
-    for (int v : vertices_at_folds(attempt, surface)) excess[v] = beyond_measure;
+  const std::vector<double> excess = excess_at_vertices(attempt, surface);
   const Mat3X normals = vertex_normals(surface.points, surface.adjacency),
               input_normals = face_normals(input.points, c);
   for (int v = 0; v < surface.adjacency.vertex_count; ++v)  // of its own shell, on the same side
@@ -132,6 +139,31 @@ std::vector<double> excess_at_input(const AttemptMaker& maker, const Attempt& at
     for (int v : lost) at_input[v] = beyond_measure;
   if (!p.within_max_distance) add_closest(p.place, p.excess, input.tree, [](int) { return true; });
   return at_input;
+}
+
+std::vector<FlawPlace> places_of_flaws(const AttemptMaker& maker, const Attempt& attempt) {
+  const MeasuredSurface& input = maker.input();
+  const MeasuredSurface surface = maker.surface_of(attempt);
+  const Preservation& p = attempt.preservation();
+  const std::vector<double> lengths =
+      attempt.result.memory_order.order.gather(vertex_values(attempt.mesh, target_length_property));
+  std::vector<FlawPlace> places;
+  const auto add = [&](const Vec3& from, const Vec3& to, double excess) {
+    double length = std::numeric_limits<double>::infinity();
+    for (int v : surface.adjacency.faces[surface.tree.closest(.5 * (from + to)).face])
+      length = std::min(length, lengths[v]);
+    places.push_back({from, to, excess, length});
+  };
+  const std::vector<double> excess = excess_at_vertices(attempt, surface);
+  for (int v = 0; v < surface.adjacency.vertex_count; ++v)
+    if (const Vec3 x = surface.points.col(v); excess[v] > 0) places.push_back({x, x, excess[v], lengths[v]});
+  for (const FarVertex& lost : p.lost_vertices) {
+    const Vec3 x = input.points.col(lost.vertex);
+    add(x, x, lost.distance / lost.limit);
+  }
+  for (const auto& [a, b] : p.lost_creases) add(input.points.col(a), input.points.col(b), beyond_measure);
+  if (!p.within_max_distance) add(p.place, p.place, p.excess);
+  return places;
 }
 
 std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt) {

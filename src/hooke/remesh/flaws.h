@@ -32,7 +32,18 @@ std::vector<int> flaws_at_vertices(const Attempt& attempt, const Mat3X& points);
 /// are turned over, intersect, or have no area or too small angles; 0 where nothing is wrong.
 std::vector<double> excess_at_input(const AttemptMaker& maker, const Attempt& attempt);
 
-/// The vertices of the input where this is not 0. Ascending, in memory order.
+/// A point or segment where a result does not keep its input, by how much as above, and the target length of
+/// the result there.
+struct FlawPlace {
+  Vec3 from, to;
+  double excess;
+  double length;
+};
+
+/// At the vertices of the result at which something is wrong, at lost vertices, and along lost creases.
+std::vector<FlawPlace> places_of_flaws(const AttemptMaker& maker, const Attempt& attempt);
+
+/// The vertices of the input where excess_at_input() is not 0. Ascending, in memory order.
 std::vector<int> input_vertices_at_flaws(const AttemptMaker& maker, const Attempt& attempt);
 
 /// The vertices of a result with the faces of its input that are too far, lost, at lost creases, or at faces

@@ -14,6 +14,7 @@
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
+#include "hooke/mesh/surface_point.h"
 #include "hooke/remesh/attempts.h"
 #include "hooke/remesh/flaws.h"
 #include "hooke/remesh/limiting_factors.h"
@@ -35,7 +36,7 @@ constexpr double very_few = .005;
 class PreservingRemesh {
  public:
   explicit PreservingRemesh(AttemptMaker& maker)
-      : maker_(maker), input_(maker.input()), options_(maker.options), asked_(maker.lengths) {}
+      : maker_(maker), input_(maker.input()), options_(maker.options), asked_(maker.lengths.of_vertices) {}
 
   /// For some shells of a mesh: `first` is the first attempt for these, `max_faces` the most faces that they
   /// may have with shorter lengths, and `keeps_first` whether faces are kept before anything else is tried.
@@ -51,7 +52,7 @@ class PreservingRemesh {
     Attempt best = best_with_lengths();
     if (!is_done(best) && may_take_lengths() && !best.is_interrupted()) {
       const RemeshOptions of_best = std::exchange(options_, start);
-      maker_.lengths = lengths_of_input();
+      maker_.lengths = {lengths_of_input(), {}};
       Attempt next = best_with_lengths();
       if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
       if (next.result.measures && is_done(next)) {
@@ -59,10 +60,11 @@ class PreservingRemesh {
         best.result.has_lengths_of_input = true;
       } else {
         options_ = of_best;
-        maker_.lengths = asked_;
+        maker_.lengths = {asked_, {}};
       }
     }
     if (!is_done(best)) leave_as_it_was(best);
+    count_shortened(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps_smoothed = false;
     return best;
@@ -275,7 +277,7 @@ class PreservingRemesh {
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
     Attempt last = best;
     if (last.result.rescue == Rescue::kept_faces) last.run.reset();  // there lengths fit the kept faces
-    maker_.lengths = last.run ? last.lengths : asked_;
+    maker_.lengths = last.run ? last.lengths : AskedLengths{asked_, {}};
     shorten_about_flaws(std::move(last), best, [&](const Attempt& before) {
       options_ = start;
       const bool projects = before.result.rescue == Rescue::closest;
@@ -289,29 +291,22 @@ class PreservingRemesh {
   /// Where little is wrong with a result, goes on from it with shorter lengths there. If that does not do,
   /// the next attempts have the lengths before.
   void redo_flaws(const Attempt& last, Attempt& best) {
-    const std::vector<double> before = maker_.lengths;
+    const AskedLengths before = maker_.lengths;
     shorten_about_flaws(last, best, nullptr);
     if (!best.keeps_promises()) maker_.lengths = before;
   }
 
-  /// The number of faces that these lengths take.
-  double faces_of(const std::vector<double>& lengths) const {
-    const Adjacency& c = input_.adjacency;
-    const double length = covering_length(input_.points, c, spread_target_lengths(c, lengths));
-    return total_area(input_.points, c.faces) / (std::numbers::sqrt3 / 4 * length * length);
+  /// The number of faces that these lengths take, or more than `enough`.
+  double faces_of(const AskedLengths& lengths, double enough) const {
+    return placed(lengths).covering_faces(input_.points, input_.adjacency.faces, lengths.of_vertices, enough);
   }
 
-  /// Shortens the target lengths where something is wrong in this attempt. Returns whether they are shorter
-  /// for it.
-  bool shorten(const Attempt& last) {
-    std::vector<double> longest = excess_at_input(maker_, last);
-    for (std::size_t v = 0; v < longest.size(); ++v)
-      longest[v] = longest[v] > 0 ? maker_.lengths[v] * shortening(longest[v])
-                                  : std::numeric_limits<double>::infinity();
-    limit_gradation(input_.points, input_.adjacency, gradation, longest);
-    const std::vector<double> before = maker_.lengths;
-    for (std::size_t v = 0; v < longest.size(); ++v) maker_.lengths[v] = std::min(before[v], longest[v]);
-    return maker_.lengths != before;
+  PlacedLengths placed(const AskedLengths& lengths) const { return {lengths.shorter, asked_[0], gradation}; }
+
+  /// Shortens the target lengths where something is wrong in this attempt.
+  void shorten(const Attempt& last) {
+    for (const FlawPlace& flaw : places_of_flaws(maker_, last))
+      maker_.lengths.shorter.push_back({flaw.from, flaw.to, flaw.length * shortening(flaw.excess)});
   }
 
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
@@ -320,13 +315,17 @@ class PreservingRemesh {
   /// is null. Keeps the best lengths. Ends where it would take too many faces, or after some rounds.
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
-    const double max_in_vain = std::max(1e4, max_faces_for_tolerance());
-    const double max_rounds = std::clamp(2e5 / faces_of(asked_), 3., 10.);
-    std::vector<double> best_lengths = maker_.lengths;
+    constexpr double runs_in_vain = 3;  // where no maximum distance is asked for
+    const double faces_asked = faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
+    const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance())
+                                                      : std::min(1e4, runs_in_vain * faces_asked);
+    const double max_rounds = std::clamp(2e5 / faces_asked, 3., 10.);
+    AskedLengths best_lengths = maker_.lengths;
     double in_vain = 0, rounds = 0;
     std::size_t flaws_to_halve = last.flaws();
     while (rounds < max_rounds && in_vain <= max_in_vain && !last.keeps_promises()) {
-      if (!shorten(last) || faces_of(maker_.lengths) > max_faces(best)) break;
+      shorten(last);
+      if (faces_of(maker_.lengths, max_faces(best)) > max_faces(best)) break;
       std::optional<Attempt> next = maker_.go_on(last);
       const bool goes_on = next.has_value();
       if (!goes_on && anew) next = anew(last);
@@ -341,7 +340,6 @@ class PreservingRemesh {
         next->result.rescue = last.result.rescue;
       }
       if (!next->result.measures) break;  // not finite
-      next->result.shortened = count_shortened();
       if (next->is_better_than(best)) {
         best = *next;
         best_lengths = maker_.lengths;
@@ -369,7 +367,7 @@ class PreservingRemesh {
     const double max_share = maker_.adapts() ? 1 : .9;      // of the surface
     const int patience = maker_.adapts() ? 3 : max_rounds;  // rounds, before new places get more rings
     const Adjacency& c = input_.adjacency;
-    const std::vector<double> before = maker_.lengths;
+    const std::vector<double> before = maker_.lengths.of_vertices;
     const Eigen::VectorXd mean_edges = mean_edge_lengths(input_.points, c);
     std::vector<int>& frozen = options_.constraints.frozen_vertices;
     const std::vector<int> frozen_before = frozen;
@@ -396,7 +394,8 @@ class PreservingRemesh {
       }
       if (maker_.adapts()) {
         limit_gradation(input_.points, c, gradation, longest);
-        for (std::size_t v = 0; v < longest.size(); ++v) maker_.lengths[v] = std::min(before[v], longest[v]);
+        for (std::size_t v = 0; v < longest.size(); ++v)
+          maker_.lengths.of_vertices[v] = std::min(before[v], longest[v]);
       }
       Attempt next = maker_.run();
       if (next.is_interrupted()) {
@@ -408,7 +407,6 @@ class PreservingRemesh {
       mend(maker_, next);
       next.result.rescue =
           options_.connectivity == ConnectivityMode::fixed ? Rescue::put_back : Rescue::kept_faces;
-      if (maker_.adapts()) next.result.shortened = count_shortened();
       if (next.is_better_than(best)) best = next;
       if (may_redo_flaws(next)) redo_flaws(next, best);
       if (best.is_interrupted() || best.keeps_promises()) break;
@@ -428,12 +426,23 @@ class PreservingRemesh {
     return run;
   }
 
-  /// The vertices with lengths that were shortened, not only limited by those around.
-  int count_shortened() const {
-    int count = 0;
-    for (std::size_t v = 0; v < asked_.size(); ++v)
-      count += maker_.lengths[v] <= least_shortening() * asked_[v];
-    return count;
+  /// Of a result whose lengths were shortened: at how many vertices they were, more than for those around.
+  void count_shortened(Attempt& run) const {
+    if (run.lengths.shorter.empty() && run.result.shortened == 0) return;
+    const std::vector<double> lengths = vertex_values(run.mesh, target_length_property);
+    const auto points = vertex_points(run.mesh);
+    run.result.shortened = 0;
+    for (std::size_t v = 0; v < lengths.size(); ++v)
+      run.result.shortened +=
+          lengths[v] <= least_shortening() * asked_at(points.col(static_cast<Eigen::Index>(v)));
+  }
+
+  double asked_at(const Vec3& x) const {
+    if (UniformVector::are_equal(asked_)) return asked_[0];
+    const ClosestPoint closest = input_.tree.closest(x);
+    const Triangle& t = input_.adjacency.faces[closest.face];
+    const Vec3 weights = on_face(closest, input_.points, input_.adjacency).weights;
+    return weights.dot(Vec3(asked_[t[0]], asked_[t[1]], asked_[t[2]]));
   }
 
   /// Keeps the vertices of the input and `least_rings` around them, or twice as many rings as the last time
@@ -537,7 +546,7 @@ class PreservingRemesh {
 
   /// May attempts take the lengths of the input for those asked for?
   bool may_take_lengths() const {
-    return has_one_length() && maker_.lengths == asked_ && !maker_.smooths_mask();
+    return has_one_length() && maker_.lengths.of_vertices == asked_ && !maker_.smooths_mask();
   }
 
   /// Lengths as in the input, scaled to those asked for.

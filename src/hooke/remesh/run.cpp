@@ -400,11 +400,11 @@ void add_earlier(const RemeshResult& before, RemeshResult& result) {
 }  // namespace
 
 Run::Run(const TriMesh& mesh, MemoryOrder memory_order, const RunOptions& options, const Observer& observer,
-         Stopwatch* stopwatch)
+         Stopwatch* stopwatch, const std::vector<PlacedLength>& shorter)
     : options_(std::make_unique<const RunOptions>(options)),
       observer_(observer),
       work_(std::make_unique<Workspace>(mesh, std::move(memory_order), options.chosen.constraints,
-                                        options.chosen.filter, options.retraction, stopwatch)) {
+                                        options.chosen.filter, options.retraction, stopwatch, shorter)) {
   if ((work_->has_edge_lengths() || work_->has_rest_ratios()) &&
       options.chosen.connectivity != ConnectivityMode::fixed)
     throw Error("target lengths of single edges; expected connectivity fixed, where edges stay");
@@ -429,7 +429,8 @@ Mat3X Run::points(const TriMesh& input) const {
 
 std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before,
                                        const std::vector<int>& placed, const Mat3X& points,
-                                       const std::vector<double>& lengths) {
+                                       const std::vector<double>& lengths,
+                                       const std::vector<PlacedLength>& shorter_places) {
   constexpr double max_share = .5;   // of the vertices; more are better distributed anew
   constexpr double rounding = 1e-9;  // of lengths
   constexpr int rings = 3;           // around shorter lengths, for faces of lengths between
@@ -437,7 +438,7 @@ std::optional<RemeshResult> Run::go_on(TriMesh& mesh, const RemeshResult& before
     return std::nullopt;
   ++results_;
   const std::vector<double> lengths_before = work_->vertices.vertex_length;
-  work_->set_lengths(lengths);
+  work_->set_lengths(lengths, shorter_places);
   std::vector<int> shorter;
   for (std::size_t v = 0; v < lengths_before.size(); ++v)
     if (work_->vertices.vertex_length[v] < (1 - rounding) * lengths_before[v])

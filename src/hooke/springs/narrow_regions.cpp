@@ -15,18 +15,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Segment {
-  Vec3 from, to;
-  double width;
-};
-
-constexpr double ratio_of_widths = 1.25;
-
-/// Widths are rounded down to the shortest times a power of the ratio.
-int power_of(double width, double shortest) {
-  return std::max(0, static_cast<int>(std::log(width / shortest) / std::log(ratio_of_widths)));
-}
-
 /// Finds the narrow regions of a mesh cut open along its creases, so that its boundary edges, the rims, are
 /// all there is to look at. Every vertex near a rim knows its closest edge; at faces whose corners know
 /// different ones a region may end on both sides.
@@ -46,7 +34,8 @@ class RegionSearch {
     find_closest_edges();
   }
 
-  std::vector<Segment> run() {
+  /// The widths.
+  std::vector<PlacedLength> run() {
     for (const Triangle& t : cut_.faces) look_across(t);
     for (int e : rim_edges_) {
       look_along(e, points_.col(cut_.edges[e][0]), points_.col(cut_.edges[e][1]));
@@ -142,16 +131,16 @@ class RegionSearch {
 
   /// From an edge of a rim across x to the closest edge known at a face that faces it there; without one the
   /// width is infinite.
-  Segment across(const Triangle& t, const Vec3& x, int from) const {
+  PlacedLength across(const Triangle& t, const Vec3& x, int from) const {
     constexpr double facing = .5, times_around = 3;
     const Vec3 foot = closest_on(from, x);
-    Segment narrowest{foot, foot, infinity};
+    PlacedLength narrowest{foot, foot, infinity};
     for (int v : t)
       for (int to : closest_[v]) {
         if (to == from) continue;
         const Vec3 end = closest_on(to, x), way = end - foot;
         const double gap = way.norm(), width = (x - foot).norm() + (x - end).norm();
-        if (width < narrowest.width && way.dot(inward_.col(from)) > facing * gap &&
+        if (width < narrowest.length && way.dot(inward_.col(from)) > facing * gap &&
             -way.dot(inward_.col(to)) > facing * gap &&
             way_along_rim(from, foot, to, end) > times_around * gap)
           narrowest = {foot, end, width};
@@ -162,7 +151,8 @@ class RegionSearch {
   void look_across(const Triangle& t) {
     for (int v : t)
       for (int from : closest_[v])
-        if (const Segment s = across(t, points_.col(v), from); s.width < longest_of(t)) found_.push_back(s);
+        if (const PlacedLength s = across(t, points_.col(v), from); s.length < longest_of(t))
+          found_.push_back(s);
   }
 
   /// At pieces of a rim's edge, no longer than the region is wide there. Pieces in a row that are about as
@@ -170,13 +160,14 @@ class RegionSearch {
   void look_along(int edge, const Vec3& a, const Vec3& b) {
     const Triangle& t = cut_.faces[cut_.edge_faces[edge][0]];
     const Vec3 middle = .5 * (a + b);
-    const double piece = (b - a).norm(), longest = longest_of(t), width = across(t, middle, edge).width;
+    const double piece = (b - a).norm(), longest = longest_of(t), width = across(t, middle, edge).length;
     if (piece > std::max(shortest_, std::min(width, .5 * longest))) {
       look_along(edge, a, middle);
       look_along(edge, middle, b);
     } else if (width < longest) {
-      Segment* const last = found_.empty() ? nullptr : &found_.back();
-      if (last && last->to == a && power_of(last->width, shortest_) == power_of(width, shortest_))
+      PlacedLength* const last = found_.empty() ? nullptr : &found_.back();
+      if (last && last->to == a &&
+          PlacedLengths::power_of(last->length, shortest_) == PlacedLengths::power_of(width, shortest_))
         last->to = b;
       else
         found_.push_back({a, b, width});
@@ -232,83 +223,20 @@ class RegionSearch {
       rim_;  // per edge, of those on a rim: the adjacent ones, the number of the rim
   std::vector<double> start_, rim_length_;  // per edge, per rim
   std::vector<std::vector<int>> closest_;   // per vertex: its own edges of rims, or the closest one
-  std::vector<Segment> found_;
+  std::vector<PlacedLength> found_;
 };
-
-AabbTree tree_of(const std::vector<Segment>& segments) {
-  Mat3X ends(3, 2 * std::ssize(segments));
-  std::vector<Triangle> faces;
-  for (const Segment& s : segments) {
-    const int a = 2 * static_cast<int>(faces.size());
-    ends.col(a) = s.from;
-    ends.col(a + 1) = s.to;
-    faces.push_back({a, a + 1, a + 1});
-  }
-  return {ends, faces};
-}
 
 }  // namespace
 
-NarrowRegions::NarrowRegions(const Mat3X& points, const Adjacency& c,
-                             const std::vector<double>& vertex_length, double shortest, double gradation)
-    : gradation_(gradation) {
+std::vector<PlacedLength> lengths_of_narrow_regions(const Mat3X& points, const Adjacency& c,
+                                                    const std::vector<double>& vertex_length,
+                                                    double shortest) {
   const Adjacency cut = cut_open(c);
   std::vector<double> longest(cut.vertex_count);
   for (int w = 0; w < cut.vertex_count; ++w) longest[w] = vertex_length[c.vertex_of_wedge(w)];
-  std::map<int, std::vector<Segment>> by_width;
-  for (const Segment& s : RegionSearch(wedge_points(points, c), cut, longest, shortest).run())
-    by_width[power_of(s.width, shortest)].push_back(s);
-  for (const auto& [power, segments] : by_width)
-    widths_.push_back({shortest * std::pow(ratio_of_widths, power), tree_of(segments)});
-}
-
-double NarrowRegions::length_at(const Vec3& x, double asked) const {
-  double length = asked;
-  for (const auto& [width, segments] : widths_) {
-    if (width >= length) break;
-    const double reach = (length - width) / gradation_;
-    const ClosestPoint closest =
-        segments.closest(x, [](int) { return true; }, {.squared_distance = reach * reach});
-    if (closest.face >= 0) length = width + gradation_ * std::sqrt(closest.squared_distance);
-  }
-  return length;
-}
-
-double NarrowRegions::covering_faces(const Mat3X& points, const std::vector<Triangle>& faces,
-                                     const std::vector<double>& vertex_length, double enough) const {
-  struct Piece {
-    std::array<Vec3, 3> corners;
-    Vec3 asked;  // lengths at the corners
-  };
-  double count = 0;
-  std::vector<Piece> pieces;
-  for (const Triangle& t : faces) {
-    pieces.push_back({});
-    for (std::size_t k = 0; k < 3; ++k) {
-      pieces.back().corners[k] = points.col(t[k]);
-      pieces.back().asked[static_cast<Eigen::Index>(k)] = vertex_length[t[k]];
-    }
-    while (!pieces.empty()) {
-      if (count > enough) return count;
-      Piece p = pieces.back();
-      pieces.pop_back();
-      const auto& [a, b, c] = p.corners;
-      const double length = length_at((a + b + c) / 3, p.asked.mean());
-      const std::array<double, 3> edges = {(b - a).norm(), (c - b).norm(), (a - c).norm()};
-      const std::size_t longest = std::ranges::max_element(edges) - edges.begin(), next = (longest + 1) % 3;
-      if (edges[longest] <= length) {
-        count += 2 * (b - a).cross(c - a).norm() / (std::sqrt(3.) * length * length);
-        continue;
-      }
-      Piece other = p;
-      const auto i = static_cast<Eigen::Index>(longest), j = static_cast<Eigen::Index>(next);
-      p.corners[next] = other.corners[longest] = .5 * (p.corners[longest] + p.corners[next]);
-      p.asked[j] = other.asked[i] = .5 * (p.asked[i] + p.asked[j]);
-      pieces.push_back(p);
-      pieces.push_back(other);
-    }
-  }
-  return count;
+  std::vector<PlacedLength> widths = RegionSearch(wedge_points(points, c), cut, longest, shortest).run();
+  for (PlacedLength& width : widths) width.length = std::max(width.length, shortest);
+  return widths;
 }
 
 }  // namespace hooke

@@ -16,6 +16,8 @@
 #include "hooke/mesh/sagitta.h"
 #include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
+#include "hooke/springs/narrow_regions.h"
+#include "hooke/springs/sizing.h"
 
 namespace hooke {
 namespace {
@@ -55,7 +57,8 @@ void append_inner(const std::vector<Edge>& edges, const Adjacency& c, std::vecto
 
 Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
                      const ConstraintOptions& constraint_options, const FilterOptions& filter,
-                     const RetractionOptions& retraction_options, Stopwatch* stopwatch_or_none)
+                     const RetractionOptions& retraction_options, Stopwatch* stopwatch_or_none,
+                     const std::vector<PlacedLength>& shorter)
     : stopwatch(stopwatch_or_none),
       order(std::move(memory_order.order)),
       filter_(filter),
@@ -69,6 +72,12 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
   vertices.vertex_length = order.gather(length);
   for (double& l : vertices.vertex_length) l /= normalisation.unit;
+  start_length_ = vertices.vertex_length;
+  place_lengths(shorter);
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    double& l = vertices.vertex_length[static_cast<std::size_t>(v)];
+    l = length_at(points.col(v), l);
+  }
   start = std::make_shared<const Mat3X>(std::move(points));
   std::vector<Edge> creases;
   for (int e : detect_creases(*start, *memory_order.adjacency, vertices.vertex_length,
@@ -86,7 +95,6 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   rest_ratios_ = edge_values(source, rest_ratio_property, order, *adjacency);
   spread_lengths();
   input_surface_ = surface();
-  start_length_ = vertices.vertex_length;
   if (std::vector<double> of_edges = edge_values(source, edge_length_property, order, *adjacency);
       !of_edges.empty()) {
     for (double& l : of_edges) l /= normalisation.unit;
@@ -269,16 +277,31 @@ void Workspace::spread_lengths() {
 }
 
 bool Workspace::shorten_in_narrow_regions(double shortest, double gradation) {
-  narrow_regions_ =
-      NarrowRegions(*start, *adjacency, start_length_.values(), shortest / normalisation.unit, gradation);
+  const double least = shortest / normalisation.unit;
+  narrow_regions_ = PlacedLengths(
+      lengths_of_narrow_regions(*start, *adjacency, start_length_.values(), least), least, gradation);
   return !narrow_regions_.empty();
 }
 
-void Workspace::set_lengths(const std::vector<double>& of_input) {
+void Workspace::set_lengths(const std::vector<double>& of_input, const std::vector<PlacedLength>& shorter) {
   std::vector<double> lengths = of_input;
   for (double& length : lengths) length /= normalisation.unit;
   start_length_ = std::move(lengths);
+  place_lengths(shorter);
   resample_lengths();
+}
+
+void Workspace::place_lengths(const std::vector<PlacedLength>& shorter) {
+  std::vector<PlacedLength> normalised;
+  for (const PlacedLength& place : shorter)
+    normalised.push_back({(place.from - normalisation.centre) / normalisation.unit,
+                          (place.to - normalisation.centre) / normalisation.unit,
+                          place.length / normalisation.unit});
+  shorter_ = PlacedLengths(normalised, 1, Sizing().gradation);
+}
+
+double Workspace::length_at(const Vec3& x, double of_vertices) const {
+  return shorter_.length_at(x, narrow_regions_.length_at(x, of_vertices));
 }
 
 void Workspace::hold_others(const std::vector<char>& may_move) {
@@ -304,7 +327,7 @@ void Workspace::release() {
 }
 
 bool Workspace::has_varying_lengths() const {
-  return edge_by_edge_ || start_length_.is_varying() || !narrow_regions_.empty();
+  return edge_by_edge_ || start_length_.is_varying() || has_placed_lengths();
 }
 
 double Workspace::input_length(int v) const {
@@ -314,7 +337,7 @@ double Workspace::input_length(int v) const {
   for (size_t k = 0; k < 3; ++k)
     length +=
         point.weights[static_cast<Eigen::Index>(k)] * start_length_[input_surface_->faces[point.face][k]];
-  return narrow_regions_.length_at(vertices.positions.points.col(v), length);
+  return length_at(vertices.positions.points.col(v), length);
 }
 
 std::vector<double> Workspace::input_lengths() const {

@@ -11,7 +11,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/surface_point.h"
 #include "hooke/mesh/vertex_coloring.h"
-#include "hooke/springs/narrow_regions.h"
+#include "hooke/springs/placed_lengths.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/vertex_table.h"
 
@@ -28,9 +28,10 @@ struct Normalisation {
 /// fitted last. Both are the same until the first refit().
 struct Workspace {
   /// Reads the target lengths from v:target_length. `memory_order` must belong to `mesh`. Keeps no reference
-  /// to the mesh.
+  /// to the mesh. `shorter`: see set_lengths().
   Workspace(const TriMesh& mesh, MemoryOrder memory_order, const ConstraintOptions& constraints,
-            const FilterOptions& filter, const RetractionOptions& retraction, Stopwatch* stopwatch = nullptr);
+            const FilterOptions& filter, const RetractionOptions& retraction, Stopwatch* stopwatch = nullptr,
+            const std::vector<PlacedLength>& shorter = {});
 
   /// Fits a new field to the current vertices; displacements are projected to it from now on. [11]-[14]
   void refit();
@@ -65,14 +66,14 @@ struct Workspace {
   void replace_mesh(std::vector<Triangle> faces, const std::vector<Triangle>& wedges);
 
   /// Lets target lengths in narrow regions between the creases and boundaries of the input be as short as
-  /// `shortest`, in the unit of the points that the workspace was made from; see NarrowRegions. They change
-  /// when they are sampled next. Returns whether there are such regions. Pre-condition: replace_faces() and
-  /// replace_mesh() were not called yet.
+  /// `shortest`, in the unit of the points that the workspace was made from; see lengths_of_narrow_regions().
+  /// They change when they are sampled next. Returns whether there are such regions. Pre-condition:
+  /// replace_faces() and replace_mesh() were not called yet.
   bool shorten_in_narrow_regions(double shortest, double gradation);
 
-  /// Sets other target lengths of the input, in its memory order and in the unit of the points that the
-  /// workspace was made from.
-  void set_lengths(const std::vector<double>& of_input);
+  /// Sets other target lengths: of the vertices of the input, in its memory order, and where they are
+  /// `shorter` than between these. All are in the unit of the points that the workspace was made from.
+  void set_lengths(const std::vector<double>& of_input, const std::vector<PlacedLength>& shorter);
 
   /// Lets all vertices but those that `may_move`, by a mark for each, stand still, and the edges between them
   /// stay, until release(). Pre-condition: there are no junctions.
@@ -83,6 +84,9 @@ struct Workspace {
   /// Do the target lengths vary?
   bool has_varying_lengths() const;
 
+  /// Do they vary faster than along the edges of the input?
+  bool has_placed_lengths() const { return !narrow_regions_.empty() || !shorter_.empty(); }
+
   /// Are they given for each edge by itself (`e:target_length`), not by the place on the surface?
   bool has_edge_lengths() const { return edge_by_edge_; }
 
@@ -90,7 +94,7 @@ struct Workspace {
   bool has_rest_ratios() const { return !rest_ratios_.empty(); }
 
   /// Target lengths of the input, interpolated linearly in its faces at the positions of the vertices, or
-  /// those of its narrow regions.
+  /// those of its narrow regions and of where they are shorter.
   std::vector<double> input_lengths() const;
 
   /// The same at one vertex.
@@ -139,6 +143,8 @@ struct Workspace {
 
  private:
   SurfacePoint locate_on_input(int vertex) const;
+  void place_lengths(const std::vector<PlacedLength>& shorter);
+  double length_at(const Vec3& x, double of_vertices) const;
   std::vector<int> joined_in_result() const;
   const Permutation& input_order() const { return input_order_ ? *input_order_ : order; }
   void connect(std::shared_ptr<const Adjacency> smooth, const std::vector<Edge>& creases);
@@ -156,7 +162,8 @@ struct Workspace {
   std::optional<std::vector<Edge>> sharp_;          // creases where the surface is sharp; none: all are
   std::shared_ptr<const Adjacency> input_surface_;  // with the points `start`, and wedges where it is sharp
   UniformVector start_length_;                      // target lengths with the points `start`
-  NarrowRegions narrow_regions_;                    // see shorten_in_narrow_regions()
+  PlacedLengths narrow_regions_;                    // see shorten_in_narrow_regions()
+  PlacedLengths shorter_;                           // see set_lengths()
   bool refitted_ = false;                           // false: both fields are the same
   bool edge_by_edge_ = false;                       // see has_edge_lengths()
   std::vector<double> rest_ratios_;                 // `e:rest_ratio`, by edge; empty without it
