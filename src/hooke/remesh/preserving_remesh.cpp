@@ -311,11 +311,13 @@ class PreservingRemesh {
 
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
   /// these until nothing is, or until they made too many faces since one that halved what is wrong. Where
-  /// much of the last one may stay the next goes on from it; else it is made `anew`, or it ends there if that
-  /// is null. Keeps the best lengths. Ends where it would take too many faces, or after some rounds.
+  /// much of the last one may stay, and it was no worse than the one before, the next goes on from it; else
+  /// it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends where it would take
+  /// too many faces, or after some rounds.
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
     constexpr double runs_in_vain = 3;  // where no maximum distance is asked for
+    constexpr std::size_t much_worse = 4;
     const double faces_asked = faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
     const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance())
                                                       : std::min(1e4, runs_in_vain * faces_asked);
@@ -338,6 +340,7 @@ class PreservingRemesh {
         maker_.judge(*next);
         mend(maker_, *next);
         next->result.rescue = last.result.rescue;
+        if (anew && next->flaws() > much_worse * last.flaws()) next->run.reset();
       }
       if (!next->result.measures) break;  // not finite
       if (next->is_better_than(best)) {
