@@ -125,6 +125,10 @@ class RegionSearch {
     }
   }
 
+  void add(const Vec3& from, const Vec3& to, double width) {
+    found_.push_back({from, to, std::max(width, shortest_)});
+  }
+
   double longest_of(const Triangle& t) const {
     return std::min({longest_[t[0]], longest_[t[1]], longest_[t[2]]});
   }
@@ -152,7 +156,7 @@ class RegionSearch {
     for (int v : t)
       for (int from : closest_[v])
         if (const PlacedLength s = across(t, points_.col(v), from); s.length < longest_of(t))
-          found_.push_back(s);
+          add(s.from, s.to, s.length);
   }
 
   /// At pieces of a rim's edge, no longer than the region is wide there. Pieces in a row that are about as
@@ -167,10 +171,11 @@ class RegionSearch {
     } else if (width < longest) {
       PlacedLength* const last = found_.empty() ? nullptr : &found_.back();
       if (last && last->to == a &&
-          PlacedLengths::power_of(last->length, shortest_) == PlacedLengths::power_of(width, shortest_))
+          PlacedLengths::power_of(last->length, shortest_) ==
+              PlacedLengths::power_of(std::max(width, shortest_), shortest_))
         last->to = b;
       else
-        found_.push_back({a, b, width});
+        add(a, b, width);
     }
   }
 
@@ -208,7 +213,7 @@ class RegionSearch {
     const Vec3 back = way_from(edge, eighth * radius, false), ahead = way_from(edge, eighth * radius, true);
     const double turned = std::atan2(back.cross(ahead).norm(), -back.dot(ahead));
     if (!back.isZero(0) && !ahead.isZero(0) && turned >= kept_share * eighth)
-      found_.push_back({points_.col(v), points_.col(v), radius});
+      add(points_.col(v), points_.col(v), radius);
   }
 
   static constexpr double greatest_turn = 60.5 * std::numbers::pi / 180;  // of a round rim: a hexagon's
@@ -234,9 +239,7 @@ std::vector<PlacedLength> lengths_of_narrow_regions(const Mat3X& points, const A
   const Adjacency cut = cut_open(c);
   std::vector<double> longest(cut.vertex_count);
   for (int w = 0; w < cut.vertex_count; ++w) longest[w] = vertex_length[c.vertex_of_wedge(w)];
-  std::vector<PlacedLength> widths = RegionSearch(wedge_points(points, c), cut, longest, shortest).run();
-  for (PlacedLength& width : widths) width.length = std::max(width.length, shortest);
-  return widths;
+  return RegionSearch(wedge_points(points, c), cut, longest, shortest).run();
 }
 
 }  // namespace hooke
