@@ -779,4 +779,21 @@ TEST(PreservingRemesh, EdgesGetShorterWithinAFacetOnlyWhereTheyMust) {
   EXPECT_LT(shortest, .7 * length);
 }
 
+TEST(PreservingRemesh, AnOpenTubeOfLongFacetsTakesNoMoreFacesThanItMust) {
+  test::Triangles tube = test::drum(64, 2);
+  tube.faces.resize(128);  // its sides, without the caps
+  for (const double times_natural : {2., 5., 8.}) {
+    const double length = times_natural * test::natural(tube);
+    TriMesh mesh = test::with_length(tube, length);
+    const RemeshResult result = preserving_remesh(
+        mesh, find_memory_order(mesh), options_for(ConnectivityMode::adapt), {.max_distance = 3e-3});
+    EXPECT_TRUE(result.measures->preservation.holds()) << times_natural;
+    EXPECT_NE(result.rescue, Rescue::kept_faces) << times_natural;
+    EXPECT_GT(result.measures->quality.min_angle.min, 30) << times_natural;
+    // Chords of .15 keep so much of a radius of 1.
+    EXPECT_LT(static_cast<double>(mesh.n_faces()), 4 * 4 * std::numbers::pi / (std::sqrt(3.) / 4 * .15 * .15))
+        << times_natural;
+  }
+}
+
 }  // namespace hooke::preserving_remesh_test

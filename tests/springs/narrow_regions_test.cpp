@@ -13,7 +13,7 @@ namespace hooke::narrow_regions_test {
 
 using test::Triangles;
 
-constexpr double rounded_down = 1 / 1.25;
+constexpr double rounded_down = .91;
 
 /// All sharp edges are creases.
 PlacedLengths regions_of(const Triangles& t, double asked, double shortest, double gradation = .3) {

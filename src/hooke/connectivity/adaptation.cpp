@@ -63,8 +63,8 @@ class AdaptationSteps {
   /// Passes of springs and flips near irregular vertices, until one flips nothing.
   void flip_irregular();
 
-  /// Lets target lengths be as short as this in narrow regions, see Workspace. Returns whether there are any.
-  bool shorten_in_narrow_regions(double shortest, double gradation);
+  /// Lets target lengths be as short as this in narrow regions, see Workspace.
+  void shorten_in_narrow_regions(double shortest, double gradation);
   bool has_placed_lengths() const { return work_.has_placed_lengths(); }
 
   /// 1-to-4 subdivision; also halves the target lengths.
@@ -334,11 +334,10 @@ void AdaptationSteps::relax_springs() {
   resample_lengths();
 }
 
-bool AdaptationSteps::shorten_in_narrow_regions(double shortest, double gradation) {
-  if (!work_.shorten_in_narrow_regions(shortest, gradation)) return false;
+void AdaptationSteps::shorten_in_narrow_regions(double shortest, double gradation) {
+  if (!work_.shorten_in_narrow_regions(shortest, gradation)) return;
   sample_lengths_at_vertices();
   resample_lengths();
-  return true;
 }
 
 void AdaptationSteps::sample_lengths_at_vertices() {
@@ -389,9 +388,9 @@ class Adaptation {
     steps_.release_bends();
     steps_.match_junctions();
     // After the bends and junctions of the input: long edges do not show lengths that vary along them.
-    const bool fits_regions =
-        options_.min_length > 0 && steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
-    if (!fits_regions) result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
+    if (options_.min_length > 0) steps_.shorten_in_narrow_regions(options_.min_length, options_.gradation);
+    if (!steps_.has_placed_lengths())
+      result_.levels = steps_.coarse_levels(result_.target_faces, options_.coarse);
   }
 
   /// Without a coarser mesh.

@@ -148,21 +148,26 @@ std::vector<FlawPlace> places_of_flaws(const AttemptMaker& maker, const Attempt&
   const std::vector<double> lengths =
       attempt.result.memory_order.order.gather(vertex_values(attempt.mesh, target_length_property));
   std::vector<FlawPlace> places;
-  const auto add = [&](const Vec3& from, const Vec3& to, double excess) {
+  const auto add = [&](const Vec3& from, const Vec3& to, double excess, const AabbTree& tree) {
+    const int face = tree.closest(.5 * (from + to)).face;
+    if (face < 0) return;
     double length = std::numeric_limits<double>::infinity();
-    for (int v : surface.adjacency.faces[surface.tree.closest(.5 * (from + to)).face])
-      length = std::min(length, lengths[v]);
+    for (int v : surface.adjacency.faces[face]) length = std::min(length, lengths[v]);
     places.push_back({from, to, excess, length});
+  };
+  const auto tree_at = [&](int input_vertex) -> const AabbTree& {
+    return surface.tree_of(input.shell_of_vertex(input_vertex));
   };
   const std::vector<double> excess = excess_at_vertices(attempt, surface);
   for (int v = 0; v < surface.adjacency.vertex_count; ++v)
     if (const Vec3 x = surface.points.col(v); excess[v] > 0) places.push_back({x, x, excess[v], lengths[v]});
   for (const FarVertex& lost : p.lost_vertices) {
     const Vec3 x = input.points.col(lost.vertex);
-    add(x, x, lost.distance / lost.limit);
+    add(x, x, lost.distance / lost.limit, tree_at(lost.vertex));
   }
-  for (const auto& [a, b] : p.lost_creases) add(input.points.col(a), input.points.col(b), beyond_measure);
-  if (!p.within_max_distance) add(p.place, p.place, p.excess);
+  for (const auto& [a, b] : p.lost_creases)
+    add(input.points.col(a), input.points.col(b), beyond_measure, tree_at(a));
+  if (!p.within_max_distance) add(p.place, p.place, p.excess, surface.tree);
   return places;
 }
 

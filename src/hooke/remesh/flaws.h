@@ -38,6 +38,8 @@ struct FlawPlace {
   Vec3 from, to;
   double excess;
   double length;
+
+  bool operator==(const FlawPlace& other) const { return from == other.from && to == other.to; }
 };
 
 /// At the vertices of the result at which something is wrong, at lost vertices, and along lost creases.

@@ -27,7 +27,7 @@ namespace hooke {
 namespace {
 
 /// Of target lengths, away from where they are shorter than asked.
-constexpr double gradation = .3;
+const double gradation = Sizing().gradation;
 
 /// As `few`, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after that.
 constexpr double very_few = .005;
@@ -64,7 +64,7 @@ class PreservingRemesh {
       }
     }
     if (!is_done(best)) leave_as_it_was(best);
-    count_shortened(best);
+    if (!best.lengths.shorter.empty()) best.result.shortened = count_shortened(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps_smoothed = false;
     return best;
@@ -260,17 +260,20 @@ class PreservingRemesh {
   /// By how much to shorten lengths where a distance is `excess` times its limit. Where a limit is asked for
   /// it tells: distances of chords of a smooth surface grow with the square of lengths.
   double shortening(double excess) const {
-    constexpr double least = .25;
-    return maker_.has_tolerance() && std::isfinite(excess)
-               ? std::clamp(least_shortening() / std::sqrt(excess), least, least_shortening())
-               : .5;
+    constexpr double least = .25, most = .65, without_limit = .42;
+    if (!maker_.has_tolerance()) return without_limit;
+    return std::isfinite(excess) ? std::clamp(most / std::sqrt(excess), least, most) : .5;
   }
-
-  double least_shortening() const { return maker_.has_tolerance() ? .7 : .5; }
 
   /// 0 if no limit of distances is asked for.
   double max_faces_for_tolerance() const {
     return maker_.has_tolerance() ? 12 * static_cast<double>(input_.adjacency.faces.size()) : 0;
+  }
+
+  /// The most faces that shorter lengths may take in these rounds.
+  double max_faces_of_rounds(const Attempt& run) const {
+    constexpr double for_tolerance = 5e4;
+    return maker_.has_tolerance() ? std::max(for_tolerance, max_faces(run)) : max_faces(run);
   }
 
   /// Shortens the lengths asked for about what is wrong, and makes attempts with these.
@@ -298,15 +301,31 @@ class PreservingRemesh {
 
   /// The number of faces that these lengths take, or more than `enough`.
   double faces_of(const AskedLengths& lengths, double enough) const {
-    return placed(lengths).covering_faces(input_.points, input_.adjacency.faces, lengths.of_vertices, enough);
+    const Adjacency& c = input_.adjacency;
+    if (!lengths.shorter.empty())
+      return placed(lengths).covering_faces(input_.points, c.faces, lengths.of_vertices, enough);
+    const double length = covering_length(input_.points, c, spread_target_lengths(c, lengths.of_vertices));
+    return total_area(input_.points, c.faces) / (std::numbers::sqrt3 / 4 * length * length);
   }
 
-  PlacedLengths placed(const AskedLengths& lengths) const { return {lengths.shorter, asked_[0], gradation}; }
+  PlacedLengths placed(const AskedLengths& lengths) const {
+    const double mean =
+        std::accumulate(asked_.begin(), asked_.end(), 0.) / static_cast<double>(asked_.size());
+    return {lengths.shorter, mean, gradation};
+  }
 
-  /// Shortens the target lengths where something is wrong in this attempt.
-  void shorten(const Attempt& last) {
-    for (const FlawPlace& flaw : places_of_flaws(maker_, last))
-      maker_.lengths.shorter.push_back({flaw.from, flaw.to, flaw.length * shortening(flaw.excess)});
+  /// Shortens the target lengths at places where something is wrong in this attempt. At kept faces its own
+  /// are those of the input.
+  void shorten_at(const std::vector<FlawPlace>& flaws, const Attempt& last) {
+    const PlacedLengths places = placed(maker_.lengths);
+    std::vector<PlacedLength> shorter;
+    for (const FlawPlace& flaw : flaws) {
+      const Vec3 middle = .5 * (flaw.from + flaw.to);
+      const double present =
+          last.result.rescue == Rescue::kept_faces ? places.length_at(middle, asked_at(middle)) : flaw.length;
+      shorter.push_back({flaw.from, flaw.to, present * shortening(flaw.excess)});
+    }
+    maker_.lengths.shorter.insert(maker_.lengths.shorter.end(), shorter.begin(), shorter.end());
   }
 
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
@@ -319,15 +338,18 @@ class PreservingRemesh {
     constexpr double runs_in_vain = 3;  // where no maximum distance is asked for
     constexpr std::size_t much_worse = 4;
     const double faces_asked = faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
-    const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance())
-                                                      : std::min(1e4, runs_in_vain * faces_asked);
     const double max_rounds = std::clamp(2e5 / faces_asked, 3., 10.);
     AskedLengths best_lengths = maker_.lengths;
-    double in_vain = 0, rounds = 0;
+    double in_vain = 0, rounds = 0, first_faces = 0;
     std::size_t flaws_to_halve = last.flaws();
-    while (rounds < max_rounds && in_vain <= max_in_vain && !last.keeps_promises()) {
-      shorten(last);
-      if (faces_of(maker_.lengths, max_faces(best)) > max_faces(best)) break;
+    std::vector<FlawPlace> flaws_before;
+    while (rounds < max_rounds && !last.keeps_promises()) {
+      std::vector<FlawPlace> flaws = places_of_flaws(maker_, last);
+      if (flaws == flaws_before) break;  // of what stands still
+      shorten_at(flaws, last);
+      flaws_before = std::move(flaws);
+      const double most = max_faces_of_rounds(best);
+      if (faces_of(maker_.lengths, most) > most) break;
       std::optional<Attempt> next = maker_.go_on(last);
       const bool goes_on = next.has_value();
       if (!goes_on && anew) next = anew(last);
@@ -352,6 +374,10 @@ class PreservingRemesh {
       const bool halves = 2 * next->flaws() <= flaws_to_halve;
       rounds += cost / faces;
       in_vain = halves ? 0 : in_vain + cost;
+      if (first_faces == 0) first_faces = faces;
+      const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance())
+                                                        : std::min(1e4, runs_in_vain * first_faces);
+      if (in_vain > max_in_vain) break;
       if (halves) flaws_to_halve = next->flaws();
       last = std::move(*next);
     }
@@ -429,20 +455,24 @@ class PreservingRemesh {
     return run;
   }
 
-  /// Of a result whose lengths were shortened: at how many vertices they were, more than for those around.
-  void count_shortened(Attempt& run) const {
-    if (run.lengths.shorter.empty() && run.result.shortened == 0) return;
+  /// At how many vertices of a result it is places that made the lengths clearly shorter.
+  int count_shortened(const Attempt& run) const {
+    constexpr double clearly = .8, moved = 1.1;  // since they were sampled
     const std::vector<double> lengths = vertex_values(run.mesh, target_length_property);
-    const auto points = vertex_points(run.mesh);
-    run.result.shortened = 0;
-    for (std::size_t v = 0; v < lengths.size(); ++v)
-      run.result.shortened +=
-          lengths[v] <= least_shortening() * asked_at(points.col(static_cast<Eigen::Index>(v)));
+    const Mat3X points = vertex_points(run.mesh);
+    const PlacedLengths places = placed(run.lengths);
+    int count = 0;
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+      const double asked = asked_at(points.col(v)), length = places.length_at(points.col(v), asked);
+      count += length < clearly * asked && length <= moved * lengths[static_cast<std::size_t>(v)];
+    }
+    return count;
   }
 
   double asked_at(const Vec3& x) const {
     if (UniformVector::are_equal(asked_)) return asked_[0];
     const ClosestPoint closest = input_.tree.closest(x);
+    if (closest.face < 0) return asked_[0];
     const Triangle& t = input_.adjacency.faces[closest.face];
     const Vec3 weights = on_face(closest, input_.points, input_.adjacency).weights;
     return weights.dot(Vec3(asked_[t[0]], asked_[t[1]], asked_[t[2]]));

@@ -85,8 +85,8 @@ struct RemeshResult {
   std::shared_ptr<ResultMeasures> measures;
   Rescue rescue = Rescue::none;
   int rescued_shells = 0;  // that were remeshed by themselves and for which that holds; 0: for the whole
-  /// Vertices at which preserving_remesh() took half of the target length asked for or less, or .7 where a
-  /// maximum distance is asked for.
+  /// Vertices at which preserving_remesh() took less than .8 of the target length asked for, so that the
+  /// surface is kept.
   int shortened = 0;
   /// Did preserving_remesh() take the lengths that the input has for target lengths?
   bool has_lengths_of_input = false;

@@ -273,8 +273,7 @@ constexpr Row promises[] = {
     {"promises.rescued_parts", integer, none, neither,
      "connected parts, remeshed by themselves, of which that tells; 0: of the whole"},
     {"promises.shortened_vertices", integer, none, neither,
-     "vertices at which mode adapt took half of the target length or less, or .7 with --max-distance, to "
-     "keep the surface"},
+     "vertices at which mode adapt took less than .8 of the target length, to keep the surface"},
     {"promises.lengths_of_input", boolean, none, neither,
      "edges got the lengths that the input has, as even ones would have made worse faces; of modes fixed and "
      "flip"},

@@ -8,7 +8,7 @@
 namespace hooke {
 namespace {
 
-constexpr double ratio_of_lengths = 1.25;
+constexpr double steps_of_half = 8;  // of lengths in groups
 
 AabbTree tree_of(const std::vector<PlacedLength>& places) {
   Mat3X ends(3, 2 * std::ssize(places));
@@ -29,11 +29,12 @@ PlacedLengths::PlacedLengths(const std::vector<PlacedLength>& places, double uni
   std::map<int, std::vector<PlacedLength>> by_power;
   for (const PlacedLength& place : places) by_power[power_of(place.length, unit)].push_back(place);
   for (const auto& [power, group] : by_power)
-    groups_.push_back({unit * std::pow(ratio_of_lengths, power), tree_of(group)});
+    groups_.push_back({unit * std::exp2(power / steps_of_half), tree_of(group)});
 }
 
 int PlacedLengths::power_of(double length, double unit) {
-  return static_cast<int>(std::floor(std::log(length / unit) / std::log(ratio_of_lengths)));
+  constexpr double rounding = 1e-9;
+  return static_cast<int>(std::floor(steps_of_half * std::log2(length / unit) + rounding));
 }
 
 double PlacedLengths::length_at(const Vec3& x, double asked) const {

@@ -20,11 +20,11 @@ class PlacedLengths {
   /// None.
   PlacedLengths() = default;
 
-  /// `unit`: lengths are rounded down to it times a power of 1.25; `gradation`: by how much they grow away
+  /// `unit`: lengths are rounded down to it times a power of 2^(1/8); `gradation`: by how much they grow away
   /// from their places, over the distance. Both are positive and finite.
   PlacedLengths(const std::vector<PlacedLength>& places, double unit, double gradation);
 
-  /// The power of 1.25 that a length, over the unit, is rounded down to.
+  /// The power of 2^(1/8) that a length, over the unit, is rounded down to.
   static int power_of(double length, double unit);
 
   bool empty() const { return groups_.empty(); }

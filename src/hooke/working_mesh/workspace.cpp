@@ -297,11 +297,11 @@ void Workspace::place_lengths(const std::vector<PlacedLength>& shorter) {
     normalised.push_back({(place.from - normalisation.centre) / normalisation.unit,
                           (place.to - normalisation.centre) / normalisation.unit,
                           place.length / normalisation.unit});
-  shorter_ = PlacedLengths(normalised, 1, Sizing().gradation);
+  short_places_ = PlacedLengths(normalised, 1, Sizing().gradation);
 }
 
 double Workspace::length_at(const Vec3& x, double of_vertices) const {
-  return shorter_.length_at(x, narrow_regions_.length_at(x, of_vertices));
+  return short_places_.length_at(x, narrow_regions_.length_at(x, of_vertices));
 }
 
 void Workspace::hold_others(const std::vector<char>& may_move) {

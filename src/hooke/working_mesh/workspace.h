@@ -85,7 +85,7 @@ struct Workspace {
   bool has_varying_lengths() const;
 
   /// Do they vary faster than along the edges of the input?
-  bool has_placed_lengths() const { return !narrow_regions_.empty() || !shorter_.empty(); }
+  bool has_placed_lengths() const { return !narrow_regions_.empty() || !short_places_.empty(); }
 
   /// Are they given for each edge by itself (`e:target_length`), not by the place on the surface?
   bool has_edge_lengths() const { return edge_by_edge_; }
@@ -163,7 +163,7 @@ struct Workspace {
   std::shared_ptr<const Adjacency> input_surface_;  // with the points `start`, and wedges where it is sharp
   UniformVector start_length_;                      // target lengths with the points `start`
   PlacedLengths narrow_regions_;                    // see shorten_in_narrow_regions()
-  PlacedLengths shorter_;                           // see set_lengths()
+  PlacedLengths short_places_;                      // see set_lengths()
   bool refitted_ = false;                           // false: both fields are the same
   bool edge_by_edge_ = false;                       // see has_edge_lengths()
   std::vector<double> rest_ratios_;                 // `e:rest_ratio`, by edge; empty without it
