@@ -317,7 +317,7 @@ class Report(CommandTest):
         before = (self.folder / "blob.ply").read_bytes()
         self.run_command(*blob, "--min-length", ".1x")
         self.assertEqual((self.folder / "blob.ply").read_bytes(), before)
-        self.refused(8, *adapted, "--min-length", ".1", "--memory-limit", "14", names="plate.off", says="in the result")
+        self.refused(8, *adapted, "--min-length", ".1", "--memory-limit", "13", names="plate.off", says="in the result")
 
     def test_a_seam_stays_closed_and_says_so(self):
         grid = lambda side: [(side * (i + .3 * (i == 1 and j == 1)) / 2, (j + .2 * (j == 1 and i == 1)) / 2, 0)

@@ -71,4 +71,13 @@ TEST(PlacedLengths, FacesAreCountedAsTheirLengthsAsk) {
   EXPECT_GT(diagonal.covering_faces(square.points, square.faces, long_ones, 10), 10);
 }
 
+/// Ten million lengths long, and narrower than they are: few pieces tell how many faces it takes.
+TEST(PlacedLengths, FacesOfANeedleAreCountedInFewPieces) {
+  const test::Triangles needle = test::triangles({{0, 0, 0}, {1e6, 0, 0}, {1e6, 1e-3, 0}}, {{0, 1, 2}});
+  const std::vector<double> asked(3, 10);
+  const PlacedLengths placed({{Vec3::Zero(), Vec3(1e6, 0, 0), .1}}, 1, .3);
+  const double faces = placed.covering_faces(needle.points, needle.faces, asked, no_limit);
+  EXPECT_NEAR(faces, .5 * 1e6 * 1e-3 / (std::sqrt(3.) / 4 * .1 * .1), .25 * faces);
+}
+
 }  // namespace hooke::placed_lengths_test

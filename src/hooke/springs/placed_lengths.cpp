@@ -55,6 +55,7 @@ double PlacedLengths::covering_faces(const Mat3X& points, const std::vector<Tria
     std::array<Vec3, 3> corners;
     Vec3 asked;  // lengths at the corners
   };
+  constexpr double least = .2;  // of a face: needles take no piece for each of the lengths along them
   double count = 0;
   std::vector<Piece> pieces;
   for (const Triangle& t : faces) {
@@ -71,8 +72,9 @@ double PlacedLengths::covering_faces(const Mat3X& points, const std::vector<Tria
       const double length = length_at((a + b + c) / 3, p.asked.mean());
       const std::array<double, 3> edges = {(b - a).norm(), (c - b).norm(), (a - c).norm()};
       const std::size_t longest = std::ranges::max_element(edges) - edges.begin(), next = (longest + 1) % 3;
-      if (edges[longest] <= length) {
-        count += 2 * (b - a).cross(c - a).norm() / (std::sqrt(3.) * length * length);
+      const double covering = 2 * (b - a).cross(c - a).norm() / (std::sqrt(3.) * length * length);
+      if (edges[longest] <= length || covering < least) {
+        count += covering;
         continue;
       }
       Piece other = p;
