@@ -260,7 +260,7 @@ class PreservingRemesh {
   /// By how much to shorten lengths where a distance is `excess` times its limit. Where a limit is asked for
   /// it tells: distances of chords of a smooth surface grow with the square of lengths.
   double shortening(double excess) const {
-    constexpr double least = .25, most = .65, without_limit = .42;
+    constexpr double least = .25, most = .6485, without_limit = .42;  // most: 2^(-5/8), see PlacedLengths
     if (!maker_.has_tolerance()) return without_limit;
     return std::isfinite(excess) ? std::clamp(most / std::sqrt(excess), least, most) : .5;
   }
