@@ -330,9 +330,9 @@ class PreservingRemesh {
 
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
   /// these until nothing is, or until they made too many faces since one that halved what is wrong. Where
-  /// much of the last one may stay, and it was no worse than the one before, the next goes on from it; else
-  /// it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends where it would take
-  /// too many faces, or after some rounds.
+  /// much of the last one may stay, and it was not much worse than the one before, the next goes on from it;
+  /// else it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends where it would
+  /// take too many faces, or after some rounds.
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
     constexpr double runs_in_vain = 3;  // where no maximum distance is asked for
