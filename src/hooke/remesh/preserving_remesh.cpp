@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -14,13 +13,13 @@
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
-#include "hooke/mesh/surface_point.h"
 #include "hooke/remesh/attempts.h"
 #include "hooke/remesh/flaws.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/mending.h"
 #include "hooke/remesh/remesh.h"
 #include "hooke/remesh/shell_attempts.h"
+#include "hooke/remesh/shorter_lengths.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {
@@ -36,7 +35,11 @@ constexpr double very_few = .005;
 class PreservingRemesh {
  public:
   explicit PreservingRemesh(AttemptMaker& maker)
-      : maker_(maker), input_(maker.input()), options_(maker.options), asked_(maker.lengths.of_vertices) {}
+      : maker_(maker),
+        input_(maker.input()),
+        options_(maker.options),
+        asked_(maker.lengths.of_vertices),
+        shorter_(maker, asked_) {}
 
   /// For some shells of a mesh: `first` is the first attempt for these, `max_faces` the most faces that they
   /// may have with shorter lengths, and `keeps_first` whether faces are kept before anything else is tried.
@@ -64,7 +67,7 @@ class PreservingRemesh {
       }
     }
     if (!is_done(best)) leave_as_it_was(best);
-    if (!best.lengths.shorter.empty()) best.result.shortened = count_shortened(best);
+    if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps_smoothed = false;
     return best;
@@ -257,14 +260,6 @@ class PreservingRemesh {
     if (!best.is_interrupted() && !best.keeps_promises()) keep_faces(best, best);
   }
 
-  /// By how much to shorten lengths where a distance is `excess` times its limit. Where a limit is asked for
-  /// it tells: distances of chords of a smooth surface grow with the square of lengths.
-  double shortening(double excess) const {
-    constexpr double least = .25, most = .6485, without_limit = .42;  // most: 2^(-5/8), see PlacedLengths
-    if (!maker_.has_tolerance()) return without_limit;
-    return std::isfinite(excess) ? std::clamp(most / std::sqrt(excess), least, most) : .5;
-  }
-
   /// 0 if no limit of distances is asked for.
   double max_faces_for_tolerance() const {
     return maker_.has_tolerance() ? 12 * static_cast<double>(input_.adjacency.faces.size()) : 0;
@@ -299,35 +294,6 @@ class PreservingRemesh {
     if (!best.keeps_promises()) maker_.lengths = before;
   }
 
-  /// The number of faces that these lengths take, or more than `enough`.
-  double faces_of(const AskedLengths& lengths, double enough) const {
-    const Adjacency& c = input_.adjacency;
-    if (!lengths.shorter.empty())
-      return placed(lengths).covering_faces(input_.points, c.faces, lengths.of_vertices, enough);
-    const double length = covering_length(input_.points, c, spread_target_lengths(c, lengths.of_vertices));
-    return total_area(input_.points, c.faces) / (std::numbers::sqrt3 / 4 * length * length);
-  }
-
-  PlacedLengths placed(const AskedLengths& lengths) const {
-    const double mean =
-        std::accumulate(asked_.begin(), asked_.end(), 0.) / static_cast<double>(asked_.size());
-    return {lengths.shorter, mean, gradation};
-  }
-
-  /// Shortens the target lengths at places where something is wrong in this attempt. At kept faces its own
-  /// are those of the input.
-  void shorten_at(const std::vector<FlawPlace>& flaws, const Attempt& last) {
-    const PlacedLengths places = placed(maker_.lengths);
-    std::vector<PlacedLength> shorter;
-    for (const FlawPlace& flaw : flaws) {
-      const Vec3 middle = .5 * (flaw.from + flaw.to);
-      const double present =
-          last.result.rescue == Rescue::kept_faces ? places.length_at(middle, asked_at(middle)) : flaw.length;
-      shorter.push_back({flaw.from, flaw.to, present * shortening(flaw.excess)});
-    }
-    maker_.lengths.shorter.insert(maker_.lengths.shorter.end(), shorter.begin(), shorter.end());
-  }
-
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
   /// these until nothing is, or until they made too many faces since one that halved what is wrong. Where
   /// much of the last one may stay, and it was not much worse than the one before, the next goes on from it;
@@ -337,7 +303,7 @@ class PreservingRemesh {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
     constexpr double runs_in_vain = 3;  // where no maximum distance is asked for
     constexpr std::size_t much_worse = 4;
-    const double faces_asked = faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
+    const double faces_asked = shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
     const double max_rounds = std::clamp(2e5 / faces_asked, 3., 10.);
     AskedLengths best_lengths = maker_.lengths;
     double in_vain = 0, rounds = 0, first_faces = 0;
@@ -346,10 +312,10 @@ class PreservingRemesh {
     while (rounds < max_rounds && !last.keeps_promises()) {
       std::vector<FlawPlace> flaws = places_of_flaws(maker_, last);
       if (flaws == flaws_before) break;  // of what stands still
-      shorten_at(flaws, last);
+      shorter_.shorten_at(flaws, last, maker_.lengths);
       flaws_before = std::move(flaws);
       const double most = max_faces_of_rounds(best);
-      if (faces_of(maker_.lengths, most) > most) break;
+      if (shorter_.faces_of(maker_.lengths, most) > most) break;
       std::optional<Attempt> next = maker_.go_on(last);
       const bool goes_on = next.has_value();
       if (!goes_on && anew) next = anew(last);
@@ -453,29 +419,6 @@ class PreservingRemesh {
     maker_.judge(run);
     run.result.rescue = Rescue::kept_faces;
     return run;
-  }
-
-  /// At how many vertices of a result it is places that made the lengths clearly shorter.
-  int count_shortened(const Attempt& run) const {
-    constexpr double clearly = .8, moved = 1.1;  // since they were sampled
-    const std::vector<double> lengths = vertex_values(run.mesh, target_length_property);
-    const Mat3X points = vertex_points(run.mesh);
-    const PlacedLengths places = placed(run.lengths);
-    int count = 0;
-    for (Eigen::Index v = 0; v < points.cols(); ++v) {
-      const double asked = asked_at(points.col(v)), length = places.length_at(points.col(v), asked);
-      count += length < clearly * asked && length <= moved * lengths[static_cast<std::size_t>(v)];
-    }
-    return count;
-  }
-
-  double asked_at(const Vec3& x) const {
-    if (UniformVector::are_equal(asked_)) return asked_[0];
-    const ClosestPoint closest = input_.tree.closest(x);
-    if (closest.face < 0) return asked_[0];
-    const Triangle& t = input_.adjacency.faces[closest.face];
-    const Vec3 weights = on_face(closest, input_.points, input_.adjacency).weights;
-    return weights.dot(Vec3(asked_[t[0]], asked_[t[1]], asked_[t[2]]));
   }
 
   /// Keeps the vertices of the input and `least_rings` around them, or twice as many rings as the last time
@@ -622,7 +565,8 @@ class PreservingRemesh {
   const MeasuredSurface& input_;
   RemeshOptions& options_;           // of the attempts to come
   const std::vector<double> asked_;  // target lengths, by vertex of the input in memory order
-  std::optional<Attempt> first_;     // that is at hand
+  const ShorterLengths shorter_;
+  std::optional<Attempt> first_;  // that is at hand
   std::optional<double> max_faces_of_part_;
   bool keeps_first_ = false;
 };

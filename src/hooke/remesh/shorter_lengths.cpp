@@ -1,0 +1,73 @@
+#include "hooke/remesh/shorter_lengths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "hooke/core/uniform_vector.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/mesh/surface_point.h"
+#include "hooke/springs/sizing.h"
+
+namespace hooke {
+
+/// By how much to shorten lengths where a distance is `excess` times its limit. Where a limit is asked for
+/// it tells: distances of chords of a smooth surface grow with the square of lengths.
+double ShorterLengths::shortening(double excess) const {
+  constexpr double least = .25, most = .6485, without_limit = .42;  // most: 2^(-5/8), see PlacedLengths
+  if (!maker_.has_tolerance()) return without_limit;
+  return std::isfinite(excess) ? std::clamp(most / std::sqrt(excess), least, most) : .5;
+}
+
+double ShorterLengths::faces_of(const AskedLengths& lengths, double enough) const {
+  const Adjacency& c = maker_.input().adjacency;
+  if (!lengths.shorter.empty())
+    return placed(lengths).covering_faces(maker_.input().points, c.faces, lengths.of_vertices, enough);
+  const double length =
+      covering_length(maker_.input().points, c, spread_target_lengths(c, lengths.of_vertices));
+  return total_area(maker_.input().points, c.faces) / (std::numbers::sqrt3 / 4 * length * length);
+}
+
+PlacedLengths ShorterLengths::placed(const AskedLengths& lengths) const {
+  const double mean = std::accumulate(asked_.begin(), asked_.end(), 0.) / static_cast<double>(asked_.size());
+  return {lengths.shorter, mean, Sizing().gradation};
+}
+
+void ShorterLengths::shorten_at(const std::vector<FlawPlace>& flaws, const Attempt& last,
+                                AskedLengths& lengths) const {
+  const PlacedLengths places = placed(lengths);
+  std::vector<PlacedLength> shorter;
+  for (const FlawPlace& flaw : flaws) {
+    const Vec3 middle = .5 * (flaw.from + flaw.to);
+    const double present =
+        last.result.rescue == Rescue::kept_faces ? places.length_at(middle, asked_at(middle)) : flaw.length;
+    shorter.push_back({flaw.from, flaw.to, present * shortening(flaw.excess)});
+  }
+  lengths.shorter.insert(lengths.shorter.end(), shorter.begin(), shorter.end());
+}
+
+int ShorterLengths::count_in(const Attempt& run) const {
+  constexpr double clearly = .8, moved = 1.1;  // since they were sampled
+  const std::vector<double> lengths = vertex_values(run.mesh, target_length_property);
+  const Mat3X points = vertex_points(run.mesh);
+  const PlacedLengths places = placed(run.lengths);
+  int count = 0;
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    const double asked = asked_at(points.col(v)), length = places.length_at(points.col(v), asked);
+    count += length < clearly * asked && length <= moved * lengths[static_cast<std::size_t>(v)];
+  }
+  return count;
+}
+
+double ShorterLengths::asked_at(const Vec3& x) const {
+  if (UniformVector::are_equal(asked_)) return asked_[0];
+  const ClosestPoint closest = maker_.input().tree.closest(x);
+  if (closest.face < 0) return asked_[0];
+  const Triangle& t = maker_.input().adjacency.faces[closest.face];
+  const Vec3 weights = on_face(closest, maker_.input().points, maker_.input().adjacency).weights;
+  return weights.dot(Vec3(asked_[t[0]], asked_[t[1]], asked_[t[2]]));
+}
+
+}  // namespace hooke

@@ -1,0 +1,36 @@
+// Target lengths that get shorter where an attempt does not keep the input.
+#pragma once
+
+#include <vector>
+
+#include "hooke/remesh/attempts.h"
+#include "hooke/remesh/flaws.h"
+
+namespace hooke {
+
+/// Keeps references to both: `asked` are the lengths that the user asked for, by vertex of the input.
+class ShorterLengths {
+ public:
+  ShorterLengths(const AttemptMaker& maker, const std::vector<double>& asked)
+      : maker_(maker), asked_(asked) {}
+
+  /// Shortens `lengths` where something is wrong in this attempt. At kept faces its own are those of the
+  /// input.
+  void shorten_at(const std::vector<FlawPlace>& flaws, const Attempt& last, AskedLengths& lengths) const;
+
+  /// The number of faces that these lengths take, or more than `enough`.
+  double faces_of(const AskedLengths& lengths, double enough) const;
+
+  /// At how many vertices of a result it is places that made the lengths clearly shorter.
+  int count_in(const Attempt& run) const;
+
+ private:
+  double shortening(double excess) const;
+  PlacedLengths placed(const AskedLengths& lengths) const;
+  double asked_at(const Vec3& x) const;
+
+  const AttemptMaker& maker_;
+  const std::vector<double>& asked_;
+};
+
+}  // namespace hooke
