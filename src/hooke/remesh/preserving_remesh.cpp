@@ -15,6 +15,7 @@
 #include "hooke/mesh/normals.h"
 #include "hooke/remesh/attempts.h"
 #include "hooke/remesh/flaws.h"
+#include "hooke/remesh/kept_faces.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/mending.h"
 #include "hooke/remesh/remesh.h"
@@ -24,9 +25,6 @@
 
 namespace hooke {
 namespace {
-
-/// Of target lengths, away from where they are shorter than asked.
-const double gradation = Sizing().gradation;
 
 /// As `few`, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after that.
 constexpr double very_few = .005;
@@ -361,12 +359,7 @@ class PreservingRemesh {
     const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
     const double max_share = maker_.adapts() ? 1 : .9;      // of the surface
     const int patience = maker_.adapts() ? 3 : max_rounds;  // rounds, before new places get more rings
-    const Adjacency& c = input_.adjacency;
-    const std::vector<double> before = maker_.lengths.of_vertices;
-    const Eigen::VectorXd mean_edges = mean_edge_lengths(input_.points, c);
-    std::vector<int>& frozen = options_.constraints.frozen_vertices;
-    const std::vector<int> frozen_before = frozen;
-    std::vector<int> kept_rings(c.vertex_count, 0);
+    KeptFaces kept(maker_);
     for (int round = 0; !last.keeps_promises(); ++round) {
       if (options_.connectivity == ConnectivityMode::fixed) {
         Attempt local = last;
@@ -377,21 +370,10 @@ class PreservingRemesh {
         }
       }
       if (round == max_rounds) break;
-      const std::vector<int> kept_before = kept_rings;
-      keep_around(input_vertices_at_flaws(maker_, last), std::max(round - patience, 1), kept_rings);
-      if (kept_rings == kept_before || share_of_area(kept_rings) >= max_share) break;
-      frozen = frozen_before;
-      std::vector<double> longest(c.vertex_count, std::numeric_limits<double>::infinity());
-      for (int v = 0; v < c.vertex_count; ++v) {
-        if (kept_rings[v] == 0) continue;
-        frozen.push_back(maker_.id_of(v));
-        longest[v] = std::min(before[v], mean_edges[v]);
-      }
-      if (maker_.adapts()) {
-        limit_gradation(input_.points, c, gradation, longest);
-        for (std::size_t v = 0; v < longest.size(); ++v)
-          maker_.lengths.of_vertices[v] = std::min(before[v], longest[v]);
-      }
+      const bool keeps_more =
+          kept.add_around(input_vertices_at_flaws(maker_, last), std::max(round - patience, 1));
+      if (!keeps_more || kept.share_of_area() >= max_share) break;
+      kept.hold();
       Attempt next = maker_.run();
       if (next.is_interrupted()) {
         best.result.reason = StopReason::interrupted;
@@ -407,7 +389,6 @@ class PreservingRemesh {
       if (best.is_interrupted() || best.keeps_promises()) break;
       last = std::move(next);
     }
-    frozen = frozen_before;
   }
 
   /// An attempt in which all faces of the input stay.
@@ -419,45 +400,6 @@ class PreservingRemesh {
     maker_.judge(run);
     run.result.rescue = Rescue::kept_faces;
     return run;
-  }
-
-  /// Keeps the vertices of the input and `least_rings` around them, or twice as many rings as the last time
-  /// if they or neighbours of theirs were kept already. `kept_rings`: per vertex the most rings that it was
-  /// kept with, 0: not kept.
-  void keep_around(const std::vector<int>& vertices, int least_rings, std::vector<int>& kept_rings) const {
-    const Adjacency& c = input_.adjacency;
-    std::vector<int> front = maker_.with_copies(vertices), rings(c.vertex_count, 0), left(c.vertex_count, -1);
-    for (int v : front) {
-      int last = kept_rings[v];
-      for (int n : c.vertex_neighbours[v]) last = std::max(last, kept_rings[n]);
-      rings[v] = left[v] = std::max(least_rings, 2 * last);
-    }
-    for (std::size_t i = 0; i < front.size(); ++i) {
-      const int v = front[i];
-      if (left[v] == 0) continue;
-      for (int n : c.vertex_neighbours[v]) {
-        if (left[n] >= left[v] - 1) continue;
-        left[n] = left[v] - 1;
-        rings[n] = std::max(rings[n], rings[v]);
-        front.push_back(n);
-      }
-    }
-    for (int v = 0; v < c.vertex_count; ++v) kept_rings[v] = std::max(kept_rings[v], rings[v]);
-    std::vector<int> kept;
-    for (int v = 0; v < c.vertex_count; ++v)
-      if (kept_rings[v] > 0) kept.push_back(v);
-    for (int v : maker_.with_copies(kept)) kept_rings[v] = std::max(kept_rings[v], 1);
-  }
-
-  /// The share of the input's area in faces all of whose corners are marked.
-  double share_of_area(const std::vector<int>& marks) const {
-    double all = 0, marked = 0;
-    for (const Triangle& t : input_.adjacency.faces) {
-      const double area = face_shape(input_.points, t).area;
-      all += area;
-      if (std::ranges::all_of(t, [&](int v) { return marks[v] != 0; })) marked += area;
-    }
-    return marked / all;
   }
 
   /// Does it keep its promises, and its polygons?
