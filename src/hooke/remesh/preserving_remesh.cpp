@@ -293,18 +293,18 @@ class PreservingRemesh {
   }
 
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
-  /// these until nothing is, or until they made too many faces since one that halved what is wrong. Where
-  /// much of the last one may stay, and it was not much worse than the one before, the next goes on from it;
-  /// else it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends where it would
-  /// take too many faces, or after some rounds.
+  /// these until nothing is, or until one has no fewer flaws than the one before; with a maximum distance,
+  /// where shorter edges show more flaws at first, until they made too many faces since one that halved what
+  /// is wrong. Where much of the last one may stay, and it was not much worse than the one before, the next
+  /// goes on from it; else it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends
+  /// where it would take too many faces, or after some rounds.
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
-    constexpr double runs_in_vain = 3;  // where no maximum distance is asked for
     constexpr std::size_t much_worse = 4;
     const double faces_asked = shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
     const double max_rounds = std::clamp(2e5 / faces_asked, 3., 10.);
     AskedLengths best_lengths = maker_.lengths;
-    double in_vain = 0, rounds = 0, first_faces = 0;
+    double in_vain = 0, rounds = 0;
     std::size_t flaws_to_halve = last.flaws();
     std::vector<FlawPlace> flaws_before;
     while (rounds < max_rounds && !last.keeps_promises()) {
@@ -338,10 +338,9 @@ class PreservingRemesh {
       const bool halves = 2 * next->flaws() <= flaws_to_halve;
       rounds += cost / faces;
       in_vain = halves ? 0 : in_vain + cost;
-      if (first_faces == 0) first_faces = faces;
-      const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance())
-                                                        : std::min(1e4, runs_in_vain * first_faces);
-      if (in_vain > max_in_vain) break;
+      if (maker_.has_tolerance() ? in_vain > std::max(1e4, max_faces_for_tolerance())
+                                 : next->flaws() >= last.flaws())
+        break;
       if (halves) flaws_to_halve = next->flaws();
       last = std::move(*next);
     }
