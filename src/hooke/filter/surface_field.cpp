@@ -216,8 +216,7 @@ Projection SurfaceField::State::project(const Vec3& x, int hint, double toleranc
   const ClosestPoint place = near_facets ? facets->find(x, hint) : ClosestPoint{};
   if (kind == FilterKind::closest) {
     hint = faces().nearest_vertex(x, hint);
-    const ClosestPoint nearby = closest_point_nearby(*points, *adjacency, x, hint);
-    return faces().projection_to(nearby.squared_distance < place.squared_distance ? nearby : place, x, hint);
+    return faces().projection_to(closest_point_nearby(*points, *adjacency, x, hint, place), x, hint);
   }
   if (place.face >= 0 && facets->is_curved(place.face)) return facets->lift(place);
   hint = faces().nearest_vertex(x, hint);

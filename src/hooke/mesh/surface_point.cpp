@@ -24,8 +24,9 @@ int nearest_corner(const SurfacePoint& place, const Adjacency& adjacency) {
   return adjacency.faces[place.face][corner];
 }
 
-ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint) {
-  ClosestPoint closest;
+ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint,
+                                  const ClosestPoint& known) {
+  ClosestPoint closest = known;
   const auto visit = [&](int vertex) {
     for (int f : adjacency.vertex_faces[vertex]) {
       const Triangle& t = adjacency.faces[f];

@@ -24,8 +24,10 @@ SurfacePoint on_face(const ClosestPoint& point, const Mat3X& points, const Adjac
 int nearest_corner(const SurfacePoint& place, const Adjacency& adjacency);
 
 /// The closest point to x on the faces at `hint`, a vertex nearby, and at its neighbours; the search moves on
-/// to the nearest corner while that gets closer to x. Face -1 if none is there, or x is not finite.
-ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
+/// to the nearest corner while that gets closer to x. The point `known` if none is closer than that; without,
+/// face -1 if none is there, or x is not finite.
+ClosestPoint closest_point_nearby(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint,
+                                  const ClosestPoint& known = {});
 
 /// Its place on the mesh; face -1 if there is none.
 SurfacePoint locate(const Mat3X& points, const Adjacency& adjacency, const Vec3& x, int hint);
