@@ -2,17 +2,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <sstream>
+#include <iterator>
 #include <utility>
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "nearest_word.h"
+#include "toml_entries.h"
 
 namespace hooke::app {
 namespace {
@@ -29,50 +27,8 @@ bool may_stand_in_file(const CLI::Option& option) {
   return option.get_configurable() && !option.get_group().empty();
 }
 
-/// An entry `name = value` or `name = [value, ...]` of a file.
-struct Entry {
-  std::string name;
-  std::vector<std::string> values;  // as on the command line
-  bool is_array = false;
-  unsigned line = 0;  // from 1
-};
-
-/// `place`: of the entry, for errors.
-std::string value_of(const toml::node& node, const std::string& place) {
-  if (const auto text = node.value_exact<std::string>()) return *text;
-  if (const auto is_on = node.value_exact<bool>()) return *is_on ? "true" : "false";
-  if (const auto whole = node.value_exact<std::int64_t>()) return fmt::format("{}", *whole);
-  if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
-  throw Error(place +
-              "expected NAME = VALUE, where VALUE is a number, true, false, text in quotes, or an "
-              "array of them in [ ]");
-}
-
-Entry read_entry(const std::string& file, std::string_view name, const toml::node& node) {
-  Entry entry{std::string(name), {}, node.is_array(), node.source().begin.line};
-  const std::string place = fmt::format("{}:{}: {}: ", file, entry.line, printable(name));
-  if (!entry.is_array) entry.values = {value_of(node, place)};
-  if (const toml::array* values = node.as_array())
-    for (const toml::node& value : *values) entry.values.push_back(value_of(value, place));
-  return entry;
-}
-
-/// The entries in the order of the file.
-std::vector<Entry> read_entries(const std::string& file, std::istream& input) {
-  std::vector<Entry> entries;
-  try {
-    for (const toml::table table = toml::parse(input); const auto& [name, node] : table)
-      entries.push_back(read_entry(file, name.str(), node));
-  } catch (const toml::parse_error& e) {
-    throw Error(fmt::format("{}:{}: {}; expected NAME = VALUE in TOML, once for each name", file,
-                            e.source().begin.line, printable(e.description())));
-  }
-  std::ranges::sort(entries, {}, &Entry::line);
-  return entries;
-}
-
 /// Why the entry cannot be one of this option; empty if it can.
-std::string problem_with(const Entry& entry, const CLI::Option& option) {
+std::string problem_with(const TomlEntry& entry, const CLI::Option& option) {
   if (!may_stand_in_file(option)) return "is of the command line only; remove the line";
   if (entry.is_array && option.get_items_expected_max() <= 1) return "an array; expected one value";
   if (is_flag(option) && entry.values[0] != "true" && entry.values[0] != "false")
@@ -80,24 +36,17 @@ std::string problem_with(const Entry& entry, const CLI::Option& option) {
   return "";
 }
 
-/// Would the number that the text is read as be written like this?
-bool is_plain_number(const std::string& text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(number) &&
-         fmt::format("{}", number) == text;
-}
-
 /// The text as a value of TOML.
 std::string toml_value(const std::string& option, const std::string& text) {
-  if (is_plain_number(text)) return text;
-  std::ostringstream value;
-  value << toml::value<std::string>(text);
-  if (toml::parse("text = " + value.str())["text"].value<std::string>() != text)
-    throw Error(
-        fmt::format("--print-config: {} of {} is not in UTF-8, as files of settings are; choose another name",
-                    in_quotes(text), option));
-  return value.str();
+  if (is_toml_number(text)) return text;
+  const bool plain =
+      std::ranges::none_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; });
+  if (plain && text.find('\'') == std::string::npos) return "'" + text + "'";
+  if (plain && text.find_first_of("\"\\") == std::string::npos) return '"' + text + '"';
+  throw Error(
+      fmt::format("--print-config: {} of {} has both kinds of quotes or control characters; expected text "
+                  "that a file of settings can hold; choose another name",
+                  in_quotes(text), option));
 }
 
 std::string given_line(const CLI::Option& option) {
@@ -151,22 +100,25 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
     if (may_stand_in_file(*option)) known.push_back(key_of(*option));
   }
   std::vector<CLI::ConfigItem> taken;
-  for (Entry& entry : read_entries(file, input)) {
+  std::map<std::string, int> lines;
+  for (TomlEntry& entry : read_toml_entries(file, {std::istreambuf_iterator<char>(input), {}})) {
     const auto fail = [&](const std::string& problem) {
-      throw Error(fmt::format("{}:{}: {}: {}", file, entry.line, printable(entry.name), problem));
+      throw Error(fmt::format("{}:{}: {}: {}", file, entry.line, printable(entry.key), problem));
     };
-    const auto found = options.find(entry.name);
+    const auto found = options.find(entry.key);
     if (found == options.end()) {
-      const std::string nearest = nearest_word(entry.name, known);
+      const std::string nearest = nearest_word(entry.key, known);
       fail("unknown option; " +
            (nearest.empty() ? "hooke-remesh --help-all lists them" : "did you mean " + nearest + "?"));
     }
     const CLI::Option& option = *found->second;
     if (const std::string problem = problem_with(entry, option); !problem.empty()) fail(problem);
+    if (const auto [place, added] = lines.emplace(entry.key, entry.line); !added)
+      fail(fmt::format("a second time, after line {}; expected it once; remove one", place->second));
     if (option.count() > 0 || (is_flag(option) && entry.values[0] == "false") || entry.values.empty())
       continue;
-    lines_.emplace(entry.name, entry.line);
-    taken.push_back({{}, entry.name, std::move(entry.values)});
+    lines_.emplace(entry.key, entry.line);
+    taken.push_back({{}, entry.key, std::move(entry.values)});
   }
   return taken;
 }

@@ -22,7 +22,7 @@ class ConfigFile final : public CLI::Config {
  public:
   explicit ConfigFile(const CLI::App& app) : app_(app) {}
 
-  /// The options given, and the others as comments. Throws Error for text that is not UTF-8.
+  /// The options given, and the others as comments. Throws Error for text that TOML cannot hold here.
   std::string to_config(const CLI::App* app, bool, bool, std::string) const override;
 
   /// Throws Error with file and line for what is no such file, or names no option that it may hold.
@@ -35,7 +35,7 @@ class ConfigFile final : public CLI::Config {
   std::string name() const;
 
   const CLI::App& app_;
-  mutable std::map<std::string, unsigned> lines_;  // of the options that were taken
+  mutable std::map<std::string, int> lines_;  // of the options that were taken
 };
 
 }  // namespace hooke::app
