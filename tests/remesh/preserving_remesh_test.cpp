@@ -347,6 +347,19 @@ TEST(PreservingRemesh, ShortensEdgesAgainWhereThatDoesNotHalveWhatIsWrongAtFirst
   }
 }
 
+TEST(PreservingRemesh, ShorterEdgesKeepFlatPrismsThoughMoreOfThemAreWrongAtFirst) {
+  test::Triangles t = test::drum(48, 3);
+  t.points.row(1) *= .3;
+  for (const double times_natural : {8., 12., 20.}) {
+    test::Outcome o;
+    o.mesh = test::with_length(t, times_natural * test::natural(t));
+    o.result = preserving_remesh(o.mesh, find_memory_order(o.mesh), options_for(ConnectivityMode::adapt));
+    EXPECT_TRUE(o.result.measures->preservation.holds()) << times_natural;
+    EXPECT_NE(o.result.rescue, Rescue::kept_faces) << times_natural;
+    EXPECT_LT(o.mesh.n_faces(), t.faces.size()) << times_natural;
+  }
+}
+
 TEST(PreservingRemesh, StoppedWhileEdgesGetShorterItKeepsTheResultAsAsked) {
   int calls = 0, last_call = 0;
   const auto run = [&] {

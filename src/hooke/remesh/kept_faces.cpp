@@ -1,6 +1,8 @@
 #include "hooke/remesh/kept_faces.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "hooke/geometry/triangle.h"

@@ -1,15 +1,14 @@
 // Faces of the input that stay in attempts to remesh it, as remeshing would not keep the input there.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "hooke/remesh/attempts.h"
 
 namespace hooke {
 
-/// At first none. Keeps a reference to the maker of the attempts; when it goes, later attempts keep no more
-/// faces than before, with the lengths that are then at hand.
+/// At first none. Keeps a reference to the maker of the attempts. When it is destroyed, the faces are free
+/// again; lengths that hold() has changed are not restored.
 class KeptFaces {
  public:
   explicit KeptFaces(AttemptMaker& maker);

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "hooke/core/uniform_vector.h"
-#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -293,14 +292,14 @@ class PreservingRemesh {
   }
 
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
-  /// these until nothing is, or until one has no fewer flaws than the one before; with a maximum distance,
-  /// where shorter edges show more flaws at first, until they made too many faces since one that halved what
-  /// is wrong. Where much of the last one may stay, and it was not much worse than the one before, the next
-  /// goes on from it; else it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends
-  /// where it would take too many faces, or after some rounds.
+  /// these until nothing is, or until they made too many faces since one that halved what is wrong. Where
+  /// much of the last one may stay, and it was not much worse than the one before, the next goes on from it;
+  /// else it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends where it would
+  /// take too many faces, or after some rounds.
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
     constexpr std::size_t much_worse = 4;
+    const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance()) : 3e3;
     const double faces_asked = shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
     const double max_rounds = std::clamp(2e5 / faces_asked, 3., 10.);
     AskedLengths best_lengths = maker_.lengths;
@@ -338,9 +337,7 @@ class PreservingRemesh {
       const bool halves = 2 * next->flaws() <= flaws_to_halve;
       rounds += cost / faces;
       in_vain = halves ? 0 : in_vain + cost;
-      if (maker_.has_tolerance() ? in_vain > std::max(1e4, max_faces_for_tolerance())
-                                 : next->flaws() >= last.flaws())
-        break;
+      if (in_vain > max_in_vain) break;
       if (halves) flaws_to_halve = next->flaws();
       last = std::move(*next);
     }
