@@ -6,6 +6,7 @@
 
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/constraints/constraints.h"
+#include "hooke/core/lists.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/integrator/gauss_seidel.h"
@@ -171,8 +172,7 @@ std::vector<int> inner_edges_about(const HalfedgeMesh& t, int face) {
     for (int entry : t.outgoing(corner))
       for (int h : {entry, HalfedgeMesh::next(entry), HalfedgeMesh::previous(entry)})
         if (!t.is_feature_edge(h)) edges.push_back(std::min(h, t.twin(h)));
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_unique(edges);
   return edges;
 }
 

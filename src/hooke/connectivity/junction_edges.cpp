@@ -7,6 +7,7 @@
 
 #include "hooke/connectivity/edge_splits.h"
 #include "hooke/constraints/junction_curves.h"
+#include "hooke/core/lists.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/working_mesh/working_mesh.h"
 
@@ -262,8 +263,7 @@ class JunctionMatch {
         link.edges.push_back({std::min(p, q), std::max(p, q)});
       }
     std::ranges::sort(link.edges);
-    std::ranges::sort(link.vertices);
-    link.vertices.erase(std::unique(link.vertices.begin(), link.vertices.end()), link.vertices.end());
+    sort_unique(link.vertices);
     return link;
   }
 

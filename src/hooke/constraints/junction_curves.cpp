@@ -1,4 +1,5 @@
 #include "hooke/constraints/junction_curves.h"
+#include "hooke/core/lists.h"
 
 #include <algorithm>
 #include <array>
@@ -164,8 +165,7 @@ void add_sliding_copies(const Constraints& constraints, const IntLists& copies, 
     vertices.insert(vertices.end(), all.begin(), all.end());
   }
   if (vertices.size() == count) return;
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
 }
 
 }  // namespace hooke

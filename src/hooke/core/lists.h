@@ -26,13 +26,10 @@ struct IntLists {
 };
 
 /// The sorted union of the lists with these indices, without duplicates.
-inline std::vector<int> sorted_union(const IntLists& lists, const std::vector<int>& indices) {
-  std::vector<int> all;
-  for (int i : indices) all.insert(all.end(), lists[i].begin(), lists[i].end());
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
+std::vector<int> sorted_union(const IntLists& lists, const std::vector<int>& indices);
+
+/// Sorts the numbers, none of which is negative, and removes repeats. Linear where they are close together.
+void sort_unique(std::vector<int>& ids);
 
 /// The inverse of an incidence: for each index in [0, count), the ids of the rows that contain it, ascending.
 /// A row is a range of indices. Each thread scans all rows for the indices of its share, so that what it

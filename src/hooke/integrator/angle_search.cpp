@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
@@ -453,8 +454,7 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
     Search(r, o, limits, measures, result).run(false);
   }
   r.retraction.count();
-  std::ranges::sort(result.vertices);
-  result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
+  sort_unique(result.vertices);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hooke/constraints/junction_curves.h"
+#include "hooke/core/lists.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/self_intersection.h"
@@ -102,8 +103,7 @@ std::vector<int> revert_crossings(const Guards& guards, const Adjacency& adjacen
       all.push_back(v);
     }
   }
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_unique(all);
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hooke/constraints/junction_curves.h"
+#include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/filter/retraction.h"
@@ -16,11 +17,6 @@ namespace {
 constexpr size_t guards_block = 2048;
 
 constexpr int max_halvings = 8;  // of a vertex's displacement, before the vertex stays for this step
-
-void sort_unique(std::vector<int>& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 /// The indices in [0, count) that pass a test, ascending.
 template <typename Test>

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hooke/core/lists.h"
 #include "hooke/measure/measured_surface.h"
 #include "hooke/mesh/wedges.h"
 
@@ -33,11 +34,6 @@ double corner_angle(const Mat3X& points, const Triangle& t, size_t k) {
   const Vec3 p = points.col(t[k]);
   const Vec3 a = points.col(t[(k + 1) % 3]) - p, b = points.col(t[(k + 2) % 3]) - p;
   return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
-}
-
-void sort_unique(std::vector<int>& ids) {
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "hooke/core/lists.h"
 #include "hooke/mesh/normals.h"
 
 namespace hooke {
@@ -65,8 +66,7 @@ std::vector<int> vertices_of_worse_polygons(const Mat3X& points, const Mat3X& be
     if (corners.size() > 3 && rms_deviation(points, corners) > rms_deviation(before, corners) + margin)
       vertices.insert(vertices.end(), corners.begin(), corners.end());
   }
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

@@ -1,4 +1,5 @@
 #include "hooke/mesh/sheets.h"
+#include "hooke/core/lists.h"
 
 #include <algorithm>
 #include <array>
@@ -296,8 +297,7 @@ class SheetMaker {
     std::vector<int>& split = result_.split_vertices;
     for (size_t v = at_cut.size(); v < result_.source.size(); ++v)
       if (!at_cut[result_.source[v]]) split.push_back(result_.source[v]);
-    std::ranges::sort(split);
-    split.erase(std::unique(split.begin(), split.end()), split.end());
+    sort_unique(split);
   }
 
   const Mat3X& points_;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "hooke/core/error.h"
+#include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
 #include "hooke/mesh/extent.h"
 
@@ -131,8 +132,7 @@ void find_bad_edges(size_t vertices, const std::vector<Triangle>& triangles, Fin
 int count_parts(const Edge* begin, const Edge* end, std::vector<int>& nodes, std::vector<size_t>& parent) {
   nodes.clear();
   for (const Edge* e = begin; e < end; ++e) nodes.insert(nodes.end(), e->begin(), e->end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_unique(nodes);
   parent.resize(nodes.size());
   for (size_t i = 0; i < parent.size(); ++i) parent[i] = i;
   const auto root = [&](int id) {

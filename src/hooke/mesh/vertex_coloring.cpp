@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
 #include "hooke/mesh/wedges.h"
 
@@ -131,8 +132,7 @@ std::vector<std::vector<int>> block_adjacency(const VertexRings& rings, const Ad
       std::for_each(from, to, visit);
       for (size_t i = extra_wedge(first); i < extra_wedge(last); ++i)
         for (const RingEntry& s : rings[vertex_count + static_cast<int>(i)]) visit(s);
-      std::ranges::sort(adjacent[b]);
-      adjacent[b].erase(std::unique(adjacent[b].begin(), adjacent[b].end()), adjacent[b].end());
+      sort_unique(adjacent[b]);
     }
   });
   return adjacent;  // symmetric: each vertex is opposite to its opposite vertices

@@ -1,4 +1,5 @@
 #include "hooke/mesh/wedges.h"
+#include "hooke/core/lists.h"
 
 #include <algorithm>
 #include <utility>
@@ -65,8 +66,7 @@ void split_wedges(Adjacency& c, const std::vector<Edge>& creases) {
   std::vector<int> touched;
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.creases[e]) touched.insert(touched.end(), c.edges[e].begin(), c.edges[e].end());
-  std::ranges::sort(touched);
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  sort_unique(touched);
   for (int v : touched) {
     const Sectors sectors(c, v);
     for (size_t s = 1; s < sectors.count(); ++s) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "hooke/core/lists.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/junctions.h"
@@ -239,7 +240,8 @@ class Mending {
     if (run_.preservation().new_folds > 0)
       for (const Edge& e : folds_off_creases(run_, points_))
         corners.insert(corners.end(), e.begin(), e.end());
-    return without_repeats(std::move(corners));
+    sort_unique(corners);
+    return corners;
   }
 
   /// Ascending.
@@ -247,14 +249,8 @@ class Mending {
     std::vector<int> corners;
     for (const auto& pair : run_.preservation().crossings)
       for (int f : pair) corners.insert(corners.end(), c_.faces[f].begin(), c_.faces[f].end());
-    return without_repeats(std::move(corners));
-  }
-
-  static std::vector<int> without_repeats(std::vector<int> vertices) {
-    std::ranges::sort(vertices);
-    const auto rest = std::unique(vertices.begin(), vertices.end());
-    vertices.erase(rest, vertices.end());
-    return vertices;
+    sort_unique(corners);
+    return corners;
   }
 
   Vec3 on_input(int v, const Vec3& x) const { return maker_.closest_on_input(v, x, run_).point; }
