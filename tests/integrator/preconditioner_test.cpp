@@ -47,6 +47,18 @@ TEST(GridHierarchy, TurnsWithTheMesh) {
   EXPECT_LT((applied(GridHierarchy(turned, cell), turn * x) - turn * y).norm(), 1e-9 * y.norm());
 }
 
+TEST(GridHierarchy, TurnsWithAMeshAmongManyVerticesInOnePlace) {
+  const Mat3X mesh = sheet();
+  Mat3X points(3, 100000 + mesh.cols());  // comparing all pairs of these would take minutes
+  points.colwise() = Vec3(.5, .5, 1);
+  points.leftCols(mesh.cols()) = mesh;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(.7, Vec3(3, 1, -2).normalized()).toRotationMatrix();
+  Mat3X x = Mat3X::Zero(3, points.cols());
+  x.leftCols(mesh.cols()) = test::random_vectors(mesh.cols(), 1);
+  const Mat3X y = applied(GridHierarchy(points, cell), x);
+  EXPECT_LT((applied(GridHierarchy(turn * points, cell), turn * x) - turn * y).norm(), 1e-9 * y.norm());
+}
+
 TEST(GridHierarchy, ScalesWithItsCells) {
   const Mat3X points = sheet();
   const Mat3X x = test::random_vectors(points.cols(), 1);

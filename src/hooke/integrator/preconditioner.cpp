@@ -40,24 +40,32 @@ class NodeNumbers {
   std::vector<Cell> cells_;
 };
 
-/// Right-handed axes through three vertices chosen by index; they rotate with the mesh.
+/// Right-handed axes through three vertices chosen by index; they rotate with the mesh. Linear also where
+/// most vertices coincide or lie on a line, as vertices without faces may.
 Eigen::Matrix3d frame_of(const Mat3X& points) {
+  constexpr int max_tries = 8;
   const Eigen::Index n = points.cols();
   const Vec3 origin = points.col(0);
-  for (Eigen::Index i = n / 2; i < n; ++i) {
-    const Vec3 a = points.col(i) - origin;
-    for (Eigen::Index j = n / 4; j < i; ++j) {
-      const Vec3 b = points.col(j) - origin;
-      const Vec3 c = a.cross(b);
-      if (c.norm() <= .1 * a.norm() * b.norm() || c.isZero(0)) continue;
-      Eigen::Matrix3d frame;
-      frame.row(0) = a.normalized();
-      frame.row(2) = c.normalized();
-      frame.row(1) = frame.row(2).cross(frame.row(0));
-      return frame;
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  const auto find = [&](Eigen::Index first, Eigen::Index first_of_others, bool looks_at_all) {
+    int tries = 0;
+    for (Eigen::Index i = first; i < n && tries < max_tries; ++i) {
+      const Vec3 a = points.col(i) - origin;
+      if (a.isZero(0)) continue;
+      ++tries;
+      for (Eigen::Index j = first_of_others; j < (looks_at_all ? n : i); ++j) {
+        const Vec3 b = points.col(j) - origin, c = a.cross(b);
+        if (c.norm() <= .1 * a.norm() * b.norm() || c.isZero(0)) continue;
+        frame.row(0) = a.normalized();
+        frame.row(2) = c.normalized();
+        frame.row(1) = frame.row(2).cross(frame.row(0));
+        return true;
+      }
     }
-  }
-  return Eigen::Matrix3d::Identity();
+    return false;
+  };
+  if (!find(n / 2, n / 4, false)) find(1, 1, true);
+  return frame;
 }
 
 /// Corner k of a cell is at the upper end in direction d if bit d of k is set.
