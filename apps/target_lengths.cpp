@@ -155,7 +155,7 @@ std::vector<double> read_sizing(const SizingSource& source, const std::filesyste
     case SizingSource::Kind::ply_property:
       return of_vertices(read_property(source.name, mesh_file, file_count));
     case SizingSource::Kind::curvature: {
-      const double diagonal = box_diagonal(points);
+      const double diagonal = box_of_faces(points, c.faces).diagonal().norm();
       const double error = source.percent ? source.chord_error / 100 * diagonal : source.chord_error;
       const double longest = max_relative_length * diagonal;
       Adjacency creased = c;

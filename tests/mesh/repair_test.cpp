@@ -278,7 +278,8 @@ TEST(Repair, WeldingAloneChangesNothingElse) {
   EXPECT_EQ(r.points.cols(), 33 - 4);
   EXPECT_EQ(r.points.col(28), Vec3(9, 9, 9));
   EXPECT_EQ(topology_of(r).components, 1);
-  EXPECT_EQ(codes(repaired(t, {.weld_share = 5e-6})), Codes{}) << "of the diagonal";
+  EXPECT_EQ(codes(repaired(t, {.weld_share = 4e-5})), Codes{}) << "of the diagonal of the faces' box";
+  EXPECT_EQ(codes(repaired(t, {.weld_share = 5e-5})), Codes{"vertices_welded"});
   EXPECT_EQ(codes(repaired(t, {.weld = .4})), (Codes{"vertices_welded", "faces_dropped"}));
 }
 

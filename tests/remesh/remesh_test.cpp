@@ -483,6 +483,20 @@ TEST(Remesh, VerticesWithoutFacesStayBitForBit) {
   }
 }
 
+TEST(Remesh, AVertexWithoutFacesMayBeAnywhere) {
+  test::Triangles t = jittered_sphere();
+  const Eigen::Index n = t.points.cols();
+  t.points.conservativeResize(3, n + 1);
+  t.points.col(n) = Vec3(.1, 0, 0);
+  const Outcome near = remeshed(t);
+  for (const double far : {1e6, 1e12, 1e20}) {
+    t.points.col(n) = Vec3(far, 0, 0);
+    const Outcome o = remeshed(t);
+    EXPECT_LT((o.points - near.points).leftCols(n).cwiseAbs().maxCoeff(), 1e-6) << far;
+    EXPECT_EQ(o.points.col(n), t.points.col(n)) << far;
+  }
+}
+
 TEST(Remesh, FacesWithoutAreaAreOpened) {
   test::Triangles t = test::grid(8, test::flat, .1);
   const auto [a, b, c] = t.faces[60];

@@ -368,7 +368,7 @@ class FacetCreases {
   const std::vector<double>& length_;
   const std::vector<double>& angle_;
   double sharp_angle_;
-  double diagonal_ = box_diagonal(X_);
+  double diagonal_ = box_of_faces(X_, c_.faces).diagonal().norm();
   std::vector<int> regions_;                       // by face: its flat region, negative without one
   std::vector<std::vector<int>> region_vertices_;  // of the flat regions
   std::vector<std::vector<int>> region_borders_;   // the edges around them

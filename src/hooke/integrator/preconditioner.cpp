@@ -13,6 +13,7 @@ namespace {
 
 constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the coarsest
 constexpr int max_levels = 24;
+constexpr double farthest = 1e9;                  // cell: where vertices without faces are farther away
 constexpr size_t max_parts = 8, min_part = 4096;  // of the vertices, summed separately
 
 using Cell = std::array<int, 3>;
@@ -104,7 +105,7 @@ GridHierarchy::GridHierarchy(const Mat3X& points, double cell) {
     for (size_t v = begin; v < end; ++v) {
       // Half a cell off the origin, so that the first vertex does not lie on a corner shared by cells.
       const Vec3 x = frame * (points.col(static_cast<Eigen::Index>(v)) - origin) / cell + Vec3::Constant(.5);
-      const Vec3 low = x.array().floor();
+      const Vec3 low = x.array().floor().cwiseMax(-farthest).cwiseMin(farthest);
       cells[v] = {static_cast<int>(low[0]), static_cast<int>(low[1]), static_cast<int>(low[2])};
       grid_positions_[v].within = (x - low).cast<float>();
     }

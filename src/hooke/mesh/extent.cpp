@@ -42,9 +42,7 @@ Sums sum_up(const Mat3X& points, const std::vector<Triangle>& faces, const Vec3&
 Extent measure_extent(const Mat3X& points, const Adjacency& adjacency) {
   Extent extent;
   if (adjacency.faces.empty()) return extent;
-  Eigen::AlignedBox3d box;
-  for (int v = 0; v < adjacency.vertex_count; ++v)
-    if (!adjacency.vertex_faces[v].empty()) box.extend(Vec3(points.col(v)));
+  const Eigen::AlignedBox3d box = box_of_faces(points, adjacency.faces);
   extent.lower = box.min();
   extent.upper = box.max();
   extent.diagonal = box.diagonal().norm();
@@ -55,6 +53,13 @@ Extent measure_extent(const Mat3X& points, const Adjacency& adjacency) {
       std::ranges::none_of(adjacency.edge_faces, [](const auto& sides) { return sides[1] < 0; });
   if (closed) extent.volume = sums.volume;
   return extent;
+}
+
+Eigen::AlignedBox3d box_of_faces(const Mat3X& points, const std::vector<Triangle>& faces) {
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : faces)
+    for (int v : t) box.extend(Vec3(points.col(v)));
+  return box;
 }
 
 double total_area(const Mat3X& points, const std::vector<Triangle>& faces) {

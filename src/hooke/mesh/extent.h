@@ -17,10 +17,13 @@ struct Extent {
 
 Extent measure_extent(const Mat3X& points, const Adjacency& adjacency);
 
+/// Bounding box of the vertices that have a face; empty if there is none.
+Eigen::AlignedBox3d box_of_faces(const Mat3X& points, const std::vector<Triangle>& faces);
+
 /// Sum of the areas of the faces.
 double total_area(const Mat3X& points, const std::vector<Triangle>& faces);
 
-/// Diagonal of the bounding box of the points, 0 without points.
+/// Diagonal of the bounding box of all points, also of those without faces; 0 without points.
 double box_diagonal(const Mat3X& points);
 
 }  // namespace hooke

@@ -146,7 +146,8 @@ class Repair {
 
   void weld_all() {
     const double distance =
-        options_.weld >= 0 ? options_.weld : options_.weld_share * box_diagonal(r_.points);
+        options_.weld >= 0 ? options_.weld
+                           : options_.weld_share * box_of_faces(r_.points, r_.triangles).diagonal().norm();
     merge(std::vector<double>(r_.origin.vertex.size(), distance));
     drop_faces_that_repeat_a_vertex();
   }

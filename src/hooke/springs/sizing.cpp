@@ -78,7 +78,7 @@ double resolve_length(const LengthSpec& spec, const Mat3X& points, const Adjacen
     case LengthSpec::Kind::absolute:
       return spec.value;
     case LengthSpec::Kind::percent_of_diagonal:
-      return spec.value / 100 * box_diagonal(points);
+      return spec.value / 100 * box_of_faces(points, c.faces).diagonal().norm();
     case LengthSpec::Kind::as_given:
       throw Error("length 'sizing' without a sizing; expected one; name it, or another length");
     case LengthSpec::Kind::mean:

@@ -22,9 +22,12 @@
 namespace hooke {
 namespace {
 
-Normalisation normalisation_of(const Mat3X& points, const std::vector<double>& lengths) {
+/// About the faces, as other vertices may be so far away that little of the precision would be left.
+Normalisation normalisation_of(const Mat3X& points, const std::vector<Triangle>& faces,
+                               const std::vector<double>& lengths) {
   Normalisation n;
-  n.centre = .5 * points.rowwise().minCoeff() + .5 * points.rowwise().maxCoeff();
+  const Eigen::AlignedBox3d box = box_of_faces(points, faces);
+  if (!box.isEmpty()) n.centre = .5 * box.min() + .5 * box.max();
   n.unit = std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
   return n;
 }
@@ -64,11 +67,11 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
       filter_(filter),
       retraction_options_(retraction_options) {
   const std::vector<double> length = vertex_values(source, target_length_property);
-  normalisation = normalisation_of(vertex_points(source), length);
+  Mat3X points = order.gather(vertex_points(source));
+  normalisation = normalisation_of(points, memory_order.adjacency->faces, length);
   if (filter_.offset_unit == OffsetUnit::file) filter_.offset /= normalisation.unit;
   filter_.max_distance /= normalisation.unit;
 
-  Mat3X points = order.gather(vertex_points(source));
   for (auto x : points.colwise()) x = ((x - normalisation.centre) / normalisation.unit).eval();
   vertices.vertex_length = order.gather(length);
   for (double& l : vertices.vertex_length) l /= normalisation.unit;
