@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t bits = 64;
 
-/// The same by a bit for each number between the least and the greatest, in `words`.
+/// As sort_unique(), by a bit for each number from the least to the greatest; `words` hold these bits.
 void sort_by_bits(std::vector<int>& ids, int least, std::size_t words) {
   std::vector<std::uint64_t> is_among(words, 0);
   for (int id : ids) {

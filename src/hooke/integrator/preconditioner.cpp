@@ -13,7 +13,8 @@ namespace {
 
 constexpr int coarsest_nodes = 60;  // a level with fewer nodes is the coarsest
 constexpr int max_levels = 24;
-constexpr double farthest = 1e9;                  // cell: where vertices without faces are farther away
+/// The number of the farthest cell, so that an int holds it; vertices without faces may lie beyond it.
+constexpr double farthest = 1e9;
 constexpr size_t max_parts = 8, min_part = 4096;  // of the vertices, summed separately
 
 using Cell = std::array<int, 3>;

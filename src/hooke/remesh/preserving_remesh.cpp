@@ -299,6 +299,7 @@ class PreservingRemesh {
   void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
     constexpr std::size_t much_worse = 4;
+    // Faces: several rounds of a small mesh, one of a large one.
     const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance()) : 3e3;
     const double faces_asked = shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
     const double max_rounds = std::clamp(2e5 / faces_asked, 3., 10.);
