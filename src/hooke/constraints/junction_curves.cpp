@@ -1,11 +1,12 @@
 #include "hooke/constraints/junction_curves.h"
-#include "hooke/core/lists.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+
+#include "hooke/core/lists.h"
 
 namespace hooke {
 namespace {

@@ -1,8 +1,9 @@
 #include "hooke/mesh/wedges.h"
-#include "hooke/core/lists.h"
 
 #include <algorithm>
 #include <utility>
+
+#include "hooke/core/lists.h"
 
 namespace hooke {
 namespace {

@@ -1,6 +1,5 @@
 #include "hooke/remesh/kept_faces.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -14,6 +13,7 @@ KeptFaces::KeptFaces(AttemptMaker& maker)
     : maker_(maker),
       lengths_before_(maker.lengths.of_vertices),
       frozen_before_(maker.options.constraints.frozen_vertices),
+      mean_edges_(mean_edge_lengths(maker.input().points, maker.input().adjacency)),
       rings_(maker.input().adjacency.vertex_count, 0) {}
 
 KeptFaces::~KeptFaces() {
@@ -59,14 +59,13 @@ double KeptFaces::share_of_area() const {
 
 void KeptFaces::hold() {
   const MeasuredSurface& input = maker_.input();
-  const Eigen::VectorXd mean_edges = mean_edge_lengths(input.points, input.adjacency);
   std::vector<int>& frozen = maker_.options.constraints.frozen_vertices;
   frozen = frozen_before_;
   std::vector<double> longest(rings_.size(), std::numeric_limits<double>::infinity());
   for (std::size_t v = 0; v < rings_.size(); ++v) {
     if (rings_[v] == 0) continue;
     frozen.push_back(maker_.id_of(static_cast<int>(v)));
-    longest[v] = std::min(lengths_before_[v], mean_edges[static_cast<Eigen::Index>(v)]);
+    longest[v] = std::min(lengths_before_[v], mean_edges_[static_cast<Eigen::Index>(v)]);
   }
   if (!maker_.adapts()) return;
   limit_gradation(input.points, input.adjacency, Sizing().gradation, longest);

@@ -1,6 +1,7 @@
 // Faces of the input that stay in attempts to remesh it, as remeshing would not keep the input there.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "hooke/remesh/attempts.h"
@@ -30,6 +31,7 @@ class KeptFaces {
   AttemptMaker& maker_;
   const std::vector<double> lengths_before_;
   const std::vector<int> frozen_before_;
+  const Eigen::VectorXd mean_edges_;  // of the edges at each vertex of the input
   std::vector<int> rings_;  // per vertex of the input, the most rings that it was kept with; 0: not kept
 };
 
