@@ -10,6 +10,7 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/smooth_patches.h"
 
 namespace hooke {
 namespace {
@@ -18,8 +19,8 @@ constexpr double noise_width =
     .1;  // minimum width, in target lengths, of facets beside a sharp edge where facets are meant
 constexpr double flat_angle = .2;       // degrees; an edge between resolved flat regions is a crease above it
 constexpr double resolved_strip = 1.9;  // minimum width of such regions, where one is a strip of a round body
-constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
-constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
+constexpr double resolved_gentle_strip = longest_patch;  // the same if no edge of the strip is sharp
+constexpr double gentle_ratio = 2. / 3;                  // and how much of the angle its next edge has
 constexpr double resolved_facet = .5;     // minimum width of the regions or faces beside such a weaker crease
 constexpr int min_round = 12;             // vertices of a round body
 constexpr double max_facet_angle = 31;    // degrees; between the facets of a round body
@@ -88,7 +89,6 @@ class FacetCreases {
     std::ranges::stable_sort(order, std::greater(), [&](int f) { return areas[f]; });
     const double tolerance = flatness * diagonal_;
     constexpr int none = -1, alone = -2;
-    size_t faces_in_regions = 0;
     regions_.assign(areas.size(), none);
     for (int seed : order) {
       if (regions_[seed] != none || !(areas[seed] > 0)) continue;
@@ -123,11 +123,20 @@ class FacetCreases {
       region_is_gentle_.push_back(
           std::ranges::none_of(borders, [&](int e) { return angle_[e] > sharp_angle_; }));
       region_borders_.push_back(std::move(borders));
-      faces_in_regions += members.size();
     }
+    size_t faces_in_regions = 0;
     for (size_t f = 0; f < regions_.size(); ++f)
-      if (regions_[f] < 0) faces_in_regions += has_resolved_edge(static_cast<int>(f));
+      faces_in_regions += regions_[f] < 0 ? has_resolved_edge(static_cast<int>(f)) : !is_in_smooth_patch_[f];
     flat_mesh_ = static_cast<double>(faces_in_regions) >= flat_share * static_cast<double>(regions_.size());
+  }
+
+  std::vector<char> find_smooth_patches() const {
+    std::vector<char> flat, sharp;
+    for (double angle : angle_) {
+      flat.push_back(angle <= flat_angle);
+      sharp.push_back(angle > sharp_angle_);
+    }
+    return faces_in_smooth_patches(X_, c_, flat, sharp, length_);
   }
 
   /// Has the face a sharp edge that the target length resolves?
@@ -209,7 +218,7 @@ class FacetCreases {
   /// or few faces of the mesh are in such regions.
   double narrower_width(int edge) const {
     const auto& [left, right] = c_.edge_faces[edge];
-    if (!flat_mesh_ || right < 0) return 0;
+    if (!flat_mesh_ || right < 0 || is_in_smooth_patch_[left] || is_in_smooth_patch_[right]) return 0;
     const int a = regions_[left], b = regions_[right];
     return a >= 0 && a == b ? 0 : std::min(width(left, a, edge), width(right, b, edge));
   }
@@ -369,6 +378,7 @@ class FacetCreases {
   const std::vector<double>& angle_;
   double sharp_angle_;
   double diagonal_ = box_of_faces(X_, c_.faces).diagonal().norm();
+  const std::vector<char> is_in_smooth_patch_ = find_smooth_patches();  // by face
   std::vector<int> regions_;                       // by face: its flat region, negative without one
   std::vector<std::vector<int>> region_vertices_;  // of the flat regions
   std::vector<std::vector<int>> region_borders_;   // the edges around them

@@ -7,6 +7,7 @@
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/smooth_patches.h"
 
 namespace hooke {
 namespace {
@@ -49,6 +50,23 @@ bool flat_faces_have_the_area(const Mat3X& points, const Adjacency& c, const IsF
     if (areas[f] >= least && std::ranges::any_of(c.face_edges[f], is_flat)) flat_area += areas[f];
   }
   return area > 0 && flat_area >= min_share * area && uneven_area >= min_uneven_share * area;
+}
+
+/// Marks the edges whose faces lie in a plane which is no patch of a smooth surface. `sharp`: marks by edge.
+std::vector<char> edges_in_facets(const Mat3X& points, const Adjacency& c, const std::vector<EdgeArc>& arcs,
+                                  const std::vector<char>& sharp) {
+  constexpr double flat = 1e-6;
+  std::vector<char> marks(arcs.size());
+  double sum = 0;
+  for (std::size_t e = 0; e < marks.size(); ++e) {
+    marks[e] = arcs[e].chord > 0 && arcs[e].sagitta <= flat * arcs[e].chord;
+    sum += (points.col(c.edges[e][0]) - points.col(c.edges[e][1])).norm();
+  }
+  const std::vector<double> mean(c.vertex_count, sum / static_cast<double>(c.edges.size()));
+  const std::vector<char> is_smooth = faces_in_smooth_patches(points, c, marks, sharp, mean);
+  for (std::size_t e = 0; e < marks.size(); ++e)
+    if (is_smooth[c.edge_faces[e][0]]) marks[e] = 0;
+  return marks;
 }
 
 }  // namespace
@@ -137,13 +155,16 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& c) {
 }
 
 bool is_faceted(const Mat3X& points, const Adjacency& c) {
-  constexpr double flat = 1e-6, flat_share = .85, uneven_share = .5, needle_share = .25;
+  constexpr double flat_share = .85, uneven_share = .5, needle_share = .25;
   constexpr std::size_t few_faces = 64;
   constexpr double sharp = .088;  // tan(40 degrees / 4) / 2
   const auto faces = static_cast<double>(c.faces.size());
   const std::vector<EdgeArc> arcs = edge_arcs(points, c);
-  const auto is_flat = [&](int e) { return arcs[e].chord > 0 && arcs[e].sagitta <= flat * arcs[e].chord; };
-  const auto is_sharp = [&](int e) { return arcs[e].sagitta > sharp * arcs[e].chord; };
+  std::vector<char> sharp_edges;
+  for (const EdgeArc& arc : arcs) sharp_edges.push_back(arc.sagitta > sharp * arc.chord);
+  const std::vector<char> flat_edges = edges_in_facets(points, c, arcs, sharp_edges);
+  const auto is_flat = [&](int e) { return flat_edges[e] != 0; };
+  const auto is_sharp = [&](int e) { return sharp_edges[e] != 0; };
   // Two faces in a plane are a quadrilateral, which a smooth surface, such as one of revolution, has too.
   const bool is_smooth = std::ranges::none_of(
       c.face_edges, [&](const Triangle& edges) { return std::ranges::any_of(edges, is_sharp); });

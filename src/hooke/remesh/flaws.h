@@ -12,7 +12,7 @@ class AttemptMaker;
 struct Attempt;
 
 /// Of the vertices of the input: what is wrong at no more of them may stay as it is there.
-inline constexpr double few = .05;
+inline constexpr double few_vertices = .05;
 
 /// The crease edges of a result: their ends in memory order, ascending, as are the edges.
 std::vector<Edge> sorted_creases(const Attempt& attempt);

@@ -25,8 +25,9 @@
 namespace hooke {
 namespace {
 
-/// As `few`, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after that.
-constexpr double very_few = .005;
+/// As `few_vertices`, in mode `adapt`: other surfaces and shorter edges, which take more runs, come after
+/// that.
+constexpr double very_few_vertices = .005;
 
 /// Attempts and what mends them, until one keeps the input.
 class PreservingRemesh {
@@ -102,8 +103,9 @@ class PreservingRemesh {
         run.keeps_promises() || has_worse_faces(run))
       return false;
     const std::vector<int> wrong = input_vertices_at_flaws(maker_, run);
-    return !wrong.empty() && (keeps_first_ || std::ssize(wrong) < (maker_.adapts() ? very_few : few) *
-                                                                      input_.adjacency.vertex_count);
+    return !wrong.empty() &&
+           (keeps_first_ || std::ssize(wrong) < (maker_.adapts() ? very_few_vertices : few_vertices) *
+                                                    input_.adjacency.vertex_count);
   }
 
   /// Is so little wrong in mode `adapt` that it may be made anew by itself? Only with a maximum distance, as
@@ -111,7 +113,7 @@ class PreservingRemesh {
   bool may_redo_flaws(const Attempt& run) const {
     return maker_.adapts() && maker_.has_tolerance() && !maker_.smooths_mask() && !run.is_interrupted() &&
            !run.keeps_promises() &&
-           std::ssize(input_vertices_at_flaws(maker_, run)) < few * input_.adjacency.vertex_count;
+           std::ssize(input_vertices_at_flaws(maker_, run)) < few_vertices * input_.adjacency.vertex_count;
   }
 
   /// Is so much wrong that no other attempt with these lengths is of use, in a mesh where it takes long? Not
@@ -120,7 +122,7 @@ class PreservingRemesh {
     constexpr double at_least = 200;
     return run.result.measures != nullptr && !maker_.adapts() && !maker_.smooths_mask() &&
            static_cast<double>(input_vertices_at_flaws(maker_, run).size()) >
-               std::max(at_least, few * input_.adjacency.vertex_count);
+               std::max(at_least, few_vertices * input_.adjacency.vertex_count);
   }
 
   /// Would its faces be no better on those of the input? In mode `adapt` they hardly ever are where all is
@@ -247,7 +249,7 @@ class PreservingRemesh {
     RemeshOptions start = options_;  // with the tips and junctions that are held
     start.filter.kind = filter;
     const auto wrong = static_cast<double>(input_vertices_at_flaws(maker_, best).size());
-    if (!was_tried && wrong <= very_few * input_.adjacency.vertex_count) {
+    if (!was_tried && wrong <= very_few_vertices * input_.adjacency.vertex_count) {
       options_ = start;
       keep_faces(best, best);
       if (best.is_interrupted() || best.keeps_promises()) return;

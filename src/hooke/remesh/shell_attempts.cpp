@@ -119,7 +119,7 @@ void remesh_shells(AttemptMaker& maker, const Attempt& unmended, double max_face
     const bool is_last = round == max_rounds || part_of_shell == before;
     const std::vector<int> part_of_vertex = parts_of_vertices(maker, part_of_shell);
     const auto wrong = std::ssize(part_of_vertex) - std::ranges::count(part_of_vertex, -1);
-    if (is_last && static_cast<double>(wrong) > few * input.adjacency.vertex_count) return;
+    if (is_last && static_cast<double>(wrong) > few_vertices * input.adjacency.vertex_count) return;
     std::vector<PartOfMesh> parts = parts_of_mesh(maker.mesh(), maker.options.constraints, part_of_vertex);
     std::vector<PartOfMesh> replaced;
     std::vector<Attempt> attempts;

@@ -1,0 +1,85 @@
+#include "hooke/mesh/smooth_patches.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "hooke/constraints/crease_detection.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/mesh/sagitta.h"
+#include "hooke/springs/target_lengths.h"
+#include "support/masks.h"
+#include "support/solids.h"
+
+namespace hooke::smooth_patches_test {
+
+/// By marching tetrahedra. The function is a sum of those of each coordinate, so that a cell of the grid,
+/// where it is linear, has a flat piece of the surface.
+test::Triangles isosurface(int size, const Vec3& radii) {
+  return test::marched_level(
+      size, [&](const Vec3& x) { return (x - Vec3(.13, .21, .08)).cwiseQuotient(radii).squaredNorm() - 1; });
+}
+
+test::Triangles rotated(test::Triangles t) {
+  t.points = (Eigen::AngleAxisd(.7, Vec3(1, 2, -1).normalized()).toRotationMatrix() * t.points).eval();
+  return t;
+}
+
+double natural_length_of(const test::Triangles& t) {
+  return natural_length(total_area(t.points, t.faces), t.faces.size());
+}
+
+std::ptrdiff_t marked_faces(const test::Triangles& t, double length) {
+  const Adjacency c = test::connect(t);
+  std::vector<char> flat, sharp;
+  for (const EdgeArc& arc : edge_arcs(t.points, c)) {
+    flat.push_back(arc.chord > 0 && arc.sagitta < 1e-6 * arc.chord);
+    sharp.push_back(arc.sagitta > .1 * arc.chord);
+  }
+  const std::vector<double> lengths(static_cast<size_t>(c.vertex_count), length);
+  return std::ranges::count(faces_in_smooth_patches(t.points, c, flat, sharp, lengths), 1);
+}
+
+TEST(SmoothPatches, TheCellsOfAnIsosurfaceAreSuch) {
+  for (const test::Triangles& t : {isosurface(9, {7.3, 7.3, 7.3}), isosurface(9, {8.1, 6.2, 4.4})}) {
+    const double length = natural_length_of(t);
+    EXPECT_GT(marked_faces(t, length), .5 * static_cast<double>(t.faces.size()));
+    EXPECT_EQ(marked_faces(rotated(t), length), marked_faces(t, length));
+    EXPECT_EQ(marked_faces(t, .2 * length), 0);  // so fine lengths resolve them
+  }
+}
+
+TEST(SmoothPatches, QuadrilateralsAndFewPatchesMayBeFacets) {
+  for (const test::Triangles& t : {test::globe(24, 12), test::cube(), isosurface(3, {2, 2, 2})})
+    EXPECT_EQ(marked_faces(t, natural_length_of(t)), 0);
+}
+
+TEST(SmoothPatches, AnIsosurfaceHasNoCreasesAndNoFacets) {
+  for (const test::Triangles& t :
+       {isosurface(9, {7.3, 7.3, 7.3}), isosurface(9, {8.1, 6.2, 4.4}), rotated(isosurface(9, {8, 7, 5}))}) {
+    const Adjacency c = test::connect(t);
+    for (double times : {.7, 1., 1.5}) {
+      const std::vector<double> lengths(static_cast<size_t>(c.vertex_count), times * natural_length_of(t));
+      EXPECT_TRUE(detect_creases(t.points, c, lengths, {}, {}).empty()) << times;
+    }
+    EXPECT_FALSE(is_faceted(t.points, c));
+  }
+}
+
+/// Where it ends at a flat side the edges between them are creases, and hardly any others.
+TEST(SmoothPatches, AFlatSideOfItEndsAtCreases) {
+  const double radius = 8.2, bottom = 2.5;
+  const test::Triangles dome = test::marched_level(9, [&](const Vec3& x) {
+    return std::max((x.squaredNorm() - radius * radius) / (2 * radius), bottom - x[2]);
+  });
+  const Adjacency c = test::connect(dome);
+  const std::vector<double> lengths(static_cast<size_t>(c.vertex_count), natural_length_of(dome));
+  const std::vector<int> creases = detect_creases(dome.points, c, lengths, {}, {});
+  EXPECT_GT(creases.size(), 2 * radius * std::numbers::pi);  // cells around it
+  const auto is_high = [&](int e) { return dome.points(2, c.edges[static_cast<size_t>(e)][0]) > bottom + 1; };
+  EXPECT_LT(static_cast<double>(std::ranges::count_if(creases, is_high)),
+            .05 * static_cast<double>(creases.size()));
+}
+
+}  // namespace hooke::smooth_patches_test
