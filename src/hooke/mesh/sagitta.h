@@ -35,7 +35,7 @@ std::vector<double> face_unevenness(const Mat3X& points, const Adjacency& adjace
 /// marching cubes or tetrahedra are many, but small; or have half of fewer than 64 an edge sharper than 40
 /// degrees? Where no edge is as sharp, as on a torus of quadrilaterals, it takes three faces in a plane, or
 /// the area in faces 8 times as large as most, as on a part whose edges are all rounded, and long edges do
-/// not count.
+/// not count. Flat patches of a smooth surface never count, see mesh/smooth_patches.h.
 bool is_faceted(const Mat3X& points, const Adjacency& adjacency);
 
 }  // namespace hooke
