@@ -19,8 +19,8 @@ constexpr double noise_width =
     .1;  // minimum width, in target lengths, of facets beside a sharp edge where facets are meant
 constexpr double flat_angle = .2;       // degrees; an edge between resolved flat regions is a crease above it
 constexpr double resolved_strip = 1.9;  // minimum width of such regions, where one is a strip of a round body
-constexpr double resolved_gentle_strip = longest_patch;  // the same if no edge of the strip is sharp
-constexpr double gentle_ratio = 2. / 3;                  // and how much of the angle its next edge has
+constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
+constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
 constexpr double resolved_facet = .5;     // minimum width of the regions or faces beside such a weaker crease
 constexpr int min_round = 12;             // vertices of a round body
 constexpr double max_facet_angle = 31;    // degrees; between the facets of a round body
@@ -136,7 +136,7 @@ class FacetCreases {
       flat.push_back(angle <= flat_angle);
       sharp.push_back(angle > sharp_angle_);
     }
-    return faces_in_smooth_patches(X_, c_, flat, sharp, length_);
+    return faces_in_smooth_patches(X_, c_, flat, sharp);
   }
 
   /// Has the face a sharp edge that the target length resolves?
@@ -218,7 +218,7 @@ class FacetCreases {
   /// or few faces of the mesh are in such regions.
   double narrower_width(int edge) const {
     const auto& [left, right] = c_.edge_faces[edge];
-    if (!flat_mesh_ || right < 0 || is_in_smooth_patch_[left] || is_in_smooth_patch_[right]) return 0;
+    if (!flat_mesh_ || right < 0 || (is_in_smooth_patch_[left] && is_in_smooth_patch_[right])) return 0;
     const int a = regions_[left], b = regions_[right];
     return a >= 0 && a == b ? 0 : std::min(width(left, a, edge), width(right, b, edge));
   }

@@ -57,13 +57,9 @@ std::vector<char> edges_in_facets(const Mat3X& points, const Adjacency& c, const
                                   const std::vector<char>& sharp) {
   constexpr double flat = 1e-6;
   std::vector<char> marks(arcs.size());
-  double sum = 0;
-  for (std::size_t e = 0; e < marks.size(); ++e) {
+  for (std::size_t e = 0; e < marks.size(); ++e)
     marks[e] = arcs[e].chord > 0 && arcs[e].sagitta <= flat * arcs[e].chord;
-    sum += (points.col(c.edges[e][0]) - points.col(c.edges[e][1])).norm();
-  }
-  const std::vector<double> mean(c.vertex_count, sum / static_cast<double>(c.edges.size()));
-  const std::vector<char> is_smooth = faces_in_smooth_patches(points, c, marks, sharp, mean);
+  const std::vector<char> is_smooth = faces_in_smooth_patches(points, c, marks, sharp);
   for (std::size_t e = 0; e < marks.size(); ++e)
     if (is_smooth[c.edge_faces[e][0]]) marks[e] = 0;
   return marks;

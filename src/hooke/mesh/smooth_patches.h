@@ -9,15 +9,11 @@
 
 namespace hooke {
 
-/// The target lengths beyond which a patch is resolved, and so is a facet.
-constexpr double longest_patch = 4;
-
 /// Marks the faces of flat patches that are part of a smooth surface: connected over `flat` edges, of two
-/// faces or more, no longer than `longest_patch`, and without a `sharp` edge. None unless there are many of
-/// more than two faces: quadrilaterals alone may be facets of a part. `flat` and `sharp` are marks by edge,
-/// `vertex_length` is the target length at each vertex.
+/// faces or more, and without a `sharp` edge; with others next to them that are many, of more than two faces,
+/// for quadrilaterals may be facets, and of all sizes, as a grid cuts them and nobody designs them. Far
+/// larger ones among these are flat sides. `flat` and `sharp` are marks by edge.
 std::vector<char> faces_in_smooth_patches(const Mat3X& points, const Adjacency& adjacency,
-                                          const std::vector<char>& flat, const std::vector<char>& sharp,
-                                          const std::vector<double>& vertex_length);
+                                          const std::vector<char>& flat, const std::vector<char>& sharp);
 
 }  // namespace hooke

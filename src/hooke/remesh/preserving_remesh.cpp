@@ -351,16 +351,14 @@ class PreservingRemesh {
   /// and ever more around them, until nothing is wrong or they would be too much of the surface. In mode
   /// `fixed` putting vertices back there may be enough; in mode `adapt`, where nothing can be put back,
   /// lengths grow away from the edges that stay, nearly all may, and late rounds keep more rings at new
-  /// places. A large mesh has few rounds, but more while each halves what is wrong.
+  /// places.
   void keep_faces(Attempt last, Attempt& best) {
     const double faces =
         maker_.adapts() ? best.result.adaptation.target_faces : static_cast<double>(best.mesh.n_faces());
-    constexpr int most_rounds = 10;
-    const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, most_rounds);
+    const int max_rounds = std::clamp(static_cast<int>(4e5 / faces), 3, 10);
     const double max_share = maker_.adapts() ? 1 : .9;      // of the surface
     const int patience = maker_.adapts() ? 3 : max_rounds;  // rounds, before new places get more rings
     KeptFaces kept(maker_);
-    bool halves = false;
     for (int round = 0; !last.keeps_promises(); ++round) {
       if (options_.connectivity == ConnectivityMode::fixed) {
         Attempt local = last;
@@ -370,7 +368,7 @@ class PreservingRemesh {
           break;
         }
       }
-      if (round == most_rounds || (round >= max_rounds && !halves)) break;
+      if (round == max_rounds) break;
       const bool keeps_more =
           kept.add_around(input_vertices_at_flaws(maker_, last), std::max(round - patience, 1));
       if (!keeps_more || kept.share_of_area() >= max_share) break;
@@ -388,7 +386,6 @@ class PreservingRemesh {
       if (next.is_better_than(best)) best = next;
       if (may_redo_flaws(next)) redo_flaws(next, best);
       if (best.is_interrupted() || best.keeps_promises()) break;
-      halves = 2 * next.flaws() <= last.flaws();
       last = std::move(next);
     }
   }
