@@ -196,20 +196,6 @@ TEST(SliverRemoval, ThereAreNoMoreTriesThanAllowed) {
   EXPECT_EQ(tested(3, 5), 0);
 }
 
-TEST(SliverRemoval, OnlyFacesThatMayMoveAllowTries) {
-  const auto tested = [](double frozen_above) {
-    test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());
-    const Mat3X& points = s.mesh.vertices.positions.points;
-    std::vector<char>& frozen = s.constraints.frozen;
-    for (Eigen::Index v = 0; v < points.cols(); ++v) frozen.push_back(points(1, v) > frozen_above);
-    return change(s, any_count, {.share_in_all = .04, .min_in_all = 0}).tested;
-  };
-  const int of_all = tested(1);
-  EXPECT_EQ(of_all, static_cast<int>(.04 * faces));
-  EXPECT_GT(tested(.5), 0);
-  EXPECT_LE(tested(.5), .7 * of_all);
-}
-
 TEST(SliverRemoval, KeepsNothingThatIsNotTriedToTheEnd) {
   const auto changes = [](size_t searched) {
     test::WorkingScene s(test::grid(cells, test::flat, .45, 7), test::plane());

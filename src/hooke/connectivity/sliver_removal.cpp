@@ -25,8 +25,8 @@ class SliverPass {
         allowed_faces_(allowed_faces),
         faces_(static_cast<double>(t_.faces().size())),
         max_tested_(std::max(
-            0, std::max(options.min_in_all, static_cast<int>(options.share_in_all * movable_faces())) -
-                   tested_before)) {}
+            0,
+            std::max(options.min_in_all, static_cast<int>(options.share_in_all * faces_)) - tested_before)) {}
 
   SliverChanges run(const Observer& observer) {
     for (double angle : options_.sliver_angles) {
@@ -63,11 +63,6 @@ class SliverPass {
       if (std::optional<EdgeCandidate> best = best_candidate(edges)) keep(*best);
     }
     return left < limit;
-  }
-
-  double movable_faces() const {
-    return static_cast<double>(std::ranges::count_if(
-        t_.faces(), [this](const Triangle& t) { return !m_.vertices.constraints.is_frozen(t); }));
   }
 
   double cotangent(int f) const { return max_cotangent(m_.vertices.positions.points, t_.faces()[f]); }

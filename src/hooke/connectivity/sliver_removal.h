@@ -17,7 +17,7 @@ struct SliverOptions {
   static constexpr double share = .01;    // slivers tested per round, worst first, as a share of the faces
   static constexpr int min_tested = 10;   // lower limit of that number
   static constexpr int max_tested = 200;  // upper limit of that number
-  double share_in_all = .03;  // maximum number of slivers tested in all passes, as a share of movable faces
+  double share_in_all = .03;  // maximum number of slivers tested in all passes, as a share of the faces
   int min_in_all = 120;       // lower limit of that maximum
   static constexpr double noticeable_move =
       .03;               // in target lengths; shorter moves are no reason to test edges again
