@@ -130,6 +130,7 @@ class FacetCreases {
     flat_mesh_ = static_cast<double>(faces_in_regions) >= flat_share * static_cast<double>(regions_.size());
   }
 
+  /// Marks the faces of those, see mesh/smooth_patches.h.
   std::vector<char> find_smooth_patches() const {
     std::vector<char> flat, sharp;
     for (double angle : angle_) {

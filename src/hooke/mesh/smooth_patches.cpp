@@ -12,8 +12,9 @@ namespace {
 constexpr int many = 100;             // patches of more than two faces that are connected
 constexpr double little = .1;         // area, over the median of these
 constexpr double little_share = .05;  // minimum share of patches that have less
-constexpr double large = 20;          // area, over the median, of a flat side
+constexpr double large = 20;          // area, over the median, beyond which it is a flat side
 
+/// Faces in one plane, connected; without faces unless the face with its number stands for it.
 struct Patch {
   int faces = 0;
   double area = 0;
