@@ -102,7 +102,7 @@ void ChildProcess::Stream::read() {
   while (descriptor >= 0) {
     const ssize_t count = ::read(descriptor, block.data(), block.size());
     if (count > 0)
-      text.append(block.data(), static_cast<size_t>(count));
+      text.append(block.data(), count);
     else if (count < 0 && errno == EINTR)
       continue;
     else if (count < 0 && errno == EAGAIN)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "hooke/constraints/crease_detection.h"
 #include "hooke/core/error.h"
@@ -35,7 +36,7 @@ std::vector<double> read_property(const std::string& property, const std::filesy
                             name, in_quotes(property)));
   const FileBytes file = read_regular_file(mesh_file);
   std::vector<double> lengths = read_ply_lengths(file.text(), name, property);
-  if (lengths.size() != static_cast<size_t>(count))
+  if (std::cmp_not_equal(lengths.size(), count))
     throw InputError(fmt::format("{}: {} vertices, and {} when it was first read; it has been changed", name,
                                  lengths.size(), count));
   return lengths;

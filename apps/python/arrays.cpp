@@ -87,7 +87,7 @@ VertexData vertex_data_of(const py::dict& attributes, std::size_t count) {
   for (const auto& [key, value] : attributes) {
     const auto name = py::cast<std::string>(key);
     const auto array = py::array::ensure(value);
-    if (!array || array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != count)
+    if (!array || array.ndim() != 1 || std::cmp_not_equal(array.shape(0), count))
       throw Error("attribute '" + name + "'; expected a number for each of the " + std::to_string(count) +
                   " vertices");
     const NumberType type = type_of(name, array);

@@ -103,8 +103,7 @@ std::vector<std::string> write_file(const std::filesystem::path& path, const Poi
   const Mat3X points = points_of(vertices);
   const std::vector<Triangle> triangles = triangles_of(faces);
   const MeshFormat target = format_of(format ? std::filesystem::path("mesh." + *format) : path);
-  FormatData data = data_for_format(vertex_data_of(attributes, static_cast<std::size_t>(points.cols())),
-                                    MeshFormat::ply, target);
+  FormatData data = data_for_format(vertex_data_of(attributes, points.cols()), MeshFormat::ply, target);
   unlocked([&] {
     const ValidMesh mesh =
         make_valid_mesh(points, triangles, path.string(), {.keep_junctions = keep_junctions});

@@ -130,7 +130,7 @@ class Subdivision {
   }
 
  private:
-  size_t ids() const { return static_cast<size_t>(t_.id_count()); }
+  size_t ids() const { return t_.id_count(); }
 
   bool is_middle(int v) const { return ends_[v][0] >= 0; }
 

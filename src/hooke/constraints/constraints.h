@@ -60,12 +60,10 @@ struct Constraints {
   }
 
   /// Whether the vertex stands still at a bend of the curve that it is on.
-  bool at_bend(int vertex) const { return is_fixed(vertex) && curve[static_cast<size_t>(vertex)] >= 0; }
+  bool at_bend(int vertex) const { return is_fixed(vertex) && curve[vertex] >= 0; }
 
   /// Whether the edge between the vertices is neither flipped nor split. None of its ends is removed.
-  bool is_frozen(int v, int w) const {
-    return !frozen.empty() && frozen[static_cast<size_t>(v)] && frozen[static_cast<size_t>(w)];
-  }
+  bool is_frozen(int v, int w) const { return !frozen.empty() && frozen[v] && frozen[w]; }
 
   /// Whether the face stays: one of the input, or one between held vertices.
   bool is_frozen(const Triangle& t) const { return is_frozen(t[0], t[1]) && is_frozen(t[1], t[2]); }

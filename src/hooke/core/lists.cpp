@@ -12,7 +12,7 @@ constexpr std::size_t bits = 64;
 void sort_by_bits(std::vector<int>& ids, int least, std::size_t words) {
   std::vector<std::uint64_t> is_among(words, 0);
   for (int id : ids) {
-    const auto at = static_cast<std::size_t>(id - least);
+    const std::size_t at = id - least;
     is_among[at / bits] |= std::uint64_t{1} << (at % bits);
   }
   ids.clear();
@@ -26,7 +26,7 @@ void sort_by_bits(std::vector<int>& ids, int least, std::size_t words) {
 void sort_unique(std::vector<int>& ids) {
   if (ids.empty()) return;
   const auto [least, greatest] = std::ranges::minmax(ids);
-  const std::size_t words = static_cast<std::size_t>(greatest - least) / bits + 1;
+  const std::size_t words = (greatest - least) / bits + 1;
   if (words <= ids.size()) return sort_by_bits(ids, least, words);
   std::ranges::sort(ids);
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());

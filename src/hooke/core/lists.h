@@ -21,7 +21,7 @@ struct IntLists {
   std::vector<int> items;  // all lists, end to end
 
   std::span<const int> operator[](int i) const {
-    return {items.data() + first[i], items.data() + first[static_cast<size_t>(i) + 1]};
+    return {items.data() + first[i], items.data() + first[i + 1]};
   }
 };
 
@@ -46,7 +46,7 @@ IntLists inverse(int count, const Rows& rows) {
       const int begin = bound(first), end = bound(last);
       for (size_t r = 0; r < rows.size(); ++r)
         for (int i : rows[r])
-          if (i >= begin && i < end) use(static_cast<int>(r), static_cast<size_t>(i));
+          if (i >= begin && i < end) use(static_cast<int>(r), i);
     });
   };
   IntLists lists;

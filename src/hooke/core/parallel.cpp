@@ -57,7 +57,7 @@ struct ThreadLimit::Impl {
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads < 1) threads = tbb::this_task_arena::max_concurrency();
-  impl_ = std::make_unique<Impl>(static_cast<size_t>(threads));
+  impl_ = std::make_unique<Impl>(threads);
 }
 
 ThreadLimit::~ThreadLimit() = default;

@@ -13,10 +13,6 @@
 namespace hooke {
 namespace {
 
-std::size_t index_of(int i) {
-  return i;
-}
-
 constexpr std::size_t facet_block = 1024;
 
 /// Minimum cosine between a face and the normal at the hint: excludes the opposite side of a thin body.
@@ -41,26 +37,25 @@ constexpr double flat = 1e-6;
 void drop_small_groups(const Adjacency& c, const std::vector<EdgeArc>& arcs, std::vector<char>& chosen) {
   const std::vector<int> components = label_components(c);
   std::vector<int> sizes(components.size(), 0);
-  for (const Triangle& t : c.faces) ++sizes[index_of(components[index_of(t[0])])];
+  for (const Triangle& t : c.faces) ++sizes[components[t[0]]];
   std::vector<char> seen(chosen.size(), 0);
   for (std::size_t f = 0; f < chosen.size(); ++f) {
     if (!chosen[f] || seen[f]) continue;
     std::vector<int> group = {static_cast<int>(f)};
     seen[f] = 1;
     for (std::size_t i = 0; i < group.size(); ++i)
-      for (int v : c.faces[index_of(group[i])])
+      for (int v : c.faces[group[i]])
         for (int g : c.vertex_faces[v])
-          if (chosen[index_of(g)] && !std::exchange(seen[index_of(g)], 1)) group.push_back(g);
-    const int size = sizes[index_of(components[index_of(c.faces[f][0])])];
+          if (chosen[g] && !std::exchange(seen[g], 1)) group.push_back(g);
+    const int size = sizes[components[c.faces[f][0]]];
     if (static_cast<int>(group.size()) >= std::min(min_group, (size + 1) / 2)) continue;
     const auto is_flat = [&](int e) {
-      const auto& [left, right] = c.edge_faces[index_of(e)];
-      return right >= 0 && chosen[index_of(left)] && chosen[index_of(right)] && arcs[index_of(e)].chord > 0 &&
-             arcs[index_of(e)].sagitta <= flat * arcs[index_of(e)].chord;
+      const auto& [left, right] = c.edge_faces[e];
+      return right >= 0 && chosen[left] && chosen[right] && arcs[e].chord > 0 &&
+             arcs[e].sagitta <= flat * arcs[e].chord;
     };
-    if (std::ranges::none_of(group,
-                             [&](int g) { return std::ranges::any_of(c.face_edges[index_of(g)], is_flat); }))
-      for (int g : group) chosen[index_of(g)] = 0;
+    if (std::ranges::none_of(group, [&](int g) { return std::ranges::any_of(c.face_edges[g], is_flat); }))
+      for (int g : group) chosen[g] = 0;
   }
 }
 
@@ -70,7 +65,7 @@ std::vector<char> doubtful_faces(const Mat3X& points, const Adjacency& c, const 
   std::vector<char> doubtful(c.faces.size(), 0);
   for (std::size_t f = 0; f < doubtful.size(); ++f)
     doubtful[f] = unevenness[f] > uneven || std::ranges::any_of(c.face_edges[f], [&](int e) {
-                    return arcs[index_of(e)].sagitta > much_turned * arcs[index_of(e)].chord;
+                    return arcs[e].sagitta > much_turned * arcs[e].chord;
                   });
   return doubtful;
 }
@@ -82,7 +77,7 @@ std::vector<double> max_rises(const std::vector<EdgeArc>& arcs, const Adjacency&
   const std::vector<double> at_vertex = vertex_sagittas(sagittas, c);
   std::vector<double> rises(sagittas);
   for (std::size_t f = 0; f < rises.size(); ++f)
-    for (int v : c.faces[f]) rises[f] = std::max(rises[f], at_vertex[index_of(v)]);
+    for (int v : c.faces[f]) rises[f] = std::max(rises[f], at_vertex[v]);
   return rises;
 }
 
@@ -98,7 +93,7 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
   std::vector<char> is_near(c.edges.size(), 0);  // to a doubtful face
   for (std::size_t f = 0; f < curved.size(); ++f)
     if (curved[f])
-      for (int e : c.face_edges[f]) is_near[index_of(e)] = 1;
+      for (int e : c.face_edges[f]) is_near[e] = 1;
   std::vector<double> heights(c.edges.size(), 0);  // over their midpoints
   parallel_for(heights.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
@@ -118,9 +113,8 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
         return !(std::abs(h) <= std::max(max_height * rises[f], least));
       };
       const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
-      curved[f] =
-          std::ranges::any_of(c.face_edges[f], [&](int e) { return is_exceeded_by(heights[index_of(e)]); }) ||
-          is_exceeded_by(height(centre, t[0]));
+      curved[f] = std::ranges::any_of(c.face_edges[f], [&](int e) { return is_exceeded_by(heights[e]); }) ||
+                  is_exceeded_by(height(centre, t[0]));
     }
   });
   drop_small_groups(c, arcs, curved);
@@ -141,32 +135,31 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
     : points_(points),
       normals_(normals),
       adjacency_(c),
-      near_(index_of(c.vertex_count), 0),
+      near_(c.vertex_count, 0),
       is_tip_(near_),
       components_(label_components(c)),
       facet_of_face_(c.faces.size(), -1) {
   std::vector<char> at_facet(near_.size(), 0);
   for (std::size_t f = 0; f < curved.size(); ++f)
     if (curved[f])
-      for (int v : c.faces[f]) at_facet[index_of(v)] = 1;
+      for (int v : c.faces[f]) at_facet[v] = 1;
   near_ = at_facet;
   for (int v = 0; v < c.vertex_count; ++v)
-    if (at_facet[index_of(v)])
-      for (int n : c.vertex_neighbours[v]) near_[index_of(n)] = 1;
-  for (int v = 0; v < c.vertex_count; ++v)
-    is_tip_[index_of(v)] = at_facet[index_of(v)] && is_tip(points, c, v);
+    if (at_facet[v])
+      for (int n : c.vertex_neighbours[v]) near_[n] = 1;
+  for (int v = 0; v < c.vertex_count; ++v) is_tip_[v] = at_facet[v] && is_tip(points, c, v);
   const Mat3X face_normal = face_normals(points, c);
   std::vector<Triangle> triangles;
   for (std::size_t f = 0; f < curved.size(); ++f) {
     const Triangle& t = c.faces[f];
-    if (std::ranges::none_of(t, [&](int v) { return near_[index_of(v)] != 0; })) continue;
+    if (std::ranges::none_of(t, [&](int v) { return near_[v] != 0; })) continue;
     Facet facet{static_cast<int>(f),
-                components_[index_of(t[0])],
+                components_[t[0]],
                 curved[f] != 0,
                 rises[f],
                 face_normal.col(static_cast<Eigen::Index>(f)),
                 {}};
-    for (std::size_t k = 0; k < 3; ++k) facet.arcs[k] = arcs[index_of(c.face_edges[f][k])];
+    for (std::size_t k = 0; k < 3; ++k) facet.arcs[k] = arcs[c.face_edges[f][k]];
     facet_of_face_[f] = static_cast<int>(facets_.size());
     facets_.push_back(facet);
     triangles.push_back(t);
@@ -177,7 +170,7 @@ CurvedFacets::CurvedFacets(const Mat3X& points, const Mat3X& normals, const Adja
 /// How far the curved facet may rise at a point of it: the sum of the sagittas of its edges, each of which
 /// matters as far as its chord reaches; both shrink towards a tip.
 double CurvedFacets::rise_at(const Facet& facet, const Vec3& at) const {
-  const Triangle& t = adjacency_.faces[index_of(facet.face)];
+  const Triangle& t = adjacency_.faces[facet.face];
   double rise = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& [sagitta, chord] = facet.arcs[k];
@@ -186,43 +179,43 @@ double CurvedFacets::rise_at(const Facet& facet, const Vec3& at) const {
     const double length = along.norm(), distance = along.cross(at - a).norm() / length;
     double taper = 1;  // facets are the narrower, the nearer the tip
     for (int v : {t[k], t[(k + 1) % 3]})
-      if (is_tip_[index_of(v)]) taper = std::min(taper, (at - points_.col(v)).norm() / length);
+      if (is_tip_[v]) taper = std::min(taper, (at - points_.col(v)).norm() / length);
     rise += taper * sagitta * std::max(0., 1 - distance / (taper * chord));
   }
   return rise;
 }
 
 ClosestPoint CurvedFacets::find(const Vec3& x, int hint) const {
-  const int component = components_[index_of(hint)];
+  const int component = components_[hint];
   const Vec3 side = normals_.col(hint);
   const auto accepts = [&](int index) {
-    const Facet& facet = facets_[index_of(index)];
+    const Facet& facet = facets_[index];
     return facet.component == component && facet.normal.dot(side) >= min_agreement;
   };
   constexpr std::size_t enough = 8;  // faces for a bound; at the centre of a cap there may be thousands
   const std::span<const int> ring = adjacency_.vertex_faces[hint];
   ClosestPoint at_hint;
   for (int f : ring.first(std::min(enough, ring.size()))) {
-    const int index = facet_of_face_[index_of(f)];
+    const int index = facet_of_face_[f];
     if (index < 0 || !accepts(index)) continue;
-    const Triangle& t = adjacency_.faces[index_of(f)];
+    const Triangle& t = adjacency_.faces[f];
     update_closest(x, {points_.col(t[0]), points_.col(t[1]), points_.col(t[2])}, index, at_hint);
   }
   ClosestPoint closest = tree_->closest(x, accepts, at_hint);
-  if (closest.face >= 0) closest.face = facets_[index_of(closest.face)].face;
+  if (closest.face >= 0) closest.face = facets_[closest.face].face;
   return closest;
 }
 
 Projection CurvedFacets::lift(const ClosestPoint& point) const {
   const Facet& facet = facet_of(point.face);
-  const Triangle& t = adjacency_.faces[index_of(point.face)];
+  const Triangle& t = adjacency_.faces[point.face];
   const Vec3 weights = on_face(point, points_, adjacency_).weights;
   Vec3 offset = Vec3::Zero(), normal = Vec3::Zero();
   Eigen::Index corner = 0;
   weights.maxCoeff(&corner);
   for (Eigen::Index k = 0; k < 3; ++k) {
     const auto v = t[k];
-    const Vec3 n = is_tip_[index_of(v)] ? facet.normal : Vec3(normals_.col(v));  // tips have none
+    const Vec3 n = is_tip_[v] ? facet.normal : Vec3(normals_.col(v));  // tips have none
     offset += .5 * weights[k] * n.dot(points_.col(v) - point.point) * n;
     normal += weights[k] * n;
   }

@@ -1,6 +1,7 @@
 #include "hooke/filter/partition_of_unity.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "hooke/core/parallel.h"
 #include "hooke/mesh/normals.h"
@@ -90,7 +91,7 @@ PatchCover::PatchCover(const Eigen::Ref<const Mat3X>& points, const Adjacency& a
       edge_lengths_(edge_lengths),
       unfolded_(unfolded),
       grower_(points, adjacency, normals, unfolded),
-      covered_(static_cast<size_t>(adjacency.vertex_count), 0) {}
+      covered_(adjacency.vertex_count, 0) {}
 
 PatchList PatchCover::next(size_t count) {
   PatchList patches;
@@ -267,14 +268,14 @@ void PartitionOfUnity::fit(const Samples& samples, Batch& batch) const {
     const std::size_t count = std::min(lane_count, list.size() - first);
     for (std::size_t k = 0; k < count; ++k) {
       gather(samples, list, first + k, data[k]);
-      requested[k] = vertices(first + k) >= min_quadratic_size &&
-                     static_cast<std::size_t>(data[k].count) > vertices(first + k);
+      requested[k] =
+          vertices(first + k) >= min_quadratic_size && std::cmp_greater(data[k].count, vertices(first + k));
     }
     const SplineGroup::Flags fitted = group.fit(data, requested, kernel_, coincidence);
     for (std::size_t k = 0; k < count; ++k) {
       Patch patch{samples.points.col(list.centres[first + k]), list.radii[first + k]};
       if (fitted[k])
-        patch.spline = store(data[k], group.solution(k, static_cast<std::size_t>(data[k].count)));
+        patch.spline = store(data[k], group.solution(k, data[k].count));
       else if (const auto spline = fit_single(data[k], kernel_, vertices(first + k), workspace, patch.fit))
         patch.spline = store(data[k], *spline);
       batch.patches.push_back(patch);

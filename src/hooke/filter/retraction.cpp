@@ -102,8 +102,7 @@ SurfacePosition Retraction::on_curve(SurfacePosition position, int vertex) const
 
 Projection Retraction::projection(const Vec3& point, int hint, int vertex) {
   Projection projection = surface_(point, hint, options_.tolerance);
-  long long* const counters =
-      &uncounted_[static_cast<size_t>(vertex) / vertices_per_counter_set * counter_set_size];
+  long long* const counters = &uncounted_[vertex / vertices_per_counter_set * counter_set_size];
   add(1, counters[static_cast<size_t>(projection.status)]);
   add(projection.evaluations, counters[statuses]);
   return projection;

@@ -315,7 +315,7 @@ void SplineData::drop_repeated(double distance) {
 void SplineGroup::gather(const Data& data, const Flags& requested) {
   size_ = 0;
   for (std::size_t lane = 0; lane < lane_count; ++lane)
-    if (requested[lane]) size_ = std::max(size_, static_cast<std::size_t>(data[lane].count));
+    if (requested[lane]) size_ = std::max<std::size_t>(size_, data[lane].count);
   centres_.assign(3 * size_ * lane_count, 0);
   present_.assign(size_ * lane_count, 0);
   right_side_.assign(size_ * lane_count, 0);
@@ -323,10 +323,9 @@ void SplineGroup::gather(const Data& data, const Flags& requested) {
     if (!requested[lane]) continue;
     const SplineData& one = data[lane];
     for (Eigen::Index i = 0; i < one.count; ++i) {
-      const std::size_t at = static_cast<std::size_t>(i) * lane_count + lane;
+      const std::size_t at = i * lane_count + lane;
       for (std::size_t k = 0; k < 3; ++k)
-        centres_[(3 * static_cast<std::size_t>(i) + k) * lane_count + lane] =
-            one.centres(static_cast<Eigen::Index>(k), i);
+        centres_[(3 * i + k) * lane_count + lane] = one.centres(static_cast<Eigen::Index>(k), i);
       present_[at] = 1;
       right_side_[at] = one.values[i];
     }

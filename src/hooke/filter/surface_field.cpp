@@ -199,7 +199,7 @@ FieldSample SurfaceField::State::sample(const Vec3& x, int hint) const {
     case FilterKind::local:
       return (*partition)(x, hint);
     case FilterKind::global:
-      return splines[pieces.empty() ? 0 : static_cast<std::size_t>(pieces[hint])](x);
+      return splines[pieces.empty() ? 0 : pieces[hint]](x);
     case FilterKind::closest: {
       const Projection projection = faces().closest_point(x, hint);
       const double distance = (x - projection.point).norm();

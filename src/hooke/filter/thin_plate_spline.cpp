@@ -95,7 +95,7 @@ template <typename Coordinate>
 StoredSpline<Coordinate> store_spline(const Eigen::Ref<const Mat3X>& centres,
                                       const SplineCoefficients& spline, Coordinate* coordinates,
                                       double* coefficients) {
-  const auto count = static_cast<std::size_t>(centres.cols()), stride = padded_to_lanes(count);
+  const std::size_t count = centres.cols(), stride = padded_to_lanes(count);
   const StoredSpline<Coordinate> stored{coordinates, coefficients, count};
   std::fill_n(coordinates, stored.coordinates_size(count), Coordinate{0});
   std::fill_n(coefficients, stored.coefficients_size(count), 0.);
@@ -221,7 +221,7 @@ std::optional<ThinPlateSpline> ThinPlateSpline::fit(const Mat3X& centres, const 
                                                     std::size_t memory_limit_bytes) {
   ThinPlateSpline spline;
   spline.kernel_ = kernel;
-  spline.centres_ = static_cast<std::size_t>(centres.cols());
+  spline.centres_ = centres.cols();
   const std::size_t bytes = spline_fit_bytes(spline.centres_);
   if (bytes > memory_limit_bytes)
     throw LimitError(

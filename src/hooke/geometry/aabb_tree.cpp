@@ -96,7 +96,7 @@ AabbTree::AabbTree(const Mat3X& points, const std::vector<Triangle>& faces,
   const std::vector<int>& order = given_order.empty() ? own_order : given_order;
   faces_.resize(order.size());
   parallel_for(order.size(), tree_block, [&](size_t begin, size_t end) {
-    for (size_t k = begin; k < end; ++k) faces_[k] = face_of(points, faces, static_cast<size_t>(order[k]));
+    for (size_t k = begin; k < end; ++k) faces_[k] = face_of(points, faces, order[k]);
   });
   while (order.size() > leaf_size << depth_) ++depth_;
   boxes_.resize(size_t{2} << depth_);

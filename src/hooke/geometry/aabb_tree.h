@@ -207,7 +207,7 @@ class AabbTree {
             unsigned overlapping = boxes.overlapping(faces_[index].box());
             if (index - first < faces_of_part) overlapping &= (1U << (index - first)) - 1;
             for (; overlapping != 0; overlapping &= overlapping - 1)
-              visit(faces_[first + static_cast<size_t>(std::countr_zero(overlapping))], faces_[index]);
+              visit(faces_[first + std::countr_zero(overlapping)], faces_[index]);
           }
         });
   }

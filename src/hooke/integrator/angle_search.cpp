@@ -182,7 +182,7 @@ struct EdgeErrors {
 
 EdgeErrors errors_of(const Relaxation& r, const std::vector<int>& edges) {
   EdgeErrors errors;
-  for (int e : edges) errors.add(r, static_cast<size_t>(e));
+  for (int e : edges) errors.add(r, e);
   return errors;
 }
 
@@ -274,7 +274,7 @@ class Measures {
     move();
     errors_ += errors_of(r_, edges);
     for (int f : sorted_union(r_.adjacency.vertex_faces, vertices)) {
-      measure_face(static_cast<size_t>(f));
+      measure_face(f);
       list_if_low(f);
     }
   }

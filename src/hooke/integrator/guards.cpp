@@ -141,7 +141,7 @@ std::vector<int> Guards::offenders(const SurfacePositions& from, const SurfacePo
   for (int f : indices_where(adjacency_.faces.size(), [&](size_t f) { return face_breaks(from, to, f); }))
     add_corners(f, vertices);
   for (int e : indices_where(adjacency_.edges.size(), [&](size_t e) { return edge_breaks(from, to, e); }))
-    add_vertices_around(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
+    add_vertices_around(e, fold_breaks(from, to, e), vertices);
   sort_unique(vertices);
   return vertices;
 }
@@ -157,8 +157,7 @@ std::vector<int> Guards::offenders_around(const SurfacePositions& from, const Su
   }
   sort_unique(edges);
   for (int e : edges)
-    if (edge_breaks(from, to, static_cast<size_t>(e)))
-      add_vertices_around(e, fold_breaks(from, to, static_cast<size_t>(e)), vertices);
+    if (edge_breaks(from, to, e)) add_vertices_around(e, fold_breaks(from, to, e), vertices);
   sort_unique(vertices);
   return vertices;
 }
@@ -206,7 +205,7 @@ std::vector<int> Guards::vertices_at_limits(const SurfacePositions& p) const {
   std::vector<int> vertices;
   for (int f : indices_where(adjacency_.faces.size(), is_misaligned)) add_corners(f, vertices);
   for (int e : indices_where(adjacency_.edges.size(), is_at_limit))
-    add_vertices_around(e, folds(static_cast<size_t>(e)), vertices);
+    add_vertices_around(e, folds(e), vertices);
   sort_unique(vertices);
   return vertices;
 }

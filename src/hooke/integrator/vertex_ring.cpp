@@ -270,7 +270,7 @@ bool VertexRing::fold_breaks(const ShapeLimits& limits, std::size_t i, const Rin
   const auto breaks = [&](bool crease, double before, double after) {
     return crease ? crease_fold_breaks(limits, before, after) : hooke::fold_breaks(limits, before, after);
   };
-  const auto item = static_cast<std::size_t>(rings_.first[wedge_]) + i;
+  const std::size_t item = rings_.first[wedge_] + i;
   const bool far_crease = !rings_.far_crease.empty() && rings_.far_crease[item];
   return breaks(i == 0 && begins_at_crease(), b.fold, a.fold) || breaks(far_crease, b.far_fold, a.far_fold);
 }

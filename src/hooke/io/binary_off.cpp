@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hooke/core/error.h"
 #include "hooke/io/binary_numbers.h"
@@ -50,7 +51,7 @@ class Words {
 
 int read_binary_count(Words& words, const char* what, size_t least_size) {
   const int count = words.integer();
-  if (count < 0 || static_cast<size_t>(count) > words.remaining() / least_size)
+  if (count < 0 || std::cmp_greater(count, words.remaining() / least_size))
     words.fail(
         fmt::format("{} is {}, but only {} bytes follow; expected as many as there are; the file is cut or "
                     "the count is wrong",
@@ -111,7 +112,7 @@ bool read_binary_faces(Words& words, int faces, MeshFile& file) {
     if (colours < 0 || colours > 4)
       words.fail(fmt::format("face {} with a colour of {} numbers; expected 0 to 4; is the face size right?",
                              f, colours));
-    words.skip(static_cast<size_t>(colours));
+    words.skip(colours);
     coloured |= colours > 0;
   }
   return coloured;
@@ -131,7 +132,7 @@ BinaryOffLayout binary_off_layout(std::string_view bytes, const std::string& nam
   header.faces = read_binary_count(words, "face count", least_face);
   words.skip(1);  // the edge count
   layout.vertices = words.offset();
-  if (static_cast<size_t>(header.vertices) > words.remaining() / layout.vertex_size)
+  if (std::cmp_greater(header.vertices, words.remaining() / layout.vertex_size))
     words.fail("the file ends before its last vertex; it is cut or the count is wrong");
   return layout;
 }

@@ -122,7 +122,7 @@ class TemporaryFile {
       const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
       if (count < 0 && errno == EINTR) continue;
       if (count < 0) fail_by_system(name_, "cannot be written", errno);
-      bytes.remove_prefix(static_cast<size_t>(count));
+      bytes.remove_prefix(count);
     }
   }
 
@@ -259,7 +259,7 @@ size_t read_range(int descriptor, size_t offset, size_t count, char* to, const s
     if (more < 0)
       throw InputError(fmt::format("{}: cannot be read: {}; expected a readable file; check the disk", name,
                                    reason(errno)));
-    used += static_cast<size_t>(more);
+    used += more;
   }
   return used;
 }
@@ -308,7 +308,7 @@ FileBytes read_regular_file(const std::filesystem::path& path, std::string_view 
     throw InputError(fmt::format("{}: is {}; expected a regular file with {}; name one", name,
                                  kind_of(status.st_mode), content));
   try {
-    FileBytes read = read_to_end(file.get(), static_cast<size_t>(status.st_size), name);
+    FileBytes read = read_to_end(file.get(), status.st_size, name);
     if (read.bytes.empty())
       throw InputError(
           fmt::format("{}: the file is empty; expected {}; check how it was made", name, content));
@@ -343,7 +343,7 @@ FileBytes read_standard_input() {
       if (count < 0)
         throw InputError(fmt::format(
             "standard input: cannot be read: {}; expected a mesh; check where it comes from", reason(errno)));
-      used += static_cast<size_t>(count);
+      used += count;
     }
   } catch (const std::bad_alloc&) {
     throw LimitError(fmt::format(
@@ -361,7 +361,7 @@ void write_to_standard_output(std::string_view bytes) {
     if (count < 0)
       throw OutputError(fmt::format("standard output: cannot be written: {}; expected an open reader or room",
                                     reason(errno)));
-    bytes.remove_prefix(static_cast<size_t>(count));
+    bytes.remove_prefix(count);
   }
 }
 

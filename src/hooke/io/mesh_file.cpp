@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hooke/core/error.h"
 #include "hooke/io/msh.h"
@@ -46,7 +47,7 @@ MeshFile parse_mesh_file(std::string_view bytes, const std::string& name, MeshFo
 namespace {
 
 void check_corner_count(const MeshFile& file, size_t corners) {
-  if (corners > static_cast<size_t>(std::numeric_limits<int>::max()))
+  if (std::cmp_greater(corners, std::numeric_limits<int>::max()))
     throw LimitError(file.name + ": more than 2147483647 face corners; expected fewer; split the mesh");
 }
 

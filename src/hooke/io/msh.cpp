@@ -213,7 +213,7 @@ void read_names(MshInput& in, MshContent& content) {
 void add_node(MshInput& in, MshContent& content, long long number, const Vec3& position) {
   if (!content.index.emplace(number, static_cast<int>(content.nodes.size())).second)
     in.fail(fmt::format("a second node {}; expected different numbers; renumber the nodes", number));
-  if (content.nodes.size() == static_cast<size_t>(std::numeric_limits<int>::max()))
+  if (std::cmp_equal(content.nodes.size(), std::numeric_limits<int>::max()))
     throw LimitError("more than 2147483647 nodes; expected fewer; split the mesh");
   content.nodes.push_back(position);
 }
@@ -459,7 +459,7 @@ MeshFile read_msh(std::string_view bytes, const std::string& name) {
   file.encoding = PlyEncoding::ascii;
   take_polygons(content, file);
   file.lines = std::move(content.lines);
-  const std::vector<std::string> kinds = kinds_not_kept(content, static_cast<size_t>(file.points.cols()));
+  const std::vector<std::string> kinds = kinds_not_kept(content, file.points.cols());
   if (content.sizes.empty())
     throw InputError(
         fmt::format("{}: no triangles, but {}; expected a surface mesh of first order; make one with gmsh "
@@ -585,7 +585,7 @@ std::string write_old(const Eigen::Ref<const Mat3X>& points, const std::vector<T
   for (size_t f = 0; f < triangles.size(); ++f) {
     append_number(text, f + 1);
     text += fmt::format(" {} 2 {} ", msh_triangle, surfaces.group.at(surfaces.entity[f]));
-    append_row(text, static_cast<size_t>(surfaces.entity[f]), triangles[f]);
+    append_row(text, surfaces.entity[f], triangles[f]);
   }
   return text + "$EndElements\n";
 }

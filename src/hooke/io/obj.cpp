@@ -219,7 +219,7 @@ void keep_colours(const std::vector<ObjReader>& readers, MeshFile& file, std::ve
   size_t coloured = 0;
   for (const ObjReader& reader : readers) coloured += reader.colours.size();
   if (coloured == 0) return;
-  if (coloured < static_cast<size_t>(file.points.cols())) {
+  if (std::cmp_less(coloured, file.points.cols())) {
     not_kept.emplace_back("vertex colours");
     return;
   }

@@ -28,7 +28,7 @@ std::vector<PolygonEdge> edges_at(const std::vector<char>& chosen, const Element
   for (size_t f = 0; f + 1 < polygons.first.size(); ++f) {
     const int begin = polygons.first[f], end = polygons.first[f + 1];
     for (int c = begin; c < end; ++c) {
-      size_t from = static_cast<size_t>(c), to = static_cast<size_t>(c + 1 < end ? c + 1 : begin);
+      size_t from = c, to = c + 1 < end ? c + 1 : begin;
       if (polygons.items[from] > polygons.items[to]) std::swap(from, to);
       const Edge ends{polygons.items[from], polygons.items[to]};
       if (chosen[ends[0]] || chosen[ends[1]])
@@ -93,7 +93,7 @@ CornerSeams find_corner_seams(const ElementsOfCorners& data, const IntLists& pol
                               const std::vector<int>& of_vertices) {
   std::vector<char> on_seam(of_vertices.size(), 0);
   for (size_t c = 0; c < polygons.items.size(); ++c) {
-    const size_t v = static_cast<size_t>(polygons.items[c]);
+    const size_t v = polygons.items[c];
     on_seam[v] |= static_cast<char>(!same_values(data, data.elements[c], of_vertices[v]));
   }
   CornerSeams seams;
@@ -197,7 +197,7 @@ void keep_elements(const ObjElementPieces& pieces, const CornerDataKind& kind, M
                     fmt::format("{}: not kept in the output: {} ({} of {} face corners have none)", file.name,
                                 kind.what, without, corners)});
   else
-    lost = keep_as_vertex_data(file, data, static_cast<size_t>(numbers), kind);
+    lost = keep_as_vertex_data(file, data, numbers, kind);
   if (lost.empty()) return;
   append(file.content.no_obj, lost);
   corners_of_file = {data.values, numbers, std::move(data.elements)};

@@ -48,7 +48,7 @@ VertexData allocate_data(const OffHeader& header, int extra, size_t vertices) {
     for (const char* name : names) data.push_back({name, type, std::vector<double>(vertices)});
   };
   if (header.normals) add(normal_names, NumberType::float32);
-  add(ChannelNames(colour_names).first(static_cast<size_t>(colours)), NumberType::float64);
+  add(ChannelNames(colour_names).first(colours), NumberType::float64);
   if (header.texture) add(ChannelNames(texture_names).first(2), NumberType::float64);
   return data;
 }
@@ -137,7 +137,7 @@ MeshFile read_off(std::string_view text, const std::string& name) {
   file.name = name;
   file.format = MeshFormat::off;
   file.points.resize(3, std::min<long long>(rows, header.vertices));
-  file.vertex_data = allocate_data(header, extra, static_cast<size_t>(file.points.cols()));
+  file.vertex_data = allocate_data(header, extra, file.points.cols());
   std::vector<MeshFile> parts(pieces.size());
   std::vector<char> face_colours(pieces.size(), 0);
   read_pieces(pieces, [&](const TextPiece& piece, size_t p) {
@@ -145,8 +145,7 @@ MeshFile read_off(std::string_view text, const std::string& name) {
     parts[p].name = name;
     for (long long row = piece.first_row; rest.next_line(); ++row) {
       if (row < header.vertices) {
-        const int found =
-            read_vertex(rest, file.points.col(row).data(), file.vertex_data, static_cast<size_t>(row));
+        const int found = read_vertex(rest, file.points.col(row).data(), file.vertex_data, row);
         check_vertex(rest, header, static_cast<int>(row), found, extra);
       } else if (row < elements) {
         const int face = static_cast<int>(row - header.vertices);

@@ -293,7 +293,7 @@ void append_binary(std::string& bytes, const Eigen::Ref<const Mat3X>& points,
   };
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     for (int k = 0; k < 3; ++k) put_binary(at, PlyType::float64, points(k, v), swap);
-    put_row(data, static_cast<size_t>(v));
+    put_row(data, v);
   }
   for (size_t f = 0; f < triangles.size(); ++f) {
     *at++ = 3;

@@ -259,7 +259,7 @@ void BinaryPlyBody::finish() const {
 }
 
 const char* BinaryPlyBody::take(size_t size) {
-  if (static_cast<size_t>(end_ - cursor_) < size)
+  if (std::cmp_less(end_ - cursor_, size))
     fail("the file ends here; expected more values; it is cut or a count is wrong");
   const char* at = cursor_;
   cursor_ += size;

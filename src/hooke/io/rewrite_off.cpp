@@ -66,16 +66,11 @@ RewrittenMesh rewrite_binary_off(std::string_view bytes, const std::string& name
   RewrittenMesh result;
   result.rounded.resize(3, points.cols());
   BinaryOffWriter rewriter(bytes, result);
-  for (size_t v = 0; v < static_cast<size_t>(layout.header.vertices); ++v) {
+  for (int v = 0; v < layout.header.vertices; ++v) {
     const size_t vertex = layout.vertices + v * layout.vertex_size;
-    const auto column = static_cast<Eigen::Index>(v);
-    for (size_t k = 0; k < 3; ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      result.rounded(row, column) = rewriter.set(vertex + k * number, points(row, column));
-    }
+    for (int k = 0; k < 3; ++k) result.rounded(k, v) = rewriter.set(vertex + k * number, points(k, v));
     if (!normals || !normals->renewed[v]) continue;
-    for (size_t k = 0; k < 3; ++k)
-      rewriter.set(vertex + (3 + k) * number, normals->values(static_cast<Eigen::Index>(k), column) + 0.);
+    for (int k = 0; k < 3; ++k) rewriter.set(vertex + (3 + k) * number, normals->values(k, v) + 0.);
   }
   return result;
 }

@@ -54,8 +54,8 @@ class Scanner {
   Scanner on(std::string_view text, int first_line) const { return {text, name_, syntax_, first_line}; }
 
   int line() const { return line_; }
-  size_t offset() const { return static_cast<size_t>(cursor_ - begin_); }
-  size_t remaining() const { return static_cast<size_t>(end_ - cursor_); }
+  size_t offset() const { return cursor_ - begin_; }
+  size_t remaining() const { return end_ - cursor_; }
 
   /// Throws InputError "NAME:LINE: message".
   [[noreturn]] void fail(std::string_view message) const { fail_at(line_, message); }

@@ -209,7 +209,7 @@ MeshFile read_binary(std::string_view bytes, const std::string& name) {
   file.encoding = PlyEncoding::binary_little_endian;
   file.name = name;
   const size_t count = facet_count(bytes);
-  if (count > static_cast<size_t>(std::numeric_limits<int>::max()) / 3)
+  if (std::cmp_greater(count, std::numeric_limits<int>::max() / 3))
     throw LimitError(
         fmt::format("{}: {} facets; expected fewer than 715827883; split the mesh", name, count));
   PointNumbers numbers(count);

@@ -45,7 +45,7 @@ void append_values(std::string& row, const ChannelList& channels, size_t vertex)
 
 void append_vertex_rows(std::string& text, const Eigen::Ref<const Mat3X>& points, const char* prefix,
                         const ChannelList& channels) {
-  append_rows(text, static_cast<size_t>(points.cols()), [&](std::string& row, size_t v) {
+  append_rows(text, points.cols(), [&](std::string& row, size_t v) {
     row += prefix;
     append_three(row, points.col(static_cast<Eigen::Index>(v)));
     append_values(row, channels, v);

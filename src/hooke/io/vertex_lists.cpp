@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"
@@ -36,11 +38,11 @@ std::vector<double> read_length_list(const std::filesystem::path& path, int coun
     const double length = positive_length(scanner);
     if (!scanner.token().empty())
       scanner.fail("more than one value; expected one length a line; split the line");
-    if (lengths.size() == static_cast<size_t>(count))
+    if (std::cmp_equal(lengths.size(), count))
       scanner.fail(fmt::format("more than {} lengths; expected one for each vertex; remove some", count));
     lengths.push_back(length);
   }
-  if (lengths.size() < static_cast<size_t>(count))
+  if (std::cmp_less(lengths.size(), count))
     throw InputError(
         fmt::format("{}: {} lengths for {} vertices; expected one for each; is it another mesh's?", name,
                     lengths.size(), count));

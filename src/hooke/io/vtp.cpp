@@ -113,7 +113,7 @@ class DocumentReader {
     self(data).guarded([&] { self(data).end(); });
   }
   static void XMLCALL on_text(void* data, const char* text, int size) {
-    self(data).guarded([&] { self(data).add(std::string_view(text, static_cast<size_t>(size))); });
+    self(data).guarded([&] { self(data).add(std::string_view(text, size)); });
   }
   static void XMLCALL on_document_type(void* data, const char*, const char*, const char*, int) {
     self(data).guarded([&] { self(data).fail("a document type; expected none in a VTP file; remove it"); });
@@ -198,8 +198,7 @@ class DocumentReader {
   }
 
   void start_array(Attributes attributes) {
-    if (attributes.contains("offset"))
-      document_.offsets.push_back(static_cast<size_t>(count(attributes, "offset")));
+    if (attributes.contains("offset")) document_.offsets.push_back(count(attributes, "offset"));
     std::optional<Array>* place = place_of(value_of(attributes, "Name"));
     if (!place || place->has_value()) return;
     *place = Array{std::move(attributes), "", line()};
@@ -292,7 +291,7 @@ class ArrayReader {
       throw Error(fmt::format("format {}; expected ascii, binary or appended", in_quotes(format)));
     long long offset = -1;
     if (parse_integer(value_of(array.attributes, "offset"), offset) != NumberError::none || offset < 0 ||
-        static_cast<size_t>(offset) > document_.appended.size())
+        std::cmp_greater(offset, document_.appended.size()))
       throw Error(fmt::format("offset {} in {} bytes of appended data; expected less; the file is truncated",
                               in_quotes(value_of(array.attributes, "offset")), document_.appended.size()));
     const size_t begin = offset;

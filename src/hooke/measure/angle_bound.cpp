@@ -253,8 +253,7 @@ AngleBound bound_in_submesh(const MeasuredSurface& surface, int face, const std:
 /// The inverse of a list of ids: the index of each id.
 std::vector<int> inverse_of(std::span<const int> ids, size_t count) {
   std::vector<int> inverse(count);
-  for (size_t i = 0; i < count; ++i)
-    inverse[ids.empty() ? i : static_cast<size_t>(ids[i])] = static_cast<int>(i);
+  for (size_t i = 0; i < count; ++i) inverse[ids.empty() ? i : ids[i]] = static_cast<int>(i);
   return inverse;
 }
 

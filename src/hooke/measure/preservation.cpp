@@ -24,10 +24,6 @@ constexpr double max_chord = .6;    // of an edge
 constexpr double max_rough = .5;    // of the mean edge, over 2 sagittas
 constexpr double max_crease_loss = .5;
 
-std::size_t index_of(int i) {
-  return i;
-}
-
 /// The arcs of the edges, sharp ones left out.
 std::vector<EdgeArc> smooth_arcs(const MeasuredSurface& surface, double feature_angle) {
   std::vector<EdgeArc> arcs = edge_arcs(surface.points, surface.adjacency);
@@ -38,7 +34,7 @@ std::vector<EdgeArc> smooth_arcs(const MeasuredSurface& surface, double feature_
 }
 
 double longest_edge(const MeasuredSurface& surface, int face) {
-  const Triangle& t = surface.adjacency.faces[index_of(face)];
+  const Triangle& t = surface.adjacency.faces[face];
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k)
     longest = std::max(longest, (surface.points.col(t[k]) - surface.points.col(t[(k + 1) % 3])).norm());
@@ -54,10 +50,9 @@ std::vector<FarVertex> vertices_beyond(const MeasuredSurface& surface, const Mea
                                        Preservation& p) {
   std::vector<FarVertex> beyond;
   for (int v = 0; v < surface.adjacency.vertex_count; ++v) {
-    const int face = to_other.faces[index_of(v)];
+    const int face = to_other.faces[v];
     if (face < 0) continue;
-    const double distance = to_other.distances[index_of(v)], limit = limit_at(v, face),
-                 excess = distance / limit;
+    const double distance = to_other.distances[v], limit = limit_at(v, face), excess = distance / limit;
     if (excess > 1 && other.shell_of_face(face) != surface.shell_of_vertex(v)) {
       const ClosestPoint own = other.tree_of(surface.shell_of_vertex(v)).closest(surface.points.col(v));
       if (own.face >= 0 && std::sqrt(own.squared_distance) <= limit_at(v, own.face)) continue;
@@ -105,13 +100,13 @@ void add_faces_beyond(const MeasuredSurface& from, const MeasuredSurface& to,
       const auto sample = [&](const Vec3& x) {
         ClosestPoint known;
         if (near >= 0) {
-          const Triangle& t = to.adjacency.faces[index_of(near)];
+          const Triangle& t = to.adjacency.faces[near];
           update_closest(x, {to.points.col(t[0]), to.points.col(t[1]), to.points.col(t[2])}, near, known);
         }
         const ClosestPoint closest = to.tree.closest(x, any_face, known);
         near = closest.face;
         const double distance = std::sqrt(closest.squared_distance),
-                     limit = limits[is_reference ? f : index_of(closest.face)];
+                     limit = limits[is_reference ? f : closest.face];
         if (distance / limit <= excess[f]) return;
         excess[f] = distance / limit;
         worst[f] = {is_reference ? near : static_cast<int>(f), is_reference ? closest.point : x,
@@ -150,13 +145,12 @@ void measure_distances(const MeasuredSurface& reference, const MeasuredSurface& 
   const auto limit_of_result = [&](int, int face) {
     if (o.max_distance) return *o.max_distance;
     double sagitta = 0;
-    for (int v : reference.adjacency.faces[index_of(face)])
-      sagitta = std::max(sagitta, sagittas[index_of(v)]);
+    for (int v : reference.adjacency.faces[face]) sagitta = std::max(sagitta, sagittas[v]);
     return limit_of(sagitta);
   };
   const auto limit_of_reference = [&](int v, int face) {
     if (o.max_distance) return *o.max_distance;
-    return std::max(limit_of(sagittas[index_of(v)]), max_chord * longest_edge(result, face));
+    return std::max(limit_of(sagittas[v]), max_chord * longest_edge(result, face));
   };
   p.far_vertices = vertices_beyond(result, reference, deviation.vertices_to_reference, limit_of_result, p);
   p.lost_vertices =
@@ -186,7 +180,7 @@ std::vector<Triangle> as_segments(const std::vector<Edge>& edges) {
 std::vector<Edge> sharper_edges(const MeasuredSurface& surface, double angle) {
   std::vector<Edge> sharp;
   for (int e : sharp_edges(surface.points, surface.adjacency, angle))
-    sharp.push_back(surface.adjacency.edges[index_of(e)]);
+    sharp.push_back(surface.adjacency.edges[e]);
   return sharp;
 }
 
@@ -194,9 +188,9 @@ std::vector<Edge> sharper_edges(const MeasuredSurface& surface, double angle) {
 /// creases, the shorter of length l, meet at a vertex and turn by phi, at most 60 degrees.
 std::vector<double> crease_sagittas(const MeasuredSurface& surface, const std::vector<Edge>& creases) {
   const Mat3X& X = surface.points;
-  std::vector<std::vector<std::size_t>> at(index_of(surface.adjacency.vertex_count));
+  std::vector<std::vector<std::size_t>> at(surface.adjacency.vertex_count);
   for (std::size_t e = 0; e < creases.size(); ++e)
-    for (int v : creases[e]) at[index_of(v)].push_back(e);
+    for (int v : creases[e]) at[v].push_back(e);
   std::vector<double> sagittas(creases.size(), 0);
   for (std::size_t v = 0; v < at.size(); ++v) {
     if (at[v].size() != 2) continue;
@@ -232,7 +226,7 @@ EdgeDistances edge_distances(const Mat3X& points, const std::vector<Edge>& edges
         const double distance = std::sqrt(closest.squared_distance);
         if (distance < d.distance[e]) continue;
         d.distance[e] = distance;
-        d.closest[e] = index_of(closest.face);
+        d.closest[e] = closest.face;
       }
     }
   });
@@ -304,7 +298,7 @@ void measure_sharp_edges(const MeasuredSurface& reference, const MeasuredSurface
 
 std::array<Vec3, 2> crossing_segment_of(const MeasuredSurface& surface, const std::array<int, 2>& pair) {
   const auto corners = [&](int f) {
-    const Triangle& t = surface.adjacency.faces[index_of(f)];
+    const Triangle& t = surface.adjacency.faces[f];
     return std::array<Vec3, 3>{surface.points.col(t[0]), surface.points.col(t[1]), surface.points.col(t[2])};
   };
   return crossing_segment(corners(pair[0]), corners(pair[1]));
@@ -315,7 +309,7 @@ std::array<Vec3, 2> crossing_segment_of(const MeasuredSurface& surface, const st
 bool shells_touch(const MeasuredSurface& surface, const std::vector<int>& shell, const Vec3& x,
                   double reach) {
   constexpr double touching = 1e-6;  // of the diagonal
-  const auto shell_of = [&](int f) { return shell[index_of(surface.adjacency.faces[index_of(f)][0])]; };
+  const auto shell_of = [&](int f) { return shell[surface.adjacency.faces[f][0]]; };
   const ClosestPoint here = surface.tree.closest(x);
   if (here.face < 0 || here.squared_distance > reach * reach) return false;
   return surface.tree.has_face_within(touching * surface.extent.diagonal, here.point,
@@ -329,7 +323,7 @@ void drop_contacts(const MeasuredSurface& reference, const MeasuredSurface& resu
   const std::vector<int> before = label_components(reference.adjacency),
                          after = label_components(result.adjacency);
   std::erase_if(crossings, [&](const std::array<int, 2>& pair) {
-    const auto shell = [&](int f) { return after[index_of(result.adjacency.faces[index_of(f)][0])]; };
+    const auto shell = [&](int f) { return after[result.adjacency.faces[f][0]]; };
     if (shell(pair[0]) == shell(pair[1])) return false;
     const auto [from, to] = crossing_segment_of(result, pair);
     const double reach = std::max(longest_edge(result, pair[0]), longest_edge(result, pair[1]));
@@ -384,13 +378,13 @@ std::vector<int> faces_without_area(const MeasuredSurface& surface) {
 
 std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const MeasuredSurface& result) {
   std::vector<Triangle> old;
-  for (int f : faces_without_area(reference)) old.push_back(reference.adjacency.faces[index_of(f)]);
+  for (int f : faces_without_area(reference)) old.push_back(reference.adjacency.faces[f]);
   const AabbTree tree(reference.points, old);
   constexpr double within = 1e-3, rounding = 1e-12;  // of its longest edge, and of the diagonal
   std::vector<int> found = faces_without_area(result);
   std::erase_if(found, [&](int f) {
     const double distance = within * longest_edge(result, f) + rounding * result.extent.diagonal;
-    return std::ranges::all_of(result.adjacency.faces[index_of(f)],
+    return std::ranges::all_of(result.adjacency.faces[f],
                                [&](int v) { return tree.has_face_within(distance, result.points.col(v)); });
   });
   return found;
@@ -399,7 +393,7 @@ std::vector<int> new_degenerate_faces(const MeasuredSurface& reference, const Me
 namespace {
 
 Vec3 centre_of(const MeasuredSurface& surface, int face) {
-  const Triangle& t = surface.adjacency.faces[index_of(face)];
+  const Triangle& t = surface.adjacency.faces[face];
   return (surface.points.col(t[0]) + surface.points.col(t[1]) + surface.points.col(t[2])) / 3;
 }
 
@@ -427,7 +421,7 @@ Preservation measure_preservation(const CreasedSurface& reference, const Creased
              allowed = std::max(static_cast<long long>(reference.quality.self_intersections.value_or(0)) +
                                     options.more_crossings,
                                 0LL);
-  p.new_crossings = static_cast<std::size_t>(std::max(crossings - allowed, 0LL));
+  p.new_crossings = std::max(crossings - allowed, 0LL);
   std::optional<int> wrong;  // a face
   if (p.flipped_faces > 0) wrong = face_with_id(result.surface, deviation.flipped_faces.front());
   if (p.new_crossings > 0) {

@@ -76,7 +76,7 @@ size_t count_folded_edges(const Mat3X& area_vector, const Adjacency& adjacency) 
 }
 
 size_t count_degenerate_faces(const Mat3X& area_vector, double diagonal) {
-  return count_where(static_cast<size_t>(area_vector.cols()), [&](size_t f) {
+  return count_where(area_vector.cols(), [&](size_t f) {
     return has_no_area(.5 * area_vector.col(static_cast<Eigen::Index>(f)).norm(), diagonal);
   });
 }

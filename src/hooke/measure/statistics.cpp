@@ -42,7 +42,7 @@ Histogram make_histogram(const std::vector<double>& values, const Statistics& s,
   const bool given = bins.lower < bins.upper;
   const double lower = given ? bins.lower : s.min;
   const double upper = given ? bins.upper : s.max;
-  const size_t n = lower < upper ? static_cast<size_t>(bins.count) : 1;
+  const size_t n = lower < upper ? bins.count : 1;
   Histogram h;
   for (size_t k = 0; k < n; ++k)
     h.edges.push_back(lower + (upper - lower) * static_cast<double>(k) / static_cast<double>(n));

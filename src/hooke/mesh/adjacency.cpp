@@ -44,7 +44,7 @@ void collect(int vertex, std::span<const int> its_faces, const std::vector<Trian
 size_t follower(const std::vector<FaceInRing>& ring, const FaceInRing& entry) {
   const auto position = std::ranges::lower_bound(ring, entry.next, {}, &FaceInRing::previous);
   const bool found = position != ring.end() && position->previous == entry.next;
-  return found ? static_cast<size_t>(position - ring.begin()) : ring.size();
+  return found ? position - ring.begin() : ring.size();
 }
 
 Fan classify(const std::vector<FaceInRing>& ring, std::vector<char>& followed) {
@@ -129,8 +129,7 @@ void number_edges(const std::vector<int>& twins, Adjacency& c) {
       c.edges[edge] = {t[h % 3], t[(h + 1) % 3]};
       c.edge_faces[edge] = {static_cast<int>(h / 3), twins[h] < 0 ? -1 : twins[h] / 3};
       c.face_edges[h / 3][h % 3] = edge;
-      if (twins[h] >= 0)
-        c.face_edges[static_cast<size_t>(twins[h]) / 3][static_cast<size_t>(twins[h]) % 3] = edge;
+      if (twins[h] >= 0) c.face_edges[twins[h] / 3][twins[h] % 3] = edge;
       ++edge;
     }
   });

@@ -12,9 +12,9 @@ HalfedgeMesh::HalfedgeMesh(const Adjacency& c)
     : faces_(c.faces),
       wedges_(c.wedge_faces),
       twins_(3 * c.faces.size(), -1),
-      outgoing_halfedge_(static_cast<size_t>(c.wedge_count()), -1),
-      valences_(static_cast<size_t>(c.wedge_count()), -1),
-      on_boundary_(static_cast<size_t>(c.wedge_count()), 0),
+      outgoing_halfedge_(c.wedge_count(), -1),
+      valences_(c.wedge_count(), -1),
+      on_boundary_(c.wedge_count(), 0),
       constrained_(3 * c.faces.size(), 0) {
   std::fill_n(valences_.begin(), c.vertex_count, 0);
   std::vector<int> first(c.edges.size(), -1);
@@ -120,7 +120,7 @@ void HalfedgeMesh::flip(int h) {
   link(3 * f + 2, 3 * g + 2);
   link(3 * g, db);
   link(3 * g + 1, bc);
-  for (size_t i = 0; i < 4; ++i) constrained_[static_cast<size_t>(i < 2 ? 3 * f : 3 * g) + i % 2] = marks[i];
+  for (size_t i = 0; i < 4; ++i) constrained_[(i < 2 ? 3 * f : 3 * g) + i % 2] = marks[i];
   constrained_[3 * f + 2] = constrained_[3 * g + 2] = 0;
   outgoing_halfedge_[c] = 3 * f;
   outgoing_halfedge_[a] = 3 * f + 1;
@@ -136,7 +136,7 @@ void HalfedgeMesh::flip(int h) {
 /// ends at the new vertex; the other half is a new face at the end.
 void HalfedgeMesh::split(int h, int vertex, int wedge) {
   const int b = to(h), c = opposite_vertex(h), across = twin(next(h));
-  const auto f = static_cast<size_t>(h / 3), cut = static_cast<size_t>(next(h));
+  const size_t f = h / 3, cut = next(h);
   const int g = static_cast<int>(twins_.size());  // first half-edge of the new face
   if (!wedges_.empty()) {
     wedges_.push_back({wedge, this->wedge(next(h)), this->wedge(previous(h))});
@@ -228,7 +228,7 @@ void HalfedgeMesh::collapse(int h, int stays) {
   SmallIntList wedges;
   for (int out : halfedges) wedges.push_back(wedge_after_collapse(h, stays, out));
   for (size_t i = 0; i < halfedges.size(); ++i) {
-    const auto f = static_cast<size_t>(halfedges[i] / 3), k = static_cast<size_t>(halfedges[i] % 3);
+    const size_t f = halfedges[i] / 3, k = halfedges[i] % 3;
     faces_[f][k] = stays;
     if (!wedges_.empty()) wedges_[f][k] = wedges[i];
   }
@@ -293,7 +293,7 @@ std::vector<int> HalfedgeMesh::compact() {
   twins_.resize(3 * order.size());
   constrained_.resize(3 * order.size());
   for_each_index(order.size(), [&](size_t g) {
-    const auto i = static_cast<size_t>(order[g]), f = static_cast<size_t>(left[i]);
+    const size_t i = order[g], f = left[i];
     faces_[g] = faces[i];
     if (!wedges_.empty()) wedges_[g] = old.wedges_[f];
     for (size_t k = 0; k < 3; ++k) {

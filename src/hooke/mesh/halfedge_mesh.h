@@ -19,12 +19,12 @@ class HalfedgeMesh {
   /// another sheet may have the same.
   void mark_junctions(std::vector<char> marks) { at_junction_ = std::move(marks); }
   void mark_junction(int vertex) {
-    const auto v = static_cast<std::size_t>(vertex);
+    const std::size_t v = vertex;
     if (at_junction_.size() <= v) at_junction_.resize(v + 1, 0);
     at_junction_[v] = 1;
   }
   bool at_junction(int vertex) const {
-    const auto v = static_cast<std::size_t>(vertex);
+    const std::size_t v = vertex;
     return v < at_junction_.size() && at_junction_[v] != 0;
   }
 

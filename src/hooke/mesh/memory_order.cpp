@@ -54,7 +54,7 @@ IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
   IntLists corners = inverse(vertex_count, faces);
   parallel_for(vertex_count, order_block, [&](size_t begin, size_t end) {
     for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      for (int i = corners.first[v]; i < corners.first[static_cast<size_t>(v) + 1]; ++i) {
+      for (int i = corners.first[v]; i < corners.first[v + 1]; ++i) {
         int& item = corners.items[i];
         const Triangle& t = faces[item];
         item = t[0] == v ? t[1] : t[1] == v ? t[2] : t[0];
@@ -67,7 +67,7 @@ IntLists next_corners(int vertex_count, const std::vector<Triangle>& faces) {
 template <class Each>
 void for_each_vertex(const Permutation& order, const Each& each) {
   parallel_for(order.old_vertex.size(), order_block, [&](size_t begin, size_t end) {
-    for (size_t v = begin; v < end; ++v) each(v, static_cast<size_t>(order.old_vertex[v]));
+    for (size_t v = begin; v < end; ++v) each(v, order.old_vertex[v]);
   });
 }
 

@@ -501,7 +501,7 @@ std::vector<MapEntry> map_to_old(std::vector<MapEntry> map, const MeshOrigin& or
     if (entry.vertex >= 0) entry.vertex = origin.vertex[entry.vertex];
     SurfacePoint& point = entry.position;
     if (point.face < 0) continue;
-    if (static_cast<size_t>(point.face) >= over_holes) {
+    if (std::cmp_greater_equal(point.face, over_holes)) {
       point = {};
       continue;
     }

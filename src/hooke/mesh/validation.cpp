@@ -62,8 +62,7 @@ template <typename Item, typename Each>
 Buckets<Item> fill_buckets(size_t vertices, size_t faces, const Each& each) {
   Buckets<Item> buckets;
   buckets.first.assign(vertices + 1, 0);
-  for (size_t f = 0; f < faces; ++f)
-    each(f, [&](int v, const Item&) { ++buckets.first[static_cast<size_t>(v) + 1]; });
+  for (size_t f = 0; f < faces; ++f) each(f, [&](int v, const Item&) { ++buckets.first[v + 1]; });
   for (size_t v = 0; v < vertices; ++v) buckets.first[v + 1] += buckets.first[v];
   buckets.items.resize(buckets.first[vertices]);
   std::vector<size_t> next(buckets.first.begin(), buckets.first.end() - 1);
@@ -136,7 +135,7 @@ int count_parts(const Edge* begin, const Edge* end, std::vector<int>& nodes, std
   parent.resize(nodes.size());
   for (size_t i = 0; i < parent.size(); ++i) parent[i] = i;
   const auto root = [&](int id) {
-    auto i = static_cast<size_t>(std::lower_bound(nodes.begin(), nodes.end(), id) - nodes.begin());
+    size_t i = std::lower_bound(nodes.begin(), nodes.end(), id) - nodes.begin();
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };

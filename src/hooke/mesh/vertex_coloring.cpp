@@ -93,7 +93,7 @@ VertexRings make_wedge_rings(const Adjacency& c) {
     const int v = vertex_of(s);
     int face = -1;
     rings.crease_opposite.push_back(-1);
-    for (int i = rings.first[s]; i < rings.first[static_cast<size_t>(s) + 1]; ++i) {
+    for (int i = rings.first[s]; i < rings.first[s + 1]; ++i) {
       RingEntry& entry = rings.items[i];
       rings.wedges.push_back(entry.neighbour);
       entry.neighbour = vertex_of(entry.neighbour);
@@ -117,8 +117,8 @@ std::vector<std::vector<int>> block_adjacency(const VertexRings& rings, const Ad
   const int vertex_count = c.vertex_count;
   const size_t blocks = (vertex_count + block - 1) / block;
   std::vector<std::vector<int>> adjacent(blocks);
-  const auto extra_wedge = [&](int vertex) {  // first one of this vertex or a later one
-    return static_cast<size_t>(std::ranges::lower_bound(c.extra_wedges, vertex) - c.extra_wedges.begin());
+  const auto extra_wedge = [&](int vertex) -> size_t {  // first one of this vertex or a later one
+    return std::ranges::lower_bound(c.extra_wedges, vertex) - c.extra_wedges.begin();
   };
   parallel_for(blocks, 8, [&](size_t begin, size_t end) {
     for (size_t b = begin; b < end; ++b) {

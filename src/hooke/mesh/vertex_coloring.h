@@ -61,7 +61,7 @@ void for_each_of(const VertexColoring& coloring, const std::vector<int>& vertice
     auto v = std::ranges::lower_bound(vertices, begin);
     if (v == vertices.end() || *v >= end) return;
     auto worker = make();
-    for (; v != vertices.end() && *v < end; ++v) body(worker, static_cast<std::size_t>(v - vertices.begin()));
+    for (; v != vertices.end() && *v < end; ++v) body(worker, v - vertices.begin());
   });
 }
 

@@ -27,8 +27,7 @@ struct CellHash {
 // The vertices that are merged with none so far, by the cells of a grid.
 class Grid {
  public:
-  Grid(const Mat3X& points, double size)
-      : points_(points), size_(size), next_(static_cast<size_t>(points.cols()), -1) {}
+  Grid(const Mat3X& points, double size) : points_(points), size_(size), next_(points.cols(), -1) {}
 
   void add(int vertex) {
     const auto [head, fresh] = heads_.try_emplace(cell_of(vertex), vertex);

@@ -227,7 +227,7 @@ std::vector<PartOfResult> parts_of_result(const std::vector<PartOfMesh>& parts, 
   std::vector<int> part_of_face, id_of_face, part_of_origin(result.input_points.cols(), -1),
       id_of_origin(part_of_origin);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto count = static_cast<std::size_t>(parts[p].faces.empty() ? 0 : parts[p].faces.back() + 1);
+    const std::size_t count = parts[p].faces.empty() ? 0 : parts[p].faces.back() + 1;
     part_of_face.resize(std::max(part_of_face.size(), count), -1);
     id_of_face.resize(part_of_face.size(), -1);
     for (std::size_t f = 0; f < parts[p].faces.size(); ++f) {

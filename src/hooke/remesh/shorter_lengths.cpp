@@ -56,7 +56,7 @@ int ShorterLengths::count_in(const Attempt& run) const {
   int count = 0;
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
     const double asked = asked_at(points.col(v)), length = places.length_at(points.col(v), asked);
-    count += length < clearly * asked && length <= moved * lengths[static_cast<std::size_t>(v)];
+    count += length < clearly * asked && length <= moved * lengths[v];
   }
   return count;
 }

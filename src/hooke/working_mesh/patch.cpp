@@ -81,7 +81,7 @@ class PatchCutter {
     std::vector<int> faces;
     const int movable = static_cast<int>(patch_.movable);
     for (int id = 0; id < movable; ++id)
-      for (int h : outgoing(static_cast<size_t>(id))) {
+      for (int h : outgoing(id)) {
         const int second = add(HalfedgeMesh::next(h)), third = add(HalfedgeMesh::previous(h));
         if (second < id || third < id) continue;
         Triangle face = {id, second, third};

@@ -78,7 +78,7 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   start_length_ = vertices.vertex_length;
   place_lengths(shorter);
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    double& l = vertices.vertex_length[static_cast<std::size_t>(v)];
+    double& l = vertices.vertex_length[v];
     l = length_at(points.col(v), l);
   }
   start = std::make_shared<const Mat3X>(std::move(points));
