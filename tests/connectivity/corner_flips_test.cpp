@@ -14,7 +14,7 @@ namespace hooke::corner_flips_test {
 int target_valence_at_tip(double angle) {
   const test::Triangles t = test::fan(angle, 4);
   const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
-  return corner_valences(t.points, c, find_constraints(t.points, c, {}), 35)[0];
+  return corner_valences(t.points, c, find_constraints(t.points, c, {}))[0];
 }
 
 TEST(CornerFlips, ACornerTargetsFacesOfAboutSixtyDegrees) {
@@ -29,11 +29,11 @@ TEST(CornerFlips, OnlyCornersOfTheBoundaryHaveATarget) {
   EXPECT_EQ(target_valence_at_tip(170), 0);  // nearly straight
   const test::Triangles t = test::grid(4, test::flat);
   const Adjacency c = make_adjacency(25, t.faces);
-  const std::vector<int> targets = corner_valences(t.points, c, find_constraints(t.points, c, {}), 35);
+  const std::vector<int> targets = corner_valences(t.points, c, find_constraints(t.points, c, {}));
   EXPECT_EQ(std::count(targets.begin(), targets.end(), 0), 21);
   const test::Triangles ball = test::sphere(1);
   const Adjacency closed = make_adjacency(42, ball.faces);
-  for (int v : corner_valences(ball.points, closed, find_constraints(ball.points, closed, {}), 35))
+  for (int v : corner_valences(ball.points, closed, find_constraints(ball.points, closed, {})))
     EXPECT_EQ(v, 0);
 }
 
@@ -46,7 +46,7 @@ class CornerIsForced : public testing::TestWithParam<Fan> {};
 TEST_P(CornerIsForced, ToItsTargetValenceAndStaysThere) {
   const test::Triangles t = test::fan(GetParam().angle, GetParam().edge_count);
   test::WorkingScene s(t, test::plane());
-  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints);
   const Vec3 tip = s.positions.points.col(0);
   EXPECT_GT(flip_corners_to_valence(s.mesh), 0);
   EXPECT_EQ(s.halfedges.valence(0), s.vertices.corner_valences[0]);
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Fans, CornerIsForced,
 TEST(CornerFlips, ACornerCutOffByOneFaceIsOpened) {
   const test::Triangles t = test::grid(4, test::flat);
   test::WorkingScene s(t, test::plane());
-  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints);
   for (int corner : {4, 20}) ASSERT_EQ(s.halfedges.valence(corner), 2);
   EXPECT_EQ(flip_corners_to_valence(s.mesh), 2);
   for (int corner : {0, 4, 20, 24}) EXPECT_EQ(s.halfedges.valence(corner), 3);
@@ -75,7 +75,7 @@ TEST(CornerFlips, AnInnerNeighbourDeepInTheEarIsMovedOutOfIt) {
   test::Triangles t = test::fan(42, 3);
   t.points.col(2) *= .6;  // behind the line between its neighbours: the edge to it cannot be flipped directly
   test::WorkingScene s(t, test::plane());
-  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints, 35);
+  s.vertices.corner_valences = corner_valences(t.points, s.adjacency, s.constraints);
   ASSERT_FALSE(may_flip(s.mesh, test::half_edge(s.halfedges, 0, 2)));
   flip_corners_to_valence(s.mesh);
   EXPECT_EQ(s.halfedges.valence(0), 2);

@@ -34,7 +34,7 @@ Outcome matched(const test::Triangles& t, double length, double chord_error = .1
   o.before = counts_of(mesh);
   o.topology_before = topology_of(mesh);
   Workspace work(mesh, find_memory_order(mesh), {}, {}, {});
-  work.set_corner_valences(35);
+  work.set_corner_valences();
   WorkingMesh m(work);
   for (JunctionVertex& v : work.vertices.constraints.junction_vertices) v.slides = v.curve >= 0;  // at bends
   o.changes = match_junction_edges(m, chord_error, collapse);

@@ -128,7 +128,6 @@ TEST(SliverRemoval, NeverLowersTheLeastAngleNorFoldsAFace) {
 TEST(SliverRemoval, AddsNothingBeyondTheLimits) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     test::WorkingScene s(test::sphere(2, .4, seed), test::unit_sphere());
-    const CandidateOptions options;
     const auto worst = [&](const auto& measure) {
       double most = 0;
       for (const Triangle& t : faces_of(s))
@@ -142,8 +141,8 @@ TEST(SliverRemoval, AddsNothingBeyondTheLimits) {
     const auto sagitta = [&](const Edge& e) {
       return edge_sagitta(s.positions.points, s.positions.normals, e) / s.vertices.vertex_length[0];
     };
-    const double longest = std::max(options.longest, worst(length));
-    const double deepest = std::max(options.sagitta, worst(sagitta));
+    const double longest = std::max(max_length_near_slivers, worst(length));
+    const double deepest = std::max(max_sagitta_near_slivers, worst(sagitta));
     EXPECT_GT(change(s, any_count, {.sliver_angles = {40}}).count(), 0);
     EXPECT_LE(worst(length), longest + 1e-9) << seed;
     EXPECT_LE(worst(sagitta), deepest + 1e-9) << seed;
@@ -180,7 +179,7 @@ TEST(SliverRemoval, NoEdgeIsTriedAgainWhereNothingHasChanged) {
   test::WorkingScene s(t, test::plane());
   int calls = 0;
   const auto count = [&](const Progress&) { return ++calls > 0; };
-  const SliverOptions options{.sliver_angles = {30}, .change = {.gain = 1e9}};
+  const SliverOptions options{.sliver_angles = {30}, .searched = 0};
   EXPECT_EQ(change(s, same_count, options, count).count(), 0);
   EXPECT_EQ(calls, 1);
 }

@@ -134,7 +134,6 @@ TEST(Constraints, CornersAreSeenIn3D) {
 TEST(Constraints, TheCornerAngleIsTheTurnOfTheBoundary) {
   EXPECT_EQ(count_of(constraints_of(disk(10)), Freedom::fixed), 10);  // 36 degrees
   EXPECT_EQ(count_of(constraints_of(disk(11)), Freedom::fixed), 0);   // 32.7
-  EXPECT_EQ(count_of(constraints_of(disk(11), {.corner_angle = 30}), Freedom::fixed), 11);
 }
 
 TEST(Constraints, ALoopWithoutCornersIsAClosedCurve) {

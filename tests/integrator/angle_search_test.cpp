@@ -109,8 +109,7 @@ TEST(AngleSearch, MayPayMoreWhereItIsAllowedTo) {
 TEST(AngleSearch, SpringsAndPatternSearchTogetherReachMore) {
   double gained = 0, lost = 0;
   for (unsigned seed = 1; seed <= 6; ++seed) {
-    const Outcome both = search(irregular(seed)),
-                  pattern = search(irregular(seed), {.springs = {.range = 0}});
+    const Outcome both = search(irregular(seed)), pattern = search(irregular(seed), {.spring_range = 0});
     EXPECT_LE(both.error_after, AngleSearchOptions{}.edge_error_limit * both.error_before);
     EXPECT_EQ(both.upside_down, 0);
     gained += both.angle_after - pattern.angle_after;
@@ -123,10 +122,9 @@ TEST(AngleSearch, SpringsAndPatternSearchTogetherReachMore) {
 TEST(AngleSearch, PatternSearchGoesOnWhereSpringsMakeTheEdgesTooUnequal) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     AngleSearchOptions options{.edge_error_limit = 1.01, .sagitta = 0};
-    options.vertex.first_step = .02;
-    options.springs.range = .9;
+    options.spring_range = .9;
     const Outcome both = search(irregular(seed), options);
-    options.springs.range = 0;
+    options.spring_range = 0;
     const Outcome pattern = search(irregular(seed), options);
     EXPECT_GT(both.angle_after, pattern.angle_after + 1.1);
   }
@@ -166,7 +164,7 @@ TEST(AngleSearch, FacesSetAsideAreTakenBackForLargerSagittas) {
     tight.limits.sagitta = .02;
     test::Scene s(test::sphere(2, .3, seed), test::to_unit_sphere, tight);
     Relaxation r = s.relaxation();
-    search_angles(r, {.springs = {.range = 0}, .edge_error_limit = 1.1, .sagitta = .15});
+    search_angles(r, {.spring_range = 0, .edge_error_limit = 1.1, .sagitta = .15});
     EXPECT_GT(min_angle(s.positions.points, s.adjacency.faces), 50);
   }
 }
@@ -186,7 +184,7 @@ TEST(AngleSearch, SagittasMayGrowWhereThatIsWorthIt) {
       };
       const double before = max_sagitta();
       Relaxation r = s.relaxation();
-      search_angles(r, {.springs = {.range = 0}, .edge_error_limit = 1.1, .sagitta = sagitta});
+      search_angles(r, {.spring_range = 0, .edge_error_limit = 1.1, .sagitta = sagitta});
       EXPECT_LE(max_sagitta(), std::max(sagitta, before) + 1e-6);
       return min_angle(s.positions.points, s.adjacency.faces);
     };

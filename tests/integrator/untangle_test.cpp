@@ -28,7 +28,7 @@ TEST(Untangle, UnfoldsAVertexThatWasPulledAcrossAnEdge) {
   ASSERT_GT(downward_faces(s), 0);
   Relaxation r = s.relaxation();
   const int before = downward_faces(s);
-  const UntangleResult result = untangle(r, {}, nullptr);
+  const UntangleResult result = untangle(r, nullptr);
   EXPECT_EQ(result.folded_before, before);
   EXPECT_TRUE(result.folded.empty());
   EXPECT_EQ(downward_faces(s), 0);
@@ -43,7 +43,7 @@ TEST(Untangle, UnfoldsOnASphere) {
   test::Scene s(t, test::to_unit_sphere);
   ASSERT_FALSE(s.guards.folded_faces(s.positions).empty());
   Relaxation r = s.relaxation();
-  EXPECT_TRUE(untangle(r, {}, nullptr).folded.empty());
+  EXPECT_TRUE(untangle(r, nullptr).folded.empty());
   for (const Triangle& face : t.faces)
     EXPECT_GT(test::area_vector(s.positions.points, face).dot(s.positions.points.col(face[0])), 0);
 }
@@ -54,7 +54,7 @@ TEST(Untangle, OpensASliverThatHardlyLiesOutsideTheBoundary) {
   test::Scene s(t, test::to_ground);
   ASSERT_GT(downward_faces(s), 0);
   Relaxation r = s.relaxation();
-  EXPECT_TRUE(untangle(r, {}, nullptr).folded.empty());
+  EXPECT_TRUE(untangle(r, nullptr).folded.empty());
   EXPECT_GT(min_angle(s.positions.points, t.faces), 2);
 }
 
@@ -62,7 +62,7 @@ TEST(Untangle, AMeshWithoutFoldsIsLeftAlone) {
   test::Scene s = test::ground_scene(.3);
   const SurfacePositions before = s.positions;
   Relaxation r = s.relaxation();
-  const UntangleResult result = untangle(r, {}, nullptr);
+  const UntangleResult result = untangle(r, nullptr);
   EXPECT_EQ(result.folded_before, 0);
   EXPECT_EQ(result.sweeps, 0);
   EXPECT_TRUE(test::same(s.positions, before));
@@ -72,7 +72,7 @@ TEST(Untangle, PutsTheEnergyBackAsItWas) {
   test::Scene s(folded_grid(), test::to_ground);
   Relaxation r = s.relaxation();
   r.terms.altitude = .7;
-  untangle(r, {}, nullptr);
+  untangle(r, nullptr);
   EXPECT_EQ(r.terms.altitude, .7);
   EXPECT_EQ(r.terms.unfold, 0);
 }
@@ -81,7 +81,7 @@ TEST(Untangle, StopsWhenAskedTo) {
   test::Scene s(folded_grid(), test::to_ground);
   Relaxation r = s.relaxation();
   int calls = 0;
-  const UntangleResult result = untangle(r, {}, [&](const Progress&) { return ++calls < 1; });
+  const UntangleResult result = untangle(r, [&](const Progress&) { return ++calls < 1; });
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(calls, 1);
   EXPECT_EQ(r.terms.unfold, 0);
@@ -96,7 +96,7 @@ TEST(Untangle, NamesWhatItCannotUnfold) {
   const int before = downward_faces(s);
   ASSERT_GT(before, 0);
   Relaxation r = s.relaxation();
-  const UntangleResult result = untangle(r, {}, nullptr);
+  const UntangleResult result = untangle(r, nullptr);
   EXPECT_FALSE(result.folded.empty());
   EXPECT_LE(static_cast<int>(result.folded.size()), result.folded_before);
   for (int f : result.folded)

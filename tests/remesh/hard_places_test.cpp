@@ -115,7 +115,7 @@ TEST(HardPlaces, OtherEdgesRemoveTheSliversThatSpringsLeave) {
       options.connectivity = mode;
       options.effort = Effort::standard;
       RunOptions without_removal(options);
-      without_removal.slivers.pass.rounds = 0;
+      without_removal.slivers.rounds = 0;
       const Quality improved = quality_of(test::remeshed(lens, options).mesh);
       const Quality left = quality_of(test::remeshed(lens, without_removal).mesh);
       EXPECT_GE(improved.min_angle.min, left.min_angle.min - 1e-9) << seed;
@@ -137,7 +137,7 @@ TEST(HardPlaces, SliverRemovalIsTheSameForAnyNumberOfThreadsAndStopsWhenAsked) {
     options.connectivity = mode;
     options.effort = Effort::standard;
     RunOptions with_one_angle(options);
-    with_one_angle.slivers.pass.sliver_angles = {33};
+    with_one_angle.slivers.sliver_angles = {33};
     int slivers = 0;
     const auto run = [&](int threads, int stop_at) {
       const ThreadLimit limit(threads);

@@ -18,6 +18,7 @@
 #include "hooke/core/stopwatch.h"
 #include "hooke/integrator/lbfgs.h"
 #include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/untangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/vertex_coloring.h"
@@ -30,13 +31,19 @@
 namespace hooke {
 namespace {
 
+/// Maximum distance of a feature curve from its edges, in target lengths.
+constexpr double max_chord_error = .1;
+
+struct StepCounts {
+  long long splits = 0, collapses = 0, flips = 0;
+};
+
 /// The steps of the adaptation. All preserve the topology, boundary loops, creases, corners and fixed
 /// vertices. Keeps references to its arguments. finish() must be the last call.
 class AdaptationSteps {
  public:
-  /// `corner_angle`: degrees, see corner_valences().
-  AdaptationSteps(Workspace& work, const StepOptions& options, const EnergyTerms& terms,
-                  const ShapeLimits& limits, double corner_angle, Observer observer);
+  AdaptationSteps(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
+                  const ShapeLimits& limits, Observer observer);
 
   /// Lets vertices at bends move and collapse on curves whose number of edges is to change.
   void release_bends();
@@ -89,7 +96,7 @@ class AdaptationSteps {
   void add(const CountChanges& changes);
 
   Workspace& work_;
-  const StepOptions& options_;
+  const AdaptOptions& options_;
   const EnergyTerms& terms_;
   const ShapeLimits& limits_;
   const Observer observer_;
@@ -160,13 +167,14 @@ bool is_regular(const WorkingMesh& m, const CoarseLimits& limits) {
   const auto is_edge = [&](int h) { return t.twin(h) <= h; };
   const auto is_misfit = [&](int h) {
     const double length = relative_length(m, h);
-    return length < limits.shortest || length > limits.longest;
+    return length < .8 || length > 4. / 3;
   };
+  constexpr double misfit_share = .01;
   const int ids = t.id_count(), half_edges = t.half_edge_count();
   return count_of(ids, [&](int v) { return is_inner(v) && t.valence(v) != 6; }) <=
              limits.irregular_share * count_of(ids, is_inner) &&
          count_of(half_edges, [&](int h) { return is_edge(h) && is_misfit(h); }) <=
-             limits.misfit_share * count_of(half_edges, is_edge);
+             misfit_share * count_of(half_edges, is_edge);
 }
 
 /// Sagitta over chord length of a circular arc that turns by this angle, radians; at most 1/2.
@@ -192,36 +200,37 @@ int coarse_levels(const WorkingMesh& m, double target_faces, const CoarseLimits&
   return level;
 }
 
-AdaptationSteps::AdaptationSteps(Workspace& work, const StepOptions& options, const EnergyTerms& terms,
-                                 const ShapeLimits& limits, double corner_angle, Observer observer)
+AdaptationSteps::AdaptationSteps(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
+                                 const ShapeLimits& limits, Observer observer)
     : work_(work),
       options_(options),
       terms_(terms),
       limits_(limits),
       observer_(std::move(observer)),
       m_(work) {
-  work.set_corner_valences(corner_angle);
+  work.set_corner_valences();
   if (work.has_placed_lengths()) sample_lengths_at_vertices();
 }
 
 void AdaptationSteps::release_bends() {
-  count_curve_edges(m_, options_.chord_error);
+  count_curve_edges(m_, max_chord_error);
   const auto is_to_change = [&](const CurveEdges& edges, int curve) {
     const double target = edges.target[curve], ratio = target / edges.present[curve];
-    const bool is_resolved = ratio >= options_.resolve_bends;
-    return !is_resolved && std::max(ratio, 1 / ratio) > options_.keep_bends;
+    // A curve keeps its bends about the target count, and where it is split between them.
+    constexpr double about = 1.3, resolved = 1.5;
+    return ratio < resolved && std::max(ratio, 1 / ratio) > about;
   };
   Constraints& constraints = work_.vertices.constraints;
   for (size_t v = 0; v < constraints.freedom.size(); ++v)
     if (constraints.at_bend(static_cast<int>(v)) && is_to_change(m_.curve_edges, constraints.curve[v]))
       constraints.freedom[v] = Freedom::curve;
-  const CurveEdges of_junctions = count_junction_edges(m_, options_.chord_error);
+  const CurveEdges of_junctions = count_junction_edges(m_, max_chord_error);
   for (JunctionVertex& v : constraints.junction_vertices)
     if (v.curve >= 0 && !v.slides) v.slides = is_to_change(of_junctions, v.curve);
 }
 
 void AdaptationSteps::match_junctions() {
-  const CountChanges changes = match_junction_edges(m_, options_.chord_error);
+  const CountChanges changes = match_junction_edges(m_, max_chord_error);
   if (changes.splits + changes.collapses == 0) return;
   add(changes);
   counts_.flips += flip_to_delaunay(m_);
@@ -238,7 +247,7 @@ int AdaptationSteps::coarse_levels(double target_faces, const CoarseLimits& limi
 }
 
 void AdaptationSteps::split_and_collapse() {
-  count_curve_edges(m_, options_.chord_error);
+  count_curve_edges(m_, max_chord_error);
   // Splits would cut needles, as of extruded bodies, into many times the faces that are wanted, so they come
   // a share at a time, and after collapses where needles form fans, as in the caps of these bodies.
   const double wanted = wanted_faces();  // before any collapse: removed faces have no vertices
@@ -268,7 +277,7 @@ void AdaptationSteps::split_and_collapse() {
 bool AdaptationSteps::change_count(double target_faces) {
   constexpr double hardly_any = .05;  // of the edges that a round changes where nothing holds them
   const int planned = changes_towards(target_faces, face_count());
-  count_curve_edges(m_, options_.chord_error);
+  count_curve_edges(m_, max_chord_error);
   add(match_curve_edges(m_));
   const CountChanges inner = approach_face_count(m_, target_faces);
   compact_ids();
@@ -307,7 +316,7 @@ int AdaptationSteps::pass_over_irregular(std::vector<char>& lately_changed) {
 
 void AdaptationSteps::subdivide() {
   const Stage stage(work_.stopwatch, "quadruple");
-  count_curve_edges(m_, options_.chord_error);
+  count_curve_edges(m_, max_chord_error);
   counts_.splits += hooke::subdivide(m_);
   compact_ids();
   coarsen(-1);
@@ -360,11 +369,11 @@ namespace {
 class Adaptation {
  public:
   Adaptation(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
-             const ShapeLimits& limits, double corner_angle, const Observer& observer)
+             const ShapeLimits& limits, const Observer& observer)
       : options_(options),
         observer_(observer),
         goes_on_(work.has_held_vertices()),
-        steps_(work, options.steps, terms, limits, corner_angle, watch()) {
+        steps_(work, options, terms, limits, watch()) {
     result_.target_faces = target_face_count(work.vertices, work.adjacency->faces);
   }
 
@@ -398,20 +407,21 @@ class Adaptation {
     if (!folded) steps_.lloyd_flow(options_.first_flow);
     adapt_lengths(options_.rounds, options_.flow_rounds);
     if (steps_.has_placed_lengths()) result_.target_faces = steps_.wanted_faces();
-    approach(result_.target_faces, options_.count_slack);
+    approach(result_.target_faces, count_slack);
   }
 
   void refine_coarse_mesh() {
     steps_.coarsen(result_.levels);
     adapt_lengths(options_.rounds, options_.coarse_flow);
-    approach(result_.target_faces / std::pow(4, result_.levels), options_.count_slack);
+    approach(result_.target_faces / std::pow(4, result_.levels), count_slack);
     for (int level = result_.levels; level > 0; --level) {
       if (level < result_.levels) lloyd_flow(options_.coarse_flow);
       if (!steps_.interrupted()) steps_.flip_irregular();
       steps_.subdivide();  // even if interrupted, to restore the requested target lengths
     }
-    adapt_lengths(options_.fine_rounds, options_.fine_flow);
-    approach(result_.target_faces, options_.fine_count_slack * result_.target_faces);
+    adapt_lengths(1, options_.fine_flow);
+    constexpr double fine_count_slack = .01;  // share of the target face count
+    approach(result_.target_faces, fine_count_slack * result_.target_faces);
   }
 
   void adapt_lengths(int rounds, int flow_rounds) {
@@ -423,7 +433,8 @@ class Adaptation {
   }
 
   void approach(double target_faces, double slack) {
-    for (int i = 0; i < options_.count_rounds && !steps_.interrupted(); ++i) {
+    constexpr int max_rounds = 30;
+    for (int i = 0; i < max_rounds && !steps_.interrupted(); ++i) {
       if (std::abs(steps_.face_count() - target_faces) <= slack) return;
       if (!steps_.change_count(target_faces)) return;
       ++result_.count_rounds;
@@ -444,6 +455,8 @@ class Adaptation {
     };
   }
 
+  static constexpr double count_slack = 2;  // faces by which the count may miss the target
+
   const AdaptOptions& options_;
   const Observer& observer_;
   const bool goes_on_;
@@ -463,8 +476,8 @@ AdaptOptions adapt_options(Effort effort) {
       options.coarse.levels = 3;
       options.coarse_flow = 3;
       options.fine_flow = 1;
-      options.steps.spring_steps = 8;
-      options.steps.irregular = {.passes = 1};
+      options.spring_steps = 8;
+      options.irregular = {.passes = 1};
       options.last_flow = options.last_passes = 0;
       options.last_outer = 1;
       options.last_steps = 1;  // one sweep
@@ -475,10 +488,10 @@ AdaptOptions adapt_options(Effort effort) {
       options.rounds = 7;
       options.flow_rounds = 8;
       options.coarse_flow = options.fine_flow = 20;
-      options.steps.irregular.passes = 8;
-      options.steps.irregular.sweeps = 6;
-      options.steps.irregular.max_energy_rise = .6;
-      options.steps.irregular.max_rise_after_relaxation = .2;
+      options.irregular.passes = 8;
+      options.irregular.sweeps = 6;
+      options.irregular.max_energy_rise = .6;
+      options.irregular.max_rise_after_relaxation = .2;
       options.last_flow = 20;
       options.last_passes = 8;
       break;
@@ -494,16 +507,16 @@ FlipOptions flips_after(const AdaptResult& adapted, const AdaptOptions& options,
 }
 
 AdaptResult adapt(Workspace& work, const AdaptOptions& options, const EnergyTerms& terms,
-                  const ShapeLimits& limits, double corner_angle, const Observer& observer) {
+                  const ShapeLimits& limits, const Observer& observer) {
   const UntangleResult unfolded = [&] {
     Relaxation relaxation(work, terms, limits);
-    return untangle(relaxation, {}, observer);
+    return untangle(relaxation, observer);
   }();
   AdaptResult result;
   if (unfolded.interrupted)
     result.interrupted = true;
   else
-    result = Adaptation(work, options, terms, limits, corner_angle, observer).run(!unfolded.folded.empty());
+    result = Adaptation(work, options, terms, limits, observer).run(!unfolded.folded.empty());
   result.folded_before = unfolded.folded_before;
   return result;
 }

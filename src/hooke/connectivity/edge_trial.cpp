@@ -9,6 +9,7 @@
 #include "hooke/core/lists.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/integrator/angle_search.h"
 #include "hooke/integrator/gauss_seidel.h"
 #include "hooke/integrator/relaxation.h"
 #include "hooke/mesh/adjacency.h"
@@ -19,12 +20,12 @@
 namespace hooke {
 namespace {
 
-void add_face(const SurfacePositions& p, const Triangle& t, const PatchLimits& limits,
+void add_face(const SurfacePositions& p, const Triangle& t, double fair_angle, const ShapeLimits& limits,
               PatchQuality& quality) {
   const double cotangent = max_cotangent(p.points, t);
-  const double lacks = std::max(0., limits.fair_angle - angle_with_cotangent(cotangent));
+  const double lacks = std::max(0., fair_angle - angle_with_cotangent(cotangent));
   const double alignment = face_alignment(p.points, p.normals, t);
-  const double misses = limits.shape.alignment - alignment;
+  const double misses = limits.alignment - alignment;
   quality.cotangent = std::max(quality.cotangent, cotangent);
   quality.area += .5 * doubled_area_vector(p.points, t).norm() * alignment;
   quality.angle_cost += lacks * lacks;
@@ -32,18 +33,18 @@ void add_face(const SurfacePositions& p, const Triangle& t, const PatchLimits& l
   quality.violation.folds += misses > 0;
 }
 
-void add_edge(const SurfacePositions& p, const Edge& edge, double target, const PatchLimits& limits,
+void add_edge(const SurfacePositions& p, const Edge& edge, double target, const ShapeLimits& limits,
               PatchQuality& quality) {
   const double length = (p.points.col(edge[1]) - p.points.col(edge[0])).norm() / target;
   const double sagitta = edge_sagitta(p.points, p.normals, edge) / target;
   quality.length_errors += (length - 1) * (length - 1);
-  quality.violation.length = std::max(quality.violation.length, length - limits.longest);
-  quality.violation.sagitta += std::max(0., sagitta - limits.shape.sagitta);
+  quality.violation.length = std::max(quality.violation.length, length - max_length_near_slivers);
+  quality.violation.sagitta += std::max(0., sagitta - limits.sagitta);
 }
 
 void add_fold(const SurfacePositions& p, const Triangle& face, const Triangle& other,
-              const PatchLimits& limits, PatchQuality& quality) {
-  const double misses = limits.shape.fold - cosine_between(p.points, face, other);
+              const ShapeLimits& limits, PatchQuality& quality) {
+  const double misses = limits.fold - cosine_between(p.points, face, other);
   quality.violation.fold += std::max(0., misses);
   quality.violation.folds += misses > 0;
 }
@@ -56,10 +57,10 @@ bool is_no_worse(const PatchViolation& now, const PatchViolation& before) {
 }
 
 PatchQuality measure_patch(const SurfacePositions& p, const Adjacency& c, const TargetLengths& targets,
-                           const PatchLimits& limits) {
+                           double fair_angle, const ShapeLimits& limits) {
   PatchQuality quality;
   quality.edges = c.edges.size();
-  for (const Triangle& t : c.faces) add_face(p, t, limits, quality);
+  for (const Triangle& t : c.faces) add_face(p, t, fair_angle, limits, quality);
   for (std::size_t e = 0; e < c.edges.size(); ++e) {
     add_edge(p, c.edges[e], targets.edge[e], limits, quality);
     if (const auto [f, g] = c.edge_faces[e]; g >= 0) add_fold(p, c.faces[f], c.faces[g], limits, quality);
@@ -221,33 +222,37 @@ double mean_of(const std::vector<double>& values) {
 }  // namespace
 
 CandidateEvaluator::CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms,
-                                       const CandidateOptions& options, const ShapeLimits& limits)
-    : m_(mesh), terms_(terms), options_(options), limits_{0, limits, options.longest} {
-  limits_.shape.sagitta = options.sagitta;
+                                       const ShapeLimits& limits)
+    : m_(mesh), terms_(terms), limits_(limits) {
+  limits_.sagitta = max_sagitta_near_slivers;
 }
 
 void CandidateEvaluator::set_sliver_angle(double sliver_angle) {
-  limits_.fair_angle = sliver_angle + options_.fair_margin;
+  constexpr double margin = 6;  // degrees
+  fair_angle_ = sliver_angle + margin;
 }
 
 PatchQuality CandidateEvaluator::quality_before(const EdgePatch& patch) const {
   const Adjacency c = make_adjacency(static_cast<int>(patch.wedge_ids.size()), patch.faces);
   return measure_patch(patch.vertices.positions, c, spread_target_lengths(c, patch.vertices.vertex_length),
-                       limits_);
+                       fair_angle_, limits_);
 }
 
 /// Length errors are scaled to the same number of edges, so that splits and collapses compare fairly.
 double CandidateEvaluator::gain(const PatchQuality& before, const PatchQuality& now) const {
+  constexpr double length_weight = 100;  // degrees squared
   const double errors_before = before.length_errors,
                errors_now =
                    now.length_errors * static_cast<double>(before.edges) / static_cast<double>(now.edges);
-  return before.angle_cost - now.angle_cost + options_.length_weight * (errors_before - errors_now);
+  return before.angle_cost - now.angle_cost + length_weight * (errors_before - errors_now);
 }
 
 EdgeCandidate CandidateEvaluator::cut(const EdgeChange& change) const {
+  constexpr int rings = 2;             // around the edge, within which vertices are relaxed
+  constexpr size_t max_vertices = 48;  // edges with more of these are not tested
   EdgeCandidate candidate;
   candidate.change = change;
-  std::optional<EdgePatch> patch = cut_patch(m_, change.half_edge, options_.rings, options_.max_vertices);
+  std::optional<EdgePatch> patch = cut_patch(m_, change.half_edge, rings, max_vertices);
   if (!patch) return candidate;
   candidate.patch = std::move(*patch);
   candidate.before = quality_before(candidate.patch);
@@ -266,32 +271,39 @@ PatchQuality CandidateEvaluator::relax(EdgeCandidate& candidate, const Relax& bo
                         m_.retraction.options());
   const VertexColoring coloring = color_as_one_block(candidate.adjacency);
   Relaxation r(candidate.adjacency, coloring, candidate.targets, candidate.patch.vertices, retraction, terms_,
-               limits_.shape);
+               limits_);
   body(r);
-  return measure_patch(candidate.patch.vertices.positions, candidate.adjacency, candidate.targets, limits_);
+  return measure_patch(candidate.patch.vertices.positions, candidate.adjacency, candidate.targets,
+                       fair_angle_, limits_);
 }
 
 EdgeCandidate CandidateEvaluator::begin(const EdgeChange& change) const {
+  constexpr int sweeps = 3;              // of Newton's method vertex by vertex
+  constexpr double max_cost_rise = 500;  // degrees squared; to go on after the sweeps
   EdgeCandidate candidate = cut(change);
   if (!candidate.is_viable) return candidate;
-  const PatchQuality now = relax(candidate, [this](Relaxation& r) {
-    for (int sweep = 0; sweep < options_.sweeps; ++sweep) local_newton_sweep(r, {}, {});
+  const PatchQuality now = relax(candidate, [](Relaxation& r) {
+    for (int sweep = 0; sweep < sweeps; ++sweep) local_newton_sweep(r, {}, {});
   });
   candidate.gain = gain(candidate.before, now);
-  candidate.is_viable = candidate.gain >= -options_.max_cost_rise;
+  candidate.is_viable = candidate.gain >= -max_cost_rise;
   return candidate;
 }
 
 void CandidateEvaluator::finish(EdgeCandidate& candidate) const {
+  constexpr AngleSearchOptions search = {
+      .spring_range = 0, .edge_error_limit = 1.2, .sagitta = 0, .max_rounds = 12, .max_set_aside = 0};
+  constexpr double least_gain = 4;  // degrees squared
+  // Over the squared mean target length; keeps the margins of thin sheets.
+  constexpr double max_area_loss = .2;
   const PatchQuality& before = candidate.before;
-  const PatchQuality after = relax(candidate, [this](Relaxation& r) { search_angles(r, options_.search); });
+  const PatchQuality after = relax(candidate, [&](Relaxation& r) { search_angles(r, search); });
   candidate.gain = gain(before, after);
-  candidate.is_viable =
-      candidate.gain >= options_.gain && after.cotangent <= before.cotangent &&
-      before.area - after.area <=
-          options_.area_loss * std::pow(mean_of(candidate.patch.vertices.vertex_length), 2) &&
-      is_no_worse(after.violation, before.violation) &&
-      !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_, limits_.shape);
+  candidate.is_viable = candidate.gain >= least_gain && after.cotangent <= before.cotangent &&
+                        before.area - after.area <=
+                            max_area_loss * std::pow(mean_of(candidate.patch.vertices.vertex_length), 2) &&
+                        is_no_worse(after.violation, before.violation) &&
+                        !folds_at_patch_boundary(candidate.patch, candidate.adjacency.faces, m_, limits_);
 }
 
 bool folds_at_patch_boundary(const EdgePatch& patch, const std::vector<Triangle>& faces, const WorkingMesh& m,

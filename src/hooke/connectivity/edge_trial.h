@@ -3,7 +3,6 @@
 #pragma once
 
 #include "hooke/geometry/local_shape.h"
-#include "hooke/integrator/angle_search.h"
 #include "hooke/springs/energy.h"
 #include "hooke/springs/target_lengths.h"
 #include "hooke/working_mesh/patch.h"
@@ -14,11 +13,8 @@ struct WorkingMesh;
 
 // Quality of a patch.
 
-struct PatchLimits {
-  double fair_angle;  // degrees; a face with a smaller minimum angle costs the squared difference
-  ShapeLimits shape;  // of alignment, fold and sagitta
-  double longest;     // maximum length of an edge, over its target length
-};
+/// Maximum length and sagitta of an edge after a change, over its target length, unless exceeded before.
+constexpr double max_length_near_slivers = 1.7, max_sagitta_near_slivers = .5;
 
 /// How far a patch exceeds the limits.
 struct PatchViolation {
@@ -39,9 +35,10 @@ struct PatchQuality {
   PatchViolation violation;
 };
 
-/// Measures a patch. Pre-condition: the adjacency has no creases.
+/// Measures a patch. A face with a smaller minimum angle than `fair_angle`, degrees, costs the squared
+/// difference. `limits`: of alignment, fold and sagitta. Pre-condition: the adjacency has no creases.
 PatchQuality measure_patch(const SurfacePositions& positions, const Adjacency& adjacency,
-                           const TargetLengths& targets, const PatchLimits& limits);
+                           const TargetLengths& targets, double fair_angle, const ShapeLimits& limits);
 
 // Changes of an edge.
 
@@ -81,28 +78,6 @@ void change_mesh(WorkingMesh& mesh, const EdgeChange& change, EdgePatch& patch);
 
 // Evaluation of candidates.
 
-/// The cost of a patch, in degrees squared, is the sum over its faces of the squared shortfall of the minimum
-/// angle from the sliver angle plus `fair_margin`, and over its edges of `length_weight` (l / L_e - 1)^2.
-struct CandidateOptions {
-  static constexpr double fair_margin = 6;      // degrees
-  static constexpr double length_weight = 100;  // degrees squared
-  double gain = 4;             // degrees squared; minimum decrease of the cost for a change to be kept
-  double max_cost_rise = 500;  // degrees squared; maximum rise of the cost after the sweeps to go on
-  int rings = 2;               // around the edge, within which vertices are relaxed
-  size_t max_vertices = 48;    // maximum number of relaxed vertices; edges with more are not tested
-  int sweeps = 3;              // of Newton's method vertex by vertex, to relax the patch
-  // Limits after a change, unless exceeded before; those of alignment and fold are those of all steps.
-  double sagitta = .5;   // maximum of an edge, over its target length
-  double longest = 1.7;  // maximum edge length over target length
-  /// Maximum loss of covered surface, over the squared mean target length; keeps the margins of thin sheets.
-  double area_loss = .2;
-  AngleSearchOptions search{.springs = {.range = 0},
-                            .edge_error_limit = 1.2,
-                            .sagitta = 0,
-                            .max_rounds = 12,
-                            .max_set_aside = 0};  // after the sweeps
-};
-
 /// A change of an edge with its patch, at some stage of its evaluation.
 struct EdgeCandidate {
   EdgeChange change{};
@@ -114,13 +89,14 @@ struct EdgeCandidate {
   bool is_viable = false;  // after begin(): worth going on; after finish(): worth keeping
 };
 
-/// Tests changes of edges, each in its own copy of the patch around the edge. Does not modify the mesh, so
-/// changes can be tested in parallel. Keeps references to the mesh, the terms and the options. Projections
-/// are not counted.
+/// Tests changes of edges, each in its own copy of the patch around the edge. The cost of a patch, in degrees
+/// squared, is the sum over its faces of the squared shortfall of the minimum angle from the sliver angle
+/// plus a margin, and over its edges of the weighted (l / L_e - 1)^2. Does not modify the mesh, so changes
+/// can be tested in parallel. Keeps references to the mesh and the terms. Projections are not counted.
 class CandidateEvaluator {
  public:
-  CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms, const CandidateOptions& options,
-                     const ShapeLimits& limits);
+  /// `limits`: of alignment and fold, those of all steps.
+  CandidateEvaluator(const WorkingMesh& mesh, const EnergyTerms& terms, const ShapeLimits& limits);
 
   /// Sets the sliver angle, degrees: faces with a smaller angle are slivers from now on.
   void set_sliver_angle(double sliver_angle);
@@ -141,8 +117,8 @@ class CandidateEvaluator {
 
   const WorkingMesh& m_;
   const EnergyTerms& terms_;
-  const CandidateOptions& options_;
-  PatchLimits limits_{};
+  ShapeLimits limits_;
+  double fair_angle_ = 0;  // degrees
 };
 
 /// Would the patch, with these faces and its present positions, violate the fold limits along

@@ -6,6 +6,7 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/untangle.h"
 #include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/springs/energy.h"
 #include "hooke/working_mesh/working_mesh.h"
@@ -17,9 +18,9 @@ namespace {
 class FlipMode {
  public:
   FlipMode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms, const ShapeLimits& limits,
-           double corner_angle, const Observer& observer)
+           const Observer& observer)
       : work_(work), options_(options), terms_(terms), limits_(limits), observer_(observer) {
-    work.set_corner_valences(corner_angle);
+    work.set_corner_valences();
   }
 
   FlipResult run() {
@@ -59,8 +60,7 @@ class FlipMode {
   }
 
   void unfold() {
-    const UntangleResult unfolded =
-        relax([&](Relaxation& r) { return untangle(r, UntangleOptions{}, watch("untangle")); });
+    const UntangleResult unfolded = relax([&](Relaxation& r) { return untangle(r, watch("untangle")); });
     result_.folded_before = unfolded.folded_before;
     result_.interrupted = unfolded.interrupted;
   }
@@ -77,9 +77,10 @@ class FlipMode {
     note_limited_steps(flowed.limited_steps, flowed.rounds);
   }
 
+  /// If guards limit many, Newton sweeps precede the next L-BFGS relaxation.
   void note_limited_steps(long long limited_steps, int steps) {
-    const double share = options_.guard_limited * work_.adjacency->vertex_count;
-    guard_limited_ = static_cast<double>(limited_steps) > share * steps;
+    constexpr double many = 2e-3;  // of the vertices, per step
+    guard_limited_ = static_cast<double>(limited_steps) > many * work_.adjacency->vertex_count * steps;
   }
 
   /// Newton sweeps help vertices limited by guards; otherwise no slivers are left after the Lloyd flow.
@@ -164,8 +165,8 @@ FlipOptions flip_options(Effort effort) {
 }
 
 FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
-                         const ShapeLimits& limits, double corner_angle, const Observer& observer) {
-  return FlipMode(work, options, terms, limits, corner_angle, observer).run();
+                         const ShapeLimits& limits, const Observer& observer) {
+  return FlipMode(work, options, terms, limits, observer).run();
 }
 
 void measure_travel(const Workspace& work, FlipResult& result) {

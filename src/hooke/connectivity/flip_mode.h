@@ -8,7 +8,6 @@
 #include "hooke/connectivity/valence_flips.h"
 #include "hooke/integrator/angle_springs.h"
 #include "hooke/integrator/lbfgs.h"
-#include "hooke/integrator/untangle.h"
 
 namespace hooke {
 
@@ -19,8 +18,6 @@ struct FlipOptions {
   int spring_rounds = 8;    // maximum rounds of springs and Delaunay flips after the flow
   double few_flips = 1e-3;  // share of the edges; the rounds end when no more than this are flipped
   int spring_steps = 15;    // evaluations of the spring energy per round
-  /// Share of the vertices; if guards limit more per step, Newton sweeps precede the next L-BFGS relaxation.
-  double guard_limited = 2e-3;
   FlipPassOptions passes;
   double energy_drop = 2e-3;  // see IntegrationOptions; of the relaxation that follows
   /// Angle springs start at the present minimum angle and go on as long as they raise it; edge lengths may
@@ -33,9 +30,9 @@ struct FlipOptions {
 FlipOptions flip_options(Effort effort);
 
 /// Moves the vertices of the workspace on the surface of the input, alternating with edge flips. Feature
-/// edges stay. `corner_angle`: degrees, see corner_valences(). Pre-condition: no Workspace::refit() yet.
+/// edges stay. Pre-condition: no Workspace::refit() yet.
 FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
-                         const ShapeLimits& limits, double corner_angle, const Observer& observer);
+                         const ShapeLimits& limits, const Observer& observer);
 
 /// Sets max_travel and rms_travel: the distances of the vertices from their input positions, in target
 /// lengths. Pre-condition: the vertices are those of the input.

@@ -81,12 +81,10 @@ std::vector<FaceCell> cells_of(const Mat3X& points, const Adjacency& c) {
 
 class Lloyd {
  public:
-  Lloyd(const SurfacePositions& at, const Adjacency& c, const std::vector<double>& length,
-        const LloydOptions& options)
+  Lloyd(const SurfacePositions& at, const Adjacency& c, const std::vector<double>& length)
       : X_(at.points),
         c_(c),
         length_(length),
-        options_(options),
         even_(std::ranges::adjacent_find(length, std::ranges::not_equal_to()) == length.end()),
         cells_(cells_of(X_, c)),
         non_delaunay_(non_delaunay_edges(cells_, c)) {}
@@ -98,7 +96,7 @@ class Lloyd {
     Moments cell = has_voronoi_cell(v) ? voronoi_cell(v) : Moments{};
     if (!(cell.mass > 0)) cell = faces_about(v);
     if (!(cell.mass > 0)) return Vec3::Zero();
-    return options_.over_relaxation / cell.mass * cell.moment;
+    return lloyd_over_relaxation / cell.mass * cell.moment;
   }
 
  private:
@@ -117,7 +115,7 @@ class Lloyd {
     const double squared = along.squaredNorm();
     if (!(squared > 0)) return Vec3::Zero();
     const double t = (X_.col(v) - X_.col(a)).dot(along) / squared;
-    return options_.boundary_relaxation * (to_a / (to_a + to_b) - t) * along;
+    return lloyd_boundary_relaxation * (to_a / (to_a + to_b) - t) * along;
   }
 
   bool has_voronoi_cell(int v) const {
@@ -169,7 +167,6 @@ class Lloyd {
   const Mat3X& X_;
   const Adjacency& c_;
   const std::vector<double>& length_;
-  const LloydOptions& options_;
   bool even_;  // the same target length everywhere
   std::vector<FaceCell> cells_;
   std::vector<char> non_delaunay_;
@@ -178,8 +175,8 @@ class Lloyd {
 }  // namespace
 
 Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
-                 const std::vector<double>& vertex_length, const LloydOptions& options) {
-  const Lloyd lloyd(positions, adjacency, vertex_length, options);
+                 const std::vector<double>& vertex_length) {
+  const Lloyd lloyd(positions, adjacency, vertex_length);
   Mat3X step(3, positions.points.cols());
   parallel_for(step.cols(), 512, [&](size_t begin, size_t end) {
     for (size_t v = begin; v < end; ++v)
@@ -195,11 +192,11 @@ constexpr int corner_every = 5;
 
 /// One guarded Lloyd step. Returns the number of vertices limited by guards.
 int move_vertices(WorkingMesh& m, const Adjacency& adjacency, const ShapeLimits& limits) {
-  const LloydOptions options;
+  constexpr double max_move = .3;  // in target lengths
   const TargetLengths targets = spread_target_lengths(adjacency, m.vertices.vertex_length);
-  Mat3X step = lloyd_step(m.vertices.positions, adjacency, m.vertices.vertex_length, options);
+  Mat3X step = lloyd_step(m.vertices.positions, adjacency, m.vertices.vertex_length);
   m.retraction.constrain(m.vertices.positions, step);
-  cap_displacement(m.vertices.vertex_length, options.max_move, step);
+  cap_displacement(m.vertices.vertex_length, max_move, step);
   const Guards guards(adjacency, targets, limits);
   SurfacePositions moved;
   const auto limited_steps = guards.step(m.retraction, m.vertices.positions, step, moved).size();

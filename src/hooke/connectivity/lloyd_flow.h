@@ -13,20 +13,18 @@ struct Adjacency;
 struct SurfacePositions;
 struct ShapeLimits;
 
-struct LloydOptions {
-  double over_relaxation = 1.3;      // factor on the displacement to the centroid
-  double boundary_relaxation = .91;  // factor on the displacement between the neighbours on feature edges
-  double max_move = .3;              // maximum displacement, in target lengths
-};
+/// Factors on the displacement of a vertex to the centroid, and on that between its neighbours on feature
+/// edges.
+constexpr double lloyd_over_relaxation = 1.3, lloyd_boundary_relaxation = .91;
 
 /// The displacements of all vertices, 3 x n; the caller makes them tangential and retracts. The cell consists
 /// of signed kites between the vertex, the midpoints of its edges and the circumcentres of its faces; its
 /// density is L^-4, which makes edge lengths follow L. A vertex near a non-Delaunay edge, or near a feature
 /// edge opposite an obtuse angle, has no such cell and uses the centroid of its faces. Vertices on feature
 /// edges move parallel to the line between their two neighbours, to where the two edges have the ratio of
-/// their target lengths.
+/// their target lengths. Over-relaxed by the factors above.
 Mat3X lloyd_step(const SurfacePositions& positions, const Adjacency& adjacency,
-                 const std::vector<double>& vertex_length, const LloydOptions& options);
+                 const std::vector<double>& vertex_length);
 
 struct LloydFlowResult {
   int rounds = 0;

@@ -21,7 +21,7 @@ class SliverPass {
       : m_(mesh),
         t_(mesh.halfedges),
         options_(options),
-        evaluator_(mesh, terms, options.change, limits),
+        evaluator_(mesh, terms, limits),
         allowed_faces_(allowed_faces),
         faces_(static_cast<double>(t_.faces().size())),
         max_tested_(std::max(
@@ -47,9 +47,9 @@ class SliverPass {
 
   /// One round. False if there was nothing to test, or if it was interrupted.
   bool test_slivers(const Observer& observer) {
-    const int limit = std::min(
-        std::clamp(static_cast<int>(options_.share * faces_), options_.min_tested, options_.max_tested),
-        max_tested_ - changes_.tested);
+    constexpr double share = .01;  // of the faces, worst first
+    const int limit =
+        std::min(std::clamp(static_cast<int>(share * faces_), 10, 200), max_tested_ - changes_.tested);
     int left = limit;
     for (int f : slivers()) {
       if (left == 0) break;
@@ -95,8 +95,7 @@ class SliverPass {
   }
 
   std::vector<EdgeChange> changes_of(const std::vector<int>& edges) {
-    const ChangeRules rules{.valence = options_.valence,
-                            .splits = faces_ + 2 <= allowed_faces_.max,
+    const ChangeRules rules{.splits = faces_ + 2 <= allowed_faces_.max,
                             .collapses = faces_ - 2 >= allowed_faces_.min};
     std::vector<EdgeChange> changes;
     for (int h : edges) {
@@ -127,8 +126,9 @@ class SliverPass {
   }
 
   /// The vertices of the two faces of its edge, the one-ring of a collapse, and vertices whose accumulated
-  /// moves exceed `noticeable_move`.
+  /// moves are noticeable.
   std::vector<int> vertices_changed_by(const EdgeCandidate& candidate) {
+    constexpr double noticeable = .03;  // in target lengths
     const int h = candidate.change.half_edge;
     std::vector<int> vertices = {t_.from(h), t_.to(h), t_.opposite_vertex(h), t_.opposite_vertex(t_.twin(h))};
     if (candidate.change.kind == ChangeKind::collapse)
@@ -141,7 +141,7 @@ class SliverPass {
       double& moved = unnoticed_[v];
       moved +=
           (candidate.patch.vertices.positions.points.col(i) - m_.vertices.positions.points.col(v)).norm();
-      if (moved <= options_.noticeable_move * m_.vertices.vertex_length[v]) continue;
+      if (moved <= noticeable * m_.vertices.vertex_length[v]) continue;
       moved = 0;
       vertices.push_back(v);
     }
@@ -195,7 +195,8 @@ SliverChanges change_slivers(WorkingMesh& m, const EnergyTerms& terms, const Sli
 namespace {
 
 /// In mode `flip` the number of faces is fixed.
-FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double share) {
+FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode) {
+  constexpr double share = .02;  // by which mode `adapt` may miss the target face count
   const auto& faces = work.adjacency->faces;
   const auto count = static_cast<double>(faces.size());
   if (mode == ConnectivityMode::flip) return {count, count};
@@ -206,15 +207,15 @@ FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode, double s
 }  // namespace
 
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
-                             const SliverRemovalOptions& options, const ShapeLimits& limits,
-                             double corner_angle, int tested_before, const Observer& observer) {
-  const std::vector<double>& angles = options.pass.sliver_angles;
+                             const SliverOptions& options, const ShapeLimits& limits, int tested_before,
+                             const Observer& observer) {
+  const std::vector<double>& angles = options.sliver_angles;
   if (angles.empty() || min_angle(work.vertices.positions.points, work.adjacency->faces) >= angles.back())
     return {};
-  work.set_corner_valences(corner_angle);
+  work.set_corner_valences();
   WorkingMesh mesh(work);
-  const SliverChanges changes = change_slivers(
-      mesh, terms, options.pass, limits, limits_of(work, mode, options.count_share), tested_before, observer);
+  const SliverChanges changes =
+      change_slivers(mesh, terms, options, limits, limits_of(work, mode), tested_before, observer);
   if (changes.count() == 0) return changes;
   if (mode == ConnectivityMode::flip) {
     work.replace_faces(mesh.halfedges.faces());

@@ -13,17 +13,10 @@ struct SliverOptions {
   /// Degrees, ascending: faces with a smaller minimum angle are slivers, one stage for each angle. With a
   /// single angle the worst faces would have to wait for the removal of many mild slivers.
   std::vector<double> sliver_angles = {25, 30, 35, 40};
-  int rounds = 6;                         // over the remaining slivers, per stage
-  static constexpr double share = .01;    // slivers tested per round, worst first, as a share of the faces
-  static constexpr int min_tested = 10;   // lower limit of that number
-  static constexpr int max_tested = 200;  // upper limit of that number
+  int rounds = 6;             // over the remaining slivers, per stage
   double share_in_all = .03;  // maximum number of slivers tested in all passes, as a share of the faces
   int min_in_all = 120;       // lower limit of that maximum
-  static constexpr double noticeable_move =
-      .03;               // in target lengths; shorter moves are no reason to test edges again
-  int valence = 9;       // maximum valence of a vertex that gains edges
-  size_t searched = 10;  // candidates per sliver, the best after relaxation, that are tested to the end
-  CandidateOptions change{};
+  size_t searched = 10;       // candidates per sliver, the best after relaxation, that are tested to the end
 };
 
 /// Limits on the total number of faces.
@@ -47,19 +40,11 @@ SliverChanges change_slivers(WorkingMesh& mesh, const EnergyTerms& terms, const 
                              const ShapeLimits& limits, const FaceCountLimits& allowed_faces,
                              int tested_before, const Observer& observer);
 
-struct SliverRemovalOptions {
-  int passes = 3;  // each ends with a projection to the input surface, which may create new slivers
-  SliverOptions pass;
-  static constexpr double count_share =
-      .02;  // share of the target face count by which mode `adapt` may miss it
-};
-
 /// Changes the connectivity of the workspace near its slivers, in mode `flip` by flips only. Only vertices
-/// near the changed edges move. `corner_angle`: degrees, see corner_valences(). `tested_before`: number of
-/// slivers that earlier passes have tested. Pre-condition: the vertices lie on the field of the input, see
-/// Workspace::return_to_input().
+/// near the changed edges move. `tested_before`: number of slivers that earlier passes have tested.
+/// Pre-condition: the vertices lie on the field of the input, see Workspace::return_to_input().
 SliverChanges remove_slivers(Workspace& work, ConnectivityMode mode, const EnergyTerms& terms,
-                             const SliverRemovalOptions& options, const ShapeLimits& limits,
-                             double corner_angle, int tested_before, const Observer& observer);
+                             const SliverOptions& options, const ShapeLimits& limits, int tested_before,
+                             const Observer& observer);
 
 }  // namespace hooke

@@ -27,7 +27,8 @@ struct ConstraintOptions {
   /// Edges at which the input says that its surface is sharp: pairs of vertex ids. Where it bends enough to
   /// continue a crease they are creases, and never noise.
   std::vector<Edge> hard_edges = {};
-  double corner_angle = 35;  // degrees; a curve that turns by more in space has a fixed corner
+  static constexpr double corner_angle =
+      35;  // degrees; a curve that turns by more in space has a fixed corner
   /// Maximum ratio of the longest to the shortest edge of a crease whose vertices stand still at bends; below
   /// 1: none.
   double even_crease = 1.5;

@@ -206,8 +206,7 @@ Constraints find_constraints(const Mat3X& points, const Adjacency& c, const Cons
   return result;
 }
 
-std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const Constraints& constraints,
-                                 double corner_angle) {
+std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const Constraints& constraints) {
   std::vector<int> feature_edge_count(c.vertex_count, 0);
   for (size_t e = 0; e < c.edges.size(); ++e)
     if (c.is_feature_edge(static_cast<int>(e)))
@@ -227,7 +226,7 @@ std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const 
   }
   std::vector<int> target(angles.size(), 0);
   for (size_t wedge = 0; wedge < angles.size(); ++wedge)
-    if (angles[wedge] > 0 && std::abs(180 - angles[wedge]) >= corner_angle)
+    if (angles[wedge] > 0 && std::abs(180 - angles[wedge]) >= ConstraintOptions::corner_angle)
       target[wedge] = 1 + std::max(1, static_cast<int>(std::lround(angles[wedge] / 60)));
   return target;
 }

@@ -91,8 +91,9 @@ Constraints find_constraints(const Mat3X& points, const Adjacency& adjacency,
 
 /// Target valence of each corner: 1 + max(1, round(angle / 60 degrees)) edges, by the angle that its faces
 /// span; per wedge, 0 for those that are not corners. A corner is a wedge, between two feature edges, of a
-/// vertex that stands still, unless its faces span a straight angle to within `corner_angle` degrees.
+/// vertex that stands still, unless its faces span a straight angle to within
+/// ConstraintOptions::corner_angle.
 std::vector<int> corner_valences(const Mat3X& points, const Adjacency& adjacency,
-                                 const Constraints& constraints, double corner_angle);
+                                 const Constraints& constraints);
 
 }  // namespace hooke

@@ -10,7 +10,8 @@ Projection project_by_newton(const ScalarField& psi, const Vec3& x, int hint, co
     return Projection{x, Vec3::Zero(), hint, status, projection.evaluations};
   };
   double last_distance = options.convergence > 0 ? 1 / options.convergence : 0;
-  for (int step = 0; step <= options.max_steps; ++step) {
+  constexpr int max_steps = 12;
+  for (int step = 0; step <= max_steps; ++step) {
     const FieldSample s = psi(projection.point, hint);
     ++projection.evaluations;
     if (s.value == 0 && s.gradient.isZero(0)) return fail(ProjectionStatus::no_cover);

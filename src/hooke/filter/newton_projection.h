@@ -15,7 +15,6 @@ struct NewtonOptions {
       .01;                 // minimum norm of the gradient, which is 1 for a distance field
   double convergence = 0;  // estimated error of a step over the squared distance before it, 1 / length;
                            // 0: unknown, the first step is always evaluated
-  int max_steps = 12;
 };
 
 /// Projects x to the zero level set of psi. The last step is not evaluated if the rate of convergence shows

@@ -19,10 +19,14 @@
 namespace hooke {
 namespace {
 
-/// Searches for one vertex at a time; reused for many vertices to save allocations. Keeps references.
+/// Pattern search for the position of one vertex that maximises the smallest angle around it; reused for many
+/// vertices to save allocations. Keeps references. Steps are in target lengths.
 class VertexSearch {
  public:
-  VertexSearch(Relaxation& relaxation, const VertexSearchOptions& options, const ShapeLimits& limits);
+  static constexpr double first_step = .3;  // halved when no direction helps
+  static constexpr double last_step = .01;  // the search ends below it
+
+  VertexSearch(Relaxation& relaxation, double step, const ShapeLimits& limits);
 
   /// Moves the vertex, within the guards, until no cotangent around it exceeds the goal or no candidate is
   /// better. Returns whether it moved.
@@ -40,7 +44,7 @@ class VertexSearch {
   bool move_to_best(int vertex, double step);
 
   Relaxation& r_;
-  const VertexSearchOptions& o_;
+  const double first_step_;
   const ShapeLimits& limits_;
   std::vector<Eigen::Vector2d> directions_;
   std::array<Wedge, 2> wedges_;
@@ -53,14 +57,15 @@ constexpr double projection_allowance = 1.1;
 
 }  // namespace
 
-VertexSearch::VertexSearch(Relaxation& r, const VertexSearchOptions& options, const ShapeLimits& limits)
+VertexSearch::VertexSearch(Relaxation& r, double step, const ShapeLimits& limits)
     : r_(r),
-      o_(options),
+      first_step_(step),
       limits_(limits),
       wedges_{Wedge{VertexRing(r.coloring.rings, r.energy.targets()), {}, {}},
               Wedge{VertexRing(r.coloring.rings, r.energy.targets()), {}, {}}} {
-  for (int k = 0; k < o_.directions; ++k) {
-    const double angle = 2 * std::numbers::pi * k / o_.directions;
+  constexpr int directions = 8;  // in the tangent plane
+  for (int k = 0; k < directions; ++k) {
+    const double angle = 2 * std::numbers::pi * k / directions;
     directions_.emplace_back(std::cos(angle), std::sin(angle));
   }
 }
@@ -68,9 +73,9 @@ VertexSearch::VertexSearch(Relaxation& r, const VertexSearchOptions& options, co
 bool VertexSearch::improve(int vertex, double goal) {
   if (r_.coloring.rings[vertex].empty() || r_.retraction.stands_still(vertex)) return false;
   bool moved = false;
-  double step = o_.first_step;
+  double step = first_step_;
   gather(vertex);
-  while (worst_ > goal && step >= o_.last_step) {
+  while (worst_ > goal && step >= last_step) {
     if (move_to_best(vertex, step)) {
       moved = true;
       gather(vertex);
@@ -122,9 +127,10 @@ bool VertexSearch::move_to_best(int vertex, double step) {
   const Vec3 u = on_curve ? tangent : Vec3((edge - normal * normal.dot(edge)).normalized());
   const Vec3 v = normal.cross(u);
   const double length = step * r_.vertex_length[vertex];
+  constexpr double least_gain = 1e-3;  // relative
   // At a face without area any finite angle is better.
-  double cotangent_to_beat = std::isfinite(worst_) ? worst_ - o_.min_relative_gain * std::abs(worst_)
-                                                   : std::numeric_limits<double>::max();
+  double cotangent_to_beat =
+      std::isfinite(worst_) ? worst_ - least_gain * std::abs(worst_) : std::numeric_limits<double>::max();
   std::optional<SurfacePosition> best;
   const auto test = [&](const Vec3& displacement) {
     SurfacePosition candidate(at, vertex);
@@ -328,7 +334,7 @@ class Search {
  public:
   Search(Relaxation& r, const AngleSearchOptions& o, const ShapeLimits& limits, Measures& measures,
          AngleSearchResult& result)
-      : r_(r), o_(o), limits_(limits), measures_(measures), result_(result), pattern_(o.vertex) {}
+      : r_(r), o_(o), limits_(limits), measures_(measures), result_(result) {}
 
   /// Alternates rounds of angle springs (unless `with_springs` is false) and of pattern searches: each goes
   /// on while it raises the minimum angle. Faces that neither can raise are set aside. Ends where even a
@@ -336,7 +342,7 @@ class Search {
   void run(bool with_springs) {
     int set_aside = 0, failures = 0;
     bool springs = with_springs;
-    while (result_.rounds < o_.max_rounds && measures_.min_angle() + o_.min_rise < ideal_min_angle) {
+    while (result_.rounds < o_.max_rounds && measures_.min_angle() + min_rise < ideal_min_angle) {
       double& range = springs ? spring_range_ : pattern_range_;
       const double start = measures_.min_angle();
       switch (round(springs, start, range)) {
@@ -347,7 +353,7 @@ class Search {
           break;
         case Outcome::worse:
           range /= 2;  // fewer faces and shorter steps lengthen the edges less
-          if (!springs) pattern_.first_step = std::max(pattern_.last_step, pattern_.first_step / 2);
+          if (!springs) first_step_ = std::max(VertexSearch::last_step, first_step_ / 2);
           if (range >= min_range) continue;
           range = min_range;
           break;
@@ -360,13 +366,15 @@ class Search {
         if (failures < 2) continue;
       }
       if (++set_aside > o_.max_set_aside) return;
-      measures_.set_aside(start + o_.min_rise);
+      measures_.set_aside(start + min_rise);
       failures = 0;
     }
   }
 
  private:
+  static constexpr int max_faces = 500;          // in range, worst first
   static constexpr double min_range = .5;        // degrees
+  static constexpr double min_rise = .02;        // degrees by which a pattern search must raise the minimum
   static constexpr double tolerated_loss = .02;  // degrees, of the minimum angle
   static constexpr double tolerated_loss_aside = .05;
 
@@ -380,8 +388,8 @@ class Search {
   /// Moves the vertices around the faces within `range` (degrees) of the minimum angle.
   Outcome round(bool springs, double start, double range) {
     const double goal = start + range;
-    std::vector<int> vertices = with_rings(r_.adjacency, measures_.worst_corners(goal, o_.max_faces),
-                                           springs ? o_.springs.rings : o_.rings);
+    const int rings = springs ? 2 : 1;  // within which vertices move
+    std::vector<int> vertices = with_rings(r_.adjacency, measures_.worst_corners(goal, max_faces), rings);
     std::ranges::sort(vertices);
     std::vector<SurfacePosition> before;
     for (int v : vertices) before.emplace_back(r_.positions, v);
@@ -399,30 +407,33 @@ class Search {
     }
     result_.moves += moves;
     result_.vertices.insert(result_.vertices.end(), vertices.begin(), vertices.end());
-    const double rise = springs ? o_.springs.min_rise * range : o_.min_rise;
+    constexpr double least_share = .2;  // of the range, by which springs must raise the minimum angle
+    const double rise = springs ? least_share * range : min_rise;
     return now >= start + rise ? Outcome::raised : Outcome::kept;
   }
 
   /// Sweeps of Newton's method with angle springs below `goal`; returns the number of moves.
   int relax(const std::vector<int>& vertices, double goal) {
+    constexpr double weight = 1000;
+    constexpr int sweeps = 12;
+    constexpr double rest = .003;  // in target lengths; a vertex that moves less skips the next sweep
     const TermsScope scope(r_);
     r_.terms.altitude = 0;
-    r_.terms.angle = o_.springs.weight;
+    r_.terms.angle = weight;
     r_.terms.angle_threshold = goal * std::numbers::pi / 180;
     // Copies outside `vertices` could not be put back.
-    return relax_locally(r_, vertices,
-                         {.sweeps = o_.springs.sweeps, .rest = o_.springs.rest, .slides_copies = false},
-                         nullptr)
+    return relax_locally(r_, vertices, {.sweeps = sweeps, .rest = rest, .slides_copies = false}, nullptr)
         .moves;
   }
 
   /// Sweeps of pattern searches with the same goal; returns the number of moves.
   int search(const std::vector<int>& vertices, double goal) {
+    constexpr int sweeps = 3;
     int moves = 0;
-    for (int sweep = 0, last = 1; sweep < o_.sweeps && last > 0; ++sweep, moves += last) {
+    for (int sweep = 0, last = 1; sweep < sweeps && last > 0; ++sweep, moves += last) {
       std::vector<char> moved(vertices.size(), 0);
       for_each_of(
-          r_.coloring, vertices, [&] { return VertexSearch(r_, pattern_, limits_); },
+          r_.coloring, vertices, [&] { return VertexSearch(r_, first_step_, limits_); },
           [&](VertexSearch& vertex, size_t i) {
             moved[i] = vertex.improve(vertices[i], cotangent_of(goal));
           });
@@ -436,8 +447,8 @@ class Search {
   const ShapeLimits& limits_;
   Measures& measures_;
   AngleSearchResult& result_;
-  VertexSearchOptions pattern_;
-  double pattern_range_ = o_.angle_range, spring_range_ = o_.springs.range;
+  double first_step_ = VertexSearch::first_step;
+  double pattern_range_ = 1, spring_range_ = o_.spring_range;  // degrees above the minimum angle
 };
 
 }  // namespace
@@ -447,7 +458,7 @@ AngleSearchResult search_angles(Relaxation& r, const AngleSearchOptions& o) {
   if (r.adjacency.faces.empty()) return result;
   Measures measures(r);
   ShapeLimits limits = r.guards.limits();
-  Search(r, o, limits, measures, result).run(o.springs.range > 0);
+  Search(r, o, limits, measures, result).run(o.spring_range > 0);
   if (o.sagitta > limits.sagitta) {
     limits.sagitta = o.sagitta;
     measures.take_back();

@@ -36,8 +36,10 @@ double relative_edge_deviation(const Mat3X& points, const std::vector<Edge>& edg
 
 namespace {
 
-/// The corners of all faces with an angle below the threshold (degrees), and `rings` rings around them.
-std::vector<int> around_bad_faces(const Mat3X& points, const Adjacency& c, double threshold, int rings) {
+/// The corners of all faces with an angle below the threshold (degrees), and the vertices around them that
+/// may move.
+std::vector<int> around_bad_faces(const Mat3X& points, const Adjacency& c, double threshold) {
+  constexpr int rings = 2;
   const double limit = cotangent_of(threshold);
   std::vector<char> bad(c.faces.size());
   parallel_for(c.faces.size(), 4096, [&](size_t begin, size_t end) {
@@ -57,7 +59,7 @@ void raise(Relaxation& r, double threshold, const AngleSpringOptions& o, const O
     return observer(p);
   };
   const LocalRelaxationResult relaxed =
-      relax_locally(r, around_bad_faces(r.positions.points, r.adjacency, threshold, o.rings),
+      relax_locally(r, around_bad_faces(r.positions.points, r.adjacency, threshold),
                     {.sweeps = o.sweeps, .rest = o.rest}, observer ? Observer(watch) : nullptr);
   result.sweeps += relaxed.sweeps;
   result.interrupted = relaxed.interrupted;

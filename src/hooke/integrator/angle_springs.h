@@ -19,7 +19,6 @@ struct AngleSpringOptions {
   static constexpr double first_weight = 30;  // weight w of the first stage
   static constexpr double weight = 100;       // weight w of the other stages
   int sweeps = 3;                             // Gauss-Seidel sweeps per stage
-  int rings = 2;                // rings around the faces below the threshold within which vertices move
   double rest = .01;            // in target lengths; a vertex that moves less skips the next sweep
   double edge_error_limit = 1;  // maximal standard deviation of l / L_e, relative to its start
   double keep_within = .1;      // degrees below the best angle at which a later state is still kept

@@ -104,8 +104,8 @@ EvolutionResult evolve_damped(TriMesh& mesh, const Adjacency& adjacency,
 /// Moves relaxation.positions from rest toward an equilibrium on the surface. The forces are lambda * (minus
 /// the gradient of relaxation.energy) + mu * F_torque, projected to the directions in which vertices may
 /// move; forces, velocities and points are written to `mesh` (v:force, v:velocity). A vertex whose
-/// displacement is shortened by the cap (options.max_move) or the guards keeps the same part of its velocity.
-/// Pre-condition: the mesh has the vertices of the relaxation.
+/// displacement is shortened by the cap (IntegrationOptions::max_move) or the guards keeps the same part of
+/// its velocity. Pre-condition: the mesh has the vertices of the relaxation.
 ///
 /// Time step: dt = epsilon sqrt(m / lambda), in units of the period of a string of rest length 1, instead of
 /// [24], which one short edge or one large force would drive to zero; the cap limits those vertices. epsilon

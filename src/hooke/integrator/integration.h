@@ -38,7 +38,7 @@ struct IntegrationOptions {
   int max_steps = 2000;       // evaluations of the energy (lbfgs) or time steps (damped)
   double energy_drop = 2e-3;  // relative fall of the energy over the window, below which it is at rest
   int window = 3;             // steps
-  double max_move = 2;        // of a vertex in one step, in its target lengths
+  static constexpr double max_move = 2;  // of a vertex in one step, in its target lengths
 };
 
 struct IntegrationResult {

@@ -211,7 +211,8 @@ void relax_around(Relaxation& r, const std::vector<int>& limited, SurfacePositio
 /// meaning.
 IntegrationResult descend(Relaxation& r, const IntegrationOptions& options, const LbfgsOptions& lbfgs,
                           const Observer& observer, SurfacePositions& candidate) {
-  const LooseRetraction loose(r.retraction, lbfgs.lazy_error);
+  constexpr double lazy_error = 1e-2;  // tolerated by the retraction until the end, in mean target lengths
+  const LooseRetraction loose(r.retraction, lazy_error);
   IntegrationResult result;
   for (int sweep = 0; sweep < lbfgs.sweeps; ++sweep) {
     const Stage stage(r.stopwatch, "sweeps");

@@ -20,12 +20,12 @@ struct LbfgsOptions {
   /// vertices. The edges of an uneven grid with fixed vertices in it vary by 13 % instead of 17 % in mode
   /// `flip`; the same holds for local relaxation.
   double max_capped_fraction = .25;
-  double lazy_error = 1e-2;     // deviation tolerated by the retraction until the end, in mean target lengths
   bool projects_at_end = true;  // projects drifted vertices at the end; else they stay drifted
 };
 
 /// Moves relaxation.positions to a minimum of relaxation.energy on the surface; without `projects_at_end`
-/// they may end up to `lazy_error` off it. With options.max_steps <= 1 only the Gauss-Seidel sweeps run.
+/// they may end up to a hundredth of the mean target length off it. With options.max_steps <= 1 only the
+/// Gauss-Seidel sweeps run.
 IntegrationResult relax_lbfgs(Relaxation& relaxation, const IntegrationOptions& options,
                               const LbfgsOptions& lbfgs, const Observer& observer);
 

@@ -18,7 +18,10 @@ std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {
 
 }  // namespace
 
-UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer& observer) {
+UntangleResult untangle(Relaxation& r, const Observer& observer) {
+  constexpr int max_rounds = 12, patience = 3;  // of these, without fewer folded faces
+  constexpr int rings = 2;  // around these, within which vertices move; each round adds as many
+  constexpr LocalRelaxationOptions sweeps = {.sweeps = 30, .over_relaxation = 1.5};  // faces unfold sooner
   UntangleResult result;
   result.folded = r.guards.folded_faces(r.positions);
   result.folded_before = static_cast<int>(result.folded.size());
@@ -28,12 +31,11 @@ UntangleResult untangle(Relaxation& r, const UntangleOptions& o, const Observer&
   r.terms.unfold = 1;
   size_t fewest = result.folded.size();
   for (int round = 0, rounds_without_gain = 0;
-       round < o.rounds && rounds_without_gain < o.patience && !result.folded.empty() && !result.interrupted;
+       round < max_rounds && rounds_without_gain < patience && !result.folded.empty() && !result.interrupted;
        ++round) {
-    const LocalRelaxationResult relaxed = relax_locally(
-        r,
-        with_rings(r.adjacency, corners_of(r.adjacency, result.folded), o.first_rings + round * o.more_rings),
-        {.sweeps = o.sweeps, .over_relaxation = o.over_relaxation}, observer);
+    const LocalRelaxationResult relaxed =
+        relax_locally(r, with_rings(r.adjacency, corners_of(r.adjacency, result.folded), (round + 1) * rings),
+                      sweeps, observer);
     result.sweeps += relaxed.sweeps;
     result.interrupted = relaxed.interrupted;
     result.folded = r.guards.folded_faces(r.positions);

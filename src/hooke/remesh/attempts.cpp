@@ -103,8 +103,8 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   least_mean_shape_ = input_quality_.shape.mean;
   if (preservation_.has_float_points) allow_for_rounding();
   if (has_rest_ratios)
-    least_angle_ = std::min(
-        least_angle_, NearRegularOptions().share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
+    least_angle_ = std::min(least_angle_,
+                            NearRegular::share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
   preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
   preservation_.keeps_facets = preservation_.faceted && !adapts();
 }
@@ -214,7 +214,7 @@ Attempt AttemptMaker::run() const {
   if (is_mask_) vertex_points(a.mesh) = smoothed_;
   RunOptions of_run(options);
   of_run.chosen.map = options.map || input_.shell_count() > 0;  // tells which shell a vertex is on
-  int& tested = of_run.slivers.pass.min_in_all;
+  int& tested = of_run.slivers.min_in_all;
   tested = static_cast<int>(std::ceil(share_of_whole_ * tested));
   a.run = std::make_shared<Run>(a.mesh, memory_order_, of_run, observer_, stopwatch_, lengths.shorter);
   a.result = a.run->remesh(a.mesh);

@@ -14,6 +14,9 @@
 namespace hooke {
 namespace {
 
+/// Within the tolerance a time step is filtered by the second-order shape of psi, without evaluating it.
+constexpr RetractionOptions retraction_of_paper = {.tolerance = 1e-5, .lazy = .1, .lazy_error = 1e-5};
+
 /// A run of Algorithm 1.
 class PaperRun {
  public:
@@ -21,7 +24,7 @@ class PaperRun {
            const Observer& observer)
       : options_(options),
         observer_(observer),
-        work_(mesh, std::move(memory_order), options.constraints, options.filter, options.retraction),
+        work_(mesh, std::move(memory_order), options.constraints, options.filter, retraction_of_paper),
         to_input_(*work_.retraction),
         mesh_(build_mesh(*work_.start, *work_.adjacency)) {
     for (JunctionVertex& v : work_.vertices.constraints.junction_vertices) v.slides = false;

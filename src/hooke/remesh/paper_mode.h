@@ -28,8 +28,6 @@ struct PaperOptions {
                        .offset_unit = OffsetUnit::file,
                        .inward = true,
                        .facets = false};
-  /// Within the tolerance a time step is filtered by the second-order shape of psi, without evaluating it.
-  RetractionOptions retraction{.tolerance = 1e-5, .lazy = .1, .lazy_error = 1e-5};
   ConstraintOptions constraints{.boundary = BoundaryRule::free,  // the paper treats neither boundaries
                                 .features = {.angle = 180}};     // nor creases
   int max_outer = 25;                                            // maximum number of outer iterations

@@ -13,7 +13,9 @@
 #include "hooke/integrator/damped_evolution.h"
 #include "hooke/integrator/final_projection.h"
 #include "hooke/integrator/guards.h"
+#include "hooke/integrator/lbfgs.h"
 #include "hooke/integrator/relaxation.h"
+#include "hooke/integrator/untangle.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
@@ -42,27 +44,27 @@ double spread_of_edges(const Workspace& work) {
   return std::sqrt(std::max(0., squares / n - mean * mean)) / mean;
 }
 
-}  // namespace
-
-bool keep_near_regular(Workspace& work, const NearRegularOptions& options, ShapeLimits& limits) {
-  const double deviation = work.has_rest_ratios() ? options.deviation_of_squares : options.deviation;
-  const bool near_regular =
-      min_angle(*work.start, work.adjacency->faces) >= options.angle && spread_of_edges(work) <= deviation;
+/// Makes the limits preserve the minimum angle if the mesh is near-regular or has a uniform target length,
+/// and limits the travel of the vertices of a near-regular mesh. Returns whether the mesh is near-regular.
+/// Pre-condition: no vertex has moved.
+bool keep_near_regular(Workspace& work, ShapeLimits& limits) {
+  const double deviation =
+      work.has_rest_ratios() ? NearRegular::deviation_of_squares : NearRegular::deviation;
+  const bool near_regular = min_angle(*work.start, work.adjacency->faces) >= NearRegular::angle &&
+                            spread_of_edges(work) <= deviation;
   if (near_regular || !work.has_varying_lengths())
     limits.cotangent = cotangent_limit(work.vertices.positions.points, work.adjacency->faces);
   if (work.has_rest_ratios())
-    limits.cotangent =
-        std::max(limits.cotangent,
-                 cotangent_of(options.share_of_rest_angle * least_rest_angle(*work.adjacency, work.targets)));
+    limits.cotangent = std::max(
+        limits.cotangent,
+        cotangent_of(NearRegular::share_of_rest_angle * least_rest_angle(*work.adjacency, work.targets)));
   if (near_regular) {
     work.vertices.constraints.rest_position = *work.start;
     for (double length : work.vertices.vertex_length)
-      work.vertices.constraints.max_travel.push_back(options.max_travel * length);
+      work.vertices.constraints.max_travel.push_back(NearRegular::max_travel * length);
   }
   return near_regular;
 }
-
-namespace {
 
 /// The common last part of all connectivity modes, with fixed faces: unfolds the mesh, alternates relaxation
 /// and projection to the surface until the vertices are at rest, then raises the minimum angles. In the end
@@ -134,7 +136,7 @@ class OuterIterations {
   void unfold() {
     const Stage stage(work_.stopwatch, "untangle");
     Relaxation r = relaxation();
-    const UntangleResult unfolded = untangle(r, options_.untangle, watch("untangle"));
+    const UntangleResult unfolded = untangle(r, watch("untangle"));
     result_.folded_before = unfolded.folded_before;
     if (unfolded.interrupted) stop(StopReason::interrupted);
     if (unfolded.sweeps > 0) record("untangle", {.steps = unfolded.sweeps});
@@ -143,7 +145,7 @@ class OuterIterations {
   /// Newton sweeps remove slivers. Hardly any are left after Lloyd flow or an iteration without limiting
   /// guards.
   LbfgsOptions lbfgs() const {
-    LbfgsOptions lbfgs = options_.lbfgs;
+    LbfgsOptions lbfgs;
     const bool flowed = options_.chosen.connectivity != ConnectivityMode::fixed;
     if (flowed || !guard_limited_) lbfgs.sweeps = std::min(lbfgs.sweeps, 1);
     lbfgs.projects_at_end = !goes_on();
@@ -314,13 +316,12 @@ bool remove_slivers_once(Workspace& work, const RunOptions& options, const Obser
   };
   const SliverChanges changes = timed(work.stopwatch, "mend", [&] {
     return remove_slivers(work, options.chosen.connectivity, {.altitude = options.chosen.altitude},
-                          options.slivers, options.limits, options.chosen.constraints.corner_angle, tested,
-                          watch);
+                          options.slivers, options.limits, tested, watch);
   });
   tested += changes.tested;
   if (changes.count() == 0) return false;
   RunOptions rest = options;
-  rest.search.sagitta = options.slivers.pass.change.sagitta;
+  rest.search.sagitta = max_sagitta_near_slivers;
   const double before = result.iterations.empty() ? 0 : result.iterations.back().seconds;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   result = OuterIterations(work, rest, observer).search_again(std::move(result), before + elapsed.count());
@@ -334,7 +335,7 @@ void remove_slivers_in_passes(Workspace& work, const RunOptions& options, const 
                               RemeshResult& result) {
   bool changed = options.chosen.polish_angles;
   int tested = 0;
-  for (int pass = 0; changed && pass < options.slivers.passes; ++pass)
+  for (int pass = 0; changed && pass < sliver_passes; ++pass)
     changed = result.reason != StopReason::interrupted &&
               remove_slivers_once(work, options, observer, tested, result);
 }
@@ -460,23 +461,20 @@ RemeshResult Run::change(TriMesh& mesh) {
   Workspace& work = *work_;
   const bool goes_on = work.has_held_vertices();
   const EnergyTerms terms{.altitude = options_->chosen.altitude};
-  const double corner_angle = options_->chosen.constraints.corner_angle;
   AdaptResult adapted;
   FlipResult flips;
   if (options_->chosen.connectivity == ConnectivityMode::adapt)
-    adapted = timed(work.stopwatch, "adapt", [&] {
-      return adapt(work, options_->adaptation, terms, options_->limits, corner_angle, observer_);
-    });
+    adapted = timed(work.stopwatch, "adapt",
+                    [&] { return adapt(work, options_->adaptation, terms, options_->limits, observer_); });
   flips.interrupted = adapted.interrupted;
   if (options_->chosen.connectivity != ConnectivityMode::fixed && !flips.interrupted)
     flips = timed(work.stopwatch, "flip", [&] {
       const FlipOptions then = flips_after(adapted, options_->adaptation, options_->flips);
-      return run_flip_mode(work, then, terms, options_->limits, corner_angle, observer_);
+      return run_flip_mode(work, then, terms, options_->limits, observer_);
     });
   RunOptions then = *options_;
   const bool near_regular = options_->chosen.connectivity == ConnectivityMode::fixed &&
-                            !work.has_edge_lengths() &&
-                            keep_near_regular(work, options_->near_regular, then.limits);
+                            !work.has_edge_lengths() && keep_near_regular(work, then.limits);
   const bool is_near_rest = adapted.levels > 0 || goes_on;
   if (is_near_rest && options_->chosen.polish_angles) then = with_fewer_iterations(std::move(then));
   OuterIterations iterations(work, then, observer_);

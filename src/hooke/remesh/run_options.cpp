@@ -75,7 +75,7 @@ RunOptions::RunOptions(const RemeshOptions& options)
   if (options.connectivity == ConnectivityMode::fixed)
     set_outer_iterations(*this, options.effort);
   else
-    set_sliver_removal(slivers.pass, options.connectivity, options.effort);
+    set_sliver_removal(slivers, options.connectivity, options.effort);
   adaptation.min_length = options.min_length;
   adaptation.gradation = options.gradation;
   if (options.max_outer) max_outer = adaptation.last_outer = *options.max_outer;

@@ -9,8 +9,6 @@
 #include "hooke/geometry/local_shape.h"
 #include "hooke/integrator/angle_search.h"
 #include "hooke/integrator/angle_springs.h"
-#include "hooke/integrator/lbfgs.h"
-#include "hooke/integrator/untangle.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/result.h"
 
@@ -19,14 +17,18 @@ namespace hooke {
 /// Preserves near-regular meshes: equal edges and large angles are two objectives, and a mesh whose angles
 /// are all good could lose angles for more equal edges. A mesh is near-regular if it is within both `angle`
 /// and `deviation`.
-struct NearRegularOptions {
-  double angle = 35;                  // degrees; minimum angle of a near-regular mesh
-  double deviation = .25;             // maximum standard deviation of l / L_e, over its mean
-  double deviation_of_squares = .03;  // the same with rest ratios: about rhombi with a corner of 83 degrees
-  double share_of_rest_angle =
-      .8;                   // with rest ratios angles above this share of their least rest angle may get less
-  double max_travel = .19;  // maximum travel of a vertex of a near-regular mesh, in its target lengths
+struct NearRegular {
+  static constexpr double angle = 35;       // degrees; minimum angle of a near-regular mesh
+  static constexpr double deviation = .25;  // maximum standard deviation of l / L_e, over its mean
+  static constexpr double deviation_of_squares =
+      .03;  // with rest ratios: about rhombi with a corner of 83 degrees
+  /// With rest ratios angles above this share of their least rest angle may get less.
+  static constexpr double share_of_rest_angle = .8;
+  static constexpr double max_travel = .19;  // of a vertex of a near-regular mesh, in its target lengths
 };
+
+/// Passes of sliver removal; each ends with a projection to the input surface, which may create new slivers.
+constexpr int sliver_passes = 3;
 
 struct RunOptions {
   /// Those of the effort and the mode that are chosen.
@@ -36,13 +38,10 @@ struct RunOptions {
   FlipOptions flips;                                    // in the modes `flip` and `adapt`
   AdaptOptions adaptation;                              // in mode `adapt`
   IntegrationOptions integration{.energy_drop = 4e-3};  // energy_drop: in mode `fixed`
-  LbfgsOptions lbfgs;
   ShapeLimits limits;
-  NearRegularOptions near_regular;  // in mode `fixed`
-  UntangleOptions untangle;
   AngleSpringOptions angle_springs;
-  AngleSearchOptions search;     // after the angle springs
-  SliverRemovalOptions slivers;  // after the search, in the modes `flip` and `adapt`
+  AngleSearchOptions search;  // after the angle springs
+  SliverOptions slivers;      // after the search, in the modes `flip` and `adapt`
   RetractionOptions retraction{.tolerance = 1e-5, .lazy = 2};
   int max_outer = 6;         // maximum number of outer iterations
   double outer_drop = 5e-3;  // stalled when an outer iteration lowers the energy by less than this share
@@ -50,10 +49,5 @@ struct RunOptions {
   /// vertex steps.
   double guard_limited = 2.5e-4;
 };
-
-/// Makes the limits preserve the minimum angle if the mesh is near-regular or has a uniform target length,
-/// and limits the travel of the vertices of a near-regular mesh. Returns whether the mesh is near-regular.
-/// Pre-condition: no vertex has moved.
-bool keep_near_regular(Workspace& work, const NearRegularOptions& options, ShapeLimits& limits);
 
 }  // namespace hooke

@@ -429,9 +429,9 @@ void add_angle_springs(Json& j, const RunOptions& o) {
 /// Parameters that preserve near-regular meshes, null unless in mode `fixed`.
 void add_near_regular(Json& j, const RunOptions& o) {
   const bool fixed = o.chosen.connectivity == ConnectivityMode::fixed;
-  j["near_regular_angle"] = where(fixed, o.near_regular.angle);
-  j["near_regular_deviation"] = where(fixed, o.near_regular.deviation);
-  j["near_regular_reach"] = where(fixed, o.near_regular.max_travel);
+  j["near_regular_angle"] = where(fixed, NearRegular::angle);
+  j["near_regular_deviation"] = where(fixed, NearRegular::deviation);
+  j["near_regular_reach"] = where(fixed, NearRegular::max_travel);
 }
 
 }  // namespace
@@ -481,9 +481,9 @@ Json parameters_json(const RemeshOptions& options) {
   j["guard_sagitta"] = o.limits.sagitta;
   j["search_sagitta"] = where(o.chosen.polish_angles, o.search.sagitta);
   const bool removes_slivers = o.chosen.polish_angles && !fixed;
-  j["sliver_angles"] = where(removes_slivers, o.slivers.pass.sliver_angles);
-  j["sliver_passes"] = where(removes_slivers, o.slivers.passes);
-  j["sliver_sagitta"] = where(removes_slivers, o.slivers.pass.change.sagitta);
+  j["sliver_angles"] = where(removes_slivers, o.slivers.sliver_angles);
+  j["sliver_passes"] = where(removes_slivers, sliver_passes);
+  j["sliver_sagitta"] = where(removes_slivers, max_sagitta_near_slivers);
   return j;
 }
 

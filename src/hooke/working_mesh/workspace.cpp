@@ -205,9 +205,8 @@ void Workspace::return_to_input() {
   retraction = std::make_unique<Retraction>(to_input_->surface(), vertices.constraints, retraction_options_);
 }
 
-void Workspace::set_corner_valences(double corner_angle) {
-  vertices.corner_valences =
-      corner_valences(vertices.positions.points, *adjacency, vertices.constraints, corner_angle);
+void Workspace::set_corner_valences() {
+  vertices.corner_valences = corner_valences(vertices.positions.points, *adjacency, vertices.constraints);
 }
 
 void Workspace::replace_faces(std::vector<Triangle> faces) {

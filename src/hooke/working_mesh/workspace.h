@@ -52,8 +52,8 @@ struct Workspace {
   /// Reverts refit(): the vertices, which must be projected to the input, are tracked on its field again.
   void return_to_input();
 
-  /// Sets the target valences of the corners, see corner_valences(). `corner_angle`: degrees.
-  void set_corner_valences(double corner_angle);
+  /// Sets the target valences of the corners, see corner_valences().
+  void set_corner_valences();
 
   /// Replaces the faces and keeps the vertices; in the result the new faces take the ids of the input's
   /// faces. Pre-condition: the vertices are tracked on the field of the input, that is before the first
