@@ -1,4 +1,5 @@
-#include "hooke/report/report_key_table.h"
+// The rows from which the table of the report's keys is made.
+#include "hooke/report/report_keys.h"
 
 #include <fmt/format.h>
 
@@ -498,6 +499,17 @@ constexpr Row resources[] = {
     {"resources.stages.<name>.peak_rss_bytes", integer, bytes, neither, "greatest memory in use at its end"},
 };
 
+/// The parts of a text between the separators.
+std::vector<std::string> split(const std::string& joined, char separator) {
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin <= joined.size();) {
+    const size_t end = std::min(joined.find(separator, begin), joined.size());
+    parts.push_back(joined.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 /// The paths that a path with alternatives stands for.
 std::vector<std::string> alternatives(const std::string& path) {
   std::vector<std::string> paths = {""};
@@ -545,18 +557,6 @@ bool is_of_result(const std::string& path) {
   });
 }
 
-}  // namespace
-
-std::vector<std::string> split(const std::string& joined, char separator) {
-  std::vector<std::string> parts;
-  for (size_t begin = 0; begin <= joined.size();) {
-    const size_t end = std::min(joined.find(separator, begin), joined.size());
-    parts.push_back(joined.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
 std::vector<ReportKey> all_keys() {
   std::vector<ReportKey> keys;
   add_rows(keys, head);
@@ -581,5 +581,12 @@ std::vector<ReportKey> all_keys() {
   return keys;
 }
 
+}  // namespace
 }  // namespace report_table
+
+const std::vector<ReportKey>& report_keys() {
+  static const std::vector<ReportKey> keys = report_table::all_keys();
+  return keys;
+}
+
 }  // namespace hooke

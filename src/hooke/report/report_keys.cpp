@@ -3,32 +3,34 @@
 #include <algorithm>
 
 #include "hooke/core/edit_distance.h"
-#include "hooke/report/report_key_table.h"
 
 namespace hooke {
 namespace {
-
-using report_table::split;
 
 bool is_index(const std::string& key) {
   return !key.empty() && std::ranges::all_of(key, [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// The key that begins there in a path with a dot after each key; `begin` becomes the place of the next.
+std::string take_key(const std::string& path, size_t& begin) {
+  const size_t end = path.find('.', begin);
+  std::string key = path.substr(begin, end - begin);
+  begin = end + 1;
+  return key;
+}
+
 /// Whether a path of a report is one that the key stands for.
 bool matches(const std::string& pattern, const std::string& path) {
-  const std::vector<std::string> keys = split(pattern, '.'), given = split(path, '.');
-  if (keys.size() != given.size()) return false;
-  for (size_t k = 0; k < keys.size(); ++k)
-    if (keys[k] == "<n>" ? !is_index(given[k]) : keys[k] != "<name>" && keys[k] != given[k]) return false;
-  return true;
+  const std::string keys = pattern + ".", given = path + ".";
+  size_t next_key = 0, next_given = 0;
+  while (next_key < keys.size() && next_given < given.size()) {
+    const std::string key = take_key(keys, next_key), name = take_key(given, next_given);
+    if (key == "<n>" ? !is_index(name) : key != "<name>" && key != name) return false;
+  }
+  return next_key == keys.size() && next_given == given.size();
 }
 
 }  // namespace
-
-const std::vector<ReportKey>& report_keys() {
-  static const std::vector<ReportKey> keys = report_table::all_keys();
-  return keys;
-}
 
 bool is_number(const ReportKey& key) {
   return key.kind == KeyKind::number || key.kind == KeyKind::integer || key.kind == KeyKind::boolean;
