@@ -11,7 +11,7 @@
 #include "hooke/constraints/constraints.h"
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
-#include "hooke/report/key_listings.h"
+#include "hooke/report/report_keys.h"
 #include "listing_request.h"
 #include "words.h"
 

@@ -7,8 +7,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "hooke/report/key_listings.h"
-
 namespace hooke::report_keys_test {
 
 std::string parent_of(const std::string& path) {

@@ -1,6 +1,6 @@
-// The keys of the report: path, type, unit, meaning, and which way is worse. The list of --list-metrics, the
-// JSON Schema and the page about the report are made from this table (report_key_table.cpp), and gates and
-// comparisons look it up.
+// The keys of the report: path, type, unit, meaning, and which way is worse. Gates and comparisons look them
+// up in this table (report_key_table.cpp); the list of --list-metrics, the JSON Schema and the page about the
+// report are made from it.
 #pragma once
 
 #include <string>
@@ -41,5 +41,16 @@ std::string nearest_number(const std::string& path);
 
 /// Names of the keys in the block `parameters`.
 std::vector<std::string> parameter_names();
+
+/// All keys but those of objects and lists, one or more lines of at most 80 columns each: path, meaning,
+/// unit.
+std::string keys_as_text();
+
+/// The page src/hooke/report/README.md.
+std::string keys_as_page();
+
+/// The JSON Schema (draft 2020-12) of a report, src/hooke/report/report.schema.json: every key is required,
+/// and no other allowed.
+std::string report_schema();
 
 }  // namespace hooke
