@@ -14,9 +14,8 @@
 #include <utility>
 
 #include "batch_plan.h"
-#include "batch_words.h"
+#include "batch_table.h"
 #include "child_process.h"
-#include "done_record.h"
 #include "exit_codes.h"
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
@@ -24,7 +23,6 @@
 #include "hooke/io/files.h"
 #include "memory_limit.h"
 #include "mesh_memory.h"
-#include "mesh_row.h"
 #include "messages.h"
 #include "progress_bar.h"
 #include "signals.h"
