@@ -13,7 +13,6 @@
 #include "hooke/io/mesh_file.h"
 #include "hooke/io/ply.h"
 #include "hooke/io/polygon_triangulation.h"
-#include "hooke/io/preserve.h"
 #include "hooke/io/rewrite.h"
 #include "hooke/io/stl.h"
 #include "hooke/measure/fields.h"
