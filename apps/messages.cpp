@@ -6,7 +6,6 @@
 #include "hooke/core/printable.h"
 #include "hooke/remesh/result.h"
 #include "hooke/report/outcome.h"
-#include "hooke/report/table.h"
 #include "text_columns.h"
 
 namespace hooke::app {

@@ -1,9 +1,11 @@
-// What a run came to, in one line for people: angles, what holds the worst of them, and how far the surface
-// went.
+// What a run came to, for people: in one line, angles, what holds the worst of them, and how far the surface
+// went; and the measures as a text table, at most 80 columns wide.
 #pragma once
 
 #include <string>
 
+#include "hooke/measure/deviation.h"
+#include "hooke/measure/quality.h"
 #include "hooke/remesh/options.h"
 #include "hooke/report/report.h"
 
@@ -20,5 +22,14 @@ std::string outcome_in_words(const RunRecord& run);
 /// "--connectivity flip ..." where the neighbours of vertices hold small angles that other edges would not,
 /// "--connectivity adapt ..." where creases do.
 std::string advice_in_words(const RunRecord& run, ConnectivityMode mode);
+
+/// The table of one mesh.
+std::string quality_table(const Quality& mesh);
+
+/// Before and after side by side, followed by the deviation between them.
+std::string quality_table(const Quality& before, const Quality& after, const Deviation& deviation);
+
+/// A row of block characters, one per bin, scaled to the fullest bin; a bin that is not empty is never blank.
+std::string text_histogram(const Histogram& histogram);
 
 }  // namespace hooke
