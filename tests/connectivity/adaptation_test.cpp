@@ -6,7 +6,7 @@
 #include <set>
 #include <string_view>
 
-#include "hooke/connectivity/collapse_passes.h"
+#include "hooke/connectivity/edge_collapses.h"
 #include "hooke/connectivity/edge_splits.h"
 #include "hooke/connectivity/face_count.h"
 #include "hooke/constraints/constraints.h"

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "hooke/connectivity/collapse_passes.h"
 #include "hooke/connectivity/corner_flips.h"
+#include "hooke/connectivity/edge_collapses.h"
 #include "hooke/connectivity/edge_flips.h"
 #include "hooke/connectivity/edge_splits.h"
 #include "hooke/connectivity/face_count.h"

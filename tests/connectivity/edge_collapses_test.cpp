@@ -1,10 +1,9 @@
-#include "hooke/connectivity/collapse_passes.h"
+#include "hooke/connectivity/edge_collapses.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "hooke/connectivity/edge_collapses.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
@@ -13,7 +12,7 @@
 #include "hooke/working_mesh/working_mesh.h"
 #include "support/working_scene.h"
 
-namespace hooke::collapse_passes_test {
+namespace hooke::edge_collapses_test {
 
 constexpr int cells = 12;
 
@@ -221,4 +220,4 @@ TEST(FaceCollapses, LeaveGoodFacesAlone) {
   EXPECT_EQ(summarize(s.mesh).faces, 2 * fold_cells * fold_cells);
 }
 
-}  // namespace hooke::collapse_passes_test
+}  // namespace hooke::edge_collapses_test
