@@ -12,7 +12,7 @@
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"
 #include "hooke/io/mesh_format.h"
-#include "input_files.h"
+#include "run_files.h"
 
 namespace hooke::app {
 namespace {

@@ -15,7 +15,7 @@
 #include "hooke/core/printable.h"
 #include "hooke/io/files.h"
 #include "hooke/io/sha256.h"
-#include "input_files.h"
+#include "run_files.h"
 
 namespace hooke::app {
 

@@ -1,6 +1,8 @@
-// The output files of a run, which are written all or none.
+// The files of a run: those that options name for reading, beside the mesh, and its outputs, which are
+// written all or none.
 #pragma once
 
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -8,6 +10,18 @@
 #include "options.h"
 
 namespace hooke::app {
+
+/// A file and the option that names it, such as "--fix".
+struct NamedFile {
+  const char* role;
+  std::filesystem::path path;
+};
+
+/// The files whose content decides on the result or on the exit code, in a fixed order.
+std::vector<NamedFile> data_files(const Settings& settings);
+
+/// data_files() and the file of --config, whose settings stand among those given.
+std::vector<NamedFile> option_files(const Settings& settings);
 
 /// Checks all outputs before the computation. Throws Error if an output is the same file as another input or
 /// output, and OutputError if it cannot be written.
