@@ -9,7 +9,6 @@
 #include "hooke/core/error.h"
 #include "hooke/core/parallel.h"
 #include "hooke/filter/curved_facets.h"
-#include "hooke/filter/newton_projection.h"
 #include "hooke/filter/partition_of_unity.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/normals.h"
