@@ -1,4 +1,4 @@
-#include "hooke/measure/fields.h"
+#include "result_files.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "hooke/mesh/curvature.h"
 #include "support/solids.h"
 
-namespace hooke::fields_test {
+namespace hooke::app::result_files_test {
 
 const std::vector<double>& values_of(const VertexData& data, const char* name) {
   return find_channel(data, name)->values;
@@ -37,4 +37,4 @@ TEST(Fields, LeaveOutTheDisplacementWhereVerticesDoNotCorrespond) {
     EXPECT_EQ(channel.values.size(), static_cast<size_t>(c.vertex_count)) << channel.name;
 }
 
-}  // namespace hooke::fields_test
+}  // namespace hooke::app::result_files_test
