@@ -16,7 +16,7 @@
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/wedges.h"
-#include "hooke/springs/polygon_edges.h"
+#include "hooke/springs/rest_ratios.h"
 #include "hooke/springs/sizing.h"
 #include "result_files.h"
 

@@ -177,13 +177,6 @@ TEST(VertexLengths, FollowTheLeastRadiusOfCurvature) {
   for (double l : curvature_lengths(t.points, c, .3, .1)) EXPECT_EQ(l, .1);
 }
 
-TEST(AreaOfSides, IsThatOfTheTriangleAndZeroWithoutOne) {
-  EXPECT_DOUBLE_EQ(area_of_sides(3, 4, 5), 6);
-  EXPECT_DOUBLE_EQ(area_of_sides(5, 3, 4), 6);
-  EXPECT_EQ(area_of_sides(1, 2, 4), 0);
-  EXPECT_EQ(area_of_sides(0, 1, 1), 0);
-}
-
 TEST(LeastRestAngle, IsThatOfTheSlimmestTriangleOfRestLengths) {
   const Adjacency c = make_adjacency(4, {{0, 1, 2}, {0, 2, 3}});
   const auto angle_with = [&](double diagonal, double side) {

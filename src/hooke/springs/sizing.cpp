@@ -12,6 +12,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/springs/rest_ratios.h"
 #include "hooke/springs/target_lengths.h"
 
 namespace hooke {

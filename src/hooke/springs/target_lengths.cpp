@@ -69,22 +69,6 @@ TargetLengths from_edge_lengths(const Adjacency& c, std::vector<double> edge) {
   return {std::move(edge), std::move(face)};
 }
 
-TargetLengths at_rest_ratios(const Adjacency& c, const TargetLengths& targets,
-                             const std::vector<double>& ratios) {
-  std::vector<double> edge(c.edges.size()), face(c.faces.size());
-  for (size_t e = 0; e < edge.size(); ++e) edge[e] = ratios[e] * targets.edge[e];
-  parallel_for(face.size(), length_block, [&](size_t begin, size_t end) {
-    for (size_t f = begin; f < end; ++f) {
-      const auto& [i, j, k] = c.face_edges[f];
-      const double a = edge[i], b = edge[j], d = edge[k];
-      constexpr double least_share = 1e-3;  // of the mean, for edges that make no triangle
-      face[f] = std::max(4 / std::sqrt(3.) * area_of_sides(a, b, d) / std::max({a, b, d}),
-                         least_share * mean_of_three(a, b, d));
-    }
-  });
-  return {std::move(edge), std::move(face)};
-}
-
 double least_rest_angle(const Adjacency& c, const TargetLengths& targets) {
   double greatest_cosine = .5;
   for (const auto& [i, j, k] : c.face_edges) {
@@ -94,11 +78,6 @@ double least_rest_angle(const Adjacency& c, const TargetLengths& targets) {
     if (a + b > d) greatest_cosine = std::max(greatest_cosine, (b * b + d * d - a * a) / (2 * b * d));
   }
   return std::acos(std::min(1., greatest_cosine)) * 180 / std::numbers::pi;
-}
-
-double area_of_sides(double a, double b, double c) {
-  const double half = (a + b + c) / 2;
-  return std::sqrt(std::max(0., half * (half - a) * (half - b) * (half - c)));
 }
 
 TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double>& vertex_length) {

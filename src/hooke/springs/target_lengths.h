@@ -11,7 +11,7 @@ struct TargetLengths {
   /// Where they are not given for single edges, the mean of the ends, which always satisfies the triangle
   /// inequality, times the rest ratio if there is one.
   UniformVector edge;
-  UniformVector face;  // mean of the three edges; with rest ratios see at_rest_ratios()
+  UniformVector face;  // mean of the three edges; with rest ratios see rest_ratios.h
 };
 
 /// L* = sqrt(4 A / (sqrt 3 F)): the edge length of F equilateral triangles that cover the area A.
@@ -28,17 +28,9 @@ double mean_length(const Mat3X& points, const Adjacency& adjacency, const Target
 /// Target lengths of edges that are given one by one; those of the faces are their means.
 TargetLengths from_edge_lengths(const Adjacency& adjacency, std::vector<double> edge_length);
 
-/// These targets with the lengths of edges multiplied by their ratios. Altitude springs of a face then rest
-/// at the smallest altitude of the triangle with these edges.
-TargetLengths at_rest_ratios(const Adjacency& adjacency, const TargetLengths& targets,
-                             const std::vector<double>& ratios);
-
 /// The least angle of the triangles with these edges, degrees; those whose edges make none do not count. 60
 /// without any.
 double least_rest_angle(const Adjacency& adjacency, const TargetLengths& targets);
-
-/// The area of a triangle by its sides (Heron); 0 where they make none.
-double area_of_sides(double a, double b, double c);
 
 /// Target lengths of edges and faces from those of the vertices.
 TargetLengths spread_target_lengths(const Adjacency& adjacency, const std::vector<double>& vertex_length);

@@ -17,6 +17,7 @@
 #include "hooke/mesh/topology.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/narrow_regions.h"
+#include "hooke/springs/rest_ratios.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {

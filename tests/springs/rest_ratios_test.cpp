@@ -1,4 +1,4 @@
-#include "hooke/springs/polygon_edges.h"
+#include "hooke/springs/rest_ratios.h"
 
 #include <gtest/gtest.h>
 
@@ -253,6 +253,13 @@ TEST(RestRatios, AreForFixedFacesOnly) {
   RemeshOptions options;
   options.connectivity = ConnectivityMode::flip;
   EXPECT_THROW(preserving_remesh(sprung.mesh, sprung.memory_order, options), Error);
+}
+
+TEST(AreaOfSides, IsThatOfTheTriangleAndZeroWithoutOne) {
+  EXPECT_DOUBLE_EQ(area_of_sides(3, 4, 5), 6);
+  EXPECT_DOUBLE_EQ(area_of_sides(5, 3, 4), 6);
+  EXPECT_EQ(area_of_sides(1, 2, 4), 0);
+  EXPECT_EQ(area_of_sides(0, 1, 1), 0);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Springs of quadrilaterals, which are cut into triangles and are to be rectangles: a diagonal is longer than
-// the sides, and opposite sides are as long as each other.
+// Rest ratios: rest lengths of edges over their target lengths, for springs of quadrilaterals, which are cut
+// into triangles and are to be rectangles: a diagonal is longer than the sides, and opposite sides are as
+// long as each other.
 #pragma once
 
 #include <cstddef>
@@ -25,5 +26,13 @@ std::vector<double> rest_ratios(const IntLists& polygons, const MemoryOrder& mem
 
 /// How many have this number of corners.
 std::size_t count_with_corners(const IntLists& polygons, std::size_t corners);
+
+/// These targets with the lengths of edges multiplied by their ratios. Altitude springs of a face then rest
+/// at the smallest altitude of the triangle with these edges.
+TargetLengths at_rest_ratios(const Adjacency& adjacency, const TargetLengths& targets,
+                             const std::vector<double>& ratios);
+
+/// The area of a triangle by its sides (Heron); 0 where they make none.
+double area_of_sides(double a, double b, double c);
 
 }  // namespace hooke

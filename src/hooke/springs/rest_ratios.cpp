@@ -1,4 +1,4 @@
-#include "hooke/springs/polygon_edges.h"
+#include "hooke/springs/rest_ratios.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hooke/core/error.h"
+#include "hooke/core/parallel.h"
 
 namespace hooke {
 
@@ -175,6 +176,28 @@ std::size_t count_with_corners(const IntLists& polygons, std::size_t corners) {
   std::size_t count = 0;
   for (int p = 0; p + 1 < std::ssize(polygons.first); ++p) count += polygons[p].size() == corners;
   return count;
+}
+
+TargetLengths at_rest_ratios(const Adjacency& c, const TargetLengths& targets,
+                             const std::vector<double>& ratios) {
+  constexpr std::size_t faces_per_task = 4096;
+  std::vector<double> edge(c.edges.size()), face(c.faces.size());
+  for (std::size_t e = 0; e < edge.size(); ++e) edge[e] = ratios[e] * targets.edge[e];
+  parallel_for(face.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto& [i, j, k] = c.face_edges[f];
+      const double a = edge[i], b = edge[j], d = edge[k];
+      constexpr double least_share = 1e-3;  // of the mean, for edges that make no triangle
+      face[f] = std::max(4 / std::sqrt(3.) * area_of_sides(a, b, d) / std::max({a, b, d}),
+                         least_share * ((a + b + d) / 3));
+    }
+  });
+  return {std::move(edge), std::move(face)};
+}
+
+double area_of_sides(double a, double b, double c) {
+  const double half = (a + b + c) / 2;
+  return std::sqrt(std::max(0., half * (half - a) * (half - b) * (half - c)));
 }
 
 }  // namespace hooke
