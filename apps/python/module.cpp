@@ -4,16 +4,18 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <chrono>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
 #include "arrays.h"
 #include "hooke/core/error.h"
+#include "hooke/integrator/relaxation.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"
 #include "hooke/mesh/junctions.h"
-#include "python_observer.h"
 #include "result_files.h"
 #include "run_in_memory.h"
 
@@ -21,6 +23,47 @@ namespace py = pybind11;
 
 namespace hooke::python {
 namespace {
+
+/// An observer for a run without Python's lock, which it takes at most twenty times a second. Then it lets
+/// Python handle signals, Ctrl-C among them, and calls the function with the stage, the outer iteration, the
+/// step and the energy. The run stops if either raises an exception, which is kept, or if the function
+/// returns False. To be destroyed with the lock.
+class PythonObserver {
+ public:
+  /// `progress`: a function, or None.
+  explicit PythonObserver(py::object progress) : progress_(std::move(progress)) {}
+
+  bool operator()(const Progress& progress) {
+    constexpr std::chrono::milliseconds pause{50};
+    const auto now = std::chrono::steady_clock::now();
+    if (!goes_on_ || now - last_ < pause) return goes_on_;
+    const py::gil_scoped_acquire lock;
+    watch(progress);
+    last_ = std::chrono::steady_clock::now();
+    return goes_on_;
+  }
+
+  /// The exception that stopped the run; None if there was none.
+  py::object exception() const { return raised_ ? raised_->value() : py::none(); }
+
+ private:
+  void watch(const Progress& progress) {
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (progress_.is_none()) return;
+      const py::object answer = progress_(progress.stage, progress.outer, progress.step, progress.energy);
+      goes_on_ = !answer.is(py::bool_(false));
+    } catch (py::error_already_set& e) {
+      raised_.emplace(std::move(e));
+      goes_on_ = false;
+    }
+  }
+
+  py::object progress_;
+  std::optional<py::error_already_set> raised_;
+  bool goes_on_ = true;
+  std::chrono::steady_clock::time_point last_{};
+};
 
 /// Returns work() without Python's lock.
 template <typename Work>
