@@ -18,6 +18,7 @@
 #include "hooke/io/read_mesh.h"
 #include "hooke/measure/polygon_angles.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/report/paper_block.h"
 #include "hooke/report/report.h"
 #include "judging.h"
 #include "kept_data.h"

@@ -18,6 +18,7 @@
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/paper_mode.h"
 #include "hooke/remesh/preserving_remesh.h"
+#include "hooke/report/paper_block.h"
 #include "hooke/springs/sizing.h"
 #include "memory_limit.h"
 #include "mesh_memory.h"
