@@ -5,7 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "hooke/connectivity/adaptation.h"
 #include "hooke/connectivity/face_count.h"
+#include "hooke/connectivity/flip_mode.h"
+#include "hooke/connectivity/sliver_removal.h"
 #include "hooke/core/error.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/core/uniform_vector.h"
