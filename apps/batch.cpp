@@ -30,6 +30,20 @@
 namespace hooke::app {
 namespace {
 
+/// Whether a run with this exit code has written its result and a report.
+bool leaves_a_report(int exit_code) {
+  return exit_code == done || exit_code == gate_failed || exit_code == interrupted || exit_code == terminated;
+}
+
+/// The last error in the messages of a run, without the name of the command; empty if there is none.
+std::string last_error(const std::string& messages) {
+  constexpr std::string_view mark = "hooke-remesh: error: ";
+  const size_t begin = messages.rfind(mark);
+  if (begin == std::string::npos) return "";
+  const size_t text = begin + mark.size();
+  return messages.substr(text, messages.find('\n', text) - text);
+}
+
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 

@@ -40,18 +40,6 @@ std::string failure_word(int exit_code) {
   }
 }
 
-bool leaves_a_report(int exit_code) {
-  return exit_code == done || exit_code == gate_failed || exit_code == interrupted || exit_code == terminated;
-}
-
-std::string last_error(const std::string& messages) {
-  constexpr std::string_view mark = "hooke-remesh: error: ";
-  const size_t begin = messages.rfind(mark);
-  if (begin == std::string::npos) return "";
-  const size_t text = begin + mark.size();
-  return messages.substr(text, messages.find('\n', text) - text);
-}
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -25,12 +25,6 @@ struct MeshOutcome {
 /// The status of a mesh whose run left no report.
 std::string failure_word(int exit_code);
 
-/// Whether a run with this exit code has written its result and a report.
-bool leaves_a_report(int exit_code);
-
-/// The last error in the messages of a run, without the name of the command; empty if there is none.
-std::string last_error(const std::string& messages);
-
 /// The row: file, output, status, exit_code, seconds, numbers of the report before and after, message; null
 /// for what there is not. Lengths in file units, angles in degrees.
 nlohmann::ordered_json mesh_row(const MeshTask& task, const MeshOutcome& outcome);

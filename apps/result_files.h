@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "hooke/core/types.h"
 #include "hooke/core/uniform_vector.h"
 #include "hooke/io/read_mesh.h"
 #include "hooke/io/write_mesh.h"

@@ -170,7 +170,7 @@ TEST(SliverRemoval, LeavesCreasesWhereTheyAre) {
 }
 
 TEST(SliverRemoval, NoEdgeIsTriedAgainWhereNothingHasChanged) {
-  // A sliver at a corner of the boundary, where no change gains enough: it is evaluated once.
+  // A sliver at a corner of the boundary, where no candidate is tried to the end: it is evaluated once.
   test::Triangles t = test::grid(cells, test::flat);
   const auto tip = t.points.cols();
   t.points.conservativeResize(3, tip + 1);

@@ -165,11 +165,12 @@ bool is_regular(const WorkingMesh& m, const CoarseLimits& limits) {
   const HalfedgeMesh& t = m.halfedges;
   const auto is_inner = [&](int v) { return t.valence(v) > 0 && !t.on_boundary(v); };
   const auto is_edge = [&](int h) { return t.twin(h) <= h; };
+  constexpr double misfit_share = .01;               // of the edges
+  constexpr double shortest = .8, longest = 4. / 3;  // of those that fit, over the target lengths
   const auto is_misfit = [&](int h) {
     const double length = relative_length(m, h);
-    return length < .8 || length > 4. / 3;
+    return length < shortest || length > longest;
   };
-  constexpr double misfit_share = .01;
   const int ids = t.id_count(), half_edges = t.half_edge_count();
   return count_of(ids, [&](int v) { return is_inner(v) && t.valence(v) != 6; }) <=
              limits.irregular_share * count_of(ids, is_inner) &&

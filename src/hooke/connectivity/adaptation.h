@@ -20,8 +20,8 @@ struct CoarseLimits {
   double sagitta = .07;            // maximum sagitta of an edge of the coarsest mesh, over its length
   double bent_share = .01;         // share of its edges that may exceed that sagitta
   double constrained_share = .25;  // maximum share of its vertices that are fixed or on feature curves
-  /// A mesh with at most this share of irregular inner vertices, and hardly an edge that does not fit, is
-  /// regular already and needs no coarser mesh first.
+  /// A mesh with at most this share of irregular inner vertices, of whose edges at most 1 % are shorter than
+  /// .8 or longer than 4/3 target lengths, is regular already and needs no coarser mesh first.
   double irregular_share = .1;
 };
 

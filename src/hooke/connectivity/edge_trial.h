@@ -13,8 +13,10 @@ struct WorkingMesh;
 
 // Quality of a patch.
 
-/// Maximum length and sagitta of an edge after a change, over its target length, unless exceeded before.
-constexpr double max_length_near_slivers = 1.7, max_sagitta_near_slivers = .5;
+/// Maximum length of an edge after a change, over its target length, unless it was longer before.
+inline constexpr double max_length_near_slivers = 1.7;
+/// Maximum sagitta of an edge after a change, over its target length, unless it was more before.
+inline constexpr double max_sagitta_near_slivers = .5;
 
 /// How far a patch exceeds the limits.
 struct PatchViolation {

@@ -13,9 +13,10 @@ struct Adjacency;
 struct SurfacePositions;
 struct ShapeLimits;
 
-/// Factors on the displacement of a vertex to the centroid, and on that between its neighbours on feature
-/// edges.
-constexpr double lloyd_over_relaxation = 1.3, lloyd_boundary_relaxation = .91;
+/// Factor on the displacement of a vertex to the centroid.
+inline constexpr double lloyd_over_relaxation = 1.3;
+/// Factor on the displacement of a vertex between its neighbours on feature edges.
+inline constexpr double lloyd_boundary_relaxation = .91;
 
 /// The displacements of all vertices, 3 x n; the caller makes them tangential and retracts. The cell consists
 /// of signed kites between the vertex, the midpoints of its edges and the circumcentres of its faces; its

@@ -47,9 +47,10 @@ class SliverPass {
 
   /// One round. False if there was nothing to test, or if it was interrupted.
   bool test_slivers(const Observer& observer) {
-    constexpr double share = .01;  // of the faces, worst first
+    constexpr double share = .01;          // slivers tested per round, worst first, as a share of the faces
+    constexpr int least = 10, most = 200;  // of that number
     const int limit =
-        std::min(std::clamp(static_cast<int>(share * faces_), 10, 200), max_tested_ - changes_.tested);
+        std::min(std::clamp(static_cast<int>(share * faces_), least, most), max_tested_ - changes_.tested);
     int left = limit;
     for (int f : slivers()) {
       if (left == 0) break;

@@ -6,6 +6,7 @@
 
 #include "hooke/connectivity/connectivity_mode.h"
 #include "hooke/connectivity/edge_trial.h"
+#include "hooke/integrator/integration.h"
 
 namespace hooke {
 

@@ -1,5 +1,5 @@
 // The surface as the optimizer sees it: a projection and a shape operator. A fitted field, a closest-point
-// search and an analytic surface can all serve as one. And the projection to the surface of a field.
+// search and an analytic surface can all serve as one; a field does by Newton's method [16].
 #pragma once
 
 #include <concepts>

@@ -19,9 +19,11 @@ std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {
 }  // namespace
 
 UntangleResult untangle(Relaxation& r, const Observer& observer) {
-  constexpr int max_rounds = 12, patience = 3;  // of these, without fewer folded faces
-  constexpr int rings = 2;  // around these, within which vertices move; each round adds as many
-  constexpr LocalRelaxationOptions sweeps = {.sweeps = 30, .over_relaxation = 1.5};  // faces unfold sooner
+  constexpr int max_rounds = 12;
+  constexpr int patience = 3;  // rounds without fewer folded faces before giving up
+  constexpr int rings = 2;     // around the folded faces, within which vertices move; each round adds as many
+  // In each round; faces unfold sooner with over-relaxation.
+  constexpr LocalRelaxationOptions sweeps = {.sweeps = 30, .over_relaxation = 1.5};
   UntangleResult result;
   result.folded = r.guards.folded_faces(r.positions);
   result.folded_before = static_cast<int>(result.folded.size());

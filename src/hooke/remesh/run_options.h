@@ -9,6 +9,7 @@
 #include "hooke/geometry/local_shape.h"
 #include "hooke/integrator/angle_search.h"
 #include "hooke/integrator/angle_springs.h"
+#include "hooke/integrator/integration.h"
 #include "hooke/remesh/options.h"
 #include "hooke/remesh/result.h"
 
@@ -28,7 +29,7 @@ struct NearRegular {
 };
 
 /// Passes of sliver removal; each ends with a projection to the input surface, which may create new slivers.
-constexpr int sliver_passes = 3;
+inline constexpr int sliver_passes = 3;
 
 struct RunOptions {
   /// Those of the effort and the mode that are chosen.

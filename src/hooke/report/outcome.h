@@ -1,5 +1,5 @@
-// What a run came to, for people: in one line, angles, what holds the worst of them, and how far the surface
-// went; and the measures as a text table, at most 80 columns wide.
+// What a run came to, for people: in one line, angles, what holds the worst of them and what would help, and
+// how far the surface went; and the measures as a text table with histograms, at most 80 columns wide.
 #pragma once
 
 #include <string>
