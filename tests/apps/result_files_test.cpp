@@ -30,11 +30,11 @@ TEST(Fields, LeaveOutTheDisplacementWhereVerticesDoNotCorrespond) {
   const test::Triangles t = test::sphere(1, .3);
   const Adjacency c = test::connect(t);
   const Fields fields = measure_fields(t.points, c, UniformVector(c.edges.size(), .5),
-                                       std::vector<double>(static_cast<size_t>(c.vertex_count)), nullptr);
+                                       std::vector<double>(c.vertex_count), nullptr);
   EXPECT_EQ(find_channel(fields.vertices, "displacement"), nullptr);
   EXPECT_EQ(values_of(fields.vertices, "gaussian_curvature"), measure_curvature(t.points, c).gaussian);
   for (const VertexChannel& channel : fields.vertices)
-    EXPECT_EQ(channel.values.size(), static_cast<size_t>(c.vertex_count)) << channel.name;
+    EXPECT_EQ(channel.values.size(), c.vertex_count) << channel.name;
 }
 
 }  // namespace hooke::app::result_files_test

@@ -34,21 +34,21 @@ Mat3X torus_points(int n, double noise, const std::vector<int>& id, std::mt19937
   Mat3X points(3, 10 * n * n);
   for (int i = 0; i < 5 * n; ++i)
     for (int j = 0; j < 2 * n; ++j)
-      points.col(id[static_cast<size_t>(2 * n * i + j)]) = on_torus(
-          2 * std::numbers::pi * (i + shake(random)) / (5 * n), std::numbers::pi * (j + shake(random)) / n);
+      points.col(id[2 * n * i + j]) = on_torus(2 * std::numbers::pi * (i + shake(random)) / (5 * n),
+                                               std::numbers::pi * (j + shake(random)) / n);
   return points;
 }
 
 Scene make_scene(int vertices) {
   const int n = static_cast<int>(std::lround(std::sqrt(vertices / 10.)));
   std::mt19937 random(1);
-  std::vector<int> id(static_cast<size_t>(10 * n * n));
+  std::vector<int> id(10 * n * n);
   std::iota(id.begin(), id.end(), 0);
   std::shuffle(id.begin(), id.end(), random);
   Scene s;
   s.points = torus_points(n, .3, id, random);
   s.moved = torus_points(n, .3, id, random);
-  const auto at = [&](int i, int j) { return id[static_cast<size_t>(2 * n * (i % (5 * n)) + j % (2 * n))]; };
+  const auto at = [&](int i, int j) { return id[2 * n * (i % (5 * n)) + j % (2 * n)]; };
   for (int i = 0; i < 5 * n; ++i)
     for (int j = 0; j < 2 * n; ++j) {
       s.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});

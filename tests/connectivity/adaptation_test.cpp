@@ -65,7 +65,7 @@ Outcome adapted(const test::Triangles& t, const RunOptions& options, const std::
                 const Observer& observer = nullptr) {
   TriMesh mesh = test::to_mesh(t);
   auto length = OpenMesh::getOrMakeProperty<OpenMesh::VertexHandle, double>(mesh, target_length_property);
-  for (const auto v : mesh.vertices()) length[v] = lengths[static_cast<size_t>(v.idx())];
+  for (const auto v : mesh.vertices()) length[v] = lengths[v.idx()];
   Outcome o;
   o.result = Run(mesh, find_memory_order(mesh), options, observer, nullptr).remesh(mesh);
   o.points = vertex_points(mesh);
@@ -75,7 +75,7 @@ Outcome adapted(const test::Triangles& t, const RunOptions& options, const std::
 
 Outcome adapted(const test::Triangles& t, double length, const RunOptions& options,
                 const Observer& observer = nullptr) {
-  return adapted(t, options, std::vector<double>(static_cast<size_t>(t.points.cols()), length), observer);
+  return adapted(t, options, std::vector<double>(t.points.cols(), length), observer);
 }
 Outcome adapted(const test::Triangles& t, double length, const RemeshOptions& options = adaptation_options(),
                 const Observer& observer = nullptr) {
@@ -278,7 +278,7 @@ TEST(Adaptation, TheBoundaryStaysOnItsPolyline) {
 TEST(Adaptation, TheMapReproducesThePoints) {
   const test::Triangles t = with_holes(test::flat);
   const Outcome o = adapted(t, .8 * natural(t));
-  ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
+  ASSERT_EQ(o.result.map.size(), o.points.cols());
   int last = -1;
   bool fresh = false;
   for (size_t v = 0; v < o.result.map.size(); ++v) {
@@ -293,8 +293,7 @@ TEST(Adaptation, TheMapReproducesThePoints) {
     EXPECT_GE(place.weights.minCoeff(), 0);
     Vec3 x = Vec3::Zero();
     for (size_t k = 0; k < 3; ++k)
-      x += place.weights[static_cast<Eigen::Index>(k)] *
-           t.points.col(t.faces[static_cast<size_t>(place.face)][k]);
+      x += place.weights[static_cast<Eigen::Index>(k)] * t.points.col(t.faces[place.face][k]);
     EXPECT_LT((x - o.points.col(static_cast<Eigen::Index>(v))).norm(), 1e-9);
   }
   EXPECT_TRUE(fresh);
@@ -307,14 +306,14 @@ TEST(Adaptation, TheMapIsKeptInTheOtherModes) {
     RemeshOptions options = adaptation_options();
     options.connectivity = mode;
     const Outcome o = adapted(t, L, options);
-    ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
+    ASSERT_EQ(o.result.map.size(), o.points.cols());
     for (size_t v = 0; v < o.result.map.size(); ++v) {
       const MapEntry& entry = o.result.map[v];
       EXPECT_EQ(entry.vertex, static_cast<int>(v));
       Vec3 x = Vec3::Zero();
       for (size_t k = 0; k < 3; ++k)
         x += entry.position.weights[static_cast<Eigen::Index>(k)] *
-             t.points.col(t.faces[static_cast<size_t>(entry.position.face)][k]);
+             t.points.col(t.faces[entry.position.face][k]);
       EXPECT_LT((x - o.points.col(static_cast<Eigen::Index>(v))).norm(), .3 * L);  // the faces' sagitta
     }
   }

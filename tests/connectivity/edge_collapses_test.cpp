@@ -50,7 +50,7 @@ TEST(CollapseTrial, LeavesTheMeshAlone) {
 TEST(CollapseTrial, IsWhatCollapseEdgeDoes) {
   for (int k = 0; k < 200; k += 7) {
     test::WorkingScene s(rough(), test::plane());
-    const int h = inner_edges(s.halfedges)[static_cast<size_t>(k)];
+    const int h = inner_edges(s.halfedges)[k];
     const std::optional<Collapse> collapse = find_collapse(s.mesh, h, {});
     EXPECT_EQ(collapse_edge(s.mesh, h, {}), collapse ? collapse->stays : -1);
     if (collapse) {
@@ -90,8 +90,7 @@ LocalShape worst_at(const WorkingMesh& m, int v) {
       const Edge edge = {t.from(h), t.to(h)}, wedges = {t.wedge(h), t.wedge(HalfedgeMesh::next(h))};
       if (edge[0] == v || edge[1] == v)
         worst.add_edge(X, N, edge, wedges, target_length(m, edge[0], edge[1]));
-      if (!t.is_feature_edge(h))
-        worst.add_fold(cosine_between(X, t.faces()[f], t.faces()[static_cast<size_t>(t.twin(h) / 3)]));
+      if (!t.is_feature_edge(h)) worst.add_fold(cosine_between(X, t.faces()[f], t.faces()[t.twin(h) / 3]));
     }
   }
   return worst;

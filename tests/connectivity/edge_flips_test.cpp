@@ -82,8 +82,8 @@ TEST(EdgeFlips, AFoldThatIsThereIsNoLeaveForAnother) {
   const double limit = ShapeLimits().fold;
   const auto cosine = [&](int a, int b) {
     const int h = test::half_edge(s.halfedges, a, b);
-    return cosine_between(s.positions.points, s.halfedges.faces()[static_cast<size_t>(h / 3)],
-                          s.halfedges.faces()[static_cast<size_t>(s.halfedges.twin(h) / 3)]);
+    return cosine_between(s.positions.points, s.halfedges.faces()[h / 3],
+                          s.halfedges.faces()[s.halfedges.twin(h) / 3]);
   };
   int allowed = 0, beside_folds = 0;
   for (int h = 0; h < s.halfedges.half_edge_count(); ++h) {
@@ -132,8 +132,7 @@ TEST(EdgeFlips, NoEdgeIsDoubled) {
     s.vertices.corner_valences.assign(
         4,
         4);  // valences forbid nothing: the ends may lose an edge, the others gain one
-    for (int end : {s.halfedges.from(h), s.halfedges.to(h)})
-      s.vertices.corner_valences[static_cast<size_t>(end)] = 2;
+    for (int end : {s.halfedges.from(h), s.halfedges.to(h)}) s.vertices.corner_valences[end] = 2;
     EXPECT_FALSE(flip_keeps_topology(s.mesh, h));
   }
 }

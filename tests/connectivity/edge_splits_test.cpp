@@ -30,7 +30,7 @@ TEST(Subdivision, NewVerticesAreRegularAndOldOnesKeepTheirEdges) {
   test::WorkingScene s(test::grid(cells, test::flat, .2), test::plane());
   for (size_t v = 0; v < s.vertices.origins.size(); ++v) s.vertices.origins[v] = static_cast<int>(v);
   for (int corner : {0, cells, cells * (cells + 1), (cells + 1) * (cells + 1) - 1})
-    s.vertices.corner_valences[static_cast<size_t>(corner)] = s.halfedges.valence(corner);
+    s.vertices.corner_valences[corner] = s.halfedges.valence(corner);
   std::vector<int> valences;
   for (int v = 0; v < s.adjacency.vertex_count; ++v) valences.push_back(s.halfedges.valence(v));
   quadrupled(s);
@@ -38,7 +38,7 @@ TEST(Subdivision, NewVerticesAreRegularAndOldOnesKeepTheirEdges) {
   for (size_t i = 0; i < s.vertices.origins.size(); ++i) {
     const int v = static_cast<int>(i), origin = s.vertices.origins[i];
     if (origin >= 0) {
-      EXPECT_EQ(s.halfedges.valence(v), valences[static_cast<size_t>(origin)]);
+      EXPECT_EQ(s.halfedges.valence(v), valences[origin]);
     } else {
       EXPECT_EQ(s.halfedges.valence(v), s.halfedges.on_boundary(v) ? 4 : 6);
       ++fresh;

@@ -195,15 +195,12 @@ TEST(EdgeChanges, EachIsDoneAlikeInThePatchAndInTheMesh) {
     const std::vector<Triangle> faces = change_patch(patch, change, test::plane(), {});
     change_mesh(s.mesh, change, patch);
     for (const Triangle& face : faces) {
-      const auto in_mesh = [&](int k) {
-        return patch.vertex_ids[static_cast<size_t>(face[static_cast<size_t>(k)])];
-      };
+      const auto in_mesh = [&](int k) { return patch.vertex_ids[face[k]]; };
       const int h = test::half_edge(s.halfedges, in_mesh(0), in_mesh(1));
       ASSERT_GE(h, 0);
       EXPECT_EQ(s.halfedges.opposite_vertex(h), in_mesh(2));
       for (int k : {0, 1, 2})
-        EXPECT_EQ(s.positions.points.col(in_mesh(k)),
-                  patch.vertices.positions.points.col(face[static_cast<size_t>(k)]));
+        EXPECT_EQ(s.positions.points.col(in_mesh(k)), patch.vertices.positions.points.col(face[k]));
     }
     const Topology after = topology_of(s);
     EXPECT_EQ(after.euler, before.euler);

@@ -119,8 +119,8 @@ Vec3 centroid_of_voronoi_cell(const test::WorkingScene& s, int v) {
 bool deep_inside(const test::WorkingScene& s, int v) {
   const std::vector<char> boundary = boundary_vertices(s.adjacency);
   for (int w : s.adjacency.vertex_neighbours[v])
-    if (boundary[static_cast<size_t>(w)]) return false;
-  return !boundary[static_cast<size_t>(v)];
+    if (boundary[w]) return false;
+  return !boundary[v];
 }
 
 TEST(Lloyd, ARegularLatticeStays) {
@@ -128,8 +128,7 @@ TEST(Lloyd, ARegularLatticeStays) {
   test::WorkingScene s(t, test::plane());
   const Mat3X step = lloyd_step(s.positions, s.adjacency, s.vertices.vertex_length);
   const std::vector<char> boundary = boundary_vertices(s.adjacency);
-  for (int v = 0; v < t.points.cols(); ++v)
-    EXPECT_TRUE(boundary[static_cast<size_t>(v)] || step.col(v).norm() < 1e-12) << v;
+  for (int v = 0; v < t.points.cols(); ++v) EXPECT_TRUE(boundary[v] || step.col(v).norm() < 1e-12) << v;
 }
 
 TEST(Lloyd, AStepLeadsToTheCentroidOfTheVoronoiCell) {

@@ -30,9 +30,7 @@ double min_fold(const test::WorkingScene& s) {
   const Adjacency c = make_adjacency(static_cast<int>(s.vertices.vertex_length.size()), s.halfedges.faces());
   double least = 1;
   for (const auto& [f, g] : c.edge_faces)
-    if (g >= 0)
-      least = std::min(least, cosine_between(s.positions.points, c.faces[static_cast<size_t>(f)],
-                                             c.faces[static_cast<size_t>(g)]));
+    if (g >= 0) least = std::min(least, cosine_between(s.positions.points, c.faces[f], c.faces[g]));
   return least;
 }
 
@@ -113,7 +111,7 @@ TEST(FlipPass, StopsWithAValidMeshWhenTheObserverSaysSo) {
 
 TEST(FlipPass, ARegularMeshHasNothingToFlip) {
   test::WorkingScene s(test::grid(6, test::flat), test::plane());
-  for (int v : {0, 6, 42, 48}) s.vertices.corner_valences[static_cast<size_t>(v)] = s.halfedges.valence(v);
+  for (int v : {0, 6, 42, 48}) s.vertices.corner_valences[v] = s.halfedges.valence(v);
   EXPECT_EQ(flip_all(s), 0);
 }
 

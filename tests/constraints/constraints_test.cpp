@@ -167,7 +167,7 @@ TEST(Constraints, EveryVertexStartsAtItsOwnPlaceOnItsCurve) {
         continue;
       }
       const Vec3 x = t.points.col(static_cast<Eigen::Index>(v));
-      const Curve& curve = c.curves[static_cast<size_t>(c.curve[v])];
+      const Curve& curve = c.curves[c.curve[v]];
       EXPECT_EQ(curve.points.col(c.segment[v]), x);
       EXPECT_EQ(project_to_curve(curve, x, c.segment[v]).point, x);
     }
@@ -270,7 +270,7 @@ TEST(Constraints, AnEvenCreaseKeepsItsVerticesAtBends) {
   const Constraints even = creased(test::cylinder(40, .05));
   EXPECT_EQ(count_of(even, Freedom::fixed), 80);
   for (int v = 0; v < static_cast<int>(even.freedom.size()); ++v)
-    EXPECT_EQ(even.at_bend(v), even.freedom[static_cast<size_t>(v)] == Freedom::fixed);
+    EXPECT_EQ(even.at_bend(v), even.freedom[v] == Freedom::fixed);
   ASSERT_EQ(even.curves.size(), 2u);
   for (const Curve& curve : even.curves) EXPECT_TRUE(curve.closed);  // they break no curve
 

@@ -15,10 +15,9 @@ namespace hooke::crease_detection_test {
 std::vector<Edge> features_of(const test::Triangles& t, const CreaseOptions& options = {},
                               const std::vector<Edge>& hard_edges = {}) {
   const Adjacency c = test::connect(t);
-  const std::vector<double> length(static_cast<size_t>(c.vertex_count), 1);
+  const std::vector<double> length(c.vertex_count, 1);
   std::vector<Edge> edges;
-  for (int e : detect_creases(t.points, c, length, options, hard_edges))
-    edges.push_back(c.edges[static_cast<size_t>(e)]);
+  for (int e : detect_creases(t.points, c, length, options, hard_edges)) edges.push_back(c.edges[e]);
   return edges;
 }
 
@@ -44,7 +43,7 @@ TEST(Features, AnOpenBoxHasTheEdgesBetweenItsSidesToo) {
     std::erase_if(box.faces, [&](const Triangle& f) {
       return std::ranges::all_of(f, [&](int v) { return box.points(2, v) == depth; });
     });
-    EXPECT_EQ(features_of(box).size(), static_cast<size_t>(4 * 10 + 4 * depth));
+    EXPECT_EQ(features_of(box).size(), 4 * 10 + 4 * depth);
   }
 }
 
@@ -113,8 +112,7 @@ test::Triangles bent_strip(int wide, int n) {
 }
 
 TEST(Features, AShortFoldFromBoundaryToBoundaryIsOneBetweenFlatSides) {
-  for (const int wide : {2, 3, 8})
-    EXPECT_EQ(features_of(bent_strip(wide, 12)).size(), static_cast<size_t>(wide));
+  for (const int wide : {2, 3, 8}) EXPECT_EQ(features_of(bent_strip(wide, 12)).size(), wide);
   // Ears that are folded up by chance, of a piece that is rough elsewhere too, are none.
   for (unsigned seed = 1; seed <= 30; ++seed) {
     test::Triangles t = test::grid(12, test::paraboloid, .4, seed);
@@ -145,7 +143,7 @@ TEST(Features, WhereRoundBodiesCrossAChainMayFade) {
       return std::abs(vaults.points(0, v) - vaults.points(1, v)) < 1e-9;
     };
     for (int e : sharp_edges(vaults.points, c, 40)) {
-      const auto& [a, b] = c.edges[static_cast<size_t>(e)];
+      const auto& [a, b] = c.edges[e];
       if (!is_on_groin(a) || !is_on_groin(b)) continue;
       EXPECT_TRUE(std::ranges::find(creases, Edge{a, b}) != creases.end()) << scale << " " << a;
     }
@@ -320,7 +318,7 @@ TEST(Features, EdgesFarSharperThanAllOthersAreCreases) {
 
 std::vector<int> tips_of(const test::Triangles& t, double length) {
   const Adjacency c = test::connect(t);
-  return detect_tips(t.points, c, std::vector<double>(static_cast<size_t>(c.vertex_count), length), {});
+  return detect_tips(t.points, c, std::vector<double>(c.vertex_count, length), {});
 }
 
 TEST(Features, TheTipOfAConeIsHeldWhereLengthsResolveIt) {

@@ -18,12 +18,11 @@ TEST(IntLists, AreInvertedAlikeByAnyNumberOfThreads) {
   for (Triangle& row : rows) row = {id(random), id(random), id(random)};
   std::vector<std::vector<int>> expected(count);
   for (size_t r = 0; r < rows.size(); ++r)
-    for (int i : rows[r]) expected[static_cast<size_t>(i)].push_back(static_cast<int>(r));
+    for (int i : rows[r]) expected[i].push_back(static_cast<int>(r));
   for (int threads : {1, 0}) {
     const ThreadLimit limit(threads);
     const IntLists lists = inverse(count, rows);
-    for (int i = 0; i < count; ++i)
-      ASSERT_TRUE(std::ranges::equal(lists[i], expected[static_cast<size_t>(i)])) << i;
+    for (int i = 0; i < count; ++i) ASSERT_TRUE(std::ranges::equal(lists[i], expected[i])) << i;
   }
 }
 

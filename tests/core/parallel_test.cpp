@@ -85,7 +85,7 @@ TEST(Parallel, APipelineUsesEveryPieceOnceAndMakesThemOneByOne) {
     parallel_pipeline<std::atomic<int>>(
         [&]() -> std::atomic<int>* {
           EXPECT_EQ(++makers, 1);
-          std::atomic<int>* piece = made < 1000 ? &used[static_cast<size_t>(made++)] : nullptr;
+          std::atomic<int>* piece = made < 1000 ? &used[made++] : nullptr;
           --makers;
           return piece;
         },

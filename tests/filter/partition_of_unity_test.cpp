@@ -17,7 +17,7 @@ struct Covered {
   Adjacency adjacency = test::connect(mesh);
   Mat3X normals = vertex_normals(mesh.points, adjacency);
   Eigen::VectorXd edge_lengths = mean_edge_lengths(mesh.points, adjacency);
-  std::vector<char> unfolded = std::vector<char>(static_cast<size_t>(adjacency.vertex_count), 1);
+  std::vector<char> unfolded = std::vector<char>(adjacency.vertex_count, 1);
 
   PatchCover cover() const { return PatchCover(mesh.points, adjacency, normals, edge_lengths, unfolded); }
 };
@@ -29,7 +29,7 @@ TEST(PatchCover, EveryVertexIsWellInsideAPatch) {
   for (size_t p = 0; p < all.size(); ++p)
     for (int v : all.members[static_cast<int>(p)]) {
       const double d = (s.mesh.points.col(v) - s.mesh.points.col(all.centres[p])).norm() / all.radii[p];
-      nearest[static_cast<size_t>(v)] = std::min(nearest[static_cast<size_t>(v)], d);
+      nearest[v] = std::min(nearest[v], d);
     }
   for (double d : nearest) EXPECT_LE(d, patch_coverage);
 }
@@ -53,7 +53,7 @@ TEST(PatchCover, IsTheSameInPieces) {
 TEST(PatchCover, FoldedVerticesAreCentresOnlyWhereNothingElseCoversThem) {
   Covered s{test::sphere(3, .2, 3)};
   const int first = s.cover().next(1).centres[0];
-  s.unfolded[static_cast<size_t>(first)] = 0;
+  s.unfolded[first] = 0;
   const PatchList all = s.cover().next(SIZE_MAX);
   EXPECT_EQ(std::ranges::count(all.centres, first), 0);
   std::ranges::fill(s.unfolded, 0);
@@ -63,7 +63,7 @@ TEST(PatchCover, FoldedVerticesAreCentresOnlyWhereNothingElseCoversThem) {
 TEST(PatchGrower, FindsTheNearestVerticesAndThoseThatTie) {
   const auto t = test::sphere(3);
   const Adjacency c = make_adjacency(static_cast<int>(t.points.cols()), t.faces);
-  const std::vector<char> unfolded(static_cast<size_t>(c.vertex_count), 1);
+  const std::vector<char> unfolded(c.vertex_count, 1);
   PatchGrower grower(t.points, c, t.points, unfolded);
   for (int centre : {0, 17, 400}) {
     grower.grow(centre, 30);

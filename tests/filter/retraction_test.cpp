@@ -72,7 +72,7 @@ TEST(Retraction, AVertexThatSlidesStaysOnThePolylineOfTheInput) {
       EXPECT_EQ(s.positions.points.col(i), t.points.col(i));
     }
     if (s.constraints.freedom[v] != Freedom::curve) continue;
-    const Curve& curve = s.constraints.curves[static_cast<size_t>(s.constraints.curve[v])];
+    const Curve& curve = s.constraints.curves[s.constraints.curve[v]];
     EXPECT_LT(test::distance_to(curve, s.positions.points.col(i)), 1e-14);
     EXPECT_NEAR(s.retraction.tangent(s.positions, static_cast<int>(v)).norm(), 1, 1e-14);
     moved = std::max(moved, (s.positions.points.col(i) - t.points.col(i)).norm());
@@ -213,7 +213,7 @@ TEST(Retraction, OneThreadAndTwoGiveTheSameBits) {
   for (int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     test::Scene s(test::sphere(3, .3), test::to_unit_sphere);
-    s.retraction.step(s.positions, test::random_vectors(642, .05), to[static_cast<size_t>(threads - 1)]);
+    s.retraction.step(s.positions, test::random_vectors(642, .05), to[threads - 1]);
   }
   EXPECT_TRUE(test::same(to[0], to[1]));
 }

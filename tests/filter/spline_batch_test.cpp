@@ -11,7 +11,7 @@ SplineData sheet(int count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> coordinate(-.7, .7);
   SplineData data;
-  data.clear(static_cast<std::size_t>(count));
+  data.clear(count);
   for (int i = 0; i < count; ++i) {
     const double x = coordinate(random), y = coordinate(random),
                  height = i % 4 == 0   ? .1
@@ -33,7 +33,7 @@ std::vector<double> all_of(const SplineCoefficients& spline) {
 }
 
 std::vector<double> solution(const SplineGroup& group, const SplineGroup::Data& data, std::size_t lane) {
-  return all_of(group.solution(lane, static_cast<std::size_t>(data[lane].count)));
+  return all_of(group.solution(lane, data[lane].count));
 }
 
 constexpr SplineGroup::Flags all = {true, true, true, true};

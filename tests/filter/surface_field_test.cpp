@@ -439,7 +439,7 @@ TEST(SurfaceField, LongFacetsAreArcsAndStraightAlongTheirRulings) {
 TEST(SurfaceField, ReachCountsInTheLengthsOfTheVertices) {
   const auto t = capped_sphere();
   const double h = mean_edge(t);
-  const std::vector<double> lengths(static_cast<std::size_t>(t.points.cols()), h);
+  const std::vector<double> lengths(t.points.cols(), h);
   const SurfaceField a = field_of(t, {.max_deviation = .5 * h});
   const SurfaceField b(std::make_shared<const Mat3X>(t.points), shared_connectivity(t), {.max_deviation = .5},
                        {}, lengths);

@@ -36,8 +36,8 @@ TEST(ShapeOperator, ACylinderBendsAcrossItsAxisOnly) {
   for (int v = 0; v < c.vertex_count; ++v) {
     if (c.vertex_faces[v].size() != c.vertex_neighbours[v].size()) continue;  // on the boundary
     const Vec3 p = t.points.col(v), across(2 * p[2], 0, -2 * p[0]);
-    EXPECT_LT((shape_operators[static_cast<size_t>(v)].shape * Vec3::UnitY()).norm(), .1 * 2);
-    EXPECT_LT((shape_operators[static_cast<size_t>(v)].shape * across - 2 * across).norm(), .3 * 2);
+    EXPECT_LT((shape_operators[v].shape * Vec3::UnitY()).norm(), .1 * 2);
+    EXPECT_LT((shape_operators[v].shape * across - 2 * across).norm(), .3 * 2);
   }
 }
 

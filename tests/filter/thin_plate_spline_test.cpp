@@ -22,9 +22,8 @@ struct Kept {
   StoredSpline<Coordinate> spline;
 
   Kept(const Mat3X& centres, const SplineCoefficients& c)
-      : coordinates(StoredSpline<Coordinate>::coordinates_size(static_cast<std::size_t>(centres.cols())), 7),
-        coefficients(StoredSpline<Coordinate>::coefficients_size(static_cast<std::size_t>(centres.cols())),
-                     7),
+      : coordinates(StoredSpline<Coordinate>::coordinates_size(centres.cols()), 7),
+        coefficients(StoredSpline<Coordinate>::coefficients_size(centres.cols()), 7),
         spline(store_spline(centres, c, coordinates.data(), coefficients.data())) {}
 };
 
@@ -60,8 +59,7 @@ TEST(StoredSpline, IsTheSumThatItStandsForWithEitherCoordinate) {
         for (std::size_t k = 0; k < std::size(monomials); ++k) value += c.polynomial[k] * monomials[k];
         for (int i = 0; i < count; ++i) {
           const double r = (place - centres.col(i)).norm();
-          value += c.radial[static_cast<std::size_t>(i)] *
-                   (kernel == Kernel::r3 ? r * r * r : r * r * std::log(r));
+          value += c.radial[i] * (kernel == Kernel::r3 ? r * r * r : r * r * std::log(r));
         }
         const FieldSample a = exact.spline(kernel, place), b = small.spline(kernel, place);
         EXPECT_NEAR(a.value, value, 1e-10);

@@ -71,7 +71,7 @@ TEST(AabbTree, AKnownPointOnlyShortensTheSearch) {
     const ClosestPoint found = tree.closest(x, count(visited));
     ClosestPoint known;
     const int face = i % 7 + 7 * (i % 40);
-    const auto& [a, b, c] = t.faces[static_cast<size_t>(face)];
+    const auto& [a, b, c] = t.faces[face];
     update_closest(x, {t.points.col(a), t.points.col(b), t.points.col(c)}, face, known);
     const ClosestPoint with = tree.closest(x, count(visited_with), known);
     ASSERT_TRUE(accepts(found.face));
@@ -112,7 +112,7 @@ TEST(AabbTree, FacesInItsOrderAreThoseItWasMadeOf) {
   std::set<int> ids;
   for (const AabbTree::Face& face : tree.faces()) {
     ids.insert(face.id);
-    EXPECT_EQ(face.vertices, t.faces[static_cast<size_t>(face.id)]);
+    EXPECT_EQ(face.vertices, t.faces[face.id]);
     for (size_t k = 0; k < 3; ++k) EXPECT_EQ(face.corners[k], t.points.col(face.vertices[k]));
   }
   EXPECT_EQ(ids.size(), t.faces.size());
@@ -184,8 +184,7 @@ TEST(SpatialOrder, GoesFromNeighbourToNeighbourInAGrid) {
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) grid.emplace_back(i, j, k);
   const std::vector<int> order = spatial_order(grid);
-  for (size_t i = 1; i < order.size(); ++i)
-    ASSERT_EQ((grid[static_cast<size_t>(order[i])] - grid[static_cast<size_t>(order[i - 1])]).norm(), 1);
+  for (size_t i = 1; i < order.size(); ++i) ASSERT_EQ((grid[order[i]] - grid[order[i - 1]]).norm(), 1);
 }
 
 TEST(SpatialOrder, HasEveryIdOnceAndKeepsTheirOrderWherePointsCoincide) {

@@ -32,7 +32,7 @@ void expect_nearest_of_all(const AabbTree& tree, const std::vector<Vec3>& points
   find(points, found);
   for (size_t i = 0; i < points.size(); ++i) {
     ASSERT_NEAR(found[i].squared_distance, min_of_all(tree, points[i]), 1e-30);
-    const auto& [a, b, c] = tree.faces()[static_cast<size_t>(found[i].index)].corners;
+    const auto& [a, b, c] = tree.faces()[found[i].index].corners;
     ASSERT_EQ(found[i].squared_distance, closest_point(points[i], a, b, c).squared_distance);
   }
 }

@@ -27,7 +27,7 @@ struct Sheets {
                                   ProjectionStatus::converged, 1};
               })) {
     for (int v = 0; v < scene.adjacency.vertex_count; ++v)
-      if (scene.constraints.freedom[static_cast<size_t>(v)] == Freedom::surface) inner.push_back(v);
+      if (scene.constraints.freedom[v] == Freedom::surface) inner.push_back(v);
   }
 
   static test::Triangles raised(test::Triangles t) {
@@ -53,7 +53,7 @@ TEST(FinalProjection, WhatCrossesGoesBackAndNothingFarFromIt) {
   const SurfacePositions& from = s.scene.positions;
   for (int v : s.inner) {
     s.to.points.col(v) += Vec3(.01, -.01, 0);
-    s.to.hints[static_cast<size_t>(v)] += 1;
+    s.to.hints[v] += 1;
   }
   const SurfacePositions moved = s.to;
   const int v = s.push_through(s.to);
@@ -69,7 +69,7 @@ TEST(FinalProjection, WhatCrossesGoesBackAndNothingFarFromIt) {
     const bool is_back = std::ranges::find(back, w) != back.end();
     const SurfacePositions& expected = is_back ? from : moved;
     EXPECT_EQ(s.to.points.col(w), expected.points.col(w)) << w;
-    EXPECT_EQ(s.to.hints[static_cast<size_t>(w)], expected.hints[static_cast<size_t>(w)]) << w;
+    EXPECT_EQ(s.to.hints[w], expected.hints[w]) << w;
   }
 }
 

@@ -21,7 +21,7 @@ double energy_around(test::Scene& s, int vertex) {
 
 std::vector<char> only(const test::Scene& s, int vertex) {
   std::vector<char> active(s.length.size(), 0);
-  active[static_cast<size_t>(vertex)] = 1;
+  active[vertex] = 1;
   return active;
 }
 
@@ -140,7 +140,7 @@ TEST(LocalNewton, CurvatureIsThatOfTheTangentSpaceAndAlwaysDescends) {
       EXPECT_LE((c.inverse - c.inverse.transpose()).norm(), 1e-14 * size);
       EXPECT_LE((c.inverse * s->positions.normals.col(v)).norm(), 1e-12 * size);
       EXPECT_GE(gradient.col(v).dot(c.inverse * gradient.col(v)), 0);
-      EXPECT_EQ(c.mean > 0, s->constraints.freedom[static_cast<size_t>(v)] != Freedom::fixed);
+      EXPECT_EQ(c.mean > 0, s->constraints.freedom[v] != Freedom::fixed);
       const Vec3 tangent = s->retraction.tangent(s->positions, v);
       if (!tangent.isZero()) {
         EXPECT_LT((c.inverse - size * tangent * tangent.transpose()).norm(), 1e-12 * size);

@@ -305,7 +305,7 @@ TEST(Guards, OneThreadAndTwoGiveTheSameBits) {
     const ThreadLimit limit(threads);
     test::Scene s(test::sphere(4, .4), test::to_unit_sphere);  // more than one block of faces
     Mat3X u = test::random_vectors(s.positions.points.cols(), .8 * s.L());
-    EXPECT_FALSE(s.guards.step(s.retraction, s.positions, u, to[static_cast<size_t>(threads - 1)]).empty());
+    EXPECT_FALSE(s.guards.step(s.retraction, s.positions, u, to[threads - 1]).empty());
   }
   EXPECT_TRUE(test::same(to[0], to[1]));
 }

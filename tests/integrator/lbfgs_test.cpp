@@ -118,8 +118,7 @@ TEST(RelaxLbfgs, KeepsCornersAndCurves) {
       EXPECT_EQ(x, t.points.col(static_cast<Eigen::Index>(v)));
     }
     if (s.constraints.freedom[v] == Freedom::curve) {
-      EXPECT_LT(test::distance_to(s.constraints.curves[static_cast<size_t>(s.constraints.curve[v])], x),
-                1e-13);
+      EXPECT_LT(test::distance_to(s.constraints.curves[s.constraints.curve[v]], x), 1e-13);
     }
   }
 }

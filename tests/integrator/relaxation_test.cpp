@@ -52,7 +52,7 @@ TEST(CapDisplacement, ShortensWhatIsTooLongAndNothingElse) {
   cap_displacement(length, 1.5, capped);
   int shortened = 0;
   for (Eigen::Index v = 0; v < u.cols(); ++v) {
-    const double cap = 1.5 * length[static_cast<size_t>(v)];
+    const double cap = 1.5 * length[v];
     if (u.col(v).norm() <= cap) {
       EXPECT_EQ(capped.col(v), u.col(v));
       continue;

@@ -99,8 +99,7 @@ TEST(Untangle, NamesWhatItCannotUnfold) {
   const UntangleResult result = untangle(r, nullptr);
   EXPECT_FALSE(result.folded.empty());
   EXPECT_LE(static_cast<int>(result.folded.size()), result.folded_before);
-  for (int f : result.folded)
-    EXPECT_LT(test::area_vector(s.positions.points, t.faces[static_cast<size_t>(f)])[2], 1e-2);
+  for (int f : result.folded) EXPECT_LT(test::area_vector(s.positions.points, t.faces[f])[2], 1e-2);
 }
 
 }  // namespace hooke::untangle_test

@@ -15,7 +15,7 @@ std::vector<double> angles_about(const test::Scene& s, int vertex) {
   for (int f : s.adjacency.vertex_faces[vertex])
     for (size_t k = 0; k < 3; ++k) {
       const auto corner = [&](size_t i) {
-        return Vec3(s.positions.points.col(s.adjacency.faces[static_cast<size_t>(f)][(k + i) % 3]));
+        return Vec3(s.positions.points.col(s.adjacency.faces[f][(k + i) % 3]));
       };
       const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0);
       angles.push_back(std::atan2(a.cross(b).norm(), a.dot(b)));

@@ -31,12 +31,12 @@ Textured tube(int n) {
     return grid.points(0, v) == 1 ? v - n : v;
   };  // the last of a row of n + 1
   Textured t;
-  std::vector<int> id(static_cast<size_t>(grid.points.cols()), -1);
+  std::vector<int> id(grid.points.cols(), -1);
   std::vector<Vec3> points;
   for (int v = 0; v < grid.points.cols(); ++v) {
     if (merged(v) != v) continue;
     const double angle = 2 * std::numbers::pi * grid.points(0, v);
-    id[static_cast<size_t>(v)] = static_cast<int>(points.size());
+    id[v] = static_cast<int>(points.size());
     points.emplace_back(std::cos(angle), std::sin(angle), 6 * grid.points(1, v));
   }
   t.mesh.points.resize(3, std::ssize(points));
@@ -47,7 +47,7 @@ Textured tube(int n) {
     Triangle& corners = t.mesh.faces.emplace_back();
     double y = 0;
     for (size_t k = 0; k < 3; ++k) {
-      corners[k] = id[static_cast<size_t>(merged(face[k]))];
+      corners[k] = id[merged(face[k])];
       y += grid.points(1, face[k]) / 3;
     }
     material.values.push_back(y < .25 ? 1 : y < .5 ? 2 : 3);
@@ -101,9 +101,7 @@ std::set<std::pair<int, int>> pairs_of(const Textured& t) {
   const MemoryOrder order = find_memory_order(test::to_mesh(t.mesh));
   for (const auto& [left, right] : order.adjacency->edge_faces) {
     if (right < 0) continue;
-    const auto material = [&](int f) {
-      return t.faces[0].values[static_cast<size_t>(order.order.old_face[static_cast<size_t>(f)])];
-    };
+    const auto material = [&](int f) { return t.faces[0].values[order.order.old_face[f]]; };
     if (material(left) != material(right)) pairs.insert(std::minmax({material(left), material(right)}));
   }
   return pairs;
@@ -184,7 +182,7 @@ TEST(CarriedData, ASeamDoesNotChangeTheSurface) {
     const Adjacency c = make_adjacency(static_cast<int>(ball.points.cols()), ball.faces);
     for (size_t e = 0; with_seam && e < c.edges.size(); ++e) {
       const auto side = [&](int f) {
-        const Triangle& t = c.faces[static_cast<size_t>(f)];
+        const Triangle& t = c.faces[f];
         return ball.points(0, t[0]) + ball.points(0, t[1]) + ball.points(0, t[2]) > 0;
       };
       if (side(c.edge_faces[e][0]) != side(c.edge_faces[e][1]))
@@ -283,9 +281,7 @@ TEST(CarriedData, NormalsOfABoxStayHardAtItsEdgesAndSmoothElsewhere) {
   Adjacency c = *order.adjacency;
   std::vector<Edge> fold;
   for (const Edge& e : c.edges) {
-    const auto on_fold = [&](int v) {
-      return sheet.points(0, order.order.old_vertex[static_cast<size_t>(v)]) == .5;
-    };
+    const auto on_fold = [&](int v) { return sheet.points(0, order.order.old_vertex[v]) == .5; };
     if (on_fold(e[0]) && on_fold(e[1])) fold.push_back(e);
   }
   split_wedges(c, fold);

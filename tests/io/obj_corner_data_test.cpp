@@ -27,8 +27,8 @@ TEST(CornerData, WhatIsTheSameInAllCornersHasNoSeam) {
   Mat3X repeated(3, 18);
   std::vector<int> own(18);
   for (int c = 0; c < 18; ++c) {
-    repeated.col(c) = values.col(polygons.items[static_cast<size_t>(c)]);
-    own[static_cast<size_t>(c)] = c;
+    repeated.col(c) = values.col(polygons.items[c]);
+    own[c] = c;
   }
   const CornerSeams seams = seams_of({repeated, own}, polygons, 7);
   EXPECT_TRUE(seams.vertices.empty());

@@ -81,9 +81,9 @@ TEST(ReadMesh, LaysTheMeshOut) {
 TEST(ReadMesh, WarningsNameTheVerticesOfTheFile) {
   const TemporaryFolder folder;
   test::Triangles t = test::shuffled(test::two_parts_and_loose_vertices());
-  std::vector<bool> used(static_cast<size_t>(t.points.cols()));
+  std::vector<bool> used(t.points.cols());
   for (const Triangle& face : t.faces)
-    for (int v : face) used[static_cast<size_t>(v)] = true;
+    for (int v : face) used[v] = true;
   std::string loose;
   for (size_t v = 0; v < used.size(); ++v)
     if (!used[v]) loose += (loose.empty() ? "" : ", ") + std::to_string(v);

@@ -41,7 +41,7 @@ TEST(RenewedNormals, OnlyWhereAVertexOfTheFacesMoved) {
   std::vector<char> expected(normals.renewed.size(), 0);
   for (const Triangle& t : sphere.faces)
     if (t[0] == 7 || t[1] == 7 || t[2] == 7)
-      for (const int v : t) expected[static_cast<size_t>(v)] = 1;
+      for (const int v : t) expected[v] = 1;
   EXPECT_EQ(normals.renewed, expected);
 }
 

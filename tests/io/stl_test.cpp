@@ -25,12 +25,12 @@ std::vector<Triangle> faces_of(const MeshFile& file) {
 
 // The mesh with its vertices numbered as the corners of its faces meet them first.
 test::Triangles in_order_of_corners(const test::Triangles& t) {
-  std::vector<int> number(static_cast<size_t>(t.points.cols()), -1);
+  std::vector<int> number(t.points.cols(), -1);
   test::Triangles result{Mat3X(3, t.points.cols()), t.faces};
   int next = 0;
   for (Triangle& face : result.faces)
     for (int& v : face) {
-      int& fresh = number[static_cast<size_t>(v)];
+      int& fresh = number[v];
       if (fresh < 0) {
         result.points.col(next) = t.points.col(v);
         fresh = next++;

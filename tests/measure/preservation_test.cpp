@@ -58,7 +58,7 @@ TEST(Preservation, WhereVerticesAreNearItKnowsWhichSamplesAreNot) {
       EXPECT_GT(distance, limit);
       EXPECT_EQ(s.limit, limit);
       farthest = std::max(farthest, distance);
-      const Triangle& t = result.faces[static_cast<std::size_t>(s.face)];
+      const Triangle& t = result.faces[s.face];
       const ClosestPoint on_face = closest_point(s.on_result, result.points.col(t[0]),
                                                  result.points.col(t[1]), result.points.col(t[2]));
       EXPECT_LT(on_face.squared_distance, 1e-24);
@@ -390,7 +390,7 @@ TEST(Preservation, FacetsAreMeantWhereTheyAreFlatOrLong) {
 TEST(Preservation, FacetsAreMeantWhereLargeFlatSidesMeetInRounds) {
   const auto is_disc_faceted = [](double radius) {  // its rim is half a torus
     std::vector<double> turns(9);
-    for (int i = 0; i < 9; ++i) turns[static_cast<size_t>(i)] = i * std::numbers::pi / 8;
+    for (int i = 0; i < 9; ++i) turns[i] = i * std::numbers::pi / 8;
     const test::Triangles disc = test::rows_of_facets(24, turns, [radius](double turn, double across) {
       const double out = radius + 3 * std::sin(across);
       return Vec3(out * std::cos(turn), out * std::sin(turn), -3 * std::cos(across));

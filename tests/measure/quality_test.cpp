@@ -131,7 +131,7 @@ TEST(Quality, WorstFacesAreThoseOfEachRegionInOrder) {
   std::set<int> taken;
   for (const WorstFace& w : q.worst_faces) {
     for (int v : w.vertices) EXPECT_TRUE(taken.insert(v).second);
-    EXPECT_EQ(w.vertices, t.faces[static_cast<size_t>(w.face)]);
+    EXPECT_EQ(w.vertices, t.faces[w.face]);
     const Vec3 centre =
         (t.points.col(w.vertices[0]) + t.points.col(w.vertices[1]) + t.points.col(w.vertices[2])) / 3;
     EXPECT_EQ(w.centre, centre);
@@ -189,7 +189,7 @@ TEST(Curvature, OfASphereIsOneOverTheRadius) {
 double angle_defect(const test::Triangles& t, const Adjacency& c, int v) {
   double defect = 2 * std::numbers::pi;
   for (int f : c.vertex_faces[v]) {
-    const Triangle& s = c.faces[static_cast<size_t>(f)];
+    const Triangle& s = c.faces[f];
     const size_t i = s[0] == v ? 0 : s[1] == v ? 1 : 2;
     const Vec3 u = t.points.col(s[(i + 1) % 3]) - t.points.col(v);
     const Vec3 w = t.points.col(s[(i + 2) % 3]) - t.points.col(v);
@@ -222,7 +222,7 @@ TEST(Curvature, MixedAreasCoverTheSurfaceOnce) {
     for (int v = 0; v < c.vertex_count; ++v) {
       const double defect = angle_defect(t, c, v);
       total += defect;
-      area += defect / k.gaussian[static_cast<size_t>(v)];
+      area += defect / k.gaussian[v];
     }
     EXPECT_NEAR(total, 4 * std::numbers::pi, 1e-9);  // Gauss and Bonnet
     EXPECT_NEAR(area / measure_extent(t.points, c).area, 1, 1e-10);

@@ -78,7 +78,7 @@ TEST(Statistics, HistogramHoldsEveryNumberOnce) {
     const Histogram h = describe(values, bins).histogram;
     EXPECT_EQ(std::accumulate(h.counts.begin(), h.counts.end(), size_t{0}), values.size());
     EXPECT_EQ(h.edges.size(), h.counts.size() + 1);
-    EXPECT_EQ(h.counts.size(), static_cast<size_t>(bins.count));
+    EXPECT_EQ(h.counts.size(), bins.count);
   }
 }
 

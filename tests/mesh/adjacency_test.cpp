@@ -59,16 +59,14 @@ TEST(VertexFans, ManifoldsHaveFansOnly) {
 TEST(VertexFans, AHalfEdgeIsTheTwinOfItsTwinAndRunsBack) {
   const test::Triangles t = test::grid(6, test::flat);
   const VertexFans fans = examine_fans(static_cast<int>(t.points.cols()), t.faces);
-  const auto from = [&](int h) { return t.faces[static_cast<size_t>(h / 3)][static_cast<size_t>(h % 3)]; };
-  const auto to = [&](int h) {
-    return t.faces[static_cast<size_t>(h / 3)][static_cast<size_t>((h + 1) % 3)];
-  };
+  const auto from = [&](int h) { return t.faces[h / 3][h % 3]; };
+  const auto to = [&](int h) { return t.faces[h / 3][(h + 1) % 3]; };
   int boundary = 0;
   for (int h = 0; h < static_cast<int>(fans.twins.size()); ++h) {
-    const int twin = fans.twins[static_cast<size_t>(h)];
+    const int twin = fans.twins[h];
     boundary += twin < 0;
     if (twin < 0) continue;
-    EXPECT_EQ(fans.twins[static_cast<size_t>(twin)], h);
+    EXPECT_EQ(fans.twins[twin], h);
     EXPECT_EQ(from(h), to(twin));
     EXPECT_EQ(to(h), from(twin));
   }

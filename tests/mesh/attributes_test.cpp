@@ -115,9 +115,9 @@ TEST(VertexData, ALinearFieldOnAPlaneGoesWithAnAdaptedMesh) {
   options.map = true;
   const VertexData carried = interpolate(data, remesh(mesh, options).map, t.faces);
   const Mat3X points = vertex_points(mesh);
-  ASSERT_EQ(carried[0].values.size(), static_cast<size_t>(points.cols()));
+  ASSERT_EQ(carried[0].values.size(), points.cols());
   for (Eigen::Index v = 0; v < points.cols(); ++v)
-    EXPECT_NEAR(carried[0].values[static_cast<size_t>(v)], 3 * points(0, v) - points(1, v), 1e-9);
+    EXPECT_NEAR(carried[0].values[v], 3 * points(0, v) - points(1, v), 1e-9);
 }
 
 TEST(VertexData, NormalsNeedAllThreeChannels) {

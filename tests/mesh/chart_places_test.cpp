@@ -21,8 +21,7 @@ TEST(ChartPlaces, OfASurfaceOnItselfAreItsFacesAndVertices) {
   for (size_t wedge = 0; wedge < places.wedges.size(); ++wedge) {
     Eigen::Index corner;
     EXPECT_EQ(places.wedges[wedge].weights.maxCoeff(&corner), 1);
-    EXPECT_EQ(c.faces[static_cast<size_t>(places.wedges[wedge].face)][static_cast<size_t>(corner)],
-              c.vertex_of_wedge(static_cast<int>(wedge)));
+    EXPECT_EQ(c.faces[places.wedges[wedge].face][corner], c.vertex_of_wedge(static_cast<int>(wedge)));
   }
 }
 
@@ -57,9 +56,8 @@ TEST(ChartPlaces, AreOnTheirOwnSideOfAFeatureEdgeThatEnds) {
       const int v = result.faces[f][k];
       if (fine.points(0, v) != .5 || fine.points(1, v) >= .5 || !is_below(result.faces[f])) continue;
       ++on_cut;
-      const SurfacePoint& place = places.wedges[static_cast<size_t>(result.wedges_of_faces()[f][k])];
-      EXPECT_EQ(side(coarse.points, input.faces[static_cast<size_t>(place.face)]),
-                side(fine.points, result.faces[f]));
+      const SurfacePoint& place = places.wedges[result.wedges_of_faces()[f][k]];
+      EXPECT_EQ(side(coarse.points, input.faces[place.face]), side(fine.points, result.faces[f]));
     }
   EXPECT_GT(on_cut, 20);
 }

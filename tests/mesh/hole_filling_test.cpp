@@ -22,7 +22,7 @@ Mat3X star(int corners, double inner) {
 }
 
 std::vector<int> all(Eigen::Index count) {
-  std::vector<int> ids(static_cast<size_t>(count));
+  std::vector<int> ids(count);
   std::iota(ids.begin(), ids.end(), 0);
   return ids;
 }

@@ -30,7 +30,7 @@ double mean_edge_span(const Adjacency& c) {
 TEST(Ordering, IsAPermutationOfAllVerticesAndFaces) {
   const Adjacency c = test::connect(test::two_parts_and_loose_vertices());
   const Permutation r = reorder(c.faces, bfs_cluster_order(c.vertex_count, c.faces));
-  EXPECT_EQ(sorted(r.old_vertex), numbers(static_cast<size_t>(c.vertex_count)));
+  EXPECT_EQ(sorted(r.old_vertex), numbers(c.vertex_count));
   EXPECT_EQ(sorted(r.old_face), numbers(c.faces.size()));
 }
 
@@ -40,8 +40,8 @@ TEST(Ordering, LeadsBackToTheFacesItCameFrom) {
   ASSERT_EQ(r.faces.size(), c.faces.size());
   for (size_t f = 0; f < r.faces.size(); ++f) {
     Triangle old;
-    for (size_t k = 0; k < 3; ++k) old[k] = r.old_vertex[static_cast<size_t>(r.faces[f][k])];
-    EXPECT_EQ(old, c.faces[static_cast<size_t>(r.old_face[f])]);
+    for (size_t k = 0; k < 3; ++k) old[k] = r.old_vertex[r.faces[f][k]];
+    EXPECT_EQ(old, c.faces[r.old_face[f]]);
   }
 }
 
@@ -51,7 +51,7 @@ TEST(Ordering, NewVerticesAreWhereTheOldOnesWent) {
   const std::vector<int> old = {7, 0, 100};
   const std::vector<int> fresh = r.new_vertices(old);
   ASSERT_EQ(fresh.size(), old.size());
-  for (size_t i = 0; i < old.size(); ++i) EXPECT_EQ(r.old_vertex[static_cast<size_t>(fresh[i])], old[i]);
+  for (size_t i = 0; i < old.size(); ++i) EXPECT_EQ(r.old_vertex[fresh[i]], old[i]);
   EXPECT_TRUE(r.new_vertices({}).empty());
 }
 

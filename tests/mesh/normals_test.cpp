@@ -15,7 +15,7 @@ TEST(Normals, OfVerticesOnASphereAreItsRadii) {
   const Mat3X of_faces = face_normals(t.points, c);
   for (Eigen::Index f = 0; f < of_faces.cols(); ++f) {
     EXPECT_NEAR(of_faces.col(f).norm(), 1, 1e-15);
-    EXPECT_GT(of_faces.col(f).dot(t.points.col(c.faces[static_cast<size_t>(f)][0])), 0);
+    EXPECT_GT(of_faces.col(f).dot(t.points.col(c.faces[f][0])), 0);
   }
 }
 

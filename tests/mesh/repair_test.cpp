@@ -231,7 +231,7 @@ TEST(Repair, RandomTrianglesBecomeManifold) {
         EXPECT_TRUE(is_acceptable(p.kind) || p.kind == ProblemKind::no_faces ||
                     p.kind == ProblemKind::no_area)
             << round << ' ' << name_of(p.kind);
-      ASSERT_EQ(r.origin.vertex.size(), static_cast<size_t>(r.points.cols()));
+      ASSERT_EQ(r.origin.vertex.size(), r.points.cols());
       ASSERT_EQ(r.origin.face.size(), r.triangles.size());
       for (size_t v = 0; v < r.origin.vertex.size(); ++v)
         EXPECT_EQ(r.points.col(static_cast<Eigen::Index>(v)), t.points.col(r.origin.vertex[v]));
@@ -292,7 +292,7 @@ TEST(MeshOrigin, OldIdsFindTheirVertices) {
   EXPECT_EQ(vertices_from(r.origin, {5}, &lost), vertices_from(r.origin, {1}));
   EXPECT_EQ(lost, -1);
   EXPECT_EQ(vertices_from(r.origin, {0}).size(), 2u);
-  EXPECT_EQ(vertices_from(r.origin, {0, 2, 3, 4, 5}).size(), static_cast<size_t>(r.points.cols()));
+  EXPECT_EQ(vertices_from(r.origin, {0, 2, 3, 4, 5}).size(), r.points.cols());
   test::Triangles loose = test::equilateral();
   loose.points.conservativeResize(3, 4);
   loose.points.col(3) = Vec3(7, 7, 7);
@@ -315,8 +315,7 @@ TEST(MeshOrigin, AMapLeadsBackToTheOldFaces) {
     for (size_t k = 0; k < 3; ++k) {
       const auto weight = static_cast<Eigen::Index>(k);
       before += map[f].position.weights[weight] * r.points.col(r.triangles[f][k]);
-      after += old[f].position.weights[weight] *
-               t.points.col(t.faces[static_cast<size_t>(old[f].position.face)][k]);
+      after += old[f].position.weights[weight] * t.points.col(t.faces[old[f].position.face][k]);
     }
     EXPECT_LT((before - after).norm(), 1e-15);
   }

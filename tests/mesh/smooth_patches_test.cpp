@@ -66,7 +66,7 @@ TEST(SmoothPatches, FacetsThatAreAlikeAreNone) {
   const test::Triangles t = sheet_of_facets(40);
   EXPECT_EQ(marked_faces(t), 0);
   const Adjacency c = test::connect(t);
-  const std::vector<double> lengths(static_cast<size_t>(c.vertex_count), 1);
+  const std::vector<double> lengths(c.vertex_count, 1);
   EXPECT_EQ(detect_creases(t.points, c, lengths, {}, {}).size(), 2u * 19 * 40);
 }
 
@@ -82,7 +82,7 @@ TEST(SmoothPatches, AnIsosurfaceHasNoCreasesAndNoFacets) {
        {isosurface(9, {7.3, 7.3, 7.3}), isosurface(9, {8.1, 6.2, 4.4}), rotated(isosurface(9, {8, 7, 5}))}) {
     const Adjacency c = test::connect(t);
     for (double times : {.3, 1., 3.}) {
-      const std::vector<double> lengths(static_cast<size_t>(c.vertex_count), times * natural_length_of(t));
+      const std::vector<double> lengths(c.vertex_count, times * natural_length_of(t));
       EXPECT_TRUE(detect_creases(t.points, c, lengths, {}, {}).empty()) << times;
     }
     EXPECT_FALSE(is_faceted(t.points, c));
@@ -96,10 +96,10 @@ TEST(SmoothPatches, AFlatSideOfItEndsAtCreases) {
     return std::max((x.squaredNorm() - radius * radius) / (2 * radius), bottom - x[2]);
   });
   const Adjacency c = test::connect(dome);
-  const std::vector<double> lengths(static_cast<size_t>(c.vertex_count), natural_length_of(dome));
+  const std::vector<double> lengths(c.vertex_count, natural_length_of(dome));
   const std::vector<int> creases = detect_creases(dome.points, c, lengths, {}, {});
   EXPECT_GT(creases.size(), 2 * radius * std::numbers::pi);  // cells around it
-  const auto is_high = [&](int e) { return dome.points(2, c.edges[static_cast<size_t>(e)][0]) > bottom + 1; };
+  const auto is_high = [&](int e) { return dome.points(2, c.edges[e][0]) > bottom + 1; };
   EXPECT_LT(static_cast<double>(std::ranges::count_if(creases, is_high)),
             .05 * static_cast<double>(creases.size()));
 }

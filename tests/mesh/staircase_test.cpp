@@ -50,8 +50,7 @@ test::Triangles surface_of_mask(int size, const IsInside& is_inside) {
 }
 
 bool is_staircase_at(double length, const test::Triangles& t) {
-  return is_staircase(t.points, test::connect(t),
-                      std::vector<double>(static_cast<size_t>(t.points.cols()), length));
+  return is_staircase(t.points, test::connect(t), std::vector<double>(t.points.cols(), length));
 }
 
 test::Triangles mask_of_ball() {
@@ -119,14 +118,13 @@ TEST(MarchedStaircase, IsNoHeightField) {
 TEST(MarchedStaircase, BodiesThatWouldShrinkStayAsTheyAre) {
   const test::Triangles speck = test::marched_mask(3, [](const Vec3& x) { return x.norm() < 1; });
   const Adjacency c = test::connect(speck);
-  EXPECT_EQ(without_steps(speck.points, c, std::vector<char>(static_cast<size_t>(c.vertex_count), 0)),
-            speck.points);
+  EXPECT_EQ(without_steps(speck.points, c, std::vector<char>(c.vertex_count, 0)), speck.points);
 }
 
 TEST(MarchedStaircase, LosesItsStepsButKeepsItsVolumeAndWhatIsHeld) {
   const test::Triangles t = marched_ball();
   const Adjacency c = test::connect(t);
-  std::vector<char> is_held(static_cast<size_t>(c.vertex_count), 0);
+  std::vector<char> is_held(c.vertex_count, 0);
   is_held[0] = 1;
   const Mat3X smooth = without_steps(t.points, c, is_held);
   EXPECT_EQ(smooth.col(0), t.points.col(0));

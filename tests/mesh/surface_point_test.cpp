@@ -18,8 +18,7 @@ TEST(SurfacePoint, WalksToTheClosestPoint) {
       const SurfacePoint found = locate(t.points, c, x, from);
       Vec3 y = Vec3::Zero();
       for (size_t k = 0; k < 3; ++k)
-        y += found.weights[static_cast<Eigen::Index>(k)] *
-             t.points.col(t.faces[static_cast<size_t>(found.face)][k]);
+        y += found.weights[static_cast<Eigen::Index>(k)] * t.points.col(t.faces[found.face][k]);
       EXPECT_NEAR(found.weights.sum(), 1, 1e-12);
       EXPECT_NEAR((x - y).squaredNorm(), tree.closest(x).squared_distance, 1e-12);
     }

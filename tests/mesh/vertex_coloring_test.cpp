@@ -42,10 +42,10 @@ TEST(VertexColoring, AFaceLiesBetweenItsRingEntryAndTheNext) {
     for (int v = 0; v < c.vertex_count; ++v) {
       const auto ring = plan.rings[v];
       for (size_t i = 0; i < ring.size(); ++i) {
-        const Edge& e = c.edges[static_cast<size_t>(ring[i].edge)];
+        const Edge& e = c.edges[ring[i].edge];
         EXPECT_EQ(e[0] + e[1], v + ring[i].neighbour);
         if (ring[i].face < 0) continue;
-        Triangle t = c.faces[static_cast<size_t>(ring[i].face)];
+        Triangle t = c.faces[ring[i].face];
         std::rotate(t.begin(), std::ranges::find(t, v), t.end());
         EXPECT_EQ(t, (Triangle{v, ring[i].neighbour, ring[(i + 1) % ring.size()].neighbour}));
         int across = -1;
@@ -61,11 +61,11 @@ TEST(VertexColoring, AFaceLiesBetweenItsRingEntryAndTheNext) {
 TEST(VertexColoring, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
   for (const Adjacency& c : meshes()) {
     const VertexColoring plan = color_vertices(c);
-    std::vector<int> swept(static_cast<size_t>(c.vertex_count), 0);
+    std::vector<int> swept(c.vertex_count, 0);
     std::mutex mutex;
     for_each_block(plan, [&](int begin, int end) {
       const std::lock_guard lock(mutex);
-      for (int v = begin; v < end; ++v) ++swept[static_cast<size_t>(v)];
+      for (int v = begin; v < end; ++v) ++swept[v];
     });
     for (int times : swept) EXPECT_EQ(times, 1);
     for (const std::vector<int>& color : plan.colors) {
@@ -85,7 +85,7 @@ TEST(VertexColoring, EveryVertexIsSweptOnceAndLooksAtNoOtherBlockOfItsWave) {
 TEST(VertexColoring, OneBlockSweepsAllVerticesInOrderOverTheSameRings) {
   for (const Adjacency& c : meshes()) {
     const VertexColoring one = color_as_one_block(c), many = color_vertices(c);
-    std::vector<int> swept, all(static_cast<size_t>(c.vertex_count));
+    std::vector<int> swept, all(c.vertex_count);
     std::iota(all.begin(), all.end(), 0);
     for_each_block(one, [&](int begin, int end) {
       for (int v = begin; v < end; ++v) swept.push_back(v);

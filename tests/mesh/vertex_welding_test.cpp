@@ -46,8 +46,8 @@ TEST(VertexWelding, IsAsIfAllPairsWereCompared) {
     double least = std::numeric_limits<double>::infinity();
     for (int w = 0; w < v; ++w) {
       const double distance = (points.col(v) - points.col(w)).norm();
-      if (expected[static_cast<size_t>(w)] != w || distance >= least) continue;
-      if (distance > std::min(reach[at], reach[static_cast<size_t>(w)])) continue;
+      if (expected[w] != w || distance >= least) continue;
+      if (distance > std::min(reach[at], reach[w])) continue;
       least = distance;
       expected[at] = w;
     }
@@ -59,7 +59,7 @@ TEST(VertexWelding, OnlyBoundariesReach) {
   const test::Triangles closed = test::sphere(1), open = test::grid(2, test::flat);
   for (const double r : reach_of_boundary(closed.points, closed.faces)) EXPECT_EQ(r, -1);
   const std::vector<double> reach = reach_of_boundary(open.points, open.faces);
-  for (int v = 0; v < 9; ++v) EXPECT_EQ(reach[static_cast<size_t>(v)], v == 4 ? -1 : .5 * welding_share);
+  for (int v = 0; v < 9; ++v) EXPECT_EQ(reach[v], v == 4 ? -1 : .5 * welding_share);
 }
 
 }  // namespace hooke::vertex_welding_test

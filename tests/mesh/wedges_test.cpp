@@ -14,8 +14,8 @@ namespace hooke::wedges_test {
 Adjacency parted(const test::Triangles& t) {
   Adjacency c = test::connect(t);
   std::vector<Edge> creases;
-  for (int e : detect_creases(t.points, c, std::vector<double>(static_cast<size_t>(c.vertex_count), 1), {}))
-    creases.push_back(c.edges[static_cast<size_t>(e)]);
+  for (int e : detect_creases(t.points, c, std::vector<double>(c.vertex_count, 1), {}))
+    creases.push_back(c.edges[e]);
   split_wedges(c, creases);
   return c;
 }
@@ -28,8 +28,7 @@ TEST(Creases, ACornerOfACubeHasThreeWedgesAndAnEdgeTwo) {
   EXPECT_EQ(std::ranges::max(label_components(cut)), 5);
   const std::vector<int> chart = label_components(cut);
   for (size_t f = 0; f < cut.faces.size(); ++f)
-    for (int v : cut.faces[f])
-      EXPECT_EQ(chart[static_cast<size_t>(v)], chart[static_cast<size_t>(cut.faces[f][0])]);
+    for (int v : cut.faces[f]) EXPECT_EQ(chart[v], chart[cut.faces[f][0]]);
 }
 
 TEST(Creases, WedgesLieWhereTheirVerticesLie) {

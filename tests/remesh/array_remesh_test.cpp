@@ -15,7 +15,7 @@ struct Arrays {
 Arrays arrays_of(const test::Triangles& t) {
   Arrays arrays{t.points.transpose(), Eigen::MatrixX3i(std::ssize(t.faces), 3)};
   for (Eigen::Index f = 0; f < arrays.faces.rows(); ++f)
-    arrays.faces.row(f) = Eigen::Map<const Eigen::RowVector3i>(t.faces[static_cast<size_t>(f)].data());
+    arrays.faces.row(f) = Eigen::Map<const Eigen::RowVector3i>(t.faces[f].data());
   return arrays;
 }
 

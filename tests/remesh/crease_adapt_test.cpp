@@ -115,7 +115,7 @@ TEST(CreaseAdapt, TheMapReproducesThePointsOnCreases) {
   const test::Triangles t = test::cylinder(30);
   const double L = natural(t);
   const Outcome o = remeshed(t, .7 * natural(t), adaptation_options());
-  ASSERT_EQ(o.result.map.size(), static_cast<size_t>(o.points.cols()));
+  ASSERT_EQ(o.result.map.size(), o.points.cols());
   int on_caps = 0;
   for (size_t v = 0; v < o.result.map.size(); ++v) {
     const Vec3 x = o.points.col(static_cast<Eigen::Index>(v));
@@ -123,8 +123,7 @@ TEST(CreaseAdapt, TheMapReproducesThePointsOnCreases) {
     const SurfacePoint& place = o.result.map[v].position;
     Vec3 y = Vec3::Zero();
     for (size_t k = 0; k < 3; ++k)
-      y += place.weights[static_cast<Eigen::Index>(k)] *
-           t.points.col(t.faces[static_cast<size_t>(place.face)][k]);
+      y += place.weights[static_cast<Eigen::Index>(k)] * t.points.col(t.faces[place.face][k]);
     EXPECT_LT((x - y).norm(), 1e-9 * L);
     ++on_caps;
   }

@@ -51,9 +51,7 @@ TEST(CreaseRemesh, NoCreaseBecomesAcute) {
     const Adjacency c = make_adjacency(static_cast<int>(points.cols()), faces);
     double least = 1;
     for (const auto& [left, right] : c.edge_faces)
-      if (right >= 0)
-        least = std::min(least, cosine_between(points, faces[static_cast<size_t>(left)],
-                                               faces[static_cast<size_t>(right)]));
+      if (right >= 0) least = std::min(least, cosine_between(points, faces[left], faces[right]));
     return least;
   };
   for (unsigned seed = 1; seed <= 3; ++seed) {

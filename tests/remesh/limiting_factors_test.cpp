@@ -65,9 +65,9 @@ TEST(LimitingFactors, LimitsAreThoseOfTheInputsVertices) {
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto on_end = [](double x) { return x == 0 || x == 1; };
     const bool x = on_end(t.points(0, v)), y = on_end(t.points(1, v));
-    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_by_boundary) != 0, x || y) << v;
-    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_at_corner) != 0, x && y) << v;
-    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_by_request) != 0, v == 16 || v == 24) << v;
+    EXPECT_EQ((vertex_limits[v] & limited_by_boundary) != 0, x || y) << v;
+    EXPECT_EQ((vertex_limits[v] & limited_at_corner) != 0, x && y) << v;
+    EXPECT_EQ((vertex_limits[v] & limited_by_request) != 0, v == 16 || v == 24) << v;
   }
 }
 
@@ -79,7 +79,7 @@ TEST(LimitingFactors, AFixedBoundaryIsARequest) {
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto on_end = [](double x) { return x == 0 || x == 1; };
     const bool on_boundary = on_end(t.points(0, v)) || on_end(t.points(1, v));
-    EXPECT_EQ(vertex_limits[static_cast<size_t>(v)] & ~limited_by_guard,
+    EXPECT_EQ(vertex_limits[v] & ~limited_by_guard,
               on_boundary ? limited_by_request | limited_by_boundary : 0)
         << v;
   }
@@ -90,8 +90,8 @@ TEST(LimitingFactors, CreasesLimitTheirVertices) {
   const auto vertex_limits = limits_of(t);
   for (Eigen::Index v = 0; v < t.points.cols(); ++v) {
     const auto planes = (t.points.col(v).array() == 0 || t.points.col(v).array() == 4).count();
-    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_at_corner) != 0, planes == 3) << v;
-    EXPECT_EQ((vertex_limits[static_cast<size_t>(v)] & limited_by_crease) != 0, planes >= 2) << v;
+    EXPECT_EQ((vertex_limits[v] & limited_at_corner) != 0, planes == 3) << v;
+    EXPECT_EQ((vertex_limits[v] & limited_by_crease) != 0, planes >= 2) << v;
   }
 }
 

@@ -177,7 +177,7 @@ int flipped_faces(const test::Triangles& before, const Mat3X& after) {
 
 double deviation(const test::Triangles& t, const Mat3X& points) {
   const Adjacency c = test::connect(t);
-  const std::vector<double> one(static_cast<size_t>(c.vertex_count), 1);
+  const std::vector<double> one(c.vertex_count, 1);
   return relative_edge_deviation(points, c.edges, spread_target_lengths(c, one));
 }
 
@@ -192,8 +192,7 @@ double off_the_field(const test::Triangles& t, const Mat3X& points, const Remesh
                     RunOptions(options).retraction);
   Mat3X x(3, points.cols());
   for (Eigen::Index v = 0; v < x.cols(); ++v)
-    x.col(v) = (points.col(w.order.old_vertex[static_cast<size_t>(v)]) - w.normalisation.centre) /
-               w.normalisation.unit;
+    x.col(v) = (points.col(w.order.old_vertex[v]) - w.normalisation.centre) / w.normalisation.unit;
   return largest_move(
       w.retraction->project_all(x, w.vertices.positions.hints, w.vertices.positions.segments).points, x);
 }
@@ -230,9 +229,8 @@ TEST_P(RemeshLaws, TrianglesGetBetterAndNoneFlips) {
 TEST_P(RemeshLaws, IdsAndConnectivityStay) {
   const Outcome o = remeshed(input_);
   EXPECT_EQ(triangles_of(o.mesh), input_.faces);
-  EXPECT_EQ(o.mesh.n_vertices(), static_cast<size_t>(input_.points.cols()));
-  EXPECT_EQ(vertex_values(o.mesh, target_length_property),
-            std::vector<double>(static_cast<size_t>(input_.points.cols()), L_));
+  EXPECT_EQ(o.mesh.n_vertices(), input_.points.cols());
+  EXPECT_EQ(vertex_values(o.mesh, target_length_property), std::vector<double>(input_.points.cols(), L_));
 }
 
 TEST_P(RemeshLaws, CornersStayBitForBitAndBoundariesOnTheirPolylines) {
@@ -244,7 +242,7 @@ TEST_P(RemeshLaws, CornersStayBitForBitAndBoundariesOnTheirPolylines) {
       EXPECT_EQ(o.points.col(i), input_.points.col(i));
     }
     if (c.freedom[v] == Freedom::curve) {
-      EXPECT_LT(test::distance_to(c.curves[static_cast<size_t>(c.curve[v])], o.points.col(i)), 1e-14);
+      EXPECT_LT(test::distance_to(c.curves[c.curve[v]], o.points.col(i)), 1e-14);
     }
   }
 }
@@ -392,8 +390,7 @@ TEST(Remesh, HandsBackThePointsOfTheInput) {
        {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
     const test::Triangles t = test::sphere(2, .3, 2);
     TriMesh mesh = build_mesh(t.points, test::connect(t));
-    set_vertex_values(mesh, target_length_property,
-                      std::vector<double>(static_cast<size_t>(t.points.cols()), natural(t)));
+    set_vertex_values(mesh, target_length_property, std::vector<double>(t.points.cols(), natural(t)));
     RemeshOptions options;
     options.connectivity = mode;
     const RemeshResult result = remesh(mesh, options);

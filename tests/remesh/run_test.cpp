@@ -38,9 +38,9 @@ class GoesOn : public testing::Test {
   /// Of the vertices of the input in memory order: a share of their lengths within the distance of the pole.
   std::vector<double> shorter(double share, double distance) const {
     const Mat3X points = order_.order.gather(vertex_points(input_));
-    std::vector<double> lengths(static_cast<std::size_t>(points.cols()), length_);
+    std::vector<double> lengths(points.cols(), length_);
     for (Eigen::Index v = 0; v < points.cols(); ++v)
-      if ((points.col(v) - pole).norm() < distance) lengths[static_cast<std::size_t>(v)] *= share;
+      if ((points.col(v) - pole).norm() < distance) lengths[v] *= share;
     return lengths;
   }
 

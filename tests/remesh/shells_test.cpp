@@ -145,8 +145,7 @@ TEST(Shells, JunctionsStayJoined) {
   for (int v = 0; v < t.points.cols(); ++v) joined.push_back(v % 8);  // all vertices are copies
   TriMesh input = test::with_length(t, .4);
   set_joined_vertices(input, joined);
-  const std::vector<PartOfMesh> parts =
-      parts_of_mesh(input, {}, std::vector<int>(static_cast<std::size_t>(t.points.cols()), 0));
+  const std::vector<PartOfMesh> parts = parts_of_mesh(input, {}, std::vector<int>(t.points.cols(), 0));
   EXPECT_EQ(joined_vertices(parts[0].mesh), joined);
 }
 

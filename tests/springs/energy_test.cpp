@@ -35,7 +35,7 @@ class EnergyLaws : public testing::TestWithParam<test::NamedTerms> {
   Energy energy_{c_, targets_, GetParam().terms};
 
   std::vector<double> lengths() const {  // graded, so that no unit is taken for granted
-    std::vector<double> l(static_cast<size_t>(c_.vertex_count));
+    std::vector<double> l(c_.vertex_count);
     for (size_t v = 0; v < l.size(); ++v) l[v] = .3 + .1 * mesh_.points(0, static_cast<Eigen::Index>(v));
     return l;
   }
@@ -71,7 +71,7 @@ TEST_P(EnergyLaws, TheOrderOfTheFacesDoesNotMatter) {
   std::vector<Triangle> reversed(t.faces.rbegin(), t.faces.rend());
   const int n = static_cast<int>(t.points.cols());
   const Adjacency forwards = make_adjacency(n, t.faces), back = make_adjacency(n, reversed);
-  const std::vector<double> lengths(static_cast<size_t>(n), 1. / 150);
+  const std::vector<double> lengths(n, 1. / 150);
   const TargetLengths targets = spread_target_lengths(forwards, lengths),
                       targets_back = spread_target_lengths(back, lengths);
   Placed p;

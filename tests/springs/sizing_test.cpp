@@ -16,7 +16,7 @@ namespace hooke::sizing_test {
 std::vector<double> wild_lengths(int count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> exponent(-2, 1);
-  std::vector<double> lengths(static_cast<size_t>(count));
+  std::vector<double> lengths(count);
   for (double& l : lengths) l = std::pow(10, exponent(random));
   return lengths;
 }
@@ -31,15 +31,15 @@ struct Limited {
 
   /// The maximum length that the neighbour `from` allows at `to`.
   double most(int from, int to) const {
-    return lengths[static_cast<size_t>(from)] + slope * (t.points.col(to) - t.points.col(from)).norm();
+    return lengths[from] + slope * (t.points.col(to) - t.points.col(from)).norm();
   }
 };
 
 TEST(Gradation, HoldsAlongEveryEdge) {
   const Limited l;
   for (const auto& [a, b] : l.c.edges) {
-    EXPECT_LE(l.lengths[static_cast<size_t>(b)], l.most(a, b));
-    EXPECT_LE(l.lengths[static_cast<size_t>(a)], l.most(b, a));
+    EXPECT_LE(l.lengths[b], l.most(a, b));
+    EXPECT_LE(l.lengths[a], l.most(b, a));
   }
 }
 
@@ -47,7 +47,7 @@ TEST(Gradation, LowersAsLittleAsItMust) {
   const Limited l;
   int lowered = 0;
   for (int v = 0; v < l.c.vertex_count; ++v) {
-    const double given = l.given[static_cast<size_t>(v)], length = l.lengths[static_cast<size_t>(v)];
+    const double given = l.given[v], length = l.lengths[v];
     EXPECT_LE(length, given);
     if (length == given) continue;
     ++lowered;

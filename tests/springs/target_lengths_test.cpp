@@ -47,12 +47,12 @@ TEST(Sizing, TargetsOfAFaceAlwaysFormATriangle) {
   const Adjacency c = test::connect(test::sphere(2));
   std::mt19937 random(4);
   std::uniform_real_distribution<double> exponent(-6, 6);
-  std::vector<double> length(static_cast<size_t>(c.vertex_count));
+  std::vector<double> length(c.vertex_count);
   for (double& l : length) l = std::pow(10, exponent(random));
   const TargetLengths targets = spread_target_lengths(c, length);
   for (const auto& edges : c.face_edges)
     for (size_t k = 0; k < 3; ++k) {
-      const auto side = [&](size_t i) { return targets.edge[static_cast<size_t>(edges[(k + i) % 3])]; };
+      const auto side = [&](size_t i) { return targets.edge[edges[(k + i) % 3]]; };
       EXPECT_LE(side(0), (side(1) + side(2)) * (1 + 1e-15));
     }
 }
@@ -74,7 +74,7 @@ TEST(EdgeTargets, AreThoseOfTheEdgesWhereTheMeshHasThem) {
   EXPECT_EQ(targets.edge.values(), lengths);
   for (size_t f = 0; f < c.faces.size(); ++f) {
     double sum = 0;
-    for (int e : c.face_edges[f]) sum += lengths[static_cast<size_t>(e)];
+    for (int e : c.face_edges[f]) sum += lengths[e];
     EXPECT_DOUBLE_EQ(targets.face[f], sum / 3);
   }
   const Adjacency in_file_order = make_adjacency(static_cast<int>(mesh.n_vertices()), t.faces);

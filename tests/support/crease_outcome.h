@@ -38,7 +38,7 @@ inline void expect_same_creases(const Triangles& t, const Outcome& o, double tol
   const auto before = bent_edges(t.points, t.faces), after = bent_edges(o.points, o.faces);
   const double length = total_length(t.points, before);
   EXPECT_NEAR(total_length(o.points, after), length, 1e-9 * length);
-  EXPECT_EQ(static_cast<size_t>(o.result.creases.edges), after.size());
+  EXPECT_EQ(o.result.creases.edges, after.size());
   for (const auto& [a, b] : after) {  // along an axis, on lattice planes in the two others
     const Vec3 d = (o.points.col(a) - o.points.col(b)).cwiseAbs();
     Eigen::Index along;

@@ -33,7 +33,7 @@ inline Triangles cells(int nx, int ny, int nz, const std::function<bool(int, int
       p[v] += i >= 2;
       q[i] = ids.try_emplace(p, static_cast<int>(ids.size())).first->second;
       normals.resize(ids.size());
-      normals[static_cast<size_t>(q[i])].insert(axis);
+      normals[q[i]].insert(axis);
     }
     if (side == 0) std::swap(q[1], q[3]);
     t.faces.push_back({q[0], q[1], q[2]});
@@ -54,7 +54,7 @@ inline Triangles cells(int nx, int ny, int nz, const std::function<bool(int, int
   for (const auto& [cell, id] : ids)
     for (size_t axis = 0; axis < 3; ++axis)
       t.points(static_cast<Eigen::Index>(axis), id) =
-          cell[axis] + (normals[static_cast<size_t>(id)].contains(axis) ? 0 : shift(random));
+          cell[axis] + (normals[id].contains(axis) ? 0 : shift(random));
   return t;
 }
 

@@ -137,15 +137,14 @@ inline Triangles moved(Triangles t, double scale = 1) {
 
 /// The same with its vertices numbered at random.
 inline Triangles shuffled(const Triangles& t, unsigned seed = 2) {
-  std::vector<int> fresh(static_cast<size_t>(t.points.cols()));
+  std::vector<int> fresh(t.points.cols());
   std::iota(fresh.begin(), fresh.end(), 0);
   std::mt19937 random(seed);
   std::ranges::shuffle(fresh, random);
   Triangles result{Mat3X(3, t.points.cols()), t.faces};
-  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
-    result.points.col(fresh[static_cast<size_t>(v)]) = t.points.col(v);
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) result.points.col(fresh[v]) = t.points.col(v);
   for (Triangle& face : result.faces)
-    for (int& v : face) v = fresh[static_cast<size_t>(v)];
+    for (int& v : face) v = fresh[v];
   return result;
 }
 

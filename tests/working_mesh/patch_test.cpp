@@ -22,7 +22,7 @@ std::vector<Triangle> sorted(std::vector<Triangle> faces) {
 
 std::vector<Triangle> in_mesh(const EdgePatch& patch, std::vector<Triangle> faces) {
   for (Triangle& f : faces)
-    for (int& v : f) v = patch.wedge_ids[static_cast<size_t>(v)];
+    for (int& v : f) v = patch.wedge_ids[v];
   return sorted(faces);
 }
 
@@ -51,8 +51,7 @@ TEST(EdgePatch, FlippedFacesAreThoseOfTheFlippedMesh) {
     const int h = 3 * 17 + 1, twin = s.halfedges.twin(h);
     const EdgePatch patch = rings < 0 ? cut_pair(s.mesh, h) : *cut_patch(s.mesh, h, rings, 200);
     s.halfedges.flip(h);
-    std::vector<Triangle> pair = {s.halfedges.faces()[static_cast<size_t>(h / 3)],
-                                  s.halfedges.faces()[static_cast<size_t>(twin / 3)]};
+    std::vector<Triangle> pair = {s.halfedges.faces()[h / 3], s.halfedges.faces()[twin / 3]};
     const std::vector<Triangle> flipped = in_mesh(patch, flipped_faces(patch));
     EXPECT_TRUE(std::ranges::includes(flipped, sorted(pair)));
     EXPECT_EQ(flipped.size(), patch.faces.size());
@@ -184,9 +183,8 @@ TEST(EdgePatch, FoldsOfTheFlippedFacesAtACreaseAreSeen) {
         std::vector<double> cosines;
         for (const Edge& e : creases) {
           const int halfedge = test::half_edge(s.halfedges, e[0], e[1]);
-          cosines.push_back(
-              cosine_between(s.positions.points, s.halfedges.faces()[static_cast<size_t>(halfedge / 3)],
-                             s.halfedges.faces()[static_cast<size_t>(s.halfedges.twin(halfedge) / 3)]));
+          cosines.push_back(cosine_between(s.positions.points, s.halfedges.faces()[halfedge / 3],
+                                           s.halfedges.faces()[s.halfedges.twin(halfedge) / 3]));
         }
         return cosines;
       };

@@ -62,8 +62,8 @@ TEST(Workspace, TheMeshIsTheInputInAnotherOrder) {
   const Workspace w = on(with_natural_length(t));
   for (size_t f = 0; f < w.adjacency->faces.size(); ++f)
     for (size_t k = 0; k < 3; ++k) {
-      const int fresh = w.adjacency->faces[f][k], old = t.faces[static_cast<size_t>(w.order.old_face[f])][k];
-      EXPECT_EQ(w.order.old_vertex[static_cast<size_t>(fresh)], old);
+      const int fresh = w.adjacency->faces[f][k], old = t.faces[w.order.old_face[f]][k];
+      EXPECT_EQ(w.order.old_vertex[fresh], old);
       const Vec3 x = w.normalisation.centre + w.normalisation.unit * w.start->col(fresh);
       EXPECT_LT((x - t.points.col(old)).norm(), 1e-14);
     }
