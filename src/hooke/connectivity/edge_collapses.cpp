@@ -375,10 +375,9 @@ int collapse_folded_faces(WorkingMesh& m) {
   const CollapseOptions options = looser_options();
   const HalfedgeMesh& t = m.halfedges;
   const auto is_folded = [&](int f) {
-    const size_t face = f;
-    return !m.vertices.constraints.is_frozen(t.faces()[face]) &&
-           face_alignment(m.vertices.positions.points, m.vertices.positions.normals, t.faces()[face],
-                          t.wedges()[face]) < options.limits.alignment;
+    return !m.vertices.constraints.is_frozen(t.faces()[f]) &&
+           face_alignment(m.vertices.positions.points, m.vertices.positions.normals, t.faces()[f],
+                          t.wedges()[f]) < options.limits.alignment;
   };
   const int count = t.half_edge_count() / 3;
   int collapses = 0;
