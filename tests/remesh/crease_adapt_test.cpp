@@ -1,6 +1,9 @@
 // What mode adapt keeps of a solid with sharp edges.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
@@ -70,6 +73,24 @@ TEST(CreaseAdapt, ACubeOfTwelveFacesIsRefined) {
   expect_flat_faces(t, o, 1e-9);
   expect_same_creases(t, o, 1e-9);
   EXPECT_GT(min_angle(o.points, o.faces), 30);
+}
+
+TEST(CreaseAdapt, AStripHalfAsWideAsTheLengthHasNoInnerVertices) {
+  for (const double width : {.2, .35, .5})
+    for (const double height : {1.4, 2., 2.6, 3., 4., 5.5}) {
+      test::Triangles strip{Mat3X(3, 4), {{0, 1, 2}, {0, 2, 3}}};
+      strip.points << 0, width, width, 0, 0, 0, height, height, 0, 0, 0, 0;
+      const Outcome o = remeshed(strip, 1, adaptation_options());
+      const Mat3X& p = o.points;
+      const auto is_inner = [&](int v) {
+        return p(0, v) > 0 && p(0, v) < width && p(1, v) > 0 && p(1, v) < height;
+      };
+      for (int v = 0; v < p.cols(); ++v) EXPECT_FALSE(is_inner(v)) << width << " x " << height;
+      // As many rectangles as the longer edges are cut in, each with a diagonal, or better.
+      const double rectangle = height / std::floor(.5 * static_cast<double>(o.faces.size()));
+      const double diagonals = std::atan(std::min(width, rectangle) / std::max(width, rectangle));
+      EXPECT_GT(min_angle(p, o.faces), .8 * diagonals * 180 / std::numbers::pi) << width << " x " << height;
+    }
 }
 
 TEST(CreaseAdapt, ACylinderStaysRoundUpToItsFeatureEdges) {

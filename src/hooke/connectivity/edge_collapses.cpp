@@ -1,6 +1,7 @@
 #include "hooke/connectivity/edge_collapses.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -190,20 +191,33 @@ class CollapseTest {
     return t_.is_feature_edge(h_);
   }
 
-  /// Is the valence within its limit, and do the opposite corners keep their target counts?
+  /// Of the vertices opposite the edge: does one satisfy the predicate?
+  bool any_opposite(const auto& is_such) const {
+    return std::ranges::any_of(std::array{h_, t_.twin(h_)}, [&](int half_edge) {
+      return half_edge >= 0 && is_such(corner_valence(m_, HalfedgeMesh::previous(half_edge)));
+    });
+  }
+
+  /// Would an opposite corner have fewer edges than its target?
+  bool takes_from_corner() const {
+    return any_opposite([](const CornerValence& v) { return v.present <= v.target; });
+  }
+
+  /// Is the valence within its limit, and do the opposite corners keep their target counts? A very short edge
+  /// may be in a strip narrower than the target length, where a vertex in the middle is worse than corners
+  /// with a single face.
   bool keeps_valences() const {
+    constexpr double very_short = .5;  // over the target length
     if (valence_after(m_, h_) > options_.valence) return false;
-    for (int half_edge : {h_, t_.twin(h_)}) {
-      if (half_edge < 0) continue;
-      const CornerValence opposite = corner_valence(m_, HalfedgeMesh::previous(half_edge));
-      if (opposite.present <= opposite.target) return false;
-    }
-    return true;
+    if (!takes_from_corner()) return true;
+    const auto has_one_face = [](const CornerValence& v) { return v.present <= 2; };
+    return relative_length(m_, h_) < very_short && !any_opposite(has_one_face);
   }
 
   /// `looser`: the loosened limits, once they are known.
   bool is_fair(CollapsedRing& ring, const SurfacePosition& there, std::optional<ShapeLimits>& looser) const {
     const LocalShape after = ring.worst(there);
+    if (takes_from_corner() && after.cotangent >= worst_about(m_, h_).cotangent) return false;
     if (!is_within(after, options_.limits)) {
       if (!looser) looser = looser_limits();
       if (!is_within(after, *looser)) return false;

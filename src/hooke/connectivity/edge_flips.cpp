@@ -31,14 +31,14 @@ double area(const Mat3X& points, const Triangle& t) {
 }
 
 /// May the vertex from which h starts lose an edge?
-bool may_lose_an_edge(const WorkingMesh& m, int h) {
+bool may_lose_an_edge(const WorkingMesh& m, int h, int slack) {
   const CornerValence corner = corner_valence(m, h);
-  return corner.present > (corner.target > 0 ? std::max(2, corner.target) : 3);
+  return corner.present > (corner.target > 0 ? std::max(2, corner.target - slack) : 3);
 }
 
-bool may_gain_an_edge(const WorkingMesh& m, int h) {
+bool may_gain_an_edge(const WorkingMesh& m, int h, int slack) {
   const CornerValence corner = corner_valence(m, h);
-  return corner.target == 0 || corner.present < corner.target;
+  return corner.target == 0 || corner.present < corner.target + slack;
 }
 
 /// Is the sum of the opposite angles certainly less than pi? Its sine tells this without an arctangent.
@@ -132,12 +132,13 @@ CornerValence corner_valence(const WorkingMesh& m, int h) {
   return {target, target > 0 ? static_cast<int>(t.wedge_halfedges(h).size()) + 1 : t.valence(t.from(h))};
 }
 
-bool flip_keeps_topology(const WorkingMesh& m, int h) {
+bool flip_keeps_topology(const WorkingMesh& m, int h, int corner_slack) {
   const HalfedgeMesh& t = m.halfedges;
   if (t.twin(h) < 0 || t.is_crease(h) || is_frozen_edge(m, h)) return false;
   const int g = t.twin(h), opposite_h = HalfedgeMesh::previous(h), opposite_g = HalfedgeMesh::previous(g);
-  return may_lose_an_edge(m, h) && may_lose_an_edge(m, g) && may_gain_an_edge(m, opposite_h) &&
-         may_gain_an_edge(m, opposite_g) && t.may_connect(t.from(opposite_h), t.from(opposite_g));
+  return may_lose_an_edge(m, h, corner_slack) && may_lose_an_edge(m, g, corner_slack) &&
+         may_gain_an_edge(m, opposite_h, corner_slack) && may_gain_an_edge(m, opposite_g, corner_slack) &&
+         t.may_connect(t.from(opposite_h), t.from(opposite_g));
 }
 
 bool may_flip(const WorkingMesh& m, int h) {

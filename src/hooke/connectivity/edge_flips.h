@@ -23,8 +23,8 @@ CornerValence corner_valence(const WorkingMesh& mesh, int half_edge);
 
 /// Does a flip of the edge keep topology and valences? Not if it is a feature edge; if the new edge exists
 /// already; or if a vertex would have fewer than 3 edges (2 at a corner), or a corner valence move away from
-/// its target.
-bool flip_keeps_topology(const WorkingMesh& mesh, int half_edge);
+/// its target, unless it still differs by no more than `corner_slack`.
+bool flip_keeps_topology(const WorkingMesh& mesh, int half_edge, int corner_slack = 0);
 
 /// May the edge be flipped: does that keep the topology, is no new face a sliver, and are the limits of the
 /// local shape kept, or is the new shape no worse than that before?

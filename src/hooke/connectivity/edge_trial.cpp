@@ -84,14 +84,18 @@ class ChangeFinder {
   }
 
  private:
+  /// By how much a corner may miss its target valence where that makes better angles, as in a strip narrower
+  /// than the target length, where only every other corner can have it.
+  static constexpr int corner_slack = 1;
+
   bool may_gain_an_edge(int corner) const {
     const CornerValence valence = corner_valence(m_, corner);
-    return valence.target > 0 ? valence.present < valence.target : valence.present < rules_.valence;
+    return valence.present < (valence.target > 0 ? valence.target + corner_slack : rules_.valence);
   }
 
   bool may_lose_an_edge(int corner) const {
     const CornerValence valence = corner_valence(m_, corner);
-    if (valence.target > 0) return valence.present > valence.target;
+    if (valence.target > 0) return valence.present > std::max(2, valence.target - corner_slack);
     return valence.present > (t_.on_boundary(t_.from(corner)) ? 2 : 3);
   }
 
@@ -101,7 +105,7 @@ class ChangeFinder {
   }
 
   /// A flip adds an edge to the opposite vertices, as a split does.
-  bool may_flip(int h) const { return may_split(h) && flip_keeps_topology(m_, h); }
+  bool may_flip(int h) const { return may_split(h) && flip_keeps_topology(m_, h, corner_slack); }
 
   bool may_split(int h) const {
     return !is_frozen_edge(m_, h) &&

@@ -197,12 +197,13 @@ namespace {
 
 /// In mode `flip` the number of faces is fixed.
 FaceCountLimits limits_of(const Workspace& work, ConnectivityMode mode) {
-  constexpr double share = .02;  // by which mode `adapt` may miss the target face count
+  constexpr double share = .02, least = 2;  // by which mode `adapt` may miss the target face count
   const auto& faces = work.adjacency->faces;
   const auto count = static_cast<double>(faces.size());
   if (mode == ConnectivityMode::flip) return {count, count};
   const double target = target_face_count(work.vertices, faces);
-  return {(1 - share) * target, (1 + share) * target};
+  const double slack = std::max(share * target, least);
+  return {target - slack, target + slack};
 }
 
 }  // namespace
