@@ -5,7 +5,7 @@ import random
 import unittest
 from collections import Counter
 
-from command import CommandTest, read_mesh
+from command import CommandTest, read_mesh, write_off
 
 MODES = [["--connectivity", mode, "--effort", "fast"] for mode in ("fixed", "flip", "adapt")]
 KEEP = ["--keep", "non-manifold"]
@@ -364,6 +364,17 @@ class Junctions(CommandTest):
             self.assertAlmostEqual(now[body], volume, delta=1e-9)
         again = self.report("out.obj", "--check", *KEEP)
         self.assertEqual(again["input"]["euler"], report["input"]["euler"])
+
+    def test_a_web_between_two_lines_needs_no_vertex_in_its_middle(self):
+        profile, walls = [(x, y) for y in (0, 2) for x in (-2, 0, 2)], ((0, 1), (1, 2), (3, 4), (4, 5), (1, 4))
+        vertices = [(x, y, z) for z in (0, 6) for x, y in profile]
+        faces = [f for a, b in walls for f in ((a, b, 6 + b), (a, 6 + b, 6 + a))]
+        write_off(self.folder / "beam.off", vertices, faces)
+        for length in ("2.5", "3.7"):
+            report = self.report("beam.off", "-o", "out.off", *KEEP, "--connectivity", "adapt", "-L", length)
+            self.assertGreater(report["after"]["min_angle"]["min"], 30)
+            after, new_faces = read_mesh(self.folder / "out.off")
+            self.assert_same_network(vertices, faces, after, new_faces, MODES[2])
 
     def test_fixed_changes_nothing_but_coordinates(self):
         for name, (vertices, faces, _) in self.meshes.items():

@@ -280,7 +280,7 @@ class Report(CommandTest):
         faces = [f for a, b in ((k, (k + 1) % n) for k in range(n))
                  for f in ((a, b, n + b), (a, n + b, n + a), (b, a, 2 * n), (n + a, n + b, 2 * n + 1))]
         write_off(self.folder / "letter.off", points, faces)
-        adapted = ("letter.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".8")
+        adapted = ("letter.off", "-o", "out.off", "--connectivity", "adapt", "-L", "1.5")
         plain, finer = self.report(*adapted), self.report(*adapted, "--min-length", ".1")
         self.assertGreater(plain["after"]["faces_below_20"], 0)
         self.assertIn("narrow_regions", [w["code"] for w in plain["warnings"]])

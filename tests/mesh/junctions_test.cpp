@@ -193,19 +193,55 @@ TEST(Junctions, TheirNetworkMayHaveOtherEdges) {
   EXPECT_FALSE(one.same_network(split));
 }
 
-TEST(Junctions, NoNewEdgeJoinsTwoOfTheirVertices) {
-  const Adjacency c = test::connect(test::grid(2, test::flat));
+/// Of two grids, one beside the other: the vertices of the second with these of the first as copies.
+std::vector<int> places(const Adjacency& both, int offset, std::vector<int> shared) {
+  std::vector<int> place(both.vertex_count, -1);
+  for (std::size_t i = 0; i < shared.size(); ++i)
+    place[shared[i]] = place[shared[i] + offset] = static_cast<int>(i);
+  return place;
+}
+
+TEST(Junctions, ANewEdgeJoinsTwoOfTheirPlacesOnlyWhereNoSheetHasOne) {
+  const test::Triangles grid = test::grid(2, test::flat);
+  const auto count = static_cast<int>(grid.points.cols());
+  const Adjacency c = test::connect(test::both(grid, grid));
   HalfedgeMesh t(c);
-  for (int h = 0; h < t.half_edge_count(); ++h) {
+  int apart = 0;
+  for (int h = 0; h < t.half_edge_count() / 2; ++h) {  // of the first sheet
     if (t.twin(h) < 0) continue;
     const int a = t.opposite_vertex(h), b = t.opposite_vertex(t.twin(h));
-    EXPECT_TRUE(t.may_connect(a, b) || t.adjacent(a, b));
-    std::vector<char> marks(c.vertex_count, 0);
-    marks[a] = marks[b] = 1;
-    t.mark_junctions(marks);
+    if (t.adjacent(a, b)) continue;
+    ++apart;
+    t.mark_junctions(places(c, count, {a, b}));
+    EXPECT_TRUE(t.may_connect(a, b));
+    const int edge = t.half_edge(t.from(h) + count, t.to(h) + count);
+    t.flip(edge);  // in the second one, where it joins the copies
     EXPECT_FALSE(t.may_connect(a, b));
     t.mark_junctions({});
+    EXPECT_TRUE(t.may_connect(a, b));
+    t.flip(HalfedgeMesh::flipped(edge));
   }
+  EXPECT_GT(apart, 0);
+}
+
+TEST(Junctions, NoCollapseMergesTwoOfTheirPlaces) {
+  const test::Triangles grid = test::grid(4, test::flat);
+  const Adjacency c = test::connect(grid);
+  HalfedgeMesh t(c);
+  int inner = 0;
+  for (int h = 0; h < t.half_edge_count(); ++h) {
+    if (t.twin(h) < 0 || !t.may_collapse(h)) continue;
+    ++inner;
+    std::vector<int> place(c.vertex_count, -1);
+    place[t.from(h)] = 0;
+    t.mark_junctions(place);
+    EXPECT_TRUE(t.may_collapse(h));
+    place[t.to(h)] = 1;
+    t.mark_junctions(place);
+    EXPECT_FALSE(t.may_collapse(h));
+    t.mark_junctions({});
+  }
+  EXPECT_GT(inner, 0);
 }
 
 TEST(Junctions, JoinedSheetsMustNotHaveComeApart) {

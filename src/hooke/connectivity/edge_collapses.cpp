@@ -352,8 +352,10 @@ int collapse_short_edges(WorkingMesh& m, const CollapseOptions& options) {
   };
   for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
     for (const std::optional<Collapse>& collapse : find_collapses(m, edges, options)) {
-      // Other edges of its curve may have collapsed.
-      if (!collapse || !may_remove_curve_edge(m, collapse->half_edge)) continue;
+      // Other edges of its curve may have collapsed, and edges of other sheets may now join the same places.
+      if (!collapse || !may_remove_curve_edge(m, collapse->half_edge) ||
+          !m.halfedges.may_collapse(collapse->half_edge))
+        continue;
       make_collapse(m, *collapse);
       queue.push_around(collapse->stays);
       ++collapses;

@@ -136,7 +136,7 @@ class JunctionMatch {
       const int h = t_.half_edge(from, to), v = add(h, middle);
       c_.junction[v] = number;
       t_.split(h);
-      t_.mark_junction(v);
+      t_.mark_junction(v, number);
     }
     return number;
   }

@@ -186,13 +186,39 @@ bool HalfedgeMesh::keeps_topology(int h) const {
   return common == (t < 0 ? 1 : 2);
 }
 
-/// Would the collapse of h make an edge between two vertices at junctions?
-bool HalfedgeMesh::connects_junctions(int h) const {
+void HalfedgeMesh::mark_junctions(const std::vector<int>& places) {
+  place_.clear();
+  copies_.clear();
+  for (std::size_t v = 0; v < places.size(); ++v)
+    if (places[v] >= 0) mark_junction(static_cast<int>(v), places[v]);
+}
+
+void HalfedgeMesh::mark_junction(int vertex, int place) {
+  const std::size_t v = vertex, p = place;
+  if (place_.size() <= v) place_.resize(v + 1, -1);
+  if (copies_.size() <= p) copies_.resize(p + 1);
+  place_[v] = place;
+  copies_[p].push_back(vertex);
+}
+
+/// Are both at junctions, and does an edge of any sheet join their places, or are these the same?
+bool HalfedgeMesh::has_joined_places(int a, int b) const {
+  if (!at_junction(a) || !at_junction(b)) return false;
+  const int place = place_[b];
+  const auto is_there = [&](int v) { return at_junction(v) && place_[v] == place; };
+  return is_there(a) || std::ranges::any_of(copies_[place_[a]], [&](int copy) {
+           return valence(copy) > 0 && std::ranges::any_of(neighbours(copy), is_there);
+         });
+}
+
+/// Would the collapse of h merge two places at junctions, or make an edge between two that an edge joins?
+bool HalfedgeMesh::joins_places_again(int h) const {
   const int a = from(h), b = to(h);
   if (at_junction(a) == at_junction(b)) return at_junction(a);
   const int stays = at_junction(a) ? a : b, goes = at_junction(a) ? b : a;
-  return std::ranges::any_of(neighbours(goes),
-                             [&](int v) { return v != stays && at_junction(v) && !adjacent(stays, v); });
+  return std::ranges::any_of(neighbours(goes), [&](int v) {
+    return v != stays && !adjacent(stays, v) && has_joined_places(stays, v);
+  });
 }
 
 /// Removes the face of h and links the faces across its other two edges.
@@ -310,10 +336,10 @@ std::vector<int> HalfedgeMesh::compact() {
     valences_[i] = old.valences_[v];
     on_boundary_[i] = old.on_boundary_[v];
   });
-  if (!old.at_junction_.empty()) {
-    at_junction_.resize(kept.size());
-    for (size_t i = 0; i < kept.size(); ++i) at_junction_[i] = old.at_junction(kept[i]);
-  }
+  std::vector<int> places;
+  if (!old.place_.empty())
+    for (const int v : kept) places.push_back(old.at_junction(v) ? old.place_[v] : -1);
+  mark_junctions(places);
   return kept;
 }
 

@@ -15,17 +15,13 @@ class HalfedgeMesh {
  public:
   explicit HalfedgeMesh(const Adjacency& adjacency);
 
-  /// Marks the vertices of junctions (see junctions.h), per vertex. No new edge may join two of them, since
-  /// another sheet may have the same.
-  void mark_junctions(std::vector<char> marks) { at_junction_ = std::move(marks); }
-  void mark_junction(int vertex) {
-    const std::size_t v = vertex;
-    if (at_junction_.size() <= v) at_junction_.resize(v + 1, 0);
-    at_junction_[v] = 1;
-  }
+  /// Tells which vertices are at junctions (see junctions.h): per vertex the number of its place, which
+  /// copies share, or -1. No new edge may join two places that an edge of any sheet joins.
+  void mark_junctions(const std::vector<int>& places);
+  void mark_junction(int vertex, int place);
   bool at_junction(int vertex) const {
     const std::size_t v = vertex;
-    return v < at_junction_.size() && at_junction_[v] != 0;
+    return v < place_.size() && place_[v] >= 0;
   }
 
   const std::vector<Triangle>& faces() const { return faces_; }
@@ -70,8 +66,8 @@ class HalfedgeMesh {
 
   /// The half-edge from one vertex to the other, -1 if there is none.
   int half_edge(int from, int to) const;
-  /// Whether a new edge may join a and b: no edge does, and not both are at junctions.
-  bool may_connect(int a, int b) const { return !(at_junction(a) && at_junction(b)) && !adjacent(a, b); }
+  /// Whether a new edge may join a and b: no edge does, nor one between their places at junctions.
+  bool may_connect(int a, int b) const { return !adjacent(a, b) && !has_joined_places(a, b); }
 
   /// Whether the edge of h is a crease edge.
   bool is_crease(int h) const { return constrained_[h] != 0; }
@@ -95,8 +91,9 @@ class HalfedgeMesh {
   /// components and the pieces between creases keep at least one triangle.
   bool keeps_topology(int h) const;
 
-  /// The same, where the collapse makes no edge between vertices at junctions.
-  bool may_collapse(int h) const { return keeps_topology(h) && !connects_junctions(h); }
+  /// The same, where the collapse neither merges two places at junctions nor joins two that are joined
+  /// already.
+  bool may_collapse(int h) const { return keeps_topology(h) && !joins_places_again(h); }
 
   /// The wedge of `stays`, an end of h, that the outgoing half-edge `out` of either end belongs to after
   /// the collapse of h. Pre-condition: the other end has no wedges but those along h.
@@ -119,16 +116,18 @@ class HalfedgeMesh {
   void link(int h, int twin);
   void split(int h, int vertex, int wedge);
   void close(int h);
-  bool connects_junctions(int h) const;
+  bool has_joined_places(int a, int b) const;
+  bool joins_places_again(int h) const;
 
   std::vector<Triangle> faces_;
   std::vector<Triangle> wedges_;  // empty without creases: the wedges are then the vertices
   std::vector<int> twins_;
-  std::vector<int> outgoing_halfedge_;  // per id: one outgoing half-edge, -1 without faces
-  std::vector<int> valences_;           // per id: -1 for removed vertices and extra wedges
-  std::vector<char> on_boundary_;       // per id
-  std::vector<char> constrained_;       // per half-edge
-  std::vector<char> at_junction_;       // per id, false for ids beyond its end
+  std::vector<int> outgoing_halfedge_;    // per id: one outgoing half-edge, -1 without faces
+  std::vector<int> valences_;             // per id: -1 for removed vertices and extra wedges
+  std::vector<char> on_boundary_;         // per id
+  std::vector<char> constrained_;         // per half-edge
+  std::vector<int> place_;                // per id: number of its place at junctions, or -1; shorter without
+  std::vector<std::vector<int>> copies_;  // by place: its vertices, also removed ones
 };
 
 /// The adjacency of a half-edge mesh, without creases; faster than from the faces alone. Pre-condition: no

@@ -20,7 +20,7 @@ constexpr double fair = 30;  // degrees
 /// What holds the worst face, the first of its reasons that has words; empty without one.
 std::string held_by(const Quality& q) {
   static constexpr std::array<std::pair<std::string_view, const char*>, 7> words{{
-      {"corner", "a sharp corner of the input"},
+      {"corner", "a corner of the input"},
       {"fixed", "fixed vertices"},
       {"crease", "a crease"},
       {"boundary", "the boundary"},

@@ -30,7 +30,7 @@ WorkingMesh::WorkingMesh(const Adjacency& adjacency, VertexTable& v, Retraction&
 }
 
 WorkingMesh::WorkingMesh(Workspace& work) : WorkingMesh(*work.adjacency, work.vertices, *work.retraction) {
-  halfedges.mark_junctions(work.junction_marks());
+  halfedges.mark_junctions(work.vertices.constraints.junction);
 }
 
 CurveFinder::Location curve_of(const WorkingMesh& m, int h) {

@@ -426,12 +426,6 @@ std::vector<int> Workspace::joined_in_result() const {
   return joined;
 }
 
-std::vector<char> Workspace::junction_marks() const {
-  std::vector<char> marks;
-  for (const int number : vertices.constraints.junction) marks.push_back(number >= 0);
-  return marks;
-}
-
 ProjectionCounts Workspace::projection_counts() const {
   ProjectionCounts counts = past_counts_;
   counts += retraction->counts();

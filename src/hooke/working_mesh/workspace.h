@@ -128,9 +128,6 @@ struct Workspace {
 
   ProjectionCounts projection_counts() const;
 
-  /// A mark for each vertex at a junction; empty without any.
-  std::vector<char> junction_marks() const;
-
   Stopwatch* stopwatch;
   Normalisation normalisation;
   Permutation order;  // to the ids of the result, those of the input until replace_mesh(); `faces` is empty
