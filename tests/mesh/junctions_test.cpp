@@ -193,15 +193,7 @@ TEST(Junctions, TheirNetworkMayHaveOtherEdges) {
   EXPECT_FALSE(one.same_network(split));
 }
 
-/// Of two grids, one beside the other: the vertices of the second with these of the first as copies.
-std::vector<int> places(const Adjacency& both, int offset, std::vector<int> shared) {
-  std::vector<int> place(both.vertex_count, -1);
-  for (std::size_t i = 0; i < shared.size(); ++i)
-    place[shared[i]] = place[shared[i] + offset] = static_cast<int>(i);
-  return place;
-}
-
-TEST(Junctions, ANewEdgeJoinsTwoOfTheirPlacesOnlyWhereNoSheetHasOne) {
+TEST(Junctions, ANewEdgeJoinsTwoPlacesOfOneSheetOnly) {
   const test::Triangles grid = test::grid(2, test::flat);
   const auto count = static_cast<int>(grid.points.cols());
   const Adjacency c = test::connect(test::both(grid, grid));
@@ -212,16 +204,32 @@ TEST(Junctions, ANewEdgeJoinsTwoOfTheirPlacesOnlyWhereNoSheetHasOne) {
     const int a = t.opposite_vertex(h), b = t.opposite_vertex(t.twin(h));
     if (t.adjacent(a, b)) continue;
     ++apart;
-    t.mark_junctions(places(c, count, {a, b}));
+    std::vector<int> place(c.vertex_count, -1);
+    place[a] = place[a + count] = 0;
+    place[b] = 1;
+    t.mark_junctions(place);
     EXPECT_TRUE(t.may_connect(a, b));
-    const int edge = t.half_edge(t.from(h) + count, t.to(h) + count);
-    t.flip(edge);  // in the second one, where it joins the copies
+    place[b + count] = 1;
+    t.mark_junctions(place);
+    EXPECT_FALSE(t.may_connect(a, b));
+    place[b + count] = -1;
+    place[t.from(h)] = 1;  // two copies in one sheet
+    t.mark_junctions(place);
     EXPECT_FALSE(t.may_connect(a, b));
     t.mark_junctions({});
     EXPECT_TRUE(t.may_connect(a, b));
-    t.flip(HalfedgeMesh::flipped(edge));
   }
   EXPECT_GT(apart, 0);
+}
+
+TEST(Junctions, NoCollapseMakesAFaceThatAnotherSheetMayHave) {
+  const std::vector<Triangle> faces = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {4, 5, 7}, {5, 6, 7}, {6, 4, 7}};
+  HalfedgeMesh t(make_adjacency(8, faces));
+  const int h = t.half_edge(3, 0);
+  t.mark_junctions({0, 1, 2, -1, 0, 1, 2, -1});
+  EXPECT_FALSE(t.may_collapse(h));
+  t.mark_junctions({0, 1, 2, -1, 0, 3, 2, -1});
+  EXPECT_TRUE(t.may_collapse(h));
 }
 
 TEST(Junctions, NoCollapseMergesTwoOfTheirPlaces) {

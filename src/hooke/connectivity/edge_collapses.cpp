@@ -203,15 +203,15 @@ class CollapseTest {
     return any_opposite([](const CornerValence& v) { return v.present <= v.target; });
   }
 
-  /// Is the valence within its limit, and do the opposite corners keep their target counts? A very short edge
-  /// may be in a strip narrower than the target length, where a vertex in the middle is worse than corners
-  /// with a single face.
+  /// Is the valence within its limit, and do the opposite corners keep their target counts? With a very short
+  /// edge, as in a strip narrower than the target length, they may have one edge less: a vertex in the middle
+  /// is worse there.
   bool keeps_valences() const {
     constexpr double very_short = .5;  // over the target length
     if (valence_after(m_, h_) > options_.valence) return false;
     if (!takes_from_corner()) return true;
-    const auto has_one_face = [](const CornerValence& v) { return v.present <= 2; };
-    return relative_length(m_, h_) < very_short && !any_opposite(has_one_face);
+    const auto has_too_few = [](const CornerValence& v) { return v.present <= std::max(2, v.target - 1); };
+    return relative_length(m_, h_) < very_short && !any_opposite(has_too_few);
   }
 
   /// `looser`: the loosened limits, once they are known.
@@ -352,10 +352,8 @@ int collapse_short_edges(WorkingMesh& m, const CollapseOptions& options) {
   };
   for (std::vector<int> edges = next_edges(); !edges.empty(); edges = next_edges())
     for (const std::optional<Collapse>& collapse : find_collapses(m, edges, options)) {
-      // Other edges of its curve may have collapsed, and edges of other sheets may now join the same places.
-      if (!collapse || !may_remove_curve_edge(m, collapse->half_edge) ||
-          !m.halfedges.may_collapse(collapse->half_edge))
-        continue;
+      // Other edges of its curve may have collapsed.
+      if (!collapse || !may_remove_curve_edge(m, collapse->half_edge)) continue;
       make_collapse(m, *collapse);
       queue.push_around(collapse->stays);
       ++collapses;

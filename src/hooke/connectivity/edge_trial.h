@@ -66,9 +66,9 @@ struct ChangeRules {
 /// One half-edge of each inner edge of the faces around the corners of this face, ascending.
 std::vector<int> inner_edges_about(const HalfedgeMesh& halfedges, int face);
 
-/// The changes of an inner edge that preserve the topology and creases and respect the valence limits, a
-/// corner's target valence up to one edge; angles and folds are left to CandidateEvaluator. Vertices on
-/// feature curves are neither added nor removed.
+/// The changes of an inner edge that preserve the topology and creases and respect the valence limits; a
+/// corner may miss its target valence by one, but not by a collapse into it. Angles and folds are left to
+/// CandidateEvaluator. Vertices on feature curves are neither added nor removed.
 std::vector<EdgeChange> allowed_changes(const WorkingMesh& mesh, int half_edge, const ChangeRules& rules);
 
 /// Applies the change to the vertices of the patch of its edge, with new positions projected to the surface;

@@ -159,14 +159,9 @@ class FlipPass {
       const EdgePatch& patch = *results[i];
       if (meets_another(patch))
         mark_for_retest(patch, 2);  // at the two ends of the edge
-      else if (may_still_flip(edges[i]) && !folds_at_patch_boundary(patch, flipped_faces(patch), m_, limits_))
+      else if (!folds_at_patch_boundary(patch, flipped_faces(patch), m_, limits_))
         keep(edges[i], patch);
     }
-  }
-
-  /// Flips elsewhere may have joined the same places at junctions in another sheet.
-  bool may_still_flip(int h) const {
-    return t_.may_connect(t_.opposite_vertex(h), t_.opposite_vertex(t_.twin(h)));
   }
 
   bool meets_another(const EdgePatch& patch) const {

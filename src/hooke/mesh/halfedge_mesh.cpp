@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/disjoint_sets.h"
 #include "hooke/mesh/memory_order.h"
 
 namespace hooke {
@@ -187,38 +188,59 @@ bool HalfedgeMesh::keeps_topology(int h) const {
 }
 
 void HalfedgeMesh::mark_junctions(const std::vector<int>& places) {
-  place_.clear();
-  copies_.clear();
-  for (std::size_t v = 0; v < places.size(); ++v)
-    if (places[v] >= 0) mark_junction(static_cast<int>(v), places[v]);
+  place_ = places;
+  sheet_.assign(places.size(), -1);
+  sheets_at_.clear();
+  if (places.empty()) return;
+  sheets_at_.resize(std::ranges::max(places) + 1);
+  DisjointSets sheets(id_count());
+  for (const Triangle& t : faces_)
+    if (t[0] >= 0) {
+      sheets.join({t[0], t[1]});
+      sheets.join({t[0], t[2]});
+    }
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    if (places[v] < 0) continue;
+    sheet_[v] = sheets.root(static_cast<int>(v));
+    sheets_at_[places[v]].push_back(sheet_[v]);
+  }
 }
 
 void HalfedgeMesh::mark_junction(int vertex, int place) {
   const std::size_t v = vertex, p = place;
-  if (place_.size() <= v) place_.resize(v + 1, -1);
-  if (copies_.size() <= p) copies_.resize(p + 1);
+  const SmallIntList ring = neighbours(vertex);
+  const int other = *std::ranges::find_if(ring, [this](int n) { return at_junction(n); });
+  if (place_.size() <= v) {
+    place_.resize(v + 1, -1);
+    sheet_.resize(v + 1, -1);
+  }
+  if (sheets_at_.size() <= p) sheets_at_.resize(p + 1);
   place_[v] = place;
-  copies_[p].push_back(vertex);
+  sheet_[v] = sheet_[other];
+  sheets_at_[p].push_back(sheet_[v]);
 }
 
-/// Are both at junctions, and does an edge of any sheet join their places, or are these the same?
-bool HalfedgeMesh::has_joined_places(int a, int b) const {
-  if (!at_junction(a) || !at_junction(b)) return false;
-  const int place = place_[b];
-  const auto is_there = [&](int v) { return at_junction(v) && place_[v] == place; };
-  return is_there(a) || std::ranges::any_of(copies_[place_[a]], [&](int copy) {
-           return valence(copy) > 0 && std::ranges::any_of(neighbours(copy), is_there);
-         });
+/// Is one of the vertices at no junction, or have their places one sheet in common and one copy each in it?
+bool HalfedgeMesh::may_join_places(int a, int b) const {
+  if (!at_junction(a) || !at_junction(b)) return true;
+  std::ptrdiff_t pairs = 0;
+  for (int sheet : sheets_at_[place_[a]]) pairs += std::ranges::count(sheets_at_[place_[b]], sheet);
+  return pairs == 1;
 }
 
-/// Would the collapse of h merge two places at junctions, or make an edge between two that an edge joins?
-bool HalfedgeMesh::joins_places_again(int h) const {
+/// What may_collapse() says of places at junctions.
+bool HalfedgeMesh::keeps_places(int h) const {
   const int a = from(h), b = to(h);
-  if (at_junction(a) == at_junction(b)) return at_junction(a);
+  if (at_junction(a) == at_junction(b)) return !at_junction(a);
   const int stays = at_junction(a) ? a : b, goes = at_junction(a) ? b : a;
-  return std::ranges::any_of(neighbours(goes), [&](int v) {
-    return v != stays && !adjacent(stays, v) && has_joined_places(stays, v);
-  });
+  const auto is_allowed = [&](int outgoing) {
+    const int p = to(outgoing), q = opposite_vertex(outgoing);
+    if (p == stays || q == stays) return true;
+    for (int v : {p, q})
+      if (!adjacent(stays, v) && !may_join_places(stays, v)) return false;
+    return may_join_places(stays, p) || may_join_places(stays, q) || may_join_places(p, q);
+  };
+  return std::ranges::all_of(outgoing(goes), is_allowed);
 }
 
 /// Removes the face of h and links the faces across its other two edges.

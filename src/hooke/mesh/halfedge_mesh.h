@@ -16,8 +16,10 @@ class HalfedgeMesh {
   explicit HalfedgeMesh(const Adjacency& adjacency);
 
   /// Tells which vertices are at junctions (see junctions.h): per vertex the number of its place, which
-  /// copies share, or -1. No new edge may join two places that an edge of any sheet joins.
+  /// copies share, or -1. A new edge may join two places only if a single sheet has both, with one copy of
+  /// each: then no other edge ever joins them, and no two sheets can come to lie on each other.
   void mark_junctions(const std::vector<int>& places);
+  /// Of a vertex between others at junctions.
   void mark_junction(int vertex, int place);
   bool at_junction(int vertex) const {
     const std::size_t v = vertex;
@@ -66,8 +68,8 @@ class HalfedgeMesh {
 
   /// The half-edge from one vertex to the other, -1 if there is none.
   int half_edge(int from, int to) const;
-  /// Whether a new edge may join a and b: no edge does, nor one between their places at junctions.
-  bool may_connect(int a, int b) const { return !adjacent(a, b) && !has_joined_places(a, b); }
+  /// Whether a new edge may join a and b: no edge does, and their places at junctions allow it.
+  bool may_connect(int a, int b) const { return !adjacent(a, b) && may_join_places(a, b); }
 
   /// Whether the edge of h is a crease edge.
   bool is_crease(int h) const { return constrained_[h] != 0; }
@@ -91,9 +93,9 @@ class HalfedgeMesh {
   /// components and the pieces between creases keep at least one triangle.
   bool keeps_topology(int h) const;
 
-  /// The same, where the collapse neither merges two places at junctions nor joins two that are joined
-  /// already.
-  bool may_collapse(int h) const { return keeps_topology(h) && !joins_places_again(h); }
+  /// The same, where the collapse neither merges two places at junctions, nor joins two that may not be
+  /// joined, nor makes a face that another sheet may have too.
+  bool may_collapse(int h) const { return keeps_topology(h) && keeps_places(h); }
 
   /// The wedge of `stays`, an end of h, that the outgoing half-edge `out` of either end belongs to after
   /// the collapse of h. Pre-condition: the other end has no wedges but those along h.
@@ -116,18 +118,20 @@ class HalfedgeMesh {
   void link(int h, int twin);
   void split(int h, int vertex, int wedge);
   void close(int h);
-  bool has_joined_places(int a, int b) const;
-  bool joins_places_again(int h) const;
+  bool may_join_places(int a, int b) const;
+  bool keeps_places(int h) const;
 
   std::vector<Triangle> faces_;
   std::vector<Triangle> wedges_;  // empty without creases: the wedges are then the vertices
   std::vector<int> twins_;
-  std::vector<int> outgoing_halfedge_;    // per id: one outgoing half-edge, -1 without faces
-  std::vector<int> valences_;             // per id: -1 for removed vertices and extra wedges
-  std::vector<char> on_boundary_;         // per id
-  std::vector<char> constrained_;         // per half-edge
-  std::vector<int> place_;                // per id: number of its place at junctions, or -1; shorter without
-  std::vector<std::vector<int>> copies_;  // by place: its vertices, also removed ones
+  std::vector<int> outgoing_halfedge_;  // per id: one outgoing half-edge, -1 without faces
+  std::vector<int> valences_;           // per id: -1 for removed vertices and extra wedges
+  std::vector<char> on_boundary_;       // per id
+  std::vector<char> constrained_;       // per half-edge
+  // Of vertices at junctions; -1, or nothing beyond the end, for others.
+  std::vector<int> place_;                   // per id
+  std::vector<int> sheet_;                   // per id: a number of its sheet
+  std::vector<std::vector<int>> sheets_at_;  // by place: the sheet of each copy
 };
 
 /// The adjacency of a half-edge mesh, without creases; faster than from the faces alone. Pre-condition: no
