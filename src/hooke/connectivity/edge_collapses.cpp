@@ -200,7 +200,7 @@ class CollapseTest {
 
   /// Would an opposite corner have fewer edges than its target?
   bool takes_from_corner() const {
-    return any_opposite([](const CornerValence& v) { return v.present <= v.target; });
+    return any_opposite([](const CornerValence& v) { return v.target > 0 && !v.may_lose(0); });
   }
 
   /// Is the valence within its limit, and do the opposite corners keep their target counts? With a very short
@@ -210,8 +210,8 @@ class CollapseTest {
     constexpr double very_short = .5;  // over the target length
     if (valence_after(m_, h_) > options_.valence) return false;
     if (!takes_from_corner()) return true;
-    const auto has_too_few = [](const CornerValence& v) { return v.present <= std::max(2, v.target - 1); };
-    return relative_length(m_, h_) < very_short && !any_opposite(has_too_few);
+    return relative_length(m_, h_) < very_short &&
+           !any_opposite([](const CornerValence& v) { return !v.may_lose(1); });
   }
 
   /// `looser`: the loosened limits, once they are known.

@@ -82,8 +82,8 @@ int valence_after(const WorkingMesh& mesh, int half_edge);
 /// constrained vertex remains, in its position; of two with equal freedom that of the input remains, at the
 /// midpoint of the edge if the limits allow it, else at one of its ends. Does not modify the mesh, so edges
 /// can be tested in parallel; the collapses found for edges without a vertex or neighbour in common can all
-/// be made, except that may_remove_curve_edge() must be asked again.
-/// Projections are not counted. Pre-condition: count_curve_edges().
+/// be made, except that may_remove_curve_edge() must be asked again. Projections are not counted.
+/// Pre-condition: count_curve_edges().
 std::optional<Collapse> find_collapse(const WorkingMesh& mesh, int half_edge, const CollapseOptions& options);
 
 /// Do the limits allow the collapse of the edge into this end at this position? Looks neither at constraints

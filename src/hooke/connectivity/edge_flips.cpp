@@ -33,12 +33,12 @@ double area(const Mat3X& points, const Triangle& t) {
 /// May the vertex from which h starts lose an edge?
 bool may_lose_an_edge(const WorkingMesh& m, int h, int slack) {
   const CornerValence corner = corner_valence(m, h);
-  return corner.present > (corner.target > 0 ? std::max(2, corner.target - slack) : 3);
+  return corner.target > 0 ? corner.may_lose(slack) : corner.present > 3;
 }
 
 bool may_gain_an_edge(const WorkingMesh& m, int h, int slack) {
   const CornerValence corner = corner_valence(m, h);
-  return corner.target == 0 || corner.present < corner.target + slack;
+  return corner.target == 0 || corner.may_gain(slack);
 }
 
 /// Is the sum of the opposite angles certainly less than pi? Its sine tells this without an arctangent.

@@ -3,6 +3,8 @@
 // "Delaunay mesh construction", 2007.
 #pragma once
 
+#include <algorithm>
+
 #include "hooke/core/types.h"
 
 namespace hooke {
@@ -18,6 +20,10 @@ double opposite_angles(const HalfedgeMesh& halfedges, const Mat3X& points, int h
 struct CornerValence {
   int target;
   int present;
+
+  /// May a corner gain or lose an edge? It keeps a face, and gets no farther from its target than by `slack`.
+  bool may_gain(int slack) const { return present < target + slack; }
+  bool may_lose(int slack) const { return present > std::max(2, target - slack); }
 };
 CornerValence corner_valence(const WorkingMesh& mesh, int half_edge);
 

@@ -90,12 +90,12 @@ class ChangeFinder {
 
   bool may_gain_an_edge(int corner) const {
     const CornerValence valence = corner_valence(m_, corner);
-    return valence.present < (valence.target > 0 ? valence.target + corner_slack : rules_.valence);
+    return valence.target > 0 ? valence.may_gain(corner_slack) : valence.present < rules_.valence;
   }
 
   bool may_lose_an_edge(int corner) const {
     const CornerValence valence = corner_valence(m_, corner);
-    if (valence.target > 0) return valence.present > std::max(2, valence.target - corner_slack);
+    if (valence.target > 0) return valence.may_lose(corner_slack);
     return valence.present > (t_.on_boundary(t_.from(corner)) ? 2 : 3);
   }
 

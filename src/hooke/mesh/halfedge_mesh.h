@@ -19,7 +19,7 @@ class HalfedgeMesh {
   /// copies share, or -1. A new edge may join two places only if a single sheet has both, with one copy of
   /// each: then no other edge ever joins them, and no two sheets can come to lie on each other.
   void mark_junctions(const std::vector<int>& places);
-  /// Of a vertex between others at junctions.
+  /// The same of a vertex that a split has put on an edge between two of them.
   void mark_junction(int vertex, int place);
   bool at_junction(int vertex) const {
     const std::size_t v = vertex;
