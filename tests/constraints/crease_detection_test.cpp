@@ -175,11 +175,18 @@ TEST(Features, QuadrilateralsOfASmoothSurfaceMakeNone) {
       test::grid(24, [](double x, double y) { return 4 * x * (1 - x) - 2 * y * (1 - y); });
   saddle.points *= 24;
   EXPECT_TRUE(features_of(saddle).empty());
-  for (const auto& [meridians, bands] : {std::pair(24, 12), {20, 20}, {12, 24}, {64, 16}}) {
+  for (const auto& [meridians, bands] : {std::pair(24, 12), {20, 20}, {12, 24}, {64, 16}, {64, 8}}) {
     test::Triangles globe = test::globe(meridians, bands);
     globe.points *= std::sqrt(.5 * meridians * bands / std::numbers::pi);
     EXPECT_TRUE(features_of(globe).empty()) << meridians << " " << bands;
   }
+}
+
+TEST(Features, RingsAroundATurnedPartAreKept) {
+  for (const int around : {24, 64})
+    for (const double scale : {.3, 1.})
+      EXPECT_EQ(features_of(test::moved(test::reducer(around), scale)).size(), 8u * around)
+          << around << " " << scale;
 }
 
 TEST(Features, FoldsOfASheetThatTurnToAndFroAreKept) {

@@ -436,6 +436,20 @@ TEST(SurfaceField, LongFacetsAreArcsAndStraightAlongTheirRulings) {
   }
 }
 
+/// Its side is a cylinder up to z = 15, where the surface bends to a cone; nothing holds a spline between.
+TEST(SurfaceField, RisesOverLongFacetsNoMoreThanAnArcOverTheBendAtTheirEnd) {
+  const test::Triangles t = test::reducer(64);
+  const SurfaceField field = field_of(t);
+  const double bend = std::atan(.4), sagitta = .5 * std::hypot(4, 10) * std::tan(bend / 4);
+  for (double z = .5; z < 15; z += .5) {
+    const Vec3 x = 10 * Vec3(std::cos(.7), std::sin(.7), 0) + Vec3(0, 0, z);
+    int hint = 0;
+    (t.points.colwise() - x).colwise().squaredNorm().minCoeff(&hint);
+    const Projection projection = field.project(x, hint, 1e-9);
+    EXPECT_NEAR(projection.point.head(2).norm(), 10, 1.05 * sagitta) << z;
+  }
+}
+
 TEST(SurfaceField, ReachCountsInTheLengthsOfTheVertices) {
   const auto t = capped_sphere();
   const double h = mean_edge(t);

@@ -94,6 +94,28 @@ inline Triangles torus(int around, int across, double jitter) {
   return t;
 }
 
+/// A ring turned on a lathe: the closed profile of radii and heights, counterclockwise, in long facets.
+inline Triangles turned(const std::vector<Eigen::Vector2d>& profile, int around) {
+  const auto n = static_cast<int>(profile.size());
+  Triangles t{Mat3X(3, n * around), {}};
+  const auto id = [&](int i, int k) { return (i % around) * n + k % n; };
+  for (int i = 0; i < around; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double turn = 2 * std::numbers::pi * i / around;
+      t.points.col(id(i, k)) =
+          Vec3(profile[k][0] * std::cos(turn), profile[k][0] * std::sin(turn), profile[k][1]);
+      t.faces.push_back({id(i, k), id(i + 1, k), id(i + 1, k + 1)});
+      t.faces.push_back({id(i, k), id(i + 1, k + 1), id(i, k + 1)});
+    }
+  return t;
+}
+
+/// A pipe with a wall of 1 that narrows: it bends by 22 degrees where its cone begins, at half its height,
+/// and ends.
+inline Triangles reducer(int around) {
+  return turned({{9, 0}, {10, 0}, {10, 15}, {6, 25}, {6, 40}, {5, 40}, {5, 25}, {9, 15}}, around);
+}
+
 /// A cylinder of radius 1 without vertices between its rims: its sides are needles, its caps are cut at
 /// random.
 inline Triangles drum(int sides, double height) {

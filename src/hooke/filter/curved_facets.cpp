@@ -24,6 +24,8 @@ constexpr double uneven = 3;
 constexpr double much_turned = .033;
 /// Height of a spline over a face, in sagittas, beyond which it does not follow the mesh.
 constexpr double max_height = 2;
+constexpr double max_height_over_long =
+    1;  // over an uneven face, where nothing holds it between the vertices
 
 /// Height of a spline over a flat face that is only rounding, over the length of an edge.
 constexpr double exact = 1e-10;
@@ -60,8 +62,8 @@ void drop_small_groups(const Adjacency& c, const std::vector<EdgeArc>& arcs, std
 }
 
 /// The faces that are long compared with the spacing of the vertices, or turn much at an edge.
-std::vector<char> doubtful_faces(const Mat3X& points, const Adjacency& c, const std::vector<EdgeArc>& arcs) {
-  const std::vector<double> unevenness = face_unevenness(points, c);
+std::vector<char> doubtful_faces(const std::vector<double>& unevenness, const Adjacency& c,
+                                 const std::vector<EdgeArc>& arcs) {
   std::vector<char> doubtful(c.faces.size(), 0);
   for (std::size_t f = 0; f < doubtful.size(); ++f)
     doubtful[f] = unevenness[f] > uneven || std::ranges::any_of(c.face_edges[f], [&](int e) {
@@ -87,7 +89,8 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
                                                                  const Adjacency& c,
                                                                  const HeightOver& height) {
   const std::vector<EdgeArc> arcs = edge_arcs(points, c);
-  std::vector<char> curved = doubtful_faces(points, c, arcs);
+  const std::vector<double> unevenness = face_unevenness(points, c);
+  std::vector<char> curved = doubtful_faces(unevenness, c, arcs);
   if (std::ranges::find(curved, 1) == curved.end()) return nullptr;
   const std::vector<double> rises = max_rises(arcs, c);
   std::vector<char> is_near(c.edges.size(), 0);  // to a doubtful face
@@ -109,9 +112,8 @@ std::unique_ptr<const CurvedFacets> CurvedFacets::where_exceeded(const Mat3X& po
       if (!curved[f]) continue;
       const Triangle& t = c.faces[f];
       const double least = exact * (points.col(t[1]) - points.col(t[0])).norm();
-      const auto is_exceeded_by = [&](double h) {
-        return !(std::abs(h) <= std::max(max_height * rises[f], least));
-      };
+      const double max_rise = (unevenness[f] > uneven ? max_height_over_long : max_height) * rises[f];
+      const auto is_exceeded_by = [&](double h) { return !(std::abs(h) <= std::max(max_rise, least)); };
       const Vec3 centre = (points.col(t[0]) + points.col(t[1]) + points.col(t[2])) / 3;
       curved[f] = std::ranges::any_of(c.face_edges[f], [&](int e) { return is_exceeded_by(heights[e]); }) ||
                   is_exceeded_by(height(centre, t[0]));
