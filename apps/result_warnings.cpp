@@ -289,13 +289,24 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   if (s.remesh.constraints.boundary == BoundaryRule::fixed)
     warn_of_first(is_at_fixed_edge, "boundary_holds_angles",
                   "the edges of a fixed boundary stay; use --boundary slide");
+  std::vector<double> widths;
+  for (const WorstFace& f : faces)
+    if (is_narrow(f)) widths.push_back(f.height);
+  if (widths.empty()) return;
+  std::ranges::nth_element(widths, widths.begin() + std::ssize(widths) / 2);
+  const double width = widths[widths.size() / 2];
+  constexpr double least_width = .01;  // of an edge; shorter edges would make too many faces to name them
+  const bool names_width = width > least_width * run.after->edge_length.mean;
+  const std::string length = names_width ? fmt::format(" {:.2g}", width) : "";
+  const std::string remedy =
+      s.min_length
+          ? (names_width ? "try" + length : "use a shorter one")
+          : fmt::format("use --min-length{}, with which edges there may be {}, or a smaller --length", length,
+                        names_width ? "as short" : "shorter");
   warn_of_first(
       is_narrow, "narrow_regions",
-      fmt::format("it lies between creases{} or boundaries closer than {}{}", has_seams ? ", seams" : "",
-                  s.min_length ? "--min-length; use a shorter one"
-                               : "the target length; use --min-length, with which edges there may "
-                                 "be shorter, or a smaller --length",
-                  fewer_seams));
+      fmt::format("it lies between creases{} or boundaries closer than {}; {}{}", has_seams ? ", seams" : "",
+                  s.min_length ? "--min-length" : "the target length", remedy, fewer_seams));
 }
 
 void warn_of_dropped_creases(RunRecord& run) {

@@ -5,6 +5,7 @@ import json
 import os
 import unittest
 from math import cos, dist, pi, sin, tan
+from re import search
 
 from command import DATA, CommandTest, read_fields, read_mesh, write_off
 
@@ -283,6 +284,9 @@ class Report(CommandTest):
         adapted = ("letter.off", "-o", "out.off", "--connectivity", "adapt", "-L", "1.5")
         plain, finer = self.report(*adapted), self.report(*adapted, "--min-length", ".1")
         self.assertGreater(plain["after"]["faces_below_20"], 0)
+        (advice,) = [w["message"] for w in plain["warnings"] if w["code"] == "narrow_regions"]
+        advised = search(r"--min-length (\S+),", advice)[1]
+        self.assertEqual(self.report(*adapted, "--min-length", advised)["after"]["faces_below_20"], 0)
         self.assertIn("narrow_regions", [w["code"] for w in plain["warnings"]])
         self.assertEqual(finer["after"]["faces_below_20"], 0)
         self.assertNotIn("narrow_regions", [w["code"] for w in finer["warnings"]])
