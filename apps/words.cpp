@@ -307,6 +307,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   if (raw.feature_angle) s.remesh.constraints.features.angle = parse_feature_angle(*raw.feature_angle);
   s.preservation.feature_angle = s.remesh.constraints.features.angle;
   if (s.weld_text != "off") set_weld(s.weld_text, s.repair);
+  s.repair.collapse = !s.paper && !s.check && s.remesh.connectivity == ConnectivityMode::adapt;
   if (raw.max_distance) set_max_distance(*raw.max_distance, s);
   if (raw.rho) s.remesh.filter.offset = s.paper_options.filter.offset = *raw.rho;
   if (raw.rho_unit) s.paper_options.filter.offset_unit = *raw.rho_unit;

@@ -84,6 +84,22 @@ class Repair(CommandTest):
             self.run_command(DATA / "patch.obj", "-o", "out%d.obj" % len(option), *QUIET, *option)
         self.assertEqual(len({(self.folder / ("out%d.obj" % k)).read_bytes() for k in range(3)}), 1)
 
+    def test_only_adapt_collapses_edges_without_length(self):
+        for v, w in ((self.faces[k][0], self.faces[k][1]) for k in range(0, len(self.faces), 40)):
+            self.vertices[w] = self.vertices[v]
+        self.write("bad.obj", obj(self.vertices, self.faces))
+        report = self.report("bad.obj", "-o", "out.obj", "--connectivity", "adapt", "--map", "map.csv", "-q")
+        (change,) = report["repairs"]
+        self.assertEqual(change["code"], "edges_collapsed")
+        self.assertEqual(report["input"]["vertices"], len(self.vertices) - change["count"])
+        self.assertEqual(report["before"]["degenerate_faces"], 0)
+        self.assertGreater(report["after"]["min_angle"]["min"], 20)
+        rows = (self.folder / "map.csv").read_text().splitlines()
+        self.assertEqual(len(rows), report["output"]["vertices"])
+        kept = self.report("bad.obj", "-o", "out.obj", "-q")
+        self.assertEqual(kept["repairs"], [])
+        self.assertEqual(kept["output"]["vertices"], len(self.vertices))
+
     def test_what_is_left_is_refused_without_that_advice(self):
         self.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 2 3\n")
         message = self.refused(4, "bad.obj", "-o", "out.obj", "--repair", says="no face with an area")

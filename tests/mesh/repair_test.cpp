@@ -283,6 +283,54 @@ TEST(Repair, WeldingAloneChangesNothingElse) {
   EXPECT_EQ(codes(repaired(t, {.weld = .4})), (Codes{"vertices_welded", "faces_dropped"}));
 }
 
+constexpr RepairOptions collapsing{.collapse = true};
+
+/// As marching cubes make them where the value at a grid point is that of the level.
+TEST(Repair, VerticesInTheSamePlaceAreOneAfterwards) {
+  test::Triangles t = test::sphere(2, .2);
+  const Adjacency c = test::connect(t);
+  std::vector<int> old;
+  for (int v = 0; v < 10; ++v)
+    for (int n : c.vertex_neighbours[v])
+      if (n > v && std::ranges::find(old, n) == old.end()) {
+        old.push_back(n);
+        t.points.col(n) = t.points.col(v) + Vec3::Constant(v % 2 ? 1e-9 : 0);
+        break;
+      }
+  const Repaired r = repaired(t, collapsing);
+  EXPECT_EQ(codes(r), Codes{"edges_collapsed"});
+  EXPECT_EQ(r.changes[0].count, old.size());
+  EXPECT_EQ(r.points.cols(), t.points.cols() - std::ssize(old));
+  EXPECT_EQ(r.triangles.size(), t.faces.size() - 2 * old.size());
+  EXPECT_EQ(topology_of(r).euler, 2);
+  EXPECT_TRUE(find_problems(r.points, r.triangles).empty());
+  for (const int v : old) {
+    const std::vector<int> now = vertices_from(r.origin, {v});
+    ASSERT_EQ(now.size(), 1u);
+    EXPECT_LT((r.points.col(now[0]) - t.points.col(v)).norm(), 1e-8);
+  }
+  for (size_t f = 0; f < r.triangles.size(); ++f)
+    for (size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(r.origin.vertex[r.triangles[f][k]], r.origin.merged[t.faces[r.origin.face[f]][k]]);
+}
+
+TEST(Repair, SmallPartsAndTopologyAreNotCollapsed) {
+  test::Triangles crumb = test::cube();
+  crumb.points *= 1e-8;
+  EXPECT_EQ(codes(repaired(test::both(crumb, test::sphere(2)), collapsing)), Codes{}) << "a small body";
+  test::Triangles sheet = test::cube();
+  sheet.points.row(2) *= 1e-5;
+  EXPECT_EQ(codes(repaired(sheet, collapsing)), Codes{}) << "a thin sheet";
+  test::Triangles pinched = test::torus(6, 3, 0);
+  for (const int v : {1, 2}) pinched.points.col(v) = pinched.points.col(0);
+  const Repaired r = repaired(pinched, collapsing);
+  EXPECT_EQ(topology_of(r).euler, 0) << "a tube that is pinched";
+  test::Triangles fin = test::sphere(1);
+  fin.points.col(fin.faces[4][0]) = fin.points.col(fin.faces[4][1]);
+  fin.faces.push_back({fin.faces[7][0], fin.faces[7][1], 0});
+  EXPECT_EQ(codes(repaired(fin, collapsing)), Codes{}) << "no manifold";
+}
+
 TEST(MeshOrigin, OldIdsFindTheirVertices) {
   Mat3X points(3, 6);
   points << 0, 0, 1, -1, 0, 0, 0, 1, .5, .5, .5, 1, 0, 0, 0, 0, 1, 0;

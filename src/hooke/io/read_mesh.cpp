@@ -74,6 +74,7 @@ void follow(const MeshOrigin& origin, CornerValues& values) {
 /// Brings the data of vertices, faces and corners in the order of a repaired mesh.
 void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_data, CornerData& corner_data,
             MeshSource& source) {
+  if (origin.vertex.empty()) return;
   corner_data = gather(corner_data, origin.face);
   follow(origin, corner_data.texture);
   follow(origin, corner_data.normals);

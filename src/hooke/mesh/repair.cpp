@@ -11,7 +11,9 @@
 #include <unordered_set>
 #include <utility>
 
+#include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/halfedge_mesh.h"
 #include "hooke/mesh/hole_filling.h"
 #include "hooke/mesh/sheets.h"
 #include "hooke/mesh/vertex_welding.h"
@@ -88,8 +90,10 @@ class Repair {
       fill_holes();
       turn_outward();
     }
+    if (options_.collapse) collapse_negligible_edges();
     drop_unused_vertices();
     if (options_.keep_junctions) cut_at_junctions();
+    if (r_.changes.empty() && r_.origin.joined.empty()) r_.origin = {};
     return std::move(r_);
   }
 
@@ -153,6 +157,67 @@ class Repair {
   }
 
   void weld_boundaries() { merge(reach_of_boundary(r_.points, r_.triangles)); }
+
+  // Collapsing.
+
+  /// Is the edge that short in the whole mesh, and beside others at both ends, as the edges of small parts
+  /// are not?
+  bool is_negligible(const HalfedgeMesh& halfedges, int h, double length) const {
+    constexpr double share_of_longest = 1e-4;
+    const auto distance = [&](int e) {
+      return (r_.points.col(halfedges.to(e)) - r_.points.col(halfedges.from(e))).norm();
+    };
+    const double own = distance(h);
+    if (own > length) return false;
+    return own == 0 || std::ranges::all_of(std::array{halfedges.from(h), halfedges.to(h)}, [&](int v) {
+             return std::ranges::any_of(halfedges.outgoing(v),
+                                        [&](int e) { return own <= share_of_longest * distance(e); });
+           });
+  }
+
+  void collapse_negligible_edges() {
+    constexpr double share_of_diagonal = 1e-6;
+    const double length = share_of_diagonal * box_of_faces(r_.points, r_.triangles).diagonal().norm();
+    const auto are_near = [&](int a, int b) {
+      return (r_.points.col(a) - r_.points.col(b)).norm() <= length;
+    };
+    const bool has_short_edge = std::ranges::any_of(r_.triangles, [&](const Triangle& t) {
+      return are_near(t[0], t[1]) || are_near(t[1], t[2]) || are_near(t[2], t[0]);
+    });
+    if (!has_short_edge ||
+        !std::ranges::all_of(find_problems(r_.points, r_.triangles), is_acceptable, &Problem::kind))
+      return;
+    HalfedgeMesh halfedges(make_adjacency(static_cast<int>(r_.origin.vertex.size()), r_.triangles));
+    std::vector<int> into(r_.origin.vertex.size());
+    std::iota(into.begin(), into.end(), 0);
+    std::vector<Edge> collapsed;
+    // A collapse may allow another one before it.
+    for (size_t before = 1; before != collapsed.size();) {
+      before = collapsed.size();
+      for (int h = 0; h < halfedges.half_edge_count(); ++h) {
+        if (halfedges.is_removed(h / 3) || !is_negligible(halfedges, h, length) ||
+            !halfedges.keeps_topology(h))
+          continue;
+        const int stays = std::min(halfedges.from(h), halfedges.to(h)),
+                  goes = std::max(halfedges.from(h), halfedges.to(h));
+        into[goes] = stays;
+        collapsed.push_back({stays, goes});
+        halfedges.collapse(h, stays);
+      }
+    }
+    tell("edges_collapsed", collapsed.size(), "edges collapsed that have next to no length",
+         edge_places(collapsed));
+    for (int& v : into) v = into[v];  // it stays, as smaller ids come first
+    for (int& v : r_.origin.merged) v = r_.origin.vertex[into[v]];
+    std::vector<int> removed;
+    for (size_t f = 0; f < r_.triangles.size(); ++f) {
+      if (halfedges.is_removed(static_cast<int>(f)))
+        removed.push_back(static_cast<int>(f));
+      else
+        r_.triangles[f] = halfedges.faces()[f];
+    }
+    remove(removed);
+  }
 
   // Dropping.
 
