@@ -244,6 +244,21 @@ void warn_of_lengths_of_input(RunRecord& run) {
                    run.output->path, run.input.path)});
 }
 
+/// A length of edges for the narrow regions of the worst faces: the least width of those that need no more
+/// than `most_edges` edges for one of the target length. None if there is none that is shorter than
+/// --min-length.
+template <typename IsNarrow>
+std::optional<double> length_that_fits(const Settings& s, const RunRecord& run, const IsNarrow& is_narrow) {
+  constexpr double most_edges = 30, clearly_shorter = .8;
+  std::optional<double> least;
+  for (const WorstFace& f : run.after->worst_faces) {
+    const bool is_new = !s.min_length || f.height < clearly_shorter * s.remesh.min_length;
+    if (is_narrow(f) && is_new && most_edges * f.height > run.target.max && (!least || f.height < *least))
+      least = f.height;
+  }
+  return least;
+}
+
 /// Tells what would help against small angles at edges that stay, of facets or of the boundary.
 void warn_of_held_faces(const Settings& s, RunRecord& run) {
   constexpr double small_angle = 20;
@@ -263,8 +278,8 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
     };
     const auto is_squeezed = [&](int v) { return is_on_line(v) || limits[v] == 0; };  // by springs alone
     return f.min_angle < std::min(small_angle, well_below * f.bound.degrees) &&
-           !std::ranges::all_of(f.vertices, is_kept) && std::ranges::all_of(f.vertices, is_squeezed) &&
-           std::ranges::count_if(f.vertices, is_on_line) >= 2;
+           (!s.min_length || f.height < s.remesh.min_length) && !std::ranges::all_of(f.vertices, is_kept) &&
+           std::ranges::all_of(f.vertices, is_squeezed) && std::ranges::count_if(f.vertices, is_on_line) >= 2;
   };
   const auto is_at_fixed_edge = [&](const WorstFace& f) {
     return f.min_angle < small_angle &&
@@ -289,20 +304,13 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   if (s.remesh.constraints.boundary == BoundaryRule::fixed)
     warn_of_first(is_at_fixed_edge, "boundary_holds_angles",
                   "the edges of a fixed boundary stay; use --boundary slide");
-  std::vector<double> widths;
-  for (const WorstFace& f : faces)
-    if (is_narrow(f)) widths.push_back(f.height);
-  if (widths.empty()) return;
-  std::ranges::nth_element(widths, widths.begin() + std::ssize(widths) / 2);
-  const double width = widths[widths.size() / 2];
-  constexpr double least_width = .01;  // of an edge; shorter edges would make too many faces to name them
-  const bool names_width = width > least_width * run.after->edge_length.mean;
-  const std::string length = names_width ? fmt::format(" {:.2g}", width) : "";
+  const std::optional<double> length = length_that_fits(s, run, is_narrow);
+  const std::string value = length ? fmt::format(" {:.2g}", *length) : "";
   const std::string remedy =
       s.min_length
-          ? (names_width ? "try" + length : "use a shorter one")
-          : fmt::format("use --min-length{}, with which edges there may be {}, or a smaller --length", length,
-                        names_width ? "as short" : "shorter");
+          ? (length ? "try" + value : "use a shorter one")
+          : fmt::format("use --min-length{}, with which edges there may be {}, or a smaller --length", value,
+                        length ? "as short" : "shorter");
   warn_of_first(
       is_narrow, "narrow_regions",
       fmt::format("it lies between creases{} or boundaries closer than {}; {}{}", has_seams ? ", seams" : "",

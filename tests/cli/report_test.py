@@ -306,8 +306,15 @@ class Report(CommandTest):
         self.assertEqual(finer["parameters"]["gradation"], .3)
         self.assertLess(abs(finer["geometry"]["volume_change"]), 1e-9)
         faces = lambda report: report["adaptation"]["wanted_faces"]
-        blunt = self.report(*adapted, "--min-length", "2")
-        self.assertIn("narrow_regions", [w["code"] for w in blunt["warnings"]])
+        advice = lambda *more: [w["message"] for w in self.report(*adapted, *more)["warnings"] if w["code"] == "narrow_regions"]
+        self.assertRegex(advice()[0], "; use --min-length 0\.(39|4), with which edges there may be as short, or")
+        self.assertRegex(advice("--min-length", "2")[0], "closer than --min-length; try 0\.(39|4)$")
+        box = [(x, y / 100, z) for x, y, z in box]
+        write_off(self.folder / "foil.off", box, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))])
+        adapted = ("foil.off", *adapted[1:])
+        self.assertRegex(advice()[0], "; use --min-length, with which edges there may be shorter, or")
+        self.assertRegex(advice("--min-length", "2")[0], "closer than --min-length; use a shorter one$")
+        adapted = ("plate.off", *adapted[1:])
         results = []
         for threads in ("1", "2"):
             self.run_command(*adapted, "--min-length", ".1", "-j", threads, "-q")

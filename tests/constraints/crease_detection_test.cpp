@@ -182,13 +182,6 @@ TEST(Features, QuadrilateralsOfASmoothSurfaceMakeNone) {
   }
 }
 
-TEST(Features, RingsAroundATurnedPartAreKept) {
-  for (const int around : {24, 64})
-    for (const double scale : {.3, 1.})
-      EXPECT_EQ(features_of(test::moved(test::reducer(around), scale)).size(), 8u * around)
-          << around << " " << scale;
-}
-
 TEST(Features, FoldsOfASheetThatTurnToAndFroAreKept) {
   test::Triangles sheet = test::grid(20, test::flat);
   sheet.points *= 20;

@@ -27,8 +27,6 @@ constexpr double max_facet_angle = 31;    // degrees; between the facets of a ro
 constexpr double max_round_angle = 25;    // degrees; at the edges of vertices of a round body
 constexpr double max_needle_angle = 20;   // degrees; at the sides of a needle of a round body
 constexpr double max_needle_width = .25;  // of the shorter of these sides
-constexpr double min_strip_aspect = 3;    // length over width of the facets around a body of revolution
-constexpr double min_ring_rise = 5;       // sagitta at their ends, in those at their sides, of a crease
 constexpr double strip_angle = .05;      // maximum relative difference of the angles at both edges of a strip
 constexpr double strip_end_angle = .02;  // maximum difference of their ratio from 2 where a round begins
 /// Minimum share of faces in flat regions or with a resolved sharp edge, beyond which facets are meant.
@@ -174,33 +172,10 @@ class FacetCreases {
   /// few flat regions there are none: a coarse mesh of a round body is not to be taken for a polyhedron.
   bool divides_resolved_regions(int edge) const {
     const double narrower = narrower_width(edge);
-    const bool is_round = is_in_round(edge) && !joins_strips(edge);
-    if (narrower <= (is_round ? resolved_gentle_strip : resolved_facet)) return false;
+    if (narrower <= (is_in_round(edge) ? resolved_gentle_strip : resolved_facet)) return false;
     return std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
       return strip_width(f, edge) > (is_gentle(regions_[f]) ? resolved_gentle_strip : resolved_strip);
     });
-  }
-
-  /// Does the edge join the ends of two long facets, and does the surface turn there out of proportion to
-  /// their sides? As on a ring around a body of revolution: round bodies are sampled for their curvature each
-  /// way.
-  bool joins_strips(int edge) const {
-    const auto rise = [this](int e) {  // proportional to the sagitta
-      const auto& [f, g] = c_.edge_faces[e];
-      return std::min(height(f, e), height(g, e)) * angle_[e];
-    };
-    const double ring_rise = rise(edge);
-    return std::ranges::all_of(c_.edge_faces[edge],
-                               [&](int f) {
-                                 return regions_[f] >= 0 &&
-                                        height(f, edge) >= min_strip_aspect * length(edge);
-                               }) &&
-           std::ranges::all_of(c_.edges[edge], [&](int v) {
-             return std::ranges::any_of(c_.vertex_edges[v], [&](int e) {
-               return !c_.is_boundary_edge(e) && angle_[e] > flat_angle &&
-                      ring_rise > min_ring_rise * rise(e);
-             });
-           });
   }
 
   /// Does the edge end at a vertex of a round body?

@@ -24,8 +24,8 @@ constexpr double uneven = 3;
 constexpr double much_turned = .033;
 /// Height of a spline over a face, in sagittas, beyond which it does not follow the mesh.
 constexpr double max_height = 2;
-constexpr double max_height_over_long =
-    1;  // over an uneven face, where nothing holds it between the vertices
+/// The same over an uneven face, between whose vertices nothing holds the spline.
+constexpr double max_height_over_long = 1;
 
 /// Height of a spline over a flat face that is only rounding, over the length of an edge.
 constexpr double exact = 1e-10;
