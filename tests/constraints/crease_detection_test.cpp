@@ -182,6 +182,20 @@ TEST(Features, QuadrilateralsOfASmoothSurfaceMakeNone) {
   }
 }
 
+/// As marching cubes make them of images of whole numbers: every vertex has another one in its place.
+TEST(Features, FacesWithoutAreaMakeNoFlatRegions) {
+  test::Triangles ball = test::sphere(3, .2);
+  const Adjacency c = test::connect(ball);
+  std::vector<char> paired(c.vertex_count, 0);
+  for (const auto& [v, w] : c.edges) {
+    if (paired[v] || paired[w]) continue;
+    paired[v] = paired[w] = 1;
+    ball.points.col(w) = ball.points.col(v);
+  }
+  ball.points *= 10;
+  EXPECT_TRUE(features_of(ball).empty());
+}
+
 TEST(Features, FoldsOfASheetThatTurnToAndFroAreKept) {
   test::Triangles sheet = test::grid(20, test::flat);
   sheet.points *= 20;

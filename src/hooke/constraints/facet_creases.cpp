@@ -104,7 +104,9 @@ class FacetCreases {
       for (size_t i = 0; i < members.size(); ++i)
         for (int e : c_.face_edges[members[i]])
           for (int f : c_.edge_faces[e]) {
-            if (f < 0 || regions_[f] != none || angle_[e] > flat_angle || !lies_in_plane(f)) continue;
+            if (f < 0 || regions_[f] != none || angle_[e] > flat_angle || !(areas[f] > 0) ||
+                !lies_in_plane(f))
+              continue;
             regions_[f] = region;
             members.push_back(f);
           }
@@ -124,10 +126,13 @@ class FacetCreases {
           std::ranges::none_of(borders, [&](int e) { return angle_[e] > sharp_angle_; }));
       region_borders_.push_back(std::move(borders));
     }
-    size_t faces_in_regions = 0;
-    for (size_t f = 0; f < regions_.size(); ++f)
+    size_t faces_in_regions = 0, faces_with_area = 0;
+    for (size_t f = 0; f < regions_.size(); ++f) {
+      if (!(areas[f] > 0)) continue;
+      ++faces_with_area;
       faces_in_regions += regions_[f] < 0 ? has_resolved_edge(static_cast<int>(f)) : !is_in_smooth_patch_[f];
-    flat_mesh_ = static_cast<double>(faces_in_regions) >= flat_share * static_cast<double>(regions_.size());
+    }
+    flat_mesh_ = static_cast<double>(faces_in_regions) >= flat_share * static_cast<double>(faces_with_area);
   }
 
   /// Marks the faces of those, see mesh/smooth_patches.h.
