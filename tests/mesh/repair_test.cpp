@@ -314,6 +314,17 @@ TEST(Repair, VerticesInTheSamePlaceAreOneAfterwards) {
       EXPECT_EQ(r.origin.vertex[r.triangles[f][k]], r.origin.merged[t.faces[r.origin.face[f]][k]]);
 }
 
+TEST(Repair, FacesOverHolesAreCountedAfterACollapse) {
+  test::Triangles t = test::grid(3, test::flat);
+  t.points.col(1) = t.points.col(0);  // an edge of the boundary, which a face over the hole has too
+  const Repaired r = repaired(t, {.repair = true, .fill_holes = 99, .collapse = true});
+  EXPECT_EQ(topology_of(r).boundary_loops, 0);
+  size_t filled = 0;
+  std::set<int> old;
+  for (const int f : r.origin.face) filled += !old.insert(f).second;
+  EXPECT_EQ(r.origin.filled, filled);
+}
+
 TEST(Repair, SmallPartsAndTopologyAreNotCollapsed) {
   test::Triangles crumb = test::cube();
   crumb.points *= 1e-8;

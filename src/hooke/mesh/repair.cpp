@@ -191,8 +191,8 @@ class Repair {
     std::vector<int> into(r_.origin.vertex.size());
     std::iota(into.begin(), into.end(), 0);
     std::vector<Edge> collapsed;
-    // A collapse may allow another one before it.
-    for (size_t before = 1; before != collapsed.size();) {
+    size_t before;
+    do {  // a collapse may allow another one before it
       before = collapsed.size();
       for (int h = 0; h < halfedges.half_edge_count(); ++h) {
         if (halfedges.is_removed(h / 3) || !is_negligible(halfedges, h, length) ||
@@ -204,17 +204,20 @@ class Repair {
         collapsed.push_back({stays, goes});
         halfedges.collapse(h, stays);
       }
-    }
+    } while (collapsed.size() > before);
     tell("edges_collapsed", collapsed.size(), "edges collapsed that have next to no length",
          edge_places(collapsed));
     for (int& v : into) v = into[v];  // it stays, as smaller ids come first
     for (int& v : r_.origin.merged) v = r_.origin.vertex[into[v]];
     std::vector<int> removed;
+    const size_t over_holes = r_.triangles.size() - r_.origin.filled;
     for (size_t f = 0; f < r_.triangles.size(); ++f) {
-      if (halfedges.is_removed(static_cast<int>(f)))
-        removed.push_back(static_cast<int>(f));
-      else
+      if (!halfedges.is_removed(static_cast<int>(f))) {
         r_.triangles[f] = halfedges.faces()[f];
+        continue;
+      }
+      removed.push_back(static_cast<int>(f));
+      if (f >= over_holes) --r_.origin.filled;
     }
     remove(removed);
   }
