@@ -75,14 +75,19 @@ void warn_of_distance(const Settings& s, RunRecord& run) {
   if (distance <= std::min(max_lengths * run.target.natural, max_share * run.deviation->diagonal) &&
       !changes_volume(run))
     return;
-  const bool closest = !s.paper && s.remesh.filter.kind == FilterKind::closest;
+  const std::string limit = fmt::format("--max-distance {:.2g}%", 25 * distance / run.deviation->diagonal);
+  const auto remedy = [&]() -> std::string {
+    if (s.paper) return "without --paper";
+    if (s.remesh.connectivity == ConnectivityMode::adapt)
+      return limit + ", for which edges there get shorter, or a smaller --length";
+    const bool closest = s.remesh.filter.kind == FilterKind::closest;
+    return fmt::format("{}another --feature-angle, or --connectivity adapt with {}",
+                       closest ? "" : "--filter closest, ", limit);
+  };
   run.warnings.push_back(
       {"surface_left",
-       fmt::format(
-           "{}: its surface and that of {} are up to {} apart{}; try {}a smaller --length, or another "
-           "--feature-angle; --max-distance sets a limit",
-           run.output->path, run.input.path, with_share(distance, run), volume_change(run),
-           closest ? "" : "--filter closest, ")});
+       fmt::format("{}: its surface and that of {} are up to {} apart{}; try {}", run.output->path,
+                   run.input.path, with_share(distance, run), volume_change(run), remedy())});
 }
 
 void warn_of_count(RunRecord& run) {

@@ -256,6 +256,10 @@ class Report(CommandTest):
             self.assertEqual([w["code"] for w in report["warnings"]], expected)
         self.assertLess(report["geometry"]["volume_change"], -.05)
         self.assertLess(report["geometry"]["distance_to_input"]["max"], .15)
+        advised = search(r"; try --max-distance (\S+)%, for which", report["warnings"][0]["message"])[1]
+        closer = self.report("ring.off", "-o", "out.off", "--connectivity", "adapt", "-L", ".9", "--max-distance", advised + "%")
+        self.assertNotIn("surface_left", [w["code"] for w in closer["warnings"]])
+        self.assertLess(100 * closer["geometry"]["distance_to_input"]["max_over_diagonal"], float(advised))
 
     def test_what_holds_angles_down_is_named(self):
         codes = lambda *options: [w["code"] for w in self.report(*options)["warnings"]]
