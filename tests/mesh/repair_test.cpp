@@ -294,7 +294,7 @@ TEST(Repair, VerticesInTheSamePlaceAreOneAfterwards) {
     for (int n : c.vertex_neighbours[v])
       if (n > v && std::ranges::find(old, n) == old.end()) {
         old.push_back(n);
-        t.points.col(n) = t.points.col(v) + Vec3::Constant(v % 2 ? 1e-9 : 0);
+        t.points.col(n) = t.points.col(v);
         break;
       }
   const Repaired r = repaired(t, collapsing);
@@ -307,7 +307,7 @@ TEST(Repair, VerticesInTheSamePlaceAreOneAfterwards) {
   for (const int v : old) {
     const std::vector<int> now = vertices_from(r.origin, {v});
     ASSERT_EQ(now.size(), 1u);
-    EXPECT_LT((r.points.col(now[0]) - t.points.col(v)).norm(), 1e-8);
+    EXPECT_EQ(r.points.col(now[0]), t.points.col(v));
   }
   for (size_t f = 0; f < r.triangles.size(); ++f)
     for (size_t k = 0; k < 3; ++k)
@@ -325,17 +325,13 @@ TEST(Repair, FacesOverHolesAreCountedAfterACollapse) {
   EXPECT_EQ(r.origin.filled, filled);
 }
 
-TEST(Repair, SmallPartsAndTopologyAreNotCollapsed) {
-  test::Triangles crumb = test::cube();
-  crumb.points *= 1e-8;
-  EXPECT_EQ(codes(repaired(test::both(crumb, test::sphere(2)), collapsing)), Codes{}) << "a small body";
-  test::Triangles sheet = test::cube();
-  sheet.points.row(2) *= 1e-5;
-  EXPECT_EQ(codes(repaired(sheet, collapsing)), Codes{}) << "a thin sheet";
+TEST(Repair, LengthsAndTopologyAreNotCollapsed) {
+  test::Triangles foil = test::cube();
+  foil.points.row(2) *= 1e-12;
+  EXPECT_EQ(codes(repaired(foil, collapsing)), Codes{});
   test::Triangles pinched = test::torus(6, 3, 0);
   for (const int v : {1, 2}) pinched.points.col(v) = pinched.points.col(0);
-  const Repaired r = repaired(pinched, collapsing);
-  EXPECT_EQ(topology_of(r).euler, 0) << "a tube that is pinched";
+  EXPECT_EQ(topology_of(repaired(pinched, collapsing)).euler, 0);
   test::Triangles fin = test::sphere(1);
   fin.points.col(fin.faces[4][0]) = fin.points.col(fin.faces[4][1]);
   fin.faces.push_back({fin.faces[7][0], fin.faces[7][1], 0});

@@ -81,6 +81,7 @@ class FacetCreases {
     parallel_for(areas.size(), 4096, [&](size_t begin, size_t end) {
       for (size_t f = begin; f < end; ++f) areas[f] = doubled_area_vector(X_, c_.faces[f]).norm();
     });
+    const auto has_area = [&](auto f) { return areas[f] > 0; };
     std::vector<int> order;
     for (size_t f = 0; f < areas.size(); ++f)
       if (std::ranges::any_of(c_.face_edges[f],
@@ -91,7 +92,7 @@ class FacetCreases {
     constexpr int none = -1, alone = -2;
     regions_.assign(areas.size(), none);
     for (int seed : order) {
-      if (regions_[seed] != none || !(areas[seed] > 0)) continue;
+      if (regions_[seed] != none || !has_area(seed)) continue;
       const Vec3 normal = doubled_area_vector(X_, c_.faces[seed]).normalized();
       const Vec3 origin = X_.col(c_.faces[seed][0]);
       const auto lies_in_plane = [&](int f) {
@@ -104,8 +105,7 @@ class FacetCreases {
       for (size_t i = 0; i < members.size(); ++i)
         for (int e : c_.face_edges[members[i]])
           for (int f : c_.edge_faces[e]) {
-            if (f < 0 || regions_[f] != none || angle_[e] > flat_angle || !(areas[f] > 0) ||
-                !lies_in_plane(f))
+            if (f < 0 || regions_[f] != none || angle_[e] > flat_angle || !has_area(f) || !lies_in_plane(f))
               continue;
             regions_[f] = region;
             members.push_back(f);
@@ -128,7 +128,7 @@ class FacetCreases {
     }
     size_t faces_in_regions = 0, faces_with_area = 0;
     for (size_t f = 0; f < regions_.size(); ++f) {
-      if (!(areas[f] > 0)) continue;
+      if (!has_area(f)) continue;
       ++faces_with_area;
       faces_in_regions += regions_[f] < 0 ? has_resolved_edge(static_cast<int>(f)) : !is_in_smooth_patch_[f];
     }

@@ -90,7 +90,7 @@ class Repair {
       fill_holes();
       turn_outward();
     }
-    if (options_.collapse) collapse_negligible_edges();
+    if (options_.collapse) collapse_edges_without_length();
     drop_unused_vertices();
     if (options_.keep_junctions) cut_at_junctions();
     if (r_.changes.empty() && r_.origin.joined.empty()) r_.origin = {};
@@ -160,31 +160,13 @@ class Repair {
 
   // Collapsing.
 
-  /// Is the edge that short in the whole mesh, and beside others at both ends, as the edges of small parts
-  /// are not?
-  bool is_negligible(const HalfedgeMesh& halfedges, int h, double length) const {
-    constexpr double share_of_longest = 1e-4;
-    const auto distance = [&](int e) {
-      return (r_.points.col(halfedges.to(e)) - r_.points.col(halfedges.from(e))).norm();
-    };
-    const double own = distance(h);
-    if (own > length) return false;
-    return own == 0 || std::ranges::all_of(std::array{halfedges.from(h), halfedges.to(h)}, [&](int v) {
-             return std::ranges::any_of(halfedges.outgoing(v),
-                                        [&](int e) { return own <= share_of_longest * distance(e); });
-           });
-  }
+  bool are_in_one_place(int v, int w) const { return r_.points.col(v) == r_.points.col(w); }
 
-  void collapse_negligible_edges() {
-    constexpr double share_of_diagonal = 1e-6;
-    const double length = share_of_diagonal * box_of_faces(r_.points, r_.triangles).diagonal().norm();
-    const auto are_near = [&](int a, int b) {
-      return (r_.points.col(a) - r_.points.col(b)).norm() <= length;
-    };
-    const bool has_short_edge = std::ranges::any_of(r_.triangles, [&](const Triangle& t) {
-      return are_near(t[0], t[1]) || are_near(t[1], t[2]) || are_near(t[2], t[0]);
+  void collapse_edges_without_length() {
+    const bool has_such_edges = std::ranges::any_of(r_.triangles, [this](const Triangle& t) {
+      return are_in_one_place(t[0], t[1]) || are_in_one_place(t[1], t[2]) || are_in_one_place(t[2], t[0]);
     });
-    if (!has_short_edge ||
+    if (!has_such_edges ||
         !std::ranges::all_of(find_problems(r_.points, r_.triangles), is_acceptable, &Problem::kind))
       return;
     HalfedgeMesh halfedges(make_adjacency(static_cast<int>(r_.origin.vertex.size()), r_.triangles));
@@ -195,19 +177,18 @@ class Repair {
     do {  // a collapse may allow another one before it
       before = collapsed.size();
       for (int h = 0; h < halfedges.half_edge_count(); ++h) {
-        if (halfedges.is_removed(h / 3) || !is_negligible(halfedges, h, length) ||
-            !halfedges.keeps_topology(h))
-          continue;
-        const int stays = std::min(halfedges.from(h), halfedges.to(h)),
-                  goes = std::max(halfedges.from(h), halfedges.to(h));
+        if (halfedges.is_removed(h / 3)) continue;
+        const int from = halfedges.from(h), to = halfedges.to(h);
+        if (!are_in_one_place(from, to) || !halfedges.keeps_topology(h)) continue;
+        const int stays = std::min(from, to), goes = std::max(from, to);
+        halfedges.collapse(h, stays);
         into[goes] = stays;
         collapsed.push_back({stays, goes});
-        halfedges.collapse(h, stays);
       }
     } while (collapsed.size() > before);
-    tell("edges_collapsed", collapsed.size(), "edges collapsed that have next to no length",
-         edge_places(collapsed));
-    for (int& v : into) v = into[v];  // it stays, as smaller ids come first
+    tell("edges_collapsed", collapsed.size(), "edges without length collapsed", edge_places(collapsed));
+    for (size_t v = 0; v < into.size(); ++v) into[v] = into[into[v]];  // of a smaller id, which is known
+    // Old ids are the first of the present ones: copies come last.
     for (int& v : r_.origin.merged) v = r_.origin.vertex[into[v]];
     std::vector<int> removed;
     const size_t over_holes = r_.triangles.size() - r_.origin.filled;

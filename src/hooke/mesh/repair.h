@@ -17,7 +17,7 @@ struct RepairOptions {
   double weld_share = -1;       // the same in diagonals of the box
   double drop_components = 0;   // with `repair`: drop components of less than this share of the area
   int fill_holes = 0;           // with `repair`: fill holes of at most so many edges
-  bool collapse = false;        // collapse the negligible edges of an oriented manifold
+  bool collapse = false;        // collapse the edges without length of an oriented manifold
   bool keep_junctions = false;  // sheets that meet in edges and vertices are known to be one, see junctions.h
 
   bool any() const { return repair || weld >= 0 || weld_share >= 0 || collapse || keep_junctions; }
@@ -49,15 +49,16 @@ struct Repaired {
 /// - components that are too small are dropped, holes that are small enough are filled;
 /// - closed components that are inside out and in no other are turned outward;
 /// - vertices in no face are dropped.
-/// With `collapse`, edges are collapsed that are no longer than 1e-6 of the diagonal and 1e-4 of another edge
-/// at each end, if they have length at all; as those of marching cubes where a value at a grid point is that
-/// of the level. Where that would change the topology they stay.
+/// With `collapse`, after these, edges between vertices in the same place are collapsed, as those of marching
+/// cubes where a value at a grid point is that of the level; not where that would change the topology, nor in
+/// a mesh that is no oriented manifold.
 /// With `keep_junctions` edges of three faces and more and vertices in which parts only touch stay: they are
 /// cut last, after all else, if nothing but them keeps the mesh from being an oriented manifold; with
 /// `repair` also the edges at which a surface with one side cannot be oriented. Small components are then
 /// those of the joined mesh, and components with junctions are not turned.
 /// The vertices that stay keep their order; copies of split ones come last. Pre-condition: corners are
-/// vertices. The result may still be invalid, for instance without faces.
+/// vertices. The result may still be invalid, for instance without faces. Its origin is empty if nothing was
+/// changed.
 Repaired repair(const Mat3X& points, std::vector<Triangle> triangles, const RepairOptions& options,
                 const MeshSource& source);
 
