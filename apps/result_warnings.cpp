@@ -239,9 +239,12 @@ void warn_of_shortening(RunRecord& run) {
              run.output->path, run.after->topology.faces, count, run.after->topology.vertices)});
 }
 
-/// Tells that edges are not even.
+/// Tells that edges are not even, if any have moved.
 void warn_of_lengths_of_input(RunRecord& run) {
-  if (!run.result->has_lengths_of_input) return;
+  const auto is_put_back = [](unsigned char limits) { return limits & VertexLimit::put_back; };
+  const bool none_moved =
+      run.result->rescue == Rescue::put_back && std::ranges::all_of(run.result->vertex_limits, is_put_back);
+  if (!run.result->has_lengths_of_input || none_moved) return;
   run.warnings.push_back(
       {"lengths_of_input",
        fmt::format("{}: its edges are about as long as those of {} are there, as even ones would make worse "
