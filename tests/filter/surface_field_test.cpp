@@ -436,6 +436,51 @@ TEST(SurfaceField, LongFacetsAreArcsAndStraightAlongTheirRulings) {
   }
 }
 
+/// Where all vertices lie in two rows, a spline fits them with anything between the rows.
+TEST(SurfaceField, OfVerticesInTwoRowsDoesNotFitTheirRounding) {
+  constexpr int facets = 28;
+  const auto half_pipe = [](double rounding) {
+    test::Triangles t;
+    t.points.resize(3, 2 * facets + 2);
+    for (int i = 0; i <= facets; ++i) {
+      const double angle = .1 * i;
+      t.points.col(2 * i) << 44 * std::cos(angle), 0, 44 * std::sin(angle);
+      t.points.col(2 * i + 1) << 44 * std::cos(angle), 10, 44 * std::sin(angle);
+    }
+    for (int a = 0; a < 2 * facets; a += 2) {
+      t.faces.push_back({a, a + 1, a + 3});
+      t.faces.push_back({a, a + 3, a + 2});
+    }
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> shift(-rounding, rounding);
+    for (double& x : t.points.reshaped()) x += shift(random);
+    return t;
+  };
+  const auto radii = [&](double rounding) {
+    const test::Triangles t = half_pipe(rounding);
+    const SurfaceField field = field_of(t);
+    std::vector<double> found;
+    for (double angle = .05; angle < 2.8; angle += .1)
+      for (double y = 1; y < 10; ++y) {
+        const Vec3 x(44 * std::cos(angle), y, 44 * std::sin(angle));
+        int hint = 0;
+        (t.points.colwise() - x).colwise().squaredNorm().minCoeff(&hint);
+        const Vec3 point = field.project(x, hint, 1e-9).point;
+        found.push_back(std::hypot(point[0], point[2]));
+      }
+    return found;
+  };
+  const double sagitta = 44 * (1 - std::cos(.05));
+  const std::vector<double> exact = radii(0);
+  EXPECT_LE(*std::ranges::max_element(exact), 44 + 3 * sagitta);
+  for (const double rounding : {1e-9, 1e-6, 1e-4}) {
+    const std::vector<double> rounded = radii(rounding);
+    double farthest = 0;
+    for (size_t i = 0; i < exact.size(); ++i) farthest = std::max(farthest, std::abs(rounded[i] - exact[i]));
+    EXPECT_LE(farthest, .3 * sagitta) << rounding;
+  }
+}
+
 /// Its side is a cylinder up to z = 15, where the surface bends to a cone; nothing holds a spline between.
 TEST(SurfaceField, RisesOverLongFacetsNoMoreThanAnArcOverTheBendAtTheirEnd) {
   const test::Triangles t = test::reducer(64);

@@ -83,7 +83,6 @@ HOOKE_INLINE void fill_polynomials(System& s) {
 
 /// P = Q R by Householder reflectors I - tau v v^T.
 HOOKE_INLINE void factor_polynomials(System& s) {
-  constexpr double min_column_ratio = 1e-8;  // minimum part of a column independent of those before it
   const Lanes zero = {}, one = zero + 1.;
   for (std::size_t k = 0; k < quadratic_monomials; ++k) {
     const LaneArray column = s.P.from(k * s.rows), below = column.from(k + 1);
@@ -105,7 +104,8 @@ HOOKE_INLINE void factor_polynomials(System& s) {
       below.get(i, x);
       below.set(i, x * scale);
     }
-    s.solved &= beta * beta > min_column_ratio * min_column_ratio * (explained + beta * beta);
+    const double least = min_independent_part(k);
+    s.solved &= beta * beta > least * least * (explained + beta * beta);
     for (std::size_t j = k + 1; j < quadratic_monomials; ++j) {
       const LaneArray other = s.P.from(j * s.rows);
       Lanes along;

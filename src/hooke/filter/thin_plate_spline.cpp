@@ -119,8 +119,7 @@ namespace {
 
 constexpr std::size_t polynomial_size = monomial_count(2);
 
-constexpr double min_column_ratio = 1e-8;  // minimum part of a monomial independent of those before it
-constexpr double min_pivot_ratio = 1e-7;   // on the Cholesky diagonal; below, the coefficients are noise
+constexpr double min_pivot_ratio = 1e-7;  // on the Cholesky diagonal; below, the coefficients are noise
 
 using Monomials = Eigen::Matrix<double, polynomial_size, 1>;
 Monomials monomials(double x, double y, double z) {
@@ -152,7 +151,7 @@ void reflect_both_sides(Eigen::MatrixXd& A, const Eigen::VectorXd& v, double tau
 
 bool is_independent(const Eigen::MatrixXd& R, Eigen::Index m) {
   for (Eigen::Index k = 0; k < m; ++k)
-    if (!(std::abs(R(k, k)) > min_column_ratio * R.col(k).head(k + 1).norm())) return false;
+    if (!(std::abs(R(k, k)) > min_independent_part(k) * R.col(k).head(k + 1).norm())) return false;
   return true;
 }
 

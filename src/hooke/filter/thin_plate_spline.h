@@ -25,6 +25,14 @@ constexpr int monomial_count(SplineDegree degree) {
   return degree == 2 ? 10 : 4;
 }
 
+/// Minimum part of a monomial independent of those before it, at the centres, for a spline with a part of
+/// that degree. The quadratic one is not determined where vertices lie in two rows, as on the side of a
+/// cylinder: there the product of the distances from both rows, which is large between them, would fit their
+/// rounding.
+constexpr double min_independent_part(std::size_t monomial) {
+  return monomial < monomial_count(1) ? 1e-8 : 1e-3;
+}
+
 /// Scratch memory of fit_spline, reused from fit to fit.
 struct SplineWorkspace {
   Eigen::MatrixXd kernel_matrix;
@@ -40,8 +48,8 @@ struct SplineCoefficients {
 };
 
 /// Fits a spline to values at centres [31]. The centres should be of size 1 about the origin, for
-/// conditioning. Returns nothing if they do not determine the spline: too few for the polynomials, on an
-/// algebraic surface of that degree, or (nearly) coincident.
+/// conditioning. Returns nothing if they do not determine the spline: too few for the polynomials, on or
+/// next to an algebraic surface of that degree (see min_independent_part()), or (nearly) coincident.
 std::optional<SplineCoefficients> fit_spline(const Eigen::Ref<const Mat3X>& centres,
                                              const Eigen::Ref<const Eigen::VectorXd>& values, Kernel kernel,
                                              SplineDegree degree, SplineWorkspace& workspace);
