@@ -1,5 +1,6 @@
 #include "hooke/io/read_mesh.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -7,6 +8,7 @@
 
 #include "hooke/core/error.h"
 #include "hooke/io/sha256.h"
+#include "hooke/io/stl.h"
 #include "hooke/io/write_mesh.h"
 #include "hooke/mesh/mesh.h"
 #include "support/errors.h"
@@ -132,6 +134,29 @@ TEST(ReadMesh, ABadMeshIsNamedByTheLinesOfItsPolygons) {
   const std::string message = test::message_of<MeshError>([&] { read_mesh(path); });
   EXPECT_TRUE(test::has(message, path.native() + ": ")) << message;
   EXPECT_TRUE(test::has(message, "edges 0-1, faces 0 (line 6), 1 (line 7)")) << message;
+}
+
+/// In other formats such a face is one of the mesh, and no triangle.
+TEST(ReadMesh, AFacetOfAnStlFileWithTwoCornersInOnePlaceIsDroppedAndTold) {
+  const TemporaryFolder folder;
+  const test::Triangles t = test::sphere(1);
+  std::vector<Triangle> faces = t.faces;
+  const auto [a, b, c] = faces[3];
+  faces.insert(faces.begin() + 1, {a, b, a});
+  write_text(folder / "m.stl", write_stl(t.points, faces, PlyEncoding::binary_little_endian, {}));
+  std::string obj;
+  for (const auto& x : t.points.colwise()) obj += fmt::format("v {} {} {}\n", x[0], x[1], x[2]);
+  for (const Triangle& f : faces) obj += fmt::format("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+  write_text(folder / "m.obj", obj);
+  const LoadedMesh loaded = read_mesh(folder / "m.stl");
+  EXPECT_EQ(loaded.mesh.n_faces(), t.faces.size());
+  EXPECT_EQ(loaded.mesh.n_vertices(), static_cast<size_t>(t.points.cols()));
+  ASSERT_EQ(loaded.repairs.size(), 1u);
+  EXPECT_EQ(loaded.repairs[0].code, "faces_dropped");
+  EXPECT_EQ(loaded.repairs[0].count, 1u);
+  EXPECT_TRUE(test::has(loaded.repairs[0].message, "faces 1")) << loaded.repairs[0].message;
+  EXPECT_EQ(loaded.origin.face[1], 2);
+  EXPECT_THROW(read_mesh(folder / "m.obj"), MeshError);
 }
 
 TEST(ReadMesh, ErrorsOfEachKindKeepTheirKind) {

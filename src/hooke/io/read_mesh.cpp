@@ -91,6 +91,18 @@ void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_da
   source.face = std::move(face);
 }
 
+/// What to repair in the triangles of a file. The corners of an STL file are joined where they lie in one
+/// place, which is welding without a distance: facets that lose a corner by it are dropped, as they are by
+/// any welding. Programs write such facets where they have more digits than the file.
+RepairOptions repairs_of(const MeshFile& file, const std::vector<Triangle>& triangles,
+                         RepairOptions options) {
+  const auto lost_a_corner = [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
+  if (file.format == MeshFormat::stl && options.weld < 0 && options.weld_share < 0 &&
+      std::ranges::any_of(triangles, lost_a_corner))
+    options.weld = 0;
+  return options;
+}
+
 /// Returns work(). Says in the messages of its errors what the repair had done.
 template <typename Work>
 auto after_repairs(const Notes& repairs, const Work& work) {
@@ -130,16 +142,16 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   FaceData face_data = gather(file.face_data, source.face);
   Notes repairs;
   MeshOrigin origin;
-  if (options.repair.any())
+  if (const RepairOptions wanted = repairs_of(file, triangulation.triangles, options.repair); wanted.any())
     timed(stopwatch, "repair", [&] {
-      Repaired repaired = repair(file.points, std::move(triangulation.triangles), options.repair, source);
+      Repaired repaired = repair(file.points, std::move(triangulation.triangles), wanted, source);
       file.points = std::move(repaired.points);
       triangulation.triangles = std::move(repaired.triangles);
       repairs = std::move(repaired.changes);
       origin = std::move(repaired.origin);
       follow(origin, file.vertex_data, face_data, corner_data, source);
-      source.repaired = options.repair.repair;
-      source.keeps_junctions = options.repair.keep_junctions;
+      source.repaired = wanted.repair;
+      source.keeps_junctions = wanted.keep_junctions;
     });
   const std::vector<Triangle>& triangles = triangulation.triangles;
 
