@@ -160,6 +160,39 @@ TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
   }
 }
 
+/// A twisted blade of lens-shaped sections, of facets much longer than the target and about as wide; sharp at
+/// its two long edges only.
+test::Triangles blade(int facets = 8, double width = 1.1, double span = 8.6, int sections = 3) {
+  const int around = 2 * facets;
+  test::Triangles t{Mat3X(3, sections * around), {}};
+  for (int s = 0; s < sections; ++s)
+    for (int k = 0; k < around; ++k) {
+      const double u = std::abs(k - facets) * 2. / facets - 1;  // from edge to edge, above and back below
+      const double x = .5 * facets * width * u,
+                   z = (k < facets ? -1 : 1) * .27 * facets * .5 * width * (1 - u * u);
+      const double twist = .25 * s;
+      t.points.col(s * around + k) << std::cos(twist) * x - std::sin(twist) * z, span * s,
+          std::sin(twist) * x + std::cos(twist) * z;
+    }
+  for (int s = 0; s + 1 < sections; ++s)
+    for (int k = 0; k < around; ++k) {
+      const int a = s * around + k, b = s * around + (k + 1) % around;
+      t.faces.push_back({a, b, b + around});
+      t.faces.push_back({a, b + around, a + around});
+    }
+  return t;
+}
+
+TEST(Features, TheLongEdgesOfABladeAreCreases) {
+  const test::Triangles wing = blade();
+  EXPECT_EQ(features_of(wing).size(), 4u);
+  // Beside it noise that is most of what is sharp.
+  test::Triangles noise = test::shaken(test::sphere(2), .12);
+  noise.points.row(0).array() += 100;
+  EXPECT_TRUE(features_of(noise).empty());
+  EXPECT_EQ(features_of(test::both(wing, noise)).size(), 4u);
+}
+
 TEST(Features, FacesFoldedOverByNoiseMakeNone) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     test::Triangles t = test::sphere(4, .8, seed);

@@ -126,9 +126,16 @@ class FeatureSearch {
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
       const bool is_single =
           network.size() == 1 && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); });
-      if (is_single || (is_noisy && std::ssize(network) < min_edges))
+      if (is_single || (is_noisy && is_small(network)))
         for (int i : network) kept_[i] = 0;
     }
+  }
+
+  /// Has the network few edges, and are they no longer in all than so many of the target length?
+  bool is_small(const std::vector<int>& network) const {
+    double length = 0;
+    for (int e : network) length += length_over_target(X_, c_, length_, e);
+    return std::ssize(network) < min_edges && length < min_edges;
   }
 
   bool may_belong(int edge, double min_angle) const {
