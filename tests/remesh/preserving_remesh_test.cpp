@@ -347,6 +347,44 @@ TEST(PreservingRemesh, ShortensEdgesAgainWhereThatDoesNotHalveWhatIsWrongAtFirst
   }
 }
 
+/// A board with four rounded edges, of facets as long as it: edges longer than it is thick cut through it.
+test::Triangles board_with_rounded_edges() {
+  constexpr int steps = 8;                              // of a quarter round of radius 1
+  std::vector<std::array<double, 2>> rings = {{0, 0}};  // height, and distance from the box around it
+  for (int k = 0; k <= steps; ++k) {
+    const double angle = .5 * std::numbers::pi * k / steps;
+    rings.push_back({1 + std::sin(angle), 1 - std::cos(angle)});
+  }
+  test::Triangles t{Mat3X(3, 4 * std::ssize(rings)), {{0, 2, 1}, {0, 3, 2}}};
+  for (int r = 0; r < std::ssize(rings); ++r) {
+    const auto [height, inset] = rings[r];
+    const double x[] = {inset, 70 - inset, 70 - inset, inset},
+                 y[] = {inset, inset, 97.5 - inset, 97.5 - inset};
+    for (int k = 0; k < 4; ++k) {
+      t.points.col(4 * r + k) << x[k], y[k], height;
+      if (r == 0) continue;
+      const int a = 4 * r - 4 + k, b = 4 * r - 4 + (k + 1) % 4;
+      t.faces.push_back({a, b, b + 4});
+      t.faces.push_back({a, b + 4, a + 4});
+    }
+  }
+  const int top = 4 * static_cast<int>(rings.size()) - 4;
+  t.faces.push_back({top, top + 1, top + 2});
+  t.faces.push_back({top, top + 2, top + 3});
+  return t;
+}
+
+TEST(PreservingRemesh, ShortensEdgesAlsoWhereWhatWasMendedWouldComeAgain) {
+  for (const double length : {4., 4.4, 5., 6.}) {
+    test::Outcome o;
+    o.mesh = test::with_length(board_with_rounded_edges(), length);
+    o.result = preserving_remesh(o.mesh, find_memory_order(o.mesh), options_for(ConnectivityMode::adapt));
+    EXPECT_TRUE(o.result.measures->preservation.holds()) << length;
+    EXPECT_NE(o.result.rescue, Rescue::kept_faces) << length;
+    EXPECT_GT(o.result.measures->quality.min_angle.min, 10) << length;
+  }
+}
+
 TEST(PreservingRemesh, ShorterEdgesKeepFlatPrismsThoughMoreOfThemAreWrongAtFirst) {
   test::Triangles t = test::drum(48, 3);
   t.points.row(1) *= .3;

@@ -275,11 +275,11 @@ class PreservingRemesh {
     Attempt last = best;
     if (last.result.rescue == Rescue::kept_faces) last.run.reset();  // there lengths fit the kept faces
     maker_.lengths = last.run ? last.lengths : AskedLengths{asked_, {}};
-    shorten_about_flaws(std::move(last), best, [&](const Attempt& before) {
+    shorten_about_flaws(std::move(last), best, [&](const Attempt& before, Attempt& unmended) {
       options_ = start;
       const bool projects = before.result.rescue == Rescue::closest;
       if (projects) options_.filter.kind = FilterKind::closest;
-      Attempt next = attempt();
+      Attempt next = attempt(&unmended);
       if (projects) next.result.rescue = Rescue::closest;
       return next;
     });
@@ -293,32 +293,38 @@ class PreservingRemesh {
     if (!best.keeps_promises()) maker_.lengths = before;
   }
 
+  /// Makes another attempt than one before; `unmended` receives it as it was before it was mended.
+  using MakeAnew = std::function<Attempt(const Attempt& before, Attempt& unmended)>;
+
   /// Shortens the target lengths about what is wrong, from the attempt `last` on, and makes attempts with
   /// these until nothing is, or until they made too many faces since one that halved what is wrong. Where
   /// much of the last one may stay, and it was not much worse than the one before, the next goes on from it;
-  /// else it is made `anew`, or it ends there if that is null. Keeps the best lengths. Ends where it would
-  /// take too many faces, or after some rounds.
-  void shorten_about_flaws(Attempt last, Attempt& best, const std::function<Attempt(const Attempt&)>& anew) {
+  /// else it is made `anew`, or it ends there if that is null. What was mended in one that is made anew may
+  /// not be in the next: lengths are shortened there too. Keeps the best lengths. Ends where it would take
+  /// too many faces, or after some rounds.
+  void shorten_about_flaws(Attempt last, Attempt& best, const MakeAnew& anew) {
     constexpr double least_cost = .25;  // of going on, as it takes a run that makes all faces
     constexpr std::size_t much_worse = 4;
     // Faces: several rounds of a small mesh, one of a large one.
-    const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance()) : 3e3;
+    const double max_in_vain = maker_.has_tolerance() ? std::max(1e4, max_faces_for_tolerance()) : 5e3;
     const double faces_asked = shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
     const double max_rounds = std::clamp(2e5 / faces_asked, 3., 10.);
     AskedLengths best_lengths = maker_.lengths;
     double in_vain = 0, rounds = 0;
     std::size_t flaws_to_halve = last.flaws();
-    std::vector<FlawPlace> flaws_before;
+    std::vector<FlawPlace> flaws_before, mended;
     while (rounds < max_rounds && !last.keeps_promises()) {
       std::vector<FlawPlace> flaws = places_of_flaws(maker_, last);
       if (flaws == flaws_before) break;  // of what stands still
       shorter_.shorten_at(flaws, last, maker_.lengths);
+      shorter_.shorten_at(std::exchange(mended, {}), last, maker_.lengths);
       flaws_before = std::move(flaws);
       const double most = max_faces_of_rounds(best);
       if (shorter_.faces_of(maker_.lengths, most) > most) break;
       std::optional<Attempt> next = maker_.go_on(last);
       const bool goes_on = next.has_value();
-      if (!goes_on && anew) next = anew(last);
+      Attempt unmended;
+      if (!goes_on && anew) next = anew(last, unmended);
       if (!next) break;
       if (next->is_interrupted()) {
         best.result.reason = StopReason::interrupted;
@@ -331,6 +337,7 @@ class PreservingRemesh {
         if (anew && next->flaws() > much_worse * last.flaws()) next->run.reset();
       }
       if (!next->result.measures) break;  // not finite
+      if (!goes_on) mended = places_of_flaws(maker_, unmended);
       if (next->is_better_than(best)) {
         best = *next;
         best_lengths = maker_.lengths;
