@@ -169,7 +169,7 @@ test::Triangles blade(int facets = 8, double width = 1.1, double span = 8.6, int
     for (int k = 0; k < around; ++k) {
       const double u = std::abs(k - facets) * 2. / facets - 1;  // from edge to edge, above and back below
       const double x = .5 * facets * width * u,
-                   z = (k < facets ? -1 : 1) * .27 * facets * .5 * width * (1 - u * u);
+                   z = (k < facets ? -1 : 1) * .2 * facets * .5 * width * (1 - u * u);
       const double twist = .25 * s;
       t.points.col(s * around + k) << std::cos(twist) * x - std::sin(twist) * z, span * s,
           std::sin(twist) * x + std::cos(twist) * z;
@@ -191,6 +191,18 @@ TEST(Features, TheLongEdgesOfABladeAreCreases) {
   noise.points.row(0).array() += 100;
   EXPECT_TRUE(features_of(noise).empty());
   EXPECT_EQ(features_of(test::both(wing, noise)).size(), 4u);
+}
+
+TEST(Features, NoiseOnStretchedFacesMakesNone) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    test::Triangles lines = test::shaken(test::grid(40, test::flat), .006, seed);
+    lines.points.array().colwise() *= Eigen::Array3d(160, 40, 50);  // cells of 4 x 1
+    EXPECT_GT(sharp_edges(lines.points, test::connect(lines), 40).size(), 10u);
+    EXPECT_TRUE(features_of(lines).empty()) << seed;
+    test::Triangles cigar = test::sphere(4, .2, seed);
+    cigar.points.array().colwise() *= Eigen::Array3d(60, 8, 8);
+    EXPECT_TRUE(features_of(test::shaken(cigar, .1, seed)).empty()) << seed;
+  }
 }
 
 TEST(Features, FacesFoldedOverByNoiseMakeNone) {

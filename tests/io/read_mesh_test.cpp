@@ -95,18 +95,20 @@ TEST(ReadMesh, WarningsNameTheVerticesOfTheFile) {
   EXPECT_TRUE(test::has(loaded.warnings[0].message, "vertices " + loose)) << loaded.warnings[0].message;
 }
 
+using Codes = std::vector<std::string>;
+
+Codes codes(const auto& told) {
+  Codes list;
+  for (const auto& one : told) list.push_back(one.code);
+  return list;
+}
+
 TEST(ReadMesh, GathersTheWarningsOfEachStep) {
   const TemporaryFolder folder;
   write_text(folder / "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nvn 0 0 1\nf 1 2 3 4\n");
   const LoadedMesh loaded = read_mesh(folder / "m.obj");
   EXPECT_EQ(loaded.mesh.n_vertices(), 5u);
   EXPECT_EQ(loaded.mesh.n_faces(), 2u);
-  const auto codes = [](const Warnings& warnings) {
-    std::vector<std::string> list;
-    for (const Warning& warning : warnings) list.push_back(warning.code);
-    return list;
-  };
-  using Codes = std::vector<std::string>;
   EXPECT_EQ(codes(loaded.content.anew), (Codes{"attributes_not_kept", "polygons_triangulated"}));
   EXPECT_EQ(codes(loaded.content.preserved), Codes{"polygons_triangulated"});
   EXPECT_EQ(codes(loaded.warnings), Codes{"isolated_vertices"});
@@ -136,27 +138,43 @@ TEST(ReadMesh, ABadMeshIsNamedByTheLinesOfItsPolygons) {
   EXPECT_TRUE(test::has(message, "edges 0-1, faces 0 (line 6), 1 (line 7)")) << message;
 }
 
+std::string stl_of(const test::Triangles& t) {
+  return write_stl(t.points, t.faces, PlyEncoding::binary_little_endian, {});
+}
+
 /// In other formats such a face is one of the mesh, and no triangle.
 TEST(ReadMesh, AFacetOfAnStlFileWithTwoCornersInOnePlaceIsDroppedAndTold) {
   const TemporaryFolder folder;
   const test::Triangles t = test::sphere(1);
-  std::vector<Triangle> faces = t.faces;
-  const auto [a, b, c] = faces[3];
-  faces.insert(faces.begin() + 1, {a, b, a});
-  write_text(folder / "m.stl", write_stl(t.points, faces, PlyEncoding::binary_little_endian, {}));
-  std::string obj;
-  for (const auto& x : t.points.colwise()) obj += fmt::format("v {} {} {}\n", x[0], x[1], x[2]);
-  for (const Triangle& f : faces) obj += fmt::format("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
-  write_text(folder / "m.obj", obj);
+  test::Triangles with = t;
+  const auto alone = static_cast<int>(t.points.cols());  // a vertex of no other facet
+  with.points.conservativeResize(3, alone + 1);
+  with.points.col(alone) << 0, 0, 5;
+  const auto [a, b, c] = t.faces[3];
+  with.faces.insert(with.faces.begin() + 1, {{a, b, a}, {alone, alone, alone}, {b, alone, b}});
+  write_text(folder / "m.stl", stl_of(with));
   const LoadedMesh loaded = read_mesh(folder / "m.stl");
   EXPECT_EQ(loaded.mesh.n_faces(), t.faces.size());
   EXPECT_EQ(loaded.mesh.n_vertices(), static_cast<size_t>(t.points.cols()));
-  ASSERT_EQ(loaded.repairs.size(), 1u);
-  EXPECT_EQ(loaded.repairs[0].code, "faces_dropped");
-  EXPECT_EQ(loaded.repairs[0].count, 1u);
-  EXPECT_TRUE(test::has(loaded.repairs[0].message, "faces 1")) << loaded.repairs[0].message;
-  EXPECT_EQ(loaded.origin.face[1], 2);
+  EXPECT_EQ(codes(loaded.repairs), (Codes{"faces_dropped", "vertices_dropped"}));
+  EXPECT_EQ(loaded.repairs[0].count, 3u);
+  EXPECT_TRUE(test::has(loaded.repairs[0].message, "faces 1, 2, 3")) << loaded.repairs[0].message;
+  EXPECT_EQ(loaded.origin.face[1], 4);
+
+  std::string obj;
+  for (const auto& x : with.points.colwise()) obj += fmt::format("v {} {} {}\n", x[0], x[1], x[2]);
+  for (const Triangle& f : with.faces) obj += fmt::format("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+  write_text(folder / "m.obj", obj);
   EXPECT_THROW(read_mesh(folder / "m.obj"), MeshError);
+}
+
+TEST(ReadMesh, AnStlFileWithTooFewDigitsIsRefused) {
+  const TemporaryFolder folder;
+  test::Triangles t = test::sphere(3);
+  t.points = (3 * t.points).array().round();
+  write_text(folder / "m.stl", stl_of(t));
+  const std::string message = test::message_of<MeshError>([&] { read_mesh(folder / "m.stl"); });
+  EXPECT_TRUE(test::has(message, "faces that use a vertex twice")) << message;
 }
 
 TEST(ReadMesh, ErrorsOfEachKindKeepTheirKind) {

@@ -34,6 +34,11 @@ constexpr double min_curve =
     5;  // minimum mean number of edges between corners of a network that is not clear
 constexpr double facet_angle =
     1.4;  // minimum angle at all edges of a face that is a facet of its own, over `angle`
+// The edge of a blade: where the surface turns back, chains of edges much longer than the target.
+constexpr double blade_angle = 120;  // degrees; minimum angle somewhere in the chain
+constexpr double blade_length = 3;   // minimum length of each edge, in target lengths
+constexpr double blade_area = .75;   // minimum area of the faces beside it, in squared target lengths
+constexpr double whole_blade = 12;   // minimum length of the chain, in target lengths
 
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
@@ -83,7 +88,10 @@ class FeatureSearch {
       drop_noise();
     }
     add_facet_creases(X_, c_, length_, angle_, o_.angle, kept_);
-    if (o_.drops_noise) drop_accidents();
+    if (o_.drops_noise) {
+      drop_accidents();
+      add_blades();
+    }
   }
 
   /// Bend ratio of the edge, see above. Boundary edges count as flat or, with `goes_on`, where the
@@ -110,6 +118,41 @@ class FeatureSearch {
            });
   }
 
+  /// Is the edge sharp, much longer than the target, and between faces of some area, which go on rather flat?
+  bool may_be_of_blade(int edge) const {
+    if (angle_[edge] <= o_.angle || c_.is_boundary_edge(edge)) return false;
+    const double length = length_over_target(X_, c_, length_, edge);
+    if (length <= blade_length || bend_ratio(edge) > max_bend_ratio) return false;
+    const auto& [a, b] = c_.edges[edge];
+    const double target = .5 * (length_[a] + length_[b]);
+    return std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
+      return .5 * doubled_area_vector(X_, c_.faces[f]).norm() > blade_area * target * target;
+    });
+  }
+
+  /// Adds the edges of blades, whose faces are curved and narrow: noise does not make chains of edges so long
+  /// that turn back.
+  void add_blades() {
+    std::vector<char> seen = kept_;
+    for (size_t seed = 0; seed < kept_.size(); ++seed) {
+      if (seen[seed] || angle_[seed] <= blade_angle || !may_be_of_blade(static_cast<int>(seed))) continue;
+      seen[seed] = 1;
+      std::vector<int> chain = {static_cast<int>(seed)};
+      double sum = 0;
+      for (size_t i = 0; i < chain.size(); ++i) {
+        sum += length_over_target(X_, c_, length_, chain[i]);
+        for (int v : c_.edges[chain[i]])
+          for (int next : c_.vertex_edges[v]) {
+            if (seen[next] || !may_be_of_blade(next) || !goes_on(chain[i], next, v)) continue;
+            seen[next] = 1;
+            chain.push_back(next);
+          }
+      }
+      if (sum >= whole_blade)
+        for (int e : chain) kept_[e] = 1;
+    }
+  }
+
   /// Drops single edges and, where most sharp edges are noise, small networks: faces that are folded over by
   /// noise have sharp edges all around.
   void drop_accidents() {
@@ -126,16 +169,9 @@ class FeatureSearch {
       const std::vector<int> network = network_of(static_cast<int>(e), seen);
       const bool is_single =
           network.size() == 1 && std::ranges::all_of(c_.edges[e], [&](int v) { return is_loose(v); });
-      if (is_single || (is_noisy && is_small(network)))
+      if (is_single || (is_noisy && std::ssize(network) < min_edges))
         for (int i : network) kept_[i] = 0;
     }
-  }
-
-  /// Has the network few edges, and are they no longer in all than so many of the target length?
-  bool is_small(const std::vector<int>& network) const {
-    double length = 0;
-    for (int e : network) length += length_over_target(X_, c_, length_, e);
-    return std::ssize(network) < min_edges && length < min_edges;
   }
 
   bool may_belong(int edge, double min_angle) const {

@@ -21,8 +21,6 @@ constexpr double flat_angle = .2;       // degrees; an edge between resolved fla
 constexpr double resolved_strip = 1.9;  // minimum width of such regions, where one is a strip of a round body
 constexpr double resolved_gentle_strip = 4;  // the same if no edge of the strip is sharp
 constexpr double gentle_ratio = 2. / 3;      // and how much of the angle its next edge has
-constexpr double resolved_area =
-    .75;  // minimum, in squared target lengths, of faces beside a long sharp edge
 constexpr double resolved_facet = .5;     // minimum width of the regions or faces beside such a weaker crease
 constexpr int min_round = 12;             // vertices of a round body
 constexpr double max_facet_angle = 31;    // degrees; between the facets of a round body
@@ -369,16 +367,13 @@ class FacetCreases {
   }
 
   /// Is the sharp edge so long that the target length resolves it, and are its faces as high, or is the edge
-  /// twice as long and beside a flat region or between faces of that area, as the edge of a blade, or does it
-  /// divide facets that are meant? Then it is no noise.
+  /// twice as long and beside a flat region, or does it divide facets that are meant? Then it is no noise.
   bool is_resolved(int edge) const {
     const auto& [left, right] = c_.edge_faces[edge];
     if (narrower_width(edge) > noise_width) return true;
     if (length(edge) <= resolved_length) return false;
     if (height(left, edge) > resolved_length && height(right, edge) > resolved_length) return true;
-    return length(edge) > 2 * resolved_length &&
-           (flat_mesh_ || regions_[left] >= 0 || regions_[right] >= 0 ||
-            length(edge) * std::min(height(left, edge), height(right, edge)) > 2 * resolved_area);
+    return length(edge) > 2 * resolved_length && (flat_mesh_ || regions_[left] >= 0 || regions_[right] >= 0);
   }
 
   double length(int edge) const { return length_over_target(X_, c_, length_, edge); }

@@ -91,16 +91,15 @@ void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_da
   source.face = std::move(face);
 }
 
-/// What to repair in the triangles of a file. The corners of an STL file are joined where they lie in one
-/// place, which is welding without a distance: facets that lose a corner by it are dropped, as they are by
-/// any welding. Programs write such facets where they have more digits than the file.
-RepairOptions repairs_of(const MeshFile& file, const std::vector<Triangle>& triangles,
-                         RepairOptions options) {
+/// The repairs of an STL file too: programs write facets without area in 32 bits, whose corners lie in one
+/// place and are one vertex, and these are dropped. Where many do the file has too few digits: it is left as
+/// it is, to be refused.
+RepairOptions with_stray_facets(const std::vector<Triangle>& triangles, RepairOptions repairs) {
+  constexpr std::ptrdiff_t part_of_many = 10;
   const auto lost_a_corner = [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
-  if (file.format == MeshFormat::stl && options.weld < 0 && options.weld_share < 0 &&
-      std::ranges::any_of(triangles, lost_a_corner))
-    options.weld = 0;
-  return options;
+  const auto strays = std::ranges::count_if(triangles, lost_a_corner);
+  repairs.drop_strays = strays > 0 && part_of_many * strays <= std::ssize(triangles);
+  return repairs;
 }
 
 /// Returns work(). Says in the messages of its errors what the repair had done.
@@ -142,7 +141,10 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   FaceData face_data = gather(file.face_data, source.face);
   Notes repairs;
   MeshOrigin origin;
-  if (const RepairOptions wanted = repairs_of(file, triangulation.triangles, options.repair); wanted.any())
+  const RepairOptions wanted = file.format == MeshFormat::stl
+                                   ? with_stray_facets(triangulation.triangles, options.repair)
+                                   : options.repair;
+  if (wanted.any())
     timed(stopwatch, "repair", [&] {
       Repaired repaired = repair(file.points, std::move(triangulation.triangles), wanted, source);
       file.points = std::move(repaired.points);

@@ -81,6 +81,7 @@ class Repair {
 
   Repaired make() {
     if (options_.weld >= 0 || options_.weld_share >= 0) weld_all();
+    if (options_.drop_strays) drop_faces_that_repeat_a_vertex();
     if (options_.repair) {
       weld_boundaries();
       drop_faces_that_repeat_a_vertex();
@@ -281,7 +282,8 @@ class Repair {
     std::vector<char> used(r_.origin.vertex.size(), 0);
     for (const Triangle& t : r_.triangles)
       for (const int v : t) used[v] = 1;
-    if (!options_.repair)  // vertices in no face stay, but for those that were merged
+    if (!options_.repair &&
+        !options_.drop_strays)  // vertices in no face stay, but for those that were merged
       for (size_t v = 0; v < used.size(); ++v) used[v] |= r_.origin.merged[v] == static_cast<int>(v);
     std::vector<int> fresh(used.size(), -1), loose, source;
     for (int v = 0; v < static_cast<int>(used.size()); ++v) {

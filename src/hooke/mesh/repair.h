@@ -18,9 +18,12 @@ struct RepairOptions {
   double drop_components = 0;   // with `repair`: drop components of less than this share of the area
   int fill_holes = 0;           // with `repair`: fill holes of at most so many edges
   bool collapse = false;        // collapse the edges without length of an oriented manifold
+  bool drop_strays = false;     // drop faces that use a vertex twice, and the vertices that only they use
   bool keep_junctions = false;  // sheets that meet in edges and vertices are known to be one, see junctions.h
 
-  bool any() const { return repair || weld >= 0 || weld_share >= 0 || collapse || keep_junctions; }
+  bool any() const {
+    return repair || weld >= 0 || weld_share >= 0 || collapse || drop_strays || keep_junctions;
+  }
 };
 
 /// Where the vertices and faces of a repaired mesh come from. Empty: they are the old ones.
@@ -41,6 +44,7 @@ struct Repaired {
 };
 
 /// With `weld`, vertices closer than that are merged, and faces that lose a corner by it are dropped. With
+/// `drop_strays` faces that use a vertex twice are dropped without that, and the vertices in no face. With
 /// `repair`:
 /// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
 /// there;
