@@ -38,7 +38,7 @@ constexpr double facet_angle =
 constexpr double blade_angle = 120;  // degrees; minimum angle somewhere in the chain
 constexpr double blade_length = 3;   // minimum length of each edge, in target lengths
 constexpr double blade_area = .75;   // minimum area of the faces beside it, in squared target lengths
-constexpr double whole_blade = 12;   // minimum length of the chain, in target lengths
+constexpr double whole_blade = 12;  // minimum length in all of the edges beyond that angle, in target lengths
 
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
@@ -140,7 +140,7 @@ class FeatureSearch {
       std::vector<int> chain = {static_cast<int>(seed)};
       double sum = 0;
       for (size_t i = 0; i < chain.size(); ++i) {
-        sum += length_over_target(X_, c_, length_, chain[i]);
+        if (angle_[chain[i]] > blade_angle) sum += length_over_target(X_, c_, length_, chain[i]);
         for (int v : c_.edges[chain[i]])
           for (int next : c_.vertex_edges[v]) {
             if (seen[next] || !may_be_of_blade(next) || !goes_on(chain[i], next, v)) continue;
