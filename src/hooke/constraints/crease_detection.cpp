@@ -118,11 +118,15 @@ class FeatureSearch {
            });
   }
 
+  bool turns_back(int edge) const { return angle_[edge] > blade_angle; }
+
   /// Is the edge sharp, much longer than the target, and between faces of some area, which go on rather flat?
   bool may_be_of_blade(int edge) const {
     if (angle_[edge] <= o_.angle || c_.is_boundary_edge(edge)) return false;
     const double length = length_over_target(X_, c_, length_, edge);
-    if (length <= blade_length || bend_ratio(edge) > max_bend_ratio) return false;
+    if (length <= blade_length ||
+        bend_ratio(edge) > (turns_back(edge) ? max_chain_bend_ratio : max_bend_ratio))
+      return false;
     const auto& [a, b] = c_.edges[edge];
     const double target = .5 * (length_[a] + length_[b]);
     return std::ranges::all_of(c_.edge_faces[edge], [&](int f) {
@@ -135,12 +139,13 @@ class FeatureSearch {
   void add_blades() {
     std::vector<char> seen = kept_;
     for (size_t seed = 0; seed < kept_.size(); ++seed) {
-      if (seen[seed] || angle_[seed] <= blade_angle || !may_be_of_blade(static_cast<int>(seed))) continue;
+      if (seen[seed] || !turns_back(static_cast<int>(seed)) || !may_be_of_blade(static_cast<int>(seed)))
+        continue;
       seen[seed] = 1;
       std::vector<int> chain = {static_cast<int>(seed)};
       double sum = 0;
       for (size_t i = 0; i < chain.size(); ++i) {
-        if (angle_[chain[i]] > blade_angle) sum += length_over_target(X_, c_, length_, chain[i]);
+        if (turns_back(chain[i])) sum += length_over_target(X_, c_, length_, chain[i]);
         for (int v : c_.edges[chain[i]])
           for (int next : c_.vertex_edges[v]) {
             if (seen[next] || !may_be_of_blade(next) || !goes_on(chain[i], next, v)) continue;
