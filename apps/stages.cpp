@@ -164,7 +164,7 @@ void set_fixed_vertices(Settings& s, const MeshOrigin& origin, int vertices) {
   int lost = -1;
   if (repaired) fixed = vertices_from(origin, fixed, &lost);
   const auto problem = [&](const std::string& list, const char* remedy) {
-    return fmt::format("{}: vertex {} was dropped by --repair; expected one that is left; {}", list, lost,
+    return fmt::format("{}: vertex {} was dropped in the repair; expected one that is left; {}", list, lost,
                        remedy);
   };
   if (lost >= 0 && s.fix.empty()) throw Error(problem("fix", "leave it out"));

@@ -158,7 +158,7 @@ class Repair(CommandTest):
             self.assertIn(vertices[i], moved)
         self.assertFalse(set(vertices) <= moved)
         self.write("ids", "0\n768\n")
-        self.refused(3, "apart.obj", "-o", "x.obj", "--repair", "--fix", "ids", says="ids: vertex 768 was dropped by --repair")
+        self.refused(3, "apart.obj", "-o", "x.obj", "--repair", "--fix", "ids", says="ids: vertex 768 was dropped in the repair")
         self.write("lengths", "".join("%r\n" % (.2 + .01 * abs(v[0])) for v in vertices + [(1, 0, 0)]))
         report = self.report("apart.obj", "-o", "out.obj", "--repair", "--sizing", "lengths", "-L", "sizing", "--gradation", "off", *QUIET)
         self.assertLess(abs(report["parameters"]["L_max"] - .2 - .01 * max(abs(v[0]) for v in vertices)), 1e-12)

@@ -160,37 +160,54 @@ TEST(Features, NoiseAndCoarseRoundBodiesMakeNone) {
   }
 }
 
-/// A twisted blade of lens-shaped sections, of facets much longer than the target and about as wide; sharp at
-/// its two long edges only.
-test::Triangles blade(int facets = 8, double width = 1.1, double span = 8.6, int sections = 3) {
-  const int around = 2 * facets;
-  test::Triangles t{Mat3X(3, sections * around), {}};
-  for (int s = 0; s < sections; ++s)
+struct Blade {
+  int facets = 8;                   // of each side of a section
+  double width = 1.1, height = .2;  // of a facet; of a section at its middle, over its length
+  double span = 8.6;                // between sections
+  int sections = 3;
+};
+
+/// Of lens-shaped sections and twisted: facets much longer than the target and about as wide, sharp at two
+/// long edges only.
+test::Triangles blade(const Blade& o) {
+  const int around = 2 * o.facets;
+  const double chord = o.facets * o.width;
+  test::Triangles t{Mat3X(3, o.sections * around), {}};
+  for (int s = 0; s < o.sections; ++s)
     for (int k = 0; k < around; ++k) {
-      const double u = std::abs(k - facets) * 2. / facets - 1;  // from edge to edge, above and back below
-      const double x = .5 * facets * width * u,
-                   z = (k < facets ? -1 : 1) * .2 * facets * .5 * width * (1 - u * u);
-      const double twist = .25 * s;
-      t.points.col(s * around + k) << std::cos(twist) * x - std::sin(twist) * z, span * s,
+      const double u = std::abs(k - o.facets) * 2. / o.facets - 1;  // from edge to edge, above and back below
+      const double x = .5 * chord * u, z = (k < o.facets ? -.5 : .5) * o.height * chord * (1 - u * u);
+      const double twist = .25 * s * o.span / 8.6;
+      t.points.col(s * around + k) << std::cos(twist) * x - std::sin(twist) * z, o.span * s,
           std::sin(twist) * x + std::cos(twist) * z;
     }
-  for (int s = 0; s + 1 < sections; ++s)
+  for (int s = 0; s + 1 < o.sections; ++s)
     for (int k = 0; k < around; ++k) {
-      const int a = s * around + k, b = s * around + (k + 1) % around;
-      t.faces.push_back({a, b, b + around});
-      t.faces.push_back({a, b + around, a + around});
+      const int p = s * around + k, q = s * around + (k + 1) % around;
+      t.faces.push_back({p, q, q + around});
+      t.faces.push_back({p, q + around, p + around});
     }
   return t;
 }
 
 TEST(Features, TheLongEdgesOfABladeAreCreases) {
-  const test::Triangles wing = blade();
+  const test::Triangles wing = blade({});
   EXPECT_EQ(features_of(wing).size(), 4u);
   // Beside it noise that is most of what is sharp.
   test::Triangles noise = test::shaken(test::sphere(2), .12);
   noise.points.row(0).array() += 100;
   EXPECT_TRUE(features_of(noise).empty());
   EXPECT_EQ(features_of(test::both(wing, noise)).size(), 4u);
+}
+
+TEST(Features, EdgesThatNoiseCouldMakeAreNotThoseOfABlade) {
+  EXPECT_EQ(features_of(blade({.span = 3.1, .sections = 4})).size(), 6u);
+  EXPECT_TRUE(features_of(blade({.span = 2.9, .sections = 4})).empty()) << "hardly longer than the target";
+  EXPECT_EQ(features_of(blade({.span = 4.1})).size(), 4u);
+  EXPECT_TRUE(features_of(blade({.span = 3.9})).empty()) << "short in all";
+  EXPECT_TRUE(features_of(blade({.height = .5})).empty()) << "not turning back";
+  EXPECT_TRUE(features_of(blade({.width = .3, .span = 4.1, .sections = 5})).empty())
+      << "between narrow faces";
 }
 
 TEST(Features, NoiseOnStretchedFacesMakesNone) {

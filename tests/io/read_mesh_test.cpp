@@ -168,13 +168,20 @@ TEST(ReadMesh, AFacetOfAnStlFileWithTwoCornersInOnePlaceIsDroppedAndTold) {
   EXPECT_THROW(read_mesh(folder / "m.obj"), MeshError);
 }
 
-TEST(ReadMesh, AnStlFileWithTooFewDigitsIsRefused) {
+/// Its digits are too few then.
+TEST(ReadMesh, AnStlFileWithMoreThanATenthOfSuchFacetsIsRefused) {
   const TemporaryFolder folder;
-  test::Triangles t = test::sphere(3);
-  t.points = (3 * t.points).array().round();
-  write_text(folder / "m.stl", stl_of(t));
-  const std::string message = test::message_of<MeshError>([&] { read_mesh(folder / "m.stl"); });
-  EXPECT_TRUE(test::has(message, "faces that use a vertex twice")) << message;
+  const test::Triangles t = test::sphere(0);
+  const auto with_strays = [&](int count) {
+    test::Triangles with = t;
+    for (int k = 0; k < count; ++k) with.faces.push_back({k, k, k + 1});
+    write_text(folder / "m.stl", stl_of(with));
+    return folder / "m.stl";
+  };
+  ASSERT_EQ(t.faces.size(), 20u);
+  EXPECT_EQ(read_mesh(with_strays(2)).mesh.n_faces(), 20u);
+  const std::string message = test::message_of<MeshError>([&] { read_mesh(with_strays(3)); });
+  EXPECT_TRUE(test::has(message, "faces that use a vertex twice (3)")) << message;
 }
 
 TEST(ReadMesh, ErrorsOfEachKindKeepTheirKind) {

@@ -34,11 +34,11 @@ constexpr double min_curve =
     5;  // minimum mean number of edges between corners of a network that is not clear
 constexpr double facet_angle =
     1.4;  // minimum angle at all edges of a face that is a facet of its own, over `angle`
-// The edge of a blade: where the surface turns back, chains of edges much longer than the target.
-constexpr double blade_angle = 120;  // degrees; minimum angle somewhere in the chain
+// The edge of a blade: edges much longer than the target, of which those that turn back are `min_length` in
+// all.
+constexpr double blade_angle = 120;  // degrees; beyond it the surface turns back
 constexpr double blade_length = 3;   // minimum length of each edge, in target lengths
 constexpr double blade_area = .75;   // minimum area of the faces beside it, in squared target lengths
-constexpr double whole_blade = 12;  // minimum length in all of the edges beyond that angle, in target lengths
 
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
@@ -134,27 +134,27 @@ class FeatureSearch {
     });
   }
 
-  /// Adds the edges of blades, whose faces are curved and narrow: noise does not make chains of edges so long
-  /// that turn back.
+  /// Adds the edges of blades, whose faces are curved and narrow: noise hardly makes edges in line that are
+  /// so long and turn back, between faces that do not.
   void add_blades() {
     std::vector<char> seen = kept_;
     for (size_t seed = 0; seed < kept_.size(); ++seed) {
       if (seen[seed] || !turns_back(static_cast<int>(seed)) || !may_be_of_blade(static_cast<int>(seed)))
         continue;
       seen[seed] = 1;
-      std::vector<int> chain = {static_cast<int>(seed)};
+      std::vector<int> network = {static_cast<int>(seed)};
       double sum = 0;
-      for (size_t i = 0; i < chain.size(); ++i) {
-        if (turns_back(chain[i])) sum += length_over_target(X_, c_, length_, chain[i]);
-        for (int v : c_.edges[chain[i]])
+      for (size_t i = 0; i < network.size(); ++i) {
+        if (turns_back(network[i])) sum += length_over_target(X_, c_, length_, network[i]);
+        for (int v : c_.edges[network[i]])
           for (int next : c_.vertex_edges[v]) {
-            if (seen[next] || !may_be_of_blade(next) || !goes_on(chain[i], next, v)) continue;
+            if (seen[next] || !may_be_of_blade(next) || !goes_on(network[i], next, v)) continue;
             seen[next] = 1;
-            chain.push_back(next);
+            network.push_back(next);
           }
       }
-      if (sum >= whole_blade)
-        for (int e : chain) kept_[e] = 1;
+      if (sum >= min_length)
+        for (int e : network) kept_[e] = 1;
     }
   }
 

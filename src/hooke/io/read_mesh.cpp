@@ -91,10 +91,10 @@ void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_da
   source.face = std::move(face);
 }
 
-/// The repairs of an STL file too: programs write facets without area in 32 bits, whose corners lie in one
-/// place and are one vertex, and these are dropped. Where many do the file has too few digits: it is left as
-/// it is, to be refused.
-RepairOptions with_stray_facets(const std::vector<Triangle>& triangles, RepairOptions repairs) {
+/// The repairs of an STL file: those asked for, and its stray facets are dropped. Programs write facets
+/// without area in 32 bits, whose corners lie in one place and are one vertex. Where more than a tenth are
+/// such the file has too few digits: they stay, for the file to be refused.
+RepairOptions dropping_strays(const std::vector<Triangle>& triangles, RepairOptions repairs) {
   constexpr std::ptrdiff_t part_of_many = 10;
   const auto lost_a_corner = [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
   const auto strays = std::ranges::count_if(triangles, lost_a_corner);
@@ -142,7 +142,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   Notes repairs;
   MeshOrigin origin;
   const RepairOptions wanted = file.format == MeshFormat::stl
-                                   ? with_stray_facets(triangulation.triangles, options.repair)
+                                   ? dropping_strays(triangulation.triangles, options.repair)
                                    : options.repair;
   if (wanted.any())
     timed(stopwatch, "repair", [&] {

@@ -18,7 +18,7 @@ struct RepairOptions {
   double drop_components = 0;   // with `repair`: drop components of less than this share of the area
   int fill_holes = 0;           // with `repair`: fill holes of at most so many edges
   bool collapse = false;        // collapse the edges without length of an oriented manifold
-  bool drop_strays = false;     // drop faces that use a vertex twice, and the vertices that only they use
+  bool drop_strays = false;     // drop faces that use a vertex twice, and all vertices in no face
   bool keep_junctions = false;  // sheets that meet in edges and vertices are known to be one, see junctions.h
 
   bool any() const {
@@ -43,8 +43,8 @@ struct Repaired {
   Notes changes;  // what was done, how often, and the first places, in old ids
 };
 
-/// With `weld`, vertices closer than that are merged, and faces that lose a corner by it are dropped. With
-/// `drop_strays` faces that use a vertex twice are dropped without that, and the vertices in no face. With
+/// With `drop_strays` faces that use a vertex twice are dropped, and in the end the vertices in no face. With
+/// `weld`, vertices closer than that are merged, and faces that lose a corner by it are dropped. With
 /// `repair`:
 /// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
 /// there;

@@ -312,12 +312,12 @@ class PreservingRemesh {
     AskedLengths best_lengths = maker_.lengths;
     double in_vain = 0, rounds = 0;
     std::size_t flaws_to_halve = last.flaws();
-    std::vector<FlawPlace> flaws_before, mended;
+    std::vector<FlawPlace> flaws_before, before_mending;
     while (rounds < max_rounds && !last.keeps_promises()) {
       std::vector<FlawPlace> flaws = places_of_flaws(maker_, last);
       if (flaws == flaws_before) break;  // of what stands still
       shorter_.shorten_at(flaws, last, maker_.lengths);
-      shorter_.shorten_at(std::exchange(mended, {}), last, maker_.lengths);
+      shorter_.shorten_at(std::exchange(before_mending, {}), last, maker_.lengths);
       flaws_before = std::move(flaws);
       const double most = max_faces_of_rounds(best);
       if (shorter_.faces_of(maker_.lengths, most) > most) break;
@@ -337,7 +337,7 @@ class PreservingRemesh {
         if (anew && next->flaws() > much_worse * last.flaws()) next->run.reset();
       }
       if (!next->result.measures) break;  // not finite
-      if (!goes_on) mended = places_of_flaws(maker_, unmended);
+      if (!goes_on) before_mending = places_of_flaws(maker_, unmended);
       if (next->is_better_than(best)) {
         best = *next;
         best_lengths = maker_.lengths;

@@ -14,8 +14,8 @@ class ShorterLengths {
   ShorterLengths(const AttemptMaker& maker, const std::vector<double>& asked)
       : maker_(maker), asked_(asked) {}
 
-  /// Shortens `lengths` where something is wrong in this attempt. At kept faces its own are those of the
-  /// input.
+  /// Shortens `lengths` where something is wrong in this attempt, or was before it was mended. At kept faces
+  /// its own are those of the input.
   void shorten_at(const std::vector<FlawPlace>& flaws, const Attempt& last, AskedLengths& lengths) const;
 
   /// The number of faces that these lengths take, or more than `enough`.
