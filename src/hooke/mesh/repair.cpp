@@ -282,8 +282,8 @@ class Repair {
     std::vector<char> used(r_.origin.vertex.size(), 0);
     for (const Triangle& t : r_.triangles)
       for (const int v : t) used[v] = 1;
-    if (!options_.repair &&
-        !options_.drop_strays)  // vertices in no face stay, but for those that were merged
+    const bool keeps_loose = !options_.repair && !options_.drop_strays;
+    if (keeps_loose)  // but for those that were merged
       for (size_t v = 0; v < used.size(); ++v) used[v] |= r_.origin.merged[v] == static_cast<int>(v);
     std::vector<int> fresh(used.size(), -1), loose, source;
     for (int v = 0; v < static_cast<int>(used.size()); ++v) {
