@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {
