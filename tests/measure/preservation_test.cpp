@@ -7,6 +7,9 @@
 
 #include "hooke/geometry/self_intersection.h"
 #include "hooke/geometry/triangle.h"
+#include "hooke/measure/deviation.h"
+#include "hooke/measure/measured_surface.h"
+#include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/sagitta.h"

@@ -89,7 +89,7 @@ std::vector<std::array<std::array<double, 3>, 3>> corners(const TriMesh& mesh) {
     auto& face = all.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
       for (Eigen::Index i = 0; i < 3; ++i) face[k][i] = vertex_points(mesh)(i, t[k]);
-    std::ranges::rotate(face, std::ranges::min_element(face));
+    std::rotate(face.begin(), std::ranges::min_element(face), face.end());
   }
   std::ranges::sort(all);
   return all;
