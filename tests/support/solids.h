@@ -142,6 +142,29 @@ inline Triangles drum(int sides, double height) {
   return t;
 }
 
+/// A prism of radius 10 over a regular polygon, turned by `degrees` from its base to its top, in layers of
+/// needles that reach from corner to corner.
+inline Triangles twisted_prism(int sides, int layers, double degrees, double height) {
+  Triangles t{Mat3X(3, sides * (layers + 1)), {}};
+  for (int k = 0; k <= layers; ++k)
+    for (int i = 0; i < sides; ++i) {
+      const double turn = (360. * i / sides + degrees * k / layers) * std::numbers::pi / 180;
+      t.points.col(k * sides + i) << 10 * std::cos(turn), 10 * std::sin(turn), height * k / layers;
+    }
+  for (int k = 0; k < layers; ++k)
+    for (int i = 0; i < sides; ++i) {
+      const int a = k * sides + i, b = k * sides + (i + 1) % sides;
+      t.faces.push_back({a, b, b + sides});
+      t.faces.push_back({a, b + sides, a + sides});
+    }
+  for (int i = 1; i + 1 < sides; ++i) {
+    const int top = layers * sides;
+    t.faces.push_back({0, i + 1, i});
+    t.faces.push_back({top, top + i, top + i + 1});
+  }
+  return t;
+}
+
 inline Triangles both(const Triangles& a, const Triangles& b) {
   Triangles t{Mat3X(3, a.points.cols() + b.points.cols()), a.faces};
   t.points << a.points, b.points;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hooke/constraints/facet_creases.h"
+#include "hooke/constraints/zigzag_strips.h"
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
@@ -40,14 +41,17 @@ constexpr double blade_angle = 120;  // degrees; beyond it the surface turns bac
 constexpr double blade_length = 3;   // minimum length of each edge, in target lengths
 constexpr double blade_area = .75;   // minimum area of the faces beside it, in squared target lengths
 
-/// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
-/// without area.
-std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c) {
-  const Mat3X normals = certain_face_normals(points, c);
+/// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary, beside faces
+/// without area and, to drop noise, where zigzag strips fold.
+std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c, const std::vector<double>& length,
+                                bool drops_noise) {
+  Mat3X normals = certain_face_normals(points, c);
+  std::vector<char> is_fold(c.edges.size(), 0);
+  if (drops_noise) is_fold = smooth_zigzag_strips(points, c, length, normals);
   std::vector<double> angles(c.edges.size(), 0);
   parallel_for(angles.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
-      if (c.is_boundary_edge(static_cast<int>(e))) continue;
+      if (is_fold[e] || c.is_boundary_edge(static_cast<int>(e))) continue;
       const Vec3 a = normals.col(c.edge_faces[e][0]), b = normals.col(c.edge_faces[e][1]);
       angles[e] = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
     }
@@ -63,7 +67,7 @@ class FeatureSearch {
         c_(c),
         length_(length),
         o_(o),
-        angle_(edge_angles(points, c)),
+        angle_(edge_angles(points, c, length, o.drops_noise)),
         kept_(c.edges.size(), 0),
         cos_turn_(std::cos(max_turn * std::numbers::pi / 180)) {}
 

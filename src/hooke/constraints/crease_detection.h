@@ -17,7 +17,7 @@ namespace hooke {
 /// boundary. The chains that remain form networks; networks with many corners between rough faces are noise.
 /// Edges that the target length resolves are added whatever the chains: sharp ones, and weaker ones between
 /// flat regions where most faces are in such regions. Lone edges are dropped. The steps of a binary mask that
-/// the target length does not resolve are noise, see is_staircase().
+/// the target length does not resolve are noise, see is_staircase(), and so are the folds of zigzag strips.
 /// `vertex_length` is the target length at each vertex. `hard_edges`, by their vertices, are creases
 /// whatever the rest where they bend enough to continue one.
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,

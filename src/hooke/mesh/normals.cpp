@@ -89,6 +89,14 @@ Mat3X certain_face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacenc
   return normals;
 }
 
+bool bends_out(const Mat3X& points, const Adjacency& c, int edge) {
+  const auto& [left, right] = c.edge_faces[edge];
+  const Triangle& t = c.faces[right];
+  const Vec3 beyond =
+      points.col(t[0]) + points.col(t[1]) + points.col(t[2]) - 3 * points.col(c.edges[edge][0]);
+  return doubled_area_vector(points, c.faces[left]).dot(beyond) < 0;
+}
+
 std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& c, double angle) {
   const Mat3X normals = certain_face_normals(points, c);
   std::vector<char> is_sharp(c.edges.size(), 0);

@@ -1,0 +1,216 @@
+#include "hooke/constraints/zigzag_strips.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "hooke/constraints/facet_creases.h"
+#include "hooke/geometry/triangle.h"
+#include "hooke/mesh/normals.h"
+
+namespace hooke {
+namespace {
+
+constexpr double coplanar_angle = 1;  // degrees; an edge between faces of one facet, below any fold
+constexpr double needle_ratio = .5;   // maximum width of a needle over the length of its sides
+constexpr double point_ratio = .5;    // maximum width at its point over that at its foot
+constexpr double fold_ratio = 2;      // maximum ratio of the angles of two folds in a row
+constexpr int min_folds = 6;          // of a strip
+
+class ZigzagStrips {
+ public:
+  ZigzagStrips(const Mat3X& points, const Adjacency& c, const std::vector<double>& length,
+               const Mat3X& normals)
+      : X_(points), c_(c), length_(length), normals_(normals) {
+    find_needles();
+    find_sides();
+    for (size_t i = 0; i < needles_.size(); ++i) find_points(static_cast<int>(i));
+    for (Side& side : sides_) find_fold(side);
+    find_strips();
+  }
+
+  /// Marks the folds and sets the normals beside them.
+  std::vector<char> smooth(Mat3X& normals) const {
+    std::vector<char> is_fold(c_.edges.size(), 0);
+    std::vector<Vec3> sums(needles_.size(), Vec3::Zero());
+    for (const Side& side : sides_) {
+      if (!side.is_in_strip) continue;
+      for (int e : side.edges) is_fold[e] = 1;
+      const auto& [left, right] = side.facets;
+      const Vec3 sum = needles_[left].area.normalized() + needles_[right].area.normalized();
+      sums[left] += sum;
+      sums[right] += sum;
+    }
+    for (size_t f = 0; f < facet_of_.size(); ++f)
+      if (const int needle = facet_of_[f]; needle >= 0 && sums[needle] != Vec3::Zero())
+        normals.col(static_cast<Eigen::Index>(f)) = sums[needle].normalized();
+    return is_fold;
+  }
+
+ private:
+  static constexpr int none = -1;
+
+  struct Needle {
+    Vec3 area;
+    std::array<int, 2> sides = {none, none};  // the longest
+  };
+
+  /// The straight line at which two facets meet, one of them a needle.
+  struct Side {
+    std::array<int, 2> facets;  // as in facet_of_
+    std::vector<int> edges;     // the longest first
+    std::array<Vec3, 2> ends;
+    std::array<int, 2> points = {none, none};  // by facet: the end at which the needle comes to its point
+    double fold = 0;  // angle in degrees, positive if convex; 0 unless it joins the points of two needles
+    bool is_in_strip = false;
+
+    double length() const { return (ends[1] - ends[0]).norm(); }
+  };
+
+  /// Numbers the facets: connected faces about in one plane, so narrow for their size that they may be
+  /// needles, from 0, the others below 0.
+  void find_needles() {
+    const double min_cosine = std::cos(coplanar_angle * std::numbers::pi / 180);
+    constexpr int unseen = 0x7fffffff;
+    facet_of_.assign(c_.faces.size(), unseen);
+    std::vector<int> members;
+    for (size_t seed = 0, others = 0; seed < facet_of_.size(); ++seed) {
+      if (facet_of_[seed] != unseen) continue;
+      Needle needle{.area = Vec3::Zero()};
+      Eigen::AlignedBox3d box;
+      const int number = static_cast<int>(needles_.size());
+      facet_of_[seed] = number;
+      members = {static_cast<int>(seed)};
+      for (size_t i = 0; i < members.size(); ++i) {
+        const int f = members[i];
+        needle.area += .5 * doubled_area_vector(X_, c_.faces[f]);
+        for (int v : c_.faces[f]) box.extend(X_.col(v));
+        for (int e : c_.face_edges[f])
+          for (int next : c_.edge_faces[e])
+            if (next >= 0 && facet_of_[next] == unseen &&
+                normals_.col(f).dot(normals_.col(next)) > min_cosine) {
+              facet_of_[next] = number;
+              members.push_back(next);
+            }
+      }
+      if (needle.area.norm() < .5 * needle_ratio * box.diagonal().squaredNorm()) {
+        needles_.push_back(needle);
+        continue;
+      }
+      const int other = -1 - static_cast<int>(others++);
+      for (int f : members) facet_of_[f] = other;
+    }
+  }
+
+  void find_sides() {
+    std::vector<std::array<int, 3>> borders;  // two facets and an edge
+    for (size_t e = 0; e < c_.edges.size(); ++e) {
+      const auto& [left, right] = c_.edge_faces[e];
+      if (right < 0) continue;
+      const auto [a, b] = std::minmax(facet_of_[left], facet_of_[right]);
+      if (a != b && b >= 0) borders.push_back({a, b, static_cast<int>(e)});
+    }
+    std::ranges::sort(borders);
+    for (size_t i = 0; i < borders.size();) {
+      Side side;
+      side.facets = {borders[i][0], borders[i][1]};
+      for (; i < borders.size() && borders[i][0] == side.facets[0] && borders[i][1] == side.facets[1]; ++i)
+        side.edges.push_back(borders[i][2]);
+      find_ends(side);
+      const auto number = static_cast<int>(sides_.size());
+      const auto is_longer_than = [&](int other) {
+        return other == none || side.length() > sides_[other].length();
+      };
+      for (int facet : side.facets) {
+        if (facet < 0) continue;
+        auto& [longest, next] = needles_[facet].sides;
+        if (is_longer_than(longest))
+          next = std::exchange(longest, number);
+        else if (is_longer_than(next))
+          next = number;
+      }
+      sides_.push_back(std::move(side));
+    }
+  }
+
+  void find_ends(Side& side) const {
+    std::ranges::stable_sort(side.edges, std::greater(),
+                             [&](int e) { return (X_.col(c_.edges[e][0]) - X_.col(c_.edges[e][1])).norm(); });
+    const auto& [a, b] = c_.edges[side.edges[0]];
+    const Vec3 along = X_.col(b) - X_.col(a);
+    side.ends = {X_.col(a), X_.col(b)};
+    for (int e : side.edges)
+      for (int v : c_.edges[e]) {
+        if (along.dot(X_.col(v) - side.ends[0]) < 0) side.ends[0] = X_.col(v);
+        if (along.dot(X_.col(v) - side.ends[1]) > 0) side.ends[1] = X_.col(v);
+      }
+  }
+
+  /// Where the needle, between its two longest sides, comes to a point, unless the target length resolves it.
+  void find_points(int number) {
+    const auto& [first, second] = needles_[number].sides;
+    if (second == none) return;
+    for (const auto& [i, other] : {std::pair(first, second), std::pair(second, first)}) {
+      Side& side = sides_[i];
+      const std::array<Vec3, 2>& line = sides_[other].ends;
+      const Vec3 along = (line[1] - line[0]).normalized();
+      const auto width = [&](int end) { return along.cross(side.ends[end] - line[0]).norm(); };
+      const int point = width(0) < width(1) ? 0 : 1;
+      const double foot = width(1 - point);
+      const auto& [a, b] = c_.edges[side.edges[0]];
+      if (foot < needle_ratio * sides_[second].length() &&
+          foot < resolved_length * .5 * (length_[a] + length_[b]) && width(point) < point_ratio * foot)
+        side.points[side.facets[0] == number ? 0 : 1] = point;
+    }
+  }
+
+  void find_fold(Side& side) const {
+    if (side.points[0] == none || side.points[1] == none || side.points[0] == side.points[1]) return;
+    const Vec3& m = needles_[side.facets[0]].area;
+    const Vec3& n = needles_[side.facets[1]].area;
+    const double angle = std::atan2(m.cross(n).norm(), m.dot(n)) * 180 / std::numbers::pi;
+    side.fold = bends_out(X_, c_, side.edges[0]) ? angle : -angle;
+  }
+
+  void find_strips() {
+    for (size_t seed = 0; seed < sides_.size(); ++seed) {
+      if (sides_[seed].fold == 0 || sides_[seed].is_in_strip) continue;
+      std::vector<int> strip = {static_cast<int>(seed)};
+      sides_[seed].is_in_strip = true;
+      for (size_t i = 0; i < strip.size(); ++i)
+        for (int needle : sides_[strip[i]].facets)
+          for (int next : needles_[needle].sides)
+            if (alternate(strip[i], next) && !std::exchange(sides_[next].is_in_strip, true))
+              strip.push_back(next);
+      if (std::ssize(strip) < min_folds)
+        for (int i : strip) sides_[i].is_in_strip = false;
+    }
+  }
+
+  /// Do the sides fold in opposite ways, by about the same angle?
+  bool alternate(int side, int next) const {
+    const double ratio = -sides_[next].fold / sides_[side].fold;
+    return ratio > 1 / fold_ratio && ratio < fold_ratio;
+  }
+
+  const Mat3X& X_;
+  const Adjacency& c_;
+  const std::vector<double>& length_;
+  const Mat3X& normals_;
+  std::vector<int> facet_of_;  // by face, see find_needles()
+  std::vector<Needle> needles_;
+  std::vector<Side> sides_;
+};
+
+}  // namespace
+
+std::vector<char> smooth_zigzag_strips(const Mat3X& points, const Adjacency& c,
+                                       const std::vector<double>& vertex_length, Mat3X& normals) {
+  return ZigzagStrips(points, c, vertex_length, normals).smooth(normals);
+}
+
+}  // namespace hooke
