@@ -58,6 +58,13 @@ TEST(ClosestPoint, OfATriangleWithoutAreaIsOnItsEdges) {
   EXPECT_EQ(closest_point({1, 1, 0}, {3, 3, 3}, {3, 3, 3}, {3, 3, 3}).point, Vec3(3, 3, 3));
 }
 
+TEST(AngleBetween, IsZeroBesideAVectorWithoutLength) {
+  EXPECT_EQ(angle_between({0, 0, 0}, {-1, -1, -1}), 0);
+  EXPECT_EQ(angle_between({-1, -1, -1}, {0, 0, 0}), 0);
+  EXPECT_NEAR(angle_between({2, 0, 0}, {0, 0, 3}), 90, 1e-12);
+  EXPECT_NEAR(angle_between({2, 0, 0}, {-1, 0, 0}), 180, 1e-12);
+}
+
 TEST(Barycentric, WeightsRebuildThePoint) {
   const Vec3 a(0, 0, 0), b(4, 0, 1), c(0, 4, 2), x = .2 * a + .5 * b + .3 * c;
   EXPECT_TRUE(barycentric(x, a, b, c).isApprox(Vec3(.2, .5, .3), 1e-14));

@@ -268,7 +268,7 @@ TEST(PreservingRemesh, WhereABodyIsTooThinOthersStayAsTheyAre) {
   kept.result = preserving_remesh(kept.mesh, find_memory_order(kept.mesh), options);
   EXPECT_TRUE(kept.result.measures->preservation.holds());
   EXPECT_GT(kept.result.shortened, 0);
-  EXPECT_NE(Mat3X(vertex_points(kept.mesh)), Mat3X(vertex_points(once.mesh)));
+  EXPECT_NE(points_right_of(-5, vertex_points(kept.mesh)), points_right_of(-5, vertex_points(once.mesh)));
   EXPECT_EQ(points_right_of(5, vertex_points(kept.mesh)), points_right_of(5, vertex_points(once.mesh)));
   EXPECT_TRUE(kept.result.map.empty());  // which nobody asked for
   EXPECT_EQ(kept.result.adaptation.target_faces, once.result.adaptation.target_faces);

@@ -221,7 +221,7 @@ std::vector<int> corner_valences(const Mat3X& points, const Adjacency& c, const 
       if (!is_corner(t[k])) continue;
       const Vec3 a = points.col(t[(k + 1) % 3]) - points.col(t[k]);
       const Vec3 b = points.col(t[(k + 2) % 3]) - points.col(t[k]);
-      angles[c.wedges_of_faces()[f][k]] += std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+      angles[c.wedges_of_faces()[f][k]] += angle_between(a, b);
     }
   }
   std::vector<int> target(angles.size(), 0);

@@ -41,21 +41,27 @@ constexpr double blade_angle = 120;  // degrees; beyond it the surface turns bac
 constexpr double blade_length = 3;   // minimum length of each edge, in target lengths
 constexpr double blade_area = .75;   // minimum area of the faces beside it, in squared target lengths
 
-/// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary, beside faces
-/// without area and, to drop noise, where zigzag strips fold.
-std::vector<double> edge_angles(const Mat3X& points, const Adjacency& c, const std::vector<double>& length,
-                                bool drops_noise) {
-  Mat3X normals = certain_face_normals(points, c);
-  std::vector<char> is_fold(c.edges.size(), 0);
-  if (drops_noise) is_fold = smooth_zigzag_strips(points, c, length, normals);
+/// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
+/// without area.
+std::vector<double> edge_angles(const Mat3X& normals, const Adjacency& c) {
   std::vector<double> angles(c.edges.size(), 0);
   parallel_for(angles.size(), 4096, [&](size_t begin, size_t end) {
     for (size_t e = begin; e < end; ++e) {
-      if (is_fold[e] || c.is_boundary_edge(static_cast<int>(e))) continue;
-      const Vec3 a = normals.col(c.edge_faces[e][0]), b = normals.col(c.edge_faces[e][1]);
-      angles[e] = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+      const auto& [left, right] = c.edge_faces[e];
+      if (right >= 0) angles[e] = angle_between(normals.col(left), normals.col(right));
     }
   });
+  return angles;
+}
+
+/// The same, but 0 where zigzag strips fold, and beside these as between smooth strips.
+std::vector<double> edge_angles_without_zigzags(const Mat3X& points, const Adjacency& c,
+                                                const std::vector<double>& length) {
+  Mat3X normals = certain_face_normals(points, c);
+  const std::vector<char> is_fold = smooth_zigzag_strips(points, c, length, normals);
+  std::vector<double> angles = edge_angles(normals, c);
+  for (size_t e = 0; e < angles.size(); ++e)
+    if (is_fold[e]) angles[e] = 0;
   return angles;
 }
 
@@ -67,16 +73,15 @@ class FeatureSearch {
         c_(c),
         length_(length),
         o_(o),
-        angle_(edge_angles(points, c, length, o.drops_noise)),
+        angle_(o.drops_noise ? edge_angles_without_zigzags(points, c, length)
+                             : edge_angles(certain_face_normals(points, c), c)),
         kept_(c.edges.size(), 0),
         cos_turn_(std::cos(max_turn * std::numbers::pi / 180)) {}
 
   /// The hard edges that bend enough to be creases, and all that the search finds unless `hard_only`.
   std::vector<int> run(const std::vector<Edge>& hard_edges, bool hard_only) {
     if (!hard_only) search();
-    for (const auto& [a, b] : hard_edges)
-      for (const int e : c_.vertex_edges[a])
-        if (c_.other_end(e, a) == b && angle_[e] > hysteresis * o_.angle) kept_[e] = 1;
+    keep(hard_edges);
     std::vector<int> edges;
     for (size_t e = 0; e < kept_.size(); ++e)
       if (kept_[e]) edges.push_back(static_cast<int>(e));
@@ -84,6 +89,15 @@ class FeatureSearch {
   }
 
  private:
+  /// Keeps these edges where they bend enough, also at the folds of zigzag strips.
+  void keep(const std::vector<Edge>& hard_edges) {
+    if (hard_edges.empty()) return;
+    const std::vector<double> angles = edge_angles(certain_face_normals(X_, c_), c_);
+    for (const auto& [a, b] : hard_edges)
+      for (const int e : c_.vertex_edges[a])
+        if (c_.other_end(e, a) == b && angles[e] > hysteresis * o_.angle) kept_[e] = 1;
+  }
+
   void search() {
     if (!o_.drops_noise) {
       for (size_t e = 0; e < kept_.size(); ++e) kept_[e] = angle_[e] > o_.angle;

@@ -10,7 +10,6 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/extent.h"
-#include "hooke/mesh/normals.h"
 #include "hooke/mesh/smooth_patches.h"
 
 namespace hooke {
@@ -203,7 +202,7 @@ class FacetCreases {
           }))
         continue;
       for (int e : edges)
-        if (turns(e)) way[v] |= bends_out(X_, c_, e) ? out : in;
+        if (turns(e)) way[v] |= is_convex(e) ? out : in;
     }
     is_in_round_.assign(c_.vertex_count, 0);
     std::vector<char> seen(c_.vertex_count, 0);
@@ -288,7 +287,7 @@ class FacetCreases {
                                  : std::abs(ratio - 1) < strip_angle || std::abs(ratio - 2) < strip_end_angle;
     const bool is_needle = are_sides_of_needle(edge, e);
     if (e == edge || std::max(angle_[e], angle_[edge]) > max_facet_angle || !(is_alike || is_needle) ||
-        bends_out(X_, c_, e) != bends_out(X_, c_, edge))
+        is_convex(e) != is_convex(edge))
       return false;
     const Vec3 along = direction(edge);
     if (are_in_line(e, edge, along) || continues(e, edge)) return false;
@@ -351,6 +350,13 @@ class FacetCreases {
       return a.dot(b) < obtuse * a.norm() * b.norm();
     }
     return false;
+  }
+
+  bool is_convex(int edge) const {
+    const auto& [left, right] = c_.edge_faces[edge];
+    const Triangle& t = c_.faces[right];
+    const Vec3 n = doubled_area_vector(X_, c_.faces[left]);
+    return n.dot(X_.col(t[0]) + X_.col(t[1]) + X_.col(t[2]) - 3 * X_.col(c_.edges[edge][0])) < 0;
   }
 
   /// Height of the face over one of its edges, in target lengths.

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "hooke/constraints/facet_creases.h"
+#include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
-#include "hooke/mesh/normals.h"
 
 namespace hooke {
 namespace {
@@ -18,6 +18,7 @@ namespace {
 constexpr double coplanar_angle = 1;  // degrees; an edge between faces of one facet, below any fold
 constexpr double needle_ratio = .5;   // maximum width of a needle over the length of its sides
 constexpr double point_ratio = .5;    // maximum width at its point over that at its foot
+constexpr double max_fold = 120;      // degrees; beyond it the surface turns back, and has no smooth strip
 constexpr double fold_ratio = 2;      // maximum ratio of the angles of two folds in a row
 constexpr int min_folds = 6;          // of a strip
 
@@ -46,13 +47,15 @@ class ZigzagStrips {
       sums[right] += sum;
     }
     for (size_t f = 0; f < facet_of_.size(); ++f)
-      if (const int needle = facet_of_[f]; needle >= 0 && sums[needle] != Vec3::Zero())
+      if (const int needle = facet_of_[f];
+          needle >= 0 && sums[needle] != Vec3::Zero() && has_normal(static_cast<int>(f)))
         normals.col(static_cast<Eigen::Index>(f)) = sums[needle].normalized();
     return is_fold;
   }
 
  private:
   static constexpr int none = -1;
+  static constexpr int own_number(int face) { return -1 - face; }
 
   struct Needle {
     Vec3 area;
@@ -71,48 +74,67 @@ class ZigzagStrips {
     double length() const { return (ends[1] - ends[0]).norm(); }
   };
 
-  /// Numbers the facets: connected faces about in one plane, so narrow for their size that they may be
-  /// needles, from 0, the others below 0.
+  bool has_normal(int face) const { return normals_.col(face) != Vec3::Zero(); }
+
+  /// Is the face so narrow that it may be of a needle?
+  std::vector<char> find_narrow_faces() const {
+    std::vector<char> is_narrow(c_.faces.size());
+    parallel_for(is_narrow.size(), 4096, [&](size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f) {
+        const Triangle& t = c_.faces[f];
+        double longest = 0;
+        for (size_t k = 0; k < 3; ++k)
+          longest = std::max(longest, (X_.col(t[k]) - X_.col(t[(k + 1) % 3])).squaredNorm());
+        is_narrow[f] =
+            doubled_area_vector(X_, t).norm() < needle_ratio * longest && has_normal(static_cast<int>(f));
+      }
+    });
+    return is_narrow;
+  }
+
+  /// Numbers the facets from 0: connected faces about in one plane, as narrow as needles on the whole, with
+  /// those without area at their borders. The other faces have numbers below 0, each its own.
   void find_needles() {
     const double min_cosine = std::cos(coplanar_angle * std::numbers::pi / 180);
-    constexpr int unseen = 0x7fffffff;
-    facet_of_.assign(c_.faces.size(), unseen);
+    const std::vector<char> is_narrow = find_narrow_faces();
+    facet_of_.resize(c_.faces.size());
+    for (size_t f = 0; f < facet_of_.size(); ++f) facet_of_[f] = own_number(static_cast<int>(f));
+    std::vector<char> seen(c_.faces.size(), 0);
     std::vector<int> members;
-    for (size_t seed = 0, others = 0; seed < facet_of_.size(); ++seed) {
-      if (facet_of_[seed] != unseen) continue;
+    for (size_t seed = 0; seed < seen.size(); ++seed) {
+      if (!is_narrow[seed] || std::exchange(seen[seed], 1)) continue;
+      const auto number = static_cast<int>(needles_.size());
       Needle needle{.area = Vec3::Zero()};
       Eigen::AlignedBox3d box;
-      const int number = static_cast<int>(needles_.size());
-      facet_of_[seed] = number;
       members = {static_cast<int>(seed)};
       for (size_t i = 0; i < members.size(); ++i) {
         const int f = members[i];
+        facet_of_[f] = number;
         needle.area += .5 * doubled_area_vector(X_, c_.faces[f]);
         for (int v : c_.faces[f]) box.extend(X_.col(v));
         for (int e : c_.face_edges[f])
           for (int next : c_.edge_faces[e])
-            if (next >= 0 && facet_of_[next] == unseen &&
-                normals_.col(f).dot(normals_.col(next)) > min_cosine) {
-              facet_of_[next] = number;
+            if (next >= 0 && !seen[next] &&
+                (!has_normal(next) || normals_.col(f).dot(normals_.col(next)) > min_cosine)) {
+              seen[next] = 1;
               members.push_back(next);
             }
       }
-      if (needle.area.norm() < .5 * needle_ratio * box.diagonal().squaredNorm()) {
+      if (needle.area.norm() < .5 * needle_ratio * box.diagonal().squaredNorm())
         needles_.push_back(needle);
-        continue;
-      }
-      const int other = -1 - static_cast<int>(others++);
-      for (int f : members) facet_of_[f] = other;
+      else
+        for (int f : members) facet_of_[f] = own_number(f);
     }
   }
 
+  /// Of each needle; each edge of the boundary is one, as if beside a facet of its own.
   void find_sides() {
     std::vector<std::array<int, 3>> borders;  // two facets and an edge
-    for (size_t e = 0; e < c_.edges.size(); ++e) {
+    for (int e = 0; e < std::ssize(c_.edges); ++e) {
       const auto& [left, right] = c_.edge_faces[e];
-      if (right < 0) continue;
-      const auto [a, b] = std::minmax(facet_of_[left], facet_of_[right]);
-      if (a != b && b >= 0) borders.push_back({a, b, static_cast<int>(e)});
+      const int a = facet_of_[left],
+                b = right >= 0 ? facet_of_[right] : own_number(static_cast<int>(facet_of_.size()) + e);
+      if (a != b && std::max(a, b) >= 0) borders.push_back({std::min(a, b), std::max(a, b), e});
     }
     std::ranges::sort(borders);
     for (size_t i = 0; i < borders.size();) {
@@ -170,10 +192,13 @@ class ZigzagStrips {
 
   void find_fold(Side& side) const {
     if (side.points[0] == none || side.points[1] == none || side.points[0] == side.points[1]) return;
-    const Vec3& m = needles_[side.facets[0]].area;
-    const Vec3& n = needles_[side.facets[1]].area;
-    const double angle = std::atan2(m.cross(n).norm(), m.dot(n)) * 180 / std::numbers::pi;
-    side.fold = bends_out(X_, c_, side.edges[0]) ? angle : -angle;
+    const int edge = side.edges[0];  // directed as in its first face
+    const Vec3& m = needles_[facet_of_[c_.edge_faces[edge][0]]].area;
+    const Vec3& n = needles_[facet_of_[c_.edge_faces[edge][1]]].area;
+    const double angle = angle_between(m, n);
+    if (angle > max_fold) return;
+    const Vec3 along = X_.col(c_.edges[edge][1]) - X_.col(c_.edges[edge][0]);
+    side.fold = m.cross(n).dot(along) > 0 ? angle : -angle;
   }
 
   void find_strips() {

@@ -93,6 +93,10 @@ double angle_of(double product, double doubled_area) {
 
 }  // namespace
 
+double angle_between(const Vec3& a, const Vec3& b) {
+  return angle_of(a.dot(b), a.cross(b).norm());
+}
+
 TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const Vec3 lengths(ab.norm(), bc.norm(), ca.norm());

@@ -60,6 +60,9 @@ double max_cotangent(const Mat3X& points, const std::vector<Triangle>& faces);
 /// The angle with this cotangent, degrees.
 double angle_with_cotangent(double cotangent);
 
+/// Angle between vectors of any length, degrees; 0 if one is zero.
+double angle_between(const Vec3& a, const Vec3& b);
+
 /// Cotangent of an angle in degrees.
 double cotangent_of(double angle);
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include "hooke/core/lists.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/measure/measured_surface.h"
 #include "hooke/mesh/wedges.h"
 
@@ -33,7 +33,7 @@ struct Patch {
 double corner_angle(const Mat3X& points, const Triangle& t, size_t k) {
   const Vec3 p = points.col(t[k]);
   const Vec3 a = points.col(t[(k + 1) % 3]) - p, b = points.col(t[(k + 2) % 3]) - p;
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+  return angle_between(a, b);
 }
 
 std::vector<int> corners_of(const Adjacency& c, const std::vector<int>& faces) {

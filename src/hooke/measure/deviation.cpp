@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/closest_faces.h"
+#include "hooke/geometry/triangle.h"
 #include "hooke/measure/quality.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/junctions.h"
@@ -205,9 +205,9 @@ MaxRms measure_displacement(const Mat3X& before, const Mat3X& after) {
 }
 
 /// Angle in degrees between two normal vectors of any length; NaN if one is zero.
-double angle_between(const Vec3& n, const Vec3& m) {
+double angle_of_normals(const Vec3& n, const Vec3& m) {
   if (!(n.squaredNorm() > 0 && m.squaredNorm() > 0)) return std::numeric_limits<double>::quiet_NaN();
-  return std::atan2(n.cross(m).norm(), n.dot(m)) * (180 / std::numbers::pi);
+  return angle_between(n, m);
 }
 
 /// The vertices of a face in its own sheet, which the tree has joined to those of others.
@@ -253,7 +253,7 @@ MaxRms measure_normal_deviation(const MeasuredSurface& reference, const Measured
       if (closest[k].face_index < 0) continue;
       const size_t f = faces[k].id;
       const Vec3 n = area_vector(faces[k]);
-      angles[f] = angle_between(n, area_vector(face_at(reference, closest[k])));
+      angles[f] = angle_of_normals(n, area_vector(face_at(reference, closest[k])));
       weights[f] = n.norm();
     }
   });

@@ -1,8 +1,6 @@
 #include "hooke/mesh/normals.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
@@ -89,22 +87,14 @@ Mat3X certain_face_normals(const Eigen::Ref<const Mat3X>& points, const Adjacenc
   return normals;
 }
 
-bool bends_out(const Mat3X& points, const Adjacency& c, int edge) {
-  const auto& [left, right] = c.edge_faces[edge];
-  const Triangle& t = c.faces[right];
-  const Vec3 beyond =
-      points.col(t[0]) + points.col(t[1]) + points.col(t[2]) - 3 * points.col(c.edges[edge][0]);
-  return doubled_area_vector(points, c.faces[left]).dot(beyond) < 0;
-}
-
 std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& c, double angle) {
   const Mat3X normals = certain_face_normals(points, c);
   std::vector<char> is_sharp(c.edges.size(), 0);
   parallel_for(is_sharp.size(), normals_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       if (c.is_boundary_edge(static_cast<int>(e))) continue;
-      const Vec3 n = normals.col(c.edge_faces[e][0]), m = normals.col(c.edge_faces[e][1]);
-      is_sharp[e] = std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::numbers::pi > angle;
+      const auto& [left, right] = c.edge_faces[e];
+      is_sharp[e] = angle_between(normals.col(left), normals.col(right)) > angle;
     }
   });
   std::vector<int> edges;

@@ -26,9 +26,6 @@ Vec3 newell_normal(const Mat3X& points, std::span<const int> corners);
 /// Mean length of the edges at each vertex; zero for a vertex without edges.
 Eigen::VectorXd mean_edge_lengths(const Eigen::Ref<const Mat3X>& points, const Adjacency& adjacency);
 
-/// Is the surface convex at the edge, seen from outside? Pre-condition: the edge has two faces.
-bool bends_out(const Mat3X& points, const Adjacency& adjacency, int edge);
-
 /// The edges whose faces meet at more than `angle` degrees, ascending.
 std::vector<int> sharp_edges(const Mat3X& points, const Adjacency& adjacency, double angle);
 
