@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <compare>
 #include <numbers>
 #include <utility>
 
@@ -37,10 +37,11 @@ class ZigzagStrips {
   /// Marks the folds and sets the normals beside them.
   std::vector<char> smooth(Mat3X& normals) const {
     std::vector<char> is_fold(c_.edges.size(), 0);
+    if (std::ranges::none_of(sides_, &Side::is_in_strip)) return is_fold;
     std::vector<Vec3> sums(needles_.size(), Vec3::Zero());
     for (const Side& side : sides_) {
       if (!side.is_in_strip) continue;
-      for (int e : side.edges) is_fold[e] = 1;
+      for (size_t i = side.first; i < side.last; ++i) is_fold[borders_[i].edge] = 1;
       const auto& [left, right] = side.facets;
       const Vec3 sum = needles_[left].area.normalized() + needles_[right].area.normalized();
       sums[left] += sum;
@@ -62,16 +63,22 @@ class ZigzagStrips {
     std::array<int, 2> sides = {none, none};  // the longest
   };
 
+  struct Border {
+    std::array<int, 2> facets;  // as in facet_of_, the smaller number first
+    int edge;
+
+    auto operator<=>(const Border&) const = default;
+  };
+
   /// The straight line at which two facets meet, one of them a needle.
   struct Side {
     std::array<int, 2> facets;  // as in facet_of_
-    std::vector<int> edges;     // the longest first
-    std::array<Vec3, 2> ends;
+    size_t first, last;         // its edges, in borders_
+    int longest_edge;
+    std::array<int, 2> ends;                   // vertices
     std::array<int, 2> points = {none, none};  // by facet: the end at which the needle comes to its point
     double fold = 0;  // angle in degrees, positive if convex; 0 unless it joins the points of two needles
     bool is_in_strip = false;
-
-    double length() const { return (ends[1] - ends[0]).norm(); }
   };
 
   bool has_normal(int face) const { return normals_.col(face) != Vec3::Zero(); }
@@ -129,23 +136,20 @@ class ZigzagStrips {
 
   /// Of each needle; each edge of the boundary is one, as if beside a facet of its own.
   void find_sides() {
-    std::vector<std::array<int, 3>> borders;  // two facets and an edge
     for (int e = 0; e < std::ssize(c_.edges); ++e) {
       const auto& [left, right] = c_.edge_faces[e];
       const int a = facet_of_[left],
                 b = right >= 0 ? facet_of_[right] : own_number(static_cast<int>(facet_of_.size()) + e);
-      if (a != b && std::max(a, b) >= 0) borders.push_back({std::min(a, b), std::max(a, b), e});
+      if (a != b && std::max(a, b) >= 0) borders_.push_back({{std::min(a, b), std::max(a, b)}, e});
     }
-    std::ranges::sort(borders);
-    for (size_t i = 0; i < borders.size();) {
-      Side side;
-      side.facets = {borders[i][0], borders[i][1]};
-      for (; i < borders.size() && borders[i][0] == side.facets[0] && borders[i][1] == side.facets[1]; ++i)
-        side.edges.push_back(borders[i][2]);
-      find_ends(side);
+    std::ranges::sort(borders_);
+    for (size_t first = 0, last; first < borders_.size(); first = last) {
+      last = first + 1;
+      while (last < borders_.size() && borders_[last].facets == borders_[first].facets) ++last;
+      const Side side = side_of(first, last);
       const auto number = static_cast<int>(sides_.size());
       const auto is_longer_than = [&](int other) {
-        return other == none || side.length() > sides_[other].length();
+        return other == none || length(side) > length(sides_[other]);
       };
       for (int facet : side.facets) {
         if (facet < 0) continue;
@@ -155,22 +159,33 @@ class ZigzagStrips {
         else if (is_longer_than(next))
           next = number;
       }
-      sides_.push_back(std::move(side));
+      sides_.push_back(side);
     }
   }
 
-  void find_ends(Side& side) const {
-    std::ranges::stable_sort(side.edges, std::greater(),
-                             [&](int e) { return (X_.col(c_.edges[e][0]) - X_.col(c_.edges[e][1])).norm(); });
-    const auto& [a, b] = c_.edges[side.edges[0]];
-    const Vec3 along = X_.col(b) - X_.col(a);
-    side.ends = {X_.col(a), X_.col(b)};
-    for (int e : side.edges)
-      for (int v : c_.edges[e]) {
-        if (along.dot(X_.col(v) - side.ends[0]) < 0) side.ends[0] = X_.col(v);
-        if (along.dot(X_.col(v) - side.ends[1]) > 0) side.ends[1] = X_.col(v);
+  /// The side with these edges, which are in one line.
+  Side side_of(size_t first, size_t last) const {
+    Side side{.facets = borders_[first].facets,
+              .first = first,
+              .last = last,
+              .longest_edge = borders_[first].edge,
+              .ends = {}};
+    for (size_t i = first + 1; i < last; ++i)
+      if (edge_vector(borders_[i].edge).norm() > edge_vector(side.longest_edge).norm())
+        side.longest_edge = borders_[i].edge;
+    const Vec3 along = edge_vector(side.longest_edge);
+    side.ends = c_.edges[side.longest_edge];
+    for (size_t i = first; i < last; ++i)
+      for (int v : c_.edges[borders_[i].edge]) {
+        if (along.dot(X_.col(v) - X_.col(side.ends[0])) < 0) side.ends[0] = v;
+        if (along.dot(X_.col(v) - X_.col(side.ends[1])) > 0) side.ends[1] = v;
       }
+    return side;
   }
+
+  Vec3 edge_vector(int edge) const { return X_.col(c_.edges[edge][1]) - X_.col(c_.edges[edge][0]); }
+
+  double length(const Side& side) const { return (X_.col(side.ends[1]) - X_.col(side.ends[0])).norm(); }
 
   /// Where the needle, between its two longest sides, comes to a point, unless the target length resolves it.
   void find_points(int number) {
@@ -178,13 +193,13 @@ class ZigzagStrips {
     if (second == none) return;
     for (const auto& [i, other] : {std::pair(first, second), std::pair(second, first)}) {
       Side& side = sides_[i];
-      const std::array<Vec3, 2>& line = sides_[other].ends;
-      const Vec3 along = (line[1] - line[0]).normalized();
-      const auto width = [&](int end) { return along.cross(side.ends[end] - line[0]).norm(); };
+      const Vec3 origin = X_.col(sides_[other].ends[0]);
+      const Vec3 along = (X_.col(sides_[other].ends[1]) - origin).normalized();
+      const auto width = [&](int end) { return along.cross(X_.col(side.ends[end]) - origin).norm(); };
       const int point = width(0) < width(1) ? 0 : 1;
       const double foot = width(1 - point);
-      const auto& [a, b] = c_.edges[side.edges[0]];
-      if (foot < needle_ratio * sides_[second].length() &&
+      const auto& [a, b] = c_.edges[side.longest_edge];
+      if (foot < needle_ratio * length(sides_[second]) &&
           foot < resolved_length * .5 * (length_[a] + length_[b]) && width(point) < point_ratio * foot)
         side.points[side.facets[0] == number ? 0 : 1] = point;
     }
@@ -192,13 +207,12 @@ class ZigzagStrips {
 
   void find_fold(Side& side) const {
     if (side.points[0] == none || side.points[1] == none || side.points[0] == side.points[1]) return;
-    const int edge = side.edges[0];  // directed as in its first face
+    const int edge = side.longest_edge;  // directed as in its first face
     const Vec3& m = needles_[facet_of_[c_.edge_faces[edge][0]]].area;
     const Vec3& n = needles_[facet_of_[c_.edge_faces[edge][1]]].area;
     const double angle = angle_between(m, n);
     if (angle > max_fold) return;
-    const Vec3 along = X_.col(c_.edges[edge][1]) - X_.col(c_.edges[edge][0]);
-    side.fold = m.cross(n).dot(along) > 0 ? angle : -angle;
+    side.fold = m.cross(n).dot(edge_vector(edge)) > 0 ? angle : -angle;
   }
 
   void find_strips() {
@@ -228,6 +242,7 @@ class ZigzagStrips {
   const Mat3X& normals_;
   std::vector<int> facet_of_;  // by face, see find_needles()
   std::vector<Needle> needles_;
+  std::vector<Border> borders_;  // those of a side are in a row
   std::vector<Side> sides_;
 };
 
