@@ -94,7 +94,8 @@ double angle_of(double product, double doubled_area) {
 }  // namespace
 
 double angle_between(const Vec3& a, const Vec3& b) {
-  return angle_of(a.dot(b), a.cross(b).norm());
+  const double product = a.dot(b) + 0.;                                    // atan2(0, -0) would be 180
+  return std::atan2(a.cross(b).norm(), product) * 180 / std::numbers::pi;  // 90 exactly for right angles
 }
 
 TriangleShape measure_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
