@@ -146,6 +146,7 @@ TEST(ZigzagStrips, PleatsWithoutPointsAreNone) {
 }
 
 TEST(ZigzagStrips, WideFacetsAreNone) {
+  // Few, as such a sheet leans over more with each, so that its facets become needles.
   EXPECT_EQ(smooth(pleated({.count = 8, .length = 1})).folds(), 0);
 }
 

@@ -43,7 +43,7 @@ class ZigzagStrips {
       if (!side.is_in_strip) continue;
       for (size_t i = side.first; i < side.last; ++i) is_fold[borders_[i].edge] = 1;
       const auto& [left, right] = side.facets;
-      const Vec3 sum = needles_[left].area.normalized() + needles_[right].area.normalized();
+      const Vec3 sum = needles_[left].area_vector.normalized() + needles_[right].area_vector.normalized();
       sums[left] += sum;
       sums[right] += sum;
     }
@@ -59,7 +59,7 @@ class ZigzagStrips {
   static constexpr int own_number(int face) { return -1 - face; }
 
   struct Needle {
-    Vec3 area;
+    Vec3 area_vector;
     std::array<int, 2> sides = {none, none};  // the longest
   };
 
@@ -111,13 +111,13 @@ class ZigzagStrips {
     for (size_t seed = 0; seed < seen.size(); ++seed) {
       if (!is_narrow[seed] || std::exchange(seen[seed], 1)) continue;
       const auto number = static_cast<int>(needles_.size());
-      Needle needle{.area = Vec3::Zero()};
+      Needle needle{.area_vector = Vec3::Zero()};
       Eigen::AlignedBox3d box;
       members = {static_cast<int>(seed)};
       for (size_t i = 0; i < members.size(); ++i) {
         const int f = members[i];
         facet_of_[f] = number;
-        needle.area += .5 * doubled_area_vector(X_, c_.faces[f]);
+        needle.area_vector += .5 * doubled_area_vector(X_, c_.faces[f]);
         for (int v : c_.faces[f]) box.extend(X_.col(v));
         for (int e : c_.face_edges[f])
           for (int next : c_.edge_faces[e])
@@ -127,7 +127,7 @@ class ZigzagStrips {
               members.push_back(next);
             }
       }
-      if (needle.area.norm() < .5 * needle_ratio * box.diagonal().squaredNorm())
+      if (needle.area_vector.norm() < .5 * needle_ratio * box.diagonal().squaredNorm())
         needles_.push_back(needle);
       else
         for (int f : members) facet_of_[f] = own_number(f);
@@ -208,8 +208,8 @@ class ZigzagStrips {
   void find_fold(Side& side) const {
     if (side.points[0] == none || side.points[1] == none || side.points[0] == side.points[1]) return;
     const int edge = side.longest_edge;  // directed as in its first face
-    const Vec3& m = needles_[facet_of_[c_.edge_faces[edge][0]]].area;
-    const Vec3& n = needles_[facet_of_[c_.edge_faces[edge][1]]].area;
+    const Vec3& m = needles_[facet_of_[c_.edge_faces[edge][0]]].area_vector;
+    const Vec3& n = needles_[facet_of_[c_.edge_faces[edge][1]]].area_vector;
     const double angle = angle_between(m, n);
     if (angle > max_fold) return;
     side.fold = m.cross(n).dot(edge_vector(edge)) > 0 ? angle : -angle;
