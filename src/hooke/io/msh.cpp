@@ -16,12 +16,65 @@
 
 #include "hooke/core/error.h"
 #include "hooke/core/printable.h"
-#include "hooke/io/msh_elements.h"
 #include "hooke/io/scanner.h"
 #include "hooke/io/text.h"
 
 namespace hooke {
 namespace {
+
+// A type of elements. Source of their codes and nodes: C. Geuzaine, J.-F. Remacle, "Gmsh reference manual",
+// section "MSH file format".
+struct ElementType {
+  int code;            // in the file
+  int nodes;           // of an element
+  const char* plural;  // "triangles"
+};
+
+constexpr int triangle_code = 2, quadrangle_code = 3;
+
+constexpr ElementType element_types[] = {
+    {15, 1, "points"},
+    {1, 2, "lines"},
+    {8, 3, "second-order lines"},
+    {26, 4, "third-order lines"},
+    {27, 5, "fourth-order lines"},
+    {28, 6, "fifth-order lines"},
+    {triangle_code, 3, "triangles"},
+    {9, 6, "second-order triangles"},
+    {20, 9, "incomplete third-order triangles"},
+    {21, 10, "third-order triangles"},
+    {22, 12, "incomplete fourth-order triangles"},
+    {23, 15, "fourth-order triangles"},
+    {24, 15, "incomplete fifth-order triangles"},
+    {25, 21, "fifth-order triangles"},
+    {quadrangle_code, 4, "quadrangles"},
+    {16, 8, "incomplete second-order quadrangles"},
+    {10, 9, "second-order quadrangles"},
+    {36, 16, "third-order quadrangles"},
+    {4, 4, "tetrahedra"},
+    {11, 10, "second-order tetrahedra"},
+    {29, 20, "third-order tetrahedra"},
+    {30, 35, "fourth-order tetrahedra"},
+    {31, 56, "fifth-order tetrahedra"},
+    {5, 8, "hexahedra"},
+    {17, 20, "incomplete second-order hexahedra"},
+    {12, 27, "second-order hexahedra"},
+    {92, 64, "third-order hexahedra"},
+    {93, 125, "fourth-order hexahedra"},
+    {6, 6, "prisms"},
+    {18, 15, "incomplete second-order prisms"},
+    {13, 18, "second-order prisms"},
+    {7, 5, "pyramids"},
+    {19, 13, "incomplete second-order pyramids"},
+    {14, 14, "second-order pyramids"},
+};
+
+// The type with this code; null if there is none.
+const ElementType* element_type_of(long long code) {
+  for (const ElementType& type : element_types)
+    if (type.code == code) return &type;
+  return nullptr;
+}
 
 // The words and numbers of a file, text or binary.
 class MshInput {
@@ -223,13 +276,13 @@ Vec3 read_position(MshInput& in) {
   return {x, y, z};
 }
 
-void require_type(const MshInput& in, const MshElementType* type, long long code) {
+void require_type(const MshInput& in, const ElementType* type, long long code) {
   if (!type) in.fail(fmt::format("element type {}; expected one that Gmsh knows; is a count wrong?", code));
 }
 
 // Reads the nodes of an element; keeps them if it is a polygon.
-void read_element(MshInput& in, const MshElementType& type, int group, int entity, MshContent& content) {
-  const bool polygon = type.code == msh_triangle || type.code == msh_quadrangle;
+void read_element(MshInput& in, const ElementType& type, int group, int entity, MshContent& content) {
+  const bool polygon = type.code == triangle_code || type.code == quadrangle_code;
   if (!polygon) {
     for (int k = 0; k < type.nodes; ++k) in.large("node of an element");
     ++content.ignored[type.plural];
@@ -254,7 +307,7 @@ void read_old_nodes(MshInput& in, MshContent& content) {
 }
 
 // Reads the tags of an element and then its nodes.
-void read_old_element(MshInput& in, const MshElementType& type, long long tags, MshContent& content) {
+void read_old_element(MshInput& in, const ElementType& type, long long tags, MshContent& content) {
   if (tags < 0) in.fail(fmt::format("{} tags; expected 0 or more; correct the element", tags));
   int group = 0, entity = 0;
   for (long long t = 0; t < tags; ++t) {
@@ -272,7 +325,7 @@ void read_old_elements(MshInput& in, MshContent& content) {
   for (long long k = 0; k < count;) {
     if (!in.binary) in.integer("element number");
     const long long code = in.integer("element type");
-    const MshElementType* type = msh_element_type(code);
+    const ElementType* type = element_type_of(code);
     require_type(in, type, code);
     const long long elements = in.binary ? in.integer("number of elements") : 1,
                     tags = in.integer("number of tags");
@@ -341,7 +394,7 @@ void read_elements(MshInput& in, MshContent& content) {
     const long long dimension = in.integer("dimension of an entity");
     const int entity = to_int(in, in.integer("entity"), "entity");
     const long long code = in.integer("element type");
-    const MshElementType* type = msh_element_type(code);
+    const ElementType* type = element_type_of(code);
     require_type(in, type, code);
     const long long count = in.count("number of elements");
     const auto groups = content.groups_of_surface.find(entity);
@@ -564,7 +617,7 @@ std::string write_new(const Eigen::Ref<const Mat3X>& points, const std::vector<T
   text += fmt::format("$EndNodes\n$Elements\n{0} {1} 1 {1}\n", ends.size(), triangles.size());
   size_t f = 0;
   for (const size_t end : ends) {
-    text += fmt::format("2 {} {} {}\n", surfaces.entity[f], msh_triangle, end - f);
+    text += fmt::format("2 {} {} {}\n", surfaces.entity[f], triangle_code, end - f);
     for (; f < end; ++f) append_row(text, f + 1, triangles[f]);
   }
   return text + "$EndElements\n";
@@ -584,7 +637,7 @@ std::string write_old(const Eigen::Ref<const Mat3X>& points, const std::vector<T
   text += fmt::format("$EndNodes\n$Elements\n{}\n", triangles.size());
   for (size_t f = 0; f < triangles.size(); ++f) {
     append_number(text, f + 1);
-    text += fmt::format(" {} 2 {} ", msh_triangle, surfaces.group.at(surfaces.entity[f]));
+    text += fmt::format(" {} 2 {} ", triangle_code, surfaces.group.at(surfaces.entity[f]));
     append_row(text, surfaces.entity[f], triangles[f]);
   }
   return text + "$EndElements\n";
