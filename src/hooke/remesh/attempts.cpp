@@ -219,7 +219,7 @@ Attempt AttemptMaker::run() const {
   a.run = std::make_shared<Run>(a.mesh, memory_order_, of_run, observer_, stopwatch_, lengths.shorter);
   a.result = a.run->remesh(a.mesh);
   a.result_of_run = a.run->results();
-  if (!adapts() || !has_tolerance()) a.run.reset();
+  if (!adapts() || !(has_tolerance() || has_facets())) a.run.reset();
   a.lengths = lengths;
   a.made_faces = static_cast<double>(a.mesh.n_faces());
   vertex_points(a.mesh) = as_written(vertex_points(a.mesh));
@@ -263,8 +263,7 @@ void AttemptMaker::judge(Attempt& a) const {
   const MeasuredSurface surface = timed(stopwatch_, "tree", [&] { return surface_of(a); });
   ResultMeasures m;
   m.quality = timed(stopwatch_, "after", [&] { return measure(surface, a.mesh, order, stopwatch_); });
-  const std::vector<Edge> before = memory_order_.order.new_edges(a.result.input_creases),
-                          after = order.new_edges(a.result.crease_edges);
+  const std::vector<Edge> before = input_creases(a), after = order.new_edges(a.result.crease_edges);
   m.input_quality = input_quality_;
   apply_creases(m.input_quality, input_, before);
   apply_creases(m.quality, surface, after);
@@ -281,6 +280,10 @@ void AttemptMaker::judge(Attempt& a) const {
   a.least_angle = has_unfolded ? std::min(least_angle(), a.unmended_angle) : least_angle();
   a.lost_angle = a.angle < a.least_angle;
   a.result.measures = std::make_shared<ResultMeasures>(std::move(m));
+}
+
+std::vector<Edge> AttemptMaker::input_creases(const Attempt& a) const {
+  return memory_order_.order.new_edges(a.result.input_creases);
 }
 
 MeasuredSurface AttemptMaker::surface_of(const Attempt& a) const {

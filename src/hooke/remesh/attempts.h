@@ -31,7 +31,8 @@ struct Attempt {
   bool lost_angle = false;  // is it less?
   double made_faces = 0;    // of its faces, those that were made anew for it, about
   AskedLengths lengths;     // that it was made with
-  /// That it is from, and can be gone on from: in mode `adapt` with a maximum distance. Copies share it.
+  /// That it is from, and can be gone on from: in mode `adapt` with a maximum distance or if the facets of
+  /// the input are meant. Copies share it.
   std::shared_ptr<Run> run;
   int result_of_run = 0;  // its number among the results of the run
 
@@ -84,6 +85,8 @@ class AttemptMaker {
   /// The minimum angle that faces must keep, degrees: that of the input, in mode `flip` up to a thousandth
   /// and 25 at most; 0 in mode `adapt`, and where a sizing asks for other lengths.
   double least_angle() const;
+  /// Are the facets of the input meant?
+  bool has_facets() const { return preservation_.faceted; }
   /// Do attempts start from smoothed points?
   bool smooths_mask() const { return is_mask_; }
   /// The id that the caller knows the vertex by.
@@ -119,6 +122,9 @@ class AttemptMaker {
 
   /// Measures the result and compares it with the input.
   void judge(Attempt& attempt) const;
+
+  /// The creases of the input that the attempt found, as vertices of its adjacency.
+  std::vector<Edge> input_creases(const Attempt& attempt) const;
 
   /// The surface of the result, which must outlive it.
   MeasuredSurface surface_of(const Attempt& attempt) const;

@@ -65,6 +65,7 @@ class PreservingRemesh {
       }
     }
     if (!is_done(best)) leave_as_it_was(best);
+    resolve_bends(start, best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
     if (!maker_.adapts() && vertex_points(best.mesh) == maker_.as_written(vertex_points(maker_.mesh())))
       best.result.steps_smoothed = false;
@@ -285,6 +286,36 @@ class PreservingRemesh {
     });
   }
 
+  /// In mode `adapt`, where the facets of the input are meant, as in CAD parts: shortens the lengths of a
+  /// result that keeps its promises where smooth parts bend too much within an edge, as rods and fillets that
+  /// are thin for the length. Keeps it if it keeps its promises still, with hardly more small angles.
+  void resolve_bends(const RemeshOptions& start, Attempt& best) {
+    constexpr double max_growth = 3, more_small_angles = .001;  // of all faces
+    if (!maker_.adapts() || !maker_.has_facets() || maker_.has_tolerance() || maker_.smooths_mask() ||
+        is_of_part() || best.is_interrupted() || !best.keeps_promises() || best.result.rescue != Rescue::none)
+      return;
+    const double most = max_growth * shorter_.faces_of({asked_, {}}, std::numeric_limits<double>::infinity());
+    std::optional<AskedLengths> shorter = shorter_.resolving_bends(best, most);
+    if (!shorter) return;
+    maker_.lengths = std::move(*shorter);
+    options_ = start;
+    std::optional<Attempt> next = maker_.go_on(best);
+    if (next) {
+      maker_.judge(*next);
+      mend(maker_, *next);
+    } else {
+      next = attempt();
+    }
+    if (next->is_interrupted()) best.result.reason = StopReason::interrupted;
+    const auto small_angles = [](const Attempt& a) {
+      return static_cast<double>(a.result.measures->quality.faces_below_20) /
+             static_cast<double>(a.mesh.n_faces());
+    };
+    if (!next->is_interrupted() && next->keeps_promises() &&
+        small_angles(*next) <= small_angles(best) + more_small_angles)
+      best = std::move(*next);
+  }
+
   /// Where little is wrong with a result, goes on from it with shorter lengths there. If that does not do,
   /// the next attempts have the lengths before.
   void redo_flaws(const Attempt& last, Attempt& best) {
@@ -321,7 +352,7 @@ class PreservingRemesh {
       flaws_before = std::move(flaws);
       const double most = max_faces_of_rounds(best);
       if (shorter_.faces_of(maker_.lengths, most) > most) break;
-      std::optional<Attempt> next = maker_.go_on(last);
+      std::optional<Attempt> next = maker_.has_tolerance() ? maker_.go_on(last) : std::nullopt;
       const bool goes_on = next.has_value();
       Attempt unmended;
       if (!goes_on && anew) next = anew(last, unmended);

@@ -8,10 +8,116 @@
 #include "hooke/core/uniform_vector.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/normals.h"
 #include "hooke/mesh/surface_point.h"
 #include "hooke/springs/sizing.h"
 
 namespace hooke {
+namespace {
+
+constexpr double max_bend = 45;      // degrees, within an edge
+constexpr double smooth_share = .5;  // maximum bend of the input there, over that of the result
+
+/// How a surface bends, in degrees: across its edges, and along its curves, which are creases and boundaries.
+class Bends {
+ public:
+  /// Keeps a reference to the surface. The creases are edges of its adjacency.
+  Bends(const MeasuredSurface& surface, std::vector<Edge> creases)
+      : surface_(surface),
+        across_(surface.adjacency.edges.size(), 0),
+        curve_ends_(surface.adjacency.vertex_count) {
+    const Adjacency& c = surface.adjacency;
+    const Mat3X normals = certain_face_normals(surface.points, c);
+    for (Edge& e : creases) std::ranges::sort(e);
+    std::ranges::sort(creases);
+    for (size_t e = 0; e < across_.size(); ++e) {
+      const auto [a, b] = std::minmax(c.edges[e][0], c.edges[e][1]);
+      const auto& [left, right] = c.edge_faces[e];
+      if (right >= 0 && !std::ranges::binary_search(creases, Edge{a, b})) {
+        across_[e] = angle_between(normals.col(left), normals.col(right));
+        continue;
+      }
+      curves_.push_back({a, b, b});
+      curve_ends_[a].push_back(b);
+      curve_ends_[b].push_back(a);
+    }
+  }
+
+  /// 0 where the edge is on a curve.
+  double across(int edge) const { return across_[edge]; }
+
+  /// Where a curve goes on at the vertex, else none.
+  std::optional<double> along(int vertex) const {
+    const std::vector<int>& ends = curve_ends_[vertex];
+    if (ends.size() != 2) return std::nullopt;
+    const Vec3 x = surface_.points.col(vertex);
+    return angle_between(x - surface_.points.col(ends[0]), surface_.points.col(ends[1]) - x);
+  }
+
+  /// The edges of curves, each as a triangle without area.
+  const std::vector<Triangle>& curves() const { return curves_; }
+
+ private:
+  const MeasuredSurface& surface_;
+  std::vector<double> across_;
+  std::vector<std::vector<int>> curve_ends_;
+  std::vector<Triangle> curves_;
+};
+
+/// A place where a result bends by an angle in degrees, and its target length there.
+struct Bend {
+  Vec3 from, to;
+  double angle;
+  double length;
+};
+
+/// Where smooth parts of the input bend too much within an edge of the result.
+std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& attempt) {
+  const MeasuredSurface& input = maker.input();
+  const MeasuredSurface surface = maker.surface_of(attempt);
+  const Bends input_bends(input, maker.input_creases(attempt)), bends(surface, sorted_creases(attempt));
+  const std::vector<double> lengths =
+      attempt.result.memory_order.order.gather(vertex_values(attempt.mesh, target_length_property));
+  std::vector<Bend> unresolved;
+  const Adjacency& c = surface.adjacency;
+  for (int e = 0; e < std::ssize(c.edges); ++e) {
+    const double angle = bends.across(e);
+    if (angle <= max_bend) continue;
+    const auto& [v, w] = c.edges[e];
+    const Vec3 from = surface.points.col(v), to = surface.points.col(w);
+    const int face = input.tree_of(surface.shell_of_vertex(v)).closest(.5 * (from + to)).face;
+    if (face >= 0 && std::ranges::all_of(input.adjacency.face_edges[face], [&](int edge) {
+          return input_bends.across(edge) < smooth_share * angle;
+        }))
+      unresolved.push_back({from, to, angle, std::min(lengths[v], lengths[w])});
+  }
+  const AabbTree curves(input.points, input_bends.curves());
+  for (int v = 0; v < c.vertex_count; ++v) {
+    const std::optional<double> angle = bends.along(v);
+    if (!angle || *angle <= max_bend) continue;
+    const Vec3 x = surface.points.col(v);
+    const int curve = curves.closest(x).face;
+    if (curve >= 0 && std::ranges::all_of(input_bends.curves()[curve], [&](int end) {
+          return input_bends.along(end).value_or(180) < smooth_share * *angle;
+        }))
+      unresolved.push_back({x, x, *angle, lengths[v]});
+  }
+  return unresolved;
+}
+
+}  // namespace
+
+std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attempt, double max_faces) const {
+  const std::vector<Bend> bends = unresolved_bends(maker_, attempt);
+  if (bends.empty()) return std::nullopt;
+  for (const double resolved_bend : {33., max_bend}) {
+    AskedLengths lengths = attempt.lengths;
+    for (const Bend& bend : bends)
+      lengths.shorter.push_back({bend.from, bend.to, bend.length * resolved_bend / bend.angle});
+    if (faces_of(lengths, max_faces) <= max_faces) return lengths;
+  }
+  return std::nullopt;
+}
 
 /// By how much to shorten lengths where a distance is `excess` times its limit. Where a limit is asked for
 /// it tells: distances of chords of a smooth surface grow with the square of lengths.

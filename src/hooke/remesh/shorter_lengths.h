@@ -1,6 +1,7 @@
-// Target lengths that get shorter where an attempt does not keep the input.
+// Target lengths that get shorter where an attempt does not keep the input, or is too coarse for its bends.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hooke/remesh/attempts.h"
@@ -17,6 +18,12 @@ class ShorterLengths {
   /// Shortens `lengths` where something is wrong in this attempt, or was before it was mended. At kept faces
   /// its own are those of the input.
   void shorten_at(const std::vector<FlawPlace>& flaws, const Attempt& last, AskedLengths& lengths) const;
+
+  /// The lengths of an attempt, shortened where smooth parts of the input bend too much within an edge of it:
+  /// where it bends by more than 45 degrees across an edge that is no crease, or a crease or boundary at a
+  /// vertex, and the input by less than half of that. So short that it will be 33 degrees or, where that
+  /// would take more than `max_faces`, 45. None where that would too, or if nothing bends so.
+  std::optional<AskedLengths> resolving_bends(const Attempt& attempt, double max_faces) const;
 
   /// The number of faces that these lengths take, or more than `enough`.
   double faces_of(const AskedLengths& lengths, double enough) const;

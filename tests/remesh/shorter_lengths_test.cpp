@@ -1,0 +1,97 @@
+#include "hooke/remesh/shorter_lengths.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hooke/mesh/extent.h"
+#include "hooke/mesh/mesh.h"
+#include "hooke/remesh/preserving_remesh.h"
+#include "support/remeshed.h"
+#include "support/solids.h"
+
+namespace hooke::shorter_lengths_test {
+
+struct Adapted {
+  test::Outcome outcome;
+  double asked;  // faces
+
+  const ResultMeasures& measures() const { return *outcome.result.measures; }
+  double volume_change() const { return *measures().deviation.volume_change; }
+};
+
+RemeshOptions options() {
+  RemeshOptions options;
+  options.connectivity = ConnectivityMode::adapt;
+  options.effort = Effort::fast;
+  return options;
+}
+
+Adapted adapted(const test::Triangles& t, double length) {
+  Adapted a;
+  a.outcome.mesh = test::with_length(t, length);
+  a.asked = total_area(t.points, t.faces) / (std::sqrt(3) / 4 * length * length);
+  a.outcome.result = preserving_remesh(a.outcome.mesh, find_memory_order(a.outcome.mesh), options());
+  a.outcome.points = vertex_points(a.outcome.mesh);
+  a.outcome.faces = triangles_of(a.outcome.mesh);
+  return a;
+}
+
+/// A washer with a hole of radius 1.
+test::Triangles washer() {
+  return test::turned({{1, 0}, {10, 0}, {10, 2}, {1, 2}}, 48);
+}
+
+void expect_as_asked(const Adapted& a, const test::Triangles& t, double length) {
+  EXPECT_EQ(a.outcome.result.shortened, 0) << length;
+  const test::Outcome once = test::remeshed(t, length, options());
+  EXPECT_EQ(a.outcome.points, once.points) << length;
+  EXPECT_EQ(a.outcome.faces, once.faces) << length;
+}
+
+TEST(ShorterLengths, RodsThatAreThinForTheLengthStayRound) {
+  for (const double length : {1., 1.5, 2., 2.6, 4.}) {
+    const Adapted rod = adapted(test::drum(64, 120), length);
+    EXPECT_TRUE(rod.measures().preservation.holds()) << length;
+    EXPECT_GT(rod.outcome.result.shortened, 0) << length;
+    EXPECT_LT(rod.outcome.mesh.n_faces(), 4.5 * rod.asked) << length;  // 3 times, and those of whole edges
+    EXPECT_GT(rod.volume_change(), -.1 - .05 * length) << length;
+    EXPECT_GT(rod.measures().quality.min_angle.min, 25) << length;
+  }
+}
+
+TEST(ShorterLengths, HolesThatAreSmallForTheLengthStayRound) {
+  for (const double length : {1.5, 2., 3., 4.}) {
+    const Adapted a = adapted(washer(), length);
+    EXPECT_TRUE(a.measures().preservation.holds()) << length;
+    EXPECT_GT(a.outcome.result.shortened, 0) << length;
+    EXPECT_LT(a.measures().preservation.crease_loss, .3) << length;  // 1 of a hole with two sides
+  }
+}
+
+TEST(ShorterLengths, CornersAndSmoothPartsThatAreResolvedTakeNoShorterEdges) {
+  for (const double length : {2., 4., 6.}) {
+    const test::Triangles bar = test::drum(6, 20);
+    const Adapted a = adapted(bar, length);
+    EXPECT_EQ(a.outcome.result.shortened, 0) << length;
+    EXPECT_NEAR(a.volume_change(), 0, 1e-12) << length;
+  }
+  for (const double length : {.3, .6}) expect_as_asked(adapted(washer(), length), washer(), length);
+}
+
+TEST(ShorterLengths, OnlyCadPartsTakeThem) {
+  const test::Triangles ball = test::sphere(3, .3, 1);
+  for (const double times_natural : {3., 6.}) {
+    const double length = times_natural * test::natural(ball);
+    expect_as_asked(adapted(ball, length), ball, length);
+  }
+}
+
+TEST(ShorterLengths, NotWhereTheyWouldTakeThreeTimesTheFaces) {
+  const test::Triangles rod = test::drum(64, 120);
+  const Adapted a = adapted(rod, 6);
+  EXPECT_TRUE(a.measures().preservation.holds());
+  EXPECT_EQ(a.outcome.result.shortened, 0);
+}
+
+}  // namespace hooke::shorter_lengths_test
