@@ -109,8 +109,7 @@ class PreservingRemesh {
                                                     input_.adjacency.vertex_count);
   }
 
-  /// Is so little wrong in mode `adapt` that it may be made anew by itself? Only with a maximum distance, as
-  /// runs are not kept without.
+  /// Is so little wrong in mode `adapt` that it may be made anew by itself? Only with a maximum distance.
   bool may_redo_flaws(const Attempt& run) const {
     return maker_.adapts() && maker_.has_tolerance() && !maker_.smooths_mask() && !run.is_interrupted() &&
            !run.keeps_promises() &&
@@ -275,7 +274,7 @@ class PreservingRemesh {
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
     Attempt last = best;
     if (last.result.rescue == Rescue::kept_faces) last.run.reset();  // there lengths fit the kept faces
-    maker_.lengths = last.run ? last.lengths : AskedLengths{asked_, {}};
+    maker_.lengths = maker_.has_tolerance() && last.run ? last.lengths : AskedLengths{asked_, {}};
     shorten_about_flaws(std::move(last), best, [&](const Attempt& before, Attempt& unmended) {
       options_ = start;
       const bool projects = before.result.rescue == Rescue::closest;
@@ -288,9 +287,9 @@ class PreservingRemesh {
 
   /// In mode `adapt`, where the facets of the input are meant, as in CAD parts: shortens the lengths of a
   /// result that keeps its promises where smooth parts bend too much within an edge, as rods and fillets that
-  /// are thin for the length. Keeps it if it keeps its promises still, with hardly more small angles.
+  /// are thin for the length, and keeps it if it is closer to the input for that.
   void resolve_bends(const RemeshOptions& start, Attempt& best) {
-    constexpr double max_growth = 3, more_small_angles = .001;  // of all faces
+    constexpr double max_growth = 3;  // of the number of faces that the lengths ask for
     if (!maker_.adapts() || !maker_.has_facets() || maker_.has_tolerance() || maker_.smooths_mask() ||
         is_of_part() || best.is_interrupted() || !best.keeps_promises() || best.result.rescue != Rescue::none)
       return;
@@ -306,14 +305,29 @@ class PreservingRemesh {
     } else {
       next = attempt();
     }
-    if (next->is_interrupted()) best.result.reason = StopReason::interrupted;
+    if (next->is_interrupted())
+      best.result.reason = StopReason::interrupted;
+    else if (next->keeps_promises() && is_closer(*next, best))
+      best = std::move(*next);
+  }
+
+  /// Is a result closer to the input than the other on average and nowhere clearly farther, and are its
+  /// angles hardly smaller?
+  static bool is_closer(const Attempt& run, const Attempt& other) {
+    constexpr double more_distance = 1.05, more_small_angles = .001;  // of all faces
+    constexpr double good_angle = 25, kept_share = .8;
+    const Deviation &now = run.result.measures->deviation, &before = other.result.measures->deviation;
+    const auto greatest = [](const Deviation& d) {
+      return std::max(d.to_reference.max, d.from_reference.max);
+    };
+    const auto mean = [](const Deviation& d) { return std::max(d.to_reference.rms, d.from_reference.rms); };
     const auto small_angles = [](const Attempt& a) {
       return static_cast<double>(a.result.measures->quality.faces_below_20) /
              static_cast<double>(a.mesh.n_faces());
     };
-    if (!next->is_interrupted() && next->keeps_promises() &&
-        small_angles(*next) <= small_angles(best) + more_small_angles)
-      best = std::move(*next);
+    return mean(now) < mean(before) && greatest(now) <= more_distance * greatest(before) &&
+           small_angles(run) <= small_angles(other) + more_small_angles &&
+           run.angle >= std::min(good_angle, kept_share * other.angle);
   }
 
   /// Where little is wrong with a result, goes on from it with shorter lengths there. If that does not do,

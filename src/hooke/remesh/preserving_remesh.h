@@ -43,13 +43,13 @@ struct KnownInput {
 /// where something is wrong, target lengths get shorter about it, see RemeshResult::shortened, and where that
 /// does not do, or first where next to nothing is wrong, the faces of the input stay, unless that were all of
 /// the surface. Where the facets of the input are meant and smooth parts bend too much within an edge of a
-/// result that keeps all, see ShorterLengths::resolving_bends(), lengths get shorter there too, for at most
-/// three times the faces asked for. Of a result that is made anew it keeps one with fewer flaws or, with as
-/// many, with a larger minimum angle; in mode `adapt` the result may still not keep all: see
-/// RemeshResult::measures. Of interrupted runs only the first, and the first with the lengths of the input,
-/// are kept. The surface of a binary mask, see is_staircase(), is smoothed first, so that its steps are no
-/// creases, unless creases are kept whatever the noise; the measures are of the input as it was. With
-/// PreservationOptions::has_float_points each result is rounded before it is judged.
+/// first result that keeps all, see ShorterLengths::resolving_bends(), lengths that ask for at most three
+/// times the faces are tried too, and kept where they bring it closer. Of a result that is made anew it keeps
+/// one with fewer flaws or, with as many, with a larger minimum angle; in mode `adapt` the result may still
+/// not keep all: see RemeshResult::measures. Of interrupted runs only the first, and the first with the
+/// lengths of the input, are kept. The surface of a binary mask, see is_staircase(), is smoothed first, so
+/// that its steps are no creases, unless creases are kept whatever the noise; the measures are of the input
+/// as it was. With PreservationOptions::has_float_points each result is rounded before it is judged.
 RemeshResult preserving_remesh(TriMesh& mesh, MemoryOrder memory_order, const RemeshOptions& options,
                                const PreservationOptions& preservation = {}, const KnownInput& known = {},
                                const Observer& observer = nullptr, Stopwatch* stopwatch = nullptr);

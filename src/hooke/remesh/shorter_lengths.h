@@ -19,10 +19,10 @@ class ShorterLengths {
   /// its own are those of the input.
   void shorten_at(const std::vector<FlawPlace>& flaws, const Attempt& last, AskedLengths& lengths) const;
 
-  /// The lengths of an attempt, shortened where smooth parts of the input bend too much within an edge of it:
-  /// where it bends by more than 45 degrees across an edge that is no crease, or a crease or boundary at a
-  /// vertex, and the input by less than half of that. So short that it will be 33 degrees or, where that
-  /// would take more than `max_faces`, 45. None where that would too, or if nothing bends so.
+  /// The lengths of an attempt, shortened where the input bends over several edges and the attempt within
+  /// one: by more than 45 degrees across an edge that is no crease, or along a crease or boundary at a
+  /// vertex, where the input bends by less than .85 of that. So short that it would be 33 degrees or, if
+  /// these lengths took more than `max_faces`, 45. None where that would too, or if nothing bends so.
   std::optional<AskedLengths> resolving_bends(const Attempt& attempt, double max_faces) const;
 
   /// The number of faces that these lengths take, or more than `enough`.
