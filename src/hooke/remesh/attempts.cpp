@@ -219,7 +219,7 @@ Attempt AttemptMaker::run() const {
   a.run = std::make_shared<Run>(a.mesh, memory_order_, of_run, observer_, stopwatch_, lengths.shorter);
   a.result = a.run->remesh(a.mesh);
   a.result_of_run = a.run->results();
-  if (!adapts() || !(has_tolerance() || has_facets())) a.run.reset();
+  if (!adapts() || !has_tolerance()) a.run.reset();
   a.lengths = lengths;
   a.made_faces = static_cast<double>(a.mesh.n_faces());
   vertex_points(a.mesh) = as_written(vertex_points(a.mesh));

@@ -31,8 +31,7 @@ struct Attempt {
   bool lost_angle = false;  // is it less?
   double made_faces = 0;    // of its faces, those that were made anew for it, about
   AskedLengths lengths;     // that it was made with
-  /// That it is from, and can be gone on from: in mode `adapt` with a maximum distance or if the facets of
-  /// the input are meant. Copies share it.
+  /// That it is from, and can be gone on from: in mode `adapt` with a maximum distance. Copies share it.
   std::shared_ptr<Run> run;
   int result_of_run = 0;  // its number among the results of the run
 

@@ -109,7 +109,8 @@ class PreservingRemesh {
                                                     input_.adjacency.vertex_count);
   }
 
-  /// Is so little wrong in mode `adapt` that it may be made anew by itself? Only with a maximum distance.
+  /// Is so little wrong in mode `adapt` that it may be made anew by itself? Only with a maximum distance, as
+  /// runs are not kept without.
   bool may_redo_flaws(const Attempt& run) const {
     return maker_.adapts() && maker_.has_tolerance() && !maker_.smooths_mask() && !run.is_interrupted() &&
            !run.keeps_promises() &&
@@ -274,7 +275,7 @@ class PreservingRemesh {
   void shorten_lengths(const RemeshOptions& start, Attempt& best) {
     Attempt last = best;
     if (last.result.rescue == Rescue::kept_faces) last.run.reset();  // there lengths fit the kept faces
-    maker_.lengths = maker_.has_tolerance() && last.run ? last.lengths : AskedLengths{asked_, {}};
+    maker_.lengths = last.run ? last.lengths : AskedLengths{asked_, {}};
     shorten_about_flaws(std::move(last), best, [&](const Attempt& before, Attempt& unmended) {
       options_ = start;
       const bool projects = before.result.rescue == Rescue::closest;
@@ -298,17 +299,11 @@ class PreservingRemesh {
     if (!shorter) return;
     maker_.lengths = std::move(*shorter);
     options_ = start;
-    std::optional<Attempt> next = maker_.go_on(best);
-    if (next) {
-      maker_.judge(*next);
-      mend(maker_, *next);
-    } else {
-      next = attempt();
-    }
-    if (next->is_interrupted())
+    Attempt next = attempt();
+    if (next.is_interrupted())
       best.result.reason = StopReason::interrupted;
-    else if (next->keeps_promises() && is_closer(*next, best))
-      best = std::move(*next);
+    else if (next.keeps_promises() && is_closer(next, best))
+      best = std::move(next);
   }
 
   /// Is a result closer to the input than the other on average and nowhere clearly farther, and are its
@@ -366,7 +361,7 @@ class PreservingRemesh {
       flaws_before = std::move(flaws);
       const double most = max_faces_of_rounds(best);
       if (shorter_.faces_of(maker_.lengths, most) > most) break;
-      std::optional<Attempt> next = maker_.has_tolerance() ? maker_.go_on(last) : std::nullopt;
+      std::optional<Attempt> next = maker_.go_on(last);
       const bool goes_on = next.has_value();
       Attempt unmended;
       if (!goes_on && anew) next = anew(last, unmended);

@@ -19,6 +19,8 @@ constexpr double max_bend = 45;       // degrees, within an edge
 constexpr double smooth_share = .85;  // maximum bend of the input there, over that of the result
 constexpr double crease_reach = .3;   // of an edge, from its middle: a crease so near is what bends there
 
+constexpr double few_bends = .0005;  // of all edges: not worth another attempt
+
 /// How a surface bends, in degrees: across its edges, and along its curves, which are creases and boundaries.
 class Bends {
  public:
@@ -146,7 +148,8 @@ std::vector<Bend> unresolved_bends(const AttemptMaker& maker, const Attempt& att
 
 std::optional<AskedLengths> ShorterLengths::resolving_bends(const Attempt& attempt, double max_faces) const {
   const std::vector<Bend> bends = unresolved_bends(maker_, attempt);
-  if (bends.empty()) return std::nullopt;
+  if (static_cast<double>(bends.size()) < few_bends * static_cast<double>(attempt.mesh.n_edges()))
+    return std::nullopt;
   for (const double resolved_bend : {33., max_bend}) {
     AskedLengths lengths = attempt.lengths;
     for (const Bend& bend : bends)
