@@ -52,8 +52,8 @@ void expect_as_asked(const Adapted& a, const test::Triangles& t, double length) 
 }
 
 TEST(ShorterLengths, RodsThatAreThinForTheLengthStayRound) {
-  for (const double length : {1., 1.5, 2., 2.6, 4.}) {
-    const Adapted rod = adapted(test::drum(64, 120), length);
+  for (const double length : {1.5, 2.6}) {
+    const Adapted rod = adapted(test::drum(32, 30), length);
     EXPECT_TRUE(rod.measures().preservation.holds()) << length;
     EXPECT_GT(rod.outcome.result.shortened, 0) << length;
     EXPECT_LT(rod.outcome.mesh.n_faces(), 4.5 * rod.asked) << length;  // 3 times, and those of whole edges
@@ -73,19 +73,19 @@ TEST(ShorterLengths, HolesThatAreSmallForTheLengthStayRound) {
 }
 
 TEST(ShorterLengths, CornersAndSmoothPartsThatAreResolvedTakeNoShorterEdges) {
-  for (const double length : {2., 4., 6.}) {
+  for (const double length : {3., 6.}) {
     const test::Triangles bar = test::drum(6, 20);
     const Adapted a = adapted(bar, length);
     EXPECT_EQ(a.outcome.result.shortened, 0) << length;
     EXPECT_NEAR(a.volume_change(), 0, 1e-12) << length;
   }
-  for (const double length : {.3, .6}) expect_as_asked(adapted(washer(), length), washer(), length);
+  for (const double length : {.6}) expect_as_asked(adapted(washer(), length), washer(), length);
 }
 
 TEST(ShorterLengths, ResultsComeNoFartherFromTheInput) {
-  for (const int sides : {10, 14, 16, 24})
-    for (const double length : {1.5, 2., 3., 4.}) {
-      const test::Triangles bar = test::drum(sides, 20);
+  for (const int sides : {10, 24})
+    for (const double length : {2., 4.}) {
+      const test::Triangles bar = test::drum(sides, 12);
       const test::Outcome once = test::remeshed(bar, length, options());
       const double before = test::volume(once.points, once.faces) / test::volume(bar.points, bar.faces) - 1;
       const Adapted a = adapted(bar, length);
@@ -109,13 +109,13 @@ TEST(ShorterLengths, OnlyBodiesWhoseFacetsAreMeantTakeThem) {
 }
 
 TEST(ShorterLengths, NotWhereTheyWouldTakeThreeTimesTheFaces) {
-  const Adapted a = adapted(test::drum(64, 120), 6);
+  const Adapted a = adapted(test::drum(32, 30), 6);
   EXPECT_TRUE(a.measures().preservation.holds());
   EXPECT_EQ(a.outcome.result.shortened, 0);
 }
 
 TEST(ShorterLengths, NotWithAMaximumDistanceThatIsKept) {
-  const test::Triangles rod = test::drum(64, 120);
+  const test::Triangles rod = test::drum(32, 30);
   const Adapted a = adapted(rod, 2.6, {.max_distance = .5});
   EXPECT_EQ(a.outcome.result.shortened, 0);
 }
