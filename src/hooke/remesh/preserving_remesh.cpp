@@ -306,8 +306,8 @@ class PreservingRemesh {
       best = std::move(next);
   }
 
-  /// Is a result closer to the input than the other on average and nowhere clearly farther, and are its
-  /// angles hardly smaller?
+  /// Is a result closer to the input than the other on average and nowhere clearly farther, do no more faces
+  /// lie against the surface, and are its angles hardly smaller?
   static bool is_closer(const Attempt& run, const Attempt& other) {
     constexpr double more_distance = 1.05, more_small_angles = .001;  // of all faces
     constexpr double good_angle = 25, kept_share = .8;
@@ -321,6 +321,7 @@ class PreservingRemesh {
              static_cast<double>(a.mesh.n_faces());
     };
     return mean(now) < mean(before) && greatest(now) <= more_distance * greatest(before) &&
+           now.opposing_faces.size() <= before.opposing_faces.size() &&
            small_angles(run) <= small_angles(other) + more_small_angles &&
            run.angle >= std::min(good_angle, kept_share * other.angle);
   }
