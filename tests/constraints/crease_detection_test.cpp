@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "support/crease_solids.h"
+#include "support/masks.h"
 #include "support/solids.h"
 
 #include "hooke/mesh/adjacency.h"
@@ -403,6 +404,36 @@ TEST(Features, TheTipOfAConeIsHeldWhereLengthsResolveIt) {
   EXPECT_TRUE(tips_of(steep, 40).empty());
   EXPECT_TRUE(tips_of(test::pyramid(48, 20, 10), 1).empty());  // nearly flat
   EXPECT_TRUE(tips_of(test::sphere(2), .01).empty());
+}
+
+/// The number of creases at this target length.
+std::size_t creases_at(double length, const test::Triangles& t, const CreaseOptions& options = {}) {
+  const Adjacency c = test::connect(t);
+  return detect_creases(t.points, c, std::vector<double>(c.vertex_count, length), options).size();
+}
+
+TEST(GridBevels, AreNoEdgesOfTheBodyUnlessAskedForOrNarrowerThanTheLength) {
+  const test::Triangles box =
+      test::marched_cubes(8, [](const Vec3& x) { return (x.cwiseAbs() - Vec3(6.3, 5.6, 4.2)).maxCoeff(); });
+  EXPECT_EQ(creases_at(1, box), 0u);
+  EXPECT_EQ(creases_at(.3, box), 0u);
+  EXPECT_GT(creases_at(1, box, {.drops_noise = false}), 200u);
+  EXPECT_GT(creases_at(3, box), 100u);
+}
+
+TEST(GridBevels, AreNotTheEdgesThatTheGridHits) {
+  // The rim of a cap in a plane of the grid has no bevel.
+  const auto cap = [](const Vec3& x) { return std::max(x.norm() - 6.4, x[2] < -2.5 ? 1e3 : -1e3); };
+  const std::size_t rim = creases_at(1, test::marched_cubes(8, cap));
+  EXPECT_GT(rim, 2 * 5.9 * std::numbers::pi);
+  EXPECT_LT(rim, 2 * 5.9 * std::numbers::pi * 2);
+}
+
+TEST(GridBevels, ThatAreSharpStay) {
+  const auto wedge = [](const Vec3& x) {
+    return std::max({std::abs(x[2]) - 6.3, .4 * x[0] - x[1], .4 * x[0] + x[1], -6.2 - x[0]});
+  };
+  EXPECT_GT(creases_at(1, test::marched_cubes(8, wedge)), 0u);
 }
 
 }  // namespace hooke::crease_detection_test

@@ -109,6 +109,22 @@ TEST(PreservingRemesh, TheStepsOfAMaskAreNoEdges) {
   }
 }
 
+TEST(PreservingRemesh, TheBevelsThatMarchingCubesMakeOfEdgesLeaveNoSlivers) {
+  const test::Triangles box =
+      test::marched_cubes(8, [](const Vec3& x) { return (x.cwiseAbs() - Vec3(6.3, 5.6, 4.2)).maxCoeff(); });
+  for (const ConnectivityMode mode :
+       {ConnectivityMode::fixed, ConnectivityMode::flip, ConnectivityMode::adapt}) {
+    const test::Outcome o = preserved(box, options_for(mode));
+    const ResultMeasures& m = *o.result.measures;
+    EXPECT_TRUE(m.preservation.holds());
+    EXPECT_LT(m.input_quality.min_angle.min, 20);
+    EXPECT_GT(m.quality.min_angle.min, mode == ConnectivityMode::fixed ? 25 : 38);
+    EXPECT_LT(std::max(m.deviation.to_reference.max, m.deviation.from_reference.max), .6) << "cells";
+    EXPECT_NEAR(m.deviation.volume_change.value(), 0, .01);
+    EXPECT_GT(o.result.creases.dropped, 0);
+  }
+}
+
 TEST(PreservingRemesh, AMarchedSurfaceWithSharpPlacesIsImproved) {
   const test::Triangles t = test::marched_level(9, [](const Vec3& x) {
     return std::min((x - Vec3(2.3, .2, .1)).norm() - 5.2, (x + Vec3(2.9, .3, .2)).norm() - 5.4);

@@ -1,4 +1,4 @@
-// Surfaces that marching tetrahedra make, as of binary masks. For tests.
+// Surfaces that marching tetrahedra and cubes make, as of binary masks. For tests.
 #pragma once
 
 #include <algorithm>
@@ -66,6 +66,61 @@ Triangles marched_level(int size, const Value& value) {
 template <typename IsInside>
 Triangles marched_mask(int size, const IsInside& is_inside) {
   return marched_level(size, [&](const Vec3& x) { return is_inside(x) ? -1 : 1; });
+}
+
+/// The surface where a function is 0, which is less inside: marching cubes on a grid of edge 1. Points beyond
+/// `size` are not looked at. Where corners of a side of a cell are inside by turns, these are joined.
+template <typename Value>
+Triangles marched_cubes(int size, const Value& value) {
+  using Point = std::array<int, 3>;
+  std::map<std::array<Point, 2>, int> ids;  // of the vertices, by the ends of the edge, the inner one first
+  std::vector<Vec3> points;
+  const auto value_at = [&](const Point& p) -> double { return value(Vec3(p[0], p[1], p[2])); };
+  const auto cut = [&](const Point& in, const Point& out) {
+    const auto [at, is_new] = ids.try_emplace({in, out}, static_cast<int>(points.size()));
+    if (is_new) {
+      const double share = value_at(in) / (value_at(in) - value_at(out));
+      points.push_back(Vec3(in[0], in[1], in[2]) +
+                       share * Vec3(out[0] - in[0], out[1] - in[1], out[2] - in[2]));
+    }
+    return at->second;
+  };
+  Triangles t;
+  const auto march = [&](const Point& cell) {
+    std::map<int, int> next;  // vertex around the part inside
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (int side : {0, 1}) {
+        std::array<Point, 4> corners;  // of the side of the cell, around it as seen from outside
+        for (std::size_t k = 0; k < 4; ++k) {
+          Point& corner = corners[side == 1 ? k : 3 - k];
+          corner = cell;
+          corner[axis] += side;
+          corner[(axis + 1) % 3] += k == 1 || k == 2;
+          corner[(axis + 2) % 3] += k >= 2;
+        }
+        const auto is_inside = [&](std::size_t k) { return value_at(corners[k % 4]) < 0; };
+        for (std::size_t k = 0; k < 4; ++k) {
+          if (!is_inside(k) || is_inside(k + 1)) continue;
+          std::size_t last = k + 1;  // of the corners outside
+          while (!is_inside(last + 1)) ++last;
+          next[cut(corners[(last + 1) % 4], corners[last % 4])] = cut(corners[k], corners[(k + 1) % 4]);
+        }
+      }
+    while (!next.empty()) {
+      std::vector<int> loop = {next.begin()->first};
+      for (auto at = next.begin(); at != next.end(); at = next.find(loop.back())) {
+        if (at->second != loop.front()) loop.push_back(at->second);
+        next.erase(at);
+      }
+      for (std::size_t k = 2; k < loop.size(); ++k) t.faces.push_back({loop[0], loop[k - 1], loop[k]});
+    }
+  };
+  for (int x = -size; x < size; ++x)
+    for (int y = -size; y < size; ++y)
+      for (int z = -size; z < size; ++z) march({x, y, z});
+  t.points.resize(3, std::ssize(points));
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) t.points.col(v) = points[v];
+  return t;
 }
 
 }  // namespace hooke::test

@@ -10,6 +10,8 @@
 #include "hooke/core/parallel.h"
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
+#include "hooke/mesh/disjoint_sets.h"
+#include "hooke/mesh/isosurface.h"
 #include "hooke/mesh/normals.h"
 #include "hooke/mesh/staircase.h"
 
@@ -40,6 +42,11 @@ constexpr double facet_angle =
 constexpr double blade_angle = 120;  // degrees; beyond it the surface turns back
 constexpr double blade_length = 3;   // minimum length of each edge, in target lengths
 constexpr double blade_area = .75;   // minimum area of the faces beside it, in squared target lengths
+
+// Of an isosurface:
+constexpr double max_bevel_share = .1;  // of the edges of a network, those beside bevels
+constexpr double bevel_sharpness =
+    1.5;  // minimum angle, over `angle`, of sharp edges instead of such networks
 
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
@@ -78,40 +85,23 @@ class FeatureSearch {
         kept_(c.edges.size(), 0),
         cos_turn_(std::cos(max_turn * std::numbers::pi / 180)) {}
 
-  /// The hard edges that bend enough to be creases, and all that the search finds unless `hard_only`.
-  std::vector<int> run(const std::vector<Edge>& hard_edges, bool hard_only) {
-    if (!hard_only) search();
-    keep(hard_edges);
-    std::vector<int> edges;
-    for (size_t e = 0; e < kept_.size(); ++e)
-      if (kept_[e]) edges.push_back(static_cast<int>(e));
-    return edges;
-  }
-
- private:
-  /// Keeps these edges where they bend enough, also at the folds of zigzag strips.
-  void keep(const std::vector<Edge>& hard_edges) {
-    if (hard_edges.empty()) return;
-    const std::vector<double> angles = edge_angles(certain_face_normals(X_, c_), c_);
-    for (const auto& [a, b] : hard_edges)
-      for (const int e : c_.vertex_edges[a])
-        if (c_.other_end(e, a) == b && angles[e] > hysteresis * o_.angle) kept_[e] = 1;
-  }
-
-  void search() {
+  /// Marks of the creases, by edge; with `of_facets` also those that flat facets tell. To be called once.
+  std::vector<char> find(bool of_facets) {
     if (!o_.drops_noise) {
       for (size_t e = 0; e < kept_.size(); ++e) kept_[e] = angle_[e] > o_.angle;
     } else if (grow() > 0) {
       drop_loose_chains();
       drop_noise();
     }
-    add_facet_creases(X_, c_, length_, angle_, o_.angle, kept_);
+    if (of_facets) add_facet_creases(X_, c_, length_, angle_, o_.angle, kept_);
     if (o_.drops_noise) {
       drop_accidents();
       add_blades();
     }
+    return kept_;
   }
 
+ private:
   /// Bend ratio of the edge, see above. Boundary edges count as flat or, with `goes_on`, where the
   /// surface evidently continues, are left out.
   double bend_ratio(int edge, bool goes_on = false) const {
@@ -398,7 +388,66 @@ class FeatureSearch {
   bool sharp_stand_out_ = sharp_edges_stand_out();
 };
 
+/// Drops networks of creases along bevels, where many faces lie between two of their edges that are but a
+/// cell apart. Were there any?
+bool drop_bevels(const Adjacency& c, std::vector<char>& kept) {
+  DisjointSets networks(static_cast<size_t>(c.vertex_count));
+  std::vector<char> is_on_crease(c.vertex_count, 0), is_of_bevel(kept.size(), 0);
+  for (size_t e = 0; e < kept.size(); ++e) {
+    if (!kept[e]) continue;
+    networks.join(c.edges[e]);
+    for (int v : c.edges[e]) is_on_crease[v] = 1;
+  }
+  const auto is_kept = [&](int e) { return kept[e] != 0; };
+  for (size_t f = 0; f < c.faces.size(); ++f)
+    if (std::ranges::all_of(c.faces[f], [&](int v) { return is_on_crease[v] != 0; }) &&
+        !std::ranges::all_of(c.face_edges[f], is_kept))
+      for (int e : c.face_edges[f]) is_of_bevel[e] = 1;
+  std::vector<double> edges(c.vertex_count, 0), of_bevels(c.vertex_count, 0);  // by the root of the network
+  for (size_t e = 0; e < kept.size(); ++e) {
+    if (!kept[e]) continue;
+    const int root = networks.root(c.edges[e][0]);
+    ++edges[root];
+    of_bevels[root] += is_of_bevel[e];
+  }
+  bool has_any = false;
+  for (size_t e = 0; e < kept.size(); ++e) {
+    if (!kept[e]) continue;
+    const int root = networks.root(c.edges[e][0]);
+    if (of_bevels[root] <= max_bevel_share * edges[root]) continue;
+    kept[e] = 0;
+    has_any = true;
+  }
+  return has_any;
+}
+
+/// The creases of an isosurface, without the edges of bevels unless they are clearly sharp. A bevel bends in
+/// two, so that at a right angle of the body it has two edges of about 45 degrees, or of up to 60 where it
+/// lies askew in the grid.
+void sharpen_bevels(const Mat3X& points, const Adjacency& c, const std::vector<double>& length,
+                    CreaseOptions options, std::vector<char>& kept) {
+  if (!drop_bevels(c, kept)) return;
+  options.angle = std::min(180., bevel_sharpness * options.angle);
+  const std::vector<char> sharper = FeatureSearch(points, c, length, options).find(false);
+  for (size_t e = 0; e < kept.size(); ++e) kept[e] = kept[e] || sharper[e];
+}
+
+/// Keeps these edges where they bend enough, also at the folds of zigzag strips.
+void keep_hard_edges(const Mat3X& points, const Adjacency& c, double angle,
+                     const std::vector<Edge>& hard_edges, std::vector<char>& kept) {
+  if (hard_edges.empty()) return;
+  const std::vector<double> angles = edge_angles(certain_face_normals(points, c), c);
+  for (const auto& [a, b] : hard_edges)
+    for (const int e : c.vertex_edges[a])
+      if (c.other_end(e, a) == b && angles[e] > hysteresis * angle) kept[e] = 1;
+}
+
 }  // namespace
+
+bool has_grid_bevels(const Mat3X& points, const Adjacency& adjacency,
+                     const std::vector<double>& vertex_length, const CreaseOptions& options) {
+  return options.drops_noise && is_isosurface(points, adjacency, vertex_length);
+}
 
 std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
                              const std::vector<double>& vertex_length, const CreaseOptions& o) {
@@ -417,9 +466,17 @@ std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options,
                                 const std::vector<Edge>& hard_edges) {
   if (options.angle >= 180) return {};
-  const bool is_noise = options.drops_noise && is_staircase(points, adjacency, vertex_length);
-  if (is_noise && hard_edges.empty()) return {};
-  return FeatureSearch(points, adjacency, vertex_length, options).run(hard_edges, is_noise);
+  std::vector<char> kept(adjacency.edges.size(), 0);
+  if (!options.drops_noise || !is_staircase(points, adjacency, vertex_length)) {
+    kept = FeatureSearch(points, adjacency, vertex_length, options).find(true);
+    if (has_grid_bevels(points, adjacency, vertex_length, options))
+      sharpen_bevels(points, adjacency, vertex_length, options, kept);
+  }
+  keep_hard_edges(points, adjacency, options.angle, hard_edges, kept);
+  std::vector<int> creases;
+  for (size_t e = 0; e < kept.size(); ++e)
+    if (kept[e]) creases.push_back(static_cast<int>(e));
+  return creases;
 }
 
 }  // namespace hooke

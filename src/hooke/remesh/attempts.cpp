@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "hooke/constraints/crease_detection.h"
 #include "hooke/core/error.h"
 #include "hooke/core/stopwatch.h"
 #include "hooke/core/uniform_vector.h"
@@ -105,7 +106,9 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   if (has_rest_ratios)
     least_angle_ = std::min(least_angle_,
                             NearRegular::share_of_rest_angle * least_rest_angle(input_.adjacency, targets));
-  preservation_.faceted = !is_noise && is_faceted(input_.points, input_.adjacency);
+  preservation_.faceted =
+      !is_noise && is_faceted(input_.points, input_.adjacency) &&
+      !has_grid_bevels(input_.points, input_.adjacency, lengths.of_vertices, options.constraints.features);
   preservation_.keeps_facets = preservation_.faceted && !adapts();
 }
 

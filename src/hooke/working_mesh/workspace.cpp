@@ -105,7 +105,8 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
     targets = from_edge_lengths(*adjacency, std::move(of_edges));
     edge_by_edge_ = true;
   }
-  faceted_ = is_faceted(*start, *input_surface_);
+  faceted_ = is_faceted(*start, *input_surface_) &&
+             !has_grid_bevels(*start, *adjacency, vertices.vertex_length, constraint_options.features);
   ConstraintOptions reordered = constraint_options;
   std::vector<int>& fixed = reordered.fixed_vertices;
   fixed = order.new_vertices(constraint_options.fixed_vertices);
