@@ -11,7 +11,9 @@
 #include "hooke/io/stl.h"
 #include "hooke/io/write_mesh.h"
 #include "hooke/mesh/mesh.h"
+#include "hooke/mesh/topology.h"
 #include "support/errors.h"
+#include "support/masks.h"
 #include "support/meshes.h"
 #include "support/solids.h"
 #include "support/temporary_folder.h"
@@ -168,20 +170,28 @@ TEST(ReadMesh, AFacetOfAnStlFileWithTwoCornersInOnePlaceIsDroppedAndTold) {
   EXPECT_THROW(read_mesh(folder / "m.obj"), MeshError);
 }
 
-/// Its digits are too few then.
-TEST(ReadMesh, AnStlFileWithMoreThanATenthOfSuchFacetsIsRefused) {
+/// Marching cubes make such facets where values of an image at grid points are that of the level.
+TEST(ReadMesh, AnStlFileOfAnImageOfIntegersIsWithoutItsFacetsInOnePlace) {
   const TemporaryFolder folder;
-  const test::Triangles t = test::sphere(0);
-  const auto with_strays = [&](int count) {
-    test::Triangles with = t;
-    for (int k = 0; k < count; ++k) with.faces.push_back({k, k, k + 1});
-    write_text(folder / "m.stl", stl_of(with));
-    return folder / "m.stl";
-  };
-  ASSERT_EQ(t.faces.size(), 20u);
-  EXPECT_EQ(read_mesh(with_strays(2)).mesh.n_faces(), 20u);
-  const std::string message = test::message_of<MeshError>([&] { read_mesh(with_strays(3)); });
-  EXPECT_TRUE(test::has(message, "faces that use a vertex twice (3)")) << message;
+  const auto whole = [](double value) { return std::round(value) + 1e-12; };
+  const test::Triangles t = test::marched_cubes(7, [&](const Vec3& x) { return whole(x.norm() - 5.2); });
+  test::Triangles rounded = t;
+  rounded.points = (t.points * 1e6).array().round() / 1e6;
+  write_text(folder / "m.stl", stl_of(rounded));
+  const LoadedMesh loaded = read_mesh(folder / "m.stl");
+  ASSERT_EQ(codes(loaded.repairs), (Codes{"faces_dropped"}));
+  EXPECT_GT(loaded.repairs[0].count, t.faces.size() / 10);
+  EXPECT_EQ(loaded.mesh.n_faces(), t.faces.size() - loaded.repairs[0].count);
+  EXPECT_EQ(measure_topology(*loaded.memory_order.adjacency).boundary_edges, 0);
+}
+
+TEST(ReadMesh, AnStlFileOfSuchFacetsOnlyIsRefused) {
+  const TemporaryFolder folder;
+  test::Triangles t = test::sphere(0);
+  for (Triangle& f : t.faces) f[1] = f[0];
+  write_text(folder / "m.stl", stl_of(t));
+  const std::string message = test::message_of<MeshError>([&] { read_mesh(folder / "m.stl"); });
+  EXPECT_TRUE(test::has(message, "no faces")) << message;
 }
 
 TEST(ReadMesh, ErrorsOfEachKindKeepTheirKind) {

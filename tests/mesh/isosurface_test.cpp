@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <array>
+#include <vector>
 
 #include "support/masks.h"
 #include "support/solids.h"
@@ -62,28 +63,71 @@ TEST(Isosurface, IsNeitherASmoothedNorATurnedOne) {
   EXPECT_FALSE(is_isosurface_at(1, test::moved(ball)));
 }
 
+TEST(Isosurface, MayHaveManyCells) {
+  const test::Triangles ball = test::marched_cubes(9, outside_of_ball);
+  test::Triangles far = ball;
+  far.points.colwise() += Vec3(500, 0, 0);
+  test::Triangles t = test::both(ball, far);
+  t.points = (.7131 * t.points * 1000).array().round() / 1000;  // few digits, so that no face is just as wide
+  EXPECT_TRUE(is_isosurface_at(.7, t));
+}
+
+TEST(Isosurface, IsWholeButForAFewFacesAndVerticesInNone) {
+  const test::Triangles body = test::marched_cubes(10, [](const Vec3& x) { return x.norm() - 9.4; });
+  test::Triangles few = test::cube(), many = test::sphere(1);
+  few.points.colwise() += Vec3(30, .3, .3);
+  many.points.colwise() += Vec3(30, .3, .3);
+  ASSERT_LT(few.faces.size(), .01 * static_cast<double>(body.faces.size()));
+  EXPECT_TRUE(is_isosurface_at(1, test::both(body, few)));
+  EXPECT_FALSE(is_isosurface_at(1, test::both(body, many)));
+  test::Triangles loose = body;
+  const Eigen::Index count = body.points.cols();
+  loose.points.conservativeResize(3, 2 * count);
+  loose.points.rightCols(count) = body.points.colwise() + Vec3(.3, .4, .2);
+  EXPECT_TRUE(is_isosurface_at(1, loose));
+}
+
 TEST(Isosurface, IsNoMeshOfBlocksAndNoOtherMesh) {
   // Planes of the grid: all vertices are at its points.
   test::Triangles blocks =
       test::marched_cubes(9, [](const Vec3& x) { return x.cwiseAbs().maxCoeff() - 5.5; });
-  blocks.points = (blocks.points * 2).array().round() / 2;
   EXPECT_TRUE(is_isosurface_at(1, blocks));
   blocks.points = blocks.points.array().round();
   EXPECT_FALSE(is_isosurface_at(1, blocks));
   EXPECT_FALSE(is_isosurface_at(1, test::sphere(3)));
+  EXPECT_FALSE(is_isosurface_at(1, test::marched_cubes(3, [](const Vec3& x) { return x.norm() - 1.4; })))
+      << "a crumb";
 }
 
 TEST(Isosurface, IsNoHeightField) {
-  test::Triangles t = test::marched_cubes(9, [](const Vec3& x) { return x[2] - .3 - .4 * std::sin(x[0]); });
+  test::Triangles t = test::grid(20, test::flat);
+  t.points *= 20;
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v)  // all in one layer of cells, some across it
+    t.points(2, v) = v % 3 == 0 ? 0 : v % 3 == 1 ? 1 : static_cast<double>(v % 89) / 89;
   EXPECT_FALSE(is_isosurface_at(1, t));
 }
 
-TEST(Isosurface, HasManyCells) {
-  // All vertices are on the edges of one box.
-  test::Triangles t = test::marched_cubes(9, outside_of_ball);
-  t.points.setZero();
-  for (Eigen::Index v = 0; v < t.points.cols(); ++v)
-    t.points(v % 3, v) = .001 + .998 * static_cast<double>(v) / static_cast<double>(t.points.cols());
+TEST(Isosurface, HasFewFacesInACell) {
+  // A box with all vertices on its edges, of which each side is a fan: one cell with all faces.
+  constexpr int on_edge = 20;
+  test::Triangles t;
+  std::vector<Vec3> points;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double side : {0., 1.}) {
+      const auto first = static_cast<int>(points.size());
+      for (int k = 0; k < 4 * on_edge; ++k) {
+        const double at = static_cast<double>(k % on_edge) / on_edge;
+        const std::array<std::array<double, 2>, 4> around = {{{at, 0}, {1, at}, {1 - at, 1}, {0, 1 - at}}};
+        Vec3 x;
+        x[static_cast<Eigen::Index>(axis)] = side;
+        x[static_cast<Eigen::Index>((axis + 1) % 3)] = around[static_cast<std::size_t>(k / on_edge)][0];
+        x[static_cast<Eigen::Index>((axis + 2) % 3)] = around[static_cast<std::size_t>(k / on_edge)][1];
+        points.push_back(x);
+        if (k >= 2) t.faces.push_back({first, first + k - 1, first + k});
+      }
+    }
+  t.points.resize(3, std::ssize(points));
+  for (Eigen::Index v = 0; v < t.points.cols(); ++v) t.points.col(v) = points[static_cast<std::size_t>(v)];
   EXPECT_FALSE(is_isosurface_at(1, t));
 }
 

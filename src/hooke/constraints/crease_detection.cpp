@@ -43,10 +43,11 @@ constexpr double blade_angle = 120;  // degrees; beyond it the surface turns bac
 constexpr double blade_length = 3;   // minimum length of each edge, in target lengths
 constexpr double blade_area = .75;   // minimum area of the faces beside it, in squared target lengths
 
-// Of an isosurface:
-constexpr double max_bevel_share = .1;  // of the edges of a network, those beside bevels
-constexpr double bevel_sharpness =
-    1.5;  // minimum angle, over `angle`, of sharp edges instead of such networks
+// Bevels of an isosurface, each of two edges that bend by a part of the angle of the body's edge: at a right
+// angle by about 45 degrees, or by up to 60 where it lies askew in the grid.
+constexpr double sliver_angle = 20;         // degrees; faces of bevels with smaller ones
+constexpr double max_sliver_share = .02;    // number of their corners, over the edges of a network
+constexpr double sharper_than_bevels = 60;  // degrees
 
 /// Angle in degrees between the normals of the two faces of each edge; 0 on the boundary and beside faces
 /// without area.
@@ -388,48 +389,50 @@ class FeatureSearch {
   bool sharp_stand_out_ = sharp_edges_stand_out();
 };
 
-/// Drops networks of creases along bevels, where many faces lie between two of their edges that are but a
-/// cell apart. Were there any?
-bool drop_bevels(const Adjacency& c, std::vector<char>& kept) {
+/// Drops the networks of creases along bevels of slivers: of faces between two creases, with corners on these
+/// only. Were there any?
+bool drop_bevels(const Mat3X& points, const Adjacency& c, std::vector<char>& kept) {
   DisjointSets networks(static_cast<size_t>(c.vertex_count));
-  std::vector<char> is_on_crease(c.vertex_count, 0), is_of_bevel(kept.size(), 0);
+  std::vector<char> is_on_crease(c.vertex_count, 0);
+  std::vector<int> edges(c.vertex_count, 0), slivers(c.vertex_count, 0);  // of the network by its root
   for (size_t e = 0; e < kept.size(); ++e) {
     if (!kept[e]) continue;
     networks.join(c.edges[e]);
     for (int v : c.edges[e]) is_on_crease[v] = 1;
   }
-  const auto is_kept = [&](int e) { return kept[e] != 0; };
+  for (size_t e = 0; e < kept.size(); ++e) edges[networks.root(c.edges[e][0])] += kept[e];
+  const double sliver = cotangent_of(sliver_angle);
   for (size_t f = 0; f < c.faces.size(); ++f)
     if (std::ranges::all_of(c.faces[f], [&](int v) { return is_on_crease[v] != 0; }) &&
-        !std::ranges::all_of(c.face_edges[f], is_kept))
-      for (int e : c.face_edges[f]) is_of_bevel[e] = 1;
-  std::vector<double> edges(c.vertex_count, 0), of_bevels(c.vertex_count, 0);  // by the root of the network
+        std::ranges::any_of(c.face_edges[f], [&](int e) { return !kept[e]; }) &&
+        max_cotangent(points, c.faces[f]) > sliver)
+      for (int v : c.faces[f]) ++slivers[networks.root(v)];
+  const std::vector<char> before = kept;
   for (size_t e = 0; e < kept.size(); ++e) {
-    if (!kept[e]) continue;
     const int root = networks.root(c.edges[e][0]);
-    ++edges[root];
-    of_bevels[root] += is_of_bevel[e];
+    if (slivers[root] > max_sliver_share * edges[root]) kept[e] = 0;
   }
-  bool has_any = false;
-  for (size_t e = 0; e < kept.size(); ++e) {
-    if (!kept[e]) continue;
-    const int root = networks.root(c.edges[e][0]);
-    if (of_bevels[root] <= max_bevel_share * edges[root]) continue;
-    kept[e] = 0;
-    has_any = true;
-  }
-  return has_any;
+  return kept != before;
 }
 
-/// The creases of an isosurface, without the edges of bevels unless they are clearly sharp. A bevel bends in
-/// two, so that at a right angle of the body it has two edges of about 45 degrees, or of up to 60 where it
-/// lies askew in the grid.
-void sharpen_bevels(const Mat3X& points, const Adjacency& c, const std::vector<double>& length,
-                    CreaseOptions options, std::vector<char>& kept) {
-  if (!drop_bevels(c, kept)) return;
-  options.angle = std::min(180., bevel_sharpness * options.angle);
-  const std::vector<char> sharper = FeatureSearch(points, c, length, options).find(false);
-  for (size_t e = 0; e < kept.size(); ++e) kept[e] = kept[e] || sharper[e];
+struct FoundCreases {
+  std::vector<char> marks;  // by edge
+  bool had_bevels = false;  // that they do not follow, see has_grid_bevels()
+};
+
+/// All but hard edges. Pre-condition: the angle is not off.
+FoundCreases find_creases(const Mat3X& points, const Adjacency& c, const std::vector<double>& length,
+                          CreaseOptions options) {
+  if (options.drops_noise && is_staircase(points, c, length)) return {std::vector<char>(c.edges.size(), 0)};
+  FoundCreases found{FeatureSearch(points, c, length, options).find(true)};
+  found.had_bevels =
+      options.drops_noise && is_isosurface(points, c, length) && drop_bevels(points, c, found.marks);
+  if (found.had_bevels) {
+    options.angle = std::max(options.angle, sharper_than_bevels);
+    const std::vector<char> sharp = FeatureSearch(points, c, length, options).find(false);
+    for (size_t e = 0; e < sharp.size(); ++e) found.marks[e] = found.marks[e] || sharp[e];
+  }
+  return found;
 }
 
 /// Keeps these edges where they bend enough, also at the folds of zigzag strips.
@@ -446,7 +449,8 @@ void keep_hard_edges(const Mat3X& points, const Adjacency& c, double angle,
 
 bool has_grid_bevels(const Mat3X& points, const Adjacency& adjacency,
                      const std::vector<double>& vertex_length, const CreaseOptions& options) {
-  return options.drops_noise && is_isosurface(points, adjacency, vertex_length);
+  return options.angle < 180 && options.drops_noise && is_isosurface(points, adjacency, vertex_length) &&
+         find_creases(points, adjacency, vertex_length, options).had_bevels;
 }
 
 std::vector<int> detect_tips(const Mat3X& points, const Adjacency& c,
@@ -466,12 +470,7 @@ std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options,
                                 const std::vector<Edge>& hard_edges) {
   if (options.angle >= 180) return {};
-  std::vector<char> kept(adjacency.edges.size(), 0);
-  if (!options.drops_noise || !is_staircase(points, adjacency, vertex_length)) {
-    kept = FeatureSearch(points, adjacency, vertex_length, options).find(true);
-    if (has_grid_bevels(points, adjacency, vertex_length, options))
-      sharpen_bevels(points, adjacency, vertex_length, options, kept);
-  }
+  std::vector<char> kept = find_creases(points, adjacency, vertex_length, options).marks;
   keep_hard_edges(points, adjacency, options.angle, hard_edges, kept);
   std::vector<int> creases;
   for (size_t e = 0; e < kept.size(); ++e)

@@ -17,16 +17,17 @@ namespace hooke {
 /// boundary. The chains that remain form networks; networks with many corners between rough faces are noise.
 /// Edges that the target length resolves are added whatever the chains: sharp ones, and weaker ones between
 /// flat regions where most faces are in such regions. Lone edges are dropped. The steps of a binary mask that
-/// the target length does not resolve are noise, see is_staircase(), and so are the folds of zigzag strips
-/// and the edges of grid bevels, unless they are much sharper than `angle`. `vertex_length` is the target
-/// length at each vertex. `hard_edges`, by their vertices, are creases whatever the rest where they bend
-/// enough to continue one.
+/// the target length does not resolve are noise, see is_staircase(), and so are the folds of zigzag strips.
+/// Networks of creases along grid bevels give way to edges that are sharper than these. `vertex_length` is
+/// the target length at each vertex. `hard_edges`, by their vertices, are creases whatever the rest where
+/// they bend enough to continue one.
 std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options,
                                 const std::vector<Edge>& hard_edges = {});
 
-/// Is the mesh an isosurface, see is_isosurface(), whose flat faces and bevels are those of a grid and not of
-/// the shape?
+/// Is the mesh an isosurface, see is_isosurface(), with creases along bevels narrower than half the target
+/// length, which would leave slivers between them? Its flat faces and bevels are of the grid, not of the
+/// shape.
 bool has_grid_bevels(const Mat3X& points, const Adjacency& adjacency,
                      const std::vector<double>& vertex_length, const CreaseOptions& options);
 

@@ -24,6 +24,10 @@ inline std::size_t corner_of(const Triangle& face, int vertex) {
   return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
 }
 
+inline bool uses_a_vertex_twice(const Triangle& face) {
+  return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+}
+
 /// The 32-bit float closest to a number, or the number itself beyond the range of floats; of all coordinates.
 inline double rounded_to_float(double x) {
   const bool is_in_range = std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max());

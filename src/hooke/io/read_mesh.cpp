@@ -91,17 +91,6 @@ void follow(const MeshOrigin& origin, VertexData& vertex_data, FaceData& face_da
   source.face = std::move(face);
 }
 
-/// The repairs of an STL file: those asked for, and its stray facets are dropped. Programs write facets
-/// without area in 32 bits, whose corners lie in one place and are one vertex. Where more than a tenth are
-/// such the file has too few digits: they stay, for the file to be refused.
-RepairOptions dropping_strays(const std::vector<Triangle>& triangles, RepairOptions repairs) {
-  constexpr std::ptrdiff_t part_of_many = 10;
-  const auto lost_a_corner = [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
-  const auto strays = std::ranges::count_if(triangles, lost_a_corner);
-  repairs.drop_strays = strays > 0 && part_of_many * strays <= std::ssize(triangles);
-  return repairs;
-}
-
 /// Returns work(). Says in the messages of its errors what the repair had done.
 template <typename Work>
 auto after_repairs(const Notes& repairs, const Work& work) {
@@ -141,9 +130,11 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   FaceData face_data = gather(file.face_data, source.face);
   Notes repairs;
   MeshOrigin origin;
-  const RepairOptions wanted = file.format == MeshFormat::stl
-                                   ? dropping_strays(triangulation.triangles, options.repair)
-                                   : options.repair;
+  RepairOptions wanted = options.repair;
+  // Of facets without area in 32 bits, and of those that marching cubes make at grid points of the level,
+  // corners lie in one place and so are one vertex.
+  wanted.drop_strays =
+      file.format == MeshFormat::stl && std::ranges::any_of(triangulation.triangles, uses_a_vertex_twice);
   if (wanted.any())
     timed(stopwatch, "repair", [&] {
       Repaired repaired = repair(file.points, std::move(triangulation.triangles), wanted, source);

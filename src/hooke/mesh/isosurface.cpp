@@ -34,21 +34,30 @@ std::pair<double, double> extent(const Mat3X& points, const Triangle& t, Eigen::
 /// The planes across the axis if the faces lie in cells between them: then the widest reach across a cell.
 std::optional<GridPlanes> planes_across(Eigen::Index axis, const Mat3X& points, const Adjacency& c) {
   constexpr double width_tolerance = .003;  // smaller, as the first and the last plane make the spacing
-  double widest = 0;
+  std::vector<double> widths;
+  widths.reserve(c.faces.size());
   for (const Triangle& t : c.faces) {
     const auto [low, high] = extent(points, t, axis);
-    widest = std::max(widest, high - low);
+    widths.push_back(high - low);
   }
+  const auto at =
+      widths.begin() + static_cast<std::ptrdiff_t>(min_share * static_cast<double>(widths.size()));
+  std::ranges::nth_element(widths, at);
+  const double widest = *at;  // but for a few faces of something else
   if (!(widest > 0)) return std::nullopt;
   std::vector<double> planes;  // one for each face that reaches across
+  double sum = 0;
   for (const Triangle& t : c.faces) {
     const auto [low, high] = extent(points, t, axis);
-    if (high - low >= (1 - width_tolerance) * widest) planes.push_back(low);
+    if (std::abs(high - low - widest) > width_tolerance * widest) continue;
+    planes.push_back(low);
+    sum += high - low;
   }
+  const double width = sum / static_cast<double>(planes.size());
   std::ranges::sort(planes);
   double cells = 0;  // counted from plane to plane, so that the error of the width does not add up
-  for (std::size_t i = 1; i < planes.size(); ++i) cells += std::round((planes[i] - planes[i - 1]) / widest);
-  return GridPlanes{planes.front(), cells > 0 ? (planes.back() - planes.front()) / cells : widest};
+  for (std::size_t i = 1; i < planes.size(); ++i) cells += std::round((planes[i] - planes[i - 1]) / width);
+  return GridPlanes{planes.front(), cells > 0 ? (planes.back() - planes.front()) / cells : width};
 }
 
 /// Are nearly all vertices on edges of cells, and many between the ends of these, along two axes and more?

@@ -233,14 +233,9 @@ class Repair {
     r_.origin.flipped.resize(kept);
   }
 
-  bool repeats_a_vertex(int f) const {
-    const auto& [a, b, c] = r_.triangles[f];
-    return a == b || b == c || c == a;
-  }
-
   void drop_faces_that_repeat_a_vertex() {
     drop_faces("faces_dropped", "faces dropped that use a vertex twice",
-               [&](int f) { return repeats_a_vertex(f); });
+               [&](int f) { return uses_a_vertex_twice(r_.triangles[f]); });
   }
 
   void drop_duplicates() {
