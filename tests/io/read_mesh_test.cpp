@@ -12,6 +12,7 @@
 #include "hooke/io/write_mesh.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/topology.h"
+#include "support/crease_solids.h"
 #include "support/errors.h"
 #include "support/masks.h"
 #include "support/meshes.h"
@@ -183,6 +184,51 @@ TEST(ReadMesh, AnStlFileOfAnImageOfIntegersIsWithoutItsFacetsInOnePlace) {
   EXPECT_GT(loaded.repairs[0].count, t.faces.size() / 10);
   EXPECT_EQ(loaded.mesh.n_faces(), t.faces.size() - loaded.repairs[0].count);
   EXPECT_EQ(measure_topology(*loaded.memory_order.adjacency).boundary_edges, 0);
+}
+
+/// The blocks of a grid that are filled: two that touch in an edge, or in a corner.
+test::Triangles touching_blocks(bool in_an_edge) {
+  return test::cells(2, 2, 2, [&](int x, int y, int z) { return x == y && (in_an_edge ? z == 0 : z == x); });
+}
+
+/// The vertices of an STL file are only made by its reader, those of an OBJ file stand in it.
+TEST(ReadMesh, SolidsThatTouchAreApartInAnStlFileOnly) {
+  const TemporaryFolder folder;
+  for (const bool in_an_edge : {true, false}) {
+    const test::Triangles t = touching_blocks(in_an_edge);
+    write_text(folder / "m.stl", stl_of(t));
+    const LoadedMesh loaded = read_mesh(folder / "m.stl");
+    EXPECT_EQ(codes(loaded.repairs), (Codes{in_an_edge ? "edges_cut" : "vertices_split"}));
+    EXPECT_EQ(loaded.repairs[0].count, 1u);
+    const Topology topology = measure_topology(*loaded.memory_order.adjacency);
+    EXPECT_EQ(topology.components, 2);
+    EXPECT_EQ(topology.boundary_edges, 0);
+    EXPECT_EQ(topology.euler, 4);
+    std::string obj;
+    for (const auto& x : t.points.colwise()) obj += fmt::format("v {} {} {}\n", x[0], x[1], x[2]);
+    for (const Triangle& f : t.faces) obj += fmt::format("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    write_text(folder / "m.obj", obj);
+    EXPECT_THROW(read_mesh(folder / "m.obj"), MeshError);
+    const LoadedMesh joined = read_mesh(folder / "m.stl", nullptr, {{}, {.keep_junctions = true}});
+    EXPECT_FALSE(joined.origin.joined.empty());
+  }
+}
+
+TEST(ReadMesh, SheetsThatMeetInAnStlFileAreNotGuessed) {
+  const TemporaryFolder folder;
+  const auto message_for = [&](const test::Triangles& t) {
+    write_text(folder / "m.stl", stl_of(t));
+    return test::message_of<MeshError>([&] { read_mesh(folder / "m.stl"); });
+  };
+  test::Triangles rib;  // three faces at an edge
+  rib.points.resize(3, 5);
+  rib.points << 0, 0, 1, -1, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0;
+  rib.faces = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  EXPECT_TRUE(test::has(message_for(rib), "--keep non-manifold"));
+  test::Triangles turned = touching_blocks(true);  // and one of the blocks inside out
+  for (std::size_t f = 0; f < 12; ++f) std::swap(turned.faces[f][1], turned.faces[f][2]);
+  std::swap(turned.faces[0][1], turned.faces[0][2]);
+  EXPECT_TRUE(test::has(message_for(turned), "--repair"));
 }
 
 TEST(ReadMesh, AnStlFileOfSuchFacetsOnlyIsRefused) {

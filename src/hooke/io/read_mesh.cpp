@@ -130,40 +130,55 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   FaceData face_data = gather(file.face_data, source.face);
   Notes repairs;
   MeshOrigin origin;
+  const auto repair_as = [&](const RepairOptions& wanted) {
+    if (!wanted.any()) return;
+    const Stage stage(stopwatch, "repair");
+    Repaired repaired = repair(file.points, std::move(triangulation.triangles), wanted, source);
+    file.points = std::move(repaired.points);
+    triangulation.triangles = std::move(repaired.triangles);
+    repairs = std::move(repaired.changes);
+    origin = std::move(repaired.origin);
+    follow(origin, file.vertex_data, face_data, corner_data, source);
+    source.repaired = wanted.repair;
+    source.keeps_junctions = wanted.keep_junctions;
+  };
   RepairOptions wanted = options.repair;
-  // Of facets without area in 32 bits, and of those that marching cubes make at grid points of the level,
-  // corners lie in one place and so are one vertex.
+  // The vertices of an STL file are only made by its reader. Of facets without area in 32 bits, and of those
+  // that marching cubes make at grid points of the level, corners lie in one place and so are one vertex.
+  const bool is_soup = file.format == MeshFormat::stl && !wanted.repair && !wanted.keep_junctions;
   wanted.drop_strays =
       file.format == MeshFormat::stl && std::ranges::any_of(triangulation.triangles, uses_a_vertex_twice);
-  if (wanted.any())
-    timed(stopwatch, "repair", [&] {
-      Repaired repaired = repair(file.points, std::move(triangulation.triangles), wanted, source);
-      file.points = std::move(repaired.points);
-      triangulation.triangles = std::move(repaired.triangles);
-      repairs = std::move(repaired.changes);
-      origin = std::move(repaired.origin);
-      follow(origin, file.vertex_data, face_data, corner_data, source);
-      source.repaired = wanted.repair;
-      source.keeps_junctions = wanted.keep_junctions;
-    });
-  const std::vector<Triangle>& triangles = triangulation.triangles;
+  wanted.separate = wanted.drop_strays && is_soup;
+  repair_as(wanted);
 
-  Permutation order;
   std::string hash, faces_hash;
-  const auto find_order = [&] {
-    order = reorder(triangles, bfs_cluster_order(static_cast<int>(file.points.cols()), triangles));
+  const auto lay_out = [&] {
+    const std::vector<Triangle>& triangles = triangulation.triangles;
+    Permutation order;
+    const auto find_order = [&] {
+      order = reorder(triangles, bfs_cluster_order(static_cast<int>(file.points.cols()), triangles));
+    };
+    const auto take_hashes = [&] {
+      if (hash.empty()) hash = sha256(content.text());
+      content = {};  // frees memory for the mesh
+      faces_hash = origin.joined.empty() ? connectivity_sha256(triangles)
+                                         : connectivity_sha256(join_faces(triangles, origin.joined));
+    };
+    timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
+    return after_repairs(repairs, [&] {
+      return valid_layout(file.points, triangles, std::move(order), origin, source, warnings, stopwatch);
+    });
   };
-  const auto take_hashes = [&] {
-    hash = sha256(content.text());
-    faces_hash = origin.joined.empty() ? connectivity_sha256(triangles)
-                                       : connectivity_sha256(join_faces(triangles, origin.joined));
-  };
-  timed(stopwatch, "order", [&] { parallel_invoke(find_order, take_hashes); });
-  content = {};  // frees memory for the mesh
-
-  MemoryOrder memory_order = after_repairs(repairs, [&] {
-    return valid_layout(file.points, triangles, std::move(order), origin, source, warnings, stopwatch);
-  });
+  MemoryOrder memory_order;
+  try {
+    memory_order = lay_out();
+  } catch (const MeshError&) {
+    if (!is_soup || !origin.vertex.empty()) throw;
+    wanted.separate = true;
+    repair_as(wanted);
+    if (repairs.empty()) throw;
+    memory_order = lay_out();
+  }
   require_workable_size(file.points, file.name);
   const int polygons_cut = triangulation.polygons_cut;
   triangulation = {};

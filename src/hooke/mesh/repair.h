@@ -19,10 +19,11 @@ struct RepairOptions {
   int fill_holes = 0;           // with `repair`: fill holes of at most so many edges
   bool collapse = false;        // collapse the edges without length of an oriented manifold
   bool drop_strays = false;     // drop faces that use a vertex twice, and all vertices in no face
+  bool separate = false;        // give solids that only touch vertices of their own, if nothing else is wrong
   bool keep_junctions = false;  // sheets that meet in edges and vertices are known to be one, see junctions.h
 
   bool any() const {
-    return repair || weld >= 0 || weld_share >= 0 || collapse || drop_strays || keep_junctions;
+    return repair || weld >= 0 || weld_share >= 0 || collapse || drop_strays || separate || keep_junctions;
   }
 };
 
@@ -44,6 +45,8 @@ struct Repaired {
 };
 
 /// With `drop_strays` faces that use a vertex twice are dropped, and in the end the vertices in no face. With
+/// `separate` solids that touch in edges and vertices are cut apart, as make_sheets() does, if the mesh is an
+/// oriented manifold but for that, and each edge has as many faces in one direction as in the other. With
 /// `weld`, vertices closer than that are merged, and faces that lose a corner by it are dropped. With
 /// `repair`:
 /// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
