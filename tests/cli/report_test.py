@@ -295,6 +295,21 @@ class Report(CommandTest):
         self.assertEqual(finer["after"]["faces_below_20"], 0)
         self.assertNotIn("narrow_regions", [w["code"] for w in finer["warnings"]])
 
+    def test_welding_is_advised_where_bodies_overlap_by_a_little(self):
+        outline = [(0, 0), (30, 0), (30, 5), (15, 5), (15, 5.004), (0, 5.004)]  # with a step
+        n = len(outline)
+        points = [(x, y, z) for z in (0, 20) for x, y in outline]
+        sides = [f for a, b in ((k, (k + 1) % n) for k in range(n)) for f in ((a, b, n + b), (a, n + b, n + a))]
+        ends = [f for k in range(1, n - 1) for f in ((0, k + 1, k), (n, n + k, n + k + 1))]
+        write_off(self.folder / "step.off", points, sides + ends)
+        adapted = ("step.off", "-o", "out.off", "--connectivity", "adapt", "-L", "3")
+        plain = self.report(*adapted)
+        self.assertGreater(plain["after"]["faces_below_20"], 0)
+        (advice,) = [w["message"] for w in plain["warnings"] if w["code"] == "narrow_regions"]
+        welded = self.report(*adapted, "--weld", search(r"--weld (\S+) if steps so narrow", advice)[1])
+        self.assertEqual(welded["after"]["faces_below_20"], 0)
+        self.assertLess(abs(welded["output"]["volume"] / plain["input"]["volume"] - 1), 1e-3)
+
     def test_narrow_regions_get_shorter_edges_where_they_may(self):
         box = [(x, y, z) for z in (0, 20) for y in (0, .4) for x in (0, 30)]
         quads = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
@@ -316,7 +331,7 @@ class Report(CommandTest):
         box = [(x, y / 100, z) for x, y, z in box]
         write_off(self.folder / "foil.off", box, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))])
         adapted = ("foil.off", *adapted[1:])
-        self.assertRegex(advice()[0], "; use --min-length, with which edges there may be shorter, or")
+        self.assertRegex(advice()[0], "edges there may be shorter, --weld 0.006 if steps so narrow are not meant, or")
         self.assertRegex(advice("--min-length", "2")[0], "closer than --min-length; use a shorter one$")
         adapted = ("plate.off", *adapted[1:])
         results = []

@@ -148,7 +148,7 @@ LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch, co
   const bool is_soup = file.format == MeshFormat::stl && !wanted.repair && !wanted.keep_junctions;
   wanted.drop_strays =
       file.format == MeshFormat::stl && std::ranges::any_of(triangulation.triangles, uses_a_vertex_twice);
-  wanted.separate = wanted.drop_strays && is_soup;
+  wanted.separate = is_soup && (wanted.drop_strays || wanted.weld >= 0 || wanted.weld_share >= 0);
   repair_as(wanted);
 
   std::string hash, faces_hash;

@@ -81,8 +81,8 @@ class Repair {
 
   Repaired make() {
     if (options_.drop_strays) drop_faces_that_repeat_a_vertex();
-    if (options_.separate) separate_solids();
     if (options_.weld >= 0 || options_.weld_share >= 0) weld_all();
+    if (options_.separate) separate_solids();
     if (options_.repair) {
       weld_boundaries();
       drop_faces_that_repeat_a_vertex();
