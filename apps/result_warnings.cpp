@@ -252,13 +252,12 @@ void warn_of_lengths_of_input(RunRecord& run) {
                    run.output->path, run.input.path)});
 }
 
-constexpr double most_edges = 30;  // that are advised in place of one of the target length
-
 /// A length of edges for the narrow regions of the worst faces: the least width of those that need no more
-/// than `most_edges`. None if there is none that is shorter than --min-length.
+/// than `most_edges` edges for one of the target length. None if there is none that is shorter than
+/// --min-length.
 template <typename IsNarrow>
 std::optional<double> length_that_fits(const Settings& s, const RunRecord& run, const IsNarrow& is_narrow) {
-  constexpr double clearly_shorter = .8;
+  constexpr double most_edges = 30, clearly_shorter = .8;
   std::optional<double> least;
   for (const WorstFace& f : run.after->worst_faces) {
     const bool is_new = !s.min_length || f.height < clearly_shorter * s.remesh.min_length;
@@ -266,18 +265,6 @@ std::optional<double> length_that_fits(const Settings& s, const RunRecord& run, 
       least = f.height;
   }
   return least;
-}
-
-/// The advice to weld the steps in which the worst faces lie, if these need more than `most_edges`: CAD
-/// programs leave such where bodies overlap by a little.
-template <typename IsNarrow>
-std::string welding_advice(const RunRecord& run, const IsNarrow& is_narrow) {
-  constexpr double reach = 1.5;  // so that steps that are little wider vanish too
-  double widest = 0;
-  for (const WorstFace& f : run.after->worst_faces)
-    if (is_narrow(f) && most_edges * f.shortest_edge < run.target.max)
-      widest = std::max(widest, f.shortest_edge);
-  return widest > 0 ? fmt::format(", --weld {:.2g} if steps so narrow are not meant", reach * widest) : "";
 }
 
 /// Tells what would help against small angles at edges that stay, of facets or of the boundary.
@@ -330,8 +317,8 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
   const std::string remedy =
       s.min_length
           ? (length ? "try" + value : "use a shorter one")
-          : fmt::format("use --min-length{}, with which edges there may be {}{}, or a smaller --length",
-                        value, length ? "as short" : "shorter", length ? "" : welding_advice(run, is_narrow));
+          : fmt::format("use --min-length{}, with which edges there may be {}, or a smaller --length", value,
+                        length ? "as short" : "shorter, --weld if a step so narrow is not meant");
   warn_of_first(
       is_narrow, "narrow_regions",
       fmt::format("it lies between creases{} or boundaries closer than {}; {}{}", has_seams ? ", seams" : "",

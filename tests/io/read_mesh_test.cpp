@@ -186,7 +186,7 @@ TEST(ReadMesh, AnStlFileOfAnImageOfIntegersIsWithoutItsFacetsInOnePlace) {
   EXPECT_EQ(measure_topology(*loaded.memory_order.adjacency).boundary_edges, 0);
 }
 
-/// The blocks of a grid that are filled: two that touch in an edge, or in a corner.
+/// Two blocks that touch in an edge, or in a corner.
 test::Triangles touching_blocks(bool in_an_edge) {
   return test::cells(2, 2, 2, [&](int x, int y, int z) { return x == y && (in_an_edge ? z == 0 : z == x); });
 }
@@ -225,10 +225,21 @@ TEST(ReadMesh, SheetsThatMeetInAnStlFileAreNotGuessed) {
   rib.points << 0, 0, 1, -1, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0;
   rib.faces = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
   EXPECT_TRUE(test::has(message_for(rib), "--keep non-manifold"));
-  test::Triangles turned = touching_blocks(true);  // and one of the blocks inside out
-  for (std::size_t f = 0; f < 12; ++f) std::swap(turned.faces[f][1], turned.faces[f][2]);
-  std::swap(turned.faces[0][1], turned.faces[0][2]);
-  EXPECT_TRUE(test::has(message_for(turned), "--repair"));
+  const auto turn = [](test::Triangles& t, std::size_t first, std::size_t count) {
+    for (std::size_t f = first; f < first + count; ++f) std::swap(t.faces[f][1], t.faces[f][2]);
+  };
+  test::Triangles one_inside_out = touching_blocks(true);
+  const auto is_of_first_block = [&](const Triangle& f) {
+    return std::ranges::all_of(f, [&](int v) { return one_inside_out.points(0, v) <= 1; });
+  };
+  std::ranges::partition(one_inside_out.faces, is_of_first_block);
+  turn(one_inside_out, 0, 12);
+  test::Triangles all_inside_out = touching_blocks(true);
+  turn(all_inside_out, 0, all_inside_out.faces.size());
+  test::Triangles open = touching_blocks(true);
+  open.faces.pop_back();
+  for (const test::Triangles& t : {one_inside_out, all_inside_out, open})
+    EXPECT_TRUE(test::has(message_for(t), "edges with three or more faces (1)")) << message_for(t);
 }
 
 TEST(ReadMesh, AnStlFileOfSuchFacetsOnlyIsRefused) {

@@ -45,9 +45,10 @@ struct ReadOptions {
 std::string name_of_input(const std::filesystem::path& path);
 
 /// Reads a mesh file, or standard input for "-", triangulates its polygons, repairs the mesh if asked to,
-/// validates and builds it. Facets of an STL file with two corners in one place are dropped, and solids that
-/// only touch get vertices of their own. Throws InputError if the file is not a well-formed mesh file,
-/// MeshError if the mesh is not an oriented manifold with area, and LimitError if it does not fit in memory.
+/// validates and builds it. Facets of an STL file with two corners in one place are dropped, and closed
+/// solids that only touch get vertices of their own. Throws InputError if the file is not a well-formed mesh
+/// file, MeshError if the mesh is not an oriented manifold with area, and LimitError if it does not fit in
+/// memory.
 LoadedMesh read_mesh(const std::filesystem::path& path, Stopwatch* stopwatch = nullptr,
                      const ReadOptions& options = {});
 

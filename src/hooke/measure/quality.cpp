@@ -119,15 +119,13 @@ std::vector<WorstFace> find_worst_faces(const MeasuredSurface& surface, const Fa
     for (size_t i = begin; i < end; ++i) {
       const int f = chosen[i];
       const Triangle& t = surface.adjacency.faces[f];
-      const auto [shortest, longest] =
-          std::minmax({(X.col(t[1]) - X.col(t[0])).norm(), (X.col(t[2]) - X.col(t[1])).norm(),
-                       (X.col(t[0]) - X.col(t[2])).norm()});
+      const double longest = std::max({(X.col(t[1]) - X.col(t[0])).norm(), (X.col(t[2]) - X.col(t[1])).norm(),
+                                       (X.col(t[0]) - X.col(t[2])).norm()});
       worst[i] = {surface.ids.face(f),
                   min_angle(f),
                   surface.ids.corners(t),
                   (X.col(t[0]) + X.col(t[1]) + X.col(t[2])) / 3,
                   longest > 0 ? doubled_area_vector(X, t).norm() / longest : 0,
-                  shortest,
                   bound_min_angle(X, surface.adjacency, f)};
       std::vector<int>& bounding = worst[i].bound.vertices;
       std::ranges::transform(bounding, bounding.begin(), [&](int v) { return surface.ids.vertex(v); });

@@ -33,8 +33,7 @@ struct WorstFace {
   Triangle vertices{};
   Vec3 centre = Vec3::Zero();
   double height = 0;  // over its longest edge
-  double shortest_edge = 0;
-  AngleBound bound;  // upper bound of the angle for the given connectivity
+  AngleBound bound;   // upper bound of the angle for the given connectivity
   /// What limits the angle, see limiting_factors.h; empty where unknown.
   std::vector<std::string> reasons = {};
 };

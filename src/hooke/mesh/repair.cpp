@@ -334,41 +334,35 @@ class Repair {
     r_.origin.joined = std::move(sheets.source);
   }
 
-  void tell_cuts(const Sheets& sheets) {
-    tell("edges_cut", sheets.cut_edges.size(), "edges with three or more faces cut into sheets",
-         edge_places(sheets.cut_edges));
-    tell("vertices_split", sheets.split_vertices.size(),
-         "vertices split in which separate parts only touched", vertex_places(sheets.split_vertices));
-  }
-
-  /// Has each of the edges as many faces in one direction as in the other, as where solids touch?
-  bool are_between_solids(const std::vector<Edge>& edges) const {
-    std::unordered_map<std::uint64_t, int> surplus;
-    for (const auto& [a, b] : edges) surplus.emplace(key(a, b), 0);
-    for (const Triangle& t : r_.triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [a, b] = Edge{t[k], t[(k + 1) % 3]};
-        if (const auto at = surplus.find(key(a, b)); at != surplus.end()) at->second += a < b ? 1 : -1;
-      }
-    return std::ranges::all_of(surplus, [](const auto& edge) { return edge.second == 0; });
-  }
-
+  /// Cuts solids apart that touch, where there is but one way to: they are closed, look outward, and their
+  /// faces alternate around each edge.
   void separate_solids() {
     if (!has_junctions()) return;
     Sheets sheets = make_sheets(r_.points, r_.triangles);
-    if (!sheets.flipped_faces.empty() || !sheets.opened_edges.empty() ||
-        !are_between_solids(sheets.cut_edges))
+    if (!sheets.flipped_faces.empty() || !sheets.opened_edges.empty() || !sheets.guessed_edges.empty())
       return;
-    tell_cuts(sheets);
+    Mat3X points(3, static_cast<Eigen::Index>(sheets.source.size()));
+    for (Eigen::Index v = 0; v < points.cols(); ++v)
+      points.col(v) = r_.points.col(sheets.source[static_cast<std::size_t>(v)]);
+    const Extent extent =
+        measure_extent(points, make_adjacency(static_cast<int>(points.cols()), sheets.triangles));
+    if (!extent.volume || !(*extent.volume > 0)) return;
+    tell("edges_cut", sheets.cut_edges.size(), "edges in which solids touch taken apart",
+         edge_places(sheets.cut_edges));
+    tell("vertices_split", sheets.split_vertices.size(), "vertices in which solids touch taken apart",
+         vertex_places(sheets.split_vertices));
     replace_by(sheets);
   }
 
   void make_manifold() {
     if (options_.keep_junctions) return orient();
     Sheets sheets = make_sheets(r_.points, r_.triangles);
-    tell_cuts(sheets);
+    tell("edges_cut", sheets.cut_edges.size(), "edges with three or more faces cut into sheets",
+         edge_places(sheets.cut_edges));
     tell("surface_opened", sheets.opened_edges.size(),
          "edges cut open, as the surface there has only one side", edge_places(sheets.opened_edges));
+    tell("vertices_split", sheets.split_vertices.size(),
+         "vertices split in which separate parts only touched", vertex_places(sheets.split_vertices));
     tell("faces_flipped", sheets.flipped_faces.size(), turned_over, face_places(sheets.flipped_faces));
     for (const int f : sheets.flipped_faces) r_.origin.flipped[f] ^= 1;
     replace_by(sheets);

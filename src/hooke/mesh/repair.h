@@ -45,10 +45,9 @@ struct Repaired {
 };
 
 /// With `drop_strays` faces that use a vertex twice are dropped, and in the end the vertices in no face. With
-/// `separate` solids that touch in edges and vertices are cut apart, as make_sheets() does, if the mesh is an
-/// oriented manifold but for that, and each edge has as many faces in one direction as in the other. With
-/// `weld`, vertices closer than that are merged, and faces that lose a corner by it are dropped. With
-/// `repair`:
+/// `separate` solids that touch in edges and vertices are cut apart, if the mesh is an oriented manifold but
+/// for that, closed, and looks outward, and faces alternate in their direction around each edge. With `weld`,
+/// vertices closer than that are merged, and faces that lose a corner by it are dropped. With `repair`:
 /// - vertices at boundaries are merged where they are within welding_share of the shortest boundary edge
 /// there;
 /// - faces that use a vertex twice and the second of faces with the same vertices are dropped;

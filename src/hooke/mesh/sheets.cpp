@@ -161,15 +161,20 @@ class SheetMaker {
   void pair_many(std::vector<Side> sides) {
     result_.cut_edges.push_back(edge_of(sides.front()));
     constexpr size_t most_faces = 200;  // beyond that all are cut apart: pairs are found in quadratic time
-    if (many_faces_ == ManyFaces::apart || sides.size() > most_faces) return;
+    if (many_faces_ == ManyFaces::apart || sides.size() > most_faces) {
+      result_.guessed_edges.push_back(edge_of(sides.front()));
+      return;
+    }
     std::vector<std::pair<double, Side>> around;
     around.reserve(sides.size());
     for (const Side side : sides) around.emplace_back(angle_at_edge(side), side);
     std::ranges::sort(around);
-    if (alternates(around))
+    if (alternates(around)) {
       pair_around_solids(around);
-    else
+    } else {
+      result_.guessed_edges.push_back(edge_of(sides.front()));
       pair_best_continuations(around);
+    }
   }
 
   // The angle of the face about its edge, counter-clockwise as seen from the edge's upper end.

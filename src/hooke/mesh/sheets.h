@@ -15,6 +15,7 @@ struct Sheets {
   std::vector<int> source;          // old vertex of each vertex; the first are the old vertices
   // What was done, in old ids:
   std::vector<Edge> cut_edges;      // of three faces or more, of which at most two are neighbours now
+  std::vector<Edge> guessed_edges;  // of these, where faces do not alternate as around solids
   std::vector<Edge> opened_edges;   // where a one-sided surface was cut open
   std::vector<int> split_vertices;  // of these, those that are not on such edges
   std::vector<int> flipped_faces;   // ascending
