@@ -25,9 +25,8 @@ std::vector<int> detect_creases(const Mat3X& points, const Adjacency& adjacency,
                                 const std::vector<double>& vertex_length, const CreaseOptions& options,
                                 const std::vector<Edge>& hard_edges = {});
 
-/// Is the mesh an isosurface, see is_isosurface(), with creases along bevels narrower than half the target
-/// length, which would leave slivers between them? Its flat faces and bevels are of the grid, not of the
-/// shape.
+/// Is the mesh an isosurface, see is_isosurface(), with slivers between the creases along its bevels? Then
+/// its flat faces and bevels are taken for those of the grid, not of the shape.
 bool has_grid_bevels(const Mat3X& points, const Adjacency& adjacency,
                      const std::vector<double>& vertex_length, const CreaseOptions& options);
 
