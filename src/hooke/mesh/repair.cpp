@@ -279,8 +279,9 @@ class Repair {
     for (const Triangle& t : r_.triangles)
       for (const int v : t) used[v] = 1;
     const bool keeps_loose = !options_.repair && !options_.drop_strays;
-    if (keeps_loose)  // but for those that were merged
-      for (size_t v = 0; v < used.size(); ++v) used[v] |= r_.origin.merged[v] == static_cast<int>(v);
+    if (keeps_loose)  // but for those that were merged; copies of split ones come after these
+      for (size_t v = 0; v < r_.origin.merged.size(); ++v)
+        used[v] |= r_.origin.merged[v] == static_cast<int>(v);
     std::vector<int> fresh(used.size(), -1), loose, source;
     for (int v = 0; v < static_cast<int>(used.size()); ++v) {
       if (used[v]) {
