@@ -232,7 +232,7 @@ TEST(ReadMesh, SheetsThatMeetInAnStlFileAreNotGuessed) {
   const auto is_of_first_block = [&](const Triangle& f) {
     return std::ranges::all_of(f, [&](int v) { return one_inside_out.points(0, v) <= 1; });
   };
-  std::ranges::partition(one_inside_out.faces, is_of_first_block);
+  std::partition(one_inside_out.faces.begin(), one_inside_out.faces.end(), is_of_first_block);
   turn(one_inside_out, 0, 12);
   test::Triangles all_inside_out = touching_blocks(true);
   turn(all_inside_out, 0, all_inside_out.faces.size());

@@ -95,8 +95,8 @@ bool are_faces_in_cells_of(const Grid& grid, const Mat3X& points, const Adjacenc
   const auto faces = static_cast<double>(c.faces.size());
   if (static_cast<double>(cells.size()) < min_share * faces) return false;
   std::ranges::sort(cells);
-  const auto repeated = std::ranges::unique(cells);
-  return faces <= few * static_cast<double>(cells.size() - repeated.size());
+  const auto distinct = std::unique(cells.begin(), cells.end()) - cells.begin();
+  return faces <= few * static_cast<double>(distinct);
 }
 
 /// Is the target length in the mean not much longer than the edges? Else a cell is less than the length.
