@@ -10,6 +10,7 @@
 
 #include "messages.h"
 
+#include "hooke/mesh/repair.h"
 #include "hooke/mesh/vertex_welding.h"
 #include "hooke/remesh/limiting_factors.h"
 #include "hooke/remesh/preserving_remesh.h"
@@ -325,6 +326,23 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
                   s.min_length ? "--min-length" : "the target length", remedy, fewer_seams));
 }
 
+/// Tells what would help against edges that are as short as a rounding, which no step of a shape is.
+void warn_of_edges_without_length(const Settings& s, RunRecord& run) {
+  constexpr double small_angle = 20;
+  const double shortest = run.after->edge_length.min;
+  if (!(shortest <= rounding_share * run.after->extent.diagonal && run.after->min_angle.min < small_angle))
+    return;
+  const char* const adapt = s.remesh.connectivity == ConnectivityMode::adapt
+                                ? ""
+                                : "--connectivity adapt, which collapses them, or ";
+  run.warnings.push_back(
+      {"edges_without_length",
+       fmt::format(
+           "{}: edges as short as {:.2g}, a rounding of its size, make slivers; use {}--weld {:.2g}%, which "
+           "merges their vertices",
+           run.output->path, shortest, adapt, 100 * rounding_share)});
+}
+
 void warn_of_dropped_creases(RunRecord& run) {
   const CreaseCounts& c = run.result->creases;
   if (run.result->steps_smoothed)
@@ -451,6 +469,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   warn_of_shortening(run);
   warn_of_lengths_of_input(run);
   warn_of_held_faces(s, run);
+  warn_of_edges_without_length(s, run);
   warn_of_rounding(s, run);
   warn_of_dropped_creases(run);
   warn_of_count(run);

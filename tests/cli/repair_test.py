@@ -100,6 +100,25 @@ class Repair(CommandTest):
         self.assertEqual(kept["repairs"], [])
         self.assertEqual(kept["output"]["vertices"], len(self.vertices))
 
+    def test_edges_of_a_rounding_are_collapsed_or_told(self):
+        v, w, _ = self.faces[40]
+        fresh = len(self.vertices)
+        beside = tuple(a + 1e-7 * (b - a) for a, b in zip(self.vertices[v], self.vertices[w]))
+        faces = []
+        for f in self.faces:  # the edge is split, next to one of its ends
+            ends = (v, w) if v in f and w in f else (None,)
+            faces += [tuple(fresh if u == end else u for u in f) for end in ends]
+        self.write("cut.obj", obj(self.vertices + [beside], faces))
+        report = self.report("cut.obj", "-o", "out.obj", "--connectivity", "adapt", "-q")
+        self.assertEqual([change["code"] for change in report["repairs"]], ["edges_collapsed"])
+        self.write("fixed.txt", "%d\n%d\n" % (v, fresh))
+        report = self.report("cut.obj", "-o", "out.obj", "--fix", "fixed.txt", "-q")
+        (warning,) = [w for w in report["warnings"] if w["code"] == "edges_without_length"]
+        self.assertIn("--connectivity adapt, which collapses them, or --weld 0.001%", warning["message"])
+        report = self.report("cut.obj", "-o", "out.obj", "--weld", "0.001%", "-q")
+        self.assertEqual([change["code"] for change in report["repairs"]], ["vertices_welded", "faces_dropped"])
+        self.assertEqual([w for w in report["warnings"] if w["code"] == "edges_without_length"], [])
+
     def test_what_is_left_is_refused_without_that_advice(self):
         self.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 2 3\n")
         message = self.refused(4, "bad.obj", "-o", "out.obj", "--repair", says="no face with an area")

@@ -325,10 +325,74 @@ TEST(Repair, FacesOverHolesAreCountedAfterACollapse) {
   EXPECT_EQ(r.origin.filled, filled);
 }
 
+/// As a cut makes them that passes a rounding beside vertices.
+TEST(Repair, EdgesOfARoundingAreCollapsed) {
+  test::Triangles t = test::grid(6, test::flat);
+  const auto size = box_of_faces(t.points, t.faces).diagonal().norm();
+  const std::vector<Triangle> whole = t.faces;
+  const auto has = [](const Triangle& f, int v) { return std::ranges::find(f, v) != f.end(); };
+  const auto split_beside = [&](double rounding) {  // one edge, next to one of its ends
+    test::Triangles split = t;
+    const int from = 24, to = 25, fresh = static_cast<int>(t.points.cols());
+    split.points.conservativeResize(3, fresh + 1);
+    split.points.col(fresh) = t.points.col(from) + rounding * size * Vec3(1, 0, 0);
+    split.faces.clear();
+    for (const Triangle& f : whole) {
+      if (!has(f, from) || !has(f, to)) {
+        split.faces.push_back(f);
+        continue;
+      }
+      for (const int end : {from, to}) {
+        Triangle half = f;
+        std::ranges::replace(half, end, fresh);
+        split.faces.push_back(half);
+      }
+    }
+    return split;
+  };
+  const Repaired r = repaired(split_beside(5e-6), collapsing);
+  EXPECT_EQ(codes(r), Codes{"edges_collapsed"});
+  EXPECT_EQ(r.points, t.points);
+  EXPECT_EQ(r.triangles.size(), whole.size());
+  EXPECT_EQ(codes(repaired(split_beside(2e-5), collapsing)), Codes{}) << "a step";
+  EXPECT_EQ(codes(repaired(split_beside(5e-6))), Codes{}) << "not asked for";
+}
+
+TEST(Repair, DetailsOfARoundingAreNotCollapsed) {
+  test::Triangles t = test::sphere(2);
+  const Eigen::Index sphere = t.points.cols();
+  const test::Triangles far = test::sphere(1);
+  for (const Triangle& f : far.faces)
+    t.faces.push_back(
+        {f[0] + static_cast<int>(sphere), f[1] + static_cast<int>(sphere), f[2] + static_cast<int>(sphere)});
+  t.points.conservativeResize(3, sphere + far.points.cols());
+  t.points.leftCols(sphere) *= 1e-6;
+  t.points.rightCols(far.points.cols()) = far.points.colwise() + Vec3(3, 0, 0);
+  EXPECT_EQ(codes(repaired(t, collapsing)), Codes{}) << "a small sphere beside a large one";
+}
+
+TEST(Repair, ChainsOfEdgesOfARoundingAreNotOneVertex) {
+  constexpr int links = 40;  // from right to left, so that each goes into the next
+  test::Triangles fan;
+  fan.points = Mat3X::Zero(3, links + 2);
+  for (int v = 0; v <= links; ++v) fan.points(0, v) = 4e-6 * (links - v);
+  fan.points.col(links + 1) = Vec3(0, 1, 0);
+  for (int v = 0; v < links; ++v) fan.faces.push_back({v + 1, v, links + 1});
+  const Repaired r = repaired(fan, collapsing);
+  for (Eigen::Index v = 0; v <= links; ++v) {
+    const Vec3 moved =
+        r.points.col(vertices_from(r.origin, {static_cast<int>(v)}).front()) - fan.points.col(v);
+    EXPECT_LE(moved.norm(), 1e-5);
+  }
+  EXPECT_LE(r.points.cols(), fan.points.cols() / 2);
+}
+
 TEST(Repair, LengthsAndTopologyAreNotCollapsed) {
-  test::Triangles foil = test::cube();
-  foil.points.row(2) *= 1e-12;
-  EXPECT_EQ(codes(repaired(foil, collapsing)), Codes{});
+  for (const double thickness : {1e-12, 1e-8, 1e-7, 5e-6}) {
+    test::Triangles foil = test::cube();
+    foil.points.row(2) *= thickness;
+    EXPECT_EQ(codes(repaired(foil, collapsing)), Codes{}) << thickness;
+  }
   test::Triangles pinched = test::torus(6, 3, 0);
   for (const int v : {1, 2}) pinched.points.col(v) = pinched.points.col(0);
   EXPECT_EQ(topology_of(repaired(pinched, collapsing)).euler, 0);

@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/halfedge_mesh.h"
@@ -46,7 +47,7 @@ std::vector<int> components_of(const std::vector<Triangle>& triangles, size_t ve
 }
 
 double area_of(const Mat3X& points, const Triangle& t) {
-  return .5 * (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0])).norm();
+  return .5 * doubled_area_vector(points, t).norm();
 }
 
 /// How often the faces wind around the point, by the solid angles of A. Van Oosterom, J. Strackee, "The solid
@@ -63,6 +64,10 @@ double winding_number(const Mat3X& points, const std::vector<Triangle>& faces, c
 
 /// In a foam with more tests than that, a component in the box of another is taken to be in the other.
 constexpr size_t most_faces_tested = 100'000'000;
+
+/// Edges are without length if they are no longer than rounding_share of the diagonal, and than that of
+/// another edge at one of their ends.
+constexpr double rounding_beside = 1e-3;
 
 class Repair {
  public:
@@ -162,11 +167,36 @@ class Repair {
 
   // Collapsing.
 
-  bool are_in_one_place(int v, int w) const { return r_.points.col(v) == r_.points.col(w); }
+  double distance(int v, int w) const { return (r_.points.col(v) - r_.points.col(w)).norm(); }
+
+  /// Is an edge shorter than that one of rounding? No detail of the shape, for other edges at its ends are
+  /// far longer, nor between the sides of a foil.
+  bool is_rounding(const HalfedgeMesh& halfedges, int h, double longest) const {
+    const double length = distance(halfedges.from(h), halfedges.to(h));
+    bool is_long_beside = false;
+    std::vector<Vec3> normals;  // of the faces at its ends that are no slivers
+    for (const int v : {halfedges.from(h), halfedges.to(h)}) {
+      for (const int w : halfedges.neighbours(v))
+        is_long_beside = is_long_beside || length <= rounding_beside * distance(v, w);
+      for (const int out : halfedges.outgoing(v)) {
+        const Triangle& t = halfedges.faces()[out / 3];
+        const Vec3 normal = doubled_area_vector(r_.points, t);
+        const double side = std::max({distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])});
+        if (normal.norm() > side * longest) normals.push_back(normal.normalized());
+      }
+    }
+    constexpr double opposite = -.98;
+    const auto faces_back = [&](const Vec3& n) {
+      return std::ranges::any_of(normals, [&](const Vec3& other) { return n.dot(other) < opposite; });
+    };
+    return is_long_beside && std::ranges::none_of(normals, faces_back);
+  }
 
   void collapse_edges_without_length() {
-    const bool has_such_edges = std::ranges::any_of(r_.triangles, [this](const Triangle& t) {
-      return are_in_one_place(t[0], t[1]) || are_in_one_place(t[1], t[2]) || are_in_one_place(t[2], t[0]);
+    const double longest = rounding_share * box_of_faces(r_.points, r_.triangles).diagonal().norm();
+    const auto is_short = [&](int v, int w) { return distance(v, w) <= longest; };
+    const bool has_such_edges = std::ranges::any_of(r_.triangles, [&](const Triangle& t) {
+      return is_short(t[0], t[1]) || is_short(t[1], t[2]) || is_short(t[2], t[0]);
     });
     if (!has_such_edges ||
         !std::ranges::all_of(find_problems(r_.points, r_.triangles), is_acceptable, &Problem::kind))
@@ -174,6 +204,7 @@ class Repair {
     HalfedgeMesh halfedges(make_adjacency(static_cast<int>(r_.origin.vertex.size()), r_.triangles));
     std::vector<int> into(r_.origin.vertex.size());
     std::iota(into.begin(), into.end(), 0);
+    std::vector<double> moved(into.size(), 0);  // of those merged into the vertex, at most
     std::vector<Edge> collapsed;
     size_t before;
     do {  // a collapse may allow another one before it
@@ -181,8 +212,11 @@ class Repair {
       for (int h = 0; h < halfedges.half_edge_count(); ++h) {
         if (halfedges.is_removed(h / 3)) continue;
         const int from = halfedges.from(h), to = halfedges.to(h);
-        if (!are_in_one_place(from, to) || !halfedges.keeps_topology(h)) continue;
         const int stays = std::min(from, to), goes = std::max(from, to);
+        const double moves = distance(from, to) + moved[goes];
+        if (moves > longest || !halfedges.keeps_topology(h)) continue;
+        if (distance(from, to) > 0 && !is_rounding(halfedges, h, longest)) continue;
+        moved[stays] = std::max(moved[stays], moves);
         halfedges.collapse(h, stays);
         into[goes] = stays;
         collapsed.push_back({stays, goes});

@@ -11,6 +11,9 @@
 
 namespace hooke {
 
+/// How far rounding moves vertices at most, in diagonals of the box: files of six digits do.
+inline constexpr double rounding_share = 1e-5;
+
 struct RepairOptions {
   bool repair = false;          // make an oriented manifold
   double weld = -1;             // merge vertices closer than this, in file units; negative: off
@@ -55,9 +58,9 @@ struct Repaired {
 /// - components that are too small are dropped, holes that are small enough are filled;
 /// - closed components that are inside out and in no other are turned outward;
 /// - vertices in no face are dropped.
-/// With `collapse`, after these, edges between vertices in the same place are collapsed, as those of marching
-/// cubes where a value at a grid point is that of the level; not where that would change the topology, nor in
-/// a mesh that is no oriented manifold.
+/// With `collapse`, after these, edges without length are collapsed, as those of marching cubes where a value
+/// at a grid point is that of the level, and those of cuts through what lies a rounding beside the cut; not
+/// where that would change the topology, nor in a mesh that is no oriented manifold.
 /// With `keep_junctions` edges of three faces and more and vertices in which parts only touch stay: they are
 /// cut last, after all else, if nothing but them keeps the mesh from being an oriented manifold; with
 /// `repair` also the edges at which a surface with one side cannot be oriented. Small components are then
