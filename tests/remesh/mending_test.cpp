@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -39,6 +40,17 @@ class Sphere {
     const Mat3X x = points();
     const int n = connectivity().vertex_neighbours[vertex][0];
     maker.place(vertex, x.col(n) + .6 * (x.col(n) - x.col(vertex)), run);
+    maker.judge(run);
+  }
+
+  /// Moves a vertex nearly onto the edge across from it in one of its faces.
+  void squeeze_at(int vertex) {
+    const Adjacency& c = connectivity();
+    const Mat3X x = points();
+    Vec3 middle = Vec3::Zero();
+    for (int v : c.faces[c.vertex_faces[vertex][0]])
+      middle += v == vertex ? Vec3::Zero().eval() : x.col(v) / 2;
+    maker.place(vertex, x.col(vertex) + .95 * (middle - x.col(vertex)), run);
     maker.judge(run);
   }
 
@@ -113,6 +125,56 @@ TEST(Mending, UnfoldsRidges) {
     mend(sphere.maker, sphere.run);
     EXPECT_EQ(sphere.run.flaws(), 0u);
   }
+}
+
+TEST(Mending, NewSliversGoBackAndNothingElse) {
+  for (int vertex : {5, 60, 200, 400}) {
+    Sphere sphere;
+    const double angle = sphere.run.angle;
+    sphere.squeeze_at(vertex);
+    ASSERT_LT(sphere.run.angle, 8);
+    ASSERT_EQ(sphere.run.flaws(), 0u);
+    const Mat3X before = sphere.points();
+    take_back_slivers(sphere.maker, sphere.run);
+    EXPECT_GT(sphere.run.angle, .8 * std::min(20., angle)) << vertex;
+    EXPECT_EQ(sphere.run.flaws(), 0u);
+    EXPECT_EQ(moved_far_from(vertex, 1, before, sphere), 0);
+  }
+}
+
+TEST(Mending, SliversThatTheInputHasStay) {
+  Sphere sphere;
+  sphere.squeeze_at(60);
+  const TriMesh squeezed = sphere.run.mesh;
+  const MemoryOrder memory_order = find_memory_order(squeezed);
+  const RemeshOptions options;
+  const Observer observer;
+  const AttemptMaker maker(squeezed, memory_order, options, {}, {}, observer, nullptr, false);
+  Attempt run = sphere.run;
+  maker.judge(run);
+  const Mat3X before = vertex_points(run.mesh);
+  take_back_slivers(maker, run);
+  EXPECT_EQ(vertex_points(run.mesh), before);
+}
+
+TEST(Mending, SliversOnCreasesGoAllTheWayBack) {
+  Sphere sphere;
+  const int vertex = 60, id = sphere.run.result.memory_order.order.old_vertex[vertex];
+  sphere.squeeze_at(vertex);
+  sphere.run.result.vertex_limits[id] |= limited_by_crease;
+  for (int n : sphere.connectivity().vertex_neighbours[vertex])
+    sphere.run.result.vertex_limits[sphere.run.result.memory_order.order.old_vertex[n]] |= limited_by_crease;
+  take_back_slivers(sphere.maker, sphere.run);
+  EXPECT_EQ(vertex_points(sphere.run.mesh).col(id), vertex_points(sphere.maker.mesh()).col(id));
+}
+
+TEST(Mending, SliversOfFlippedFacesStay) {
+  Sphere sphere;
+  sphere.maker.options.connectivity = ConnectivityMode::flip;
+  sphere.squeeze_at(60);
+  const Mat3X before = sphere.points();
+  take_back_slivers(sphere.maker, sphere.run);
+  EXPECT_EQ(sphere.points(), before);
 }
 
 TEST(Mending, MendsOnePlaceWhereItCannotMendAnother) {

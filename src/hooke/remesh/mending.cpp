@@ -47,6 +47,7 @@ class Mending {
         creases_(sorted_creases(run)),
         is_immovable_(c_.vertex_count, 0) {
     for (int v : find_junctions(c_, joined_vertices(run.mesh, order_)).vertices) is_immovable_[v] = 1;
+    is_at_junction_ = is_immovable_;
     for (int v = 0; v < c_.vertex_count; ++v)
       if (is_limited(v, limited_by_boundary | limited_at_corner | limited_by_request | VertexLimit::put_back))
         is_immovable_[v] = 1;
@@ -63,7 +64,69 @@ class Mending {
     if (is_stopped_) run_.result.reason = StopReason::interrupted;
   }
 
+  void take_back_slivers() {
+    constexpr int max_sweeps = 10;
+    const Mat3X input = order_.gather(maker_.as_written(vertex_points(maker_.mesh())));
+    Mat3X moved = points_;
+    for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+      bool moves = false;
+      for (int v : corners_of_new_slivers(input, moved)) moves = take_back(v, input, moved) || moves;
+      if (!moves) break;
+    }
+    if (moved == points_) return;
+    const Attempt before = run_;
+    place(moved);
+    if (run_.flaws() > before.flaws() || run_.lost_angle > before.lost_angle ||
+        run_.chords() > before.chords() ||
+        maker_.has_worse_polygons(run_) > maker_.has_worse_polygons(before))
+      run_ = before;
+  }
+
  private:
+  static constexpr double small_angle = 20;
+
+  /// Of faces with small angles that are clearly less than those in the input; ascending.
+  std::vector<int> corners_of_new_slivers(const Mat3X& input, const Mat3X& points) const {
+    constexpr double clearly_less = .5;
+    std::vector<int> corners;
+    for (const Triangle& t : c_.faces) {
+      const double angle = min_angle(points, {t});
+      if (angle < small_angle && angle < min_angle(input, {t}) - clearly_less)
+        corners.insert(corners.end(), t.begin(), t.end());
+    }
+    sort_unique(corners);
+    return corners;
+  }
+
+  /// How many faces around the vertex have small angles.
+  std::ptrdiff_t count_slivers(int v, const Mat3X& points) const {
+    return std::ranges::count_if(c_.vertex_faces[v],
+                                 [&](int f) { return min_angle(points, {c_.faces[f]}) < small_angle; });
+  }
+
+  /// Moves the vertex back by as much of the way as is best for the least angle around it, if no more angles
+  /// get small. Returns whether any is.
+  bool take_back(int v, const Mat3X& input, Mat3X& moved) const {
+    constexpr double clearly_larger = .1;
+    if (is_at_junction_[v] || moved.col(v) == input.col(v)) return false;
+    const Vec3 here = moved.col(v), way = input.col(v) - here;
+    Place best{v, here, score_of(v, here, moved)};
+    const int wrong = best.score.wrong;
+    const std::ptrdiff_t slivers = count_slivers(v, moved);
+    double least = best.score.angle() + clearly_larger;
+    const bool on_line = is_limited(v, limited_by_boundary | limited_by_crease | limited_at_corner);
+    for (const double share : {.25, .5, .75, 1.}) {
+      if (share < 1 && on_line) continue;
+      moved.col(v) = share < 1 ? on_input(v, here + share * way) : Vec3(input.col(v));
+      const Score score = score_of(v, moved.col(v), moved);
+      if (score.wrong > wrong || score.angle() <= least || count_slivers(v, moved) > slivers) continue;
+      least = score.angle();
+      best = {v, moved.col(v), score};
+    }
+    moved.col(v) = best.point;
+    return best.point != here;
+  }
+
   /// The points after a round, and how many flaws there are at each vertex.
   struct Round {
     Mat3X points;
@@ -266,6 +329,8 @@ class Mending {
     int wrong = 0;  // how many oppose the input, and how many of their edges fold off creases
     double cotangent = -std::numeric_limits<double>::infinity();  // of their least angle
 
+    double angle() const { return angle_with_cotangent(cotangent); }
+
     bool is_better_than(const Score& other) const {
       return std::pair(wrong, cotangent) < std::pair(other.wrong, other.cotangent);
     }
@@ -401,7 +466,7 @@ class Mending {
   const Adjacency& c_;
   Mat3X points_;
   const std::vector<Edge> creases_;  // see sorted_creases()
-  std::vector<char> is_immovable_;
+  std::vector<char> is_immovable_, is_at_junction_;
   Approach next_ = Approach::corner_best_first;
   bool is_stopped_ = false;
 };
@@ -411,6 +476,11 @@ class Mending {
 void mend(const AttemptMaker& maker, Attempt& run) {
   const bool is_finite = run.result.measures != nullptr;
   if (is_finite && run.flaws() + run.chords() > 0) Mending(maker, run).all_rounds();
+}
+
+void take_back_slivers(const AttemptMaker& maker, Attempt& run) {
+  if (run.result.measures && maker.options.connectivity == ConnectivityMode::fixed)
+    Mending(maker, run).take_back_slivers();
 }
 
 }  // namespace hooke

@@ -15,4 +15,10 @@ struct Attempt;
 /// rounds; a run during whose mending the observer asks to stop is interrupted.
 void mend(const AttemptMaker& maker, Attempt& run);
 
+/// In mode `fixed`, where faces are those of the input: moves single corners of faces that have become
+/// slivers back to where they were, or part of the way on the input, as long as the least angle around each
+/// gets larger and no more are small. Vertices on creases and boundaries go all the way or stay. All is
+/// undone if it breaks a promise.
+void take_back_slivers(const AttemptMaker& maker, Attempt& run);
+
 }  // namespace hooke

@@ -51,12 +51,13 @@ class PreservingRemesh {
   Attempt best() {
     const RemeshOptions start = options_;
     Attempt best = best_with_lengths();
-    if (!is_done(best) && may_take_lengths() && !best.is_interrupted()) {
+    const bool has_slivers = has_many_small_angles(best);
+    if ((!is_done(best) || has_slivers) && may_take_lengths() && !best.is_interrupted()) {
       const RemeshOptions of_best = std::exchange(options_, start);
       maker_.lengths = {lengths_of_input(), {}};
       Attempt next = best_with_lengths();
       if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
-      if (next.result.measures && is_done(next)) {
+      if (next.result.measures && is_done(next) && (!is_done(best) || has_fewer_small_angles(next, best))) {
         best = std::move(next);
         best.result.has_lengths_of_input = true;
       } else {
@@ -94,7 +95,27 @@ class PreservingRemesh {
       if (options_.connectivity == ConnectivityMode::flip) keep_faces(best, best);
     }
     if (!is_valid(best) && !maker_.adapts()) put_back(best);
+    if (!best.is_interrupted() && !maker_.smooths_mask()) take_back_slivers(maker_, best);
     return best;
+  }
+
+  /// Has it, in modes `fixed` and `flip`, so many faces with small angles that other lengths may do better?
+  /// Not if what has small angles stays as it was anyway.
+  bool has_many_small_angles(const Attempt& run) const {
+    constexpr double many = .005, of_input = .5;  // of all faces, and of those with small angles in the input
+    if (maker_.adapts() || !run.result.measures || run.result.rescue == Rescue::put_back) return false;
+    const auto small = static_cast<double>(run.result.measures->quality.faces_below_20);
+    return small > many * static_cast<double>(run.mesh.n_faces()) &&
+           small > of_input * static_cast<double>(maker_.input_quality().faces_below_20);
+  }
+
+  /// Are they clearly fewer, the faces no worse on average, and the least of all not clearly smaller?
+  static bool has_fewer_small_angles(const Attempt& run, const Attempt& other) {
+    constexpr double clearly_fewer = .95, kept_share = .5;
+    const Quality &now = run.result.measures->quality, &before = other.result.measures->quality;
+    return static_cast<double>(now.faces_below_20) <
+               clearly_fewer * static_cast<double>(before.faces_below_20) &&
+           now.shape.mean >= before.shape.mean && run.angle >= kept_share * other.angle;
   }
 
   /// Is so little wrong that what surrounds it may stay as it is in the input, before all vertices leave the
