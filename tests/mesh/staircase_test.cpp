@@ -1,4 +1,4 @@
-#include "hooke/mesh/staircase.h"
+#include "hooke/mesh/image_surfaces.h"
 
 #include <gtest/gtest.h>
 

@@ -11,9 +11,8 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 #include "hooke/mesh/disjoint_sets.h"
-#include "hooke/mesh/isosurface.h"
+#include "hooke/mesh/image_surfaces.h"
 #include "hooke/mesh/normals.h"
-#include "hooke/mesh/staircase.h"
 
 namespace hooke {
 namespace {

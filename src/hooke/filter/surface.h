@@ -7,7 +7,7 @@
 
 #include "hooke/core/symmetric_matrix.h"
 #include "hooke/core/types.h"
-#include "hooke/filter/projection_counts.h"
+#include "hooke/filter/filter.h"
 #include "hooke/mesh/adjacency.h"
 
 namespace hooke {

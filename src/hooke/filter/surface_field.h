@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "hooke/core/types.h"
-#include "hooke/filter/filter_options.h"
+#include "hooke/filter/filter.h"
 #include "hooke/filter/surface.h"
 #include "hooke/filter/thin_plate_spline.h"
 #include "hooke/mesh/adjacency.h"

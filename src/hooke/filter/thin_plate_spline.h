@@ -13,7 +13,7 @@
 
 #include "hooke/core/simd.h"
 #include "hooke/core/types.h"
-#include "hooke/filter/filter_options.h"
+#include "hooke/filter/filter.h"
 
 namespace hooke {
 

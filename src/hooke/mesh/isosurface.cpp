@@ -1,4 +1,4 @@
-#include "hooke/mesh/isosurface.h"
+#include "hooke/mesh/image_surfaces.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 
 #include "hooke/connectivity/connectivity_mode.h"
 #include "hooke/constraints/constraint_options.h"
-#include "hooke/filter/filter_options.h"
+#include "hooke/filter/filter.h"
 #include "hooke/integrator/integration.h"
 
 namespace hooke {

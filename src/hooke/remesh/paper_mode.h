@@ -3,7 +3,7 @@
 #pragma once
 
 #include "hooke/constraints/constraint_options.h"
-#include "hooke/filter/filter_options.h"
+#include "hooke/filter/filter.h"
 #include "hooke/filter/retraction.h"
 #include "hooke/integrator/damped_evolution.h"
 #include "hooke/remesh/result.h"

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "hooke/connectivity/connectivity_mode.h"
-#include "hooke/filter/projection_counts.h"
+#include "hooke/filter/filter.h"
 #include "hooke/integrator/integration.h"
 #include "hooke/integrator/time_step.h"
 #include "hooke/mesh/mesh.h"

@@ -1,6 +1,7 @@
-// What a user chooses of the filter that brings points back to the surface.
+// What a user chooses of the filter that brings points back to the surface, and how its projections ended.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -42,6 +43,24 @@ struct FilterOptions {
   /// long edges along which the normals turn.
   double max_deviation = std::numeric_limits<double>::infinity();
   double max_distance = std::numeric_limits<double>::infinity();  // likewise, in the unit of the points
+};
+
+/// How a projection ended. All but `converged` used the fallback; the report counts them.
+enum class ProjectionStatus : unsigned char {
+  converged,
+  no_cover,       // no patch of the field covers the point
+  flat_gradient,  // |grad psi| too small for a Newton step
+  too_far,        // Newton's method left the neighbourhood of its start
+  step_limit,     // Newton's method did not converge
+};
+
+/// Number of projections, in total and by status, and of field evaluations.
+struct ProjectionCounts {
+  long long calls = 0;
+  long long evaluations = 0;
+  std::array<long long, 5> by_status{};  // indexed by ProjectionStatus
+
+  ProjectionCounts& operator+=(const ProjectionCounts& other);
 };
 
 }  // namespace hooke

@@ -1,5 +1,5 @@
-// Staircases: the surfaces of binary masks, such as labels of medical images, whose steps are those of the
-// image and no sharp edges of the shape.
+// Surfaces that were made of images. The steps of binary masks, such as labels of medical images, and the
+// bevels that marching cubes make are those of the image, and no sharp edges of the shape.
 #pragma once
 
 #include <vector>
@@ -21,6 +21,13 @@ bool is_marched_mask(const Mat3X& points, const Adjacency& adjacency,
 /// below .75 target lengths, as around blocks, and a third of their vertices are corners, so that it is not
 /// merely a regular mesh of a box.
 bool is_staircase(const Mat3X& points, const Adjacency& adjacency, const std::vector<double>& vertex_length);
+
+/// Did marching cubes make the mesh, of values on a grid along the axes, and is the target length about that
+/// of its edges or shorter? Nearly all faces lie in one cell of the grid each, and nearly all vertices on
+/// edges of cells, many of them between the ends. Where the surface that is meant has an edge, such a mesh
+/// has a bevel as wide as a cell. `vertex_length`: target length at each vertex. W. E. Lorensen and H. E.
+/// Cline, "Marching cubes", 1987.
+bool is_isosurface(const Mat3X& points, const Adjacency& adjacency, const std::vector<double>& vertex_length);
 
 /// The points with the steps smoothed, except for those that are held; the volume is about kept, and
 /// components so small that it would not be stay as they are.
