@@ -248,9 +248,10 @@ void warn_of_lengths_of_input(RunRecord& run) {
   if (!run.result->has_lengths_of_input || none_moved) return;
   run.warnings.push_back(
       {"lengths_of_input",
-       fmt::format("{}: its edges are about as long as those of {} are there, as even ones would make worse "
-                   "triangles with these vertices; --sizing input asks for such lengths",
-                   run.output->path, run.input.path)});
+       fmt::format(
+           "{}: its edges are about as long as those of {} are there, as even ones would make worse "
+           "triangles, or more with small angles, with these vertices; --sizing input asks for such lengths",
+           run.output->path, run.input.path)});
 }
 
 /// A length of edges for the narrow regions of the worst faces: the least width of those that need no more
@@ -326,15 +327,17 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
                   s.min_length ? "--min-length" : "the target length", remedy, fewer_seams));
 }
 
-/// Tells what would help against edges that are as short as a rounding, which no step of a shape is.
+/// Tells what would help against slivers at edges as short as a rounding, which no step of a shape is.
 void warn_of_edges_without_length(const Settings& s, RunRecord& run) {
   constexpr double small_angle = 20;
-  const double shortest = run.after->edge_length.min;
-  if (!(shortest <= rounding_share * run.after->extent.diagonal && run.after->min_angle.min < small_angle))
-    return;
+  const double shortest = run.after->edge_length.min, rounding = rounding_share * run.after->extent.diagonal;
+  const auto is_sliver = [&](const WorstFace& f) {
+    return f.min_angle < small_angle && f.height <= rounding;
+  };
+  if (!(shortest <= rounding) || std::ranges::none_of(run.after->worst_faces, is_sliver)) return;
   const char* const adapt = s.remesh.connectivity == ConnectivityMode::adapt
                                 ? ""
-                                : "--connectivity adapt, which collapses them, or ";
+                                : "--connectivity adapt, which collapses most of them, or ";
   run.warnings.push_back(
       {"edges_without_length",
        fmt::format(

@@ -114,8 +114,8 @@ class Repair(CommandTest):
         self.write("fixed.txt", "%d\n%d\n" % (v, fresh))
         report = self.report("cut.obj", "-o", "out.obj", "--fix", "fixed.txt", "-q")
         (warning,) = [w for w in report["warnings"] if w["code"] == "edges_without_length"]
-        self.assertIn("--connectivity adapt, which collapses them, or --weld 0.001%", warning["message"])
-        report = self.report("cut.obj", "-o", "out.obj", "--weld", "0.001%", "-q")
+        self.assertIn("--connectivity adapt, which collapses most of them, or --weld 1e-05%", warning["message"])
+        report = self.report("cut.obj", "-o", "out.obj", "--weld", "1e-05%", "-q")
         self.assertEqual([change["code"] for change in report["repairs"]], ["vertices_welded", "faces_dropped"])
         self.assertEqual([w for w in report["warnings"] if w["code"] == "edges_without_length"], [])
 

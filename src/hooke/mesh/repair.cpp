@@ -65,8 +65,8 @@ double winding_number(const Mat3X& points, const std::vector<Triangle>& faces, c
 /// In a foam with more tests than that, a component in the box of another is taken to be in the other.
 constexpr size_t most_faces_tested = 100'000'000;
 
-/// Edges are without length if they are no longer than rounding_share of the diagonal, and than that of
-/// another edge at one of their ends.
+/// An edge of some length is one of rounding only if it is no longer than this share of another one at an
+/// end.
 constexpr double rounding_beside = 1e-3;
 
 class Repair {
@@ -169,8 +169,8 @@ class Repair {
 
   double distance(int v, int w) const { return (r_.points.col(v) - r_.points.col(w)).norm(); }
 
-  /// Is an edge shorter than that one of rounding? No detail of the shape, for other edges at its ends are
-  /// far longer, nor between the sides of a foil.
+  /// Is an edge no longer than that one of rounding? Other edges at its ends show that it is no detail of a
+  /// shape of that size, and faces that it is not the thickness of a foil.
   bool is_rounding(const HalfedgeMesh& halfedges, int h, double longest) const {
     const double length = distance(halfedges.from(h), halfedges.to(h));
     bool is_long_beside = false;
@@ -190,6 +190,18 @@ class Repair {
       return std::ranges::any_of(normals, [&](const Vec3& other) { return n.dot(other) < opposite; });
     };
     return is_long_beside && std::ranges::none_of(normals, faces_back);
+  }
+
+  /// Would a face that stays turn over or lose its area when the vertex goes where the other is?
+  bool turns_faces(const HalfedgeMesh& halfedges, int goes, int stays) const {
+    return std::ranges::any_of(halfedges.outgoing(goes), [&](int out) {
+      const Triangle& t = halfedges.faces()[out / 3];
+      if (std::ranges::find(t, stays) != t.end()) return false;
+      Triangle moved = t;
+      std::ranges::replace(moved, goes, stays);
+      const FaceShape before = face_shape(r_.points, t);
+      return !before.degenerate() && before.normal.dot(face_shape(r_.points, moved).normal) <= 0;
+    });
   }
 
   void collapse_edges_without_length() {
@@ -215,7 +227,9 @@ class Repair {
         const int stays = std::min(from, to), goes = std::max(from, to);
         const double moves = distance(from, to) + moved[goes];
         if (moves > longest || !halfedges.keeps_topology(h)) continue;
-        if (distance(from, to) > 0 && !is_rounding(halfedges, h, longest)) continue;
+        if (distance(from, to) > 0 &&
+            (!is_rounding(halfedges, h, longest) || turns_faces(halfedges, goes, stays)))
+          continue;
         moved[stays] = std::max(moved[stays], moves);
         halfedges.collapse(h, stays);
         into[goes] = stays;

@@ -11,8 +11,9 @@
 
 namespace hooke {
 
-/// How far rounding moves vertices at most, in diagonals of the box: files of six digits do.
-inline constexpr double rounding_share = 1e-5;
+/// Vertices closer than this, in diagonals of the box, are in the same place but for rounding to 32-bit
+/// floats.
+inline constexpr double rounding_share = 1e-7;
 
 struct RepairOptions {
   bool repair = false;          // make an oriented manifold
@@ -60,7 +61,8 @@ struct Repaired {
 /// - vertices in no face are dropped.
 /// With `collapse`, after these, edges without length are collapsed, as those of marching cubes where a value
 /// at a grid point is that of the level, and those of cuts through what lies a rounding beside the cut; not
-/// where that would change the topology, nor in a mesh that is no oriented manifold.
+/// where that would change the topology or turn a face over, between the two sides of a foil, nor in a mesh
+/// that is no oriented manifold. No vertex moves by more than rounding_share.
 /// With `keep_junctions` edges of three faces and more and vertices in which parts only touch stay: they are
 /// cut last, after all else, if nothing but them keeps the mesh from being an oriented manifold; with
 /// `repair` also the edges at which a surface with one side cannot be oriented. Small components are then

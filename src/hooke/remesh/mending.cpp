@@ -68,11 +68,14 @@ class Mending {
     constexpr int max_sweeps = 10;
     const Mat3X input = order_.gather(maker_.as_written(vertex_points(maker_.mesh())));
     Mat3X moved = points_;
-    for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < max_sweeps && !is_stopped_; ++sweep) {
+      const std::vector<int> corners = corners_of_new_slivers(input, moved);
       bool moves = false;
-      for (int v : corners_of_new_slivers(input, moved)) moves = take_back(v, input, moved) || moves;
+      for (int v : corners) moves = take_back(v, input, moved) || moves;
       if (!moves) break;
+      is_stopped_ = maker_.is_stopped();
     }
+    if (is_stopped_) run_.result.reason = StopReason::interrupted;
     if (moved == points_) return;
     const Attempt before = run_;
     place(moved);
@@ -83,25 +86,22 @@ class Mending {
   }
 
  private:
-  static constexpr double small_angle = 20;
-
   /// Of faces with small angles that are clearly less than those in the input; ascending.
   std::vector<int> corners_of_new_slivers(const Mat3X& input, const Mat3X& points) const {
     constexpr double clearly_less = .5;
     std::vector<int> corners;
     for (const Triangle& t : c_.faces) {
       const double angle = min_angle(points, {t});
-      if (angle < small_angle && angle < min_angle(input, {t}) - clearly_less)
+      if (angle < sliver_angle && angle < min_angle(input, {t}) - clearly_less)
         corners.insert(corners.end(), t.begin(), t.end());
     }
     sort_unique(corners);
     return corners;
   }
 
-  /// How many faces around the vertex have small angles.
-  std::ptrdiff_t count_slivers(int v, const Mat3X& points) const {
-    return std::ranges::count_if(c_.vertex_faces[v],
-                                 [&](int f) { return min_angle(points, {c_.faces[f]}) < small_angle; });
+  static std::ptrdiff_t count_slivers(const std::vector<Triangle>& faces, const Mat3X& points) {
+    return std::ranges::count_if(faces,
+                                 [&](const Triangle& t) { return min_angle(points, {t}) < sliver_angle; });
   }
 
   /// Moves the vertex back by as much of the way as is best for the least angle around it, if no more angles
@@ -109,22 +109,26 @@ class Mending {
   bool take_back(int v, const Mat3X& input, Mat3X& moved) const {
     constexpr double clearly_larger = .1;
     if (is_at_junction_[v] || moved.col(v) == input.col(v)) return false;
+    std::vector<Triangle> around;
+    for (int f : c_.vertex_faces[v]) around.push_back(c_.faces[f]);
     const Vec3 here = moved.col(v), way = input.col(v) - here;
-    Place best{v, here, score_of(v, here, moved)};
-    const int wrong = best.score.wrong;
-    const std::ptrdiff_t slivers = count_slivers(v, moved);
-    double least = best.score.angle() + clearly_larger;
+    const std::ptrdiff_t slivers = count_slivers(around, moved);
+    double least = min_angle(moved, around) + clearly_larger;
+    Vec3 best = here;
     const bool on_line = is_limited(v, limited_by_boundary | limited_by_crease | limited_at_corner);
     for (const double share : {.25, .5, .75, 1.}) {
       if (share < 1 && on_line) continue;
-      moved.col(v) = share < 1 ? on_input(v, here + share * way) : Vec3(input.col(v));
-      const Score score = score_of(v, moved.col(v), moved);
-      if (score.wrong > wrong || score.angle() <= least || count_slivers(v, moved) > slivers) continue;
-      least = score.angle();
-      best = {v, moved.col(v), score};
+      const Vec3 point = share < 1 ? on_input(v, here + share * way) : Vec3(input.col(v));
+      moved.col(v) = point;
+      const double angle = min_angle(moved, around);
+      const bool is_better = angle > least && count_slivers(around, moved) <= slivers;
+      moved.col(v) = here;
+      if (!is_better || score_of(v, point, moved).wrong > score_of(v, here, moved).wrong) continue;
+      least = angle;
+      best = point;
     }
-    moved.col(v) = best.point;
-    return best.point != here;
+    moved.col(v) = best;
+    return best != here;
   }
 
   /// The points after a round, and how many flaws there are at each vertex.
@@ -328,8 +332,6 @@ class Mending {
   struct Score {
     int wrong = 0;  // how many oppose the input, and how many of their edges fold off creases
     double cotangent = -std::numeric_limits<double>::infinity();  // of their least angle
-
-    double angle() const { return angle_with_cotangent(cotangent); }
 
     bool is_better_than(const Score& other) const {
       return std::pair(wrong, cotangent) < std::pair(other.wrong, other.cotangent);

@@ -6,6 +6,9 @@ namespace hooke {
 class AttemptMaker;
 struct Attempt;
 
+/// Faces with a smaller minimum angle, degrees, are slivers.
+inline constexpr double sliver_angle = 20;
+
 /// Moves vertices of the result in rounds so that fewer flaws, or else fewer chords, are left: those that are
 /// too far towards the closest points of the input, those about lost vertices of the input towards these, and
 /// the corners of faces that are turned over, folded or intersecting to better places on the input; none that

@@ -51,20 +51,8 @@ class PreservingRemesh {
   Attempt best() {
     const RemeshOptions start = options_;
     Attempt best = best_with_lengths();
-    const bool has_slivers = has_many_small_angles(best);
-    if ((!is_done(best) || has_slivers) && may_take_lengths() && !best.is_interrupted()) {
-      const RemeshOptions of_best = std::exchange(options_, start);
-      maker_.lengths = {lengths_of_input(), {}};
-      Attempt next = best_with_lengths();
-      if (next.is_interrupted()) best.result.reason = StopReason::interrupted;
-      if (next.result.measures && is_done(next) && (!is_done(best) || has_fewer_small_angles(next, best))) {
-        best = std::move(next);
-        best.result.has_lengths_of_input = true;
-      } else {
-        options_ = of_best;
-        maker_.lengths = {asked_, {}};
-      }
-    }
+    if (may_take_lengths() && !best.is_interrupted() && (!is_done(best) || has_many_slivers(best)))
+      take_lengths_of_input(start, best);
     if (!is_done(best)) leave_as_it_was(best);
     resolve_bends(start, best);
     if (!best.lengths.shorter.empty()) best.result.shortened = shorter_.count_in(best);
@@ -99,18 +87,28 @@ class PreservingRemesh {
     return best;
   }
 
-  /// Has it, in modes `fixed` and `flip`, so many faces with small angles that other lengths may do better?
-  /// Not if what has small angles stays as it was anyway.
-  bool has_many_small_angles(const Attempt& run) const {
-    constexpr double many = .005, of_input = .5;  // of all faces, and of those with small angles in the input
+  /// Has it, in modes `fixed` and `flip`, so many slivers that other lengths may do better? Those with a
+  /// vertex that moves freely count; none if they stay as they were.
+  bool has_many_slivers(const Attempt& run) const {
+    constexpr double many = .005, of_input = .5;  // of all faces, and of the slivers in the input
     if (maker_.adapts() || !run.result.measures || run.result.rescue == Rescue::put_back) return false;
-    const auto small = static_cast<double>(run.result.measures->quality.faces_below_20);
-    return small > many * static_cast<double>(run.mesh.n_faces()) &&
-           small > of_input * static_cast<double>(maker_.input_quality().faces_below_20);
+    const Permutation& order = run.result.memory_order.order;
+    const Mat3X points = order.gather(vertex_points(run.mesh));
+    const auto moves_freely = [&](int v) {
+      return run.result.vertex_limits[order.old_vertex[v]] == not_limited;
+    };
+    const auto is_curable = [&](const Triangle& t) {
+      return min_angle(points, {t}) < sliver_angle && std::ranges::any_of(t, moves_freely);
+    };
+    const auto slivers = static_cast<double>(run.result.measures->quality.faces_below_20),
+               before = static_cast<double>(maker_.input_quality().faces_below_20);
+    const auto curable = std::ranges::count_if(run.result.memory_order.adjacency->faces, is_curable);
+    return slivers > of_input * before &&
+           static_cast<double>(curable) > many * static_cast<double>(run.mesh.n_faces());
   }
 
   /// Are they clearly fewer, the faces no worse on average, and the least of all not clearly smaller?
-  static bool has_fewer_small_angles(const Attempt& run, const Attempt& other) {
+  static bool has_fewer_slivers(const Attempt& run, const Attempt& other) {
     constexpr double clearly_fewer = .95, kept_share = .5;
     const Quality &now = run.result.measures->quality, &before = other.result.measures->quality;
     return static_cast<double>(now.faces_below_20) <
@@ -533,6 +531,29 @@ class PreservingRemesh {
   /// May attempts take the lengths of the input for those asked for?
   bool may_take_lengths() const {
     return has_one_length() && maker_.lengths.of_vertices == asked_ && !maker_.smooths_mask();
+  }
+
+  /// Tries it with the lengths of the input: by all means if the result at hand is not done, else by one
+  /// attempt, which must have fewer slivers.
+  void take_lengths_of_input(const RemeshOptions& start, Attempt& best) {
+    constexpr int few_rings = 4;
+    const bool was_done = is_done(best);
+    const RemeshOptions of_best = std::exchange(options_, start);
+    maker_.lengths = {lengths_of_input(), {}};
+    Attempt next = was_done ? attempt() : best_with_lengths();
+    if (was_done && next.result.measures && !next.is_interrupted()) {
+      if (options_.connectivity == ConnectivityMode::fixed) put_back_around_flaws(next, few_rings);
+      take_back_slivers(maker_, next);
+    }
+    if (next.is_interrupted() && !was_done) best.result.reason = StopReason::interrupted;
+    if (next.result.measures && is_done(next) &&
+        (!was_done || (!next.is_interrupted() && has_fewer_slivers(next, best)))) {
+      best = std::move(next);
+      best.result.has_lengths_of_input = true;
+    } else {
+      options_ = of_best;
+      maker_.lengths = {asked_, {}};
+    }
   }
 
   /// Lengths as in the input, scaled to those asked for.
