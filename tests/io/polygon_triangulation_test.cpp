@@ -100,6 +100,24 @@ TEST(Polygons, AQuadrilateralIsCutAlongTheBetterDiagonal) {
   EXPECT_EQ(triangulate(kite.points, kite.corners).triangles, (std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}));
 }
 
+TEST(Polygons, RoundingDoesNotCutQuadrilateralsOfAGridInDifferentWays) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int k = 0; k < 200; ++k) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(3 * number(random), Vec3(number(random), 1, number(random)).normalized())
+            .toRotationMatrix();
+    std::vector<Vec3> corners{{0, 0, .1}, {2, 0, -.1}, {2, 1, .1}, {0, 1, -.1}};  // twisted
+    const Vec3 offset(number(random), number(random), 0);
+    for (Vec3& x : corners) {
+      x = turn * x + offset;
+      for (double& coordinate : x) coordinate = std::round(1e6 * coordinate) / 1e6;
+    }
+    const Polygon p = polygon(corners);
+    EXPECT_EQ(triangulate(p.points, p.corners).triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  }
+}
+
 TEST(Polygons, TrianglesStayAsTheyAreAndKnowTheirPolygon) {
   Mat3X x(3, 5);
   x << 0, 1, 1, 0, .5,  //

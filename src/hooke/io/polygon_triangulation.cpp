@@ -148,11 +148,14 @@ class EarClipper {
   std::priority_queue<Candidate> candidates_;
 };
 
-// Cuts a quadrilateral along the better diagonal. Returns false if neither lies inside.
+// Cuts a quadrilateral along the better diagonal; of two about as good, as in grids, along that from its
+// first corner, so that rounding does not cut each of them in another way. Returns false if neither lies
+// inside.
 bool cut_quadrilateral(const std::vector<Vec2>& p, std::vector<Triangle>& out) {
+  constexpr double alike = 1e-3;  // difference of shapes
   const double first = std::min(shape(p[0], p[1], p[2]), shape(p[0], p[2], p[3]));
   const double second = std::min(shape(p[0], p[1], p[3]), shape(p[1], p[2], p[3]));
-  if (first >= second)
+  if (first >= second || (first > straight && first >= second - alike))
     out.insert(out.end(), {{0, 1, 2}, {0, 2, 3}});
   else
     out.insert(out.end(), {{0, 1, 3}, {1, 2, 3}});
