@@ -107,13 +107,14 @@ class PreservingRemesh {
            static_cast<double>(curable) > many * static_cast<double>(run.mesh.n_faces());
   }
 
-  /// Are they clearly fewer, the faces no worse on average, and the least of all not clearly smaller?
+  /// Are they clearly fewer, the faces no worse on average, and the least angle not clearly smaller?
   static bool has_fewer_slivers(const Attempt& run, const Attempt& other) {
-    constexpr double clearly_fewer = .95, kept_share = .5;
+    constexpr double clearly_fewer = .95, kept_mean = .95, kept_least = .5;
     const Quality &now = run.result.measures->quality, &before = other.result.measures->quality;
     return static_cast<double>(now.faces_below_20) <
                clearly_fewer * static_cast<double>(before.faces_below_20) &&
-           now.shape.mean >= before.shape.mean && run.angle >= kept_share * other.angle;
+           now.shape.mean >= before.shape.mean && now.min_angle.mean >= kept_mean * before.min_angle.mean &&
+           run.angle >= kept_least * other.angle;
   }
 
   /// Is so little wrong that what surrounds it may stay as it is in the input, before all vertices leave the
