@@ -63,7 +63,7 @@ void make_result(const Settings& s, LoadedMesh& loaded, Original& original, RunR
   if (!s.fields.empty()) files.add(PendingFile(s.fields, fields_text(loaded, points, original, record)));
   if (!s.map.empty())
     files.add(PendingFile(s.map, map_text(map_of_output(loaded.mesh, loaded.origin, record))));
-  add_result_warnings(s, record);
+  add_result_warnings(s, loaded.mesh, record);
 }
 
 /// Writes the remaining outputs, then commits all files, so that no file is replaced before everything that

@@ -327,23 +327,20 @@ void warn_of_held_faces(const Settings& s, RunRecord& run) {
                   s.min_length ? "--min-length" : "the target length", remedy, fewer_seams));
 }
 
-/// Tells what would help against slivers at edges as short as a rounding, which no step of a shape is.
-void warn_of_edges_without_length(const Settings& s, RunRecord& run) {
+/// Tells what would help against edges as short as a rounding in a mesh with small angles.
+void warn_of_edges_without_length(const Settings& s, const TriMesh& mesh, RunRecord& run) {
   constexpr double small_angle = 20;
-  const double shortest = run.after->edge_length.min, rounding = rounding_share * run.after->extent.diagonal;
-  const auto is_sliver = [&](const WorstFace& f) {
-    return f.min_angle < small_angle && f.height <= rounding;
-  };
-  if (!(shortest <= rounding) || std::ranges::none_of(run.after->worst_faces, is_sliver)) return;
-  const char* const adapt = s.remesh.connectivity == ConnectivityMode::adapt
-                                ? ""
-                                : "--connectivity adapt, which collapses most of them, or ";
+  if (s.remesh.connectivity == ConnectivityMode::adapt || run.after->min_angle.min >= small_angle ||
+      !(run.after->edge_length.min <= rounding_share * run.after->extent.diagonal))
+    return;
+  const Repaired collapsed = repair(vertex_points(mesh), triangles_of(mesh), {.collapse = true}, {});
+  const auto edges = std::ranges::find(collapsed.changes, "edges_collapsed", &Note::code);
+  if (edges == collapsed.changes.end()) return;
   run.warnings.push_back(
       {"edges_without_length",
-       fmt::format(
-           "{}: edges as short as {:.2g}, a rounding of its size, make slivers; use {}--weld {:.2g}%, which "
-           "merges their vertices",
-           run.output->path, shortest, adapt, 100 * rounding_share)});
+       fmt::format("{}: {} of its edges are no longer than a rounding of its size, which makes slivers; use "
+                   "--connectivity adapt, which collapses them",
+                   run.output->path, edges->count)});
 }
 
 void warn_of_dropped_creases(RunRecord& run) {
@@ -461,7 +458,7 @@ void warn_of_inside_out(RunRecord& run) {
                                    run.input.path, *volume)});
 }
 
-void add_result_warnings(const Settings& s, RunRecord& run) {
+void add_result_warnings(const Settings& s, const TriMesh& mesh, RunRecord& run) {
   const std::vector<Warning> earlier = std::exchange(run.warnings, {});
   warn_of_promises(run);
   warn_of_distance(s, run);
@@ -472,7 +469,7 @@ void add_result_warnings(const Settings& s, RunRecord& run) {
   warn_of_shortening(run);
   warn_of_lengths_of_input(run);
   warn_of_held_faces(s, run);
-  warn_of_edges_without_length(s, run);
+  warn_of_edges_without_length(s, mesh, run);
   warn_of_rounding(s, run);
   warn_of_dropped_creases(run);
   warn_of_count(run);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hooke/mesh/adjacency.h"
+#include "hooke/mesh/mesh.h"
 #include "hooke/report/report.h"
 #include "options.h"
 
@@ -25,8 +26,8 @@ void warn_of_junctions(const Settings& settings, bool has_copies, RunRecord& run
 void warn_of_inside_out(RunRecord& run);
 
 /// Warns of folded faces, new self-intersections, deviation from the input surface, and missed face counts
-/// and edge lengths. Pre-condition: the run has a result that was measured.
-void add_result_warnings(const Settings& settings, RunRecord& run);
+/// and edge lengths. Pre-condition: the run has a result that was measured, the mesh.
+void add_result_warnings(const Settings& settings, const TriMesh& mesh, RunRecord& run);
 
 /// Where a promise is broken: by the method, or by writing numbers with fewer digits.
 enum class BrokenBy { method, rounding };

@@ -56,7 +56,7 @@ RunRecord run_in_memory(Settings s, ValidMesh& mesh, const Observer& observer) {
   if (!s.check) {
     remesh_and_measure(s, mesh.mesh, mesh.memory_order, original, record, observer, stopwatch);
     record.output = {{result_name, "", "", hash_of_faces(mesh.mesh)}, false};
-    add_result_warnings(s, record);
+    add_result_warnings(s, mesh.mesh, record);
   }
   join_ids(mesh.mesh, mesh.origin, record);
   record.stages = stopwatch.stages();

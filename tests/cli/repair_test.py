@@ -114,7 +114,7 @@ class Repair(CommandTest):
         self.write("fixed.txt", "%d\n%d\n" % (v, fresh))
         report = self.report("cut.obj", "-o", "out.obj", "--fix", "fixed.txt", "-q")
         (warning,) = [w for w in report["warnings"] if w["code"] == "edges_without_length"]
-        self.assertIn("--connectivity adapt, which collapses most of them, or --weld 1e-05%", warning["message"])
+        self.assertIn("1 of its edges are no longer than a rounding", warning["message"])
         report = self.report("cut.obj", "-o", "out.obj", "--weld", "1e-05%", "-q")
         self.assertEqual([change["code"] for change in report["repairs"]], ["vertices_welded", "faces_dropped"])
         self.assertEqual([w for w in report["warnings"] if w["code"] == "edges_without_length"], [])

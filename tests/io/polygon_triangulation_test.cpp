@@ -98,6 +98,8 @@ TEST(Polygons, StarsAndCombsAreCutCleanly) {
 TEST(Polygons, AQuadrilateralIsCutAlongTheBetterDiagonal) {
   const Polygon kite = polygon({{-5, 0, 0}, {0, -1, 0}, {5, 0, 0}, {0, 1, 0}});
   EXPECT_EQ(triangulate(kite.points, kite.corners).triangles, (std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}));
+  const Polygon thin = polygon({{0, 0, 0}, {1, 0, 0}, {1.5, 1e-4, 0}, {.5, 1e-4, 0}});
+  EXPECT_EQ(triangulate(thin.points, thin.corners).triangles, (std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}));
 }
 
 TEST(Polygons, RoundingDoesNotCutQuadrilateralsOfAGridInDifferentWays) {

@@ -152,10 +152,10 @@ class EarClipper {
 // first corner, so that rounding does not cut each of them in another way. Returns false if neither lies
 // inside.
 bool cut_quadrilateral(const std::vector<Vec2>& p, std::vector<Triangle>& out) {
-  constexpr double alike = 1e-3;  // difference of shapes
+  constexpr double alike = 1 - 1e-3;  // share of the better shape
   const double first = std::min(shape(p[0], p[1], p[2]), shape(p[0], p[2], p[3]));
   const double second = std::min(shape(p[0], p[1], p[3]), shape(p[1], p[2], p[3]));
-  if (first >= second || (first > straight && first >= second - alike))
+  if (first >= alike * second)
     out.insert(out.end(), {{0, 1, 2}, {0, 2, 3}});
   else
     out.insert(out.end(), {{0, 1, 3}, {1, 2, 3}});
