@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "hooke/geometry/triangle.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
 #include "hooke/mesh/topology.h"
@@ -380,9 +381,8 @@ TEST(Repair, CollapsedEdgesTurnNoFaceOver) {
       for (auto p : t.points.colwise())
         if ((p - middle).norm() < .3) p = middle + scale * (p - middle);
       const auto turned = [](const Mat3X& points, const std::vector<Triangle>& faces) {
-        return std::ranges::count_if(faces, [&](const Triangle& f) {
-          return (points.col(f[1]) - points.col(f[0])).cross(points.col(f[2]) - points.col(f[0]))[2] <= 0;
-        });
+        return std::ranges::count_if(
+            faces, [&](const Triangle& f) { return doubled_area_vector(points, f).z() <= 0; });
       };
       if (turned(t.points, t.faces) > 0) continue;
       const Repaired r = repaired(t, collapsing);

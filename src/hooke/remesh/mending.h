@@ -21,7 +21,7 @@ void mend(const AttemptMaker& maker, Attempt& run);
 /// In mode `fixed`, where faces are those of the input: moves single corners of faces that have become
 /// slivers back to where they were, or part of the way on the input, as long as the least angle around each
 /// gets larger and no more are small. Vertices on creases and boundaries go all the way or stay. All is
-/// undone if it breaks a promise.
+/// undone if it breaks a promise. If the observer asks to stop it ends early, and the run is interrupted.
 void take_back_slivers(const AttemptMaker& maker, Attempt& run);
 
 }  // namespace hooke
