@@ -467,39 +467,6 @@ class Adaptation {
 
 }  // namespace
 
-AdaptOptions adapt_options(Effort effort) {
-  AdaptOptions options;
-  switch (effort) {
-    case Effort::fast:
-      options.rounds = 2;
-      options.first_flow = 4;
-      options.count_flow = 0;
-      options.coarse.levels = 3;
-      options.coarse_flow = 3;
-      options.fine_flow = 1;
-      options.spring_steps = 8;
-      options.irregular = {.passes = 1};
-      options.last_flow = options.last_passes = 0;
-      options.last_outer = 1;
-      options.last_steps = 1;  // one sweep
-      break;
-    case Effort::standard:
-      break;
-    case Effort::thorough:
-      options.rounds = 7;
-      options.flow_rounds = 8;
-      options.coarse_flow = options.fine_flow = 20;
-      options.irregular.passes = 8;
-      options.irregular.sweeps = 6;
-      options.irregular.max_energy_rise = .6;
-      options.irregular.max_rise_after_relaxation = .2;
-      options.last_flow = 20;
-      options.last_passes = 8;
-      break;
-  }
-  return options;
-}
-
 FlipOptions flips_after(const AdaptResult& adapted, const AdaptOptions& options, FlipOptions flips) {
   if (adapted.levels == 0) return flips;
   flips.flow_rounds = std::min(flips.flow_rounds, options.last_flow);

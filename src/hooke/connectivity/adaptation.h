@@ -53,9 +53,6 @@ struct AdaptOptions {
   std::optional<int> last_steps;  // maximum energy evaluations of L-BFGS in each of these iterations
 };
 
-/// The options for an effort level.
-AdaptOptions adapt_options(Effort effort);
-
 /// Replaces the mesh of the workspace. The topology, boundary loops, creases, corners and fixed vertices are
 /// kept. Where vertices are held, as the mesh was adapted before, no coarser mesh comes first, and what is
 /// known of bends, junctions and narrow regions stays.

@@ -1,4 +1,4 @@
-// What may change of a mesh's connectivity, how much time to spend on it, and what was changed.
+// What may change of a mesh's connectivity, and what was changed.
 #pragma once
 
 namespace hooke {
@@ -8,9 +8,6 @@ enum class ConnectivityMode {
   flip,   // edges are flipped
   adapt,  // edges are also split and collapsed: new vertices and faces
 };
-
-/// How much time to spend on better triangles.
-enum class Effort { fast, standard, thorough };
 
 /// What mode `flip` did, which also follows mode `adapt`.
 struct FlipResult {

@@ -137,33 +137,6 @@ class FlipMode {
 
 }  // namespace
 
-FlipOptions flip_options(Effort effort) {
-  FlipOptions options;
-  switch (effort) {
-    case Effort::fast:
-      options.flow_rounds = 9;
-      options.spring_rounds = 1;
-      options.spring_steps = 8;
-      options.passes.passes = 0;
-      options.energy_drop = 1e-2;
-      options.angle_springs.last_threshold = 36;
-      options.angle_springs.sweeps = 4;
-      break;
-    case Effort::standard:
-      break;
-    case Effort::thorough:
-      options.flow_rounds = 200;
-      options.few_flips = 0;
-      options.passes.passes = 8;
-      options.passes.rings = 3;
-      options.passes.sweeps = 6;
-      options.passes.max_energy_rise = .6;
-      options.passes.max_rise_after_relaxation = .2;
-      break;
-  }
-  return options;
-}
-
 FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,
                          const ShapeLimits& limits, const Observer& observer) {
   return FlipMode(work, options, terms, limits, observer).run();

@@ -26,9 +26,6 @@ struct FlipOptions {
       .first_threshold = 0, .margin = 3, .last_threshold = 60, .rest = 3e-3, .edge_error_limit = 1.05};
 };
 
-/// The options for an effort level.
-FlipOptions flip_options(Effort effort);
-
 /// Moves the vertices of the workspace on the surface of the input, alternating with edge flips. Feature
 /// edges stay. Pre-condition: no Workspace::refit() yet.
 FlipResult run_flip_mode(Workspace& work, const FlipOptions& options, const EnergyTerms& terms,

@@ -10,6 +10,9 @@
 
 namespace hooke {
 
+/// How much time to spend on better triangles.
+enum class Effort { fast, standard, thorough };
+
 /// The method that finds the equilibrium of the springs. Untangling and angle optimisation work vertex by
 /// vertex with either.
 enum class IntegratorKind {
