@@ -70,7 +70,7 @@ TEST(VertexData, BrokenNumbersOfVerticesAreErrors) {
 
 TEST(VertexData, IsLinearInTheFaces) {
   const VertexData data = {{"w", NumberType::float64, {1, 2, 4, nan}},
-                           {"n", NumberType::uint8, {0, 1, 1, 9}}};
+                           {"red", NumberType::uint8, {0, 1, 1, 9}}};
   const std::vector<Triangle> faces = {{0, 1, 2}, {2, 1, 3}};
   const std::vector<MapEntry> map = {
       {0, {0, Vec3(1, 0, 0)}}, {-1, {0, Vec3(.5, .25, .25)}}, {-1, {1, Vec3(.5, .5, 0)}}, {3, {}}};
@@ -80,6 +80,18 @@ TEST(VertexData, IsLinearInTheFaces) {
   EXPECT_EQ(carried[0].values[2], 3) << "the corner without weight does not count";
   EXPECT_TRUE(std::isnan(carried[0].values[3]));
   EXPECT_EQ(carried[1].values, (std::vector<double>{0, 1, 1, 9}));
+}
+
+TEST(VertexData, LabelsAreThoseOfTheNearestCorner) {
+  const std::vector<Triangle> faces = {{0, 1, 2}};
+  for (const NumberType type : {NumberType::uint8, NumberType::int32}) {
+    const VertexData data = {{"label", type, {1, 5, 9}}, {"red", type, {1, 5, 9}}};
+    const std::vector<MapEntry> map = {
+        {-1, {0, Vec3(.4, .25, .35)}}, {-1, {0, Vec3(.2, .3, .5)}}, {-1, {0, Vec3(0, .5, .5)}}, {2, {}}};
+    const VertexData carried = interpolate(data, map, faces);
+    EXPECT_EQ(carried[0].values, (std::vector<double>{1, 9, 5, 9}));
+    EXPECT_EQ(carried[1].values, (std::vector<double>{5, 6, 7, 9}));
+  }
 }
 
 TEST(VertexData, AValueIsNeverBeyondThoseOfTheCorners) {

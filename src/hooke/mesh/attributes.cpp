@@ -26,6 +26,20 @@ double value_at(const MapEntry& entry, const std::vector<double>& values,
   return std::isfinite(value) ? std::clamp(value, smallest, largest) : value;  // against rounding
 }
 
+/// The value of the corner with the greatest weight, of the first of these.
+double nearest_value(const MapEntry& entry, const std::vector<double>& values,
+                     const std::vector<Triangle>& faces) {
+  if (entry.position.face < 0) return entry.vertex < 0 ? 0 : values[entry.vertex];
+  Eigen::Index corner;
+  entry.position.weights.maxCoeff(&corner);
+  return values[faces[entry.position.face][static_cast<size_t>(corner)]];
+}
+
+/// Are the numbers of the channel labels or counts, between which there is nothing?
+bool has_labels(const VertexChannel& channel) {
+  return is_integer(channel.type) && std::ranges::find(colour_names, channel.name) == colour_names.end();
+}
+
 }  // namespace
 
 const VertexChannel* find_channel(const VertexData& data, const std::string& name) {
@@ -51,9 +65,10 @@ VertexData interpolate(const VertexData& data, const std::vector<MapEntry>& map,
   for (const VertexChannel& channel : data) {
     VertexChannel& to = result.emplace_back(VertexChannel{channel.name, channel.type, {}});
     to.values.resize(map.size());
+    const auto at = has_labels(channel) ? nearest_value : value_at;
     parallel_for(map.size(), 4096, [&](size_t begin, size_t end) {
       for (size_t v = begin; v < end; ++v) {
-        const double value = value_at(map[v], channel.values, faces);
+        const double value = at(map[v], channel.values, faces);
         to.values[v] = is_integer(channel.type) ? std::round(value) : value;
       }
     });
