@@ -104,4 +104,39 @@ TEST(SmoothPatches, AFlatSideOfItEndsAtCreases) {
             .05 * static_cast<double>(creases.size()));
 }
 
+/// A terrain with cells of 30, whose heights are in steps, with its points as floats or not.
+test::Triangles terrain(double step, bool is_float = false) {
+  test::Triangles t =
+      test::grid(40, [](double x, double y) { return .03 * std::sin(5 * x + 1) * std::cos(4 * y); });
+  t.points *= 1200;
+  for (double& height : t.points.row(2)) height = step * std::round(height / step);
+  if (is_float) t.points = t.points.cast<float>().cast<double>();
+  return t;
+}
+
+bool has_facets(const test::Triangles& t) {
+  const Adjacency c = test::connect(t);
+  const std::vector<double> lengths(c.vertex_count, natural_length_of(t));
+  return !detect_creases(t.points, c, lengths, {}, {}).empty() || is_faceted(t.points, c);
+}
+
+TEST(SmoothPatches, HeightsInStepsMakeNoFacets) {
+  for (const double step : {1., .1 * 3.048, 2. / 3}) {
+    EXPECT_FALSE(has_facets(terrain(step))) << step;
+    EXPECT_FALSE(has_facets(terrain(step, true))) << step;
+  }
+  EXPECT_GT(marked_faces(terrain(1)), .5 * static_cast<double>(terrain(1).faces.size()));
+  test::Triangles moved = terrain(1);
+  moved.points.row(2).array() += 512.5;
+  EXPECT_EQ(marked_faces(moved), marked_faces(terrain(1)));
+}
+
+/// Cells as long as the steps are those of a grid: the facets are meant.
+TEST(SmoothPatches, StepsAsLongAsEdgesAreNoRounding) {
+  test::Triangles t = sheet_of_facets(40);
+  EXPECT_TRUE(has_facets(t));
+  t.points.row(2) *= .5;
+  EXPECT_TRUE(has_facets(t));
+}
+
 }  // namespace hooke::smooth_patches_test
