@@ -16,6 +16,7 @@
 #include "hooke/io/vertex_lists.h"
 #include "hooke/mesh/adjacency.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/mesh/wedges.h"
 #include "hooke/springs/narrow_regions.h"
 #include "hooke/springs/sizing.h"
@@ -176,7 +177,8 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   const Sizing sizing{
       read_sizing(s.sizing, s.input, points, memory_order, s.remesh.constraints.features, origin),
       s.remesh.gradation};
-  std::vector<double> lengths = resolve_vertex_lengths(s.length, sizing, points, adjacency);
+  std::vector<double> lengths =
+      resolve_vertex_lengths(s.length, sizing, points, adjacency, joined_vertices(mesh, memory_order.order));
   std::vector<double> of_edges;
   if (!s.edge_lengths.empty()) {
     of_edges = lengths_of_edges(s, lengths, memory_order);
@@ -191,6 +193,8 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
   const TargetLengths targets = of_edges.empty() ? spread_target_lengths(adjacency, lengths)
                                                  : from_edge_lengths(adjacency, std::move(of_edges));
   record.target = {mean_length(points, adjacency, targets), *min_length, *max_length, natural};
+  const double covering = covering_length(points, adjacency, targets);
+  record.target.faces = static_cast<double>(adjacency.faces.size()) * std::pow(natural / covering, 2);
   record.parameters.update({{"L_spec", printable(s.length_text)},
                             {"sizing", printable(s.sizing_text)},
                             {"edge_lengths", nullptr}});
@@ -200,7 +204,7 @@ void set_target_lengths(const Settings& s, TriMesh& mesh, const MemoryOrder& mem
       (s.sizing.kind != SizingSource::Kind::none || s.min_length) && std::isfinite(gradation);
   record.parameters["gradation"] = limited ? nlohmann::ordered_json(gradation) : nlohmann::ordered_json();
   if (!s.check && s.edge_lengths.empty() && s.remesh.connectivity != ConnectivityMode::adapt)
-    warn_of_length(s, covering_length(points, adjacency, targets), natural, record);
+    warn_of_length(s, covering, natural, record);
 }
 
 void set_min_length(Settings& s, const TriMesh& mesh, const MemoryOrder& memory_order, const Mat3X& points,

@@ -294,6 +294,7 @@ void resolve(Settings& s, const RawOptions& raw) {
   s.input = s.inputs.front();
   reject_unused_batch_options(s, raw);
   s.length = parsed("--length", parse_length, s.length_text);
+  if (s.remesh.connectivity == ConnectivityMode::adapt) s.length.whose = LengthSpec::Natural::shorter;
   resolve_sizing(s, raw);
   if (raw.keep) parse_keep(*raw.keep, s.keep, s.repair.keep_junctions);
   if (raw.drop_components) s.repair.drop_components = parse_share(*raw.drop_components);

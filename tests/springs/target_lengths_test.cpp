@@ -1,11 +1,13 @@
 #include "hooke/springs/target_lengths.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -98,6 +100,57 @@ TEST(LengthSpec, RefusesWhatIsNoLength) {
   for (const char* text :
        {"", "%", "x", "0", "-1", "nan", "inf", "1e999", "2 x", "2xx", "2%x", "two", "Auto"})
     EXPECT_THROW(parse_length(text), Error) << text;
+}
+
+/// A fine ball and a coarse one eight times as large.
+test::Triangles two_balls() {
+  test::Triangles coarse = test::sphere(1);
+  coarse.points *= 8;
+  coarse.points.row(0).array() += 20;
+  return test::both(test::sphere(2), coarse);
+}
+
+TEST(LengthSpec, NaturalLengthsAreThoseOfTheParts) {
+  const test::Triangles t = two_balls(), fine = test::sphere(2), coarse = test::sphere(1);
+  const Adjacency c = test::connect(t);
+  const double of_fine = natural_length_of(fine), of_coarse = 8 * natural_length_of(coarse),
+               of_both = natural_length_of(t);
+  ASSERT_LT(of_both, of_coarse);
+  for (const double times : {1., .5, 3.}) {
+    LengthSpec spec = parse_length(times == 1 ? "auto" : fmt::format("{}x", times));
+    const auto expect_lengths = [&](double first, double last, const std::vector<int>& joined = {}) {
+      const std::vector<double> lengths = resolve_vertex_lengths(spec, {}, t.points, c, joined);
+      EXPECT_NEAR(lengths.front(), times * first, 1e-12);
+      EXPECT_NEAR(lengths.back(), times * last, 1e-12);
+    };
+    expect_lengths(of_fine, of_coarse);
+    std::vector<int> joined(c.vertex_count);
+    std::iota(joined.begin(), joined.end(), 0);
+    joined.back() = 0;  // they touch there: one part
+    expect_lengths(of_both, of_both, joined);
+    spec.whose = LengthSpec::Natural::shorter;
+    expect_lengths(of_fine, of_both);
+  }
+  for (const char* length : {"mean", "3", "1%"})
+    EXPECT_TRUE(UniformVector::are_equal(resolve_vertex_lengths(parse_length(length), {}, t.points, c)));
+}
+
+TEST(LengthSpec, PartsThatAreAlikeHaveOneLength) {
+  test::Triangles other = test::sphere(2, .1);
+  other.points.row(0).array() += 20;
+  const test::Triangles t = test::both(test::sphere(2), other);
+  EXPECT_TRUE(UniformVector::are_equal(resolve_vertex_lengths({}, {}, t.points, test::connect(t))));
+}
+
+TEST(TargetLengths, AreEvenIfNoFaceHasTwo) {
+  const test::Triangles t = two_balls();
+  const Adjacency c = test::connect(t);
+  std::vector<double> lengths(c.vertex_count, 1);
+  EXPECT_TRUE(are_even(c, spread_target_lengths(c, lengths)));
+  for (size_t v = test::sphere(2).points.cols(); v < lengths.size(); ++v) lengths[v] = 2;
+  EXPECT_TRUE(are_even(c, spread_target_lengths(c, lengths)));
+  lengths[0] = 1.1;
+  EXPECT_FALSE(are_even(c, spread_target_lengths(c, lengths)));
 }
 
 /// A sphere whose target lengths vary by 4.

@@ -11,9 +11,10 @@ ValidMesh mesh_from_arrays(const Eigen::MatrixX3d& vertices, const Eigen::Matrix
 }
 
 RemeshedArrays preserving_remesh(const Eigen::MatrixX3d& vertices, const Eigen::MatrixX3i& faces,
-                                 const RemeshOptions& options, const LengthSpec& length,
+                                 const RemeshOptions& options, LengthSpec length,
                                  const PreservationOptions& preservation, const Observer& observer) {
   ValidMesh input = mesh_from_arrays(vertices, faces);
+  if (options.connectivity == ConnectivityMode::adapt) length.whose = LengthSpec::Natural::shorter;
   set_target_lengths(input.mesh, input.memory_order, length);
   RemeshedArrays done;
   done.result =

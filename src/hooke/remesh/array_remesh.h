@@ -22,13 +22,14 @@ ValidMesh mesh_from_arrays(const Eigen::MatrixX3d& vertices, const Eigen::Matrix
 /// Remeshes n x 3 points and m x 3 faces, see RemeshedArrays, as preserving_remesh() does with a mesh: with
 /// the default options vertices and faces keep their number and order, and the faces themselves. `length` is
 /// the target edge length, in the unit of the points unless it is a multiple of the natural length (the
-/// default: the edges of as many equilateral triangles of the same area) or a percentage of the box's
-/// diagonal. The result may break promises only in mode `adapt`: see result.measures->preservation. The
-/// observer is called on this thread; it stops the run by returning false, which leaves the mesh reached so
-/// far. Throws MeshError if the arrays are no oriented manifold mesh with area, LimitError or NumericalError
-/// if the surface cannot be fitted.
+/// default: the edges of as many equilateral triangles of the same area, of each part of the mesh; in mode
+/// `adapt` never longer than that of the whole mesh) or a percentage of the box's diagonal. The result may
+/// break promises only in mode `adapt`: see result.measures->preservation. The observer is called on this
+/// thread; it stops the run by returning false, which leaves the mesh reached so far. Throws MeshError if the
+/// arrays are no oriented manifold mesh with area, LimitError or NumericalError if the surface cannot be
+/// fitted.
 RemeshedArrays preserving_remesh(const Eigen::MatrixX3d& vertices, const Eigen::MatrixX3i& faces,
-                                 const RemeshOptions& options = {}, const LengthSpec& length = {},
+                                 const RemeshOptions& options = {}, LengthSpec length = {},
                                  const PreservationOptions& preservation = {},
                                  const Observer& observer = nullptr);
 

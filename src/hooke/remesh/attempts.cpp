@@ -11,7 +11,6 @@
 #include "hooke/constraints/crease_detection.h"
 #include "hooke/core/error.h"
 #include "hooke/core/stopwatch.h"
-#include "hooke/core/uniform_vector.h"
 #include "hooke/measure/polygon_angles.h"
 #include "hooke/mesh/image_surfaces.h"
 #include "hooke/mesh/junctions.h"
@@ -98,9 +97,10 @@ AttemptMaker::AttemptMaker(const TriMesh& mesh, const MemoryOrder& memory_order,
   const TargetLengths targets = target_lengths_of(mesh, memory_order.order, input_.adjacency);
   OpenMesh::EPropHandleT<double> ratios;
   const bool has_rest_ratios = mesh.get_property_handle(ratios, rest_ratio_property);
-  const bool has_one_length =
-      has_rest_ratios ? UniformVector::are_equal(lengths.of_vertices) : !targets.edge.is_varying();
-  if (has_one_length) least_angle_ = (1 - angle_rounding) * input_quality_.min_angle.min;
+  has_even_lengths_ =
+      are_even(input_.adjacency,
+               has_rest_ratios ? spread_target_lengths(input_.adjacency, lengths.of_vertices) : targets);
+  if (has_even_lengths_) least_angle_ = (1 - angle_rounding) * input_quality_.min_angle.min;
   least_mean_shape_ = input_quality_.shape.mean;
   if (preservation_.has_float_points) allow_for_rounding();
   if (has_rest_ratios)

@@ -86,6 +86,8 @@ class AttemptMaker {
   double least_angle() const;
   /// Are the facets of the input meant?
   bool has_facets() const { return preservation_.faceted; }
+  /// Is the same length asked for all edges of each part of the mesh?
+  bool has_even_lengths() const { return has_even_lengths_; }
   /// Do attempts start from smoothed points?
   bool smooths_mask() const { return is_mask_; }
   /// The id that the caller knows the vertex by.
@@ -147,6 +149,7 @@ class AttemptMaker {
   MeasuredSurface input_;
   PreservationOptions preservation_;
   const Quality input_quality_;
+  bool has_even_lengths_ = true;
   double least_angle_ = 0;
   double least_mean_shape_ = 0;  // of the faces of the input
   const IntLists* polygons_;

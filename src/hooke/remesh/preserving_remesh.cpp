@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "hooke/core/uniform_vector.h"
 #include "hooke/mesh/junctions.h"
 #include "hooke/mesh/mesh.h"
 #include "hooke/mesh/normals.h"
@@ -21,6 +20,7 @@
 #include "hooke/remesh/shell_attempts.h"
 #include "hooke/remesh/shorter_lengths.h"
 #include "hooke/springs/sizing.h"
+#include "hooke/springs/target_lengths.h"
 
 namespace hooke {
 namespace {
@@ -518,20 +518,17 @@ class PreservingRemesh {
     if (maker_.smooths_mask()) best.result.creases.dropped = 0;
   }
 
-  /// Where one length is asked for all edges: are the faces worse on average than those of the input?
+  /// Where one length is asked for all edges of a part: are the faces worse on average than those of the
+  /// input?
   bool has_worse_faces(const Attempt& run, double margin = 0) const {
-    return has_one_length() && maker_.has_worse_faces(run, margin);
-  }
-
-  bool has_one_length() const {
-    OpenMesh::EPropHandleT<double> of_edges;
-    return UniformVector::are_equal(asked_) &&
-           !maker_.mesh().get_property_handle(of_edges, edge_length_property);
+    return maker_.has_even_lengths() && maker_.has_worse_faces(run, margin);
   }
 
   /// May attempts take the lengths of the input for those asked for?
   bool may_take_lengths() const {
-    return has_one_length() && maker_.lengths.of_vertices == asked_ && !maker_.smooths_mask();
+    OpenMesh::EPropHandleT<double> of_edges;
+    return maker_.has_even_lengths() && maker_.lengths.of_vertices == asked_ && !maker_.smooths_mask() &&
+           !maker_.mesh().get_property_handle(of_edges, edge_length_property);
   }
 
   /// Tries it with the lengths of the input: by all means if the result at hand is not done, else by one
@@ -559,11 +556,12 @@ class PreservingRemesh {
 
   /// Lengths as in the input, scaled to those asked for.
   std::vector<double> lengths_of_input() const {
-    const double natural = resolve_length({}, input_.points, input_.adjacency);
-    const Sizing sizing{input_lengths(input_.points, input_.adjacency),
-                        std::numeric_limits<double>::infinity()};
-    return resolve_vertex_lengths({LengthSpec::Kind::times_natural, asked_[0] / natural}, sizing,
-                                  input_.points, input_.adjacency);
+    const Mat3X& points = input_.points;
+    const Adjacency& c = input_.adjacency;
+    const double length = covering_length(points, c, spread_target_lengths(c, asked_)),
+                 natural = resolve_length({}, points, c);
+    const Sizing sizing{input_lengths(points, c), std::numeric_limits<double>::infinity()};
+    return resolve_vertex_lengths({LengthSpec::Kind::times_natural, length / natural}, sizing, points, c);
   }
 
   /// Moves the vertices to their places in the input, and those within `rings` rings around them the less,

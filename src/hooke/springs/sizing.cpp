@@ -12,6 +12,7 @@
 #include "hooke/geometry/triangle.h"
 #include "hooke/mesh/curvature.h"
 #include "hooke/mesh/extent.h"
+#include "hooke/mesh/junctions.h"
 #include "hooke/springs/rest_ratios.h"
 #include "hooke/springs/target_lengths.h"
 
@@ -104,17 +105,22 @@ SizingSource parse_sizing(const std::string& text) {
 }
 
 std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
-                                           const Adjacency& c) {
+                                           const Adjacency& c, const std::vector<int>& joined) {
+  const bool by_area = spec.kind == LengthSpec::Kind::natural || spec.kind == LengthSpec::Kind::times_natural;
   std::vector<double> lengths = sizing.vertex_length;
   if (lengths.empty()) {
-    lengths.assign(c.vertex_count, resolve_length(spec, points, c));
+    const double length = resolve_length(spec, points, c);
+    if (!by_area) return std::vector<double>(c.vertex_count, length);
+    lengths = natural_lengths_of_parts(points, c, joined).values();
+    const double times = spec.kind == LengthSpec::Kind::natural ? 1 : spec.value;
+    for (double& l : lengths)
+      l = spec.whose == LengthSpec::Natural::shorter ? std::min(times * l, length) : times * l;
     return lengths;
   }
   if (spec.kind == LengthSpec::Kind::as_given) {
     limit_gradation(points, c, sizing.gradation, lengths);
     return lengths;
   }
-  const bool by_area = spec.kind == LengthSpec::Kind::natural || spec.kind == LengthSpec::Kind::times_natural;
   const auto size_of = [&](const TargetLengths& t) {
     return by_area ? covering_length(points, c, t) : mean_length(points, c, t);
   };
@@ -170,8 +176,8 @@ void set_target_lengths(TriMesh& mesh, const MemoryOrder& memory_order, const Le
                         Sizing sizing) {
   const Permutation& order = memory_order.order;
   if (!sizing.vertex_length.empty()) sizing.vertex_length = order.gather(sizing.vertex_length);
-  const std::vector<double> lengths =
-      resolve_vertex_lengths(spec, sizing, order.gather(vertex_points(mesh)), *memory_order.adjacency);
+  const std::vector<double> lengths = resolve_vertex_lengths(
+      spec, sizing, order.gather(vertex_points(mesh)), *memory_order.adjacency, joined_vertices(mesh, order));
   set_vertex_values(mesh, target_length_property, order.scatter(lengths));
 }
 

@@ -12,15 +12,21 @@ namespace hooke {
 /// A target length as the user specifies it.
 struct LengthSpec {
   enum class Kind { natural, mean, absolute, percent_of_diagonal, times_natural, as_given };
+  /// Whose natural length it is where no sizing is given: that of each part of the mesh, as parts cannot
+  /// exchange faces, or where faces are made, so that no part gets coarser, the shorter one of the part's and
+  /// the whole mesh's.
+  enum class Natural { of_parts, shorter };
   Kind kind = Kind::natural;
   double value = 0;  // of absolute, percent_of_diagonal and times_natural; positive
+  Natural whose = Natural::of_parts;
 };
 
 /// Parses "auto", "mean", "X", "X%" (of the bounding box diagonal), "Xx" (times the natural length) or
 /// "sizing" (the lengths of a sizing unscaled). Throws an Error whose message begins with the text.
 LengthSpec parse_length(const std::string& text);
 
-/// The length specified, in the unit of the points. Throws Error for as_given.
+/// The length specified, in the unit of the points; natural ones are those of the whole mesh. Throws Error
+/// for as_given.
 double resolve_length(const LengthSpec& spec, const Mat3X& points, const Adjacency& adjacency);
 
 /// Target lengths per vertex, before they are scaled as a LengthSpec says.
@@ -32,10 +38,11 @@ struct Sizing {
 /// Target length of every vertex: those of the sizing, scaled as the spec says and finally limited by the
 /// gradation, see limit_gradation(). natural, times_natural: their covering_length() is the spec's length, so
 /// that for `natural` the area is covered by as many equilateral triangles as the mesh has faces. mean,
-/// absolute, percent_of_diagonal: their mean_length() is the spec's length. as_given: not scaled. Throws
-/// Error for as_given without a sizing.
+/// absolute, percent_of_diagonal: their mean_length() is the spec's length. as_given: not scaled. Without a
+/// sizing all are the spec's length, of parts as LengthSpec::Natural says; `joined` are the copies of
+/// vertices, see mesh/junctions.h. Throws Error for as_given without a sizing.
 std::vector<double> resolve_vertex_lengths(const LengthSpec& spec, const Sizing& sizing, const Mat3X& points,
-                                           const Adjacency& adjacency);
+                                           const Adjacency& adjacency, const std::vector<int>& joined = {});
 
 /// Sets v:target_length of a mesh as above; of the sizing the lengths are by vertex id.
 void set_target_lengths(TriMesh& mesh, const MemoryOrder& memory_order, const LengthSpec& spec = {},

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "hooke/core/parallel.h"
+#include "hooke/mesh/extent.h"
+#include "hooke/mesh/junctions.h"
 
 namespace hooke {
 namespace {
@@ -25,6 +27,26 @@ double mean_of_three(double a, double b, double c) {
 
 double natural_length(double area, std::size_t face_count) {
   return std::sqrt(4 * area / (std::sqrt(3.) * static_cast<double>(face_count)));
+}
+
+UniformVector natural_lengths_of_parts(const Mat3X& points, const Adjacency& c,
+                                       const std::vector<int>& joined) {
+  constexpr double alike = .05;  // relative difference
+  const double natural = natural_length(total_area(points, c.faces), c.faces.size());
+  const std::vector<int> parts = label_shells(c, joined);
+  std::vector<double> lengths(1 + std::max(0, std::ranges::max(parts)), 0);
+  std::vector<std::size_t> faces(lengths.size(), 0);
+  for (const Triangle& t : c.faces) {
+    lengths[parts[t[0]]] += face_area(points, t);
+    ++faces[parts[t[0]]];
+  }
+  for (std::size_t part = 0; part < lengths.size(); ++part)
+    lengths[part] = natural_length(lengths[part], faces[part]);
+  if (std::ranges::all_of(lengths, [&](double l) { return std::abs(l - natural) <= alike * natural; }))
+    return {parts.size(), natural};
+  std::vector<double> of_vertices;
+  for (int part : parts) of_vertices.push_back(part < 0 ? natural : lengths[part]);
+  return of_vertices;
 }
 
 double covering_length(const Mat3X& points, const Adjacency& c, const TargetLengths& targets) {
@@ -78,6 +100,12 @@ double least_rest_angle(const Adjacency& c, const TargetLengths& targets) {
     if (a + b > d) greatest_cosine = std::max(greatest_cosine, (b * b + d * d - a * a) / (2 * b * d));
   }
   return std::acos(std::min(1., greatest_cosine)) * 180 / std::numbers::pi;
+}
+
+bool are_even(const Adjacency& c, const TargetLengths& targets) {
+  return !targets.edge.is_varying() || std::ranges::all_of(c.face_edges, [&](const auto& edges) {
+    return std::ranges::all_of(edges, [&](int e) { return targets.edge[e] == targets.edge[edges[0]]; });
+  });
 }
 
 TargetLengths spread_target_lengths(const Adjacency& c, const std::vector<double>& vertex_length) {

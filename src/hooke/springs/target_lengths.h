@@ -17,6 +17,12 @@ struct TargetLengths {
 /// L* = sqrt(4 A / (sqrt 3 F)): the edge length of F equilateral triangles that cover the area A.
 double natural_length(double area, std::size_t face_count);
 
+/// The natural length of the part of the mesh that each vertex is on, that of the whole for a vertex without
+/// faces, or that of the whole for all if no part's differs much from it. Parts are shells, `joined` are the
+/// copies of vertices, see mesh/junctions.h. Pre-condition: there are faces.
+UniformVector natural_lengths_of_parts(const Mat3X& points, const Adjacency& adjacency,
+                                       const std::vector<int>& joined);
+
 /// The length L of uniform equilateral triangles that would cover the mesh in the same number as triangles of
 /// the local target length: L^-2 is the area mean of L_f^-2. Pre-condition: there are faces.
 double covering_length(const Mat3X& points, const Adjacency& adjacency, const TargetLengths& targets);
@@ -27,6 +33,9 @@ double mean_length(const Mat3X& points, const Adjacency& adjacency, const Target
 
 /// Target lengths of edges that are given one by one; those of the faces are their means.
 TargetLengths from_edge_lengths(const Adjacency& adjacency, std::vector<double> edge_length);
+
+/// Has each face three edges of one target length? Then lengths differ at most between parts of the mesh.
+bool are_even(const Adjacency& adjacency, const TargetLengths& targets);
 
 /// The least angle of the triangles with these edges, degrees; those whose edges make none do not count. 60
 /// without any.

@@ -99,6 +99,7 @@ Workspace::Workspace(const TriMesh& source, MemoryOrder memory_order,
   rest_ratios_ = edge_values(source, rest_ratio_property, order, *adjacency);
   spread_lengths();
   input_surface_ = surface();
+  starts_even_ = are_even(*input_surface_, spread_target_lengths(*input_surface_, start_length_.values()));
   if (std::vector<double> of_edges = edge_values(source, edge_length_property, order, *adjacency);
       !of_edges.empty()) {
     for (double& l : of_edges) l /= normalisation.unit;
@@ -156,21 +157,29 @@ std::shared_ptr<const Adjacency> Workspace::surface() const {
 /// than the sagittas of the faces ask for: a coarse mesh of a round body is not to be taken for a polyhedron.
 SurfaceField Workspace::fit(std::shared_ptr<const Mat3X> points,
                             const std::shared_ptr<const Adjacency>& surface) const {
-  const double natural = natural_length(total_area(*points, surface->faces), surface->faces.size());
+  const UniformVector natural =
+      start_length_.is_varying()
+          ? natural_lengths_of_parts(*points, *surface, {})
+          : UniformVector(surface->vertex_count,
+                          natural_length(total_area(*points, surface->faces), surface->faces.size()));
   const bool has_creases = !surface->creases.empty();
   const auto cut = has_creases ? std::make_shared<const Adjacency>(cut_open(*surface)) : surface;
   if (has_creases) points = std::make_shared<const Mat3X>(wedge_points(*points, *surface));
-  std::vector<double> lengths(surface->wedge_count());
-  for (size_t wedge = 0; wedge < lengths.size(); ++wedge)
-    lengths[wedge] = vertices.vertex_length[surface->vertex_of_wedge(static_cast<int>(wedge))];
-  constexpr double rounding = 1e-9;
-  if (faceted_ ||
-      std::ranges::any_of(lengths, [&](double length) { return length < (1 - rounding) * natural; })) {
+  std::vector<double> lengths(surface->wedge_count()), longest(lengths.size());
+  bool has_short = false;
+  for (size_t wedge = 0; wedge < lengths.size(); ++wedge) {
+    constexpr double rounding = 1e-9;
+    const int v = surface->vertex_of_wedge(static_cast<int>(wedge));
+    lengths[wedge] = vertices.vertex_length[v];
+    longest[wedge] = natural[v];
+    has_short = has_short || lengths[wedge] < (1 - rounding) * longest[wedge];
+  }
+  if (faceted_ || has_short) {
     constexpr double sagittas_of_bound = 2, least = 1e-3;  // where all is flat splines are flat to rounding
     const std::vector<double> rises = vertex_sagittas(face_sagittas(edge_arcs(*points, *cut), *cut), *cut);
     for (size_t wedge = 0; wedge < lengths.size(); ++wedge) {
-      const double rise =
-          std::clamp(sagittas_of_bound * rises[wedge] / filter_.max_deviation, least * natural, natural);
+      const double rise = std::clamp(sagittas_of_bound * rises[wedge] / filter_.max_deviation,
+                                     least * longest[wedge], longest[wedge]);
       lengths[wedge] = faceted_ ? rise : std::max(lengths[wedge], rise);
     }
   }
@@ -291,6 +300,7 @@ void Workspace::set_lengths(const std::vector<double>& of_input, const std::vect
   std::vector<double> lengths = of_input;
   for (double& length : lengths) length /= normalisation.unit;
   start_length_ = std::move(lengths);
+  starts_even_ = are_even(*input_surface_, spread_target_lengths(*input_surface_, start_length_.values()));
   place_lengths(shorter);
   resample_lengths();
 }
@@ -331,7 +341,7 @@ void Workspace::release() {
 }
 
 bool Workspace::has_varying_lengths() const {
-  return edge_by_edge_ || start_length_.is_varying() || has_placed_lengths();
+  return edge_by_edge_ || !starts_even_ || has_placed_lengths();
 }
 
 double Workspace::input_length(int v) const {

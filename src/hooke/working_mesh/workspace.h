@@ -159,6 +159,7 @@ struct Workspace {
   std::optional<std::vector<Edge>> sharp_;          // creases where the surface is sharp; none: all are
   std::shared_ptr<const Adjacency> input_surface_;  // with the points `start`, and wedges where it is sharp
   UniformVector start_length_;                      // target lengths with the points `start`
+  bool starts_even_ = true;                         // do they differ at most between parts of the mesh?
   PlacedLengths narrow_regions_;                    // see shorten_in_narrow_regions()
   PlacedLengths short_places_;                      // see set_lengths()
   bool refitted_ = false;                           // false: both fields are the same
