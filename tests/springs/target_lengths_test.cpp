@@ -142,6 +142,13 @@ TEST(LengthSpec, PartsThatAreAlikeHaveOneLength) {
   EXPECT_TRUE(UniformVector::are_equal(resolve_vertex_lengths({}, {}, t.points, test::connect(t))));
 }
 
+TEST(LengthSpec, APartWithoutAreaHasALength) {
+  test::Triangles point{Mat3X::Constant(3, 3, 7), {{0, 1, 2}}};
+  const test::Triangles t = test::both(test::sphere(2), point);
+  const std::vector<double> lengths = resolve_vertex_lengths({}, {}, t.points, test::connect(t));
+  EXPECT_NEAR(lengths.back(), 1e-3 * natural_length_of(t), 1e-12);
+}
+
 TEST(TargetLengths, AreEvenIfNoFaceHasTwo) {
   const test::Triangles t = two_balls();
   const Adjacency c = test::connect(t);

@@ -31,7 +31,8 @@ double natural_length(double area, std::size_t face_count) {
 
 UniformVector natural_lengths_of_parts(const Mat3X& points, const Adjacency& c,
                                        const std::vector<int>& joined) {
-  constexpr double alike = .05;  // relative difference
+  constexpr double alike = .05;      // relative difference
+  constexpr double shortest = 1e-3;  // of the whole: parts may have no area
   const double natural = natural_length(total_area(points, c.faces), c.faces.size());
   const std::vector<int> parts = label_shells(c, joined);
   std::vector<double> lengths(1 + std::max(0, std::ranges::max(parts)), 0);
@@ -41,7 +42,7 @@ UniformVector natural_lengths_of_parts(const Mat3X& points, const Adjacency& c,
     ++faces[parts[t[0]]];
   }
   for (std::size_t part = 0; part < lengths.size(); ++part)
-    lengths[part] = natural_length(lengths[part], faces[part]);
+    lengths[part] = std::max(natural_length(lengths[part], faces[part]), shortest * natural);
   if (std::ranges::all_of(lengths, [&](double l) { return std::abs(l - natural) <= alike * natural; }))
     return {parts.size(), natural};
   std::vector<double> of_vertices;
